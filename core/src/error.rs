@@ -1,0 +1,50 @@
+//! Errors of building a damper. The step itself has none.
+
+use core::fmt;
+
+/// A parameter that cannot be built, with the field's name and what is allowed.
+///
+/// ```
+/// use dashpot_core::BuildError;
+/// let error = BuildError { field: "mount.stiffness_n_per_m", value: -1.0, allowed: "> 0" };
+/// assert_eq!(error.to_string(), "mount.stiffness_n_per_m = -1 is not allowed: must be > 0");
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BuildError {
+    /// Name of the field as a damper file spells it.
+    pub field: &'static str,
+    /// The value found there, in the field's unit.
+    pub value: f64,
+    /// The allowed range, in the field's unit.
+    pub allowed: &'static str,
+}
+
+impl fmt::Display for BuildError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "{} = {} is not allowed: must be {}",
+            self.field, self.value, self.allowed
+        )
+    }
+}
+
+impl core::error::Error for BuildError {}
+
+/// `Ok` when `valid`, else the error that names the field. NaN and infinity never pass.
+pub(crate) fn require(
+    field: &'static str,
+    value: f64,
+    valid: bool,
+    allowed: &'static str,
+) -> Result<(), BuildError> {
+    if valid && value.is_finite() {
+        Ok(())
+    } else {
+        Err(BuildError {
+            field,
+            value,
+            allowed,
+        })
+    }
+}

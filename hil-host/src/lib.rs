@@ -1,0 +1,6 @@
+//! Desk host of the Dashpot damper.
+#![forbid(unsafe_code)]
+#![warn(missing_docs)]
+
+pub mod failure;
+pub mod output;

@@ -1,0 +1,2 @@
+//! The `dashpot` command.
+fn main() {}

@@ -1,0 +1,50 @@
+//! Files written whole or not at all.
+
+use std::io::{BufWriter, Write};
+use std::path::Path;
+
+use crate::failure::{Failure, Outcome};
+
+/// Writes `path` through `write`; the file appears under its name only when `write` succeeded,
+/// and a file already there stays untouched otherwise.
+///
+/// # Errors
+/// What `write` returns, or the folder cannot be written.
+pub fn write_whole(
+    path: &Path,
+    write: impl FnOnce(&mut BufWriter<&std::fs::File>) -> Outcome<()>,
+) -> Outcome<()> {
+    let folder = match path.parent() {
+        Some(parent) if !parent.as_os_str().is_empty() => parent,
+        _ => Path::new("."),
+    };
+    let failed = |error: std::io::Error| Failure::in_file(path, format!("cannot write: {error}"));
+    let file = tempfile::Builder::new()
+        .prefix(".dashpot-")
+        .tempfile_in(folder)
+        .map_err(failed)?;
+    let mut writer = BufWriter::new(file.as_file());
+    write(&mut writer)?;
+    writer.flush().map_err(failed)?;
+    drop(writer);
+    let permissions = std::fs::metadata(path).map(|data| data.permissions());
+    file.persist(path).map_err(|error| failed(error.error))?;
+    if let Ok(permissions) = permissions {
+        std::fs::set_permissions(path, permissions).map_err(failed)?;
+    } else {
+        make_readable(path).map_err(failed)?;
+    }
+    Ok(())
+}
+
+/// A temporary file is private to its owner; a result is for everyone who may read the folder.
+#[cfg(unix)]
+fn make_readable(path: &Path) -> std::io::Result<()> {
+    use std::os::unix::fs::PermissionsExt;
+    std::fs::set_permissions(path, std::fs::Permissions::from_mode(0o644))
+}
+
+#[cfg(not(unix))]
+fn make_readable(_: &Path) -> std::io::Result<()> {
+    Ok(())
+}
