@@ -6,11 +6,18 @@ use core::fmt;
 ///
 /// ```
 /// use dashpot_core::BuildError;
-/// let error = BuildError { field: "mount.stiffness_n_per_m", value: -1.0, allowed: "> 0" };
-/// assert_eq!(error.to_string(), "mount.stiffness_n_per_m = -1 is not allowed: must be > 0");
+/// let error = BuildError {
+///     section: "mount",
+///     field: "stiffness_n_per_m",
+///     value: -1.0,
+///     allowed: "above 0",
+/// };
+/// assert_eq!(error.to_string(), "mount.stiffness_n_per_m = -1 is not allowed: must be above 0");
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BuildError {
+    /// Table of the damper file that holds the field.
+    pub section: &'static str,
     /// Name of the field as a damper file spells it.
     pub field: &'static str,
     /// The value found there, in the field's unit.
@@ -23,8 +30,8 @@ impl fmt::Display for BuildError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(
             f,
-            "{} = {} is not allowed: must be {}",
-            self.field, self.value, self.allowed
+            "{}.{} = {} is not allowed: must be {}",
+            self.section, self.field, self.value, self.allowed
         )
     }
 }
@@ -32,7 +39,9 @@ impl fmt::Display for BuildError {
 impl core::error::Error for BuildError {}
 
 /// `Ok` when `valid`, else the error that names the field. NaN and infinity never pass.
+#[cfg(feature = "builder")]
 pub(crate) fn require(
+    section: &'static str,
     field: &'static str,
     value: f64,
     valid: bool,
@@ -42,6 +51,7 @@ pub(crate) fn require(
         Ok(())
     } else {
         Err(BuildError {
+            section,
             field,
             value,
             allowed,

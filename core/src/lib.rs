@@ -1,10 +1,36 @@
 //! Fixed-step, allocation-free hydraulic damper for hardware-in-the-loop firmware.
+//!
+//! Parameters in SI units are built, once and with every error there is, into a [`Damper`]: constants
+//! for one step size. A [`DamperState`] holds what changes. [`Damper::step`] turns the displacement of
+//! a tick into the force of that tick in a fixed number of operations; it cannot fail, allocates
+//! nothing and uses + - * / and square root only, so every IEEE 754 machine computes the same bits.
+//!
+//! Features: `builder` (default) has the parameters-to-constants part; without it the crate is the step
+//! alone. `serde` reads and writes parameters, `log` reports builds through the `log` facade.
 #![no_std]
 #![deny(unsafe_code)]
 #![warn(missing_docs)]
 
+#[cfg(feature = "builder")]
+mod build;
+mod damper;
 mod error;
+#[cfg(feature = "builder")]
+mod hydraulics;
+mod math;
+#[cfg(feature = "builder")]
+mod oil;
 pub mod parameters;
+mod revision;
+#[cfg(feature = "builder")]
+pub mod shim;
+mod state;
+mod status;
+mod table;
 
+pub use damper::Damper;
 pub use error::BuildError;
+pub use math::Real;
 pub use parameters::DamperParameters;
+pub use state::DamperState;
+pub use status::Status;

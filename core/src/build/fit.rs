@@ -1,0 +1,73 @@
+//! Cubic pieces from samples.
+
+use crate::math::Real;
+use crate::table::{PIECES, Piece, Table};
+
+/// A table of `sample(compression, y) -> [response, potential]`, magnitudes that are 0 at y = 0.
+///
+/// Each piece goes through samples at the Chebyshev-Lobatto points of [-1/2, 1/2], so neighbours share
+/// a value; the first goes through the origin.
+pub(crate) fn table<T: Real>(sample: impl Fn(bool, f64) -> [f64; 2]) -> Table<T> {
+    let zero = Piece {
+        response: [T::ZERO; 4],
+        potential: [T::ZERO; 4],
+    };
+    let mut table = [zero; 2 * PIECES];
+    for compression in [false, true] {
+        for index in 0..PIECES {
+            let samples = if index == 0 {
+                [0.0, 1.0 / 6.0, 1.0 / 3.0, 0.5].map(|y| sample(compression, y))
+            } else {
+                [-0.5, -0.25, 0.25, 0.5].map(|z| sample(compression, index as f64 + z))
+            };
+            let fit = if index == 0 { from_origin } else { interpolate };
+            let sign = if compression { -1.0 } else { 1.0 };
+            let coefficients = |quantity: usize| {
+                fit(samples.map(|values| values[quantity])).map(|c| T::from_f64(sign * c))
+            };
+            table[index + if compression { PIECES } else { 0 }] = Piece {
+                response: coefficients(0),
+                potential: coefficients(1),
+            };
+        }
+    }
+    table
+}
+
+/// The cubic through values at z = -1/2, -1/4, 1/4, 1/2.
+fn interpolate([a, b, c, d]: [f64; 4]) -> [f64; 4] {
+    let (even_near, even_far) = (0.5 * (b + c), 0.5 * (a + d));
+    let (odd_near, odd_far) = (2.0 * (c - b), d - a);
+    // Even part c0 + c2 z^2, odd part over z c1 + c3 z^2, at z^2 = 1/16 and 1/4.
+    let c2 = (even_far - even_near) / 0.1875;
+    let c3 = (odd_far - odd_near) / 0.1875;
+    [even_near - 0.0625 * c2, odd_near - 0.0625 * c3, c2, c3]
+}
+
+/// The cubic through 0 at z = 0 and values at z = 1/6, 1/3, 1/2.
+fn from_origin([_, b, c, d]: [f64; 4]) -> [f64; 4] {
+    // f/z = c1 + c2 z + c3 z^2.
+    let (p, q, r) = (6.0 * b, 3.0 * c, 2.0 * d);
+    let c3 = 18.0 * (p - 2.0 * q + r);
+    let c2 = 6.0 * (q - p) - 0.5 * c3;
+    [0.0, p - c2 / 6.0 - c3 / 36.0, c2, c3]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{from_origin, interpolate};
+
+    #[test]
+    fn cubics_come_back() {
+        let cubic = |z: f64| 3.0 - 2.0 * z + 5.0 * z * z - 7.0 * z * z * z;
+        let found = interpolate([-0.5, -0.25, 0.25, 0.5].map(cubic));
+        for (found, expected) in found.iter().zip([3.0, -2.0, 5.0, -7.0]) {
+            assert!((found - expected).abs() < 1e-12);
+        }
+        let cubic = |z: f64| 2.0 * z + 5.0 * z * z - 7.0 * z * z * z;
+        let found = from_origin([0.0, 1.0 / 6.0, 1.0 / 3.0, 0.5].map(cubic));
+        for (found, expected) in found.iter().zip([0.0, 2.0, 5.0, -7.0]) {
+            assert!((found - expected).abs() < 1e-12);
+        }
+    }
+}

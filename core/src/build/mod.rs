@@ -1,0 +1,227 @@
+//! Parameters to constants: everything that may fail, allocate nothing and take its time.
+
+mod branch;
+mod fit;
+mod grid;
+pub(crate) mod root;
+
+use branch::{Branch, Law};
+use grid::Grid;
+use heapless::Vec;
+
+use crate::damper::{Damper, IMPLICIT_SHARE, Scalars};
+use crate::error::{BuildError, require};
+use crate::hydraulics::{HydraulicSide, Laws};
+use crate::math::Real;
+use crate::parameters::{DamperParameters, Element, Limits, Mount, OilColumn, Reduced};
+
+/// Corners a table can align with.
+type Corners = Vec<(f64, f64), 24>;
+
+/// Where the branch yields the law turns by a right angle, at a valve opening by a fraction.
+const YIELD_WEIGHT: f64 = 20.0;
+
+impl DamperParameters {
+    /// The constants of this damper for a fixed step [s].
+    ///
+    /// Bounded work (some ten thousand evaluations of the flow laws), no allocation; run it on the
+    /// host or outside the tick.
+    ///
+    /// # Errors
+    /// The first field out of its range, with the range.
+    pub fn build<T: Real>(&self, step_s: f64) -> Result<Damper<T>, BuildError> {
+        require(
+            "step",
+            "step_s",
+            step_s,
+            (1e-6..=2e-2).contains(&step_s),
+            "1e-6 to 2e-2 s",
+        )?;
+        validate_mount(&self.mount)?;
+        validate_limits(&self.limits)?;
+        let damper = match &self.element {
+            Element::Physical(hydraulics) => {
+                let laws = Laws::new(hydraulics)?;
+                let branch = |compression: bool| {
+                    let volume = |column: OilColumn| {
+                        let volume = if compression {
+                            column.piston_side_volume_m3
+                        } else {
+                            column.rod_side_volume_m3
+                        };
+                        (column, volume)
+                    };
+                    let law = Law::Physical(HydraulicSide {
+                        laws: &laws,
+                        compression,
+                    });
+                    self.branch(law, laws.oil.column.map(volume), self.limits.force_n)
+                };
+                require(
+                    "limits",
+                    "force_n",
+                    self.limits.force_n,
+                    self.limits.force_n > 2.0 * laws.friction_n,
+                    "above twice seal.friction_n",
+                )?;
+                self.assemble(&[branch(false), branch(true)], step_s)
+            }
+            Element::Reduced(reduced) => {
+                validate_reduced(reduced)?;
+                let saturation = reduced.damping_n_s_per_m * reduced.saturation_velocity_m_per_s;
+                let limit = saturation.min(self.limits.force_n);
+                let branch = self.branch(Law::Reduced(*reduced), None, limit);
+                self.assemble(&[branch, branch], step_s)
+            }
+        };
+        #[cfg(feature = "log")]
+        log::debug!("built damper {:08x} for {step_s} s", damper.revision());
+        Ok(damper)
+    }
+
+    fn branch<'a>(
+        &self,
+        law: Law<'a>,
+        column: Option<(OilColumn, f64)>,
+        force_limit: f64,
+    ) -> Branch<'a> {
+        let seat = self.mount.seat_stiffness_n_per_m;
+        Branch {
+            law,
+            mount_compliance: 1.0 / self.mount.stiffness_n_per_m
+                + seat.map_or(0.0, |stiffness| 1.0 / stiffness),
+            column,
+            force_limit,
+        }
+    }
+
+    /// Samples both branches into tables.
+    fn assemble<T: Real>(&self, branches: &[Branch<'_>; 2], step_s: f64) -> Damper<T> {
+        let stage_s = IMPLICIT_SHARE * step_s;
+        let largest_move = self.limits.rate_m_per_s * step_s;
+        // Friction holds the piston until the mount, alike on both sides, has this stretch.
+        let held = branches[0].friction() * branches[0].mount_compliance;
+        let yields = branches.map(|branch| branch.deflection(branch.force_limit));
+        let yield_largest = yields[0].max(yields[1]);
+
+        let mut stage_corners = Corners::new();
+        let mut output_corners = Corners::new();
+        for branch in branches {
+            for corner in branch.corners() {
+                if corner < branch.force_limit {
+                    // Capacity 24 exceeds both branches' corners.
+                    let _ = stage_corners.push((branch.reach(corner, stage_s) - held, 1.0));
+                }
+            }
+            let yields = branch.reach(branch.force_limit, stage_s) - held;
+            let _ = stage_corners.push((yields, YIELD_WEIGHT));
+            let _ = output_corners.push((branch.deflection(branch.force_limit), YIELD_WEIGHT));
+            if held > 0.0 && branch.column.is_some() {
+                let _ = output_corners.push((held, 1.0));
+            }
+        }
+        // The last stage looks at most sqrt(2) times the largest stretch past a move; the end of
+        // a step lies at most an eighth of its travel beyond yield.
+        let output_reach = 1.2 * yield_largest + 0.2 * largest_move;
+        let stage_reach = 1.5 * output_reach + largest_move;
+        let knee = branches
+            .iter()
+            .map(|branch| branch.knee(stage_s))
+            .fold(0.0, f64::max);
+        let stage_grid = Grid::aligned(stage_reach, knee, &stage_corners);
+        let output_grid = Grid::aligned(output_reach, 0.0, &output_corners);
+
+        let potential = |branch: &Branch<'_>, force: f64| step_s * branch.flow_potential(force);
+        let stage = fit::table(|compression, y| {
+            let branch = &branches[usize::from(compression)];
+            let reach = stage_grid.stretch(y) + held;
+            let force = branch.stage_force(reach, stage_s);
+            let flow = if force < branch.force_limit {
+                stage_s * branch.velocity(force)
+            } else {
+                reach - branch.deflection(force)
+            };
+            [flow, potential(branch, force)]
+        });
+        let output = fit::table(|compression, y| {
+            let branch = &branches[usize::from(compression)];
+            let force = branch.force(output_grid.stretch(y));
+            // A rounding below the limit, so that no piece exceeds it.
+            let highest = branch.force_limit * (1.0 - 8.0 * T::EPSILON);
+            [force.min(highest), potential(branch, force)]
+        });
+        let stage_shift = T::from_f64(stage_grid.shift);
+        Damper::new(
+            Scalars {
+                step_s: T::from_f64(step_s),
+                half_clearance: T::from_f64(0.5 * self.mount.clearance_m),
+                held: T::from_f64(held),
+                yield_stretch: T::from_f64(yields[0].min(yields[1]) * (1.0 - 1e-5)),
+                force_limit: T::from_f64(branches[0].force_limit.max(branches[1].force_limit)),
+                largest_move: T::from_f64(largest_move),
+                stage_scale: T::from_f64(stage_grid.scale),
+                stage_shift,
+                stage_shift_root: stage_shift.square_root(),
+                output_scale: T::from_f64(output_grid.scale),
+            },
+            stage,
+            output,
+        )
+    }
+}
+
+fn validate_mount(mount: &Mount) -> Result<(), BuildError> {
+    let check = |field, value, valid, allowed| require("mount", field, value, valid, allowed);
+    check(
+        "stiffness_n_per_m",
+        mount.stiffness_n_per_m,
+        (1e4..=1e12).contains(&mount.stiffness_n_per_m),
+        "1e4 to 1e12 N/m",
+    )?;
+    if let Some(stiffness) = mount.seat_stiffness_n_per_m {
+        check(
+            "seat_stiffness_n_per_m",
+            stiffness,
+            (1e4..=1e12).contains(&stiffness),
+            "1e4 to 1e12 N/m",
+        )?;
+    }
+    check(
+        "clearance_m",
+        mount.clearance_m,
+        (0.0..=0.1).contains(&mount.clearance_m),
+        "0 to 0.1 m",
+    )
+}
+
+fn validate_limits(limits: &Limits) -> Result<(), BuildError> {
+    let check = |field, value, valid, allowed| require("limits", field, value, valid, allowed);
+    check(
+        "force_n",
+        limits.force_n,
+        (1.0..=1e7).contains(&limits.force_n),
+        "1 to 1e7 N",
+    )?;
+    check(
+        "rate_m_per_s",
+        limits.rate_m_per_s,
+        (1e-3..=100.0).contains(&limits.rate_m_per_s),
+        "1e-3 to 100 m/s",
+    )
+}
+
+fn validate_reduced(reduced: &Reduced) -> Result<(), BuildError> {
+    let check = |field, value, valid, allowed| require("reduced", field, value, valid, allowed);
+    check(
+        "damping_n_s_per_m",
+        reduced.damping_n_s_per_m,
+        (1.0..=1e9).contains(&reduced.damping_n_s_per_m),
+        "1 to 1e9 N s/m",
+    )?;
+    check(
+        "saturation_velocity_m_per_s",
+        reduced.saturation_velocity_m_per_s,
+        (1e-6..=100.0).contains(&reduced.saturation_velocity_m_per_s),
+        "1e-6 to 100 m/s",
+    )
+}

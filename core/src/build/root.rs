@@ -1,0 +1,52 @@
+//! Root of a monotone function in a bracket.
+
+/// Root of the monotone `function` in `[low, high]`, or the end nearer to it when the function does
+/// not change sign there.
+///
+/// Illinois method, a bisection whenever it stalls; a fixed bound on the work.
+pub(crate) fn bracketed_root(low: f64, high: f64, function: impl Fn(f64) -> f64) -> f64 {
+    let (mut a, mut b) = (low, high);
+    let (mut fa, mut fb) = (function(a), function(b));
+    if fa == 0.0 || fa.is_sign_positive() == fb.is_sign_positive() {
+        return if fa.abs() <= fb.abs() { a } else { b };
+    }
+    for iteration in 0..200 {
+        let width = b - a;
+        if width <= 2.0 * f64::EPSILON * b.abs() {
+            break;
+        }
+        let secant = b - fb * width / (fb - fa);
+        let middle = if iteration % 4 == 3 || !(secant > a && secant < b) {
+            0.5 * (a + b)
+        } else {
+            secant
+        };
+        let value = function(middle);
+        if value == 0.0 {
+            return middle;
+        }
+        if value.is_sign_positive() == fb.is_sign_positive() {
+            (b, fb) = (middle, value);
+            fa *= 0.5;
+        } else {
+            (a, fa) = (middle, value);
+            fb *= 0.5;
+        }
+    }
+    0.5 * (a + b)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::bracketed_root;
+
+    #[test]
+    fn finds_roots_and_ends() {
+        assert!(
+            (bracketed_root(0.0, 4.0, |x| x * x - 2.0) - core::f64::consts::SQRT_2).abs() < 1e-14
+        );
+        assert!((bracketed_root(0.0, 1e9, |x| 3.0 - libm::sqrt(x)) - 9.0).abs() < 1e-12);
+        assert_eq!(bracketed_root(0.0, 1.0, |x| x + 1.0), 0.0);
+        assert_eq!(bracketed_root(0.0, 1.0, |x| x - 2.0), 1.0);
+    }
+}

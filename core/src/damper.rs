@@ -1,0 +1,302 @@
+//! The damper: constants for one step size, and the step.
+//!
+//! With the stretch `u = x - x_r` of clearance and springs, the chain
+//! `x = g + delta(F) + x_r`, `dx_r/dt = v_h(F)` is one equation, `du/dt = dx/dt - f(u)`, with
+//! `f = v_h(F(u))` zero in the clearance and rising beyond. A step takes two implicit stages
+//! (Alexander's SDIRK2, gamma = 1 - 1/sqrt 2: second order, L-stable, last stage at the tick) and then
+//! corrects the flow by the difference between its exact mean along the step's straight path and the
+//! stages' quadrature of that path. The correction vanishes for linear f, so stability and order are
+//! those of the stages; where f has a root (orifice) or a corner (clearance edge) inside the step it
+//! takes away their leading error. See docs/numerics.md.
+
+use crate::math::Real;
+use crate::revision;
+use crate::state::DamperState;
+use crate::status::Status;
+use crate::table::{Piece, Table, cubic, locate};
+
+/// gamma of the two stages.
+pub(crate) const IMPLICIT_SHARE: f64 = 1.0 - core::f64::consts::FRAC_1_SQRT_2;
+
+/// The correction is at most this share of the step's travel, so it never undoes the damping.
+const CORRECTION_SHARE: f64 = 0.125;
+
+/// Square of a travel that is none [m^2]; keeps its inverse finite.
+const STANDSTILL: f64 = 1e-30;
+
+/// Numbers of a damper beside its tables, in SI units.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C)]
+pub struct Scalars<T> {
+    /// Step [s].
+    pub(crate) step_s: T,
+    /// Half the clearance, a [m].
+    pub(crate) half_clearance: T,
+    /// Stretch of the mount under seal friction [m].
+    pub(crate) held: T,
+    /// Stretch of the springs at which the element yields [m].
+    pub(crate) yield_stretch: T,
+    /// Force at which it yields [N].
+    pub(crate) force_limit: T,
+    /// Largest credible move of the input in a step [m].
+    pub(crate) largest_move: T,
+    /// Scale of the stage table [1/m].
+    pub(crate) stage_scale: T,
+    /// Shift of the stage table [1] and its root.
+    pub(crate) stage_shift: T,
+    pub(crate) stage_shift_root: T,
+    /// Scale of the output table [1/m].
+    pub(crate) output_scale: T,
+}
+
+impl<T: Real> Scalars<T> {
+    /// The numbers in order of declaration.
+    pub(crate) fn as_array(&self) -> [T; 10] {
+        [
+            self.step_s,
+            self.half_clearance,
+            self.held,
+            self.yield_stretch,
+            self.force_limit,
+            self.largest_move,
+            self.stage_scale,
+            self.stage_shift,
+            self.stage_shift_root,
+            self.output_scale,
+        ]
+    }
+}
+
+/// A built damper: constants for one step size, shared by any number of states.
+///
+/// ```
+/// # #[cfg(feature = "builder")] {
+/// use dashpot_core::parameters::{DamperParameters, Element, Limits, Mount, Reduced};
+/// use dashpot_core::Damper;
+///
+/// let parameters = DamperParameters {
+///     element: Element::Reduced(Reduced {
+///         damping_n_s_per_m: 120e3,
+///         saturation_velocity_m_per_s: 0.03,
+///     }),
+///     mount: Mount { stiffness_n_per_m: 8e6, seat_stiffness_n_per_m: None, clearance_m: 0.0 },
+///     limits: Limits::default(),
+/// };
+/// let damper: Damper<f32> = parameters.build(1e-3)?;
+/// let mut state = damper.at_rest(0.0);
+/// let mut force = 0.0;
+/// for tick in 1..=1000 {
+///     force = damper.step(&mut state, 0.02e-3 * tick as f32); // 0.02 m/s
+/// }
+/// assert!((force - 2400.0).abs() < 0.1); // C v
+/// # }
+/// # Ok::<(), dashpot_core::BuildError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C)]
+pub struct Damper<T> {
+    pub(crate) scalars: Scalars<T>,
+    pub(crate) revision: u32,
+    pub(crate) tables_revision: u32,
+    /// Flow of a stage over the stretch beyond clearance and friction, and the flow potential reached.
+    pub(crate) stage: Table<T>,
+    /// Force over the stretch beyond the clearance, and the flow potential there.
+    pub(crate) output: Table<T>,
+}
+
+impl<T: Real> Damper<T> {
+    #[cfg(feature = "builder")]
+    pub(crate) fn new(scalars: Scalars<T>, stage: Table<T>, output: Table<T>) -> Self {
+        let tables_revision = revision::of_tables(&stage, &output);
+        Self {
+            scalars,
+            revision: revision::of_damper(tables_revision, &scalars),
+            tables_revision,
+            stage,
+            output,
+        }
+    }
+
+    /// A state at rest at `displacement` [m], centred in the clearance, no force. A displacement that is
+    /// not finite counts as 0.
+    pub fn at_rest(&self, displacement: T) -> DamperState<T> {
+        DamperState {
+            displacement: if displacement.is_finite() {
+                displacement
+            } else {
+                T::ZERO
+            },
+            revision: self.revision,
+            ..DamperState::default()
+        }
+    }
+
+    /// Step size [s].
+    pub fn step_s(&self) -> T {
+        self.scalars.step_s
+    }
+
+    /// Number that tells built dampers apart, never 0.
+    pub fn revision(&self) -> u32 {
+        self.revision
+    }
+
+    /// Clearance 2a, the whole play [m].
+    pub fn clearance_m(&self) -> T {
+        self.scalars.half_clearance + self.scalars.half_clearance
+    }
+
+    /// Force at which the element yields [N]; no step returns more.
+    pub fn force_limit_n(&self) -> T {
+        self.scalars.force_limit
+    }
+
+    /// Sets the clearance 2a [m]: a live change for firmware, a few dozen operations, no table touched.
+    /// Held to 0 to 0.1 m; a value that is not finite counts as 0.
+    pub fn set_clearance_m(&mut self, clearance_m: T) {
+        let half = T::from_f64(0.5) * clearance_m;
+        let most = T::from_f64(0.05);
+        self.scalars.half_clearance = if half > T::ZERO && half.is_finite() {
+            half.smaller(most)
+        } else {
+            T::ZERO
+        };
+        self.revision = revision::of_damper(self.tables_revision, &self.scalars);
+    }
+
+    /// Force [N] at this tick for the displacement [m] of the tick; positive when it resists
+    /// extension. The displacement is taken as linear since the last tick: no added delay.
+    ///
+    /// Never fails: bad input is held or limited and latched in the state's status. The force is
+    /// finite and at most [`Damper::force_limit_n`] in magnitude, always.
+    ///
+    /// A state that another damper stepped before is carried over first, its force kept.
+    #[inline]
+    pub fn step(&self, state: &mut DamperState<T>, displacement: T) -> T {
+        let k = &self.scalars;
+        if state.revision != self.revision {
+            self.adopt(state);
+        }
+        let mut travel = displacement - state.displacement;
+        if !(travel.magnitude() <= k.largest_move) {
+            travel = reject(state, travel, k.largest_move);
+        }
+        let travel = (travel + T::POSITION_ROUNDER) - T::POSITION_ROUNDER;
+        state.displacement = state.displacement + travel;
+
+        let implicit = T::from_f64(IMPLICIT_SHARE);
+        let explicit_ratio = T::from_f64((1.0 - IMPLICIT_SHARE) / IMPLICIT_SHARE);
+        let offset = k.half_clearance + k.held;
+        let stage = |reach: T| {
+            let beyond = (reach.magnitude() - offset).larger(T::ZERO);
+            let y = (beyond * k.stage_scale + k.stage_shift).square_root() - k.stage_shift_root;
+            locate(&self.stage, y, reach)
+        };
+
+        let start = state.stretch;
+        let reach = start + implicit * travel;
+        let (piece, z) = stage(reach);
+        let flow_first = cubic(&piece.response, z);
+        let first = reach - flow_first;
+
+        let reach = start + travel - explicit_ratio * flow_first;
+        let (piece, z) = stage(reach);
+        let flow_last = cubic(&piece.response, z);
+        let potential = cubic(&piece.potential, z);
+        let last = reach - flow_last;
+
+        let path = last - start;
+        let inverse = path / (path * path + T::from_f64(STANDSTILL));
+        let off_path = (first - start - implicit * path) * inverse;
+        let slope = (flow_last - flow_first) * T::from_f64(1.0 / IMPLICIT_SHARE);
+        let mean =
+            (potential.magnitude() - state.potential.magnitude()) * inverse + slope * off_path;
+        let most = path.magnitude() * T::from_f64(CORRECTION_SHARE);
+        let mut correction = (mean - explicit_ratio * flow_first - flow_last)
+            .larger(-most)
+            .smaller(most);
+        // In contact on the same side all through: nothing to correct but rounding.
+        if potential * state.potential > T::ZERO {
+            correction = T::ZERO;
+        }
+        if first.magnitude().larger(last.magnitude()) >= k.half_clearance + k.yield_stretch {
+            state.status.insert(Status::SATURATED);
+            correction = T::ZERO;
+        }
+        let stretch = ((last - correction) + T::REST_ROUNDER) - T::REST_ROUNDER;
+
+        let sprung = (stretch.magnitude() - k.half_clearance).larger(T::ZERO);
+        let (piece, z) = self.output_at(sprung, stretch);
+        state.stretch = stretch;
+        state.potential = cubic(&piece.potential, z);
+        state.force = cubic(&piece.response, z);
+        state.force
+    }
+
+    /// Piece of the output table for the stretch of the springs, and z in it.
+    #[inline(always)]
+    fn output_at(&self, sprung: T, direction: T) -> (&Piece<T>, T) {
+        let y = (sprung * self.scalars.output_scale).square_root();
+        locate(&self.output, y, direction)
+    }
+
+    /// Carries a state over from another damper: displacement and force stay, the stretch becomes
+    /// the one this damper has under that force; without force it stays within the clearance.
+    ///
+    /// [`Damper::step`] does this by itself when it meets a state of another damper; call it between
+    /// ticks to keep that tick at its usual cost. Fixed work, about thirty table reads.
+    pub fn adopt(&self, state: &mut DamperState<T>) {
+        let k = &self.scalars;
+        let had_damper = state.revision != 0;
+        let magnitude = state.force.magnitude().smaller(k.force_limit);
+        let signed = |value: T| {
+            if state.force < T::ZERO { -value } else { value }
+        };
+        state.stretch = if magnitude > T::ZERO {
+            signed(k.half_clearance + self.deflection(magnitude, state.force))
+        } else {
+            state
+                .stretch
+                .larger(-k.half_clearance)
+                .smaller(k.half_clearance)
+        };
+        let sprung = (state.stretch.magnitude() - k.half_clearance).larger(T::ZERO);
+        let (piece, z) = self.output_at(sprung, state.stretch);
+        state.potential = cubic(&piece.potential, z);
+        state.revision = self.revision;
+        if had_damper {
+            state.status.insert(Status::DAMPER_SWAPPED);
+        }
+    }
+
+    /// Stretch of the springs [m] under a force magnitude [N], by bisection of the output table.
+    fn deflection(&self, magnitude: T, direction: T) -> T {
+        let k = &self.scalars;
+        let half = T::from_f64(0.5);
+        let (mut low, mut high) = (T::ZERO, k.yield_stretch);
+        for _ in 0..T::DIGITS + 2 {
+            let middle = half * (low + high);
+            let (piece, z) = self.output_at(middle, direction);
+            if cubic(&piece.response, z).magnitude() < magnitude {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+        half * (low + high)
+    }
+}
+
+/// The travel to use instead of one that is not credible; latched and counted.
+#[cold]
+#[inline(never)]
+fn reject<T: Real>(state: &mut DamperState<T>, travel: T, largest_move: T) -> T {
+    state.rejected_inputs = state.rejected_inputs.saturating_add(1);
+    if travel.is_finite() {
+        state.status.insert(Status::INPUT_LIMITED);
+        travel.larger(-largest_move).smaller(largest_move)
+    } else {
+        state.status.insert(Status::INPUT_HELD);
+        T::ZERO
+    }
+}

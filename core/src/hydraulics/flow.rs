@@ -1,0 +1,326 @@
+//! Volume flow [m^3/s] of each path under its pressure difference [Pa].
+
+use core::f64::consts::PI;
+
+use crate::error::{BuildError, require};
+use crate::math::elementary::sqrt;
+use crate::parameters::{Hydraulics, Oil, Relief, Valve};
+use crate::shim::edge_compliance_m_per_pa;
+
+/// Shim-pack valve ready to evaluate: `Q = Cd 2 pi r_w k_w (P - P_0)+ sqrt(2 (P - P_b)+/rho)`.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ShimValve {
+    /// `Cd 2 pi r_w k_w` [m^2/Pa].
+    area_gradient: f64,
+    pub(crate) preload_pa: f64,
+}
+
+impl ShimValve {
+    fn new(section: &'static str, valve: &Valve) -> Result<Self, BuildError> {
+        let check = |field, value, valid, allowed| require(section, field, value, valid, allowed);
+        let compliance = edge_compliance_m_per_pa(section, valve)?;
+        check(
+            "free_radius_m",
+            valve.free_radius_m,
+            valve.free_radius_m > 0.0 && valve.free_radius_m <= 1.0,
+            "above 0 and at most 1 m",
+        )?;
+        check(
+            "clamp_radius_m",
+            valve.clamp_radius_m,
+            valve.clamp_radius_m > 0.0 && valve.clamp_radius_m < valve.free_radius_m,
+            "above 0 and below free_radius_m",
+        )?;
+        check(
+            "equivalent_pressure_factor",
+            valve.equivalent_pressure_factor,
+            (0.0..=10.0).contains(&valve.equivalent_pressure_factor),
+            "0 to 10",
+        )?;
+        check(
+            "discharge_coefficient",
+            valve.discharge_coefficient,
+            (0.0..=1.0).contains(&valve.discharge_coefficient),
+            "0 to 1",
+        )?;
+        check(
+            "preload_pa",
+            valve.preload_pa,
+            (0.0..=1e8).contains(&valve.preload_pa),
+            "0 to 1e8 Pa",
+        )?;
+        Ok(Self {
+            area_gradient: valve.discharge_coefficient
+                * 2.0
+                * PI
+                * valve.free_radius_m
+                * compliance,
+            preload_pa: valve.preload_pa,
+        })
+    }
+
+    pub(crate) fn flow(&self, oil: &Oil, pressure_pa: f64, back_pressure_pa: f64) -> f64 {
+        let lift = (pressure_pa - self.preload_pa).max(0.0);
+        self.area_gradient * lift * oil.jet_velocity(pressure_pa - back_pressure_pa)
+    }
+}
+
+/// The paths of the piston that are open both ways: orifice, annular leakage, relief valve.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct FlowPaths {
+    /// `Cd A` of the orifice [m^2].
+    pub(crate) orifice_area: f64,
+    /// Flow at which laminar and turbulent pressure drop of the orifice are equal [m^3/s].
+    transition_flow: f64,
+    /// Leakage conductance [m^3/(s Pa)].
+    leakage: f64,
+    relief: Option<Relief>,
+}
+
+impl FlowPaths {
+    pub(crate) fn flow(&self, oil: &Oil, pressure_pa: f64) -> f64 {
+        if pressure_pa <= 0.0 {
+            return 0.0;
+        }
+        let turbulent = self.orifice_area * oil.jet_velocity(pressure_pa);
+        // P = R_t Q^2 + R_l Q with R_l = R_t Q_t and turbulent^2 = P/R_t.
+        let orifice = if self.transition_flow > 0.0 && turbulent > 0.0 {
+            let half = 0.5 * self.transition_flow;
+            turbulent * turbulent / (half + sqrt(half * half + turbulent * turbulent))
+        } else {
+            turbulent
+        };
+        let relief = self.relief.as_ref().map_or(0.0, |valve| {
+            valve.discharge_coefficient
+                * valve.area_gradient_m2_per_pa
+                * (pressure_pa - valve.opening_pressure_pa).max(0.0)
+                * oil.jet_velocity(pressure_pa)
+        });
+        orifice + self.leakage * pressure_pa + relief
+    }
+}
+
+/// Every law of a physical damper, checked and ready to evaluate.
+#[derive(Clone, Debug)]
+pub(crate) struct Laws {
+    pub(crate) oil: Oil,
+    pub(crate) paths: FlowPaths,
+    pub(crate) extension: ShimValve,
+    pub(crate) compression: ShimValve,
+    pub(crate) foot: ShimValve,
+    pub(crate) relief_opening_pa: Option<f64>,
+    pub(crate) rod_side_area: f64,
+    pub(crate) piston_area: f64,
+    pub(crate) back_pressure_pa: f64,
+    pub(crate) friction_n: f64,
+    pub(crate) vapour_pressure_pa: Option<f64>,
+}
+
+impl Laws {
+    pub(crate) fn new(hydraulics: &Hydraulics) -> Result<Self, BuildError> {
+        let (piston_area, rod_area) = areas(hydraulics)?;
+        let rod_side_area = piston_area - rod_area;
+        hydraulics.oil.validate()?;
+        let valves = &hydraulics.valves;
+        Ok(Self {
+            oil: hydraulics.oil,
+            paths: flow_paths(hydraulics)?,
+            extension: ShimValve::new("valves.piston_extension", &valves.piston_extension)?,
+            compression: ShimValve::new("valves.piston_compression", &valves.piston_compression)?,
+            foot: ShimValve::new("valves.foot_compression", &valves.foot_compression)?,
+            relief_opening_pa: hydraulics.relief.map(|relief| relief.opening_pressure_pa),
+            rod_side_area,
+            piston_area,
+            back_pressure_pa: back_pressure(hydraulics, rod_area)?,
+            friction_n: friction(hydraulics)?,
+            vapour_pressure_pa: vapour_pressure(hydraulics)?,
+        })
+    }
+}
+
+fn areas(hydraulics: &Hydraulics) -> Result<(f64, f64), BuildError> {
+    let geometry = &hydraulics.geometry;
+    require(
+        "geometry",
+        "piston_diameter_m",
+        geometry.piston_diameter_m,
+        (1e-3..=1.0).contains(&geometry.piston_diameter_m),
+        "1e-3 to 1 m",
+    )?;
+    require(
+        "geometry",
+        "rod_diameter_m",
+        geometry.rod_diameter_m,
+        geometry.rod_diameter_m >= 0.0
+            && geometry.rod_diameter_m <= 0.95 * geometry.piston_diameter_m,
+        "0 to 0.95 of piston_diameter_m",
+    )?;
+    let area = |diameter: f64| 0.25 * PI * diameter * diameter;
+    Ok((
+        area(geometry.piston_diameter_m),
+        area(geometry.rod_diameter_m),
+    ))
+}
+
+fn flow_paths(hydraulics: &Hydraulics) -> Result<FlowPaths, BuildError> {
+    let orifice = &hydraulics.orifice;
+    let check = |field, value, valid, allowed| require("orifice", field, value, valid, allowed);
+    check(
+        "diameter_m",
+        orifice.diameter_m,
+        orifice.diameter_m >= 0.0 && orifice.diameter_m < hydraulics.geometry.piston_diameter_m,
+        "0 to below piston_diameter_m",
+    )?;
+    check(
+        "discharge_coefficient",
+        orifice.discharge_coefficient,
+        (0.0..=1.0).contains(&orifice.discharge_coefficient),
+        "0 to 1",
+    )?;
+    check(
+        "transition_reynolds",
+        orifice.transition_reynolds,
+        (0.0..=1e5).contains(&orifice.transition_reynolds),
+        "0 to 1e5",
+    )?;
+    let area = 0.25 * PI * orifice.diameter_m * orifice.diameter_m;
+    let transition_flow = if orifice.diameter_m > 0.0 {
+        orifice.transition_reynolds * hydraulics.oil.kinematic_viscosity_m2_per_s() * area
+            / orifice.diameter_m
+    } else {
+        0.0
+    };
+    Ok(FlowPaths {
+        orifice_area: orifice.discharge_coefficient * area,
+        transition_flow,
+        leakage: leakage(hydraulics)?,
+        relief: relief(hydraulics)?,
+    })
+}
+
+fn leakage(hydraulics: &Hydraulics) -> Result<f64, BuildError> {
+    let Some(leakage) = &hydraulics.leakage else {
+        return Ok(0.0);
+    };
+    let check = |field, value, valid, allowed| require("leakage", field, value, valid, allowed);
+    let c = leakage.radial_clearance_m;
+    check(
+        "radial_clearance_m",
+        c,
+        (0.0..=1e-3).contains(&c),
+        "0 to 1e-3 m",
+    )?;
+    check(
+        "length_m",
+        leakage.length_m,
+        (1e-4..=1.0).contains(&leakage.length_m),
+        "1e-4 to 1 m",
+    )?;
+    let e = leakage.eccentricity_ratio;
+    check("eccentricity_ratio", e, (0.0..=1.0).contains(&e), "0 to 1")?;
+    let radius = 0.5 * hydraulics.geometry.piston_diameter_m;
+    Ok(PI * radius * c * c * c * (1.0 + 1.5 * e * e)
+        / (6.0 * hydraulics.oil.dynamic_viscosity_pa_s() * leakage.length_m))
+}
+
+fn relief(hydraulics: &Hydraulics) -> Result<Option<Relief>, BuildError> {
+    let Some(relief) = hydraulics.relief else {
+        return Ok(None);
+    };
+    let check = |field, value, valid, allowed| require("relief", field, value, valid, allowed);
+    check(
+        "opening_pressure_pa",
+        relief.opening_pressure_pa,
+        (0.0..=1e8).contains(&relief.opening_pressure_pa),
+        "0 to 1e8 Pa",
+    )?;
+    check(
+        "area_gradient_m2_per_pa",
+        relief.area_gradient_m2_per_pa,
+        (0.0..=1e-6).contains(&relief.area_gradient_m2_per_pa),
+        "0 to 1e-6 m2/Pa",
+    )?;
+    check(
+        "discharge_coefficient",
+        relief.discharge_coefficient,
+        (0.0..=1.0).contains(&relief.discharge_coefficient),
+        "0 to 1",
+    )?;
+    Ok(Some(relief))
+}
+
+fn back_pressure(hydraulics: &Hydraulics, rod_area: f64) -> Result<f64, BuildError> {
+    use crate::oil::ZERO_CELSIUS_K;
+    use crate::parameters::ATMOSPHERIC_PRESSURE_PA;
+    let Some(reservoir) = &hydraulics.reservoir else {
+        return Ok(0.0);
+    };
+    let check = |field, value, valid, allowed| require("reservoir", field, value, valid, allowed);
+    check(
+        "fill_pressure_pa",
+        reservoir.fill_pressure_pa,
+        (0.0..=1e7).contains(&reservoir.fill_pressure_pa),
+        "0 to 1e7 Pa",
+    )?;
+    check(
+        "gas_volume_m3",
+        reservoir.gas_volume_m3,
+        (1e-6..=1.0).contains(&reservoir.gas_volume_m3),
+        "1e-6 to 1 m3",
+    )?;
+    check(
+        "fill_temperature_c",
+        reservoir.fill_temperature_c,
+        (-60.0..=150.0).contains(&reservoir.fill_temperature_c),
+        "-60 to 150 degC",
+    )?;
+    let volume = reservoir.gas_volume_m3 - rod_area * reservoir.rod_insertion_m;
+    check(
+        "rod_insertion_m",
+        reservoir.rod_insertion_m,
+        reservoir.rod_insertion_m.abs() <= 1.0 && volume >= 0.1 * reservoir.gas_volume_m3,
+        "-1 to 1 m and leaving a tenth of gas_volume_m3",
+    )?;
+    let warming = (hydraulics.oil.temperature_c + ZERO_CELSIUS_K)
+        / (reservoir.fill_temperature_c + ZERO_CELSIUS_K);
+    let absolute = (reservoir.fill_pressure_pa + ATMOSPHERIC_PRESSURE_PA)
+        * (reservoir.gas_volume_m3 / volume)
+        * warming;
+    Ok((absolute - ATMOSPHERIC_PRESSURE_PA).max(0.0))
+}
+
+fn friction(hydraulics: &Hydraulics) -> Result<f64, BuildError> {
+    let Some(seal) = &hydraulics.seal else {
+        return Ok(0.0);
+    };
+    require(
+        "seal",
+        "friction_n",
+        seal.friction_n,
+        (0.0..=1e4).contains(&seal.friction_n),
+        "0 to 1e4 N",
+    )?;
+    Ok(seal.friction_n)
+}
+
+fn vapour_pressure(hydraulics: &Hydraulics) -> Result<Option<f64>, BuildError> {
+    use crate::parameters::ATMOSPHERIC_PRESSURE_PA;
+    let Some(two_chamber) = &hydraulics.two_chamber else {
+        return Ok(None);
+    };
+    require(
+        "two_chamber",
+        "vapour_pressure_pa",
+        two_chamber.vapour_pressure_pa,
+        (-ATMOSPHERIC_PRESSURE_PA..=0.0).contains(&two_chamber.vapour_pressure_pa),
+        "-101325 to 0 Pa (gauge)",
+    )?;
+    require(
+        "geometry",
+        "rod_diameter_m",
+        hydraulics.geometry.rod_diameter_m,
+        hydraulics.geometry.rod_diameter_m > 0.0,
+        "above 0 with two_chamber",
+    )?;
+    Ok(Some(two_chamber.vapour_pressure_pa))
+}

@@ -1,0 +1,8 @@
+//! Hydraulics: pressure to flow through each path, force to piston velocity of each side.
+
+mod flow;
+mod side;
+mod two_chamber;
+
+pub(crate) use flow::Laws;
+pub(crate) use side::HydraulicSide;

@@ -1,0 +1,186 @@
+//! Oil at its working temperature: density, viscosity and the oil column as a spring.
+
+use crate::error::{BuildError, require};
+use crate::math::elementary::{log10, pow, sqrt};
+use crate::parameters::{ATMOSPHERIC_PRESSURE_PA, DENSITY_TEMPERATURE_C, Oil, OilColumn};
+
+/// 0 degC in kelvin.
+pub(crate) const ZERO_CELSIUS_K: f64 = 273.15;
+
+/// Specific gas constant of dry air [J/(kg K)], ISO 2533.
+const AIR_GAS_CONSTANT: f64 = 287.053;
+
+impl Oil {
+    /// Checks every field.
+    ///
+    /// # Errors
+    /// The first field out of its range.
+    pub(crate) fn validate(&self) -> Result<(), BuildError> {
+        let check = |field, value, valid, allowed| require("oil", field, value, valid, allowed);
+        check(
+            "density_kg_per_m3",
+            self.density_kg_per_m3,
+            (500.0..=2000.0).contains(&self.density_kg_per_m3),
+            "500 to 2000 kg/m3",
+        )?;
+        check(
+            "thermal_expansion_per_k",
+            self.thermal_expansion_per_k,
+            (0.0..=2e-3).contains(&self.thermal_expansion_per_k),
+            "0 to 2e-3 1/K",
+        )?;
+        check(
+            "temperature_c",
+            self.temperature_c,
+            (-60.0..=150.0).contains(&self.temperature_c),
+            "-60 to 150 degC",
+        )?;
+        check(
+            "viscosity_40c_m2_per_s",
+            self.viscosity_40c_m2_per_s,
+            (1e-6..=1e-2).contains(&self.viscosity_40c_m2_per_s),
+            "1e-6 to 1e-2 m2/s",
+        )?;
+        check(
+            "viscosity_100c_m2_per_s",
+            self.viscosity_100c_m2_per_s,
+            self.viscosity_100c_m2_per_s >= 5e-7
+                && self.viscosity_100c_m2_per_s < self.viscosity_40c_m2_per_s,
+            "at least 5e-7 m2/s and below viscosity_40c_m2_per_s",
+        )?;
+        self.column.as_ref().map_or(Ok(()), OilColumn::validate)
+    }
+
+    /// Density of oil with entrained air under gauge pressure [kg/m^3], by mass balance:
+    /// `rho = [(1 - alpha) rho_oil + alpha rho_air] / V(P)`, V the volume of a mixture that fills 1
+    /// at atmospheric pressure.
+    ///
+    /// ```
+    /// use dashpot_core::parameters::Oil;
+    /// let oil = Oil {
+    ///     density_kg_per_m3: 870.0,
+    ///     thermal_expansion_per_k: 7e-4,
+    ///     temperature_c: 45.0,
+    ///     viscosity_40c_m2_per_s: 15e-6,
+    ///     viscosity_100c_m2_per_s: 3.8e-6,
+    ///     column: None,
+    /// };
+    /// assert!((oil.density_kg_per_m3(0.0) - 870.0 / 1.021).abs() < 1e-9);
+    /// ```
+    pub fn density_kg_per_m3(&self, pressure_pa: f64) -> f64 {
+        let warming = self.temperature_c - DENSITY_TEMPERATURE_C;
+        let oil = self.density_kg_per_m3 / (1.0 + self.thermal_expansion_per_k * warming);
+        match &self.column {
+            None => oil,
+            Some(column) => {
+                let alpha = column.air_fraction;
+                let air = ATMOSPHERIC_PRESSURE_PA
+                    / (AIR_GAS_CONSTANT * (self.temperature_c + ZERO_CELSIUS_K));
+                ((1.0 - alpha) * oil + alpha * air) / (1.0 - column.compression(pressure_pa))
+            }
+        }
+    }
+
+    /// Kinematic viscosity at the working temperature [m^2/s], Walther's law (ASTM D341):
+    /// `log10(log10(nu + 0.7)) = A - B log10(T)`, nu in mm^2/s, T in K, through the two given points.
+    pub fn kinematic_viscosity_m2_per_s(&self) -> f64 {
+        let ordinate = |viscosity: f64| log10(log10(viscosity * 1e6 + 0.7));
+        let abscissa = |celsius: f64| log10(celsius + ZERO_CELSIUS_K);
+        let (y40, y100) = (
+            ordinate(self.viscosity_40c_m2_per_s),
+            ordinate(self.viscosity_100c_m2_per_s),
+        );
+        let slope = (y100 - y40) / (abscissa(100.0) - abscissa(40.0));
+        let y = y40 + slope * (abscissa(self.temperature_c) - abscissa(40.0));
+        (pow(10.0, pow(10.0, y)) - 0.7) * 1e-6
+    }
+
+    /// Dynamic viscosity `mu = rho nu` at atmospheric pressure [Pa s].
+    pub fn dynamic_viscosity_pa_s(&self) -> f64 {
+        self.density_kg_per_m3(0.0) * self.kinematic_viscosity_m2_per_s()
+    }
+
+    /// `sqrt(2 P/rho(P))` [m/s], 0 for a pressure that does not drive.
+    pub(crate) fn jet_velocity(&self, pressure_pa: f64) -> f64 {
+        if pressure_pa > 0.0 {
+            sqrt(2.0 * pressure_pa / self.density_kg_per_m3(pressure_pa))
+        } else {
+            0.0
+        }
+    }
+}
+
+impl OilColumn {
+    fn validate(&self) -> Result<(), BuildError> {
+        let check =
+            |field, value, valid, allowed| require("oil.column", field, value, valid, allowed);
+        check(
+            "bulk_modulus_pa",
+            self.bulk_modulus_pa,
+            (1e8..=1e11).contains(&self.bulk_modulus_pa),
+            "1e8 to 1e11 Pa",
+        )?;
+        for (field, volume) in [
+            ("rod_side_volume_m3", self.rod_side_volume_m3),
+            ("piston_side_volume_m3", self.piston_side_volume_m3),
+        ] {
+            check(
+                field,
+                volume,
+                (1e-7..=1.0).contains(&volume),
+                "1e-7 to 1 m3",
+            )?;
+        }
+        check(
+            "air_fraction",
+            self.air_fraction,
+            (0.0..=0.2).contains(&self.air_fraction),
+            "0 to 0.2",
+        )?;
+        check(
+            "polytropic_exponent",
+            self.polytropic_exponent,
+            (1.0..=1.67).contains(&self.polytropic_exponent),
+            "1 to 1.67",
+        )
+    }
+
+    /// Share of its atmospheric volume by which the mixture shortens under gauge pressure P:
+    /// `(1 - alpha) P/E_l + alpha (1 - (p_a/(p_a + P))^(1/n))` [1].
+    pub fn compression(&self, pressure_pa: f64) -> f64 {
+        let air = 1.0
+            - pow(
+                ATMOSPHERIC_PRESSURE_PA / (ATMOSPHERIC_PRESSURE_PA + pressure_pa),
+                1.0 / self.polytropic_exponent,
+            );
+        (1.0 - self.air_fraction) * pressure_pa / self.bulk_modulus_pa + self.air_fraction * air
+    }
+
+    /// Derivative of [`OilColumn::compression`] with respect to pressure [1/Pa].
+    pub fn compressibility_per_pa(&self, pressure_pa: f64) -> f64 {
+        let absolute = ATMOSPHERIC_PRESSURE_PA + pressure_pa;
+        let n = self.polytropic_exponent;
+        (1.0 - self.air_fraction) / self.bulk_modulus_pa
+            + self.air_fraction * pow(ATMOSPHERIC_PRESSURE_PA / absolute, 1.0 / n) / (n * absolute)
+    }
+
+    /// Bulk modulus of the mixture at absolute pressure p [Pa]: its volume over its compressibility,
+    /// `E = E_l (1 + alpha (p_a/p)^(1/n)) / (1 + alpha p_a^(1/n) E_l/(n p^((n+1)/n)))` to first order
+    /// in alpha.
+    ///
+    /// ```
+    /// use dashpot_core::parameters::OilColumn;
+    /// let column = OilColumn {
+    ///     bulk_modulus_pa: 1.5e9,
+    ///     rod_side_volume_m3: 1e-3,
+    ///     piston_side_volume_m3: 1e-3,
+    ///     air_fraction: 0.0,
+    ///     polytropic_exponent: 1.0,
+    /// };
+    /// assert!((column.bulk_modulus_pa(101_325.0) / 1.5e9 - 1.0).abs() < 1e-12);
+    /// ```
+    pub fn bulk_modulus_pa(&self, absolute_pressure_pa: f64) -> f64 {
+        let gauge = absolute_pressure_pa - ATMOSPHERIC_PRESSURE_PA;
+        (1.0 - self.compression(gauge)) / self.compressibility_per_pa(gauge)
+    }
+}
