@@ -1,0 +1,108 @@
+//! The oil at its working temperature: density, viscosity, shortening of its column.
+
+use dashpot_core::parameters::{
+    ATMOSPHERIC_PRESSURE_PA, DENSITY_TEMPERATURE_C, Oil, OilColumn,
+};
+
+/// Gas constant of dry air [J/(kg K)], ISO 2533.
+const AIR_GAS_CONSTANT: f64 = 287.052_87;
+/// 0 degC [K].
+const ZERO_CELSIUS_K: f64 = 273.15;
+
+/// Absolute temperature [K] of a temperature in degC.
+pub(super) fn kelvin(celsius: f64) -> f64 {
+    celsius + ZERO_CELSIUS_K
+}
+
+/// Density and viscosity as functions of gauge pressure at one temperature.
+#[derive(Clone, Debug)]
+pub(super) struct Fluid {
+    /// Density of the oil without air at atmospheric pressure [kg/m^3].
+    oil_density: f64,
+    /// Density of air at atmospheric pressure [kg/m^3].
+    air_density: f64,
+    column: Option<OilColumn>,
+    /// Kinematic viscosity [m^2/s].
+    pub(super) viscosity: f64,
+}
+
+impl Fluid {
+    pub(super) fn new(oil: &Oil) -> Self {
+        let rise = oil.temperature_c - DENSITY_TEMPERATURE_C;
+        Self {
+            oil_density: oil.density_kg_per_m3 / (1.0 + oil.thermal_expansion_per_k * rise),
+            air_density: ATMOSPHERIC_PRESSURE_PA / (AIR_GAS_CONSTANT * kelvin(oil.temperature_c)),
+            column: oil.column,
+            viscosity: walther(oil),
+        }
+    }
+
+    /// Density of oil and entrained air [kg/m^3] at gauge pressure [Pa]: the mass of a unit volume
+    /// at atmospheric pressure over the volume it takes at `pressure`.
+    pub(super) fn density(&self, pressure: f64) -> f64 {
+        let Some(column) = &self.column else {
+            return self.oil_density;
+        };
+        let air = column.air_fraction;
+        let mass = (1.0 - air) * self.oil_density + air * self.air_density;
+        let volume = (1.0 - air) * (1.0 - pressure / column.bulk_modulus_pa)
+            + air * air_volume_ratio(column, pressure);
+        mass / volume
+    }
+}
+
+/// Volume of air at gauge pressure over its volume at atmospheric pressure,
+/// `(p_a/(p_a + P))^(1/n)`.
+fn air_volume_ratio(column: &OilColumn, pressure: f64) -> f64 {
+    (ATMOSPHERIC_PRESSURE_PA / (ATMOSPHERIC_PRESSURE_PA + pressure))
+        .powf(1.0 / column.polytropic_exponent)
+}
+
+/// Kinematic viscosity [m^2/s] at the working temperature, ASTM D341:
+/// `log10 log10 (nu + 0.7)` linear in `log10 T`, nu in mm^2/s, T in K, through 40 and 100 degC.
+fn walther(oil: &Oil) -> f64 {
+    let double_log = |nu: f64| (nu * 1e6 + 0.7).log10().log10();
+    let (cold, hot) = (kelvin(40.0).log10(), kelvin(100.0).log10());
+    let (at_cold, at_hot) = (
+        double_log(oil.viscosity_40c_m2_per_s),
+        double_log(oil.viscosity_100c_m2_per_s),
+    );
+    let along = (kelvin(oil.temperature_c).log10() - cold) / (hot - cold);
+    let value = at_cold + along * (at_hot - at_cold);
+    (10f64.powf(10f64.powf(value)) - 0.7) * 1e-6
+}
+
+/// One oil column as a spring under gauge pressure.
+#[derive(Clone, Debug)]
+pub(super) struct ColumnSpring {
+    /// Chamber volume over piston area [m].
+    length: f64,
+    column: OilColumn,
+}
+
+impl ColumnSpring {
+    pub(super) fn new(column: OilColumn, volume: f64, area: f64) -> Self {
+        Self {
+            length: volume / area,
+            column,
+        }
+    }
+
+    /// Shortening [m] under gauge pressure [Pa].
+    pub(super) fn shortening(&self, pressure: f64) -> f64 {
+        let air = self.column.air_fraction;
+        self.length
+            * ((1.0 - air) * pressure / self.column.bulk_modulus_pa
+                + air * (1.0 - air_volume_ratio(&self.column, pressure)))
+    }
+
+    /// Shortening per pressure [m/Pa] at gauge pressure [Pa].
+    pub(super) fn compliance(&self, pressure: f64) -> f64 {
+        let air = self.column.air_fraction;
+        let exponent = self.column.polytropic_exponent;
+        self.length
+            * ((1.0 - air) / self.column.bulk_modulus_pa
+                + air * air_volume_ratio(&self.column, pressure)
+                    / (exponent * (ATMOSPHERIC_PRESSURE_PA + pressure)))
+    }
+}
