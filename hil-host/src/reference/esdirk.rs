@@ -14,7 +14,7 @@ use super::segment::{Arrival, Integrator, STATES, Segment};
 use crate::failure::{Failure, Outcome};
 
 /// Tolerance per step, relative and absolute to the scales of a segment.
-const TOLERANCE: f64 = 1e-10;
+const TOLERANCE: f64 = 1e-12;
 
 /// First step of the first segment, over its time scale.
 const FIRST_STEP: f64 = 1e-3;
