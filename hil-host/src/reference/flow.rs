@@ -151,7 +151,8 @@ fn annulus(leakage: &Leakage, radius: f64) -> f64 {
 /// Gauge back pressure [Pa] behind the foot valve.
 fn back_pressure(reservoir: &Reservoir, rod_area: f64, temperature_c: f64) -> f64 {
     let volume = reservoir.gas_volume_m3 - rod_area * reservoir.rod_insertion_m;
-    (reservoir.fill_pressure_pa + ATMOSPHERIC_PRESSURE_PA) * (reservoir.gas_volume_m3 / volume)
+    (reservoir.fill_pressure_pa + ATMOSPHERIC_PRESSURE_PA)
+        * (reservoir.gas_volume_m3 / volume)
         * kelvin(temperature_c)
         / kelvin(reservoir.fill_temperature_c)
         - ATMOSPHERIC_PRESSURE_PA
@@ -195,7 +196,10 @@ pub(super) enum Passage {
     /// Rod side to piston side.
     Extension { piston: PistonPaths, area: f64 },
     /// Piston and foot valve under the same pressure.
-    Lumped { piston: PistonPaths, foot: Box<FootLumped> },
+    Lumped {
+        piston: PistonPaths,
+        foot: Box<FootLumped>,
+    },
     /// Compression with the pressures of both chambers.
     TwoChamber(Box<TwoChambers>),
 }
@@ -244,8 +248,8 @@ impl Passage {
         }
     }
 
-    /// Working pressures at which a valve opens [Pa]: the velocity has a kink there.
-    pub(super) fn kinks(&self) -> Vec<f64> {
+    /// Working pressures up to `limit` [Pa] at which a valve opens: the velocity has a kink there.
+    pub(super) fn kinks(&self, limit: f64) -> Vec<f64> {
         match self {
             Self::Extension { piston, .. } => piston.openings().collect(),
             Self::Lumped { piston, foot } => {
@@ -255,8 +259,7 @@ impl Passage {
                     .chain([foot.shims.opens_at, foot.back_pressure])
                     .collect()
             }
-            // they lie where both chambers' balance puts them; the step control finds them
-            Self::TwoChamber(_) => Vec::new(),
+            Self::TwoChamber(chambers) => chambers.kinks(limit),
         }
     }
 
@@ -289,7 +292,8 @@ pub(super) struct TwoChambers {
 impl TwoChambers {
     /// Force up to which neither foot valve nor piston passes oil, the rod side not boiling [N].
     fn closed_force(&self) -> f64 {
-        self.areas.rod * self.foot.closed_up_to() + self.areas.extension * self.piston.closed_up_to()
+        self.areas.rod * self.foot.closed_up_to()
+            + self.areas.extension * self.piston.closed_up_to()
     }
 
     fn closed_up_to(&self) -> f64 {
@@ -304,36 +308,92 @@ impl TwoChambers {
         force.max(0.0) / self.areas.compression
     }
 
+    /// Piston velocity at working pressure `closed + above`.
     fn velocity(&self, closed: f64, above: f64) -> f64 {
+        match self.share(closed, above) {
+            Some((foot_excess, drop)) => self.through(drop, self.foot.closed_up_to(), foot_excess),
+            None => {
+                let upstream =
+                    closed + above + self.vapour * self.areas.extension / self.areas.compression;
+                self.through(upstream - self.vapour, upstream, 0.0)
+            }
+        }
+    }
+
+    /// Velocity from both flows, at piston-side pressure `base + over`.
+    fn through(&self, drop: f64, base: f64, over: f64) -> f64 {
+        let density = self.piston.fluid.density(base + over);
+        (self.piston.flow(drop, base + over) + self.foot.flow(base, over, density))
+            / self.areas.compression
+    }
+
+    /// How a working pressure is shared between the foot valve (excess over its opening) and the
+    /// piston (drop); `None` when the rod side boils.
+    fn share(&self, closed: f64, above: f64) -> Option<(f64, f64)> {
         let Areas {
             extension,
             compression,
             rod,
         } = self.areas;
         let (foot, piston) = (self.foot.closed_up_to(), self.piston.closed_up_to());
-        let total = |drop: f64, base: f64, over: f64| {
-            let upstream = base + over;
-            let density = self.piston.fluid.density(upstream);
-            (
-                self.piston.flow(drop, upstream),
-                self.foot.flow(base, over, density),
-            )
-        };
-        // force beyond the closed one, shared between foot excess e = w^2 and piston drop
         let excess = (closed * compression - self.closed_force()) + above * compression;
-        if excess >= 0.0 {
-            let drop = |w: f64| piston + ((excess - rod * w * w) / extension).max(0.0);
-            let w = increasing_root(0.0, (excess / rod).sqrt(), |w| {
-                let (through_piston, through_foot) = total(drop(w), foot, w * w);
-                extension * through_foot - rod * through_piston
-            });
-            if foot + w * w - drop(w) >= self.vapour {
-                let (through_piston, through_foot) = total(drop(w), foot, w * w);
-                return (through_piston + through_foot) / compression;
+        if excess < 0.0 {
+            return None;
+        }
+        // in the root of the excess both flows are smooth where the foot valve opens
+        let drop = |root: f64| piston + ((excess - rod * root * root) / extension).max(0.0);
+        let root = increasing_root(0.0, (excess / rod).sqrt(), |root| {
+            self.imbalance(drop(root), foot, root * root)
+        });
+        let (over, drop) = (root * root, drop(root));
+        (foot + over - drop >= self.vapour).then_some((over, drop))
+    }
+
+    /// Flow the foot valve passes beyond what the rod displaces, times `A_ext`.
+    fn imbalance(&self, drop: f64, base: f64, over: f64) -> f64 {
+        let density = self.piston.fluid.density(base + over);
+        self.areas.extension * self.foot.flow(base, over, density)
+            - self.areas.rod * self.piston.flow(drop, base + over)
+    }
+
+    /// Working pressures up to `limit` at which a piston valve opens or the rod side starts or
+    /// ceases to boil.
+    fn kinks(&self, limit: f64) -> Vec<f64> {
+        let Areas {
+            extension,
+            compression,
+            rod,
+        } = self.areas;
+        let base = self.foot.closed_up_to();
+        let mut kinks: Vec<f64> = self
+            .piston
+            .openings()
+            .map(|drop| {
+                let most = limit * compression / rod;
+                let over = increasing_root(0.0, most, |over| self.imbalance(drop, base, over));
+                let upstream = (base + over).max(drop + self.vapour);
+                (upstream * compression - (upstream - drop).max(self.vapour) * extension)
+                    / compression
+            })
+            .collect();
+        let closed = self.closed_up_to();
+        let boils = |above: f64| self.share(closed, above).is_none();
+        let scan = |i: u32| (limit - closed).max(0.0) * (f64::from(i) / 400.0).powi(2);
+        for i in 1..=400 {
+            let (mut low, mut high) = (scan(i - 1), scan(i));
+            let before = boils(low);
+            if before != boils(high) {
+                for _ in 0..100 {
+                    let middle = 0.5 * (low + high);
+                    if boils(middle) == before {
+                        low = middle;
+                    } else {
+                        high = middle;
+                    }
+                }
+                kinks.push(closed + high);
             }
         }
-        let upstream = closed + above + self.vapour * extension / compression;
-        let (through_piston, through_foot) = total(upstream - self.vapour, upstream, 0.0);
-        (through_piston + through_foot) / compression
+        kinks
     }
 }

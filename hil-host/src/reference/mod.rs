@@ -1,5 +1,5 @@
 //! Reference solution of the damper: the physics of the parameters' documentation, written from
-//! the laws and integrated by an adaptive stiff solver to a tolerance of 1e-10 a step.
+//! the laws and integrated by an adaptive stiff solver to a tolerance of 1e-12 a step.
 //!
 //! It shares nothing with the fixed step but the parameters: chamber pressure and piston position
 //! are states, clearance, opening valves, release and yielding are events. Signs as everywhere:
@@ -142,7 +142,11 @@ fn run(
             duration: times[i] - times[i - 1],
         };
         motion.follow(&piece, solver).map_err(|failure| {
-            Failure::new(format!("{failure}, between {} s and {} s", times[i - 1], times[i]))
+            Failure::new(format!(
+                "{failure}, between {} s and {} s",
+                times[i - 1],
+                times[i]
+            ))
         })?;
         forces.push(motion.force(x[i]));
     }

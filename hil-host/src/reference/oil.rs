@@ -1,8 +1,6 @@
 //! The oil at its working temperature: density, viscosity, shortening of its column.
 
-use dashpot_core::parameters::{
-    ATMOSPHERIC_PRESSURE_PA, DENSITY_TEMPERATURE_C, Oil, OilColumn,
-};
+use dashpot_core::parameters::{ATMOSPHERIC_PRESSURE_PA, DENSITY_TEMPERATURE_C, Oil, OilColumn};
 
 /// Gas constant of dry air [J/(kg K)], ISO 2533.
 const AIR_GAS_CONSTANT: f64 = 287.052_87;
@@ -104,5 +102,75 @@ impl ColumnSpring {
             * ((1.0 - air) / self.column.bulk_modulus_pa
                 + air * air_volume_ratio(&self.column, pressure)
                     / (exponent * (ATMOSPHERIC_PRESSURE_PA + pressure)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn oil(temperature_c: f64) -> Oil {
+        Oil {
+            density_kg_per_m3: 870.0,
+            thermal_expansion_per_k: 7e-4,
+            temperature_c,
+            viscosity_40c_m2_per_s: 15e-6,
+            viscosity_100c_m2_per_s: 3.8e-6,
+            column: Some(OilColumn {
+                bulk_modulus_pa: 1.5e9,
+                rod_side_volume_m3: 0.5e-3,
+                piston_side_volume_m3: 0.6e-3,
+                air_fraction: 0.005,
+                polytropic_exponent: 1.0,
+            }),
+        }
+    }
+
+    /// Both data points, and the D341 line through them worked out separately at 45 and 60 degC.
+    #[test]
+    fn viscosity_follows_the_d341_line() {
+        for (temperature, expected) in [
+            (40.0, 15e-6),
+            (45.0, 1.286_125_742_976_544_6e-5),
+            (60.0, 8.545_099_407_905_419e-6),
+            (100.0, 3.8e-6),
+        ] {
+            let ours = walther(&oil(temperature));
+            assert!(
+                (ours / expected - 1.0).abs() < 1e-12,
+                "{temperature}: {ours}"
+            );
+        }
+    }
+
+    /// Values of the mass balance worked out separately at 45 degC.
+    #[test]
+    fn density_follows_the_mass_balance() {
+        let fluid = Fluid::new(&oil(45.0));
+        for (pressure, expected) in [(0.0, 847.850_797_197_468_3), (5e6, 854.875_612_934_214_7)] {
+            let ours = fluid.density(pressure);
+            assert!((ours / expected - 1.0).abs() < 1e-12, "{pressure}: {ours}");
+        }
+    }
+
+    /// `E` of an oil with air under absolute pressure p, in the form usual for the tangent
+    /// modulus, with the air ratio referred to the oil's volume.
+    #[test]
+    fn column_compliance_is_the_tangent_modulus() {
+        let column = oil(45.0).column.expect("a column");
+        let spring = ColumnSpring::new(column, 0.5e-3, 3.2e-3);
+        let ratio = column.air_fraction / (1.0 - column.air_fraction);
+        let (modulus, atmosphere) = (column.bulk_modulus_pa, ATMOSPHERIC_PRESSURE_PA);
+        for gauge in [0.0, 1e5, 1e6, 1e7] {
+            let p = gauge + atmosphere;
+            // volume lost per pressure, over the volume at atmospheric pressure
+            let lost = (1.0 + ratio * atmosphere * modulus / (p * p)) / modulus / (1.0 + ratio);
+            let ours = spring.compliance(gauge) * 3.2e-3 / 0.5e-3;
+            assert!((ours / lost - 1.0).abs() < 1e-12, "{gauge}: {ours} {lost}");
+            let step = 1e-3 * p;
+            let chord =
+                (spring.shortening(gauge + step) - spring.shortening(gauge - step)) / (2.0 * step);
+            assert!((chord / spring.compliance(gauge) - 1.0).abs() < 1e-5);
+        }
     }
 }

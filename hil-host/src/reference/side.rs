@@ -106,7 +106,7 @@ impl Side {
         let closed = passage.closed_up_to();
         let friction = hydraulics.seal.map_or(0.0, |seal| seal.friction_n);
         let kinks = passage
-            .kinks()
+            .kinks((limit - friction).max(0.0) / area)
             .into_iter()
             .filter(|pressure| *pressure > closed)
             .map(|pressure| (pressure - closed).sqrt())
@@ -210,7 +210,9 @@ impl Side {
         } else if stretch >= self.closed_stretch {
             self.closed_force
         } else {
-            increasing_root(0.0, self.closed_force, |force| self.stretch(force) - stretch)
+            increasing_root(0.0, self.closed_force, |force| {
+                self.stretch(force) - stretch
+            })
         }
     }
 

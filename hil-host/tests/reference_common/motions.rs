@@ -27,7 +27,11 @@ pub fn ride(rate: f64, duration: f64) -> Motion {
         .map(|i| {
             let frequency = 0.3 * (20.0_f64 / 0.3).powf((i as f64 + uniform()) / 40.0);
             let omega = 2.0 * PI * frequency;
-            (omega, 0.04 * (2.0_f64 / 40.0).sqrt() / omega, 2.0 * PI * uniform())
+            (
+                omega,
+                0.04 * (2.0_f64 / 40.0).sqrt() / omega,
+                2.0 * PI * uniform(),
+            )
         })
         .collect();
     sampled(rate, duration, |t| {
