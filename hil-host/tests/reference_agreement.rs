@@ -9,7 +9,7 @@ use dashpot_hil::reference::Reference;
 use reference_common::radau::Radau;
 use reference_common::{dampers, motions, nrmse};
 
-/// Largest normalised difference allowed between ESDIRK34 and Radau5.
+/// Largest normalised difference allowed between ESDIRK34 and Radau5; 5.8e-8 is the largest seen.
 const AGREEMENT: f64 = 1e-6;
 
 fn agree(parameters: &DamperParameters) {
@@ -33,8 +33,8 @@ fn agree(parameters: &DamperParameters) {
             started.elapsed() - first
         );
         assert!(difference < AGREEMENT, "{name}: {difference:e}");
-        // a metre of seat motion on 1 um of slip would already show in the force
-        assert!(statistics.closure_m < 1e-9, "{name}: {statistics:?}");
+        // over 6 MN/m this is 6 uN
+        assert!(statistics.closure_m < 1e-12, "{name}: {statistics:?}");
     }
 }
 

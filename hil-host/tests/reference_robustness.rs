@@ -58,9 +58,8 @@ fn hard_motions() -> Vec<(&'static str, Motion)> {
     ]
 }
 
-/// White noise opens and shuts the valves of two chambers many times between corners; their kinks
-/// are no events there. Largest difference seen is 1.0e-6, from Radau stepping over them.
-const AGREEMENT: f64 = 2e-6;
+/// Largest normalised difference allowed between ESDIRK34 and Radau5; 2.3e-7 is the largest seen.
+const AGREEMENT: f64 = 1e-6;
 
 fn survives(parameters: &DamperParameters) {
     for stiffness in [1e6, 6e6, 4e7] {
@@ -76,6 +75,7 @@ fn survives(parameters: &DamperParameters) {
                     .forces_with(&mut Radau::default(), &times, &x)
                     .expect(&case);
                 let difference = nrmse(&force, &other);
+                println!("{case}: {difference:.1e}");
                 assert!(difference < AGREEMENT, "{case}: {difference:e}");
                 let largest = force.iter().fold(0.0_f64, |a, f| a.max(f.abs()));
                 assert!(largest <= parameters.limits.force_n, "{case}: {largest} N");

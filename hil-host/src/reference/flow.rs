@@ -9,7 +9,7 @@ use dashpot_core::parameters::{
     ATMOSPHERIC_PRESSURE_PA, Hydraulics, Leakage, Relief, Reservoir, Valve,
 };
 
-use super::bracket::increasing_root;
+use super::chambers::TwoChambers;
 use super::oil::{Fluid, kelvin};
 use super::shim::edge_compliance_m_per_pa;
 
@@ -80,7 +80,7 @@ pub(super) struct PistonPaths {
     relief: Option<Opening>,
     /// Leakage flow per pressure, times dynamic viscosity [m^3].
     leakage: f64,
-    fluid: Fluid,
+    pub(super) fluid: Fluid,
 }
 
 impl PistonPaths {
@@ -108,7 +108,7 @@ impl PistonPaths {
     }
 
     /// Flow under pressure drop `drop`, `upstream` the gauge pressure the oil comes from.
-    fn flow(&self, drop: f64, upstream: f64) -> f64 {
+    pub(super) fn flow(&self, drop: f64, upstream: f64) -> f64 {
         let density = self.fluid.density(upstream);
         let mut flow = self.shims.flow(drop - self.shims.opens_at, drop, density);
         if self.orifice > 0.0 {
@@ -126,7 +126,7 @@ impl PistonPaths {
     }
 
     /// Pressure drop up to which nothing flows.
-    fn closed_up_to(&self) -> f64 {
+    pub(super) fn closed_up_to(&self) -> f64 {
         if self.orifice > 0.0 || self.leakage > 0.0 {
             return 0.0;
         }
@@ -137,7 +137,7 @@ impl PistonPaths {
             })
     }
 
-    fn openings(&self) -> impl Iterator<Item = f64> + '_ {
+    pub(super) fn openings(&self) -> impl Iterator<Item = f64> + '_ {
         std::iter::once(self.shims.opens_at).chain(self.relief.iter().map(|relief| relief.opens_at))
     }
 }
@@ -160,7 +160,7 @@ fn back_pressure(reservoir: &Reservoir, rod_area: f64, temperature_c: f64) -> f6
 
 /// The foot valve, from the piston side to the reservoir.
 #[derive(Clone, Debug)]
-struct Foot {
+pub(super) struct Foot {
     shims: Opening,
     back_pressure: f64,
 }
@@ -176,12 +176,12 @@ impl Foot {
     }
 
     /// Chamber pressure up to which nothing flows.
-    fn closed_up_to(&self) -> f64 {
+    pub(super) fn closed_up_to(&self) -> f64 {
         self.shims.opens_at.max(self.back_pressure).max(0.0)
     }
 
     /// Flow at chamber pressure `base + above`, split so that a small excess keeps its digits.
-    fn flow(&self, base: f64, above: f64, density: f64) -> f64 {
+    pub(super) fn flow(&self, base: f64, above: f64, density: f64) -> f64 {
         self.shims.flow(
             (base - self.shims.opens_at) + above,
             (base - self.back_pressure) + above,
@@ -275,125 +275,5 @@ impl Passage {
             }
             Self::TwoChamber(chambers) => chambers.velocity(closed, above),
         }
-    }
-}
-
-/// Compression with both chamber pressures, `P_1` piston side and `P_2` rod side:
-/// `A_ext v = Q_piston(P_1 - P_2)`, `A_rod v = Q_foot(P_1)`, `F = P_1 A_comp - P_2 A_ext`;
-/// at `P_2 = p_vap` only the sum of the two balances holds.
-#[derive(Clone, Debug)]
-pub(super) struct TwoChambers {
-    piston: PistonPaths,
-    foot: Foot,
-    areas: Areas,
-    vapour: f64,
-}
-
-impl TwoChambers {
-    /// Force up to which neither foot valve nor piston passes oil, the rod side not boiling [N].
-    fn closed_force(&self) -> f64 {
-        self.areas.rod * self.foot.closed_up_to()
-            + self.areas.extension * self.piston.closed_up_to()
-    }
-
-    fn closed_up_to(&self) -> f64 {
-        let (foot, piston) = (self.foot.closed_up_to(), self.piston.closed_up_to());
-        let force = if foot - piston >= self.vapour {
-            self.closed_force()
-        } else {
-            // the rod side boils first and the piston paths open against it
-            let upstream = self.vapour + piston;
-            upstream * self.areas.compression - self.vapour * self.areas.extension
-        };
-        force.max(0.0) / self.areas.compression
-    }
-
-    /// Piston velocity at working pressure `closed + above`.
-    fn velocity(&self, closed: f64, above: f64) -> f64 {
-        match self.share(closed, above) {
-            Some((foot_excess, drop)) => self.through(drop, self.foot.closed_up_to(), foot_excess),
-            None => {
-                let upstream =
-                    closed + above + self.vapour * self.areas.extension / self.areas.compression;
-                self.through(upstream - self.vapour, upstream, 0.0)
-            }
-        }
-    }
-
-    /// Velocity from both flows, at piston-side pressure `base + over`.
-    fn through(&self, drop: f64, base: f64, over: f64) -> f64 {
-        let density = self.piston.fluid.density(base + over);
-        (self.piston.flow(drop, base + over) + self.foot.flow(base, over, density))
-            / self.areas.compression
-    }
-
-    /// How a working pressure is shared between the foot valve (excess over its opening) and the
-    /// piston (drop); `None` when the rod side boils.
-    fn share(&self, closed: f64, above: f64) -> Option<(f64, f64)> {
-        let Areas {
-            extension,
-            compression,
-            rod,
-        } = self.areas;
-        let (foot, piston) = (self.foot.closed_up_to(), self.piston.closed_up_to());
-        let excess = (closed * compression - self.closed_force()) + above * compression;
-        if excess < 0.0 {
-            return None;
-        }
-        // in the root of the excess both flows are smooth where the foot valve opens
-        let drop = |root: f64| piston + ((excess - rod * root * root) / extension).max(0.0);
-        let root = increasing_root(0.0, (excess / rod).sqrt(), |root| {
-            self.imbalance(drop(root), foot, root * root)
-        });
-        let (over, drop) = (root * root, drop(root));
-        (foot + over - drop >= self.vapour).then_some((over, drop))
-    }
-
-    /// Flow the foot valve passes beyond what the rod displaces, times `A_ext`.
-    fn imbalance(&self, drop: f64, base: f64, over: f64) -> f64 {
-        let density = self.piston.fluid.density(base + over);
-        self.areas.extension * self.foot.flow(base, over, density)
-            - self.areas.rod * self.piston.flow(drop, base + over)
-    }
-
-    /// Working pressures up to `limit` at which a piston valve opens or the rod side starts or
-    /// ceases to boil.
-    fn kinks(&self, limit: f64) -> Vec<f64> {
-        let Areas {
-            extension,
-            compression,
-            rod,
-        } = self.areas;
-        let base = self.foot.closed_up_to();
-        let mut kinks: Vec<f64> = self
-            .piston
-            .openings()
-            .map(|drop| {
-                let most = limit * compression / rod;
-                let over = increasing_root(0.0, most, |over| self.imbalance(drop, base, over));
-                let upstream = (base + over).max(drop + self.vapour);
-                (upstream * compression - (upstream - drop).max(self.vapour) * extension)
-                    / compression
-            })
-            .collect();
-        let closed = self.closed_up_to();
-        let boils = |above: f64| self.share(closed, above).is_none();
-        let scan = |i: u32| (limit - closed).max(0.0) * (f64::from(i) / 400.0).powi(2);
-        for i in 1..=400 {
-            let (mut low, mut high) = (scan(i - 1), scan(i));
-            let before = boils(low);
-            if before != boils(high) {
-                for _ in 0..100 {
-                    let middle = 0.5 * (low + high);
-                    if boils(middle) == before {
-                        low = middle;
-                    } else {
-                        high = middle;
-                    }
-                }
-                kinks.push(closed + high);
-            }
-        }
-        kinks
     }
 }

@@ -6,6 +6,7 @@
 //! displacement positive in extension, force positive when it resists extension.
 
 mod bracket;
+mod chambers;
 mod esdirk;
 mod flow;
 mod motion;
@@ -90,8 +91,9 @@ impl Reference {
         self.statistics
     }
 
-    /// Force [N] of the valves at a constant velocity [m/s], both signed, springs settled; the
-    /// force at which the piston starts when the velocity is 0 is given as 0.
+    /// Force [N] at a constant velocity [m/s] once the springs have settled, both signed: seal
+    /// friction plus `A P` with `v(P)` the velocity, at most the force at which the damper yields.
+    /// 0 at velocity 0, where any force up to the one that starts the piston is possible.
     pub fn static_force(&self, velocity_m_per_s: f64) -> f64 {
         if velocity_m_per_s == 0.0 {
             return 0.0;

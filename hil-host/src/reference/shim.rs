@@ -66,4 +66,13 @@ mod tests {
             assert!((ours - roark).abs() <= printed, "{ratio}: {ours} {roark}");
         }
     }
+
+    /// Discs of the source paper, Table 1; `Cw(r_w)` [m^6/N] worked out separately to five digits.
+    #[test]
+    fn coefficients_of_the_papers_discs() {
+        for (inner, outer, expected) in [(0.016, 0.029, 2.1427e-19), (0.005, 0.011, 9.6981e-21)] {
+            let ours = edge_coefficient(inner, outer, 2.0e11, 0.3);
+            assert!((ours / expected - 1.0).abs() < 2.5e-5, "{inner}: {ours:e}");
+        }
+    }
 }
