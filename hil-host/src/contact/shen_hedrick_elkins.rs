@@ -7,6 +7,7 @@ use super::creepage::{CreepForces, CreepLaw, Creepage, LoadedContact, linear};
 /// (Shen, Hedrick, Elkins, Vehicle System Dynamics 12, 1983, 79-83).
 ///
 /// The moment shrinks by the same share, so the linear theory's dissipation keeps its sign.
+/// Full sliding points along `(C11 xi, C22 eta)`, not along the sliding itself.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ShenHedrickElkins;
 
