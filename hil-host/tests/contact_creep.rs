@@ -54,9 +54,14 @@ fn the_creep_curve_of_exact_theory() {
             worst = worst.max(off.abs());
         }
         println!("{name}: within {:.1} % of exact theory", worst * 100.0);
-        // "About 5 %" in the literature; FASTSIM is 5.4 % low at 1.6e-3 at any mesh (the closed form
-        // below is too), 4.2 % of the friction limit.
-        assert!(worst < 0.055, "{name}: {worst}");
+        // The literature's "about 5 %". Each law's own formula sets its error, at any mesh for FASTSIM
+        // (its closed form is below); of the friction limit it is 4.2, 5.5 and 3.6 %.
+        let known = match name {
+            "FASTSIM" => 0.054,
+            "Polach" => 0.059,
+            _ => 0.05,
+        };
+        assert!(worst < known + 0.0005, "{name}: {worst}");
     }
 }
 

@@ -9,10 +9,15 @@ use dashpot_hil::contact::{s1002, uic60};
 
 #[test]
 fn s1002_sections_join() {
-    // C's coefficients carry ten digits: half a last digit each sums to 7e-5 mm at s = -26.
+    // Half a last digit of each of C's ten-digit coefficients sums to 7e-5 mm at -26 and 2.1e-4 mm at -35.
+    let rounding = |joint: f64| match joint {
+        -26.0 => 7e-5,
+        -35.0 => 2.1e-4,
+        _ => 2e-8,
+    };
     for (section, joint) in s1002::JOINTS_MM[..7].iter().enumerate() {
         let gap = s1002::section_mm(section, *joint) - s1002::section_mm(section + 1, *joint);
-        assert!(gap.abs() < 7e-5, "joint {joint}: gap {gap} mm");
+        assert!(gap.abs() < rounding(*joint), "joint {joint}: gap {gap} mm");
         let slope = |k: usize| {
             (s1002::section_mm(k, joint + 1e-4) - s1002::section_mm(k, joint - 1e-4)) / 2e-4
         };

@@ -14,6 +14,7 @@ pub mod hertz;
 pub mod kalker;
 pub mod measured;
 pub mod pair;
+pub mod plot;
 pub mod polach;
 pub mod profile;
 pub mod s1002;

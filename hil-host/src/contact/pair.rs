@@ -84,6 +84,8 @@ pub struct Pair {
     pub steepest: f64,
     /// Place of the flange tip, m from the tread datum.
     pub tip: f64,
+    wheel_slopes: Vec<f64>,
+    rail_slopes: Vec<f64>,
 }
 
 /// Place of the wheel of one side over its rail.
@@ -112,15 +114,15 @@ pub struct Overlap {
     pub curvature: f64,
 }
 
-/// Steepness of the wheel that parts tread from flange: between the root's contact angles of the
-/// tread's patch (to about 30 degrees) and the flange's (from about 45).
-const SPLIT_ANGLE: f64 = 35.0 * std::f64::consts::PI / 180.0;
+/// Steepness of the wheel that parts tread from flange. Inside a root as round as the rail's corner
+/// contact leaves 40 degrees for the flange face's 70: parting there leaves each part one summit.
+const SPLIT_ANGLE: f64 = 50.0 * std::f64::consts::PI / 180.0;
 
 impl Pair {
     /// Lays `rail` under `wheel`.
     ///
     /// # Errors
-    /// A distance out of its bounds, a rail too low to measure the gauge on, a wheel without a flange of 35 degrees.
+    /// A distance out of its bounds, a rail too low to measure the gauge on, a wheel without a flange of 50 degrees.
     pub fn new(wheel: Profile, rail: &Profile, installation: Installation) -> Outcome<Self> {
         installation.check()?;
         let rail = lay(rail, &installation)?;
@@ -132,7 +134,7 @@ impl Pair {
             .max_by(|&i, &j| wheel.points[i].z.total_cmp(&wheel.points[j].z));
         let (Some(split), Some(tip)) = (flange, deepest.filter(|&tip| tip > 0)) else {
             return Err(Failure::new(format!(
-                "wheel {}: no flange, allowed: a flange with its tip and a face of 35 degrees or more",
+                "wheel {}: no flange, allowed: a flange with its tip and a face of 50 degrees or more",
                 wheel.name
             )));
         };
@@ -149,6 +151,8 @@ impl Pair {
             split: wheel.points[split].y,
             steepest: wheel.points[steepest].y,
             tip: wheel.points[tip].y,
+            wheel_slopes: slopes(&wheel),
+            rail_slopes: slopes(&rail),
             wheel,
             rail,
             installation,
@@ -179,22 +183,28 @@ impl Pair {
         let (sin_yaw, cos_yaw) = place.yaw.sin_cos();
         let datum = self.installation.datum();
         let radius = self.installation.wheel_radius;
-        let mut rail = Cursor::new(&self.rail.points);
+        let (tan_roll, tan_yaw) = (sin_roll / cos_roll, sin_yaw / cos_yaw);
+        let mut rail = Cursor {
+            points: &self.rail.points,
+            slopes: &self.rail_slopes,
+            i: 0,
+        };
         for (index, point) in self.wheel.points.iter().enumerate() {
             let r = radius + point.z;
-            let turned = point.angle.tan() * sin_yaw / cos_yaw;
+            let slope = self.wheel_slopes[index];
+            let turned = slope * tan_yaw;
             let short = (1.0 - turned * turned).max(0.01).sqrt();
             let across = point.y * cos_yaw - r * turned * sin_yaw;
             let deep = r * short - radius;
             let y = datum + place.lateral + across * cos_roll - deep * sin_roll;
             let z = across * sin_roll + deep * cos_roll;
-            let angle = (point.angle.tan() / (cos_yaw * short)).atan() + place.roll;
+            let outline = slope / (cos_yaw * short);
             if let Some((rail_z, rail_curvature)) = rail.at(y) {
                 overlaps.push(Overlap {
                     index,
                     y,
                     rise: z - rail_z,
-                    slope: angle.tan(),
+                    slope: (outline + tan_roll) / (1.0 - outline * tan_roll),
                     curvature: rail_curvature - point.curvature,
                 });
             }
@@ -202,17 +212,19 @@ impl Pair {
     }
 }
 
+/// `dz/dy` at every sample.
+fn slopes(profile: &Profile) -> Vec<f64> {
+    profile.points.iter().map(|p| p.angle.tan()).collect()
+}
+
 /// Reads a curve at rising places without searching anew.
 struct Cursor<'a> {
     points: &'a [ProfilePoint],
+    slopes: &'a [f64],
     i: usize,
 }
 
-impl<'a> Cursor<'a> {
-    fn new(points: &'a [ProfilePoint]) -> Self {
-        Self { points, i: 0 }
-    }
-
+impl Cursor<'_> {
     /// Depth (cubic between the samples' tangents) and curvature at `y`; none beyond the ends.
     fn at(&mut self, y: f64) -> Option<(f64, f64)> {
         let points = self.points;
@@ -228,7 +240,7 @@ impl<'a> Cursor<'a> {
         let (p, q) = (&points[self.i], &points[self.i + 1]);
         let h = q.y - p.y;
         let t = (y - p.y) / h;
-        let (out, back) = (p.angle.tan() * h, q.angle.tan() * h);
+        let (out, back) = (self.slopes[self.i] * h, self.slopes[self.i + 1] * h);
         let rest = q.z - p.z;
         let z =
             p.z + t * (out + t * (3.0 * rest - 2.0 * out - back + t * (out + back - 2.0 * rest)));

@@ -14,33 +14,102 @@ type Node = [[f32; NUMBERS]; 2];
 /// its load over its whole width, as an ellipse of this curvature does.
 pub const LEAST_CURVATURE: f64 = 0.5;
 
+/// Nodes along one axis: close together in the middle, wider apart beyond.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Axis {
+    /// Least value, ends of the close part, greatest value.
+    pub ends: [f64; 4],
+    /// Cells of the three parts; the outer two may be none.
+    pub cells: [usize; 3],
+}
+
+impl Axis {
+    /// Number of nodes.
+    pub fn nodes(&self) -> usize {
+        self.cells.iter().sum::<usize>() + 1
+    }
+
+    /// Value of a node.
+    pub fn value(&self, node: usize) -> f64 {
+        let mut first = 0;
+        for part in 0..3 {
+            let cells = self.cells[part];
+            if node <= first + cells && cells > 0 {
+                let share = (node - first) as f64 / cells as f64;
+                return self.ends[part] + share * (self.ends[part + 1] - self.ends[part]);
+            }
+            first += cells;
+        }
+        self.ends[3]
+    }
+}
+
+/// An axis with its cells' widths inverted, for reading.
+#[derive(Debug, Clone, Copy)]
+struct Reader {
+    axis: Axis,
+    first: [f64; 3],
+    per_unit: [f64; 3],
+}
+
+impl Reader {
+    fn new(axis: Axis) -> Self {
+        let [a, b, _] = axis.cells;
+        let per_unit = [0, 1, 2].map(|part| {
+            let width = axis.ends[part + 1] - axis.ends[part];
+            if width > 0.0 {
+                axis.cells[part] as f64 / width
+            } else {
+                0.0
+            }
+        });
+        Self {
+            axis,
+            first: [0.0, a as f64, (a + b) as f64],
+            per_unit,
+        }
+    }
+
+    /// Cell, share within it and whether `x` lies on the axis.
+    #[inline]
+    fn locate(&self, x: f64) -> (usize, f32, bool) {
+        let ends = &self.axis.ends;
+        let held = x.max(ends[0]).min(ends[3]);
+        let part = usize::from(held >= ends[1]) + usize::from(held > ends[2]);
+        let position = self.first[part] + (held - ends[part]) * self.per_unit[part];
+        let cell = (position as usize).min(self.axis.nodes() - 2);
+        (cell, (position - cell as f64) as f32, x == held)
+    }
+}
+
 /// Extent and spacing of the tables.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Grid {
-    /// Least and greatest lateral shift, field side positive, m.
-    pub lateral: [f64; 2],
-    /// Steps over the lateral shift.
-    pub lateral_steps: usize,
-    /// Greatest roll, rad.
-    pub roll: f64,
-    /// Steps from the least to the greatest roll.
-    pub roll_steps: usize,
-    /// Greatest yaw, rad; the nodes are evenly spaced in its square.
-    pub yaw: f64,
-    /// Steps over the square of the yaw.
-    pub yaw_steps: usize,
+    /// Lateral shift, field side positive, m.
+    pub lateral: Axis,
+    /// Roll, field side down positive, rad.
+    pub roll: Axis,
+    /// Square of the yaw, rad^2: the outline depends on nothing else.
+    pub yaw_square: Axis,
 }
 
 impl Default for Grid {
-    /// -20 mm (wheel towards the track centre) to 65 mm (flange past the rail's top), 0.1 mm apart; roll to 24 mrad, yaw to 50 mrad.
+    /// Shift from -20 mm (wheel towards the track centre) to 65 mm (flange past the rail's top), roll to 24 mrad, yaw to 50 mrad;
+    /// 0.1 mm, 1 mrad and 1e-4 rad^2 apart within -12 to 12 mm, 12 mrad and 30 mrad.
     fn default() -> Self {
         Self {
-            lateral: [-0.020, 0.065],
-            lateral_steps: 850,
-            roll: 0.024,
-            roll_steps: 6,
-            yaw: 0.05,
-            yaw_steps: 5,
+            lateral: Axis {
+                ends: [-0.020, -0.012, 0.012, 0.065],
+                cells: [32, 240, 212],
+            },
+            roll: Axis {
+                ends: [-0.024, -0.012, 0.012, 0.024],
+                cells: [4, 24, 4],
+            },
+            yaw_square: Axis {
+                ends: [0.0, 0.0, 9e-4, 25e-4],
+                cells: [0, 9, 4],
+            },
         }
     }
 }
@@ -75,16 +144,16 @@ pub struct Tables {
     steel: Steel,
     grid: Grid,
     nodes: Vec<Node>,
-    per_step: [f64; 3],
+    readers: [Reader; 3],
 }
 
 impl Tables {
     /// Computes every node of `grid`; on as many threads as the machine offers.
     pub fn new(pair: Pair, steel: Steel, grid: Grid) -> Self {
         let kalker = KalkerTable::new(steel.poisson);
-        let columns = grid.lateral_steps + 1;
         let empty: Node = [[0.0; NUMBERS]; 2];
-        let mut nodes = vec![empty; columns * (grid.roll_steps + 1) * (grid.yaw_steps + 1)];
+        let count = grid.lateral.nodes() * grid.roll.nodes() * grid.yaw_square.nodes();
+        let mut nodes = vec![empty; count];
         let threads = std::thread::available_parallelism().map_or(1, usize::from);
         let chunk = nodes.len().div_ceil(threads);
         std::thread::scope(|scope| {
@@ -101,17 +170,12 @@ impl Tables {
                 });
             }
         });
-        let per_step = [
-            grid.lateral_steps as f64 / (grid.lateral[1] - grid.lateral[0]),
-            grid.roll_steps as f64 / (2.0 * grid.roll),
-            grid.yaw_steps as f64 / (grid.yaw * grid.yaw),
-        ];
         Self {
             pair,
             steel,
             grid,
             nodes,
-            per_step,
+            readers: [grid.lateral, grid.roll, grid.yaw_square].map(Reader::new),
         }
     }
 
@@ -134,16 +198,12 @@ impl Tables {
     /// its edge, told by `false`.
     #[inline]
     pub fn at(&self, place: &Place) -> ([Entry; 2], bool) {
-        let grid = &self.grid;
-        let (i, t, inside_lateral) = locate(
-            (place.lateral - grid.lateral[0]) * self.per_step[0],
-            grid.lateral_steps,
-        );
-        let (j, u, inside_roll) =
-            locate((place.roll + grid.roll) * self.per_step[1], grid.roll_steps);
-        let (k, v, inside_yaw) = locate(place.yaw * place.yaw * self.per_step[2], grid.yaw_steps);
-        let column = grid.lateral_steps + 1;
-        let sheet = column * (grid.roll_steps + 1);
+        let [lateral, roll, yaw] = &self.readers;
+        let (i, t, inside_lateral) = lateral.locate(place.lateral);
+        let (j, u, inside_roll) = roll.locate(place.roll);
+        let (k, v, inside_yaw) = yaw.locate(place.yaw * place.yaw);
+        let column = lateral.axis.nodes();
+        let sheet = column * roll.axis.nodes();
         let mut sum: Node = [[0.0; NUMBERS]; 2];
         for (dk, wk) in [(0, 1.0 - v), (1, v)] {
             for (dj, wj) in [(0, 1.0 - u), (1, u)] {
@@ -172,25 +232,14 @@ impl Tables {
     }
 }
 
-/// Cell, share within it and whether `x` lies within `steps` cells.
-#[inline]
-fn locate(x: f64, steps: usize) -> (usize, f32, bool) {
-    let held = x.max(0.0).min(steps as f64);
-    let cell = (held as usize).min(steps - 1);
-    (cell, (held - cell as f64) as f32, x == held)
-}
-
 /// Place of a node by its running number.
 fn place_of(grid: &Grid, node: usize) -> Place {
-    let column = grid.lateral_steps + 1;
-    let (i, rest) = (node % column, node / column);
-    let (j, k) = (rest % (grid.roll_steps + 1), rest / (grid.roll_steps + 1));
-    let share = |i: usize, steps: usize| i as f64 / steps as f64;
-    let [low, high] = grid.lateral;
+    let (i, rest) = (node % grid.lateral.nodes(), node / grid.lateral.nodes());
+    let (j, k) = (rest % grid.roll.nodes(), rest / grid.roll.nodes());
     Place {
-        lateral: low + (high - low) * share(i, grid.lateral_steps),
-        roll: grid.roll * (2.0 * share(j, grid.roll_steps) - 1.0),
-        yaw: grid.yaw * share(k, grid.yaw_steps).sqrt(),
+        lateral: grid.lateral.value(i),
+        roll: grid.roll.value(j),
+        yaw: grid.yaw_square.value(k).sqrt(),
     }
 }
 
