@@ -134,13 +134,13 @@ pub fn run(arguments: &ContactArguments) -> Outcome<()> {
         .map(|i| REACH * (2.0 * i as f64 / CELLS as f64 - 1.0))
         .map(|shift| pair.rigid(shift, 0.0, &mut room))
         .collect();
-    let rolling = RollingRadius {
-        lateral: contacts.iter().map(|c| c.lateral).collect(),
-        difference: contacts
+    let rolling = RollingRadius::new(
+        contacts.iter().map(|c| c.lateral).collect(),
+        contacts
             .iter()
             .map(RigidContact::rolling_radius_difference)
             .collect(),
-    };
+    );
     let plots = if arguments.no_plots {
         Vec::new()
     } else {

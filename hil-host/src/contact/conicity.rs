@@ -12,9 +12,27 @@ pub struct RollingRadius {
     pub lateral: Vec<f64>,
     /// Right less left rolling radius, m.
     pub difference: Vec<f64>,
+    /// Integral of the difference from the first shift to each, m^2.
+    potential: Vec<f64>,
 }
 
 impl RollingRadius {
+    /// The broken line through `difference` at the even, rising shifts `lateral`, two or more.
+    pub fn new(lateral: Vec<f64>, difference: Vec<f64>) -> Self {
+        assert!(lateral.len() >= 2 && lateral.len() == difference.len());
+        let mut potential = vec![0.0];
+        let mut sum = 0.0;
+        for i in 1..lateral.len() {
+            sum += 0.5 * (difference[i] + difference[i - 1]) * (lateral[i] - lateral[i - 1]);
+            potential.push(sum);
+        }
+        Self {
+            lateral,
+            difference,
+            potential,
+        }
+    }
+
     /// The rigid wheelset of `pair` between `-reach` and `reach`, `steps` cells.
     pub fn of(pair: &Pair, reach: f64, steps: usize) -> Self {
         let mut room = Vec::new();
@@ -29,19 +47,21 @@ impl RollingRadius {
             .map(|i| reach * (2.0 * i as f64 / steps as f64 - 1.0))
             .collect();
         let difference = lateral.iter().map(|&y| difference(y)).collect();
-        Self {
-            lateral,
-            difference,
-        }
+        Self::new(lateral, difference)
     }
 
-    /// Difference at `lateral`, held at the ends, m.
-    pub fn at(&self, lateral: f64) -> f64 {
+    /// Cell of `lateral` and the share within it, held at the ends.
+    fn locate(&self, lateral: f64) -> (usize, f64) {
         let last = self.lateral.len() - 1;
         let step = (self.lateral[last] - self.lateral[0]) / last as f64;
         let x = ((lateral - self.lateral[0]) / step).clamp(0.0, last as f64);
         let i = (x as usize).min(last - 1);
-        let share = x - i as f64;
+        (i, x - i as f64)
+    }
+
+    /// Difference at `lateral`, held at the ends, m.
+    pub fn at(&self, lateral: f64) -> f64 {
+        let (i, share) = self.locate(lateral);
         self.difference[i] + share * (self.difference[i + 1] - self.difference[i])
     }
 
@@ -64,11 +84,10 @@ impl RollingRadius {
     /// None when the path does not turn back within the function's reach.
     pub fn conicity(&self, amplitude: f64, radius: f64) -> Option<f64> {
         let centre = self.rolling_line()?;
-        let potential = |from: f64, to: f64| self.integral(from, to);
         // The other turning point: equal potential on both sides, found for the left end by bisection.
         let reach = |left: f64| -> Option<f64> {
             let end = self.lateral[self.lateral.len() - 1];
-            let rest = |right: f64| potential(left, right);
+            let rest = |right: f64| self.integral(left, right);
             if rest(end) <= 0.0 {
                 return None;
             }
@@ -112,36 +131,31 @@ impl RollingRadius {
 
     /// Integral of the difference from `from` to `to`, exact for the broken line.
     fn integral(&self, from: f64, to: f64) -> f64 {
-        if to < from {
-            return -self.integral(to, from);
-        }
-        let mut sum = 0.0;
-        let mut before = from;
-        let inside = self.lateral.iter().filter(|&&y| y > from && y < to);
-        for &y in inside.chain(std::iter::once(&to)) {
-            sum += 0.5 * (self.at(before) + self.at(y)) * (y - before);
-            before = y;
-        }
-        sum
+        let primitive = |lateral: f64| {
+            let (i, share) = self.locate(lateral);
+            let step = self.lateral[i + 1] - self.lateral[i];
+            let (d0, d1) = (self.difference[i], self.difference[i + 1]);
+            self.potential[i] + step * share * (d0 + 0.5 * share * (d1 - d0))
+        };
+        primitive(to) - primitive(from)
     }
 
     /// Integral of `dy / sqrt(potential(turn) - potential(y))` from `centre` to `turn`;
     /// `y = turn - (turn - centre) p^2` removes the pole at the turning point.
     fn quarter(&self, centre: f64, turn: f64) -> f64 {
-        const POINTS: usize = 400;
+        const POINTS: usize = 2000;
         let span = turn - centre;
-        let mut sum = 0.0;
-        let mut height = 0.0;
-        let mut at = turn;
-        for i in 0..POINTS {
-            let p = (i as f64 + 0.5) / POINTS as f64;
-            let y = turn - span * p * p;
-            height += self.integral(y, at);
-            at = y;
-            if height > 0.0 {
-                sum += 2.0 * p * span.abs() / height.sqrt() / POINTS as f64;
-            }
-        }
-        sum
+        let each = 2.0 * span.abs() / (POINTS * POINTS) as f64;
+        (0..POINTS)
+            .map(|i| i as f64 + 0.5)
+            .map(|i| {
+                let height = self.integral(turn - span * (i / POINTS as f64).powi(2), turn);
+                if height > 0.0 {
+                    each * i / height.sqrt()
+                } else {
+                    0.0
+                }
+            })
+            .sum()
     }
 }

@@ -2,18 +2,20 @@
 
 use plotters::coord::Shift;
 use plotters::prelude::*;
+use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::conicity::RollingRadius;
 use super::geometry::RigidContact;
 use super::pair::Pair;
 use crate::failure::{Failure, Outcome};
 
-const SIZE: (u32, u32) = (1000, 620);
+/// The backend rounds to whole units; drawn this much larger, curves stay smooth.
+const FINE: u32 = 4;
 const FONT: &str = "sans-serif";
 const INK: RGBColor = RGBColor(38, 50, 56);
 const BLUE_LINE: RGBColor = RGBColor(21, 101, 192);
 const RED_LINE: RGBColor = RGBColor(198, 40, 40);
-const LINE: u32 = 2;
+const LINE: u32 = 2 * FINE;
 
 type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 
@@ -21,37 +23,47 @@ fn failed(error: impl std::fmt::Display) -> Failure {
     Failure::new(format!("cannot draw: {error}"))
 }
 
-/// Draws on a white sheet of `size` and gives the SVG's text.
-fn draw(size: (u32, u32), paint: impl FnOnce(&Area<'_>) -> Outcome<()>) -> Outcome<String> {
+/// Draws on a white sheet of `width` by `height` pixels and gives the SVG's text.
+fn draw(width: u32, height: u32, paint: impl FnOnce(&Area<'_>) -> Outcome<()>) -> Outcome<String> {
     let mut text = String::new();
     {
-        let area = SVGBackend::with_string(&mut text, size).into_drawing_area();
+        let area =
+            SVGBackend::with_string(&mut text, (width * FINE, height * FINE)).into_drawing_area();
         area.fill(&WHITE).map_err(failed)?;
         paint(&area)?;
         area.present().map_err(failed)?;
     }
-    Ok(text)
+    let drawn = format!("width=\"{}\" height=\"{}\"", width * FINE, height * FINE);
+    Ok(text.replacen(&drawn, &format!("width=\"{width}\" height=\"{height}\""), 1))
+}
+
+/// Lettering of `size` pixels.
+fn letters(size: u32, colour: &'static RGBColor) -> TextStyle<'static> {
+    TextStyle::from((FONT, size * FINE).into_font()).color(colour)
 }
 
 /// One set of axes with the house's lettering.
 macro_rules! axes {
-    ($area:expr, $title:expr, $x:expr, $y:expr, $x_label:expr, $y_label:expr) => {{
+    ($area:expr, $title:expr, $x:expr, $y:expr, $x_label:expr, $y_label:expr, $digits:expr) => {{
         let mut chart = ChartBuilder::on($area)
-            .caption($title, (FONT, 20).into_font().color(&INK))
-            .margin(14)
-            .x_label_area_size(44)
-            .y_label_area_size(64)
+            .caption($title, letters(20, &INK))
+            .margin(14 * FINE)
+            .x_label_area_size(44 * FINE)
+            .y_label_area_size(60 * FINE)
             .build_cartesian_2d($x, $y)
             .map_err(failed)?;
         chart
             .configure_mesh()
             .x_desc($x_label)
             .y_desc($y_label)
-            .axis_desc_style((FONT, 15).into_font().color(&INK))
-            .label_style((FONT, 14).into_font().color(&INK))
+            .axis_desc_style(letters(15, &INK))
+            .label_style(letters(14, &INK))
             .light_line_style(WHITE)
-            .bold_line_style(INK.mix(0.12))
-            .axis_style(INK.mix(0.6))
+            .bold_line_style(INK.mix(0.12).stroke_width(FINE))
+            .axis_style(INK.mix(0.6).stroke_width(FINE))
+            .set_all_tick_mark_size(5 * FINE)
+            .x_label_formatter(&|x| format!("{x:.0}"))
+            .y_label_formatter(&|y| format!("{y:.*}", $digits))
             .x_labels(11)
             .y_labels(8)
             .draw()
@@ -76,7 +88,7 @@ fn extent(values: impl Iterator<Item = f64>) -> std::ops::Range<f64> {
 pub fn contact_points(pair: &Pair, contacts: &[RigidContact]) -> Outcome<String> {
     /// The wheel is drawn lifted by this, mm, to leave room for the lines.
     const LIFT: f64 = 30.0;
-    draw((1000, 700), |area| {
+    draw(1000, 690, |area| {
         let datum = pair.installation.datum() * 1e3;
         let wheel = || {
             pair.wheel
@@ -97,7 +109,8 @@ pub fn contact_points(pair: &Pair, contacts: &[RigidContact]) -> Outcome<String>
             x,
             y,
             "lateral place from the track centre, mm (wheelset centred)",
-            "height, mm (wheel lifted by 30 mm)"
+            "height, mm (wheel lifted by 30 mm)",
+            0
         );
         let greatest = contacts
             .iter()
@@ -106,7 +119,7 @@ pub fn contact_points(pair: &Pair, contacts: &[RigidContact]) -> Outcome<String>
             let side = &contact.sides[1];
             let share = contact.lateral / greatest;
             let colour = if share < 0.0 { BLUE_LINE } else { RED_LINE };
-            let style = colour.mix(0.25 + 0.75 * share.abs()).stroke_width(1);
+            let style = colour.mix(0.25 + 0.75 * share.abs()).stroke_width(FINE);
             let top = (side.s * 1e3 + datum, LIFT - side.z * 1e3);
             let rail_depth = pair.rail.at(side.y).z;
             let bottom = (side.y * 1e3, -rail_depth * 1e3);
@@ -114,7 +127,7 @@ pub fn contact_points(pair: &Pair, contacts: &[RigidContact]) -> Outcome<String>
                 .draw_series(LineSeries::new([top, bottom], style))
                 .map_err(failed)?;
             chart
-                .draw_series([top, bottom].map(|p| Circle::new(p, 2, colour.filled())))
+                .draw_series([top, bottom].map(|p| Circle::new(p, 2 * FINE, colour.filled())))
                 .map_err(failed)?;
         }
         let outline = INK.stroke_width(LINE);
@@ -124,31 +137,40 @@ pub fn contact_points(pair: &Pair, contacts: &[RigidContact]) -> Outcome<String>
         chart
             .draw_series(LineSeries::new(rail(), outline))
             .map_err(failed)?;
-        // Every other millimetre is told beside the wheel's end of its line.
-        let mut told = f64::NEG_INFINITY;
+        let mut told = (f64::MAX, f64::MAX);
         for contact in contacts {
             let shift = contact.lateral * 1e3;
-            if (shift - shift.round()).abs() > 1e-6 || shift.round() as i64 % 2 != 0 {
-                continue;
-            }
             let side = &contact.sides[1];
             let at = (side.s * 1e3 + datum, LIFT - side.z * 1e3);
-            let row = if (at.0 - told).abs() < 5.0 { 32 } else { 18 };
-            told = at.0;
-            let style = (FONT, 13).into_font().color(&INK);
+            let whole = (shift - shift.round()).abs() < 1e-6;
+            if !whole || (at.0 - told.0).hypot(at.1 - told.1) < 2.4 {
+                continue;
+            }
+            told = at;
+            // Beside the wheel's surface, along its normal.
+            let (across, up) = (side.slope.atan().sin(), side.slope.atan().cos());
+            let away = 15.0 * f64::from(FINE);
+            let offset = ((away * across) as i32, (-away * up) as i32);
+            let style = letters(13, &INK).pos(Pos::new(HPos::Center, VPos::Center));
             chart
                 .draw_series(std::iter::once(
-                    EmptyElement::at(at) + Text::new(format!("{shift:+.0}"), (-8, -row), style),
+                    EmptyElement::at(at) + Text::new(format!("{shift:+.0}"), offset, style),
                 ))
                 .map_err(failed)?;
         }
-        let note = "lines: shift of the wheelset in mm; red to the right, blue to the left, stronger the further";
-        area.draw(&Text::new(
-            note,
-            (90, 52),
-            (FONT, 14).into_font().color(&INK.mix(0.8)),
-        ))
-        .map_err(failed)
+        let fine = FINE as i32;
+        for (row, note) in [
+            "lines join what touches at the told shift of the wheelset, mm",
+            "red: shifted to the right; blue: to the left; stronger the further",
+        ]
+        .into_iter()
+        .enumerate()
+        {
+            let place = (400 * fine, (500 + 22 * row as i32) * fine);
+            area.draw(&Text::new(note, place, letters(14, &INK)))
+                .map_err(failed)?;
+        }
+        Ok(())
     })
 }
 
@@ -157,8 +179,8 @@ pub fn contact_points(pair: &Pair, contacts: &[RigidContact]) -> Outcome<String>
 /// # Errors
 /// The drawing fails.
 pub fn rolling_radius(contacts: &[RigidContact]) -> Outcome<String> {
-    draw((1000, 760), |area| {
-        let (upper, lower) = area.split_vertically(390);
+    draw(1000, 760, |area| {
+        let (upper, lower) = area.split_vertically(380 * FINE);
         let shift = |c: &RigidContact| c.lateral * 1e3;
         let x = extent(contacts.iter().map(shift));
         let difference = |c: &RigidContact| c.rolling_radius_difference() * 1e3;
@@ -168,7 +190,8 @@ pub fn rolling_radius(contacts: &[RigidContact]) -> Outcome<String> {
             x.clone(),
             extent(contacts.iter().map(difference)),
             "lateral shift at the rails' top, mm (right positive)",
-            "difference, mm"
+            "difference, mm",
+            0
         );
         chart
             .draw_series(LineSeries::new(
@@ -184,7 +207,8 @@ pub fn rolling_radius(contacts: &[RigidContact]) -> Outcome<String> {
             x,
             extent(both),
             "lateral shift at the rails' top, mm (right positive)",
-            "angle, degrees"
+            "angle, degrees",
+            0
         );
         for (side, name, colour) in [(1, "right wheel", RED_LINE), (0, "left wheel", BLUE_LINE)] {
             chart
@@ -195,15 +219,20 @@ pub fn rolling_radius(contacts: &[RigidContact]) -> Outcome<String> {
                 .map_err(failed)?
                 .label(name)
                 .legend(move |(x, y)| {
-                    PathElement::new([(x, y), (x + 22, y)], colour.stroke_width(LINE))
+                    PathElement::new(
+                        [(x, y), (x + 22 * FINE as i32, y)],
+                        colour.stroke_width(LINE),
+                    )
                 });
         }
         chart
             .configure_series_labels()
             .position(SeriesLabelPosition::UpperMiddle)
-            .label_font((FONT, 14).into_font().color(&INK))
+            .label_font(letters(14, &INK))
+            .legend_area_size(30 * FINE)
+            .margin(8 * FINE)
             .background_style(WHITE.mix(0.9))
-            .border_style(INK.mix(0.3))
+            .border_style(INK.mix(0.3).stroke_width(FINE))
             .draw()
             .map_err(failed)
     })
@@ -214,9 +243,9 @@ pub fn rolling_radius(contacts: &[RigidContact]) -> Outcome<String> {
 /// # Errors
 /// The drawing fails.
 pub fn conicity(rolling: &RollingRadius, radius: f64, reach: f64) -> Outcome<String> {
-    draw(SIZE, |area| {
-        let points: Vec<(f64, f64)> = (1..=160)
-            .map(|i| reach * f64::from(i) / 160.0)
+    draw(1000, 620, |area| {
+        let points: Vec<(f64, f64)> = (1..=400)
+            .map(|i| reach * f64::from(i) / 400.0)
             .filter(|amplitude| *amplitude >= 0.5e-3)
             .filter_map(|amplitude| Some((amplitude * 1e3, rolling.conicity(amplitude, radius)?)))
             .collect();
@@ -227,18 +256,24 @@ pub fn conicity(rolling: &RollingRadius, radius: f64, reach: f64) -> Outcome<Str
             0.0..reach * 1e3,
             0.0..1.08 * highest,
             "amplitude of the lateral motion, mm",
-            "equivalent conicity, tan"
+            "equivalent conicity, tan",
+            1
         );
         chart
             .draw_series(LineSeries::new(points, BLUE_LINE.stroke_width(LINE)))
             .map_err(failed)?;
         if let Some(value) = rolling.conicity(3e-3, radius) {
-            let style = (FONT, 16).into_font().color(&RED_LINE);
+            let fine = FINE as i32;
+            let style = letters(16, &RED_LINE);
             chart
                 .draw_series(std::iter::once(
                     EmptyElement::at((3.0, value))
-                        + Circle::new((0, 0), 4, RED_LINE.filled())
-                        + Text::new(format!("{value:.3} at 3 mm"), (-4, -24), style),
+                        + Circle::new((0, 0), 4 * fine, RED_LINE.filled())
+                        + Text::new(
+                            format!("{value:.3} at 3 mm"),
+                            (-4 * fine, -26 * fine),
+                            style,
+                        ),
                 ))
                 .map_err(failed)?;
         }

@@ -7,8 +7,8 @@ use super::pair::{Pair, Place};
 
 /// Numbers of one patch at one node, in the order of [`Entry`]'s fields.
 const NUMBERS: usize = 12;
-/// One node: tread, then flange.
-type Node = [[f32; NUMBERS]; 2];
+/// One node: the tread's numbers, then the flange's.
+type Node = [f32; 2 * NUMBERS];
 
 /// Flattest transverse contact told by curvatures alone, 1/m: a root closer fitted than this spreads
 /// its load over its whole width, as an ellipse of this curvature does.
@@ -151,7 +151,7 @@ impl Tables {
     /// Computes every node of `grid`; on as many threads as the machine offers.
     pub fn new(pair: Pair, steel: Steel, grid: Grid) -> Self {
         let kalker = KalkerTable::new(steel.poisson);
-        let empty: Node = [[0.0; NUMBERS]; 2];
+        let empty: Node = [0.0; 2 * NUMBERS];
         let count = grid.lateral.nodes() * grid.roll.nodes() * grid.yaw_square.nodes();
         let mut nodes = vec![empty; count];
         let threads = std::thread::available_parallelism().map_or(1, usize::from);
@@ -164,8 +164,12 @@ impl Tables {
                     for (i, node) in nodes.iter_mut().enumerate() {
                         let place = place_of(grid, part * chunk + i);
                         let Patches { tread, flange } = pair.patches(&place, SOFTNESS, &mut room);
-                        *node = [tread, flange]
-                            .map(|patch| store(&entry(pair, steel, kalker, &patch, place.roll)));
+                        for (patch, numbers) in
+                            [tread, flange].iter().zip(node.chunks_exact_mut(NUMBERS))
+                        {
+                            let entry = entry(pair, steel, kalker, patch, place.roll);
+                            numbers.copy_from_slice(&store(&entry));
+                        }
                     }
                 });
             }
@@ -204,21 +208,20 @@ impl Tables {
         let (k, v, inside_yaw) = yaw.locate(place.yaw * place.yaw);
         let column = lateral.axis.nodes();
         let sheet = column * roll.axis.nodes();
-        let mut sum: Node = [[0.0; NUMBERS]; 2];
+        let mut sum: Node = [0.0; 2 * NUMBERS];
         for (dk, wk) in [(0, 1.0 - v), (1, v)] {
             for (dj, wj) in [(0, 1.0 - u), (1, u)] {
                 let start = (k + dk) * sheet + (j + dj) * column + i;
-                let two: &[Node] = &self.nodes[start..start + 2];
+                let [near, far] = [&self.nodes[start], &self.nodes[start + 1]];
                 let (low, high) = (wk * wj * (1.0 - t), wk * wj * t);
-                for part in 0..2 {
-                    for n in 0..NUMBERS {
-                        sum[part][n] += low * two[0][part][n] + high * two[1][part][n];
-                    }
+                for ((sum, near), far) in sum.iter_mut().zip(near).zip(far) {
+                    *sum += low * near + high * far;
                 }
             }
         }
+        let (tread, flange) = sum.split_at(NUMBERS);
         (
-            sum.map(|numbers| load(&numbers)),
+            [load(tread), load(flange)],
             inside_lateral && inside_roll && inside_yaw,
         )
     }
@@ -282,30 +285,17 @@ fn store(e: &Entry) -> [f32; NUMBERS] {
 }
 
 #[inline]
-fn load(numbers: &[f32; NUMBERS]) -> Entry {
-    let [
-        rise,
-        s,
-        z,
-        slope,
-        share,
-        stiffness,
-        rolling,
-        across,
-        c11,
-        c22,
-        c23,
-        c33,
-    ] = numbers.map(f64::from);
+fn load(numbers: &[f32]) -> Entry {
+    let number = |i: usize| f64::from(numbers[i]);
     Entry {
-        rise,
-        s,
-        z,
-        slope,
-        share,
-        stiffness,
-        rolling,
-        across,
-        kalker: [c11, c22, c23, c33],
+        rise: number(0),
+        s: number(1),
+        z: number(2),
+        slope: number(3),
+        share: number(4),
+        stiffness: number(5),
+        rolling: number(6),
+        across: number(7),
+        kalker: [number(8), number(9), number(10), number(11)],
     }
 }

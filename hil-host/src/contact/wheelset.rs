@@ -156,28 +156,25 @@ impl<L: CreepLaw> WheelsetContact<L> {
 
     /// Forces on a wheelset in `motion` over the left and the right rail. Does not allocate.
     pub fn forces(&self, motion: &Motion, rails: &[Rail; 2]) -> WheelsetForces {
-        let wheels = [
-            self.wheel(&mirrored(motion), &mirrored_rail(&rails[0])),
-            self.wheel(motion, &rails[1]),
-        ];
-        let wheels = [mirrored_forces(wheels[0]), wheels[1]];
-        let sum = |a: [f64; 3], b: [f64; 3]| [a[0] + b[0], a[1] + b[1], a[2] + b[2]];
-        WheelsetForces {
-            force: sum(wheels[0].force, wheels[1].force),
-            moment: sum(wheels[0].moment, wheels[1].moment),
-            status: wheels[0].status.max(wheels[1].status),
-            wheels,
+        let mut forces = WheelsetForces::default();
+        let [left, right] = &mut forces.wheels;
+        self.wheel(&mirrored(motion), &mirrored_rail(&rails[0]), left);
+        mirror(left);
+        self.wheel(motion, &rails[1], right);
+        for k in 0..3 {
+            forces.force[k] = left.force[k] + right.force[k];
+            forces.moment[k] = left.moment[k] + right.moment[k];
         }
+        forces.status = left.status.max(right.status);
+        forces
     }
 
     /// Forces on the right wheel.
     #[inline]
-    fn wheel(&self, motion: &Motion, rail: &Rail) -> WheelForces {
+    fn wheel(&self, motion: &Motion, rail: &Rail, forces: &mut WheelForces) {
         if !all_finite(motion, rail) {
-            return WheelForces {
-                status: Status::NotFinite,
-                ..WheelForces::default()
-            };
+            forces.status = Status::NotFinite;
+            return;
         }
         let installation = &self.tables.pair().installation;
         let (datum, radius) = (installation.datum(), installation.wheel_radius);
@@ -193,14 +190,12 @@ impl<L: CreepLaw> WheelsetContact<L> {
             + datum * attitude.sin_roll * attitude.cos_yaw
             + radius * (attitude.cos_roll - 1.0);
         let (entries, inside) = self.tables.at(&place);
-        let mut forces = WheelForces::default();
         if !inside {
             forces.status = Status::OutsideTables;
         }
         for (patch, entry) in entries.iter().enumerate() {
-            self.patch(motion, rail, &attitude, entry, below, patch, &mut forces);
+            self.patch(motion, rail, &attitude, entry, below, patch, forces);
         }
-        forces
     }
 
     /// Adds one patch to the wheel's `forces`.
@@ -405,13 +400,13 @@ fn mirrored_rail(rail: &Rail) -> Rail {
     }
 }
 
+/// Turns the forces of the mirror image into those of the wheel itself.
 #[inline]
-fn mirrored_forces(mut wheel: WheelForces) -> WheelForces {
+fn mirror(wheel: &mut WheelForces) {
     wheel.force[1] = -wheel.force[1];
     wheel.moment[0] = -wheel.moment[0];
     wheel.moment[2] = -wheel.moment[2];
     for patch in &mut wheel.patches {
         patch.point[1] = -patch.point[1];
     }
-    wheel
 }
