@@ -35,9 +35,9 @@ fn curve() -> (Motion, [Rail; 2]) {
         speed: 27.8,
         rotation: 27.8 / 0.625,
         yaw: 0.008,
-        lateral: 6.7e-3,
-        vertical: -0.4e-3,
-        roll: -0.8e-3,
+        lateral: 6.4e-3,
+        vertical: -0.15e-3,
+        roll: -0.65e-3,
         ..Motion::default()
     };
     (motion, [Rail::default(); 2])

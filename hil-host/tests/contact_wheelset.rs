@@ -78,12 +78,12 @@ fn a_centred_wheelset_stands_level_on_hertz_s_penetration() {
         .patches(&Default::default(), 1e-5, &mut Vec::new())
         .tread
         .curvature;
-    let hertz = Hertz::new(&steel, patch.angle.cos() / patch.radius, across);
+    let hertz = Hertz::new(&steel, patch.angle().cos() / patch.radius, across);
     assert!(
         (hertz.load(patch.penetration) / patch.load - 1.0).abs() < 1e-5,
         "{patch:?}"
     );
-    let vertical = patch.load * patch.angle.cos();
+    let vertical = patch.load * patch.angle().cos();
     assert!((vertical - load / 2.0).abs() < 0.02 * load, "{vertical}");
 }
 
@@ -102,7 +102,7 @@ fn a_shifted_wheelset_is_steered_back_and_yaw_meets_friction() {
     );
     let forces = contact.forces(&motion, &LEVEL);
     assert!(forces.moment[2] < 0.0, "{forces:?}");
-    // A yaw to the right makes both wheels run to the right of their planes... held back to the left.
+    // Yawed right and carried straight on, both wheels slide left over the rails and are pushed right.
     let motion = settle(
         contact,
         &Motion {
@@ -380,7 +380,7 @@ fn power_is_taken<L: CreepLaw>(contact: &WheelsetContact<L>, motion: &Motion, ra
             if patch.load > 0.0 {
                 // Normal force times the speed of its own point, all by hand in track axes.
                 let mirror = if side == 0 { -1.0 } else { 1.0 };
-                let normal = [0.0, -mirror * patch.angle.sin(), -patch.angle.cos()];
+                let normal = [0.0, -mirror * patch.angle().sin(), -patch.angle().cos()];
                 let (sr, cr) = motion.roll.sin_cos();
                 let (sy, cy) = motion.yaw.sin_cos();
                 let axle = [-sy, cy * cr, cy * sr];
@@ -513,14 +513,15 @@ proptest! {
 }
 
 #[test]
-fn fastsim_and_the_cheap_laws_agree_on_a_curving_wheelset() {
+fn fastsim_and_the_cheap_laws_agree_on_a_yawed_wheelset() {
+    // On the treads, where spin is small; the flange's spin is measured in docs/contact.md.
     let fastsim = WheelsetContact::new(tables().clone(), Fastsim::default(), Friction::default());
     let she = WheelsetContact::new(tables().clone(), ShenHedrickElkins, Friction::default());
     let motion = settle(
         polach(),
         &Motion {
-            lateral: 6.4e-3,
-            yaw: 6e-3,
+            lateral: 3e-3,
+            yaw: 2e-3,
             ..rolling(20.0)
         },
         206e3,
@@ -534,6 +535,7 @@ fn fastsim_and_the_cheap_laws_agree_on_a_curving_wheelset() {
             .map(|k| (forces[k] - exact[k]).powi(2))
             .sum::<f64>()
             .sqrt();
+        println!("{:.1} % of friction", off / (0.4 * 206e3) * 100.0);
         assert!(off < 0.1 * 0.4 * 206e3, "{forces:?} {exact:?}");
     }
 }

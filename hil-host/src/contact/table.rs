@@ -252,14 +252,16 @@ fn entry(pair: &Pair, steel: &Steel, kalker: &KalkerTable, patch: &Patch, roll: 
     let rolling = (patch.slope.atan() - roll).cos().max(0.01) / radius;
     let hertz = Hertz::new(steel, rolling, patch.curvature.max(LEAST_CURVATURE));
     let c = kalker.at(hertz.rolling / hertz.across);
-    let narrowing = patch.share.cbrt();
+    // Numbers below f32's normal range would slow the step; a millionth of a load is none.
+    let share = if patch.share < 1e-6 { 0.0 } else { patch.share };
+    let narrowing = share.cbrt();
     Entry {
         rise: patch.rise,
         s: patch.s,
         z: patch.z,
         slope: patch.slope,
-        share: patch.share,
-        stiffness: hertz.stiffness * patch.share,
+        share,
+        stiffness: hertz.stiffness * share,
         rolling: hertz.rolling * narrowing,
         across: hertz.across * narrowing,
         kalker: [c.c11, c.c22, c.c23, c.c33],

@@ -75,8 +75,8 @@ pub struct PatchForces {
     pub load: f64,
     /// Normal penetration, m; negative when apart.
     pub penetration: f64,
-    /// Contact angle against the track plane, rad: positive on a cone that widens to the flange.
-    pub angle: f64,
+    /// Tangent of the contact angle against the track plane: positive on a cone that widens to the flange.
+    pub slope: f64,
     /// Semi-axes in the rolling direction and across, m.
     pub semi_axes: [f64; 2],
     /// Rolling radius, m.
@@ -104,6 +104,13 @@ pub struct WheelForces {
     pub moment: [f64; 3],
     /// How the wheel stands.
     pub status: Status,
+}
+
+impl PatchForces {
+    /// Contact angle against the track plane, rad.
+    pub fn angle(&self) -> f64 {
+        self.slope.atan()
+    }
 }
 
 impl WheelForces {
@@ -267,7 +274,7 @@ impl<L: CreepLaw> WheelsetContact<L> {
         let (fx, ft) = (way * creep.longitudinal, way * creep.lateral);
         let force = [fx, ft * cos + load * sin, ft * sin - load * cos];
         result.load = load;
-        result.angle = -entry.slope.atan();
+        result.slope = -entry.slope;
         result.semi_axes = [contact.a, contact.b];
         result.point = point;
         result.creepage = creepage;
@@ -300,8 +307,10 @@ impl<L: CreepLaw> WheelsetContact<L> {
 struct Attitude {
     sin_roll: f64,
     cos_roll: f64,
+    tan_roll: f64,
     sin_yaw: f64,
     cos_yaw: f64,
+    tan_yaw: f64,
 }
 
 impl Attitude {
@@ -312,8 +321,10 @@ impl Attitude {
         Self {
             sin_roll,
             cos_roll,
+            tan_roll: sin_roll / cos_roll,
             sin_yaw,
             cos_yaw,
+            tan_yaw: sin_yaw / cos_yaw,
         }
     }
 
@@ -331,9 +342,8 @@ impl Attitude {
     /// circle of `radius`, where the outline has `slope` across the track.
     #[inline]
     fn point(&self, offset: f64, radius: f64, slope: f64) -> [f64; 3] {
-        let tan_roll = self.sin_roll / self.cos_roll;
-        let own = (slope - tan_roll) / (1.0 + slope * tan_roll);
-        let turned = (own * self.sin_yaw / self.cos_yaw).max(-0.9).min(0.9);
+        let own = (slope - self.tan_roll) / (1.0 + slope * self.tan_roll);
+        let turned = (own * self.tan_yaw).max(-0.9).min(0.9);
         let behind = -radius * turned;
         let deep = radius * (1.0 - turned * turned).sqrt();
         let across = behind * self.sin_yaw + offset * self.cos_yaw;
