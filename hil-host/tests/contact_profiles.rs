@@ -9,11 +9,12 @@ use dashpot_hil::contact::{s1002, uic60};
 
 #[test]
 fn s1002_sections_join() {
+    // The other joints are given to nine decimals and meet within a tenth of a nanometre.
     // Half a last digit of each of C's ten-digit coefficients sums to 7e-5 mm at -26 and 2.1e-4 mm at -35.
     let rounding = |joint: f64| match joint {
         -26.0 => 7e-5,
         -35.0 => 2.1e-4,
-        _ => 2e-8,
+        _ => 1e-7,
     };
     for (section, joint) in s1002::JOINTS_MM[..7].iter().enumerate() {
         let gap = s1002::section_mm(section, *joint) - s1002::section_mm(section + 1, *joint);
@@ -139,7 +140,8 @@ fn a_gauge_s_file_gives_the_profile_back() {
 #[test]
 fn wrong_files_say_what_where_and_what_is_allowed() {
     let good = readings(2);
-    let with = |change: &dyn Fn(&mut Vec<(f64, f64)>)| {
+    type Change<'a> = &'a dyn Fn(&mut Vec<(f64, f64)>);
+    let with = |change: Change<'_>| {
         let mut rows = good.clone();
         change(&mut rows);
         text(&rows)

@@ -26,7 +26,7 @@ impl Creepage {
             if x.is_nan() {
                 0.0
             } else {
-                x.max(-HUGE).min(HUGE)
+                x.clamp(-HUGE, HUGE)
             }
         };
         Self {

@@ -151,10 +151,15 @@ pub fn contact_points(pair: &Pair, contacts: &[RigidContact]) -> Outcome<String>
             let (across, up) = (side.slope.atan().sin(), side.slope.atan().cos());
             let away = 15.0 * f64::from(FINE);
             let offset = ((away * across) as i32, (-away * up) as i32);
+            let text = if shift.round() == 0.0 {
+                "0".to_owned()
+            } else {
+                format!("{shift:+.0}")
+            };
             let style = letters(13, &INK).pos(Pos::new(HPos::Center, VPos::Center));
             chart
                 .draw_series(std::iter::once(
-                    EmptyElement::at(at) + Text::new(format!("{shift:+.0}"), offset, style),
+                    EmptyElement::at(at) + Text::new(text, offset, style),
                 ))
                 .map_err(failed)?;
         }
