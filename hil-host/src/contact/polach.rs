@@ -43,25 +43,27 @@ impl CreepLaw for Polach {
         }
         let (along, aside) = (kalker.c11 * longitudinal, kalker.c22 * lateral);
         let pull = (along * along + aside * aside).sqrt();
+        // Division is the slow operation here: one each for what is divided by often.
+        let (per_limit, per_modified) = (1.0 / limit, 1.0 / modified);
         let sliding = creepage.sliding();
         let c = if sliding > 0.0 {
             pull / sliding
         } else {
             kalker.c22
         };
-        let e = 0.25 * PI * shear * a * b * c * modified / limit;
+        let e = 0.25 * PI * shear * a * b * c * modified * per_limit;
         let force = 2.0 * limit / PI * (e / (1.0 + e * e) + e.atan());
         let shape = 1.0 + 6.3 * (1.0 - (-a / b).exp());
         let e_m =
-            8.0 / 3.0 * shear * b * (a * b).sqrt() / limit * kalker.c23 * across.abs() / shape;
+            8.0 / 3.0 * shear * b * (a * b).sqrt() * per_limit * kalker.c23 * across.abs() / shape;
         let d = (e_m * e_m - 1.0) / (e_m * e_m + 1.0);
         let rest = (1.0 - d * d).max(0.0);
         let k_m = e_m * (d * d * d / 3.0 - d * d / 2.0 + 1.0 / 6.0) - rest * rest.sqrt() / 3.0;
         // K is negative: the spin pushes against its own sense.
-        let spin_force = 9.0 / 16.0 * a * limit * k_m * shape * spin / modified;
+        let spin_force = 9.0 / 16.0 * a * limit * k_m * shape * spin * per_modified;
         let raw = CreepForces {
-            longitudinal: -force * longitudinal / modified,
-            lateral: -force * lateral / modified + spin_force,
+            longitudinal: -force * longitudinal * per_modified,
+            lateral: -force * lateral * per_modified + spin_force,
             moment: 0.0,
         };
         let linear = linear(contact, creepage);

@@ -185,7 +185,7 @@ impl<L: CreepLaw> WheelsetContact<L> {
         }
         let installation = &self.tables.pair().installation;
         let (datum, radius) = (installation.datum(), installation.wheel_radius);
-        let attitude = Attitude::new(motion.roll, motion.yaw);
+        let attitude = Attitude::new(motion);
         let place = Place {
             lateral: motion.lateral - rail.lateral
                 + datum * (attitude.cos_roll * attitude.cos_yaw - 1.0)
@@ -248,13 +248,13 @@ impl<L: CreepLaw> WheelsetContact<L> {
         let along = velocity[0];
         let across = velocity[1] * cos + velocity[2] * sin;
         let spin = turning[2] * cos - turning[1] * sin;
-        let speed = (motion.speed * motion.speed + STANDSTILL * STANDSTILL).sqrt();
+        let speed = attitude.speed;
         // Rolling backwards is rolling forwards, turned half around the normal.
         let way = if motion.speed < 0.0 { -1.0 } else { 1.0 };
         let creepage = Creepage {
-            longitudinal: way * along / speed,
-            lateral: way * across / speed,
-            spin: spin / speed,
+            longitudinal: way * along * attitude.per_speed,
+            lateral: way * across * attitude.per_speed,
+            spin: spin * attitude.per_speed,
         }
         .finite();
         let contact = LoadedContact {
@@ -303,7 +303,7 @@ impl<L: CreepLaw> WheelsetContact<L> {
     }
 }
 
-/// Sines and cosines of roll and yaw.
+/// What both patches of a wheel share of its motion.
 struct Attitude {
     sin_roll: f64,
     cos_roll: f64,
@@ -311,13 +311,17 @@ struct Attitude {
     sin_yaw: f64,
     cos_yaw: f64,
     tan_yaw: f64,
+    /// Speed creepages are taken over, m/s, and its inverse.
+    speed: f64,
+    per_speed: f64,
 }
 
 impl Attitude {
     #[inline]
-    fn new(roll: f64, yaw: f64) -> Self {
-        let (sin_roll, cos_roll) = sine_and_cosine(roll);
-        let (sin_yaw, cos_yaw) = sine_and_cosine(yaw);
+    fn new(motion: &Motion) -> Self {
+        let (sin_roll, cos_roll) = sine_and_cosine(motion.roll);
+        let (sin_yaw, cos_yaw) = sine_and_cosine(motion.yaw);
+        let speed = (motion.speed * motion.speed + STANDSTILL * STANDSTILL).sqrt();
         Self {
             sin_roll,
             cos_roll,
@@ -325,6 +329,8 @@ impl Attitude {
             sin_yaw,
             cos_yaw,
             tan_yaw: sin_yaw / cos_yaw,
+            speed,
+            per_speed: 1.0 / speed,
         }
     }
 
