@@ -47,7 +47,7 @@ impl Pair {
     /// Tread and flange patch at `place`; `room` is working space.
     ///
     /// The patches share one load while no valley parts them, by `exp(rise / softness)`; with the
-    /// valley [`TWO_PATCHES`] softnesses deep each carries its own. The split itself leaves no trace.
+    /// valley four softnesses deep each carries its own. The split itself leaves no trace.
     pub fn patches(&self, place: &Place, softness: f64, room: &mut Vec<Overlap>) -> Patches {
         self.overlap(place, room);
         let parts = room
