@@ -512,30 +512,39 @@ proptest! {
     }
 }
 
-#[test]
-fn fastsim_and_the_cheap_laws_agree_on_a_yawed_wheelset() {
-    // On the treads, where spin is small; the flange's spin is measured in docs/contact.md.
+/// Distance of Polach's and of Shen, Hedrick and Elkins' wheelset force from FASTSIM's, over friction.
+fn from_fastsim(lateral: f64, yaw: f64) -> [f64; 2] {
     let fastsim = WheelsetContact::new(tables().clone(), Fastsim::default(), Friction::default());
     let she = WheelsetContact::new(tables().clone(), ShenHedrickElkins, Friction::default());
     let motion = settle(
         polach(),
         &Motion {
-            lateral: 3e-3,
-            yaw: 2e-3,
+            lateral,
+            yaw,
             ..rolling(20.0)
         },
         206e3,
     );
     let exact = fastsim.forces(&motion, &LEVEL).force;
-    for forces in [
+    [
         polach().forces(&motion, &LEVEL).force,
         she.forces(&motion, &LEVEL).force,
-    ] {
+    ]
+    .map(|forces| {
         let off = (0..3)
             .map(|k| (forces[k] - exact[k]).powi(2))
             .sum::<f64>()
             .sqrt();
-        println!("{:.1} % of friction", off / (0.4 * 206e3) * 100.0);
-        assert!(off < 0.1 * 0.4 * 206e3, "{forces:?} {exact:?}");
-    }
+        off / (0.4 * 206e3)
+    })
+}
+
+#[test]
+fn fastsim_and_the_cheap_laws_agree_on_the_treads_and_part_on_the_flange() {
+    let tread = from_fastsim(3e-3, 2e-3);
+    let flange = from_fastsim(6.4e-3, 6e-3);
+    println!("tread {tread:.3?}, flange {flange:.3?} of friction");
+    assert!(tread.iter().all(|off| *off < 0.1), "{tread:?}");
+    // The flange's spin is beyond both laws: what docs/contact.md states, no better.
+    assert!(flange.iter().all(|off| *off < 0.2), "{flange:?}");
 }
