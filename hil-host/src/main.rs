@@ -1,2 +1,32 @@
 //! The `dashpot` command.
-fn main() {}
+
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+use dashpot_hil::commands::contact::{self, ContactArguments};
+
+/// Desk host of the Dashpot damper.
+#[derive(Parser)]
+#[command(name = "dashpot", version)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    Contact(ContactArguments),
+}
+
+fn main() -> ExitCode {
+    let outcome = match Cli::parse().command {
+        Command::Contact(arguments) => contact::run(&arguments),
+    };
+    match outcome {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            eprintln!("error: {failure}");
+            ExitCode::from(1)
+        }
+    }
+}

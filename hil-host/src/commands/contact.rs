@@ -1,0 +1,303 @@
+//! `dashpot contact`: the geometry of a wheel and a rail, in numbers and plots.
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use serde::Serialize;
+
+use super::Format;
+use crate::contact::conicity::RollingRadius;
+use crate::contact::geometry::RigidContact;
+use crate::contact::measured;
+use crate::contact::pair::{Installation, Pair};
+use crate::contact::profile::{Body, Profile};
+use crate::contact::{plot, s1002, uic60};
+use crate::failure::{Failure, Outcome};
+use crate::output::write_whole;
+
+/// Contact geometry of a wheelset on a track: contact points, rolling radius, equivalent conicity.
+#[derive(Debug, Clone, clap::Args)]
+#[command(after_help = "Examples:
+  dashpot contact
+  dashpot contact --rail worn.csv --gauge-m 1.432 --plots worn-plots --format json")]
+pub struct ContactArguments {
+    /// Wheel profile: `s1002` or a file of y_mm, z_mm from the tread datum, field side and down positive.
+    #[arg(long, default_value = "s1002", value_name = "NAME|FILE")]
+    pub wheel: String,
+    /// Rail profile: `uic60` or a file of y_mm, z_mm from the head's top, field side and down positive.
+    #[arg(long, default_value = "uic60", value_name = "NAME|FILE")]
+    pub rail: String,
+    /// Track gauge, m.
+    #[arg(long, default_value_t = Installation::default().gauge)]
+    pub gauge_m: f64,
+    /// Depth below the rails' top at which the gauge is measured, m.
+    #[arg(long, default_value_t = Installation::default().gauge_depth)]
+    pub gauge_depth_m: f64,
+    /// Distance of the flange backs, m.
+    #[arg(long, default_value_t = Installation::default().back_to_back)]
+    pub back_to_back_m: f64,
+    /// Distance from the flange back to the tread datum, m.
+    #[arg(long, default_value_t = Installation::default().back_to_datum)]
+    pub back_to_datum_m: f64,
+    /// Wheel radius at the tread datum, m.
+    #[arg(long, default_value_t = Installation::default().wheel_radius)]
+    pub wheel_radius_m: f64,
+    /// Rail inclination: 0.025 is 1:40.
+    #[arg(long, default_value_t = Installation::default().inclination)]
+    pub inclination: f64,
+    /// Wavelength halved by the smoothing of profiles from files, m; 0 goes through every point.
+    #[arg(long, default_value_t = measured::DEFAULT_SMOOTHING)]
+    pub smoothing_m: f64,
+    /// Folder the plots are written to.
+    #[arg(long, default_value = "contact-plots", value_name = "FOLDER")]
+    pub plots: PathBuf,
+    /// Write no plots.
+    #[arg(long)]
+    pub no_plots: bool,
+    /// How results are printed.
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    pub format: Format,
+}
+
+/// Greatest lateral shift evaluated, m.
+const REACH: f64 = 0.012;
+/// Cells of the rolling radius difference over both sides, each 25 um: jumps are placed within it.
+const CELLS: usize = 960;
+
+#[derive(Serialize)]
+struct Conicity {
+    amplitude_m: f64,
+    equivalent_conicity: Option<f64>,
+}
+
+#[derive(Serialize)]
+struct Shift {
+    lateral_shift_m: f64,
+    rolling_radius_difference_m: f64,
+    roll_rad: f64,
+    contact_angle_left_rad: f64,
+    contact_angle_right_rad: f64,
+    wheel_place_left_m: f64,
+    wheel_place_right_m: f64,
+}
+
+#[derive(Serialize)]
+struct Report {
+    wheel: String,
+    rail: String,
+    gauge_m: f64,
+    back_to_back_m: f64,
+    wheel_radius_m: f64,
+    rail_inclination: f64,
+    conicity_at_3mm: Option<f64>,
+    conicity: Vec<Conicity>,
+    shifts: Vec<Shift>,
+    plots: Vec<String>,
+}
+
+/// Prints the geometry of the pair asked for and draws it.
+///
+/// # Errors
+/// A profile or a distance is refused, or a plot cannot be written.
+pub fn run(arguments: &ContactArguments) -> Outcome<()> {
+    let smoothing = arguments.smoothing_m;
+    if !(0.0..=0.05).contains(&smoothing) {
+        return Err(Failure::new(format!(
+            "--smoothing-m: {smoothing}, allowed: 0 to 0.05 m"
+        )));
+    }
+    let wheel = profile(
+        &arguments.wheel,
+        "s1002",
+        s1002::profile,
+        Body::Wheel,
+        smoothing,
+    )?;
+    let rail = profile(
+        &arguments.rail,
+        "uic60",
+        uic60::profile,
+        Body::Rail,
+        smoothing,
+    )?;
+    let installation = Installation {
+        wheel_radius: arguments.wheel_radius_m,
+        back_to_back: arguments.back_to_back_m,
+        back_to_datum: arguments.back_to_datum_m,
+        gauge: arguments.gauge_m,
+        gauge_depth: arguments.gauge_depth_m,
+        inclination: arguments.inclination,
+    };
+    let pair = Pair::new(wheel, &rail, installation)?;
+    let mut room = Vec::new();
+    let contacts: Vec<RigidContact> = (0..=CELLS)
+        .map(|i| REACH * (2.0 * i as f64 / CELLS as f64 - 1.0))
+        .map(|shift| pair.rigid(shift, 0.0, &mut room))
+        .collect();
+    let rolling = RollingRadius::new(
+        contacts.iter().map(|c| c.lateral).collect(),
+        contacts
+            .iter()
+            .map(RigidContact::rolling_radius_difference)
+            .collect(),
+    );
+    let plots = if arguments.no_plots {
+        Vec::new()
+    } else {
+        draw(&arguments.plots, &pair, &contacts, &rolling)?
+    };
+    let report = report(&pair, &contacts, &rolling, plots);
+    let mut out = std::io::stdout().lock();
+    let printed = match arguments.format {
+        Format::Text => print(&mut out, &report),
+        Format::Json => serde_json::to_writer_pretty(&mut out, &report)
+            .map_err(std::io::Error::from)
+            .and_then(|()| writeln!(out)),
+    };
+    printed.map_err(|error| Failure::new(format!("cannot print: {error}")))
+}
+
+/// The profile called `name`: the built-in one or a file.
+fn profile(
+    name: &str,
+    known: &str,
+    built_in: fn() -> Profile,
+    body: Body,
+    smoothing: f64,
+) -> Outcome<Profile> {
+    if name.eq_ignore_ascii_case(known) {
+        return Ok(built_in());
+    }
+    let path = Path::new(name);
+    if path.exists() {
+        measured::read(path, body, smoothing)
+    } else {
+        Err(Failure::in_file(
+            path,
+            format!("no such profile, allowed: {known} or a file of two columns y_mm, z_mm"),
+        ))
+    }
+}
+
+/// Writes the plots into `folder` and tells their paths.
+fn draw(
+    folder: &Path,
+    pair: &Pair,
+    contacts: &[RigidContact],
+    rolling: &RollingRadius,
+) -> Outcome<Vec<String>> {
+    std::fs::create_dir_all(folder)
+        .map_err(|error| Failure::in_file(folder, format!("cannot make the folder: {error}")))?;
+    // A line each half millimetre up to 8 mm, where the flange face is reached.
+    let lines: Vec<RigidContact> = contacts
+        .iter()
+        .copied()
+        .step_by(20)
+        .filter(|c| c.lateral.abs() < 8.1e-3)
+        .collect();
+    let radius = pair.installation.wheel_radius;
+    let drawings = [
+        ("contact-points.svg", plot::contact_points(pair, &lines)?),
+        ("rolling-radius.svg", plot::rolling_radius(contacts)?),
+        ("conicity.svg", plot::conicity(rolling, radius, 8e-3)?),
+    ];
+    let mut paths = Vec::new();
+    for (name, svg) in drawings {
+        let path = folder.join(name);
+        write_whole(&path, |file| {
+            file.write_all(svg.as_bytes())
+                .map_err(|error| Failure::in_file(&path, format!("cannot write: {error}")))
+        })?;
+        paths.push(path.display().to_string());
+    }
+    Ok(paths)
+}
+
+fn report(
+    pair: &Pair,
+    contacts: &[RigidContact],
+    rolling: &RollingRadius,
+    plots: Vec<String>,
+) -> Report {
+    let installation = &pair.installation;
+    let conicity = |amplitude| rolling.conicity(amplitude, installation.wheel_radius);
+    Report {
+        wheel: pair.wheel.name.clone(),
+        rail: pair.rail.name.clone(),
+        gauge_m: installation.gauge,
+        back_to_back_m: installation.back_to_back,
+        wheel_radius_m: installation.wheel_radius,
+        rail_inclination: installation.inclination,
+        conicity_at_3mm: conicity(3e-3),
+        conicity: (1..=16)
+            .map(|i| f64::from(i) * 0.5e-3)
+            .map(|amplitude_m| Conicity {
+                amplitude_m,
+                equivalent_conicity: conicity(amplitude_m),
+            })
+            .collect(),
+        shifts: contacts
+            .iter()
+            .step_by(40)
+            .map(|c| Shift {
+                lateral_shift_m: c.lateral,
+                rolling_radius_difference_m: c.rolling_radius_difference(),
+                roll_rad: c.roll,
+                contact_angle_left_rad: -c.sides[0].slope.atan(),
+                contact_angle_right_rad: -c.sides[1].slope.atan(),
+                wheel_place_left_m: c.sides[0].s,
+                wheel_place_right_m: c.sides[1].s,
+            })
+            .collect(),
+        plots,
+    }
+}
+
+fn print(out: &mut impl Write, report: &Report) -> std::io::Result<()> {
+    let inclination = if report.rail_inclination == 0.0 {
+        "upright".to_owned()
+    } else {
+        format!("1:{:.0}", 1.0 / report.rail_inclination)
+    };
+    writeln!(
+        out,
+        "{} on {}, rails {inclination}, gauge {:.1} mm, back to back {:.1} mm, wheel radius {:.1} mm",
+        report.wheel,
+        report.rail,
+        report.gauge_m * 1e3,
+        report.back_to_back_m * 1e3,
+        report.wheel_radius_m * 1e3
+    )?;
+    writeln!(
+        out,
+        "\nequivalent conicity (EN 15302)\n  amplitude mm   conicity"
+    )?;
+    for row in &report.conicity {
+        let value = row.equivalent_conicity.map_or_else(
+            || "no closed path".to_owned(),
+            |value| format!("{value:8.4}"),
+        );
+        writeln!(out, "  {:12.1}   {value}", row.amplitude_m * 1e3)?;
+    }
+    writeln!(
+        out,
+        "\nrigid wheelset (shift at the rails' top, right positive; places on the wheel from the tread datum)\n  \
+         shift mm  radius difference mm  angle left deg  right deg  place left mm  right mm"
+    )?;
+    for row in &report.shifts {
+        writeln!(
+            out,
+            "  {:8.1}  {:20.3}  {:14.2}  {:9.2}  {:13.2}  {:8.2}",
+            row.lateral_shift_m * 1e3,
+            row.rolling_radius_difference_m * 1e3,
+            row.contact_angle_left_rad.to_degrees(),
+            row.contact_angle_right_rad.to_degrees(),
+            row.wheel_place_left_m * 1e3,
+            row.wheel_place_right_m * 1e3
+        )?;
+    }
+    if !report.plots.is_empty() {
+        writeln!(out, "\nplots: {}", report.plots.join(", "))?;
+    }
+    Ok(())
+}

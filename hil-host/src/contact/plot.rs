@@ -1,0 +1,287 @@
+//! Plots of a pair: contact points, rolling radius and angle, conicity; SVG.
+
+use plotters::coord::Shift;
+use plotters::prelude::*;
+use plotters::style::text_anchor::{HPos, Pos, VPos};
+
+use super::conicity::RollingRadius;
+use super::geometry::RigidContact;
+use super::pair::Pair;
+use crate::failure::{Failure, Outcome};
+
+/// The backend rounds to whole units; drawn this much larger, curves stay smooth.
+const FINE: u32 = 4;
+const FONT: &str = "sans-serif";
+const INK: RGBColor = RGBColor(38, 50, 56);
+const BLUE_LINE: RGBColor = RGBColor(21, 101, 192);
+const RED_LINE: RGBColor = RGBColor(198, 40, 40);
+const LINE: u32 = 2 * FINE;
+
+type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
+
+fn failed(error: impl std::fmt::Display) -> Failure {
+    Failure::new(format!("cannot draw: {error}"))
+}
+
+/// Draws on a white sheet of `width` by `height` pixels and gives the SVG's text.
+fn draw(width: u32, height: u32, paint: impl FnOnce(&Area<'_>) -> Outcome<()>) -> Outcome<String> {
+    let mut text = String::new();
+    {
+        let area =
+            SVGBackend::with_string(&mut text, (width * FINE, height * FINE)).into_drawing_area();
+        area.fill(&WHITE).map_err(failed)?;
+        paint(&area)?;
+        area.present().map_err(failed)?;
+    }
+    let drawn = format!("width=\"{}\" height=\"{}\"", width * FINE, height * FINE);
+    Ok(text.replacen(&drawn, &format!("width=\"{width}\" height=\"{height}\""), 1))
+}
+
+/// Lettering of `size` pixels.
+fn letters(size: u32, colour: &'static RGBColor) -> TextStyle<'static> {
+    TextStyle::from((FONT, size * FINE).into_font()).color(colour)
+}
+
+/// One set of axes with the house's lettering.
+macro_rules! axes {
+    ($area:expr, $title:expr, $x:expr, $y:expr, $x_label:expr, $y_label:expr, $digits:expr) => {{
+        let mut chart = ChartBuilder::on($area)
+            .caption($title, letters(20, &INK))
+            .margin(14 * FINE)
+            .x_label_area_size(44 * FINE)
+            .y_label_area_size(60 * FINE)
+            .build_cartesian_2d($x, $y)
+            .map_err(failed)?;
+        chart
+            .configure_mesh()
+            .x_desc($x_label)
+            .y_desc($y_label)
+            .axis_desc_style(letters(15, &INK))
+            .label_style(letters(14, &INK))
+            .light_line_style(WHITE)
+            .bold_line_style(INK.mix(0.12).stroke_width(FINE))
+            .axis_style(INK.mix(0.6).stroke_width(FINE))
+            .set_all_tick_mark_size(5 * FINE)
+            .x_label_formatter(&|x| format!("{x:.0}"))
+            .y_label_formatter(&|y| format!("{y:.*}", $digits))
+            .x_labels(11)
+            .y_labels(8)
+            .draw()
+            .map_err(failed)?;
+        chart
+    }};
+}
+
+/// Least and greatest of `values`, widened by a twentieth.
+fn extent(values: impl Iterator<Item = f64>) -> std::ops::Range<f64> {
+    let (low, high) = values.fold((f64::MAX, f64::MIN), |(low, high), value| {
+        (low.min(value), high.max(value))
+    });
+    let room = 0.05 * (high - low).max(1e-6);
+    low - room..high + room
+}
+
+/// Wheel over rail with lines between the points that touch at each lateral shift in `contacts`.
+///
+/// # Errors
+/// The drawing fails.
+pub fn contact_points(pair: &Pair, contacts: &[RigidContact]) -> Outcome<String> {
+    /// The wheel is drawn lifted by this, mm, to leave room for the lines.
+    const LIFT: f64 = 30.0;
+    draw(1000, 690, |area| {
+        let datum = pair.installation.datum() * 1e3;
+        let wheel = || {
+            pair.wheel
+                .points
+                .iter()
+                .map(move |p| (p.y * 1e3 + datum, LIFT - p.z * 1e3))
+        };
+        let rail = || pair.rail.points.iter().map(|p| (p.y * 1e3, -p.z * 1e3));
+        let x = extent(wheel().chain(rail()).map(|p| p.0));
+        let y = extent(wheel().chain(rail()).map(|p| p.1));
+        let title = format!(
+            "Contact points, right side: {} on {}",
+            pair.wheel.name, pair.rail.name
+        );
+        let mut chart = axes!(
+            area,
+            title,
+            x,
+            y,
+            "lateral place from the track centre, mm (wheelset centred)",
+            "height, mm (wheel lifted by 30 mm)",
+            0
+        );
+        let greatest = contacts
+            .iter()
+            .fold(1e-9, |most: f64, c| most.max(c.lateral.abs()));
+        for contact in contacts {
+            let side = &contact.sides[1];
+            let share = contact.lateral / greatest;
+            let colour = if share < 0.0 { BLUE_LINE } else { RED_LINE };
+            let style = colour.mix(0.25 + 0.75 * share.abs()).stroke_width(FINE);
+            let top = (side.s * 1e3 + datum, LIFT - side.z * 1e3);
+            let rail_depth = pair.rail.at(side.y).z;
+            let bottom = (side.y * 1e3, -rail_depth * 1e3);
+            chart
+                .draw_series(LineSeries::new([top, bottom], style))
+                .map_err(failed)?;
+            chart
+                .draw_series([top, bottom].map(|p| Circle::new(p, 2 * FINE, colour.filled())))
+                .map_err(failed)?;
+        }
+        let outline = INK.stroke_width(LINE);
+        chart
+            .draw_series(LineSeries::new(wheel(), outline))
+            .map_err(failed)?;
+        chart
+            .draw_series(LineSeries::new(rail(), outline))
+            .map_err(failed)?;
+        let mut told = (f64::MAX, f64::MAX);
+        for contact in contacts {
+            let shift = contact.lateral * 1e3;
+            let side = &contact.sides[1];
+            let at = (side.s * 1e3 + datum, LIFT - side.z * 1e3);
+            let whole = (shift - shift.round()).abs() < 1e-6;
+            if !whole || (at.0 - told.0).hypot(at.1 - told.1) < 2.4 {
+                continue;
+            }
+            told = at;
+            // Beside the wheel's surface, along its normal.
+            let (across, up) = (side.slope.atan().sin(), side.slope.atan().cos());
+            let away = 15.0 * f64::from(FINE);
+            let offset = ((away * across) as i32, (-away * up) as i32);
+            let text = if shift.round() == 0.0 {
+                "0".to_owned()
+            } else {
+                format!("{shift:+.0}")
+            };
+            let style = letters(13, &INK).pos(Pos::new(HPos::Center, VPos::Center));
+            chart
+                .draw_series(std::iter::once(
+                    EmptyElement::at(at) + Text::new(text, offset, style),
+                ))
+                .map_err(failed)?;
+        }
+        let fine = FINE as i32;
+        for (row, note) in [
+            "lines join what touches at the told shift of the wheelset, mm",
+            "red: shifted to the right; blue: to the left; stronger the further",
+        ]
+        .into_iter()
+        .enumerate()
+        {
+            let place = (400 * fine, (500 + 22 * row as i32) * fine);
+            area.draw(&Text::new(note, place, letters(14, &INK)))
+                .map_err(failed)?;
+        }
+        Ok(())
+    })
+}
+
+/// Rolling radius difference and the right wheel's contact angle over the shift.
+///
+/// # Errors
+/// The drawing fails.
+pub fn rolling_radius(contacts: &[RigidContact]) -> Outcome<String> {
+    draw(1000, 760, |area| {
+        let (upper, lower) = area.split_vertically(380 * FINE);
+        let shift = |c: &RigidContact| c.lateral * 1e3;
+        let x = extent(contacts.iter().map(shift));
+        let difference = |c: &RigidContact| c.rolling_radius_difference() * 1e3;
+        let mut chart = axes!(
+            &upper,
+            "Rolling radius difference, right less left",
+            x.clone(),
+            extent(contacts.iter().map(difference)),
+            "lateral shift at the rails' top, mm (right positive)",
+            "difference, mm",
+            0
+        );
+        chart
+            .draw_series(LineSeries::new(
+                contacts.iter().map(|c| (shift(c), difference(c))),
+                BLUE_LINE.stroke_width(LINE),
+            ))
+            .map_err(failed)?;
+        let angle = |c: &RigidContact, side: usize| -c.sides[side].slope.atan().to_degrees();
+        let both = contacts.iter().flat_map(|c| [angle(c, 0), angle(c, 1)]);
+        let mut chart = axes!(
+            &lower,
+            "Contact angle against the track plane",
+            x,
+            extent(both),
+            "lateral shift at the rails' top, mm (right positive)",
+            "angle, degrees",
+            0
+        );
+        for (side, name, colour) in [(1, "right wheel", RED_LINE), (0, "left wheel", BLUE_LINE)] {
+            chart
+                .draw_series(LineSeries::new(
+                    contacts.iter().map(|c| (shift(c), angle(c, side))),
+                    colour.stroke_width(LINE),
+                ))
+                .map_err(failed)?
+                .label(name)
+                .legend(move |(x, y)| {
+                    PathElement::new(
+                        [(x, y), (x + 22 * FINE as i32, y)],
+                        colour.stroke_width(LINE),
+                    )
+                });
+        }
+        chart
+            .configure_series_labels()
+            .position(SeriesLabelPosition::UpperMiddle)
+            .label_font(letters(14, &INK))
+            .legend_area_size(30 * FINE)
+            .margin(8 * FINE)
+            .background_style(WHITE.mix(0.9))
+            .border_style(INK.mix(0.3).stroke_width(FINE))
+            .draw()
+            .map_err(failed)
+    })
+}
+
+/// Equivalent conicity over the amplitude, with the value at 3 mm told.
+///
+/// # Errors
+/// The drawing fails.
+pub fn conicity(rolling: &RollingRadius, radius: f64, reach: f64) -> Outcome<String> {
+    draw(1000, 620, |area| {
+        let points: Vec<(f64, f64)> = (1..=400)
+            .map(|i| reach * f64::from(i) / 400.0)
+            .filter(|amplitude| *amplitude >= 0.5e-3)
+            .filter_map(|amplitude| Some((amplitude * 1e3, rolling.conicity(amplitude, radius)?)))
+            .collect();
+        let highest = points.iter().fold(0.05, |most: f64, p| most.max(p.1));
+        let mut chart = axes!(
+            area,
+            "Equivalent conicity (EN 15302)",
+            0.0..reach * 1e3,
+            0.0..1.08 * highest,
+            "amplitude of the lateral motion, mm",
+            "equivalent conicity, tan",
+            1
+        );
+        chart
+            .draw_series(LineSeries::new(points, BLUE_LINE.stroke_width(LINE)))
+            .map_err(failed)?;
+        if let Some(value) = rolling.conicity(3e-3, radius) {
+            let fine = FINE as i32;
+            let style = letters(16, &RED_LINE);
+            chart
+                .draw_series(std::iter::once(
+                    EmptyElement::at((3.0, value))
+                        + Circle::new((0, 0), 4 * fine, RED_LINE.filled())
+                        + Text::new(
+                            format!("{value:.3} at 3 mm"),
+                            (-4 * fine, -26 * fine),
+                            style,
+                        ),
+                ))
+                .map_err(failed)?;
+        }
+        Ok(())
+    })
+}

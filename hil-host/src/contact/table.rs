@@ -1,0 +1,303 @@
+//! Contact geometry, Hertz and Kalker of one pair, precomputed over lateral shift, roll and yaw.
+
+use super::geometry::{Patch, Patches, SOFTNESS};
+use super::hertz::{Hertz, Steel};
+use super::kalker::KalkerTable;
+use super::pair::{Pair, Place};
+
+/// Numbers of one patch at one node, in the order of [`Entry`]'s fields.
+const NUMBERS: usize = 12;
+/// One node: the tread's numbers, then the flange's.
+type Node = [f32; 2 * NUMBERS];
+
+/// Flattest transverse contact told by curvatures alone, 1/m: a root closer fitted than this spreads
+/// its load over its whole width, as an ellipse of this curvature does.
+pub const LEAST_CURVATURE: f64 = 0.5;
+
+/// Nodes along one axis: close together in the middle, wider apart beyond.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Axis {
+    /// Least value, ends of the close part, greatest value.
+    pub ends: [f64; 4],
+    /// Cells of the three parts; the outer two may be none.
+    pub cells: [usize; 3],
+}
+
+impl Axis {
+    /// Number of nodes.
+    pub fn nodes(&self) -> usize {
+        self.cells.iter().sum::<usize>() + 1
+    }
+
+    /// Value of a node.
+    pub fn value(&self, node: usize) -> f64 {
+        let mut first = 0;
+        for part in 0..3 {
+            let cells = self.cells[part];
+            if node <= first + cells && cells > 0 {
+                let share = (node - first) as f64 / cells as f64;
+                return self.ends[part] + share * (self.ends[part + 1] - self.ends[part]);
+            }
+            first += cells;
+        }
+        self.ends[3]
+    }
+}
+
+/// An axis with its cells' widths inverted, for reading.
+#[derive(Debug, Clone, Copy)]
+struct Reader {
+    axis: Axis,
+    first: [f64; 3],
+    per_unit: [f64; 3],
+}
+
+impl Reader {
+    fn new(axis: Axis) -> Self {
+        let [a, b, _] = axis.cells;
+        let per_unit = [0, 1, 2].map(|part| {
+            let width = axis.ends[part + 1] - axis.ends[part];
+            if width > 0.0 {
+                axis.cells[part] as f64 / width
+            } else {
+                0.0
+            }
+        });
+        Self {
+            axis,
+            first: [0.0, a as f64, (a + b) as f64],
+            per_unit,
+        }
+    }
+
+    /// Cell, share within it and whether `x` lies on the axis.
+    #[inline]
+    fn locate(&self, x: f64) -> (usize, f32, bool) {
+        let ends = &self.axis.ends;
+        let held = x.max(ends[0]).min(ends[3]);
+        let part = usize::from(held >= ends[1]) + usize::from(held > ends[2]);
+        let position = self.first[part] + (held - ends[part]) * self.per_unit[part];
+        let cell = (position as usize).min(self.axis.nodes() - 2);
+        (cell, (position - cell as f64) as f32, x == held)
+    }
+}
+
+/// Extent and spacing of the tables.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Grid {
+    /// Lateral shift, field side positive, m.
+    pub lateral: Axis,
+    /// Roll, field side down positive, rad.
+    pub roll: Axis,
+    /// Square of the yaw, rad^2: the outline depends on nothing else.
+    pub yaw_square: Axis,
+}
+
+impl Default for Grid {
+    /// Shift from -20 mm (wheel towards the track centre) to 65 mm (flange past the rail's top), roll to 24 mrad, yaw to 50 mrad;
+    /// 0.1 mm, 1 mrad and 1e-4 rad^2 apart within -12 to 12 mm, 12 mrad and 30 mrad.
+    fn default() -> Self {
+        Self {
+            lateral: Axis {
+                ends: [-0.020, -0.012, 0.012, 0.065],
+                cells: [32, 240, 212],
+            },
+            roll: Axis {
+                ends: [-0.024, -0.012, 0.012, 0.024],
+                cells: [4, 24, 4],
+            },
+            yaw_square: Axis {
+                ends: [0.0, 0.0, 9e-4, 25e-4],
+                cells: [0, 9, 4],
+            },
+        }
+    }
+}
+
+/// One patch as read from the tables.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Entry {
+    /// As [`Patch::rise`], m.
+    pub rise: f64,
+    /// As [`Patch::s`], m.
+    pub s: f64,
+    /// As [`Patch::z`], m.
+    pub z: f64,
+    /// As [`Patch::slope`].
+    pub slope: f64,
+    /// As [`Patch::share`].
+    pub share: f64,
+    /// Load over normal penetration to 1.5, with the share, N/m^1.5.
+    pub stiffness: f64,
+    /// Semi-axis in the rolling direction over the root of the penetration, m^0.5.
+    pub rolling: f64,
+    /// Semi-axis across over the root of the penetration, m^0.5.
+    pub across: f64,
+    /// Kalker's `C11`, `C22`, `C23`, `C33`.
+    pub kalker: [f64; 4],
+}
+
+/// The tables of one pair; the same for the right wheel and, mirrored, the left.
+#[derive(Debug, Clone)]
+pub struct Tables {
+    pair: Pair,
+    steel: Steel,
+    grid: Grid,
+    nodes: Vec<Node>,
+    readers: [Reader; 3],
+}
+
+impl Tables {
+    /// Computes every node of `grid`; on as many threads as the machine offers.
+    pub fn new(pair: Pair, steel: Steel, grid: Grid) -> Self {
+        let kalker = KalkerTable::new(steel.poisson);
+        let empty: Node = [0.0; 2 * NUMBERS];
+        let count = grid.lateral.nodes() * grid.roll.nodes() * grid.yaw_square.nodes();
+        let mut nodes = vec![empty; count];
+        let threads = std::thread::available_parallelism().map_or(1, usize::from);
+        let chunk = nodes.len().div_ceil(threads);
+        std::thread::scope(|scope| {
+            for (part, nodes) in nodes.chunks_mut(chunk).enumerate() {
+                let (pair, steel, kalker, grid) = (&pair, &steel, &kalker, &grid);
+                scope.spawn(move || {
+                    let mut room = Vec::new();
+                    for (i, node) in nodes.iter_mut().enumerate() {
+                        let place = place_of(grid, part * chunk + i);
+                        let Patches { tread, flange } = pair.patches(&place, SOFTNESS, &mut room);
+                        for (patch, numbers) in
+                            [tread, flange].iter().zip(node.chunks_exact_mut(NUMBERS))
+                        {
+                            let entry = entry(pair, steel, kalker, patch, place.roll);
+                            numbers.copy_from_slice(&store(&entry));
+                        }
+                    }
+                });
+            }
+        });
+        Self {
+            pair,
+            steel,
+            grid,
+            nodes,
+            readers: [grid.lateral, grid.roll, grid.yaw_square].map(Reader::new),
+        }
+    }
+
+    /// The pair the tables were made of.
+    pub fn pair(&self) -> &Pair {
+        &self.pair
+    }
+
+    /// The steel the tables were made for.
+    pub fn steel(&self) -> &Steel {
+        &self.steel
+    }
+
+    /// Extent and spacing.
+    pub fn grid(&self) -> &Grid {
+        &self.grid
+    }
+
+    /// Tread and flange entry at `place`, linear in shift, roll and squared yaw; outside the grid
+    /// its edge, told by `false`.
+    #[inline]
+    pub fn at(&self, place: &Place) -> ([Entry; 2], bool) {
+        let [lateral, roll, yaw] = &self.readers;
+        let (i, t, inside_lateral) = lateral.locate(place.lateral);
+        let (j, u, inside_roll) = roll.locate(place.roll);
+        let (k, v, inside_yaw) = yaw.locate(place.yaw * place.yaw);
+        let column = lateral.axis.nodes();
+        let sheet = column * roll.axis.nodes();
+        let mut sum: Node = [0.0; 2 * NUMBERS];
+        for (dk, wk) in [(0, 1.0 - v), (1, v)] {
+            for (dj, wj) in [(0, 1.0 - u), (1, u)] {
+                let start = (k + dk) * sheet + (j + dj) * column + i;
+                let [near, far] = [&self.nodes[start], &self.nodes[start + 1]];
+                let (low, high) = (wk * wj * (1.0 - t), wk * wj * t);
+                for ((sum, near), far) in sum.iter_mut().zip(near).zip(far) {
+                    *sum += low * near + high * far;
+                }
+            }
+        }
+        let (tread, flange) = sum.split_at(NUMBERS);
+        (
+            [load(tread), load(flange)],
+            inside_lateral && inside_roll && inside_yaw,
+        )
+    }
+
+    /// The entry computed anew at `place`, without the tables: what [`Tables::at`] approximates.
+    pub fn computed(&self, place: &Place) -> [Entry; 2] {
+        let kalker = KalkerTable::new(self.steel.poisson);
+        let patches = self.pair.patches(place, SOFTNESS, &mut Vec::new());
+        [patches.tread, patches.flange]
+            .map(|patch| entry(&self.pair, &self.steel, &kalker, &patch, place.roll))
+    }
+}
+
+/// Place of a node by its running number.
+fn place_of(grid: &Grid, node: usize) -> Place {
+    let (i, rest) = (node % grid.lateral.nodes(), node / grid.lateral.nodes());
+    let (j, k) = (rest % grid.roll.nodes(), rest / grid.roll.nodes());
+    Place {
+        lateral: grid.lateral.value(i),
+        roll: grid.roll.value(j),
+        yaw: grid.yaw_square.value(k).sqrt(),
+    }
+}
+
+/// Hertz and Kalker of a patch; `roll` turns the contact's slope back into the wheel's axes.
+fn entry(pair: &Pair, steel: &Steel, kalker: &KalkerTable, patch: &Patch, roll: f64) -> Entry {
+    let radius = pair.installation.wheel_radius + patch.z;
+    let rolling = (patch.slope.atan() - roll).cos().max(0.01) / radius;
+    let hertz = Hertz::new(steel, rolling, patch.curvature.max(LEAST_CURVATURE));
+    let c = kalker.at(hertz.rolling / hertz.across);
+    // Numbers below f32's normal range would slow the step; a millionth of a load is none.
+    let share = if patch.share < 1e-6 { 0.0 } else { patch.share };
+    let narrowing = share.cbrt();
+    Entry {
+        rise: patch.rise,
+        s: patch.s,
+        z: patch.z,
+        slope: patch.slope,
+        share,
+        stiffness: hertz.stiffness * share,
+        rolling: hertz.rolling * narrowing,
+        across: hertz.across * narrowing,
+        kalker: [c.c11, c.c22, c.c23, c.c33],
+    }
+}
+
+fn store(e: &Entry) -> [f32; NUMBERS] {
+    [
+        e.rise,
+        e.s,
+        e.z,
+        e.slope,
+        e.share,
+        e.stiffness,
+        e.rolling,
+        e.across,
+        e.kalker[0],
+        e.kalker[1],
+        e.kalker[2],
+        e.kalker[3],
+    ]
+    .map(|number| number as f32)
+}
+
+#[inline]
+fn load(numbers: &[f32]) -> Entry {
+    let number = |i: usize| f64::from(numbers[i]);
+    Entry {
+        rise: number(0),
+        s: number(1),
+        z: number(2),
+        slope: number(3),
+        share: number(4),
+        stiffness: number(5),
+        rolling: number(6),
+        across: number(7),
+        kalker: [number(8), number(9), number(10), number(11)],
+    }
+}
