@@ -1,9 +1,11 @@
-//! Desk host of the Dashpot damper.
+//! Desk host of the Dashpot damper: damper files, replay, bench test, verification, wheel-rail contact.
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
 
 pub mod commands;
 pub mod contact;
+pub mod damper_file;
+pub mod excitation;
 pub mod failure;
 pub mod output;
 pub mod reference;

@@ -22,6 +22,28 @@ type Corners = Vec<(f64, f64), 24>;
 const YIELD_WEIGHT: f64 = 20.0;
 
 impl DamperParameters {
+    /// Checks every parameter.
+    ///
+    /// # Errors
+    /// The first field out of its range, with the range.
+    pub fn validate(&self) -> Result<(), BuildError> {
+        validate_mount(&self.mount)?;
+        validate_limits(&self.limits)?;
+        match &self.element {
+            Element::Physical(hydraulics) => {
+                let laws = Laws::new(hydraulics)?;
+                require(
+                    "limits",
+                    "force_n",
+                    self.limits.force_n,
+                    self.limits.force_n > 2.0 * laws.friction_n,
+                    "above twice seal.friction_n",
+                )
+            }
+            Element::Reduced(reduced) => validate_reduced(reduced),
+        }
+    }
+
     /// The constants of this damper for a fixed step [s].
     ///
     /// Bounded work (some ten thousand evaluations of the flow laws), no allocation; run it on the
@@ -37,8 +59,7 @@ impl DamperParameters {
             (1e-6..=2e-2).contains(&step_s),
             "1e-6 to 2e-2 s",
         )?;
-        validate_mount(&self.mount)?;
-        validate_limits(&self.limits)?;
+        self.validate()?;
         let damper = match &self.element {
             Element::Physical(hydraulics) => {
                 let laws = Laws::new(hydraulics)?;
@@ -57,17 +78,9 @@ impl DamperParameters {
                     });
                     self.branch(law, laws.oil.column.map(volume), self.limits.force_n)
                 };
-                require(
-                    "limits",
-                    "force_n",
-                    self.limits.force_n,
-                    self.limits.force_n > 2.0 * laws.friction_n,
-                    "above twice seal.friction_n",
-                )?;
                 self.assemble(&[branch(false), branch(true)], step_s)
             }
             Element::Reduced(reduced) => {
-                validate_reduced(reduced)?;
                 let saturation = reduced.damping_n_s_per_m * reduced.saturation_velocity_m_per_s;
                 let limit = saturation.min(self.limits.force_n);
                 let branch = self.branch(Law::Reduced(*reduced), None, limit);

@@ -1,0 +1,130 @@
+//! Made excitations: displacement over time in closed form, the same in demonstration, tests and benches.
+
+use std::f64::consts::TAU;
+
+/// A made excitation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Excitation {
+    /// Random ride, 0.4-20 Hz shaped by a body mode of 1.4 Hz, v_rms 0.04 m/s.
+    Ride,
+    /// Logarithmic sweep 0.2-25 Hz at 0.8 mm.
+    Sweep,
+    /// Constant speed 0.1 m/s between +-12.5 mm with corners, then rest.
+    Saw,
+    /// 1.4 Hz from 10 mm, decaying to nothing.
+    Decay,
+}
+
+impl Excitation {
+    /// All of them.
+    pub const ALL: [Self; 4] = [Self::Ride, Self::Sweep, Self::Saw, Self::Decay];
+
+    /// Name in tables and file names.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Ride => "ride",
+            Self::Sweep => "sweep",
+            Self::Saw => "saw",
+            Self::Decay => "decay",
+        }
+    }
+
+    /// Length [s].
+    pub fn duration_s(self) -> f64 {
+        match self {
+            Self::Sweep => 10.0,
+            _ => 5.0,
+        }
+    }
+
+    /// Displacement [m] at ticks 0, 1, 2, ... of `step_s` [s], the first one 0.
+    pub fn displacements_m(self, step_s: f64) -> Vec<f64> {
+        let ticks = (self.duration_s() / step_s).round() as usize;
+        let time = (0..=ticks).map(|tick| tick as f64 * step_s);
+        match self {
+            Self::Ride => {
+                let lines = ride_lines();
+                time.map(|t| {
+                    lines
+                        .iter()
+                        .map(|line| line.at(t) - line.at(0.0))
+                        .sum::<f64>()
+                })
+                .collect()
+            }
+            Self::Sweep => time.map(sweep).collect(),
+            Self::Saw => time.map(saw).collect(),
+            Self::Decay => time
+                .map(|t| 0.01 * (-t / 0.5).exp() * (TAU * 1.4 * t).sin())
+                .collect(),
+        }
+    }
+}
+
+struct Line {
+    amplitude_m: f64,
+    frequency_hz: f64,
+    phase: f64,
+}
+
+impl Line {
+    fn at(&self, time_s: f64) -> f64 {
+        self.amplitude_m * (TAU * self.frequency_hz * time_s + self.phase).sin()
+    }
+}
+
+/// Spectral lines of the ride: white base motion through a mode of 1.4 Hz with damping ratio 0.3.
+fn ride_lines() -> Vec<Line> {
+    const LINES: u32 = 98;
+    const VELOCITY_RMS: f64 = 0.04;
+    let mut seed = 0x2545_f491_u32;
+    let mut uniform = || {
+        seed ^= seed << 13;
+        seed ^= seed >> 17;
+        seed ^= seed << 5;
+        f64::from(seed) / f64::from(u32::MAX)
+    };
+    let mut lines: Vec<Line> = (0..LINES)
+        .map(|index| {
+            let frequency_hz = 0.4 + 0.2 * (f64::from(index) + uniform());
+            let ratio = frequency_hz / 1.4;
+            let mode = ((1.0 - ratio * ratio).powi(2) + (0.6 * ratio).powi(2)).sqrt();
+            Line {
+                amplitude_m: 1.0 / mode,
+                frequency_hz,
+                phase: TAU * uniform(),
+            }
+        })
+        .collect();
+    let square: f64 = lines
+        .iter()
+        .map(|line| (TAU * line.frequency_hz * line.amplitude_m).powi(2) / 2.0)
+        .sum();
+    for line in &mut lines {
+        line.amplitude_m *= VELOCITY_RMS / square.sqrt();
+    }
+    lines
+}
+
+fn sweep(time_s: f64) -> f64 {
+    const FROM_HZ: f64 = 0.2;
+    const TO_HZ: f64 = 25.0;
+    let rate = (TO_HZ / FROM_HZ).ln() / Excitation::Sweep.duration_s();
+    0.8e-3 * (TAU * FROM_HZ * ((rate * time_s).exp() - 1.0) / rate).sin()
+}
+
+fn saw(time_s: f64) -> f64 {
+    const AMPLITUDE: f64 = 0.0125;
+    if time_s >= 3.0 {
+        return 0.0;
+    }
+    let phase = (time_s / 0.5).fract();
+    let quarter = |phase: f64| AMPLITUDE * phase / 0.25;
+    if phase < 0.25 {
+        quarter(phase)
+    } else if phase < 0.75 {
+        quarter(0.5 - phase)
+    } else {
+        quarter(phase - 1.0)
+    }
+}

@@ -1,0 +1,10 @@
+//! Shared by tests and benches across the crates.
+
+use dashpot_core::DamperParameters;
+use dashpot_hil::damper_file;
+
+/// A preset of the product with overrides, which must be valid.
+pub fn damper(name: &str, overrides: &[&str]) -> DamperParameters {
+    let overrides: Vec<String> = overrides.iter().map(|&text| text.to_owned()).collect();
+    damper_file::load(name, &overrides).expect("a preset with valid overrides")
+}
