@@ -21,8 +21,26 @@ pub(crate) const IMPLICIT_SHARE: f64 = 1.0 - core::f64::consts::FRAC_1_SQRT_2;
 /// The correction is at most this share of the step's travel, so it never undoes the damping.
 const CORRECTION_SHARE: f64 = 0.125;
 
-/// Square of a travel that is none [m^2]; keeps its inverse finite.
-const STANDSTILL: f64 = 1e-30;
+/// A change of stretch that is none [m]; below it the inverse is not used.
+const STANDSTILL: f64 = 1e-15;
+
+/// Weight of the first stage's flow over that of the last, (1 - gamma)/gamma.
+const EXPLICIT_RATIO: f64 = (1.0 - IMPLICIT_SHARE) / IMPLICIT_SHARE;
+
+/// A step's straight path: stretch at its start and travel of the input [m].
+#[derive(Clone, Copy)]
+pub(crate) struct Path<T> {
+    start: T,
+    travel: T,
+}
+
+/// A solved stage: stretch [m], flow over the stage [m], flow potential times the step [m^2].
+#[derive(Clone, Copy)]
+pub(crate) struct Stage<T> {
+    stretch: T,
+    flow: T,
+    potential: T,
+}
 
 /// Numbers of a damper beside its tables, in SI units.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -173,59 +191,103 @@ impl<T: Real> Damper<T> {
     /// A state that another damper stepped before is carried over first, its force kept.
     #[inline]
     pub fn step(&self, state: &mut DamperState<T>, displacement: T) -> T {
-        let k = &self.scalars;
+        let path = self.enter(state, displacement);
+        let first = self.first_stage(path);
+        let last = self.last_stage(path, first);
+        let end = self.corrected_end(state, path, first, last);
+        self.leave(state, end)
+    }
+
+    /// Takes the displacement in: adopts the state if another damper stepped it, limits the travel.
+    #[inline(always)]
+    pub(crate) fn enter(&self, state: &mut DamperState<T>, displacement: T) -> Path<T> {
         if state.revision != self.revision {
             self.adopt(state);
         }
         let mut travel = displacement - state.displacement;
-        if !(travel.magnitude() <= k.largest_move) {
-            travel = reject(state, travel, k.largest_move);
+        if !(travel.magnitude() <= self.scalars.largest_move) {
+            travel = reject(state, travel, self.scalars.largest_move);
         }
         let travel = (travel + T::POSITION_ROUNDER) - T::POSITION_ROUNDER;
         state.displacement = state.displacement + travel;
+        Path {
+            start: state.stretch,
+            travel,
+        }
+    }
 
-        let implicit = T::from_f64(IMPLICIT_SHARE);
-        let explicit_ratio = T::from_f64((1.0 - IMPLICIT_SHARE) / IMPLICIT_SHARE);
-        let offset = k.half_clearance + k.held;
-        let stage = |reach: T| {
-            let beyond = (reach.magnitude() - offset).larger(T::ZERO);
-            let y = (beyond * k.stage_scale + k.stage_shift).square_root() - k.stage_shift_root;
-            locate(&self.stage, y, reach)
+    /// The stage at gamma.
+    #[inline(always)]
+    pub(crate) fn first_stage(&self, path: Path<T>) -> Stage<T> {
+        self.stage(path.start + T::from_f64(IMPLICIT_SHARE) * path.travel)
+    }
+
+    /// The stage at the tick.
+    #[inline(always)]
+    pub(crate) fn last_stage(&self, path: Path<T>, first: Stage<T>) -> Stage<T> {
+        self.stage(path.start + path.travel - T::from_f64(EXPLICIT_RATIO) * first.flow)
+    }
+
+    /// The implicit stage whose stretch and flow sum to `reach`.
+    #[inline(always)]
+    fn stage(&self, reach: T) -> Stage<T> {
+        let k = &self.scalars;
+        // The constants' part first: it does not wait for the reach.
+        let shift = k.stage_shift - (k.half_clearance + k.held) * k.stage_scale;
+        let square = (reach.magnitude() * k.stage_scale + shift).larger(k.stage_shift);
+        let y = square.square_root() - k.stage_shift_root;
+        let (piece, z) = locate(&self.stage, y, reach);
+        let flow = cubic(&piece.response, z);
+        Stage {
+            stretch: reach - flow,
+            flow,
+            potential: cubic(&piece.potential, z),
+        }
+    }
+
+    /// The stretch at the tick: the last stage's, less the correction of the flow.
+    #[inline(always)]
+    pub(crate) fn corrected_end(
+        &self,
+        state: &mut DamperState<T>,
+        path: Path<T>,
+        first: Stage<T>,
+        last: Stage<T>,
+    ) -> T {
+        let k = &self.scalars;
+        let change = last.stretch - path.start;
+        let distance = change.magnitude();
+        // At a standstill any finite number does: the correction's bound is zero.
+        let inverse = if distance > T::from_f64(STANDSTILL) {
+            T::ONE / change
+        } else {
+            T::ZERO
         };
+        let off_path = first.stretch - path.start - T::from_f64(IMPLICIT_SHARE) * change;
+        let slope = (last.flow - first.flow) * T::from_f64(1.0 / IMPLICIT_SHARE);
+        let gained = last.potential.magnitude() - state.potential.magnitude();
+        let mean = (gained + slope * off_path) * inverse;
+        let stages = T::from_f64(EXPLICIT_RATIO) * first.flow + last.flow;
 
-        let start = state.stretch;
-        let reach = start + implicit * travel;
-        let (piece, z) = stage(reach);
-        let flow_first = cubic(&piece.response, z);
-        let first = reach - flow_first;
-
-        let reach = start + travel - explicit_ratio * flow_first;
-        let (piece, z) = stage(reach);
-        let flow_last = cubic(&piece.response, z);
-        let potential = cubic(&piece.potential, z);
-        let last = reach - flow_last;
-
-        let path = last - start;
-        let inverse = path / (path * path + T::from_f64(STANDSTILL));
-        let off_path = (first - start - implicit * path) * inverse;
-        let slope = (flow_last - flow_first) * T::from_f64(1.0 / IMPLICIT_SHARE);
-        let mean =
-            (potential.magnitude() - state.potential.magnitude()) * inverse + slope * off_path;
-        let most = path.magnitude() * T::from_f64(CORRECTION_SHARE);
-        let mut correction = (mean - explicit_ratio * flow_first - flow_last)
-            .larger(-most)
-            .smaller(most);
+        let mut most = distance * T::from_f64(CORRECTION_SHARE);
         // In contact on the same side all through: nothing to correct but rounding.
-        if potential * state.potential > T::ZERO {
-            correction = T::ZERO;
+        if last.potential * state.potential > T::ZERO {
+            most = T::ZERO;
         }
-        if first.magnitude().larger(last.magnitude()) >= k.half_clearance + k.yield_stretch {
+        if first.stretch.magnitude().larger(last.stretch.magnitude())
+            >= k.half_clearance + k.yield_stretch
+        {
             state.status.insert(Status::SATURATED);
-            correction = T::ZERO;
+            most = T::ZERO;
         }
-        let stretch = ((last - correction) + T::REST_ROUNDER) - T::REST_ROUNDER;
+        let correction = (mean - stages).larger(-most).smaller(most);
+        ((last.stretch + T::REST_ROUNDER) - correction) - T::REST_ROUNDER
+    }
 
-        let sprung = (stretch.magnitude() - k.half_clearance).larger(T::ZERO);
+    /// Stores the stretch at the tick with its flow potential and returns its force.
+    #[inline(always)]
+    pub(crate) fn leave(&self, state: &mut DamperState<T>, stretch: T) -> T {
+        let sprung = (stretch.magnitude() - self.scalars.half_clearance).larger(T::ZERO);
         let (piece, z) = self.output_at(sprung, stretch);
         state.stretch = stretch;
         state.potential = cubic(&piece.potential, z);

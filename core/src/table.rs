@@ -31,8 +31,8 @@ pub(crate) fn locate<T: Real>(table: &Table<T>, y: T, direction: T) -> (&Piece<T
     )
 }
 
-/// `c0 + c1 z + c2 z^2 + c3 z^3`.
+/// `c0 + c1 z + c2 z^2 + c3 z^3`, in pairs: a shorter chain than Horner's for one product more.
 #[inline(always)]
 pub(crate) fn cubic<T: Real>(c: &[T; 4], z: T) -> T {
-    ((c[3] * z + c[2]) * z + c[1]) * z + c[0]
+    (c[3] * z + c[2]) * (z * z) + (c[1] * z + c[0])
 }
