@@ -21,8 +21,8 @@ pub(crate) const IMPLICIT_SHARE: f64 = 1.0 - core::f64::consts::FRAC_1_SQRT_2;
 /// The correction is at most this share of the step's travel, so it never undoes the damping.
 const CORRECTION_SHARE: f64 = 0.125;
 
-/// A change of stretch that is none [m]; below it the inverse is not used.
-const STANDSTILL: f64 = 1e-15;
+/// Added to a change of stretch to keep its inverse finite at a standstill [m]; lost in any other.
+const STANDSTILL: f64 = 1e-30;
 
 /// Weight of the first stage's flow over that of the last, (1 - gamma)/gamma.
 const EXPLICIT_RATIO: f64 = (1.0 - IMPLICIT_SHARE) / IMPLICIT_SHARE;
@@ -257,12 +257,7 @@ impl<T: Real> Damper<T> {
         let k = &self.scalars;
         let change = last.stretch - path.start;
         let distance = change.magnitude();
-        // At a standstill any finite number does: the correction's bound is zero.
-        let inverse = if distance > T::from_f64(STANDSTILL) {
-            T::ONE / change
-        } else {
-            T::ZERO
-        };
+        let inverse = T::ONE / (change + T::from_f64(STANDSTILL));
         let off_path = first.stretch - path.start - T::from_f64(IMPLICIT_SHARE) * change;
         let slope = (last.flow - first.flow) * T::from_f64(1.0 / IMPLICIT_SHARE);
         let gained = last.potential.magnitude() - state.potential.magnitude();
@@ -274,10 +269,10 @@ impl<T: Real> Damper<T> {
         if last.potential * state.potential > T::ZERO {
             most = T::ZERO;
         }
-        if first.stretch.magnitude().larger(last.stretch.magnitude())
-            >= k.half_clearance + k.yield_stretch
-        {
-            state.status.insert(Status::SATURATED);
+        let saturated = first.stretch.magnitude().larger(last.stretch.magnitude())
+            >= k.half_clearance + k.yield_stretch;
+        state.status.insert_if(saturated, Status::SATURATED);
+        if saturated {
             most = T::ZERO;
         }
         let correction = (mean - stages).larger(-most).smaller(most);
