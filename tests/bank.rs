@@ -20,7 +20,11 @@ fn agrees<T: Real, const N: usize>(moves: &[[f64; 19]]) {
     for row in moves {
         let xs = std::array::from_fn(|i| {
             positions[i] += row[i];
-            T::from_f64(if row[i] > 9e-3 { f64::NAN } else { positions[i] })
+            T::from_f64(if row[i] > 9e-3 {
+                f64::NAN
+            } else {
+                positions[i]
+            })
         });
         step_bank(&bank, &mut states, &xs, &mut forces);
         for i in 0..N {

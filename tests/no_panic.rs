@@ -45,7 +45,9 @@ impl References {
             // Sections stand for themselves, so that reading them through a section symbol counts.
             let section_name = |index: usize| format!("section {number}.{index}");
             for section in file.sections() {
-                let targets = references.entry(section_name(section.index().0)).or_default();
+                let targets = references
+                    .entry(section_name(section.index().0))
+                    .or_default();
                 for (_, relocation) in section.relocations() {
                     let RelocationTarget::Symbol(index) = relocation.target() else {
                         continue;
