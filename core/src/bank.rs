@@ -1,14 +1,14 @@
 //! Several dampers in one call: the same bits as one step each, in less time.
 //!
 //! A step is a chain of operations that wait for one another; the chains of different dampers do not.
-//! A bank takes a few dampers through each part of the step together, so one's waiting is another's
-//! work.
+//! A bank takes a few dampers through the step together, in vector instructions where there are any.
 
 use crate::damper::Damper;
 use crate::math::Real;
 use crate::state::DamperState;
+use crate::step;
 
-/// Dampers taken through the parts of the step together.
+/// Dampers taken through the step together.
 const LANES: usize = 8;
 
 /// Steps `N` dampers: `forces[i] = dampers[i].step(&mut states[i], displacements[i])`, bit for bit.
@@ -55,7 +55,7 @@ pub fn step_bank<T: Real, const N: usize>(
     for (((dampers, states), displacements), forces) in
         dampers.iter().zip(states).zip(displacements).zip(forces)
     {
-        step_lanes(dampers, states, displacements, forces);
+        *forces = step::step(*dampers, states, *displacements);
     }
     for (((damper, state), displacement), force) in dampers_left
         .iter()
@@ -65,22 +65,4 @@ pub fn step_bank<T: Real, const N: usize>(
     {
         *force = damper.step(state, *displacement);
     }
-}
-
-/// One part of the step after the other, each for all lanes.
-#[inline]
-fn step_lanes<T: Real>(
-    dampers: &[&Damper<T>; LANES],
-    states: &mut [DamperState<T>; LANES],
-    displacements: &[T; LANES],
-    forces: &mut [T; LANES],
-) {
-    let paths: [_; LANES] =
-        core::array::from_fn(|i| dampers[i].enter(&mut states[i], displacements[i]));
-    let first: [_; LANES] = core::array::from_fn(|i| dampers[i].first_stage(paths[i]));
-    let last: [_; LANES] = core::array::from_fn(|i| dampers[i].last_stage(paths[i], first[i]));
-    let ends: [_; LANES] = core::array::from_fn(|i| {
-        dampers[i].corrected_end(&mut states[i], paths[i], first[i], last[i])
-    });
-    *forces = core::array::from_fn(|i| dampers[i].leave(&mut states[i], ends[i]));
 }

@@ -9,38 +9,15 @@
 //! those of the stages; where f has a root (orifice) or a corner (clearance edge) inside the step it
 //! takes away their leading error. See docs/numerics.md.
 
-use crate::math::Real;
+use crate::math::{Lanes, Real};
 use crate::revision;
 use crate::state::DamperState;
 use crate::status::Status;
-use crate::table::{Piece, Table, cubic, locate};
+use crate::step;
+use crate::table::{self, Table};
 
 /// gamma of the two stages.
 pub(crate) const IMPLICIT_SHARE: f64 = 1.0 - core::f64::consts::FRAC_1_SQRT_2;
-
-/// The correction is at most this share of the step's travel, so it never undoes the damping.
-const CORRECTION_SHARE: f64 = 0.125;
-
-/// Added to a change of stretch to keep its inverse finite at a standstill [m]; lost in any other.
-const STANDSTILL: f64 = 1e-30;
-
-/// Weight of the first stage's flow over that of the last, (1 - gamma)/gamma.
-const EXPLICIT_RATIO: f64 = (1.0 - IMPLICIT_SHARE) / IMPLICIT_SHARE;
-
-/// A step's straight path: stretch at its start and travel of the input [m].
-#[derive(Clone, Copy)]
-pub(crate) struct Path<T> {
-    start: T,
-    travel: T,
-}
-
-/// A solved stage: stretch [m], flow over the stage [m], flow potential times the step [m^2].
-#[derive(Clone, Copy)]
-pub(crate) struct Stage<T> {
-    stretch: T,
-    flow: T,
-    potential: T,
-}
 
 /// Numbers of a damper beside its tables, in SI units.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -191,110 +168,17 @@ impl<T: Real> Damper<T> {
     /// A state that another damper stepped before is carried over first, its force kept.
     #[inline]
     pub fn step(&self, state: &mut DamperState<T>, displacement: T) -> T {
-        let path = self.enter(state, displacement);
-        let first = self.first_stage(path);
-        let last = self.last_stage(path, first);
-        let end = self.corrected_end(state, path, first, last);
-        self.leave(state, end)
+        let [force] = step::step([self], core::array::from_mut(state), [displacement]);
+        force
     }
 
-    /// Takes the displacement in: adopts the state if another damper stepped it, limits the travel.
-    #[inline(always)]
-    pub(crate) fn enter(&self, state: &mut DamperState<T>, displacement: T) -> Path<T> {
-        if state.revision != self.revision {
-            self.adopt(state);
-        }
-        let mut travel = displacement - state.displacement;
-        if !(travel.magnitude() <= self.scalars.largest_move) {
-            travel = reject(state, travel, self.scalars.largest_move);
-        }
-        let travel = (travel + T::POSITION_ROUNDER) - T::POSITION_ROUNDER;
-        state.displacement = state.displacement + travel;
-        Path {
-            start: state.stretch,
-            travel,
-        }
-    }
-
-    /// The stage at gamma.
-    #[inline(always)]
-    pub(crate) fn first_stage(&self, path: Path<T>) -> Stage<T> {
-        self.stage(path.start + T::from_f64(IMPLICIT_SHARE) * path.travel)
-    }
-
-    /// The stage at the tick.
-    #[inline(always)]
-    pub(crate) fn last_stage(&self, path: Path<T>, first: Stage<T>) -> Stage<T> {
-        self.stage(path.start + path.travel - T::from_f64(EXPLICIT_RATIO) * first.flow)
-    }
-
-    /// The implicit stage whose stretch and flow sum to `reach`.
-    #[inline(always)]
-    fn stage(&self, reach: T) -> Stage<T> {
-        let k = &self.scalars;
-        // The constants' part first: it does not wait for the reach.
-        let shift = k.stage_shift - (k.half_clearance + k.held) * k.stage_scale;
-        let square = (reach.magnitude() * k.stage_scale + shift).larger(k.stage_shift);
-        let y = square.square_root() - k.stage_shift_root;
-        let (piece, z) = locate(&self.stage, y, reach);
-        let flow = cubic(&piece.response, z);
-        Stage {
-            stretch: reach - flow,
-            flow,
-            potential: cubic(&piece.potential, z),
-        }
-    }
-
-    /// The stretch at the tick: the last stage's, less the correction of the flow.
-    #[inline(always)]
-    pub(crate) fn corrected_end(
-        &self,
-        state: &mut DamperState<T>,
-        path: Path<T>,
-        first: Stage<T>,
-        last: Stage<T>,
-    ) -> T {
-        let k = &self.scalars;
-        let change = last.stretch - path.start;
-        let distance = change.magnitude();
-        let inverse = T::ONE / (change + T::from_f64(STANDSTILL));
-        let off_path = first.stretch - path.start - T::from_f64(IMPLICIT_SHARE) * change;
-        let slope = (last.flow - first.flow) * T::from_f64(1.0 / IMPLICIT_SHARE);
-        let gained = last.potential.magnitude() - state.potential.magnitude();
-        let mean = (gained + slope * off_path) * inverse;
-        let stages = T::from_f64(EXPLICIT_RATIO) * first.flow + last.flow;
-
-        let mut most = distance * T::from_f64(CORRECTION_SHARE);
-        // In contact on the same side all through: nothing to correct but rounding.
-        if last.potential * state.potential > T::ZERO {
-            most = T::ZERO;
-        }
-        let saturated = first.stretch.magnitude().larger(last.stretch.magnitude())
-            >= k.half_clearance + k.yield_stretch;
-        state.status.insert_if(saturated, Status::SATURATED);
-        if saturated {
-            most = T::ZERO;
-        }
-        let correction = (mean - stages).larger(-most).smaller(most);
-        ((last.stretch + T::REST_ROUNDER) - correction) - T::REST_ROUNDER
-    }
-
-    /// Stores the stretch at the tick with its flow potential and returns its force.
-    #[inline(always)]
-    pub(crate) fn leave(&self, state: &mut DamperState<T>, stretch: T) -> T {
-        let sprung = (stretch.magnitude() - self.scalars.half_clearance).larger(T::ZERO);
-        let (piece, z) = self.output_at(sprung, stretch);
-        state.stretch = stretch;
-        state.potential = cubic(&piece.potential, z);
-        state.force = cubic(&piece.response, z);
-        state.force
-    }
-
-    /// Piece of the output table for the stretch of the springs, and z in it.
-    #[inline(always)]
-    fn output_at(&self, sprung: T, direction: T) -> (&Piece<T>, T) {
+    /// Force [N] and flow potential [m^2] under a stretch of the springs, with the sign of `direction`.
+    fn output_at(&self, sprung: T, direction: T) -> (T, T) {
         let y = (sprung * self.scalars.output_scale).square_root();
-        locate(&self.output, y, direction)
+        let ([piece], z) = table::locate([&self.output], Lanes([y]), Lanes([direction]));
+        let Lanes([force]) = table::cubic([&piece.response], z);
+        let Lanes([potential]) = table::cubic([&piece.potential], z);
+        (force, potential)
     }
 
     /// Carries a state over from another damper: displacement and force stay, the stretch becomes
@@ -318,8 +202,7 @@ impl<T: Real> Damper<T> {
                 .smaller(k.half_clearance)
         };
         let sprung = (state.stretch.magnitude() - k.half_clearance).larger(T::ZERO);
-        let (piece, z) = self.output_at(sprung, state.stretch);
-        state.potential = cubic(&piece.potential, z);
+        (_, state.potential) = self.output_at(sprung, state.stretch);
         state.revision = self.revision;
         if had_damper {
             state.status.insert(Status::DAMPER_SWAPPED);
@@ -333,27 +216,12 @@ impl<T: Real> Damper<T> {
         let (mut low, mut high) = (T::ZERO, k.yield_stretch);
         for _ in 0..T::DIGITS + 2 {
             let middle = half * (low + high);
-            let (piece, z) = self.output_at(middle, direction);
-            if cubic(&piece.response, z).magnitude() < magnitude {
+            if self.output_at(middle, direction).0.magnitude() < magnitude {
                 low = middle;
             } else {
                 high = middle;
             }
         }
         half * (low + high)
-    }
-}
-
-/// The travel to use instead of one that is not credible; latched and counted.
-#[cold]
-#[inline(never)]
-fn reject<T: Real>(state: &mut DamperState<T>, travel: T, largest_move: T) -> T {
-    state.rejected_inputs = state.rejected_inputs.saturating_add(1);
-    if travel.is_finite() {
-        state.status.insert(Status::INPUT_LIMITED);
-        travel.larger(-largest_move).smaller(largest_move)
-    } else {
-        state.status.insert(Status::INPUT_HELD);
-        T::ZERO
     }
 }

@@ -27,6 +27,7 @@ mod revision;
 pub mod shim;
 mod state;
 mod status;
+mod step;
 mod table;
 pub mod telemetry;
 
