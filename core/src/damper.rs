@@ -9,20 +9,15 @@
 //! those of the stages; where f has a root (orifice) or a corner (clearance edge) inside the step it
 //! takes away their leading error. See docs/numerics.md.
 
-use crate::math::Real;
+use crate::math::{Lanes, Real};
 use crate::revision;
 use crate::state::DamperState;
 use crate::status::Status;
-use crate::table::{Piece, Table, cubic, locate};
+use crate::step;
+use crate::table::{self, Piece, Table};
 
 /// gamma of the two stages.
 pub(crate) const IMPLICIT_SHARE: f64 = 1.0 - core::f64::consts::FRAC_1_SQRT_2;
-
-/// The correction is at most this share of the step's travel, so it never undoes the damping.
-const CORRECTION_SHARE: f64 = 0.125;
-
-/// Square of a travel that is none [m^2]; keeps its inverse finite.
-const STANDSTILL: f64 = 1e-30;
 
 /// Numbers of a damper beside its tables, in SI units.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -99,14 +94,14 @@ pub struct Damper<T> {
     pub(crate) revision: u32,
     pub(crate) tables_revision: u32,
     /// Flow of a stage over the stretch beyond clearance and friction, and the flow potential reached.
-    pub(crate) stage: Table<T>,
-    /// Force over the stretch beyond the clearance, and the flow potential there.
-    pub(crate) output: Table<T>,
+    pub(crate) stage: Table<Piece<T>>,
+    /// Force over the stretch beyond the clearance [N].
+    pub(crate) output: Table<[T; 4]>,
 }
 
 impl<T: Real> Damper<T> {
     #[cfg(feature = "builder")]
-    pub(crate) fn new(scalars: Scalars<T>, stage: Table<T>, output: Table<T>) -> Self {
+    pub(crate) fn new(scalars: Scalars<T>, stage: Table<Piece<T>>, output: Table<[T; 4]>) -> Self {
         let tables_revision = revision::of_tables(&stage, &output);
         Self {
             scalars,
@@ -173,78 +168,23 @@ impl<T: Real> Damper<T> {
     /// A state that another damper stepped before is carried over first, its force kept.
     #[inline]
     pub fn step(&self, state: &mut DamperState<T>, displacement: T) -> T {
-        let k = &self.scalars;
-        if state.revision != self.revision {
-            self.adopt(state);
-        }
-        let mut travel = displacement - state.displacement;
-        if !(travel.magnitude() <= k.largest_move) {
-            travel = reject(state, travel, k.largest_move);
-        }
-        let travel = (travel + T::POSITION_ROUNDER) - T::POSITION_ROUNDER;
-        state.displacement = state.displacement + travel;
-
-        let implicit = T::from_f64(IMPLICIT_SHARE);
-        let explicit_ratio = T::from_f64((1.0 - IMPLICIT_SHARE) / IMPLICIT_SHARE);
-        let offset = k.half_clearance + k.held;
-        let stage = |reach: T| {
-            let beyond = (reach.magnitude() - offset).larger(T::ZERO);
-            let y = (beyond * k.stage_scale + k.stage_shift).square_root() - k.stage_shift_root;
-            locate(&self.stage, y, reach)
-        };
-
-        let start = state.stretch;
-        let reach = start + implicit * travel;
-        let (piece, z) = stage(reach);
-        let flow_first = cubic(&piece.response, z);
-        let first = reach - flow_first;
-
-        let reach = start + travel - explicit_ratio * flow_first;
-        let (piece, z) = stage(reach);
-        let flow_last = cubic(&piece.response, z);
-        let potential = cubic(&piece.potential, z);
-        let last = reach - flow_last;
-
-        let path = last - start;
-        let inverse = path / (path * path + T::from_f64(STANDSTILL));
-        let off_path = (first - start - implicit * path) * inverse;
-        let slope = (flow_last - flow_first) * T::from_f64(1.0 / IMPLICIT_SHARE);
-        let mean =
-            (potential.magnitude() - state.potential.magnitude()) * inverse + slope * off_path;
-        let most = path.magnitude() * T::from_f64(CORRECTION_SHARE);
-        let mut correction = (mean - explicit_ratio * flow_first - flow_last)
-            .larger(-most)
-            .smaller(most);
-        // In contact on the same side all through: the law is smooth, nothing to correct but rounding.
-        if start.magnitude().smaller(last.magnitude()) > offset && start * last > T::ZERO {
-            correction = T::ZERO;
-        }
-        if first.magnitude().larger(last.magnitude()) >= k.half_clearance + k.yield_stretch {
-            state.status.insert(Status::SATURATED);
-            correction = T::ZERO;
-        }
-        let stretch = ((last - correction) + T::REST_ROUNDER) - T::REST_ROUNDER;
-
-        let sprung = (stretch.magnitude() - k.half_clearance).larger(T::ZERO);
-        let (piece, z) = self.output_at(sprung, stretch);
-        state.stretch = stretch;
-        state.potential = cubic(&piece.potential, z);
-        state.force = cubic(&piece.response, z);
-        state.force
+        let [force] = step::step([self], core::array::from_mut(state), [displacement]);
+        force
     }
 
-    /// Piece of the output table for the stretch of the springs, and z in it.
-    #[inline(always)]
-    fn output_at(&self, sprung: T, direction: T) -> (&Piece<T>, T) {
+    /// Force [N] under a stretch of the springs [m], with the sign of `direction`.
+    fn force_at(&self, sprung: T, direction: T) -> T {
         let y = (sprung * self.scalars.output_scale).square_root();
-        locate(&self.output, y, direction)
+        let (pieces, z) = table::locate([&self.output], Lanes([y]), Lanes([direction]));
+        let Lanes([force]) = table::cubic(pieces, z);
+        force
     }
 
     /// Carries a state over from another damper: displacement and force stay, the stretch becomes
     /// the one this damper has under that force; without force it stays within the clearance.
     ///
     /// [`Damper::step`] does this by itself when it meets a state of another damper; call it between
-    /// ticks to keep that tick at its usual cost. Fixed work, about thirty table reads.
+    /// ticks to keep that tick at its usual cost. Fixed work, about sixty table reads in `f32`.
     pub fn adopt(&self, state: &mut DamperState<T>) {
         let k = &self.scalars;
         let had_damper = state.revision != 0;
@@ -260,9 +200,7 @@ impl<T: Real> Damper<T> {
                 .larger(-k.half_clearance)
                 .smaller(k.half_clearance)
         };
-        let sprung = (state.stretch.magnitude() - k.half_clearance).larger(T::ZERO);
-        let (piece, z) = self.output_at(sprung, state.stretch);
-        state.potential = cubic(&piece.potential, z);
+        state.potential = step::potential_at(self, state.stretch);
         state.revision = self.revision;
         if had_damper {
             state.status.insert(Status::DAMPER_SWAPPED);
@@ -276,27 +214,12 @@ impl<T: Real> Damper<T> {
         let (mut low, mut high) = (T::ZERO, k.yield_stretch);
         for _ in 0..T::DIGITS + 2 {
             let middle = half * (low + high);
-            let (piece, z) = self.output_at(middle, direction);
-            if cubic(&piece.response, z).magnitude() < magnitude {
+            if self.force_at(middle, direction).magnitude() < magnitude {
                 low = middle;
             } else {
                 high = middle;
             }
         }
         half * (low + high)
-    }
-}
-
-/// The travel to use instead of one that is not credible; latched and counted.
-#[cold]
-#[inline(never)]
-fn reject<T: Real>(state: &mut DamperState<T>, travel: T, largest_move: T) -> T {
-    state.rejected_inputs = state.rejected_inputs.saturating_add(1);
-    if travel.is_finite() {
-        state.status.insert(Status::INPUT_LIMITED);
-        travel.larger(-largest_move).smaller(largest_move)
-    } else {
-        state.status.insert(Status::INPUT_HELD);
-        T::ZERO
     }
 }

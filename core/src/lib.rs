@@ -11,6 +11,7 @@
 #![deny(unsafe_code)]
 #![warn(missing_docs)]
 
+pub mod bank;
 #[cfg(feature = "builder")]
 mod build;
 mod damper;
@@ -26,8 +27,11 @@ mod revision;
 pub mod shim;
 mod state;
 mod status;
+mod step;
 mod table;
+pub mod telemetry;
 
+pub use bank::step_bank;
 pub use damper::Damper;
 pub use error::BuildError;
 pub use math::Real;

@@ -4,7 +4,7 @@
 use crate::damper::Scalars;
 use crate::math::Real;
 #[cfg(feature = "builder")]
-use crate::table::Table;
+use crate::table::{Piece, Table};
 
 fn absorb<T: Real>(hash: u32, value: T) -> u32 {
     let bytes = value.to_bits_u64().to_le_bytes();
@@ -15,11 +15,12 @@ fn absorb<T: Real>(hash: u32, value: T) -> u32 {
 
 /// Hash of two tables.
 #[cfg(feature = "builder")]
-pub(crate) fn of_tables<T: Real>(stage: &Table<T>, output: &Table<T>) -> u32 {
-    stage
+pub(crate) fn of_tables<T: Real>(stage: &Table<Piece<T>>, output: &Table<[T; 4]>) -> u32 {
+    let stage = stage
         .iter()
-        .chain(output)
-        .flat_map(|piece| piece.response.iter().chain(&piece.potential))
+        .flat_map(|piece| piece.flow.iter().chain(&piece.potential));
+    stage
+        .chain(output.iter().flatten())
         .fold(0x811c_9dc5, |hash, value| absorb(hash, *value))
 }
 

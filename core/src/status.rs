@@ -38,4 +38,9 @@ impl Status {
     pub(crate) fn insert(&mut self, other: Self) {
         self.0 |= other.0;
     }
+
+    /// Sets the bits of `other` when `condition` holds, without a branch.
+    pub(crate) fn insert_if(&mut self, condition: bool, other: Self) {
+        self.0 |= other.0 * u16::from(condition);
+    }
 }

@@ -1,38 +1,51 @@
 //! Piecewise cubics of the stretch, read in constant time.
 
-use crate::math::Real;
+use crate::math::{Lanes, Real};
 
 /// Pieces a side.
 pub(crate) const PIECES: usize = 64;
 
-/// Two cubics of one piece: coefficients of 1, z, z^2, z^3, z in [-1/2, 1/2], both with the sign of
-/// the stretch.
+/// Cubics of one piece of a stage: coefficients of 1, z, z^2, z^3, z in [-1/2, 1/2].
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C)]
 pub(crate) struct Piece<T> {
-    /// Flow of a stage [m] or force [N].
-    pub(crate) response: [T; 4],
-    /// Flow potential times the step [m^2].
+    /// Flow over the stage [m], with the sign of the stretch.
+    pub(crate) flow: [T; 4],
+    /// Flow potential times the step [m^2], positive.
     pub(crate) potential: [T; 4],
 }
 
 /// Pieces around y = 0, 1, 2, ... of extension, then of compression; y grows with the root of the
 /// stretch.
-pub(crate) type Table<T> = [Piece<T>; 2 * PIECES];
+pub(crate) type Table<P> = [P; 2 * PIECES];
 
-/// The piece around `y` (not negative, inside the table by construction) on the side of `direction`,
-/// and z in it. Any `y` is safe to read.
+/// For each lane the piece around `y` (not negative, inside the table by construction) on the side of
+/// `direction`, and z in it. Any `y` is safe to read.
 #[inline(always)]
-pub(crate) fn locate<T: Real>(table: &Table<T>, y: T, direction: T) -> (&Piece<T>, T) {
-    let (index, z) = y.split();
-    (
-        &table[(index & (PIECES - 1)) | (direction.sign_bit() * PIECES)],
-        z,
-    )
+pub(crate) fn locate<'a, P, T: Real, const L: usize>(
+    tables: [&'a Table<P>; L],
+    y: Lanes<T, L>,
+    direction: Lanes<T, L>,
+) -> ([&'a P; L], Lanes<T, L>) {
+    let mut z = y;
+    let mut pieces = tables.map(|table| &table[0]);
+    for (((piece, table), z), direction) in
+        pieces.iter_mut().zip(tables).zip(&mut z.0).zip(direction.0)
+    {
+        let (index, rest) = z.split();
+        *piece = &table[(index & (PIECES - 1)) | (direction.sign_bit() * PIECES)];
+        *z = rest;
+    }
+    (pieces, z)
 }
 
-/// `c0 + c1 z + c2 z^2 + c3 z^3`.
+/// `c0 + c1 z + c2 z^2 + c3 z^3` of each lane, in pairs: a shorter chain than Horner's for one product
+/// more.
 #[inline(always)]
-pub(crate) fn cubic<T: Real>(c: &[T; 4], z: T) -> T {
-    ((c[3] * z + c[2]) * z + c[1]) * z + c[0]
+pub(crate) fn cubic<T: Real, const L: usize>(c: [&[T; 4]; L], z: Lanes<T, L>) -> Lanes<T, L> {
+    let c0 = Lanes(c.map(|c| c[0]));
+    let c1 = Lanes(c.map(|c| c[1]));
+    let c2 = Lanes(c.map(|c| c[2]));
+    let c3 = Lanes(c.map(|c| c[3]));
+    (c3 * z + c2) * (z * z) + (c1 * z + c0)
 }

@@ -1,5 +1,8 @@
 //! Shared by tests and benches across the crates.
 
+pub mod look_up;
+pub mod newton;
+
 use dashpot_core::DamperParameters;
 use dashpot_hil::damper_file;
 

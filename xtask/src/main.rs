@@ -1,2 +1,138 @@
-//! Developer commands of Dashpot.
-fn main() {}
+//! Developer commands of Dashpot: `cargo xtask <command>`.
+
+mod run;
+
+use std::process::ExitCode;
+
+use run::{Outcome, cargo, cargo_output, cargo_with, version_of};
+
+const HELP: &str = "\
+Developer commands of Dashpot
+
+Usage: cargo xtask <command>
+
+Commands:
+  test                   run every test of the workspace, documentation tests too
+  bench                  measure time per step, side by side with yardstick and floor
+  bench --instructions   count instructions per step (needs Valgrind and gungraun-runner)
+  ci                     formatting, lints, documentation, Rust version, then test
+  help                   this text
+
+Example: cargo xtask test
+Exit code: 0 done, 1 a check failed, 2 wrong use.";
+
+/// Of the `gungraun` in Cargo.toml; the runner must be of the same version.
+const GUNGRAUN: &str = "0.20";
+
+fn main() -> ExitCode {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
+    let done = match words[..] {
+        ["help" | "--help" | "-h"] | [_, "--help" | "-h"] => {
+            println!("{HELP}");
+            Ok(())
+        }
+        ["test"] => test(),
+        ["bench"] => cargo(&["bench", "--package", "dashpot", "--bench", "step"]),
+        ["bench", "--instructions"] => count_instructions(),
+        ["ci"] => ci(),
+        _ => {
+            eprintln!("wrong use: `{}`\n\n{HELP}", words.join(" "));
+            return ExitCode::from(2);
+        }
+    };
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(message) => {
+            eprintln!("error: {message}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn test() -> Outcome {
+    cargo(&["test", "--workspace", "--no-fail-fast"])
+}
+
+fn ci() -> Outcome {
+    cargo(&["fmt", "--all", "--check"])?;
+    cargo(&[
+        "clippy",
+        "--workspace",
+        "--all-targets",
+        "--",
+        "-D",
+        "warnings",
+    ])?;
+    cargo_with(
+        &["doc", "--workspace", "--no-deps"],
+        &[("RUSTDOCFLAGS", "-D warnings")],
+    )?;
+    check_rust_version()?;
+    test()
+}
+
+/// The `rust-version` that Cargo.toml states must not be above the compiler that ran the checks.
+fn check_rust_version() -> Outcome {
+    let compiler = version_of("rustc", &["--version"])?;
+    let id = cargo_output(&["metadata", "--no-deps", "--format-version", "1"])?;
+    let stated: Vec<&str> = id
+        .split("\"rust_version\":\"")
+        .skip(1)
+        .filter_map(|rest| rest.split('"').next())
+        .collect();
+    if stated.is_empty() {
+        return Err("no package states its rust-version: add it to Cargo.toml".into());
+    }
+    for version in stated {
+        if numbers(version) > numbers(&compiler) {
+            return Err(format!(
+                "Cargo.toml states rust-version {version}, above rustc {compiler}"
+            ));
+        }
+    }
+    println!("rust-version is at most rustc {compiler}");
+    Ok(())
+}
+
+fn count_instructions() -> Outcome {
+    version_of("valgrind", &["--version"])
+        .map_err(|error| format!("{error}; install Valgrind, e.g. apt-get install valgrind"))?;
+    let install = format!("cargo install gungraun-runner --version '{GUNGRAUN}'");
+    let runner = version_of("gungraun-runner", &["--version"])
+        .map_err(|error| format!("{error}; {install}"))?;
+    if numbers(&runner)[..2] != numbers(GUNGRAUN)[..] {
+        return Err(format!(
+            "gungraun-runner is {runner}, the bench needs {GUNGRAUN}: {install}"
+        ));
+    }
+    cargo(&[
+        "bench",
+        "--package",
+        "dashpot",
+        "--features",
+        "gungraun",
+        "--bench",
+        "instructions",
+    ])
+}
+
+/// `1.95.0-nightly` as `[1, 95, 0]`.
+fn numbers(version: &str) -> Vec<u32> {
+    version
+        .split(['.', '-'])
+        .map_while(|part| part.parse().ok())
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::numbers;
+
+    #[test]
+    fn versions_compare_as_numbers() {
+        assert!(numbers("1.95") <= numbers("1.95.0"));
+        assert!(numbers("1.100.0") > numbers("1.95.0"));
+        assert_eq!(numbers("1.97.0-nightly"), [1, 97, 0]);
+    }
+}

@@ -1,35 +1,23 @@
 //! Cubic pieces from samples.
 
 use crate::math::Real;
-use crate::table::{PIECES, Piece, Table};
+use crate::table::{PIECES, Table};
 
-/// A table of `sample(compression, y) -> [response, potential]`, magnitudes that are 0 at y = 0.
+/// Cubics of `sample(compression, y)`, which is 0 at y = 0.
 ///
 /// Each piece goes through samples at the Chebyshev-Lobatto points of [-1/2, 1/2], so neighbours share
 /// a value; the first goes through the origin.
-pub(crate) fn table<T: Real>(sample: impl Fn(bool, f64) -> [f64; 2]) -> Table<T> {
-    let zero = Piece {
-        response: [T::ZERO; 4],
-        potential: [T::ZERO; 4],
-    };
-    let mut table = [zero; 2 * PIECES];
-    for compression in [false, true] {
-        for index in 0..PIECES {
-            let samples = if index == 0 {
-                [0.0, 1.0 / 6.0, 1.0 / 3.0, 0.5].map(|y| sample(compression, y))
-            } else {
-                [-0.5, -0.25, 0.25, 0.5].map(|z| sample(compression, index as f64 + z))
-            };
-            let fit = if index == 0 { from_origin } else { interpolate };
-            let sign = if compression { -1.0 } else { 1.0 };
-            let coefficients = |quantity: usize| {
-                fit(samples.map(|values| values[quantity])).map(|c| T::from_f64(sign * c))
-            };
-            table[index + if compression { PIECES } else { 0 }] = Piece {
-                response: coefficients(0),
-                potential: coefficients(1),
-            };
-        }
+pub(crate) fn cubics<T: Real>(sample: impl Fn(bool, f64) -> f64) -> Table<[T; 4]> {
+    let mut table = [[T::ZERO; 4]; 2 * PIECES];
+    for (place, cubic) in table.iter_mut().enumerate() {
+        let (compression, index) = (place >= PIECES, place % PIECES);
+        let at = |z: f64| sample(compression, index as f64 + z);
+        let fitted = if index == 0 {
+            from_origin([1.0 / 6.0, 1.0 / 3.0, 0.5].map(at))
+        } else {
+            interpolate([-0.5, -0.25, 0.25, 0.5].map(at))
+        };
+        *cubic = fitted.map(T::from_f64);
     }
     table
 }
@@ -45,7 +33,7 @@ fn interpolate([a, b, c, d]: [f64; 4]) -> [f64; 4] {
 }
 
 /// The cubic through 0 at z = 0 and values at z = 1/6, 1/3, 1/2.
-fn from_origin([_, b, c, d]: [f64; 4]) -> [f64; 4] {
+fn from_origin([b, c, d]: [f64; 3]) -> [f64; 4] {
     // f/z = c1 + c2 z + c3 z^2.
     let (p, q, r) = (6.0 * b, 3.0 * c, 2.0 * d);
     let c3 = 18.0 * (p - 2.0 * q + r);
@@ -65,7 +53,7 @@ mod tests {
             assert!((found - expected).abs() < 1e-12);
         }
         let cubic = |z: f64| 2.0 * z + 5.0 * z * z - 7.0 * z * z * z;
-        let found = from_origin([0.0, 1.0 / 6.0, 1.0 / 3.0, 0.5].map(cubic));
+        let found = from_origin([1.0 / 6.0, 1.0 / 3.0, 0.5].map(cubic));
         for (found, expected) in found.iter().zip([0.0, 2.0, 5.0, -7.0]) {
             assert!((found - expected).abs() < 1e-12);
         }

@@ -14,6 +14,7 @@ use crate::error::{BuildError, require};
 use crate::hydraulics::{HydraulicSide, Laws};
 use crate::math::Real;
 use crate::parameters::{DamperParameters, Element, Limits, Mount, OilColumn, Reduced};
+use crate::table::Piece;
 
 /// Corners a table can align with.
 type Corners = Vec<(f64, f64), 24>;
@@ -149,24 +150,34 @@ impl DamperParameters {
         let stage_grid = Grid::aligned(stage_reach, knee, &stage_corners);
         let output_grid = Grid::aligned(output_reach, 0.0, &output_corners);
 
-        let potential = |branch: &Branch<'_>, force: f64| step_s * branch.flow_potential(force);
-        let stage = fit::table(|compression, y| {
+        let side = |compression: bool| if compression { -1.0 } else { 1.0 };
+        let at = |compression: bool, y: f64| {
             let branch = &branches[usize::from(compression)];
             let reach = stage_grid.stretch(y) + held;
-            let force = branch.stage_force(reach, stage_s);
-            let flow = if force < branch.force_limit {
-                stage_s * branch.velocity(force)
-            } else {
-                reach - branch.deflection(force)
-            };
-            [flow, potential(branch, force)]
+            (branch, reach, branch.stage_force(reach, stage_s))
+        };
+        let flow = fit::cubics(|compression, y| {
+            let (branch, reach, force) = at(compression, y);
+            side(compression)
+                * if force < branch.force_limit {
+                    stage_s * branch.velocity(force)
+                } else {
+                    reach - branch.deflection(force)
+                }
         });
-        let output = fit::table(|compression, y| {
+        let potential = fit::cubics(|compression, y| {
+            let (branch, _, force) = at(compression, y);
+            step_s * branch.flow_potential(force)
+        });
+        let output = fit::cubics(|compression, y| {
             let branch = &branches[usize::from(compression)];
             let force = branch.force(output_grid.stretch(y));
             // A rounding below the limit, so that no piece exceeds it.
-            let highest = branch.force_limit * (1.0 - 8.0 * T::EPSILON);
-            [force.min(highest), potential(branch, force)]
+            side(compression) * force.min(branch.force_limit * (1.0 - 8.0 * T::EPSILON))
+        });
+        let stage = core::array::from_fn(|place| Piece {
+            flow: flow[place],
+            potential: potential[place],
         });
         let stage_shift = T::from_f64(stage_grid.shift);
         Damper::new(

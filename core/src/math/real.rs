@@ -22,6 +22,8 @@ pub trait Real:
 {
     /// Zero.
     const ZERO: Self;
+    /// One.
+    const ONE: Self;
     /// Distance from 1 to the next larger number.
     const EPSILON: f64;
     /// Significant binary digits.
@@ -59,6 +61,7 @@ macro_rules! real {
     ($float:ident, $bits:ident, $position:expr, $rest:expr) => {
         impl Real for $float {
             const ZERO: Self = 0.0;
+            const ONE: Self = 1.0;
             const EPSILON: f64 = $float::EPSILON as f64;
             const DIGITS: u32 = $float::MANTISSA_DIGITS;
             const POSITION_ROUNDER: Self = $position;

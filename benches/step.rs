@@ -1,0 +1,111 @@
+//! Time per step, side by side in one run: ours, the yardstick, the floor, the reference solver.
+//!
+//! A motion is stepped from start to end; criterion's throughput is steps, so elements per second
+//! invert to time per step. The reference solver's element is a simulated millisecond.
+#![allow(missing_docs)] // criterion's macros
+
+use std::hint::black_box;
+
+use criterion::{Criterion, Throughput, criterion_group, criterion_main};
+use dashpot::damper;
+use dashpot::look_up::LookUp;
+use dashpot::newton::NewtonDamper;
+use dashpot_core::{Damper, Real, step_bank};
+use dashpot_hil::excitation::Excitation;
+use dashpot_hil::reference::Reference;
+
+const STEP_S: f64 = 1e-3;
+const BANK: usize = 16;
+
+/// Random ride at each tick.
+fn ride<T: Real>() -> Vec<T> {
+    let motion = Excitation::Ride.displacements_m(STEP_S);
+    motion.into_iter().map(T::from_f64).collect()
+}
+
+fn single<T: Real>(criterion: &mut Criterion, scalar: &str) {
+    let motion = ride::<T>();
+    let mut group = criterion.benchmark_group("step");
+    group.throughput(Throughput::Elements(motion.len() as u64));
+    for preset in ["paper", "in-service", "reduced-vertical"] {
+        let damper: Damper<T> = damper(preset, &[]).build(STEP_S).expect("a preset builds");
+        group.bench_function(format!("{preset} {scalar}"), |bencher| {
+            let mut state = damper.at_rest(T::ZERO);
+            bencher.iter(|| {
+                for &x in &motion {
+                    black_box(damper.step(&mut state, black_box(x)));
+                }
+            });
+        });
+    }
+    group.finish();
+}
+
+fn bank(criterion: &mut Criterion) {
+    let motion = ride::<f32>();
+    let damper: Damper<f32> = damper("paper", &[]).build(STEP_S).expect("a preset builds");
+    let mut group = criterion.benchmark_group("step");
+    group.throughput(Throughput::Elements((motion.len() * BANK) as u64));
+    group.bench_function(format!("paper f32, bank of {BANK}"), |bencher| {
+        let mut states = [damper.at_rest(0.0); BANK];
+        let mut forces = [0.0; BANK];
+        let dampers = black_box([&damper; BANK]);
+        bencher.iter(|| {
+            for &x in &motion {
+                step_bank(&dampers, &mut states, &black_box([x; BANK]), &mut forces);
+                black_box(&forces);
+            }
+        });
+    });
+    group.finish();
+}
+
+fn rivals(criterion: &mut Criterion) {
+    let motion = ride::<f32>();
+    let paper = damper("paper", &[]);
+    let mut group = criterion.benchmark_group("step");
+    group.throughput(Throughput::Elements(motion.len() as u64));
+    group.bench_function("yardstick: plain Newton f32", |bencher| {
+        let mut newton = NewtonDamper::new(&paper, STEP_S).expect("a physical damper");
+        bencher.iter(|| {
+            for &x in &motion {
+                black_box(newton.step(black_box(x)));
+            }
+        });
+    });
+    let reference = Reference::new(&paper).expect("a preset");
+    group.bench_function("floor: table look-up f32", |bencher| {
+        let mut table = LookUp::new(&reference, 0.3, STEP_S);
+        bencher.iter(|| {
+            for &x in &motion {
+                black_box(table.step(black_box(x)));
+            }
+        });
+    });
+    group.finish();
+}
+
+fn reference(criterion: &mut Criterion) {
+    const TICKS: usize = 200;
+    let motion = &Excitation::Ride.displacements_m(STEP_S)[..=TICKS];
+    let times: Vec<f64> = (0..=TICKS).map(|tick| tick as f64 * STEP_S).collect();
+    let mut solver = Reference::new(&damper("paper", &[])).expect("a preset");
+    let mut group = criterion.benchmark_group("reference solver");
+    group.sample_size(10);
+    group.throughput(Throughput::Elements(TICKS as u64));
+    group.bench_function("paper, per simulated millisecond", |bencher| {
+        bencher.iter(|| solver.forces(&times, motion).expect("the motion is solved"));
+    });
+    group.finish();
+}
+
+fn all(criterion: &mut Criterion) {
+    single::<f32>(criterion, "f32");
+    single::<f64>(criterion, "f64");
+    bank(criterion);
+    rivals(criterion);
+    reference(criterion);
+}
+
+criterion_group!(benches, all);
+criterion_main!(benches);

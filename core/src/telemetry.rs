@@ -1,0 +1,90 @@
+//! The last samples of a damper, kept in a ring for a link to read between ticks.
+
+use heapless::Deque;
+
+use crate::math::approximate;
+use crate::status::Status;
+
+/// One tick of one damper.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[repr(C)]
+pub struct Sample {
+    /// Tick count.
+    pub tick: u32,
+    /// Displacement used [m], positive in extension.
+    pub displacement_m: f32,
+    /// Force returned [N], positive when it resists extension.
+    pub force_n: f32,
+    /// Status bits latched by then.
+    pub status: Status,
+}
+
+/// The last `N` samples, oldest first. No allocation; recording costs the same whether full or not.
+///
+/// ```
+/// use dashpot_core::telemetry::{Sample, Telemetry};
+///
+/// let mut telemetry = Telemetry::<2>::new();
+/// for tick in 1..=3 {
+///     telemetry.record(Sample { tick, force_n: 500.0, ..Sample::default() });
+/// }
+/// assert_eq!(telemetry.take().map(|sample| sample.tick), Some(2));
+/// assert_eq!(telemetry.overwritten(), 1);
+/// ```
+#[derive(Clone, Debug, Default)]
+pub struct Telemetry<const N: usize> {
+    samples: Deque<Sample, N>,
+    overwritten: u32,
+}
+
+impl<const N: usize> Telemetry<N> {
+    /// An empty ring.
+    pub const fn new() -> Self {
+        Self {
+            samples: Deque::new(),
+            overwritten: 0,
+        }
+    }
+
+    /// Adds a sample; a full ring loses its oldest, counted.
+    pub fn record(&mut self, sample: Sample) {
+        if self.samples.is_full() {
+            let _ = self.samples.pop_front();
+            self.overwritten = self.overwritten.saturating_add(1);
+        }
+        // There is room now, unless N is 0: then nothing is kept.
+        let _ = self.samples.push_back(sample);
+    }
+
+    /// Removes and returns the oldest sample.
+    pub fn take(&mut self) -> Option<Sample> {
+        self.samples.pop_front()
+    }
+
+    /// The samples, oldest first, left where they are.
+    pub fn iter(&self) -> impl Iterator<Item = &Sample> {
+        self.samples.iter()
+    }
+
+    /// Samples lost to newer ones before a link took them.
+    pub fn overwritten(&self) -> u32 {
+        self.overwritten
+    }
+
+    /// Root mean square of the force over the samples [N], 0 without any.
+    ///
+    /// For a display: its square root is approximate and errs by up to 6 %. The step never uses it.
+    pub fn approximate_rms_force_n(&self) -> f32 {
+        let mut sum = 0.0;
+        let mut count = 0.0;
+        for sample in self.samples.iter() {
+            sum += sample.force_n * sample.force_n;
+            count += 1.0;
+        }
+        if count > 0.0 {
+            approximate::square_root(sum / count)
+        } else {
+            0.0
+        }
+    }
+}

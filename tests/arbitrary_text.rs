@@ -1,0 +1,66 @@
+//! Arbitrary text never panics a parser; damaged files of ours neither. Smoke versions of fuzz/.
+
+use std::io::Write;
+use std::path::Path;
+
+use dashpot_hil::contact::measured;
+use dashpot_hil::contact::profile::Body;
+use dashpot_hil::damper_file::{self, PRESETS};
+use proptest::prelude::*;
+
+/// `text` with `patch` written over the bytes from `place`, as text again.
+fn damaged(text: &str, place: usize, patch: &str) -> String {
+    let mut bytes = text.as_bytes().to_vec();
+    let start = place % bytes.len();
+    let end = (start + patch.len()).min(bytes.len());
+    bytes.splice(start..end, patch.bytes());
+    String::from_utf8_lossy(&bytes).into_owned()
+}
+
+/// What a parser accepts must also build or name a field.
+fn parse_and_build(text: &str) {
+    if let Ok(parameters) = damper_file::parse("fuzz.toml", text, &[]) {
+        let _ = parameters.build::<f64>(1e-3);
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(256))]
+
+    #[test]
+    fn damper_file_of_any_text(text in any::<String>()) {
+        parse_and_build(&text);
+    }
+
+    #[test]
+    fn damaged_preset(
+        preset in 0..PRESETS.len(),
+        place in any::<usize>(),
+        patch in "[-+0-9.e=\\[\\]a-z_\n\"]{0,6}",
+    ) {
+        parse_and_build(&damaged(PRESETS[preset].1, place, &patch));
+    }
+
+    #[test]
+    fn overrides_of_any_text(set in any::<String>()) {
+        let _ = damper_file::load("paper", &[set]);
+    }
+
+    #[test]
+    fn measured_profile_of_any_bytes(
+        mut bytes in prop::collection::vec(any::<u8>(), 0..400),
+        rows in "([-0-9.,;e \t\n\"]|nan|inf){0,300}",
+    ) {
+        bytes.extend_from_slice(rows.as_bytes());
+        for content in [&bytes[..], rows.as_bytes()] {
+            let mut file = tempfile();
+            file.write_all(content).unwrap();
+            let path: &Path = file.path();
+            let _ = measured::read(path, Body::Wheel, 0.0);
+        }
+    }
+}
+
+fn tempfile() -> tempfile::NamedTempFile {
+    tempfile::NamedTempFile::new().expect("a temporary file")
+}

@@ -1,0 +1,95 @@
+//! The step, a bank, a live change and telemetry allocate nothing, counted at the global allocator.
+
+use std::alloc::{GlobalAlloc, Layout, System};
+use std::cell::Cell;
+use std::hint::black_box;
+
+use dashpot::damper;
+use dashpot_core::telemetry::{Sample, Telemetry};
+use dashpot_core::{Damper, step_bank};
+
+thread_local! {
+    static ALLOCATIONS: Cell<usize> = const { Cell::new(0) };
+}
+
+/// The system's allocator, counting the calls of each thread.
+struct Counting;
+
+// SAFETY: every call goes to the system's allocator unchanged.
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        // While a thread ends its counter may be gone.
+        let _ = ALLOCATIONS.try_with(|count| count.set(count.get() + 1));
+        unsafe { System.alloc(layout) }
+    }
+
+    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
+        unsafe { System.dealloc(pointer, layout) }
+    }
+}
+
+#[global_allocator]
+static ALLOCATOR: Counting = Counting;
+
+/// Allocations of this thread during `work`.
+fn allocations(work: impl FnOnce()) -> usize {
+    let before = ALLOCATIONS.get();
+    work();
+    ALLOCATIONS.get() - before
+}
+
+/// A motion through the clearance, past the rate limit and through a bad sensor value.
+fn displacement(tick: u32) -> f32 {
+    match tick % 1000 {
+        500 => f32::NAN,
+        700 => 1.0,
+        _ => 0.01 * (0.01 * tick as f32).sin(),
+    }
+}
+
+#[test]
+fn the_counter_counts() {
+    assert_eq!(allocations(|| drop(black_box(Box::new(1)))), 1);
+}
+
+#[test]
+fn steps_and_live_changes_allocate_nothing() {
+    let in_service: Damper<f32> = damper("in-service", &[]).build(1e-3).unwrap();
+    let paper: Damper<f32> = damper("paper", &[]).build(1e-3).unwrap();
+    let mut worn = paper;
+    let mut state = paper.at_rest(0.0);
+    let found = allocations(|| {
+        for tick in 0..10_000 {
+            let damper = [&in_service, &paper, &worn][tick as usize / 100 % 3];
+            black_box(damper.step(&mut state, displacement(tick)));
+        }
+        worn.set_clearance_m(2e-3);
+        black_box(worn.step(&mut state, 0.0));
+    });
+    assert_eq!(found, 0);
+    assert!(state.rejected_inputs() > 0, "the motion met no bad value");
+}
+
+#[test]
+fn banks_and_telemetry_allocate_nothing() {
+    let damper: Damper<f32> = damper("paper", &[]).build(1e-3).unwrap();
+    let mut states = [damper.at_rest(0.0); 17];
+    let mut forces = [0.0; 17];
+    let mut telemetry = Telemetry::<64>::new();
+    let found = allocations(|| {
+        for tick in 0..10_000 {
+            let x = displacement(tick);
+            step_bank(&[&damper; 17], &mut states, &[x; 17], &mut forces);
+            telemetry.record(Sample {
+                tick,
+                displacement_m: x,
+                force_n: forces[16],
+                status: states[16].status(),
+            });
+        }
+        black_box(telemetry.approximate_rms_force_n());
+        black_box(telemetry.take());
+    });
+    assert_eq!(found, 0);
+    assert!(telemetry.overwritten() > 0, "the ring was never full");
+}

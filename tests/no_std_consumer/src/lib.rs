@@ -1,0 +1,76 @@
+//! Every call firmware makes in a tick, without `std`, heap and builder.
+#![no_std]
+
+use dashpot_core::telemetry::{Sample, Telemetry};
+use dashpot_core::{Damper, DamperState, step_bank};
+
+#[panic_handler]
+fn panic(_: &core::panic::PanicInfo<'_>) -> ! {
+    loop {}
+}
+
+/// A step in single precision.
+#[unsafe(no_mangle)]
+pub extern "C" fn checked_step_f32(
+    damper: &Damper<f32>,
+    state: &mut DamperState<f32>,
+    x: f32,
+) -> f32 {
+    damper.step(state, x)
+}
+
+/// A step in double precision.
+#[unsafe(no_mangle)]
+pub extern "C" fn checked_step_f64(
+    damper: &Damper<f64>,
+    state: &mut DamperState<f64>,
+    x: f64,
+) -> f64 {
+    damper.step(state, x)
+}
+
+/// A bank that fills its lanes and leaves some over.
+#[unsafe(no_mangle)]
+pub extern "C" fn checked_bank(
+    damper: &Damper<f32>,
+    states: &mut [DamperState<f32>; 19],
+    x: &[f32; 19],
+    forces: &mut [f32; 19],
+) {
+    step_bank(&[damper; 19], states, x, forces);
+}
+
+/// The live changes of firmware.
+#[unsafe(no_mangle)]
+pub extern "C" fn checked_change(
+    damper: &mut Damper<f32>,
+    state: &mut DamperState<f32>,
+    clearance_m: f32,
+) {
+    damper.set_clearance_m(clearance_m);
+    damper.adopt(state);
+    state.clear_status();
+}
+
+/// The telemetry ring, written and read.
+#[unsafe(no_mangle)]
+pub extern "C" fn checked_telemetry(
+    telemetry: &mut Telemetry<64>,
+    state: &DamperState<f32>,
+    tick: u32,
+) -> f32 {
+    telemetry.record(Sample {
+        tick,
+        displacement_m: state.displacement(),
+        force_n: state.force(),
+        status: state.status(),
+    });
+    let oldest = telemetry.take().unwrap_or_default();
+    oldest.force_n + telemetry.approximate_rms_force_n()
+}
+
+/// The control: panics when `index` is out of range, so the check can be seen to find something.
+#[unsafe(no_mangle)]
+pub extern "C" fn control_panics(values: &[f32; 4], index: usize) -> f32 {
+    values[index]
+}

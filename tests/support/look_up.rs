@@ -1,0 +1,40 @@
+//! The floor: a force-velocity table read at the difference of two displacements, no dynamics.
+
+use dashpot_hil::reference::Reference;
+
+/// Force over velocity at equal distances.
+pub struct LookUp {
+    forces_n: Vec<f32>,
+    /// Intervals per displacement of a step [1/m].
+    scale: f32,
+    last: f32,
+}
+
+impl LookUp {
+    const HALF: usize = 256;
+
+    /// The static curve of `reference` up to `velocity_m_per_s` either way, for a step [s].
+    pub fn new(reference: &Reference, velocity_m_per_s: f64, step_s: f64) -> Self {
+        let forces_n = (0..=2 * Self::HALF)
+            .map(|index| {
+                let share = index as f64 / Self::HALF as f64 - 1.0;
+                reference.static_force(share * velocity_m_per_s) as f32
+            })
+            .collect();
+        Self {
+            forces_n,
+            scale: (Self::HALF as f64 / (velocity_m_per_s * step_s)) as f32,
+            last: 0.0,
+        }
+    }
+
+    /// Force [N] at the displacement [m] of the tick, linear between entries, held beyond the ends.
+    pub fn step(&mut self, x: f32) -> f32 {
+        let place = (x - self.last) * self.scale + Self::HALF as f32;
+        self.last = x;
+        let place = place.clamp(0.0, 2.0 * Self::HALF as f32 - 1.0);
+        let index = place as usize;
+        let share = place - index as f32;
+        self.forces_n[index] + share * (self.forces_n[index + 1] - self.forces_n[index])
+    }
+}

@@ -1,0 +1,75 @@
+//! Runs programs in the workspace's folder and says which one failed.
+
+use std::path::Path;
+use std::process::Command;
+
+/// Done, or what failed.
+pub type Outcome<T = ()> = Result<T, String>;
+
+/// Runs cargo, its output shown.
+pub fn cargo(arguments: &[&str]) -> Outcome {
+    cargo_with(arguments, &[])
+}
+
+/// Runs cargo with environment variables, its output shown.
+pub fn cargo_with(arguments: &[&str], variables: &[(&str, &str)]) -> Outcome {
+    let line = format!("cargo {}", arguments.join(" "));
+    eprintln!("> {line}");
+    let status = cargo_command(arguments)
+        .envs(variables.iter().copied())
+        .status()
+        .map_err(|error| format!("cannot run `{line}`: {error}"))?;
+    if status.success() {
+        Ok(())
+    } else {
+        Err(format!("`{line}` failed: {status}"))
+    }
+}
+
+/// What cargo prints to its standard output.
+pub fn cargo_output(arguments: &[&str]) -> Outcome<String> {
+    output_of(
+        cargo_command(arguments),
+        &format!("cargo {}", arguments.join(" ")),
+    )
+}
+
+/// The first word of a program's output that starts with a digit, such as the version of
+/// `rustc --version`. A leading `valgrind-` counts as a separate word.
+pub fn version_of(program: &str, arguments: &[&str]) -> Outcome<String> {
+    let mut command = Command::new(program);
+    command.args(arguments);
+    let line = format!("{program} {}", arguments.join(" "));
+    let text = output_of(command, &line)?;
+    text.trim()
+        .split([' ', '\n'])
+        .map(|word| word.strip_prefix("valgrind-").unwrap_or(word))
+        .find(|word| word.starts_with(|first: char| first.is_ascii_digit()))
+        .map(str::to_owned)
+        .ok_or_else(|| format!("`{line}` names no version: `{}`", text.trim()))
+}
+
+fn output_of(mut command: Command, line: &str) -> Outcome<String> {
+    let output = command
+        .output()
+        .map_err(|error| format!("cannot run `{line}`: {error}"))?;
+    if output.status.success() {
+        Ok(String::from_utf8_lossy(&output.stdout).into_owned())
+    } else {
+        Err(format!(
+            "`{line}` failed: {}\n{}",
+            output.status,
+            String::from_utf8_lossy(&output.stderr)
+        ))
+    }
+}
+
+fn cargo_command(arguments: &[&str]) -> Command {
+    // The cargo that runs this one; `cargo` when started by hand.
+    let mut command = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
+    let here = Path::new(env!("CARGO_MANIFEST_DIR"));
+    command
+        .args(arguments)
+        .current_dir(here.parent().unwrap_or(here));
+    command
+}
