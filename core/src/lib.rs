@@ -27,6 +27,7 @@ pub mod shim;
 mod state;
 mod status;
 mod table;
+mod words;
 
 pub use damper::Damper;
 pub use error::BuildError;
