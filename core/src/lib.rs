@@ -30,6 +30,7 @@ mod status;
 mod step;
 mod table;
 pub mod telemetry;
+mod words;
 
 pub use bank::step_bank;
 pub use damper::Damper;

@@ -1,0 +1,149 @@
+//! A built damper as plain words: how a host hands constants to firmware.
+
+use crate::damper::{Damper, Scalars};
+use crate::table::{PIECES, Piece};
+
+/// Scalars, the two revisions, eight coefficients of each piece of a stage, four of the output.
+const WORDS: usize = OUTPUT + 2 * PIECES * 4;
+const SCALARS: usize = 10;
+const STAGE: usize = SCALARS + 2;
+const OUTPUT: usize = STAGE + 2 * PIECES * 8;
+
+macro_rules! words {
+    ($float:ident, $word:ident) => {
+        #[doc = concat!("Words are the bits of each `", stringify!($float), "` as `", stringify!($word), "`, revisions zero-extended.")]
+        impl Damper<$float> {
+            /// Number of words of a damper.
+            pub const WORDS: usize = WORDS;
+
+            /// The damper of these words, at compile time or later, without the `builder` feature.
+            ///
+            /// Order: scalars, revision, revision of the tables, stage table, output table; each piece
+            /// of the stage the four coefficients of the flow, then of the potential. Words that [`Self::to_words`]
+            /// of this version did not make are read without harm, but step to forces without meaning.
+            ///
+            /// ```
+            /// #![no_std]
+            /// use dashpot_core::Damper;
+            #[doc = concat!("static DAMPER: Damper<", stringify!($float), "> =")]
+            #[doc = concat!("    Damper::<", stringify!($float), ">::from_words(&[0; Damper::<", stringify!($float), ">::WORDS]);")]
+            /// assert_eq!(DAMPER.revision(), 0); // all zero: no damper was built
+            /// assert_eq!(DAMPER.step(&mut DAMPER.at_rest(0.0), 1e-3), 0.0);
+            /// # extern crate std; // the test's own runner
+            /// ```
+            pub const fn from_words(words: &[$word; WORDS]) -> Self {
+                const fn cubic(words: &[$word; WORDS], from: usize) -> [$float; 4] {
+                    [
+                        $float::from_bits(words[from]),
+                        $float::from_bits(words[from + 1]),
+                        $float::from_bits(words[from + 2]),
+                        $float::from_bits(words[from + 3]),
+                    ]
+                }
+                let mut stage = [Piece { flow: [0.0; 4], potential: [0.0; 4] }; 2 * PIECES];
+                let mut output = [[0.0; 4]; 2 * PIECES];
+                let mut index = 0;
+                while index < 2 * PIECES {
+                    stage[index].flow = cubic(words, STAGE + 8 * index);
+                    stage[index].potential = cubic(words, STAGE + 8 * index + 4);
+                    output[index] = cubic(words, OUTPUT + 4 * index);
+                    index += 1;
+                }
+                Self {
+                    scalars: Scalars {
+                        step_s: $float::from_bits(words[0]),
+                        half_clearance: $float::from_bits(words[1]),
+                        held: $float::from_bits(words[2]),
+                        yield_stretch: $float::from_bits(words[3]),
+                        force_limit: $float::from_bits(words[4]),
+                        largest_move: $float::from_bits(words[5]),
+                        stage_scale: $float::from_bits(words[6]),
+                        stage_shift: $float::from_bits(words[7]),
+                        stage_shift_root: $float::from_bits(words[8]),
+                        output_scale: $float::from_bits(words[9]),
+                    },
+                    revision: words[SCALARS] as u32,
+                    tables_revision: words[SCALARS + 1] as u32,
+                    stage,
+                    output,
+                }
+            }
+
+            /// The words of this damper; [`Self::from_words`] gives it back to the bit.
+            pub fn to_words(&self) -> [$word; WORDS] {
+                let revisions = [self.revision, self.tables_revision].map($word::from);
+                let stage = self.stage.iter().flat_map(|piece| piece.flow.iter().chain(&piece.potential));
+                let coefficients = stage.chain(self.output.iter().flatten());
+                let scalars = self.scalars.as_array().map($float::to_bits);
+                let all = scalars.into_iter().chain(revisions).chain(coefficients.map(|c| c.to_bits()));
+                let mut words = [0; WORDS];
+                for (word, value) in words.iter_mut().zip(all) {
+                    *word = value;
+                }
+                words
+            }
+        }
+    };
+}
+
+words!(f32, u32);
+words!(f64, u64);
+
+#[cfg(test)]
+mod tests {
+    use super::WORDS;
+    use crate::Damper;
+
+    /// Words that are all different and none of them NaN: 1.0 and the numbers after it.
+    macro_rules! every_word_has_its_place {
+        ($float:ident, $word:ident) => {
+            let first = $float::to_bits(1.0);
+            let words: [$word; WORDS] = core::array::from_fn(|index| first + index as $word);
+            let damper = Damper::<$float>::from_words(&words);
+            let mut expected = words;
+            // Revisions have 32 bits.
+            for index in [10, 11] {
+                expected[index] = $word::from(words[index] as u32);
+            }
+            assert_eq!(damper.to_words(), expected);
+            assert_eq!(damper.step_s().to_bits(), words[0]);
+            assert_eq!(damper.force_limit_n().to_bits(), words[4]);
+            assert_eq!(damper.revision(), words[10] as u32);
+            assert_eq!(damper.output[127][3].to_bits(), words[WORDS - 1]);
+            let bytes = WORDS * core::mem::size_of::<$word>();
+            assert!(core::mem::size_of::<Damper<$float>>() <= bytes);
+        };
+    }
+
+    #[test]
+    fn every_f32_word_has_its_place() {
+        every_word_has_its_place!(f32, u32);
+    }
+
+    #[test]
+    fn every_f64_word_has_its_place() {
+        every_word_has_its_place!(f64, u64);
+    }
+
+    #[cfg(feature = "builder")]
+    #[test]
+    fn a_built_damper_comes_back() {
+        use crate::parameters::{DamperParameters, Element, Limits, Mount, Reduced};
+        let parameters = DamperParameters {
+            element: Element::Reduced(Reduced {
+                damping_n_s_per_m: 120e3,
+                saturation_velocity_m_per_s: 0.03,
+            }),
+            mount: Mount {
+                stiffness_n_per_m: 8e6,
+                seat_stiffness_n_per_m: None,
+                clearance_m: 1e-3,
+            },
+            limits: Limits::default(),
+        };
+        let single: Damper<f32> = parameters.build(1e-3).unwrap();
+        assert_eq!(Damper::<f32>::from_words(&single.to_words()), single);
+        let double: Damper<f64> = parameters.build(1e-4).unwrap();
+        assert_eq!(Damper::<f64>::from_words(&double.to_words()), double);
+    }
+}
