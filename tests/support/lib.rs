@@ -1,5 +1,10 @@
 //! Shared by tests and benches across the crates.
 
+pub mod accuracy;
+pub mod bench_test;
+pub mod document;
+pub mod tolerance;
+
 use dashpot_core::DamperParameters;
 use dashpot_hil::damper_file;
 
