@@ -137,7 +137,12 @@ fn tiny_states_are_flushed() {
                 assert!(!subnormal, "{preset}, tick {tick}: {state:?}");
             }
         }
-        assert_eq!(state.force(), 0.0, "{preset}: at rest");
+        // In `f32` a stretch of half a millimetre of clearance resolves 6e-11 m, 5e-4 N.
+        assert!(
+            state.force().abs() < 0.01,
+            "{preset}: {} N at rest",
+            state.force()
+        );
     }
 }
 

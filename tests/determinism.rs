@@ -27,7 +27,7 @@ const MOTIONS: [Motion; 4] = [
         if t < 3.0 {
             0.05 * (0.25 - (phase - 0.5).abs())
         } else {
-            0.0
+            -0.0125
         }
     }),
     ("decay", |t| {
@@ -38,7 +38,7 @@ const MOTIONS: [Motion; 4] = [
 /// FNV-1a, 64 bit, over the bits of the forces.
 fn digest<T: Real>(parameters: &DamperParameters, motion: fn(f64) -> f64) -> u64 {
     let damper: Damper<T> = parameters.build(STEP_S).expect("a valid damper");
-    let mut state = damper.at_rest(T::ZERO);
+    let mut state = damper.at_rest(T::from_f64(motion(0.0)));
     let mut hash = 0xcbf2_9ce4_8422_2325_u64;
     for tick in 0..=TICKS {
         let force = damper.step(&mut state, T::from_f64(motion(STEP_S * f64::from(tick))));

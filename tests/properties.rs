@@ -46,7 +46,11 @@ fn least_dissipation(parameters: &DamperParameters, stiffness: f64, motion: &[f6
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(64))]
+    #![proptest_config(ProptestConfig {
+        cases: 64,
+        failure_persistence: None,
+        ..ProptestConfig::default()
+    })]
 
     #[test]
     fn no_energy_comes_out_beyond_the_springs_store(
@@ -140,8 +144,8 @@ fn odd<T: Real>(parameters: &DamperParameters, motion: &[f64]) -> Result<(), Tes
     Ok(())
 }
 
-/// RMS error of the force at `step_s` against one 64 times smaller than the smallest used, at the
-/// times both have.
+/// RMS error of the force [N] at `step_s` against a step 32 times smaller than the smallest used, at
+/// the times both have.
 fn error(parameters: &DamperParameters, step_s: f64, motion: impl Fn(f64) -> f64) -> f64 {
     const FINE_S: f64 = 1.0 / 65_536.0;
     const DURATION_S: f64 = 1.0;
@@ -167,7 +171,6 @@ fn error(parameters: &DamperParameters, step_s: f64, motion: impl Fn(f64) -> f64
 fn order(parameters: &DamperParameters, largest_s: f64, motion: impl Fn(f64) -> f64) -> f64 {
     let coarse = error(parameters, largest_s, &motion);
     let fine = error(parameters, largest_s / 8.0, &motion);
-    println!("{coarse:e} {fine:e}");
     (coarse / fine).log2() / 3.0
 }
 
@@ -224,12 +227,16 @@ const MANY: u32 = 10_000_000;
 fn a_piston_at_rest_stays_where_it_is_over_ten_million_steps() {
     let damper: Damper<f32> = build(&damper("reduced-vertical", &[]), STEP_S);
     let mut state = damper.at_rest(0.0);
+    let mut early = state;
     for tick in 0..=MANY {
         assert_eq!(damper.step(&mut state, triangle(tick, 0.2e-3)), 0.0);
+        if tick == 2000 {
+            early = state;
+        }
     }
     assert_eq!(MANY % 2000, 0);
+    assert_eq!(state, early, "the state after the first cycle, bit for bit");
     assert_eq!(state.piston_displacement(), 0.0);
-    assert_eq!(state.displacement(), triangle(0, 0.2e-3));
 }
 
 #[test]

@@ -46,12 +46,15 @@ fn compression(pressure: f64) -> f64 {
     orifice(pressure) + compression_shim(pressure) + foot_shim(pressure, 0.0)
 }
 
+/// Where a laminar orifice straightens the law, the tables err by this near zero [N].
+const NEAR_ZERO_N: f64 = 5e-3;
+
 /// The step and the reference, driven at `velocity` (negative in compression), both have `force`.
 fn check(overrides: &[&str], velocity: f64, force: f64) {
     let parameters = damper("paper", overrides);
     let found = settled_force(&parameters, velocity);
     assert!(
-        (found / force - 1.0).abs() < 2e-5,
+        (found - force).abs() < 1e-5 * force.abs() + NEAR_ZERO_N,
         "{overrides:?} at {velocity} m/s: step {found} N, law {force} N"
     );
     let reference = Reference::new(&parameters).expect("a valid damper");

@@ -48,11 +48,11 @@ impl Indices {
     }
 }
 
-/// The fifth cycle of the motion by the step in `f64`.
+/// A cycle of the motion by the step in `f64`, after four cycles and three seconds at least.
 ///
 /// The cycle must be a whole number of ticks.
 pub fn settled_cycle(parameters: &DamperParameters, motion: Harmonic, step_s: f64) -> Indices {
-    const SETTLING_CYCLES: usize = 4;
+    let settling = (3.0 * motion.frequency_hz).ceil().max(4.0) as usize;
     let cycle = 1.0 / (motion.frequency_hz * step_s);
     assert!((cycle - cycle.round()).abs() < 1e-6 * cycle);
     let cycle = cycle.round() as usize;
@@ -62,12 +62,12 @@ pub fn settled_cycle(parameters: &DamperParameters, motion: Harmonic, step_s: f6
     let damper: Damper<f64> = parameters.build(step_s).expect("a valid damper");
     let mut state = damper.at_rest(displacement(0));
     let mut force = 0.0;
-    for tick in 1..=SETTLING_CYCLES * cycle {
+    for tick in 1..=settling * cycle {
         force = damper.step(&mut state, displacement(tick));
     }
     let (mut largest, mut smallest, mut energy) = (0.0_f64, 0.0_f64, 0.0);
     let (mut in_phase, mut in_quadrature) = (0.0, 0.0);
-    for tick in SETTLING_CYCLES * cycle + 1..=(SETTLING_CYCLES + 1) * cycle {
+    for tick in settling * cycle + 1..=(settling + 1) * cycle {
         let before = force;
         force = damper.step(&mut state, displacement(tick));
         energy += 0.5 * (before + force) * (displacement(tick) - displacement(tick - 1));
