@@ -215,8 +215,8 @@ impl<T: Real> Damper<T> {
         let mut correction = (mean - explicit_ratio * flow_first - flow_last)
             .larger(-most)
             .smaller(most);
-        // In contact on the same side all through: nothing to correct but rounding.
-        if potential * state.potential > T::ZERO {
+        // In contact on the same side all through: the law is smooth, nothing to correct but rounding.
+        if start.magnitude().smaller(last.magnitude()) > offset && start * last > T::ZERO {
             correction = T::ZERO;
         }
         if first.magnitude().larger(last.magnitude()) >= k.half_clearance + k.yield_stretch {

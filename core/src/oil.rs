@@ -95,15 +95,11 @@ impl Oil {
         (pow(10.0, pow(10.0, y)) - 0.7) * 1e-6
     }
 
-    /// Dynamic viscosity `mu = rho nu` at atmospheric pressure [Pa s].
-    pub fn dynamic_viscosity_pa_s(&self) -> f64 {
-        self.density_kg_per_m3(0.0) * self.kinematic_viscosity_m2_per_s()
-    }
-
-    /// `sqrt(2 P/rho(P))` [m/s], 0 for a pressure that does not drive.
-    pub(crate) fn jet_velocity(&self, pressure_pa: f64) -> f64 {
-        if pressure_pa > 0.0 {
-            sqrt(2.0 * pressure_pa / self.density_kg_per_m3(pressure_pa))
+    /// `sqrt(2 D/rho(P))` [m/s] of a pressure difference D from upstream pressure P, 0 when it does not
+    /// drive.
+    pub(crate) fn jet_velocity(&self, difference_pa: f64, upstream_pa: f64) -> f64 {
+        if difference_pa > 0.0 {
+            sqrt(2.0 * difference_pa / self.density_kg_per_m3(upstream_pa))
         } else {
             0.0
         }

@@ -8,4 +8,7 @@ pub mod damper_file;
 pub mod excitation;
 pub mod failure;
 pub mod output;
+pub mod recording;
 pub mod reference;
+pub mod replay;
+pub mod verification;

@@ -4,6 +4,8 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 use dashpot_hil::commands::contact::{self, ContactArguments};
+use dashpot_hil::commands::replay::{self, ReplayArguments};
+use dashpot_hil::commands::verify::{self, VerifyArguments};
 
 /// Desk host of the Dashpot damper.
 #[derive(Parser)]
@@ -16,11 +18,15 @@ struct Cli {
 #[derive(Subcommand)]
 enum Command {
     Contact(ContactArguments),
+    Replay(ReplayArguments),
+    Verify(VerifyArguments),
 }
 
 fn main() -> ExitCode {
     let outcome = match Cli::parse().command {
         Command::Contact(arguments) => contact::run(&arguments),
+        Command::Replay(arguments) => replay::run(&arguments),
+        Command::Verify(arguments) => verify::run(&arguments),
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,

@@ -18,8 +18,12 @@ use crate::parameters::{DamperParameters, Element, Limits, Mount, OilColumn, Red
 /// Corners a table can align with.
 type Corners = Vec<(f64, f64), 24>;
 
-/// Where the branch yields the law turns by a right angle, at a valve opening by a fraction.
-const YIELD_WEIGHT: f64 = 20.0;
+/// Weights of corners when a grid is aligned: the end of seal friction changes the springs' stiffness
+/// several-fold where forces are small; a reduced element yields in every run, a physical one at a
+/// limit it hardly meets.
+const FRICTION_WEIGHT: f64 = 5.0;
+const VALVE_WEIGHT: f64 = 1.0;
+const LIMIT_WEIGHT: f64 = 1e-3;
 
 impl DamperParameters {
     /// Checks every parameter.
@@ -123,14 +127,15 @@ impl DamperParameters {
             for corner in branch.corners() {
                 if corner < branch.force_limit {
                     // Capacity 24 exceeds both branches' corners.
-                    let _ = stage_corners.push((branch.reach(corner, stage_s) - held, 1.0));
+                    let _ =
+                        stage_corners.push((branch.reach(corner, stage_s) - held, VALVE_WEIGHT));
                 }
             }
             let yields = branch.reach(branch.force_limit, stage_s) - held;
-            let _ = stage_corners.push((yields, YIELD_WEIGHT));
-            let _ = output_corners.push((branch.deflection(branch.force_limit), YIELD_WEIGHT));
+            let _ = stage_corners.push((yields, LIMIT_WEIGHT));
+            let _ = output_corners.push((branch.deflection(branch.force_limit), LIMIT_WEIGHT));
             if held > 0.0 && branch.column.is_some() {
-                let _ = output_corners.push((held, 1.0));
+                let _ = output_corners.push((held, FRICTION_WEIGHT));
             }
         }
         // The last stage looks at most sqrt(2) times the largest stretch past a move; the end of

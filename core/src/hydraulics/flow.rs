@@ -59,9 +59,16 @@ impl ShimValve {
         })
     }
 
-    pub(crate) fn flow(&self, oil: &Oil, pressure_pa: f64, back_pressure_pa: f64) -> f64 {
-        let lift = (pressure_pa - self.preload_pa).max(0.0);
-        self.area_gradient * lift * oil.jet_velocity(pressure_pa - back_pressure_pa)
+    /// Flow at `difference_pa` across the valve, which lifts under `lift_pa`, from `upstream_pa`.
+    pub(crate) fn flow(
+        &self,
+        oil: &Oil,
+        lift_pa: f64,
+        difference_pa: f64,
+        upstream_pa: f64,
+    ) -> f64 {
+        let lift = (lift_pa - self.preload_pa).max(0.0);
+        self.area_gradient * lift * oil.jet_velocity(difference_pa, upstream_pa)
     }
 }
 
@@ -72,17 +79,18 @@ pub(crate) struct FlowPaths {
     pub(crate) orifice_area: f64,
     /// Flow at which laminar and turbulent pressure drop of the orifice are equal [m^3/s].
     transition_flow: f64,
-    /// Leakage conductance [m^3/(s Pa)].
+    /// Leakage conductance times density [kg/(s Pa)].
     leakage: f64,
     relief: Option<Relief>,
 }
 
 impl FlowPaths {
-    pub(crate) fn flow(&self, oil: &Oil, pressure_pa: f64) -> f64 {
+    /// Flow at `pressure_pa` across the piston, from `upstream_pa`.
+    pub(crate) fn flow(&self, oil: &Oil, pressure_pa: f64, upstream_pa: f64) -> f64 {
         if pressure_pa <= 0.0 {
             return 0.0;
         }
-        let turbulent = self.orifice_area * oil.jet_velocity(pressure_pa);
+        let turbulent = self.orifice_area * oil.jet_velocity(pressure_pa, upstream_pa);
         // P = R_t Q^2 + R_l Q with R_l = R_t Q_t and turbulent^2 = P/R_t.
         let orifice = if self.transition_flow > 0.0 && turbulent > 0.0 {
             let half = 0.5 * self.transition_flow;
@@ -94,9 +102,10 @@ impl FlowPaths {
             valve.discharge_coefficient
                 * valve.area_gradient_m2_per_pa
                 * (pressure_pa - valve.opening_pressure_pa).max(0.0)
-                * oil.jet_velocity(pressure_pa)
+                * oil.jet_velocity(pressure_pa, upstream_pa)
         });
-        orifice + self.leakage * pressure_pa + relief
+        let leakage = self.leakage * pressure_pa / oil.density_kg_per_m3(upstream_pa);
+        orifice + leakage + relief
     }
 }
 
@@ -117,6 +126,29 @@ pub(crate) struct Laws {
 }
 
 impl Laws {
+    /// Flow through the foot valve under the piston-side pressure.
+    pub(crate) fn through_foot(&self, pressure_pa: f64) -> f64 {
+        let difference = pressure_pa - self.back_pressure_pa;
+        self.foot
+            .flow(&self.oil, pressure_pa, difference, pressure_pa)
+    }
+
+    /// Flow through the piston in extension or compression at a difference from an upstream pressure.
+    pub(crate) fn through_piston(
+        &self,
+        compression: bool,
+        difference_pa: f64,
+        upstream_pa: f64,
+    ) -> f64 {
+        let valve = if compression {
+            self.compression
+        } else {
+            self.extension
+        };
+        self.paths.flow(&self.oil, difference_pa, upstream_pa)
+            + valve.flow(&self.oil, difference_pa, difference_pa, upstream_pa)
+    }
+
     pub(crate) fn new(hydraulics: &Hydraulics) -> Result<Self, BuildError> {
         let (piston_area, rod_area) = areas(hydraulics)?;
         let rod_side_area = piston_area - rod_area;
@@ -220,7 +252,7 @@ fn leakage(hydraulics: &Hydraulics) -> Result<f64, BuildError> {
     check("eccentricity_ratio", e, (0.0..=1.0).contains(&e), "0 to 1")?;
     let radius = 0.5 * hydraulics.geometry.piston_diameter_m;
     Ok(PI * radius * c * c * c * (1.0 + 1.5 * e * e)
-        / (6.0 * hydraulics.oil.dynamic_viscosity_pa_s() * leakage.length_m))
+        / (6.0 * hydraulics.oil.kinematic_viscosity_m2_per_s() * leakage.length_m))
 }
 
 fn relief(hydraulics: &Hydraulics) -> Result<Option<Relief>, BuildError> {
@@ -286,7 +318,7 @@ fn back_pressure(hydraulics: &Hydraulics, rod_area: f64) -> Result<f64, BuildErr
     let absolute = (reservoir.fill_pressure_pa + ATMOSPHERIC_PRESSURE_PA)
         * (reservoir.gas_volume_m3 / volume)
         * warming;
-    Ok((absolute - ATMOSPHERIC_PRESSURE_PA).max(0.0))
+    Ok(absolute - ATMOSPHERIC_PRESSURE_PA)
 }
 
 fn friction(hydraulics: &Hydraulics) -> Result<f64, BuildError> {

@@ -35,21 +35,18 @@ impl HydraulicSide<'_> {
             return 0.0;
         }
         if !self.compression {
-            let valve = laws.extension.flow(&laws.oil, pressure, 0.0);
-            return (laws.paths.flow(&laws.oil, pressure) + valve) / self.area();
+            return laws.through_piston(false, pressure, pressure) / self.area();
         }
         if let Some(vapour) = laws.vapour_pressure_pa {
             return compression_velocity(laws, vapour, force_n - laws.friction_n);
         }
-        let valve = laws.compression.flow(&laws.oil, pressure, 0.0);
-        let foot = laws.foot.flow(&laws.oil, pressure, laws.back_pressure_pa);
-        (laws.paths.flow(&laws.oil, pressure) + valve + foot) / self.area()
+        (laws.through_piston(true, pressure, pressure) + laws.through_foot(pressure)) / self.area()
     }
 
     /// Slope of the velocity over the root of the pressure, of the orifice alone [m/(s sqrt Pa)].
     pub(crate) fn orifice_velocity_per_root_pressure(&self) -> f64 {
         let laws = self.laws;
-        laws.paths.orifice_area * laws.oil.jet_velocity(1.0) / self.area()
+        laws.paths.orifice_area * laws.oil.jet_velocity(1.0, 0.0) / self.area()
     }
 
     /// Forces [N] at which the law has a corner: valves that open.

@@ -1,0 +1,152 @@
+//! `dashpot replay`: force over a recorded motion.
+
+use std::io::Write;
+use std::path::PathBuf;
+
+use dashpot_core::{DamperParameters, Real, Status};
+use serde::Serialize;
+
+use super::{DamperArguments, Format, Scalar, progress, step_s};
+use crate::failure::{Failure, Outcome};
+use crate::output::write_whole;
+use crate::recording::Recording;
+use crate::replay::{Summary, Ticks, replay};
+
+/// Force of a damper over a recorded motion.
+#[derive(Debug, Clone, clap::Args)]
+#[command(after_help = "Examples:
+  dashpot replay --damper paper --input data/excitations/ride_made.csv --output force.csv
+  dashpot replay --damper my.toml --set mount.clearance_m=1e-3 --input run7.csv --output f.csv --step-us 100
+
+Input columns time_s,displacement_m (any order, uneven times allowed); output time_s,displacement_m,force_n
+on ticks from the first sample on, the displacement linear between samples.")]
+pub struct ReplayArguments {
+    #[command(flatten)]
+    damper: DamperArguments,
+    /// Recorded motion, CSV.
+    #[arg(long, value_name = "FILE")]
+    input: PathBuf,
+    /// Force over time, CSV; written whole or not at all.
+    #[arg(long, value_name = "FILE")]
+    output: PathBuf,
+    /// Step, us.
+    #[arg(long, default_value_t = 1000, value_parser = clap::value_parser!(u32).range(1..=20_000))]
+    step_us: u32,
+    /// Floating-point type of the step.
+    #[arg(long, value_enum, default_value_t = Scalar::F32)]
+    scalar: Scalar,
+    /// How results are printed.
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    format: Format,
+}
+
+#[derive(Serialize)]
+struct Report {
+    ticks: u64,
+    step_s: f64,
+    force_rms_n: f64,
+    max_extension_force_n: f64,
+    max_compression_force_n: f64,
+    energy_j: f64,
+    rejected_inputs: u16,
+    input_held: bool,
+    input_limited: bool,
+    saturated: bool,
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// A damper, recording or output file that cannot be used.
+pub fn run(arguments: &ReplayArguments) -> Outcome<()> {
+    let parameters = arguments.damper.load()?;
+    if same_file(&arguments.input, &arguments.output) {
+        return Err(Failure::in_file(
+            &arguments.output,
+            "is the input too; give another output file",
+        ));
+    }
+    let summary = match arguments.scalar {
+        Scalar::F32 => write::<f32>(&parameters, arguments)?,
+        Scalar::F64 => write::<f64>(&parameters, arguments)?,
+    };
+    let report = Report {
+        ticks: summary.ticks,
+        step_s: step_s(arguments.step_us),
+        force_rms_n: summary.force_rms_n,
+        max_extension_force_n: summary.max_extension_force_n,
+        max_compression_force_n: summary.max_compression_force_n,
+        energy_j: summary.energy_j,
+        rejected_inputs: summary.rejected_inputs,
+        input_held: summary.status.contains(Status::INPUT_HELD),
+        input_limited: summary.status.contains(Status::INPUT_LIMITED),
+        saturated: summary.status.contains(Status::SATURATED),
+    };
+    match arguments.format {
+        Format::Json => super::print_json(&report),
+        Format::Text => print_text(&report, arguments),
+    }
+}
+
+fn same_file(a: &std::path::Path, b: &std::path::Path) -> bool {
+    matches!((a.canonicalize(), b.canonicalize()), (Ok(a), Ok(b)) if a == b)
+}
+
+fn write<T: Real + std::fmt::Display>(
+    parameters: &DamperParameters,
+    arguments: &ReplayArguments,
+) -> Outcome<Summary> {
+    let damper = parameters.build::<T>(step_s(arguments.step_us))?;
+    let length = std::fs::metadata(&arguments.input).map_or(0, |data| data.len());
+    let bar = progress::bar(length, "replay");
+    let mut ticks = Ticks::new(
+        Recording::open(&arguments.input)?,
+        step_s(arguments.step_us),
+    )?;
+    let mut summary = None;
+    write_whole(&arguments.output, |file| {
+        let failed = |error| Failure::in_file(&arguments.output, format!("cannot write: {error}"));
+        writeln!(file, "time_s,displacement_m,force_n").map_err(failed)?;
+        let mut number = 0_u32;
+        summary = Some(replay(&damper, &mut ticks, |tick, force, ticks| {
+            number = number.wrapping_add(1);
+            if number.is_multiple_of(65_536) {
+                bar.set_position(ticks.position());
+            }
+            writeln!(file, "{:.6},{},{force}", tick.time_s, tick.displacement_m).map_err(failed)
+        })?);
+        Ok(())
+    })?;
+    bar.finish_and_clear();
+    summary.ok_or_else(|| Failure::new("nothing was replayed"))
+}
+
+fn print_text(report: &Report, arguments: &ReplayArguments) -> Outcome<()> {
+    let mut lines = vec![
+        format!(
+            "{} ticks of {} us through damper {}",
+            report.ticks, arguments.step_us, arguments.damper.damper
+        ),
+        format!("force rms              {:>12.1} N", report.force_rms_n),
+        format!(
+            "largest in extension   {:>12.1} N",
+            report.max_extension_force_n
+        ),
+        format!(
+            "largest in compression {:>12.1} N",
+            report.max_compression_force_n
+        ),
+        format!("energy dissipated      {:>12.1} J", report.energy_j),
+    ];
+    if report.input_limited {
+        lines.push(format!(
+            "warning: {} ticks moved faster than limits.rate_m_per_s and were followed at that rate",
+            report.rejected_inputs
+        ));
+    }
+    if report.saturated {
+        lines.push("note: the damper reached its saturation force or force limit".into());
+    }
+    lines.push(format!("wrote {}", arguments.output.display()));
+    super::print_lines(&lines)
+}
