@@ -47,11 +47,13 @@ pub struct Scalars<T> {
     pub(crate) stage_shift_root: T,
     /// Scale of the output table [1/m].
     pub(crate) output_scale: T,
+    /// Stiffness of the mount, which alone stretches under seal friction [N/m].
+    pub(crate) mount_stiffness: T,
 }
 
 impl<T: Real> Scalars<T> {
     /// The numbers in order of declaration.
-    pub(crate) fn as_array(&self) -> [T; 10] {
+    pub(crate) fn as_array(&self) -> [T; 11] {
         [
             self.step_s,
             self.half_clearance,
@@ -63,6 +65,7 @@ impl<T: Real> Scalars<T> {
             self.stage_shift,
             self.stage_shift_root,
             self.output_scale,
+            self.mount_stiffness,
         ]
     }
 }
@@ -100,7 +103,7 @@ pub struct Damper<T> {
     pub(crate) tables_revision: u32,
     /// Flow of a stage over the stretch beyond clearance and friction, and the flow potential reached.
     pub(crate) stage: Table<T>,
-    /// Force over the stretch beyond the clearance, and the flow potential there.
+    /// Force beyond friction over the stretch beyond clearance and friction, and the flow potential.
     pub(crate) output: Table<T>,
 }
 
@@ -229,15 +232,23 @@ impl<T: Real> Damper<T> {
         let (piece, z) = self.output_at(sprung, stretch);
         state.stretch = stretch;
         state.potential = cubic(&piece.potential, z);
-        state.force = cubic(&piece.response, z);
+        state.force = self.friction_force(sprung, stretch) + cubic(&piece.response, z);
         state.force
     }
 
     /// Piece of the output table for the stretch of the springs, and z in it.
     #[inline(always)]
     fn output_at(&self, sprung: T, direction: T) -> (&Piece<T>, T) {
-        let y = (sprung * self.scalars.output_scale).square_root();
+        let beyond = (sprung - self.scalars.held).larger(T::ZERO);
+        let y = (beyond * self.scalars.output_scale).square_root();
         locate(&self.output, y, direction)
+    }
+
+    /// Part of the force [N] up to seal friction, which the mount alone makes.
+    #[inline(always)]
+    fn friction_force(&self, sprung: T, direction: T) -> T {
+        let part = sprung.smaller(self.scalars.held) * self.scalars.mount_stiffness;
+        if direction < T::ZERO { -part } else { part }
     }
 
     /// Carries a state over from another damper: displacement and force stay, the stretch becomes
@@ -277,7 +288,8 @@ impl<T: Real> Damper<T> {
         for _ in 0..T::DIGITS + 2 {
             let middle = half * (low + high);
             let (piece, z) = self.output_at(middle, direction);
-            if cubic(&piece.response, z).magnitude() < magnitude {
+            let force = self.friction_force(middle, direction) + cubic(&piece.response, z);
+            if force.magnitude() < magnitude {
                 low = middle;
             } else {
                 high = middle;
