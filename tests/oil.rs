@@ -68,13 +68,6 @@ fn viscosity_goes_through_its_points_and_straight_between_on_the_chart() {
 }
 
 #[test]
-fn dynamic_viscosity_is_density_times_kinematic() {
-    let warm = oil(40.0, None);
-    let expected = 870.0 / (1.0 + 7e-4 * 25.0) * 15e-6;
-    assert!((warm.dynamic_viscosity_pa_s() / expected - 1.0).abs() < 1e-12);
-}
-
-#[test]
 fn modulus_agrees_with_the_closed_form() {
     for n in [1.0, 1.2, 1.4] {
         for alpha in [0.0, 5e-4, 0.02] {
