@@ -1,0 +1,102 @@
+//! Accuracy of the fixed step against the reference solver, every case within its row of the one
+//! tolerance table and no row looser than needed. Writes and checks the table in docs/numerics.md.
+
+use std::collections::HashMap;
+use std::fmt::Write;
+
+use dashpot::accuracy::{DAMPERS, Errors, STEPS_S, measure_all};
+use dashpot::document;
+use dashpot::tolerance::{FILE, LEAST_USE, SLACK, Tolerance, required, rows, to_text};
+use dashpot_hil::excitation::Excitation;
+
+type Found = HashMap<(&'static str, &'static str), Errors>;
+
+const SCALARS: [&str; 2] = ["f64", "f32"];
+
+/// Damper and excitation of every row, in order.
+fn cases() -> impl Iterator<Item = (&'static str, &'static str)> {
+    DAMPERS.into_iter().flat_map(|(damper, _, _)| {
+        Excitation::ALL
+            .into_iter()
+            .map(move |excitation| (damper, excitation.name()))
+    })
+}
+
+fn bless(found: &Found) {
+    let rows: Vec<Tolerance> = cases()
+        .map(|case| Tolerance {
+            damper: case.0.to_owned(),
+            excitation: case.1.to_owned(),
+            nrmse: found[&case]
+                .nrmse
+                .map(|scalars| scalars.map(|nrmse| SLACK * nrmse)),
+        })
+        .collect();
+    document::compare(FILE, &to_text(&rows));
+}
+
+/// What is wrong with the measured errors and the table.
+fn complaints(found: &Found) -> Vec<String> {
+    let rows = rows();
+    let mut complaints = Vec::new();
+    for case in cases() {
+        let row = rows
+            .iter()
+            .find(|row| (row.damper.as_str(), row.excitation.as_str()) == case);
+        let Some(row) = row else {
+            complaints.push(format!("{case:?} has no row in {FILE}"));
+            continue;
+        };
+        for (step, step_s) in STEPS_S.into_iter().enumerate() {
+            for (scalar, name) in SCALARS.into_iter().enumerate() {
+                let measured = found[&case].nrmse[step][scalar];
+                let allowed = row.nrmse[step][scalar];
+                let required = required(case.0, step)[scalar];
+                let place = format!("{case:?}, {step_s} s, {name}: {measured:.2e}");
+                if measured > required {
+                    complaints.push(format!("{place} is above the required {required:.0e}"));
+                }
+                if measured > allowed {
+                    complaints.push(format!("{place} is above its row {allowed:.1e}"));
+                }
+                if measured < LEAST_USE * allowed {
+                    complaints.push(format!(
+                        "{place}: the row {allowed:.1e} is looser than needed"
+                    ));
+                }
+            }
+        }
+    }
+    if rows.len() != cases().count() {
+        complaints.push(format!("{FILE} has {} rows, not one a case", rows.len()));
+    }
+    complaints
+}
+
+/// The measured table of docs/numerics.md.
+fn document_part(found: &Found) -> String {
+    let mut text = String::from(
+        "| damper | excitation | 1 kHz f64 | 1 kHz f32 | 10 kHz f64 | 10 kHz f32 |\n|---|---|---|---|---|---|\n",
+    );
+    for case in cases() {
+        let [[slow, slow_single], [fast, fast_single]] = found[&case].nrmse;
+        writeln!(
+            text,
+            "| {} | {} | {slow:.1e} | {slow_single:.1e} | {fast:.1e} | {fast_single:.1e} |",
+            case.0, case.1
+        )
+        .expect("text grows");
+    }
+    text
+}
+
+#[test]
+fn every_case_meets_its_row_and_no_row_is_looser_than_needed() {
+    let found = measure_all();
+    if document::blessing() {
+        bless(&found);
+    }
+    let complaints = complaints(&found);
+    assert!(complaints.is_empty(), "\n{}", complaints.join("\n"));
+    document::compare_part("docs/numerics.md", "measured", &document_part(&found));
+}

@@ -1,0 +1,88 @@
+//! One digest for every damper and motion: the same force bits on every machine.
+//!
+//! The motions are made with `libm`, not with the machine's own sine, so the input is the same too.
+
+use std::f64::consts::TAU;
+use std::fmt::Write;
+
+use dashpot::{damper, document};
+use dashpot_core::{Damper, DamperParameters, Real};
+
+const STEP_S: f64 = 1e-3;
+const TICKS: u32 = 4000;
+
+/// A motion: name and displacement [m] at a time [s].
+type Motion = (&'static str, fn(f64) -> f64);
+
+const MOTIONS: [Motion; 4] = [
+    ("ride", |t| {
+        (1..=20)
+            .map(f64::from)
+            .map(|line| 2e-3 / line * libm::sin(TAU * 0.71 * line * t + line * line))
+            .sum()
+    }),
+    ("sweep", |t| 0.8e-3 * libm::sin(TAU * 3.0 * t * t)),
+    ("saw", |t| {
+        let phase = 2.0 * t - libm::floor(2.0 * t);
+        if t < 3.0 {
+            0.05 * (0.25 - (phase - 0.5).abs())
+        } else {
+            -0.0125
+        }
+    }),
+    ("decay", |t| {
+        0.01 * libm::exp(-2.0 * t) * libm::sin(TAU * 1.4 * t)
+    }),
+];
+
+/// FNV-1a, 64 bit, over the bits of the forces.
+fn digest<T: Real>(parameters: &DamperParameters, motion: fn(f64) -> f64) -> u64 {
+    let damper: Damper<T> = parameters.build(STEP_S).expect("a valid damper");
+    let mut state = damper.at_rest(T::from_f64(motion(0.0)));
+    let mut hash = 0xcbf2_9ce4_8422_2325_u64;
+    for tick in 0..=TICKS {
+        let force = damper.step(&mut state, T::from_f64(motion(STEP_S * f64::from(tick))));
+        // Both zeros are one force.
+        let bits = if force == T::ZERO {
+            0
+        } else {
+            force.to_bits_u64()
+        };
+        for byte in bits.to_le_bytes() {
+            hash = (hash ^ u64::from(byte)).wrapping_mul(0x100_0000_01b3);
+        }
+    }
+    assert!(
+        state.rejected_inputs() == 0,
+        "the motion is within the rate limit"
+    );
+    hash
+}
+
+#[test]
+fn forces_are_the_golden_bits() {
+    let mut text = String::from("# damper, motion, digest of the f32 forces, of the f64 forces\n");
+    for (name, preset, overrides) in dashpot::accuracy::DAMPERS {
+        let parameters = damper(preset, overrides);
+        for (motion_name, motion) in MOTIONS {
+            writeln!(
+                text,
+                "{name}; {motion_name}; {:016x}; {:016x}",
+                digest::<f32>(&parameters, motion),
+                digest::<f64>(&parameters, motion)
+            )
+            .expect("text grows");
+        }
+    }
+    document::compare("tests/golden/forces.txt", &text);
+}
+
+#[test]
+fn the_digest_sees_a_single_bit() {
+    let parameters = damper("paper", &[]);
+    let base = digest::<f32>(&parameters, |t| 1e-3 * libm::sin(9.0 * t));
+    let other = digest::<f32>(&parameters, |t| {
+        1e-3 * libm::sin(9.0 * t) + if t == 1.0 { 2e-9 } else { 0.0 }
+    });
+    assert_ne!(base, other);
+}

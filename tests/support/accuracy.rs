@@ -1,0 +1,131 @@
+//! The fixed step against the reference solver: which dampers, which motions, which error.
+
+use std::collections::HashMap;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use dashpot_core::{Damper, DamperParameters, Real};
+use dashpot_hil::excitation::Excitation;
+use dashpot_hil::reference::Reference;
+
+use crate::damper;
+
+/// A damper of the accuracy table: its name there, the preset and what is set in it.
+pub const DAMPERS: [(&str, &str, &[&str]); 7] = [
+    ("paper", "paper", &[]),
+    (
+        "paper, 2a 1 mm, Ke 8 MN/m",
+        "paper",
+        &["mount.clearance_m=1e-3", "mount.stiffness_n_per_m=8e6"],
+    ),
+    (
+        "paper, Ke 14 MN/m",
+        "paper",
+        &["mount.stiffness_n_per_m=14e6"],
+    ),
+    (
+        "paper, Ke 40 MN/m",
+        "paper",
+        &["mount.stiffness_n_per_m=40e6"],
+    ),
+    ("reduced-vertical", "reduced-vertical", &[]),
+    ("in-service", "in-service", &[]),
+    (
+        "in-service, two chambers",
+        "in-service",
+        &["two_chamber.vapour_pressure_pa=-9e4"],
+    ),
+];
+
+/// Step sizes of the accuracy table [s].
+pub const STEPS_S: [f64; 2] = [1e-3, 1e-4];
+
+/// Errors of one damper under one excitation.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Errors {
+    /// For each step size of [`STEPS_S`] the NRMSE in `f64` and in `f32`.
+    pub nrmse: [[f64; 2]; 2],
+}
+
+/// Root of the mean square difference over the root mean square of `expected`, the first sample
+/// (rest) left out.
+pub fn nrmse(actual: &[f64], expected: &[f64]) -> f64 {
+    assert_eq!(actual.len(), expected.len());
+    let (mut error, mut scale) = (0.0, 0.0);
+    for (actual, expected) in actual.iter().zip(expected).skip(1) {
+        error += (actual - expected).powi(2);
+        scale += expected * expected;
+    }
+    (error / scale).sqrt()
+}
+
+/// Displacements of the excitation rounded to `f32`, so that both scalars and the reference are
+/// given the same motion.
+pub fn displacements_m(excitation: Excitation, step_s: f64) -> Vec<f64> {
+    let exact = excitation.displacements_m(step_s);
+    exact.iter().map(|x| f64::from(*x as f32)).collect()
+}
+
+/// Forces of the fixed step [N] over the displacements, from rest at the first one.
+pub fn stepped<T: Real>(
+    parameters: &DamperParameters,
+    step_s: f64,
+    displacements: &[f64],
+) -> Vec<f64> {
+    let damper: Damper<T> = parameters.build(step_s).expect("a valid damper");
+    let mut state = damper.at_rest(T::from_f64(displacements[0]));
+    displacements
+        .iter()
+        .map(|x| damper.step(&mut state, T::from_f64(*x)).to_f64())
+        .collect()
+}
+
+/// NRMSE in `f64` and `f32` of one case; one reference solution.
+pub fn errors(parameters: &DamperParameters, excitation: Excitation, step_s: f64) -> [f64; 2] {
+    let displacements = displacements_m(excitation, step_s);
+    let times: Vec<f64> = (0..displacements.len())
+        .map(|tick| tick as f64 * step_s)
+        .collect();
+    let reference = Reference::new(parameters)
+        .and_then(|mut reference| reference.forces(&times, &displacements))
+        .expect("the reference solves every damper of the table");
+    [
+        nrmse(
+            &stepped::<f64>(parameters, step_s, &displacements),
+            &reference,
+        ),
+        nrmse(
+            &stepped::<f32>(parameters, step_s, &displacements),
+            &reference,
+        ),
+    ]
+}
+
+/// Errors of every damper under every excitation, by the damper's and the excitation's name.
+pub fn measure_all() -> HashMap<(&'static str, &'static str), Errors> {
+    let mut cases = Vec::new();
+    for (row, preset, overrides) in DAMPERS {
+        for excitation in Excitation::ALL {
+            for step in [1, 0] {
+                cases.push((row, preset, overrides, excitation, step));
+            }
+        }
+    }
+    let found = Mutex::new(HashMap::new());
+    let next = AtomicUsize::new(0);
+    std::thread::scope(|scope| {
+        for _ in 0..std::thread::available_parallelism().map_or(2, usize::from) {
+            scope.spawn(|| {
+                while let Some(case) = cases.get(next.fetch_add(1, Ordering::Relaxed)) {
+                    let &(row, preset, overrides, excitation, step) = case;
+                    let parameters = damper(preset, overrides);
+                    let nrmse = errors(&parameters, excitation, STEPS_S[step]);
+                    let mut found = found.lock().expect("no case panicked before");
+                    let entry: &mut Errors = found.entry((row, excitation.name())).or_default();
+                    entry.nrmse[step] = nrmse;
+                }
+            });
+        }
+    });
+    found.into_inner().expect("no case panicked")
+}

@@ -1,0 +1,54 @@
+//! Documents and digests a test generates and compares.
+
+use std::path::PathBuf;
+
+/// Whether `DASHPOT_BLESS=1` asks to rewrite what is generated.
+pub fn blessing() -> bool {
+    std::env::var_os("DASHPOT_BLESS").is_some_and(|value| value == "1")
+}
+
+/// A file of the repository.
+pub fn in_repository(path: &str) -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(path)
+}
+
+/// The text of a file of the repository.
+pub fn read(path: &str) -> String {
+    std::fs::read_to_string(in_repository(path)).unwrap_or_else(|error| panic!("{path}: {error}"))
+}
+
+/// Asserts that the file holds `text`, or writes it when blessing.
+pub fn compare(path: &str, text: &str) {
+    if blessing() {
+        std::fs::write(in_repository(path), text).unwrap_or_else(|error| panic!("{path}: {error}"));
+        return;
+    }
+    let found = std::fs::read_to_string(in_repository(path)).unwrap_or_default();
+    if found != text {
+        let line = found
+            .lines()
+            .zip(text.lines())
+            .position(|(found, text)| found != text)
+            .unwrap_or_else(|| found.lines().count().min(text.lines().count()));
+        panic!(
+            "{path}:{}: `{}` should be `{}`; DASHPOT_BLESS=1 rewrites the file, then judge the difference",
+            line + 1,
+            found.lines().nth(line).unwrap_or("(end)"),
+            text.lines().nth(line).unwrap_or("(end)"),
+        );
+    }
+}
+
+/// Asserts that the part of the file between the lines `<!-- name -->` and `<!-- end -->` is
+/// `text`, or writes it when blessing.
+pub fn compare_part(path: &str, name: &str, text: &str) {
+    let whole = read(path);
+    let start = format!("<!-- {name} -->\n");
+    let (before, rest) = whole
+        .split_once(&start)
+        .unwrap_or_else(|| panic!("{path}: no line `<!-- {name} -->`"));
+    let (_, after) = rest
+        .split_once("<!-- end -->")
+        .unwrap_or_else(|| panic!("{path}: no `<!-- end -->` after `<!-- {name} -->`"));
+    compare(path, &format!("{before}{start}{text}<!-- end -->{after}"));
+}

@@ -1,0 +1,70 @@
+//! The one table of tolerances: NRMSE of the fixed step against the reference solver.
+//!
+//! Its rows are in `tolerance.csv`. `DASHPOT_BLESS=1` writes them anew at [`SLACK`] times the measured
+//! error; no row, blessed or not, may exceed [`required`].
+
+use crate::accuracy::{DAMPERS, STEPS_S};
+
+/// A row is at most the measured error over this share, so one looser than needed fails.
+pub const LEAST_USE: f64 = 0.5;
+
+/// A blessed row over the measured error.
+pub const SLACK: f64 = 1.4;
+
+/// File of the rows.
+pub const FILE: &str = "tests/support/tolerance.csv";
+
+/// One damper under one excitation.
+#[derive(Clone, Debug)]
+pub struct Tolerance {
+    /// Name in [`DAMPERS`].
+    pub damper: String,
+    /// Name of the excitation.
+    pub excitation: String,
+    /// For each step size of [`STEPS_S`] the NRMSE allowed in `f64` and in `f32`.
+    pub nrmse: [[f64; 2]; 2],
+}
+
+/// NRMSE the product requires at step size `step` of [`STEPS_S`], in `f64` and in `f32`: at 1 kHz 1e-3
+/// up to 14 MN/m and 3e-3 beyond, at 10 kHz 3e-5 and 6e-5.
+pub fn required(damper: &str, step: usize) -> [f64; 2] {
+    assert!(DAMPERS.iter().any(|(name, _, _)| *name == damper));
+    if STEPS_S[step] < 5e-4 {
+        [3e-5, 6e-5]
+    } else if damper == "paper, Ke 40 MN/m" {
+        [3e-3, 3e-3]
+    } else {
+        [1e-3, 1e-3]
+    }
+}
+
+/// The rows.
+pub fn rows() -> Vec<Tolerance> {
+    let text = crate::document::read(FILE);
+    text.lines()
+        .skip(1)
+        .map(|line| {
+            let cells: Vec<&str> = line.split(';').map(str::trim).collect();
+            let number = |column: usize| cells[column].parse().expect("a number");
+            Tolerance {
+                damper: cells[0].to_owned(),
+                excitation: cells[1].to_owned(),
+                nrmse: [[number(2), number(3)], [number(4), number(5)]],
+            }
+        })
+        .collect()
+}
+
+/// Text of the file with the rows.
+pub fn to_text(rows: &[Tolerance]) -> String {
+    let mut text =
+        String::from("damper; excitation; 1 kHz f64; 1 kHz f32; 10 kHz f64; 10 kHz f32\n");
+    for row in rows {
+        let [[slow, slow_single], [fast, fast_single]] = row.nrmse;
+        text += &format!(
+            "{}; {}; {slow:.1e}; {slow_single:.1e}; {fast:.1e}; {fast_single:.1e}\n",
+            row.damper, row.excitation
+        );
+    }
+    text
+}
