@@ -13,6 +13,8 @@
 
 #[cfg(feature = "builder")]
 mod build;
+#[cfg(feature = "builder")]
+pub mod characteristic;
 mod damper;
 mod error;
 #[cfg(feature = "builder")]
