@@ -5,7 +5,10 @@
 pub mod commands;
 pub mod contact;
 pub mod damper_file;
+pub mod demonstration;
 pub mod excitation;
 pub mod failure;
 pub mod output;
+mod plot;
 pub mod reference;
+pub mod rig;

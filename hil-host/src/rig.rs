@@ -61,13 +61,25 @@ pub struct Indices {
     pub energy_per_cycle_j: f64,
     /// Mean of both largest forces over the peak velocity [N s/m].
     pub damping_coefficient_n_s_per_m: f64,
+}
+
+/// One settled cycle: displacement [m] and force [N] at each step.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Cycle {
+    /// The motion.
+    pub motion: Harmonic,
+    /// Displacements [m], from the first step after zero.
+    pub displacements_m: Vec<f64>,
+    /// Forces [N] at them.
+    pub forces_n: Vec<f64>,
     /// Step used [s]: the one asked for, shortened to a whole number of steps a cycle.
     pub step_s: f64,
     /// Cycles run until the force repeated.
     pub cycles: usize,
 }
 
-/// Runs a damper in double precision through `motion` with steps of at most `step_s` [s].
+/// Runs a damper in double precision through `motion` with steps of at most `step_s` [s] until the
+/// force repeats.
 ///
 /// # Errors
 /// A motion or step outside its range or faster than the damper's limit; a damper that does not build;
@@ -77,11 +89,12 @@ pub struct Indices {
 /// use dashpot_hil::{damper_file, rig};
 /// let damper = damper_file::load("reduced-vertical", &["mount.clearance_m=0.0".into()])?;
 /// let motion = rig::Harmonic { amplitude_m: 1e-3, frequency_hz: 1.0 };
-/// let indices = rig::run(&damper, motion, 1e-4)?;
-/// assert!((indices.max_extension_force_n / 750.7 - 1.0).abs() < 1e-3); // C 2 pi f A / sqrt(1 + (w C/K)^2)
+/// let indices = rig::settle(&damper, motion, 1e-4)?.indices();
+/// // A spring K behind a damper C: C w A/sqrt(1 + (w C/K)^2).
+/// assert!((indices.max_extension_force_n / 750.65 - 1.0).abs() < 1e-4);
 /// # Ok::<(), dashpot_hil::failure::Failure>(())
 /// ```
-pub fn run(parameters: &DamperParameters, motion: Harmonic, step_s: f64) -> Outcome<Indices> {
+pub fn settle(parameters: &DamperParameters, motion: Harmonic, step_s: f64) -> Outcome<Cycle> {
     motion.check()?;
     if !(1e-6..=2e-2).contains(&step_s) {
         return Err(Failure::new(format!(
@@ -119,7 +132,13 @@ pub fn run(parameters: &DamperParameters, motion: Harmonic, step_s: f64) -> Outc
             )));
         }
         if cycle > 1 && change <= SETTLED * peak {
-            return Ok(indices(&motion, &displacements, &forces, step_s, cycle));
+            return Ok(Cycle {
+                motion,
+                displacements_m: displacements,
+                forces_n: forces,
+                step_s,
+                cycles: cycle,
+            });
         }
     }
     Err(Failure::new(format!(
@@ -128,32 +147,28 @@ pub fn run(parameters: &DamperParameters, motion: Harmonic, step_s: f64) -> Outc
     )))
 }
 
-fn indices(
-    motion: &Harmonic,
-    displacements: &[f64],
-    forces: &[f64],
-    step_s: f64,
-    cycles: usize,
-) -> Indices {
-    let extension = forces.iter().fold(0.0, |most: f64, &force| most.max(force));
-    let compression = forces
-        .iter()
-        .fold(0.0, |most: f64, &force| most.max(-force));
-    let ticks = forces.len();
-    let energy = (0..ticks)
-        .map(|tick| {
-            let last = (tick + ticks - 1) % ticks;
-            0.5 * (forces[tick] + forces[last]) * (displacements[tick] - displacements[last])
-        })
-        .sum();
-    let sum = extension + compression;
-    Indices {
-        max_extension_force_n: extension,
-        max_compression_force_n: compression,
-        asymmetry_rate: (sum > 0.0).then(|| (extension - compression) / sum),
-        energy_per_cycle_j: energy,
-        damping_coefficient_n_s_per_m: 0.5 * sum / motion.peak_velocity_m_per_s(),
-        step_s,
-        cycles,
+impl Cycle {
+    /// The indices of this cycle; its energy by the trapezoidal rule.
+    pub fn indices(&self) -> Indices {
+        let (forces, x) = (&self.forces_n, &self.displacements_m);
+        let extension = forces.iter().fold(0.0, |most: f64, &force| most.max(force));
+        let compression = forces
+            .iter()
+            .fold(0.0, |most: f64, &force| most.max(-force));
+        let ticks = forces.len();
+        let energy = (0..ticks)
+            .map(|tick| {
+                let last = (tick + ticks - 1) % ticks;
+                0.5 * (forces[tick] + forces[last]) * (x[tick] - x[last])
+            })
+            .sum();
+        let sum = extension + compression;
+        Indices {
+            max_extension_force_n: extension,
+            max_compression_force_n: compression,
+            asymmetry_rate: (sum > 0.0).then(|| (extension - compression) / sum),
+            energy_per_cycle_j: energy,
+            damping_coefficient_n_s_per_m: 0.5 * sum / self.motion.peak_velocity_m_per_s(),
+        }
     }
 }

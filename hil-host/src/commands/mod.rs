@@ -1,6 +1,9 @@
 //! The commands of `dashpot`, one a file.
 
 pub mod contact;
+pub mod demonstrate;
+pub mod rig;
+pub mod shims;
 
 use dashpot_core::DamperParameters;
 

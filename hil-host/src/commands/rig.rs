@@ -66,14 +66,15 @@ pub fn run(arguments: &RigArguments) -> Outcome<()> {
         amplitude_m: arguments.amplitude_m,
         frequency_hz: arguments.frequency_hz,
     };
-    let indices = rig::run(&damper, motion, arguments.step_us * 1e-6)?;
+    let cycle = rig::settle(&damper, motion, arguments.step_us * 1e-6)?;
+    let indices = cycle.indices();
     let report = Report {
         damper: &arguments.damper.damper,
         amplitude_m: motion.amplitude_m,
         frequency_hz: motion.frequency_hz,
         peak_velocity_m_per_s: motion.peak_velocity_m_per_s(),
-        step_s: indices.step_s,
-        cycles: indices.cycles,
+        step_s: cycle.step_s,
+        cycles: cycle.cycles,
         max_extension_force_n: indices.max_extension_force_n,
         max_compression_force_n: indices.max_compression_force_n,
         asymmetry_rate: indices.asymmetry_rate,
