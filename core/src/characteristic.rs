@@ -67,7 +67,11 @@ impl Characteristic {
                 (reduced.damping_n_s_per_m * speed.min(yields)).min(self.force_limit_n)
             }
         };
-        if velocity_m_per_s < 0.0 { -force } else { force }
+        if velocity_m_per_s < 0.0 {
+            -force
+        } else {
+            force
+        }
     }
 
     /// Flow [m^3/s] through a shim-pack valve under its pressure [Pa], the foot valve against the

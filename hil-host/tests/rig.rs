@@ -42,7 +42,10 @@ fn the_reduced_damper_without_clearance_is_a_maxwell_element() {
             (found.damping_coefficient_n_s_per_m, c / ratio.sqrt()),
         ] {
             let error = (value / expected - 1.0).abs();
-            assert!(error < 2e-5, "{frequency_hz} Hz: {value} {expected} {error:e}");
+            assert!(
+                error < 2e-5,
+                "{frequency_hz} Hz: {value} {expected} {error:e}"
+            );
         }
         assert!(found.asymmetry_rate.unwrap().abs() < 1e-6);
     }
@@ -91,16 +94,30 @@ fn the_published_damper_peaks_at_its_static_forces() {
 #[test]
 fn text_stands_beside_the_paper_for_its_motion_only() {
     let text = String::from_utf8(dashpot(&[]).stdout).unwrap();
-    assert!(text.contains("paper simulation") && text.contains("12892"), "{text}");
+    assert!(
+        text.contains("paper simulation") && text.contains("12892"),
+        "{text}"
+    );
     let text = String::from_utf8(dashpot(&["--frequency-hz", "1"]).stdout).unwrap();
-    assert!(!text.contains("paper simulation") && text.contains("energy per cycle"), "{text}");
+    assert!(
+        !text.contains("paper simulation") && text.contains("energy per cycle"),
+        "{text}"
+    );
 }
 
 #[test]
 fn failures_say_what_and_what_is_allowed() {
     for (arguments, code, part) in [
-        (&["--amplitude-m", "0"][..], 1, "--amplitude-m: 0, allowed: above 0"),
-        (&["--frequency-hz", "nan"][..], 1, "--frequency-hz: NaN, allowed"),
+        (
+            &["--amplitude-m", "0"][..],
+            1,
+            "--amplitude-m: 0, allowed: above 0",
+        ),
+        (
+            &["--frequency-hz", "nan"][..],
+            1,
+            "--frequency-hz: NaN, allowed",
+        ),
         (&["--step-us", "0.1"][..], 1, "allowed: 1e-6 to 2e-2 s"),
         (&["--frequency-hz", "900"][..], 1, "allowed: 20 to 2e7"),
         (

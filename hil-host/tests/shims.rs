@@ -34,13 +34,21 @@ fn theory_stands_beside_the_published_deflections() {
         let radii = valve["pack"]["cw"].as_array().unwrap();
         assert!(radii[0]["cw_m6_per_n"].as_f64().unwrap().abs() < 1e-4 * cw);
         near(&radii[radii.len() - 1]["cw_m6_per_n"], cw, 1e-4);
-        near(&valve["pack"]["edge_compliance_m_per_pa"], theory * 1e-9, 2e-4);
+        near(
+            &valve["pack"]["edge_compliance_m_per_pa"],
+            theory * 1e-9,
+            2e-4,
+        );
         let told = valve["theory_over_published"].as_f64().unwrap();
         assert!((told - ratio).abs() < 0.5, "{told} {ratio}");
         for row in valve["pressures"].as_array().unwrap() {
             let pressure = row["pressure_pa"].as_f64().unwrap();
             near(&row["theory_uniform_m"], theory * 1e-9 * pressure, 2e-4);
-            near(&row["published_uniform_m"], published * 1e-9 * pressure, 5e-3);
+            near(
+                &row["published_uniform_m"],
+                published * 1e-9 * pressure,
+                5e-3,
+            );
             let lift = ce * published * 1e-9 * pressure;
             near(&row["lift_m"], lift, 1e-3);
             let flow = 0.61 * std::f64::consts::TAU * edge * lift * (2.0 * pressure / 860.0).sqrt();
@@ -82,5 +90,8 @@ fn a_reduced_damper_has_no_packs() {
     let output = dashpot(&["--damper", "reduced-lateral", "--no-plots"]);
     assert_eq!(output.status.code(), Some(1));
     let message = String::from_utf8(output.stderr).unwrap();
-    assert!(message.contains("reduced damper has no shim packs; allowed:"), "{message}");
+    assert!(
+        message.contains("reduced damper has no shim packs; allowed:"),
+        "{message}"
+    );
 }

@@ -74,19 +74,27 @@ pub fn run(arguments: &DemonstrateArguments) -> Outcome<()> {
 fn print(out: &mut impl Write, shown: &Demonstration, page: &str) -> std::io::Result<()> {
     writeln!(
         out,
-        "locomotive damper on a made ride, fixed step against reference\n\n  {:<12}{:>10}{:>11}{:>24}{:>26}{:>17}",
-        "damper", "rate, kHz", "precision", "rms error / rms force", "largest error / peak", "median ns/step"
+        "locomotive damper on a made ride, fixed step against reference\n\n  {:<12}{:>10}{:>11}{:>23}{:>10}{:>22}{:>16}",
+        "damper",
+        "rate, kHz",
+        "precision",
+        "rms error / rms force",
+        "limit",
+        "largest error / peak",
+        "median ns/step"
     )?;
     for row in &shown.accuracy {
         writeln!(
             out,
-            "  {:<12}{:>10.0}{:>11}{:>24.2e}{:>26.2e}{:>17.0}",
+            "  {:<12}{:>10.0}{:>11}{:>23.2e}{:>10.0e}{:>22.2e}{:>16.0}{}",
             row.damper,
             1e-3 / row.step_s,
             row.scalar,
             row.nrmse,
+            row.nrmse_limit,
             row.largest_error_over_peak,
-            row.median_ns_per_step
+            row.median_ns_per_step,
+            if row.over_limit() { "  over" } else { "" }
         )?;
     }
     writeln!(out, "\npage: {page}")

@@ -107,7 +107,11 @@ fn published(motion: &Harmonic) -> Outcome<Vec<Published>> {
         .map_err(|error| Failure::new(format!("Table 5: {error}")))
 }
 
-fn print(out: &mut impl Write, report: &Report<'_>, published: &[Published]) -> std::io::Result<()> {
+fn print(
+    out: &mut impl Write,
+    report: &Report<'_>,
+    published: &[Published],
+) -> std::io::Result<()> {
     writeln!(
         out,
         "{}: +-{:.3} mm at {} Hz, peak velocity {:.4} m/s; cycle {} repeats, step {:.2} us\n",
@@ -118,9 +122,10 @@ fn print(out: &mut impl Write, report: &Report<'_>, published: &[Published]) -> 
         report.cycles,
         report.step_s * 1e6
     )?;
-    let asymmetry = report
-        .asymmetry_rate
-        .map_or_else(|| "no force".to_owned(), |rate| format!("{:.2}", rate * 1e2));
+    let asymmetry = report.asymmetry_rate.map_or_else(
+        || "no force".to_owned(),
+        |rate| format!("{:.2}", rate * 1e2),
+    );
     let rows = [
         (
             "damping coefficient",

@@ -7,7 +7,9 @@ use super::conicity::RollingRadius;
 use super::geometry::RigidContact;
 use super::pair::Pair;
 use crate::failure::Outcome;
-use crate::plot::style::{BLUE_LINE, FINE, INK, LINE, RED_LINE, axes, draw, extent, failed, letters};
+use crate::plot::style::{
+    BLUE_LINE, FINE, INK, LINE, RED_LINE, axes, draw, extent, failed, letters,
+};
 
 /// Wheel over rail with lines between the points that touch at each lateral shift in `contacts`.
 ///

@@ -34,14 +34,15 @@ pub(super) fn force(ride: &Ride) -> Outcome<String> {
     };
     let curves = vec![
         Curve::new("reference", PALE, shown(&ride.reference_n)).wide(22),
-        Curve::new("fixed step, 1 kHz, f32", BLUE_LINE, shown(&ride.fixed_step_n)).wide(6),
+        Curve::new(
+            "fixed step, 1 kHz, f32",
+            BLUE_LINE,
+            shown(&ride.fixed_step_n),
+        )
+        .wide(6),
     ];
     let legend = SeriesLabelPosition::UpperRight;
-    sheet(
-        1040,
-        360,
-        &[panel("time, s", "force, kN", legend, curves)],
-    )
+    sheet(1040, 360, &[panel("time, s", "force, kN", legend, curves)])
 }
 
 /// Error of the fixed step over the whole ride.
@@ -119,7 +120,12 @@ pub(super) fn bench_loops(bench: &Bench) -> Outcome<String> {
         1040,
         400,
         &[
-            panel("displacement, mm", "force, kN", legend.clone(), displacement),
+            panel(
+                "displacement, mm",
+                "force, kN",
+                legend.clone(),
+                displacement,
+            ),
             panel("velocity, m/s", "force, kN", legend, velocity),
         ],
     )
@@ -141,6 +147,11 @@ pub(super) fn characteristics(benches: &[Bench]) -> Outcome<String> {
     sheet(
         1040,
         400,
-        &[panel("velocity, m/s", "force, kN", legend, curves.collect())],
+        &[panel(
+            "velocity, m/s",
+            "force, kN",
+            legend,
+            curves.collect(),
+        )],
     )
 }

@@ -40,10 +40,28 @@ pub struct Accuracy {
     pub step_s: f64,
     /// rms of the error over rms of the force [1].
     pub nrmse: f64,
+    /// The project's limit for it [1].
+    pub nrmse_limit: f64,
     /// Largest error over largest force [1].
     pub largest_error_over_peak: f64,
     /// Median cost of a step, unpaced [ns].
     pub median_ns_per_step: f64,
+}
+
+impl Accuracy {
+    /// Whether the error is above the project's limit.
+    pub fn over_limit(&self) -> bool {
+        self.nrmse > self.nrmse_limit
+    }
+}
+
+/// The project's limits of [`Accuracy::nrmse`] for series stiffnesses up to 14 MN/m.
+fn nrmse_limit(step_s: f64, scalar: &str) -> f64 {
+    match (step_s, scalar) {
+        (step_s, _) if step_s > 1.1e-4 => 1e-3,
+        (_, "f32") => 6e-5,
+        _ => 3e-5,
+    }
 }
 
 /// Forces over the ride at 1 kHz.
@@ -105,6 +123,7 @@ pub fn run(mut tell: impl FnMut(String)) -> Outcome<Demonstration> {
                     scalar,
                     step_s,
                     nrmse,
+                    nrmse_limit: nrmse_limit(step_s, scalar),
                     largest_error_over_peak: largest,
                     median_ns_per_step: measured.median_ns,
                 });

@@ -20,7 +20,11 @@ pub(crate) fn failed(error: impl std::fmt::Display) -> Failure {
 }
 
 /// Draws on a white sheet of `width` by `height` pixels and gives the SVG's text.
-pub(crate) fn draw(width: u32, height: u32, paint: impl FnOnce(&Area<'_>) -> Outcome<()>) -> Outcome<String> {
+pub(crate) fn draw(
+    width: u32,
+    height: u32,
+    paint: impl FnOnce(&Area<'_>) -> Outcome<()>,
+) -> Outcome<String> {
     let mut text = String::new();
     {
         let area =
@@ -36,6 +40,15 @@ pub(crate) fn draw(width: u32, height: u32, paint: impl FnOnce(&Area<'_>) -> Out
 /// Lettering of `size` pixels.
 pub(crate) fn letters(size: u32, colour: &'static RGBColor) -> TextStyle<'static> {
     TextStyle::from((FONT, size * FINE).into_font()).color(colour)
+}
+
+/// A number on an axis, zero without a sign.
+pub(crate) fn label(value: f64, digits: usize) -> String {
+    let text = format!("{value:.digits$}");
+    match text.strip_prefix('-') {
+        Some(zero) if zero.chars().all(|c| c == '0' || c == '.') => zero.to_owned(),
+        _ => text,
+    }
 }
 
 /// One set of axes with the house's lettering; `$digits` are those behind the point, (x, y).
@@ -58,8 +71,8 @@ macro_rules! axes {
             .bold_line_style(INK.mix(0.12).stroke_width(FINE))
             .axis_style(INK.mix(0.6).stroke_width(FINE))
             .set_all_tick_mark_size(5 * FINE)
-            .x_label_formatter(&|x| format!("{x:.*}", $digits.0))
-            .y_label_formatter(&|y| format!("{y:.*}", $digits.1))
+            .x_label_formatter(&|x| $crate::plot::style::label(*x, $digits.0))
+            .y_label_formatter(&|y| $crate::plot::style::label(*y, $digits.1))
             .x_labels(11)
             .y_labels(8)
             .draw()
