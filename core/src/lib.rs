@@ -14,6 +14,8 @@
 pub mod bank;
 #[cfg(feature = "builder")]
 mod build;
+#[cfg(feature = "builder")]
+pub mod characteristic;
 mod damper;
 mod error;
 #[cfg(feature = "builder")]

@@ -5,10 +5,13 @@
 pub mod commands;
 pub mod contact;
 pub mod damper_file;
+pub mod demonstration;
 pub mod excitation;
 pub mod failure;
 pub mod output;
+mod plot;
 pub mod recording;
 pub mod reference;
 pub mod replay;
+pub mod rig;
 pub mod verification;

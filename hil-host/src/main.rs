@@ -4,29 +4,48 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 use dashpot_hil::commands::contact::{self, ContactArguments};
+use dashpot_hil::commands::demonstrate::{self, DemonstrateArguments};
 use dashpot_hil::commands::replay::{self, ReplayArguments};
+use dashpot_hil::commands::rig::{self, RigArguments};
+use dashpot_hil::commands::shims::{self, ShimsArguments};
 use dashpot_hil::commands::verify::{self, VerifyArguments};
 
-/// Desk host of the Dashpot damper.
+/// Desk host of the Dashpot damper. Without a command: the demonstration.
 #[derive(Parser)]
-#[command(name = "dashpot", version)]
+#[command(
+    name = "dashpot",
+    version,
+    args_conflicts_with_subcommands = true,
+    after_help = "Examples:
+  dashpot
+  dashpot --output damper.html
+  dashpot rig --damper paper --amplitude-m 24.875e-3 --frequency-hz 0.64"
+)]
 struct Cli {
+    #[command(flatten)]
+    demonstration: DemonstrateArguments,
     #[command(subcommand)]
-    command: Command,
+    command: Option<Command>,
 }
 
 #[derive(Subcommand)]
 enum Command {
-    Contact(ContactArguments),
     Replay(ReplayArguments),
+    Rig(RigArguments),
     Verify(VerifyArguments),
+    Shims(ShimsArguments),
+    Contact(ContactArguments),
 }
 
 fn main() -> ExitCode {
-    let outcome = match Cli::parse().command {
-        Command::Contact(arguments) => contact::run(&arguments),
-        Command::Replay(arguments) => replay::run(&arguments),
-        Command::Verify(arguments) => verify::run(&arguments),
+    let cli = Cli::parse();
+    let outcome = match &cli.command {
+        None => demonstrate::run(&cli.demonstration),
+        Some(Command::Replay(arguments)) => replay::run(arguments),
+        Some(Command::Rig(arguments)) => rig::run(arguments),
+        Some(Command::Verify(arguments)) => verify::run(arguments),
+        Some(Command::Shims(arguments)) => shims::run(arguments),
+        Some(Command::Contact(arguments)) => contact::run(arguments),
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,

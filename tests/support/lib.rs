@@ -1,14 +1,11 @@
 //! Shared by tests and benches across the crates.
 
-<<<<<<< HEAD
-pub mod look_up;
-pub mod newton;
-=======
 pub mod accuracy;
 pub mod bench_test;
 pub mod document;
+pub mod look_up;
+pub mod newton;
 pub mod tolerance;
->>>>>>> truth
 
 use dashpot_core::DamperParameters;
 use dashpot_hil::damper_file;

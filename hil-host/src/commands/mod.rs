@@ -1,8 +1,11 @@
 //! The commands of `dashpot`, one a file.
 
 pub mod contact;
+pub mod demonstrate;
 pub mod progress;
 pub mod replay;
+pub mod rig;
+pub mod shims;
 pub mod verify;
 
 use std::io::Write;

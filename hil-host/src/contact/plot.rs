@@ -1,85 +1,15 @@
 //! Plots of a pair: contact points, rolling radius and angle, conicity; SVG.
 
-use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::conicity::RollingRadius;
 use super::geometry::RigidContact;
 use super::pair::Pair;
-use crate::failure::{Failure, Outcome};
-
-/// The backend rounds to whole units; drawn this much larger, curves stay smooth.
-const FINE: u32 = 4;
-const FONT: &str = "sans-serif";
-const INK: RGBColor = RGBColor(38, 50, 56);
-const BLUE_LINE: RGBColor = RGBColor(21, 101, 192);
-const RED_LINE: RGBColor = RGBColor(198, 40, 40);
-const LINE: u32 = 2 * FINE;
-
-type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
-
-fn failed(error: impl std::fmt::Display) -> Failure {
-    Failure::new(format!("cannot draw: {error}"))
-}
-
-/// Draws on a white sheet of `width` by `height` pixels and gives the SVG's text.
-fn draw(width: u32, height: u32, paint: impl FnOnce(&Area<'_>) -> Outcome<()>) -> Outcome<String> {
-    let mut text = String::new();
-    {
-        let area =
-            SVGBackend::with_string(&mut text, (width * FINE, height * FINE)).into_drawing_area();
-        area.fill(&WHITE).map_err(failed)?;
-        paint(&area)?;
-        area.present().map_err(failed)?;
-    }
-    let drawn = format!("width=\"{}\" height=\"{}\"", width * FINE, height * FINE);
-    Ok(text.replacen(&drawn, &format!("width=\"{width}\" height=\"{height}\""), 1))
-}
-
-/// Lettering of `size` pixels.
-fn letters(size: u32, colour: &'static RGBColor) -> TextStyle<'static> {
-    TextStyle::from((FONT, size * FINE).into_font()).color(colour)
-}
-
-/// One set of axes with the house's lettering.
-macro_rules! axes {
-    ($area:expr, $title:expr, $x:expr, $y:expr, $x_label:expr, $y_label:expr, $digits:expr) => {{
-        let mut chart = ChartBuilder::on($area)
-            .caption($title, letters(20, &INK))
-            .margin(14 * FINE)
-            .x_label_area_size(44 * FINE)
-            .y_label_area_size(60 * FINE)
-            .build_cartesian_2d($x, $y)
-            .map_err(failed)?;
-        chart
-            .configure_mesh()
-            .x_desc($x_label)
-            .y_desc($y_label)
-            .axis_desc_style(letters(15, &INK))
-            .label_style(letters(14, &INK))
-            .light_line_style(WHITE)
-            .bold_line_style(INK.mix(0.12).stroke_width(FINE))
-            .axis_style(INK.mix(0.6).stroke_width(FINE))
-            .set_all_tick_mark_size(5 * FINE)
-            .x_label_formatter(&|x| format!("{x:.0}"))
-            .y_label_formatter(&|y| format!("{y:.*}", $digits))
-            .x_labels(11)
-            .y_labels(8)
-            .draw()
-            .map_err(failed)?;
-        chart
-    }};
-}
-
-/// Least and greatest of `values`, widened by a twentieth.
-fn extent(values: impl Iterator<Item = f64>) -> std::ops::Range<f64> {
-    let (low, high) = values.fold((f64::MAX, f64::MIN), |(low, high), value| {
-        (low.min(value), high.max(value))
-    });
-    let room = 0.05 * (high - low).max(1e-6);
-    low - room..high + room
-}
+use crate::failure::Outcome;
+use crate::plot::style::{
+    BLUE_LINE, FINE, INK, LINE, RED_LINE, axes, draw, extent, failed, letters,
+};
 
 /// Wheel over rail with lines between the points that touch at each lateral shift in `contacts`.
 ///
@@ -110,7 +40,7 @@ pub fn contact_points(pair: &Pair, contacts: &[RigidContact]) -> Outcome<String>
             y,
             "lateral place from the track centre, mm (wheelset centred)",
             "height, mm (wheel lifted by 30 mm)",
-            0
+            (0, 0)
         );
         let greatest = contacts
             .iter()
@@ -196,7 +126,7 @@ pub fn rolling_radius(contacts: &[RigidContact]) -> Outcome<String> {
             extent(contacts.iter().map(difference)),
             "lateral shift at the rails' top, mm (right positive)",
             "difference, mm",
-            0
+            (0, 0)
         );
         chart
             .draw_series(LineSeries::new(
@@ -213,7 +143,7 @@ pub fn rolling_radius(contacts: &[RigidContact]) -> Outcome<String> {
             extent(both),
             "lateral shift at the rails' top, mm (right positive)",
             "angle, degrees",
-            0
+            (0, 0)
         );
         for (side, name, colour) in [(1, "right wheel", RED_LINE), (0, "left wheel", BLUE_LINE)] {
             chart
@@ -262,7 +192,7 @@ pub fn conicity(rolling: &RollingRadius, radius: f64, reach: f64) -> Outcome<Str
             0.0..1.08 * highest,
             "amplitude of the lateral motion, mm",
             "equivalent conicity, tan",
-            1
+            (0, 1)
         );
         chart
             .draw_series(LineSeries::new(points, BLUE_LINE.stroke_width(LINE)))

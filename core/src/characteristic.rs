@@ -1,0 +1,113 @@
+//! Static laws of a damper, for curves and checks outside the step.
+
+use crate::build::root::bracketed_root;
+use crate::error::BuildError;
+use crate::hydraulics::{HydraulicSide, Laws};
+use crate::parameters::{DamperParameters, Element, Reduced};
+
+/// One of the three shim-pack valves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ShimPackValve {
+    /// In the piston, working in extension.
+    PistonExtension,
+    /// In the piston, working in compression.
+    PistonCompression,
+    /// In the foot, working in compression against the reservoir.
+    FootCompression,
+}
+
+#[allow(clippy::large_enum_variant)] // one per damper, never in an array
+enum Law {
+    Physical(Laws),
+    Reduced(Reduced),
+}
+
+/// Laws of a damper at constant velocity: springs settled, clearance taken up.
+pub struct Characteristic {
+    law: Law,
+    force_limit_n: f64,
+}
+
+impl Characteristic {
+    /// The static laws of a damper.
+    ///
+    /// # Errors
+    /// As [`DamperParameters::validate`].
+    pub fn new(parameters: &DamperParameters) -> Result<Self, BuildError> {
+        parameters.validate()?;
+        let law = match &parameters.element {
+            Element::Physical(hydraulics) => Law::Physical(Laws::new(hydraulics)?),
+            Element::Reduced(reduced) => Law::Reduced(*reduced),
+        };
+        Ok(Self {
+            law,
+            force_limit_n: parameters.limits.force_n,
+        })
+    }
+
+    /// Force [N] at a constant velocity [m/s], both positive in extension; 0 at rest. At most the force
+    /// at which the damper yields.
+    pub fn force_n(&self, velocity_m_per_s: f64) -> f64 {
+        if velocity_m_per_s == 0.0 {
+            return 0.0;
+        }
+        let speed = velocity_m_per_s.abs();
+        let force = match &self.law {
+            Law::Physical(laws) => {
+                let side = HydraulicSide {
+                    laws,
+                    compression: velocity_m_per_s < 0.0,
+                };
+                bracketed_root(laws.friction_n, self.force_limit_n, |force| {
+                    side.velocity(force) - speed
+                })
+            }
+            Law::Reduced(reduced) => {
+                let yields = reduced.saturation_velocity_m_per_s;
+                (reduced.damping_n_s_per_m * speed.min(yields)).min(self.force_limit_n)
+            }
+        };
+        if velocity_m_per_s < 0.0 {
+            -force
+        } else {
+            force
+        }
+    }
+
+    /// Flow [m^3/s] through a shim-pack valve under its pressure [Pa], the foot valve against the
+    /// reservoir: `Q = Cd 2 pi r_w k_w (P - P_0)+ sqrt(2 (P - P_b)+/rho)`. `None` for a reduced damper.
+    ///
+    /// ```
+    /// use dashpot_core::characteristic::{Characteristic, ShimPackValve};
+    /// use dashpot_core::parameters::{DamperParameters, Element, Limits, Mount, Reduced};
+    ///
+    /// let characteristic = Characteristic::new(&DamperParameters {
+    ///     element: Element::Reduced(Reduced {
+    ///         damping_n_s_per_m: 120e3,
+    ///         saturation_velocity_m_per_s: 0.03,
+    ///     }),
+    ///     mount: Mount { stiffness_n_per_m: 8e6, seat_stiffness_n_per_m: None, clearance_m: 1e-3 },
+    ///     limits: Limits::default(),
+    /// })?;
+    /// assert_eq!(characteristic.force_n(0.01), 1200.0);
+    /// assert_eq!(characteristic.force_n(-0.1), -3600.0);
+    /// assert!(characteristic.valve_flow_m3_per_s(ShimPackValve::FootCompression, 1e6).is_none());
+    /// # Ok::<(), dashpot_core::BuildError>(())
+    /// ```
+    pub fn valve_flow_m3_per_s(&self, valve: ShimPackValve, pressure_pa: f64) -> Option<f64> {
+        let Law::Physical(laws) = &self.law else {
+            return None;
+        };
+        let (valve, back_pressure) = match valve {
+            ShimPackValve::PistonExtension => (&laws.extension, 0.0),
+            ShimPackValve::PistonCompression => (&laws.compression, 0.0),
+            ShimPackValve::FootCompression => (&laws.foot, laws.back_pressure_pa),
+        };
+        Some(valve.flow(
+            &laws.oil,
+            pressure_pa,
+            pressure_pa - back_pressure,
+            pressure_pa,
+        ))
+    }
+}

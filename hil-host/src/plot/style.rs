@@ -1,0 +1,93 @@
+//! Sheet, colours, lettering and axes of every plot.
+
+use plotters::coord::Shift;
+use plotters::prelude::*;
+
+use crate::failure::{Failure, Outcome};
+
+/// The backend rounds to whole units; drawn this much larger, curves stay smooth.
+pub(crate) const FINE: u32 = 4;
+const FONT: &str = "sans-serif";
+pub(crate) const INK: RGBColor = RGBColor(38, 50, 56);
+pub(crate) const BLUE_LINE: RGBColor = RGBColor(21, 101, 192);
+pub(crate) const RED_LINE: RGBColor = RGBColor(198, 40, 40);
+pub(crate) const LINE: u32 = 2 * FINE;
+
+pub(crate) type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
+
+pub(crate) fn failed(error: impl std::fmt::Display) -> Failure {
+    Failure::new(format!("cannot draw: {error}"))
+}
+
+/// Draws on a white sheet of `width` by `height` pixels and gives the SVG's text.
+pub(crate) fn draw(
+    width: u32,
+    height: u32,
+    paint: impl FnOnce(&Area<'_>) -> Outcome<()>,
+) -> Outcome<String> {
+    let mut text = String::new();
+    {
+        let area =
+            SVGBackend::with_string(&mut text, (width * FINE, height * FINE)).into_drawing_area();
+        area.fill(&WHITE).map_err(failed)?;
+        paint(&area)?;
+        area.present().map_err(failed)?;
+    }
+    let drawn = format!("width=\"{}\" height=\"{}\"", width * FINE, height * FINE);
+    Ok(text.replacen(&drawn, &format!("width=\"{width}\" height=\"{height}\""), 1))
+}
+
+/// Lettering of `size` pixels.
+pub(crate) fn letters(size: u32, colour: &'static RGBColor) -> TextStyle<'static> {
+    TextStyle::from((FONT, size * FINE).into_font()).color(colour)
+}
+
+/// A number on an axis, zero without a sign.
+pub(crate) fn label(value: f64, digits: usize) -> String {
+    let text = format!("{value:.digits$}");
+    match text.strip_prefix('-') {
+        Some(zero) if zero.chars().all(|c| c == '0' || c == '.') => zero.to_owned(),
+        _ => text,
+    }
+}
+
+/// One set of axes with the house's lettering; `$digits` are those behind the point, (x, y).
+macro_rules! axes {
+    ($area:expr, $title:expr, $x:expr, $y:expr, $x_label:expr, $y_label:expr, $digits:expr) => {{
+        let mut chart = ChartBuilder::on($area)
+            .caption($title, letters(20, &INK))
+            .margin(14 * FINE)
+            .x_label_area_size(44 * FINE)
+            .y_label_area_size(60 * FINE)
+            .build_cartesian_2d($x, $y)
+            .map_err(failed)?;
+        chart
+            .configure_mesh()
+            .x_desc($x_label)
+            .y_desc($y_label)
+            .axis_desc_style(letters(15, &INK))
+            .label_style(letters(14, &INK))
+            .light_line_style(WHITE)
+            .bold_line_style(INK.mix(0.12).stroke_width(FINE))
+            .axis_style(INK.mix(0.6).stroke_width(FINE))
+            .set_all_tick_mark_size(5 * FINE)
+            .x_label_formatter(&|x| $crate::plot::style::label(*x, $digits.0))
+            .y_label_formatter(&|y| $crate::plot::style::label(*y, $digits.1))
+            .x_labels(11)
+            .y_labels(8)
+            .draw()
+            .map_err(failed)?;
+        chart
+    }};
+}
+
+pub(crate) use axes;
+
+/// Least and greatest of `values`, widened by a twentieth.
+pub(crate) fn extent(values: impl Iterator<Item = f64>) -> std::ops::Range<f64> {
+    let (low, high) = values.fold((f64::MAX, f64::MIN), |(low, high), value| {
+        (low.min(value), high.max(value))
+    });
+    let room = 0.05 * (high - low).max(1e-6);
+    low - room..high + room
+}

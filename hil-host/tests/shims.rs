@@ -1,0 +1,97 @@
+//! `dashpot shims` from outside: theory, tables, flow, plots, failures.
+
+use std::process::{Command, Output};
+
+fn dashpot(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_dashpot"))
+        .arg("shims")
+        .args(arguments)
+        .output()
+        .unwrap()
+}
+
+#[test]
+fn theory_stands_beside_the_published_deflections() {
+    let folder = tempfile::tempdir().unwrap();
+    let plots = folder.path().join("plots");
+    let output = dashpot(&["--format", "json", "--plots", plots.to_str().unwrap()]);
+    assert!(output.status.success(), "{output:?}");
+    let report: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    // Cw at the edge and deflection under 1 MPa from the disc theory, the published rate, Ce and the
+    // edge's circumference: figures of the paper and of its check by hand.
+    let expected = [
+        (2.1427e-19, 0.4511, 0.01360, 0.2169, 0.029, 33.0),
+        (2.1427e-19, 0.5650, 0.01370, 0.2000, 0.029, 41.0),
+        (9.6981e-21, 0.04273, 0.001446, 0.8265, 0.011, 30.0),
+    ];
+    for (valve, (cw, theory, published, ce, edge, ratio)) in
+        report["valves"].as_array().unwrap().iter().zip(expected)
+    {
+        let near = |value: &serde_json::Value, expected: f64, share: f64| {
+            let value = value.as_f64().unwrap();
+            assert!((value / expected - 1.0).abs() < share, "{value} {expected}");
+        };
+        let radii = valve["pack"]["cw"].as_array().unwrap();
+        assert!(radii[0]["cw_m6_per_n"].as_f64().unwrap().abs() < 1e-4 * cw);
+        near(&radii[radii.len() - 1]["cw_m6_per_n"], cw, 1e-4);
+        near(
+            &valve["pack"]["edge_compliance_m_per_pa"],
+            theory * 1e-9,
+            2e-4,
+        );
+        let told = valve["theory_over_published"].as_f64().unwrap();
+        assert!((told - ratio).abs() < 0.5, "{told} {ratio}");
+        for row in valve["pressures"].as_array().unwrap() {
+            let pressure = row["pressure_pa"].as_f64().unwrap();
+            near(&row["theory_uniform_m"], theory * 1e-9 * pressure, 2e-4);
+            near(
+                &row["published_uniform_m"],
+                published * 1e-9 * pressure,
+                5e-3,
+            );
+            let lift = ce * published * 1e-9 * pressure;
+            near(&row["lift_m"], lift, 1e-3);
+            let flow = 0.61 * std::f64::consts::TAU * edge * lift * (2.0 * pressure / 860.0).sqrt();
+            near(&row["flow_m3_per_s"], flow, 1e-3);
+        }
+    }
+    for name in ["shim-deflection.svg", "valve-flow.svg"] {
+        let svg = std::fs::read_to_string(plots.join(name)).unwrap();
+        assert!(svg.starts_with("<svg width=\"1440\"") && svg.trim_end().ends_with("</svg>"));
+        assert!(svg.matches("<polyline").count() >= 3);
+    }
+}
+
+#[test]
+fn text_states_the_erratum() {
+    let output = dashpot(&["--no-plots"]);
+    let text = String::from_utf8(output.stdout).unwrap();
+    assert!(text.contains("33, 41 and 30 times"), "{text}");
+    assert!(text.contains("piston extension: clamped at 16.0 mm, free at 29.0 mm, 7 shims"));
+    assert!(!text.contains("plots:"));
+}
+
+#[test]
+fn another_pack_has_no_published_figures() {
+    let output = dashpot(&[
+        "--no-plots",
+        "--format",
+        "json",
+        "--set",
+        "valves.foot_compression.free_radius_m=0.012",
+    ]);
+    let report: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert!(report["valves"][2]["theory_over_published"].is_null());
+    assert!(report["valves"][0]["theory_over_published"].is_f64());
+}
+
+#[test]
+fn a_reduced_damper_has_no_packs() {
+    let output = dashpot(&["--damper", "reduced-lateral", "--no-plots"]);
+    assert_eq!(output.status.code(), Some(1));
+    let message = String::from_utf8(output.stderr).unwrap();
+    assert!(
+        message.contains("reduced damper has no shim packs; allowed:"),
+        "{message}"
+    );
+}
