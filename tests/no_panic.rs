@@ -76,7 +76,7 @@ impl References {
     }
 
     /// Panic symbols reachable from `entry`.
-    fn panics_from(&self, entry: &str) -> Vec<&str> {
+    fn panics_from<'a>(&'a self, entry: &'a str) -> Vec<&'a str> {
         assert!(self.0.contains_key(entry), "no symbol {entry}");
         let mut seen = BTreeSet::new();
         let mut open = vec![entry];
