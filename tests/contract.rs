@@ -137,12 +137,11 @@ fn tiny_states_are_flushed() {
                 assert!(!subnormal, "{preset}, tick {tick}: {state:?}");
             }
         }
-        // In `f32` a stretch of half a millimetre of clearance resolves 6e-11 m, 5e-4 N.
-        assert!(
-            state.force().abs() < 0.01,
-            "{preset}: {} N at rest",
-            state.force()
-        );
+        // Seal friction holds its force; beyond it, in `f32` a stretch of half a millimetre of clearance
+        // resolves 6e-11 m, 5e-4 N.
+        let held = if preset == "in-service" { 100.0 } else { 0.0 };
+        let rest = state.force().abs();
+        assert!(rest < held + 0.01, "{preset}: {rest} N at rest");
     }
 }
 
