@@ -4,6 +4,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 use dashpot_hil::commands::contact::{self, ContactArguments};
+use dashpot_hil::commands::export::{self, ExportArguments};
 
 /// Desk host of the Dashpot damper.
 #[derive(Parser)]
@@ -16,11 +17,13 @@ struct Cli {
 #[derive(Subcommand)]
 enum Command {
     Contact(ContactArguments),
+    Export(ExportArguments),
 }
 
 fn main() -> ExitCode {
     let outcome = match Cli::parse().command {
         Command::Contact(arguments) => contact::run(&arguments),
+        Command::Export(arguments) => export::run(&arguments),
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,

@@ -1,6 +1,7 @@
 //! The commands of `dashpot`, one a file.
 
 pub mod contact;
+pub mod export;
 
 use dashpot_core::DamperParameters;
 
