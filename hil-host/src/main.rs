@@ -3,6 +3,7 @@
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
+use dashpot_hil::commands::budget::{self, BudgetArguments};
 use dashpot_hil::commands::contact::{self, ContactArguments};
 use dashpot_hil::commands::export::{self, ExportArguments};
 
@@ -16,12 +17,14 @@ struct Cli {
 
 #[derive(Subcommand)]
 enum Command {
+    Budget(BudgetArguments),
     Contact(ContactArguments),
     Export(ExportArguments),
 }
 
 fn main() -> ExitCode {
     let outcome = match Cli::parse().command {
+        Command::Budget(arguments) => budget::run(&arguments),
         Command::Contact(arguments) => contact::run(&arguments),
         Command::Export(arguments) => export::run(&arguments),
     };

@@ -1,5 +1,6 @@
 //! The commands of `dashpot`, one a file.
 
+pub mod budget;
 pub mod contact;
 pub mod export;
 
