@@ -23,13 +23,11 @@ macro_rules! words {
             /// of this version did not make are read without harm, but step to forces without meaning.
             ///
             /// ```
-            /// #![no_std]
             /// use dashpot_core::Damper;
             #[doc = concat!("static DAMPER: Damper<", stringify!($float), "> =")]
             #[doc = concat!("    Damper::<", stringify!($float), ">::from_words(&[0; Damper::<", stringify!($float), ">::WORDS]);")]
             /// assert_eq!(DAMPER.revision(), 0); // all zero: no damper was built
             /// assert_eq!(DAMPER.step(&mut DAMPER.at_rest(0.0), 1e-3), 0.0);
-            /// # extern crate std; // the test's own runner
             /// ```
             pub const fn from_words(words: &[$word; WORDS]) -> Self {
                 const fn cubic(words: &[$word; WORDS], from: usize) -> [$float; 4] {

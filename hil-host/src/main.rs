@@ -3,8 +3,10 @@
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
+use dashpot_hil::commands::budget::{self, BudgetArguments};
 use dashpot_hil::commands::contact::{self, ContactArguments};
 use dashpot_hil::commands::demonstrate::{self, DemonstrateArguments};
+use dashpot_hil::commands::export::{self, ExportArguments};
 use dashpot_hil::commands::replay::{self, ReplayArguments};
 use dashpot_hil::commands::rig::{self, RigArguments};
 use dashpot_hil::commands::shims::{self, ShimsArguments};
@@ -34,6 +36,8 @@ enum Command {
     Rig(RigArguments),
     Verify(VerifyArguments),
     Shims(ShimsArguments),
+    Budget(BudgetArguments),
+    Export(ExportArguments),
     Contact(ContactArguments),
 }
 
@@ -45,6 +49,8 @@ fn main() -> ExitCode {
         Some(Command::Rig(arguments)) => rig::run(arguments),
         Some(Command::Verify(arguments)) => verify::run(arguments),
         Some(Command::Shims(arguments)) => shims::run(arguments),
+        Some(Command::Budget(arguments)) => budget::run(arguments),
+        Some(Command::Export(arguments)) => export::run(arguments),
         Some(Command::Contact(arguments)) => contact::run(arguments),
     };
     match outcome {

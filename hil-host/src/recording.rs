@@ -1,6 +1,7 @@
 //! Recorded motion as a logger writes it: time and displacement, uneven, with gaps.
 
 use std::fs::File;
+use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use csv::{ByteRecord, Reader, ReaderBuilder};
@@ -23,7 +24,7 @@ pub struct Sample {
 /// or without byte order mark, columns in any order.
 pub struct Recording {
     path: PathBuf,
-    reader: Reader<File>,
+    reader: Reader<Box<dyn Read>>,
     columns: [usize; 2],
     record: ByteRecord,
     last_time_s: Option<f64>,
@@ -41,10 +42,18 @@ impl Recording {
         if file.metadata().map_err(|error| cannot(&error))?.is_dir() {
             return Err(cannot(&"it is a folder"));
         }
+        Self::read(path, Box::new(file))
+    }
+
+    /// A recording from `source`, called `path` in errors.
+    ///
+    /// # Errors
+    /// As [`Recording::open`].
+    pub fn read(path: &Path, source: Box<dyn Read>) -> Outcome<Self> {
         let mut reader = ReaderBuilder::new()
             .comment(Some(b'#'))
             .trim(csv::Trim::All)
-            .from_reader(file);
+            .from_reader(source);
         let header = reader
             .byte_headers()
             .map_err(|error| explain(path, &error))?

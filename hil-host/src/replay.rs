@@ -3,6 +3,7 @@
 use dashpot_core::{Damper, DamperState, Real, Status};
 
 use crate::failure::{Failure, Outcome};
+use crate::pacing::Pacer;
 use crate::recording::{Recording, Sample};
 
 /// One tick of a replay.
@@ -108,13 +109,15 @@ pub struct Summary {
     pub rejected_inputs: u16,
 }
 
-/// Steps `damper` over `ticks` and hands each tick with its force [N] to `sink`.
+/// Steps `damper` over `ticks`, in real ticks where there is a pacer, and hands each tick with its force
+/// [N] to `sink`. Reading and writing happen in the slack of the ticks.
 ///
 /// # Errors
 /// What `ticks` or `sink` return.
 pub fn replay<T: Real>(
     damper: &Damper<T>,
     ticks: &mut Ticks,
+    mut pacer: Option<&mut Pacer>,
     mut sink: impl FnMut(Tick, T, &Ticks) -> Outcome<()>,
 ) -> Outcome<Summary> {
     let mut state: Option<DamperState<T>> = None;
@@ -124,7 +127,11 @@ pub fn replay<T: Real>(
     while let Some(tick) = ticks.next_tick()? {
         let displacement = T::from_f64(tick.displacement_m);
         let state = state.get_or_insert_with(|| damper.at_rest(displacement));
+        let timing = pacer.as_mut().map(|pacer| pacer.wait(count));
         let force = damper.step(state, displacement);
+        if let (Some(pacer), Some(timing)) = (pacer.as_mut(), timing) {
+            pacer.finish(timing);
+        }
         sink(tick, force, ticks)?;
         let force = force.to_f64();
         if let Some((x, f)) = last {

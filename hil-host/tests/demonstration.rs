@@ -26,7 +26,6 @@ fn check_limit(row: &serde_json::Value) {
 }
 
 #[test]
-#[ignore = "open: 1.41e-4 in f32 and f64, 2.3 and 4.7 times the limits; the page says so"]
 fn the_in_service_damper_at_10_khz_is_within_its_limits() {
     let folder = tempfile::tempdir().unwrap();
     let output = dashpot(&["--format", "json"], folder.path());

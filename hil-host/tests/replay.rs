@@ -20,7 +20,13 @@ fn replay_of(bytes: &[u8], more: &[&str]) -> (Output, Option<String>) {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("in.csv"), bytes).unwrap();
     let mut arguments = vec![
-        "replay", "--damper", "reduced-vertical", "--input", "in.csv", "--output", "out.csv",
+        "replay",
+        "--damper",
+        "reduced-vertical",
+        "--input",
+        "in.csv",
+        "--output",
+        "out.csv",
     ];
     arguments.extend(more);
     let output = dashpot(&arguments, folder.path());
@@ -62,15 +68,36 @@ fn a_ramp_ends_at_damping_times_velocity() {
 #[test]
 fn bad_recordings_say_where_and_leave_no_output() {
     let cases: [(&[u8], &[&str]); 9] = [
-        (b"time_s,displacement_m\n0,0\n0.1,0\n0.05,0\n", &["in.csv:4: column time_s", "does not grow"]),
-        (b"time_s,displacement_m\n0,0\n0.1,NaN\n", &["in.csv:3: column displacement_m", "`NaN`"]),
-        (b"time_s,displacement_m\n0,0\n0.1,\n", &["in.csv:3: column displacement_m", "not a finite number"]),
-        (b"time_s,displacement_m\n0,0\n0.1,1,2\n", &["line 3", "3 cells where the header has 2"]),
-        (b"time_s,force\n0,0\n", &["column displacement_m is missing"]),
-        (b"time_s,time_s,displacement_m\n0,0,0\n", &["column time_s is in the header 2 times"]),
+        (
+            b"time_s,displacement_m\n0,0\n0.1,0\n0.05,0\n",
+            &["in.csv:4: column time_s", "does not grow"],
+        ),
+        (
+            b"time_s,displacement_m\n0,0\n0.1,NaN\n",
+            &["in.csv:3: column displacement_m", "`NaN`"],
+        ),
+        (
+            b"time_s,displacement_m\n0,0\n0.1,\n",
+            &["in.csv:3: column displacement_m", "not a finite number"],
+        ),
+        (
+            b"time_s,displacement_m\n0,0\n0.1,1,2\n",
+            &["line 3", "3 cells where the header has 2"],
+        ),
+        (
+            b"time_s,force\n0,0\n",
+            &["column displacement_m is missing"],
+        ),
+        (
+            b"time_s,time_s,displacement_m\n0,0,0\n",
+            &["column time_s is in the header 2 times"],
+        ),
         (b"", &["empty"]),
         (b"time_s,displacement_m\n", &["no row after the header"]),
-        (b"\x7fELF\x02\x01\x01\0\0\0\xff\xfe", &["column time_s is missing"]),
+        (
+            b"\x7fELF\x02\x01\x01\0\0\0\xff\xfe",
+            &["column time_s is missing"],
+        ),
     ];
     for (bytes, expected) in cases {
         let (output, written) = replay_of(bytes, &[]);
@@ -86,7 +113,11 @@ fn bad_recordings_say_where_and_leave_no_output() {
 #[test]
 fn a_failed_replay_keeps_the_output_that_was_there() {
     let folder = tempfile::tempdir().unwrap();
-    std::fs::write(folder.path().join("in.csv"), "time_s,displacement_m\n0,0\n1,x\n").unwrap();
+    std::fs::write(
+        folder.path().join("in.csv"),
+        "time_s,displacement_m\n0,0\n1,x\n",
+    )
+    .unwrap();
     std::fs::write(folder.path().join("out.csv"), "precious").unwrap();
     let arguments = ["replay", "--input", "in.csv", "--output", "out.csv"];
     let output = dashpot(&arguments, folder.path());
@@ -105,7 +136,12 @@ fn a_gap_is_crossed_in_a_straight_line() {
         &["--step-us", "10000"],
     );
     assert!(output.status.success());
-    let rows: Vec<String> = written.unwrap().lines().skip(1).map(str::to_owned).collect();
+    let rows: Vec<String> = written
+        .unwrap()
+        .lines()
+        .skip(1)
+        .map(str::to_owned)
+        .collect();
     assert_eq!(rows.len(), 11);
     let x: f64 = rows[5].split(',').nth(1).unwrap().parse().unwrap();
     assert!((x - 1e-4 * 0.049 / 0.1).abs() < 1e-15);
@@ -122,7 +158,15 @@ fn verify_reports_each_step_and_can_fail() {
     }
     std::fs::write(folder.path().join("in.csv"), text).unwrap();
     let arguments = [
-        "verify", "--damper", "paper", "--input", "in.csv", "--step-us", "1000", "--format", "json",
+        "verify",
+        "--damper",
+        "paper",
+        "--input",
+        "in.csv",
+        "--step-us",
+        "1000",
+        "--format",
+        "json",
     ];
     let output = dashpot(&arguments, folder.path());
     assert!(output.status.success(), "{}", error_of(&output));
@@ -131,7 +175,10 @@ fn verify_reports_each_step_and_can_fail() {
     assert_eq!(rows.len(), 2);
     for row in rows {
         assert!(row["nrmse"].as_f64().unwrap() < 1e-3, "{row}");
-        assert!(row["largest_error_over_peak"].as_f64().unwrap() < 1e-2, "{row}");
+        assert!(
+            row["largest_error_over_peak"].as_f64().unwrap() < 1e-2,
+            "{row}"
+        );
     }
     let mut strict = arguments.to_vec();
     strict.extend(["--at-most", "1e-12"]);
@@ -155,22 +202,36 @@ fn wrong_use_is_exit_code_2() {
 #[test]
 fn damper_files_name_what_is_wrong() {
     let folder = tempfile::tempdir().unwrap();
-    std::fs::write(folder.path().join("in.csv"), "time_s,displacement_m\n0,0\n1,1\n").unwrap();
+    std::fs::write(
+        folder.path().join("in.csv"),
+        "time_s,displacement_m\n0,0\n1,1\n",
+    )
+    .unwrap();
     for (set, expected) in [
         ("mount.clearence_m=1e-3", "did you mean `clearance_m`"),
         ("mount.stiffness_n_per_m=-1", "mount.stiffness_n_per_m = -1"),
         ("mount.stiffness_n_per_m", "no `=`"),
-        ("geometry.rod_diameter_m=0.07", "0 to 0.95 of piston_diameter_m"),
-        ("valves.foot_compression.clamp_radius_m=0.2", "below free_radius_m"),
+        (
+            "geometry.rod_diameter_m=0.07",
+            "0 to 0.95 of piston_diameter_m",
+        ),
+        (
+            "valves.foot_compression.clamp_radius_m=0.2",
+            "below free_radius_m",
+        ),
     ] {
-        let arguments = ["replay", "--set", set, "--input", "in.csv", "--output", "out.csv"];
+        let arguments = [
+            "replay", "--set", set, "--input", "in.csv", "--output", "out.csv",
+        ];
         let output = dashpot(&arguments, folder.path());
         let error = error_of(&output);
         assert_eq!(output.status.code(), Some(1), "{error}");
         assert!(error.contains(expected), "`{error}` lacks `{expected}`");
     }
     let output = dashpot(
-        &["replay", "--damper", "papr", "--input", "in.csv", "--output", "o"],
+        &[
+            "replay", "--damper", "papr", "--input", "in.csv", "--output", "o",
+        ],
         folder.path(),
     );
     assert!(error_of(&output).contains("did you mean `paper`"));

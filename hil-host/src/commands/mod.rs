@@ -1,7 +1,9 @@
 //! The commands of `dashpot`, one a file.
 
+pub mod budget;
 pub mod contact;
 pub mod demonstrate;
+pub mod export;
 pub mod progress;
 pub mod replay;
 pub mod rig;

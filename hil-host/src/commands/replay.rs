@@ -6,11 +6,14 @@ use std::path::PathBuf;
 use dashpot_core::{DamperParameters, Real, Status};
 use serde::Serialize;
 
+use super::budget::RealtimeArguments;
 use super::{DamperArguments, Format, Scalar, progress, step_s};
 use crate::failure::{Failure, Outcome};
 use crate::output::write_whole;
+use crate::pacing::Pacer;
 use crate::recording::Recording;
 use crate::replay::{Summary, Ticks, replay};
+use crate::timing::Figures;
 
 /// Force of a damper over a recorded motion.
 #[derive(Debug, Clone, clap::Args)]
@@ -19,7 +22,9 @@ use crate::replay::{Summary, Ticks, replay};
   dashpot replay --damper my.toml --set mount.clearance_m=1e-3 --input run7.csv --output f.csv --step-us 100
 
 Input columns time_s,displacement_m (any order, uneven times allowed); output time_s,displacement_m,force_n
-on ticks from the first sample on, the displacement linear between samples.")]
+on ticks from the first sample on, the displacement linear between samples.
+
+  dashpot replay --input run7.csv --output f.csv --realtime --fifo 80 --lock-memory --core 1")]
 pub struct ReplayArguments {
     #[command(flatten)]
     damper: DamperArguments,
@@ -35,6 +40,11 @@ pub struct ReplayArguments {
     /// Floating-point type of the step.
     #[arg(long, value_enum, default_value_t = Scalar::F32)]
     scalar: Scalar,
+    /// Replay in real ticks and report lateness and missed deadlines.
+    #[arg(long)]
+    realtime: bool,
+    #[command(flatten)]
+    options: RealtimeArguments,
     /// How results are printed.
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
@@ -52,6 +62,15 @@ struct Report {
     input_held: bool,
     input_limited: bool,
     saturated: bool,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    realtime: Option<Realtime>,
+}
+
+#[derive(Serialize)]
+struct Realtime {
+    missed_deadlines: u64,
+    lateness: Figures,
+    work: Figures,
 }
 
 /// Runs the command.
@@ -66,9 +85,20 @@ pub fn run(arguments: &ReplayArguments) -> Outcome<()> {
             "is the input too; give another output file",
         ));
     }
+    let options = arguments.options.options();
+    if !arguments.realtime && options != Default::default() {
+        return Err(Failure::new(
+            "--fifo, --lock-memory and --core go with --realtime",
+        ));
+    }
+    let mut pacer = if arguments.realtime {
+        Some(Pacer::new(step_s(arguments.step_us), &options)?)
+    } else {
+        None
+    };
     let summary = match arguments.scalar {
-        Scalar::F32 => write::<f32>(&parameters, arguments)?,
-        Scalar::F64 => write::<f64>(&parameters, arguments)?,
+        Scalar::F32 => write::<f32>(&parameters, arguments, pacer.as_mut())?,
+        Scalar::F64 => write::<f64>(&parameters, arguments, pacer.as_mut())?,
     };
     let report = Report {
         ticks: summary.ticks,
@@ -81,6 +111,11 @@ pub fn run(arguments: &ReplayArguments) -> Outcome<()> {
         input_held: summary.status.contains(Status::INPUT_HELD),
         input_limited: summary.status.contains(Status::INPUT_LIMITED),
         saturated: summary.status.contains(Status::SATURATED),
+        realtime: pacer.as_ref().map(|pacer| Realtime {
+            missed_deadlines: pacer.report().missed_deadlines,
+            lateness: pacer.report().lateness.figures(),
+            work: pacer.report().work.figures(),
+        }),
     };
     match arguments.format {
         Format::Json => super::print_json(&report),
@@ -95,6 +130,7 @@ fn same_file(a: &std::path::Path, b: &std::path::Path) -> bool {
 fn write<T: Real + std::fmt::Display>(
     parameters: &DamperParameters,
     arguments: &ReplayArguments,
+    pacer: Option<&mut Pacer>,
 ) -> Outcome<Summary> {
     let damper = parameters.build::<T>(step_s(arguments.step_us))?;
     let length = std::fs::metadata(&arguments.input).map_or(0, |data| data.len());
@@ -108,7 +144,7 @@ fn write<T: Real + std::fmt::Display>(
         let failed = |error| Failure::in_file(&arguments.output, format!("cannot write: {error}"));
         writeln!(file, "time_s,displacement_m,force_n").map_err(failed)?;
         let mut number = 0_u32;
-        summary = Some(replay(&damper, &mut ticks, |tick, force, ticks| {
+        summary = Some(replay(&damper, &mut ticks, pacer, |tick, force, ticks| {
             number = number.wrapping_add(1);
             if number.is_multiple_of(65_536) {
                 bar.set_position(ticks.position());
@@ -146,6 +182,16 @@ fn print_text(report: &Report, arguments: &ReplayArguments) -> Outcome<()> {
     }
     if report.saturated {
         lines.push("note: the damper reached its saturation force or force limit".into());
+    }
+    if let Some(realtime) = &report.realtime {
+        lines.push(format!(
+            "real ticks: {} deadlines missed; late by {:.1} us at most, {:.1} us at the 99th percentile; \
+             step {:.2} us at most",
+            realtime.missed_deadlines,
+            realtime.lateness.worst_ns * 1e-3,
+            realtime.lateness.p99_ns * 1e-3,
+            realtime.work.worst_ns * 1e-3
+        ));
     }
     lines.push(format!("wrote {}", arguments.output.display()));
     super::print_lines(&lines)

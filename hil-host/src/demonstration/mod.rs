@@ -11,7 +11,6 @@ use dashpot_core::characteristic::Characteristic;
 use dashpot_core::{DamperParameters, Real};
 use serde::Serialize;
 
-use self::recording::Recording;
 use crate::damper_file;
 use crate::failure::Outcome;
 use crate::reference::Reference;
@@ -100,10 +99,14 @@ pub const WORK: u64 = (DAMPERS.len() * (STEPS_S.len() + 1)) as u64;
 /// # Errors
 /// A preset, the recording or the reference fails.
 pub fn run(mut tell: impl FnMut(String)) -> Outcome<Demonstration> {
-    let recording = Recording::shipped()?;
+    let samples = recording::shipped()?;
+    let duration_s = match (samples.first(), samples.last()) {
+        (Some(first), Some(last)) => last.time_s - first.time_s,
+        _ => 0.0,
+    };
     let mut shown = Demonstration {
-        samples: recording.len(),
-        duration_s: recording.duration_s(),
+        samples: samples.len(),
+        duration_s,
         accuracy: Vec::new(),
         rides: Vec::new(),
         benches: Vec::new(),
@@ -112,7 +115,7 @@ pub fn run(mut tell: impl FnMut(String)) -> Outcome<Demonstration> {
         let damper = damper_file::load(name, &[])?;
         for step_s in STEPS_S {
             tell(format!("{name}: ride at {:.0} kHz", 1e-3 / step_s));
-            let (times_s, displacements_m) = recording.at_ticks(step_s);
+            let (times_s, displacements_m) = recording::at_ticks(step_s)?;
             let reference_n = Reference::new(&damper)?.forces(&times_s, &displacements_m)?;
             let single = measure::<f32>(&damper, step_s, &displacements_m)?;
             let double = measure::<f64>(&damper, step_s, &displacements_m)?;

@@ -1,64 +1,38 @@
 //! The shipped recording on a tick grid.
 
-use serde::Deserialize;
+use std::path::Path;
 
-use crate::failure::{Failure, Outcome};
+use crate::failure::Outcome;
+use crate::recording::{Recording, Sample};
+use crate::replay::Ticks;
 
-const RIDE: &str = include_str!("../../../data/excitations/ride_made.csv");
+const NAME: &str = "data/excitations/ride_made.csv";
+const RIDE: &[u8] = include_bytes!("../../../data/excitations/ride_made.csv");
 
-#[derive(Deserialize)]
-struct Sample {
-    time_s: f64,
-    displacement_m: f64,
+fn open() -> Outcome<Recording> {
+    Recording::read(Path::new(NAME), Box::new(RIDE))
 }
 
-/// A recorded motion.
-pub struct Recording(Vec<Sample>);
+/// Rows of the shipped recording.
+///
+/// # Errors
+/// The file in the program is not as it was shipped.
+pub fn shipped() -> Outcome<Vec<Sample>> {
+    open()?.read_all()
+}
 
-impl Recording {
-    /// The shipped ride.
-    ///
-    /// # Errors
-    /// The file in the program is not as it was shipped.
-    pub fn shipped() -> Outcome<Self> {
-        let samples = csv::ReaderBuilder::new()
-            .comment(Some(b'#'))
-            .from_reader(RIDE.trim_start_matches('\u{feff}').as_bytes())
-            .deserialize()
-            .collect::<Result<Vec<Sample>, _>>()
-            .map_err(|error| Failure::new(format!("ride_made.csv: {error}")))?;
-        if samples.len() < 2 {
-            return Err(Failure::new("ride_made.csv: fewer than two samples"));
-        }
-        Ok(Self(samples))
+/// Times [s] from the first sample and displacements [m] at ticks of `step_s`, linear between samples.
+///
+/// # Errors
+/// As [`shipped`].
+pub fn at_ticks(step_s: f64) -> Outcome<(Vec<f64>, Vec<f64>)> {
+    let mut ticks = Ticks::new(open()?, step_s)?;
+    let mut displacements_m = Vec::new();
+    while let Some(tick) = ticks.next_tick()? {
+        displacements_m.push(tick.displacement_m);
     }
-
-    /// Number of samples.
-    pub fn len(&self) -> usize {
-        self.0.len()
-    }
-
-    /// Length [s].
-    pub fn duration_s(&self) -> f64 {
-        self.0[self.0.len() - 1].time_s - self.0[0].time_s
-    }
-
-    /// Times [s] and displacements [m] at ticks of `step_s` from the first sample, linear between samples.
-    pub fn at_ticks(&self, step_s: f64) -> (Vec<f64>, Vec<f64>) {
-        let start = self.0[0].time_s;
-        let ticks = (self.duration_s() / step_s + 1e-9).floor() as usize;
-        let mut cell = 0;
-        (0..=ticks)
-            .map(|tick| {
-                let time = tick as f64 * step_s;
-                while cell + 2 < self.0.len() && self.0[cell + 1].time_s - start < time {
-                    cell += 1;
-                }
-                let (from, to) = (&self.0[cell], &self.0[cell + 1]);
-                let share = (time - (from.time_s - start)) / (to.time_s - from.time_s);
-                let x = from.displacement_m + share * (to.displacement_m - from.displacement_m);
-                (time, x)
-            })
-            .unzip()
-    }
+    let times_s = (0..displacements_m.len())
+        .map(|tick| tick as f64 * step_s)
+        .collect();
+    Ok((times_s, displacements_m))
 }

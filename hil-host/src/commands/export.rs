@@ -1,0 +1,156 @@
+//! `dashpot export`: the built damper as a constant for firmware.
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use dashpot_core::{Damper, Real};
+use serde::Serialize;
+
+use super::{DamperArguments, Format, Scalar};
+use crate::export::{Provenance, Word, rust_source};
+use crate::failure::{Failure, Outcome};
+use crate::output::write_whole;
+
+/// Language of the exported source.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+pub enum Language {
+    /// A Rust source with a `static` of dashpot-core.
+    Rust,
+}
+
+/// Write the built damper as a constant for firmware.
+#[derive(Debug, Clone, clap::Args)]
+#[command(after_help = "Example:
+  dashpot export --damper reduced-vertical --lang rust --step-us 500 --output vertical.rs
+then in the firmware: mod vertical; ... vertical::REDUCED_VERTICAL.step(&mut state, x)")]
+pub struct ExportArguments {
+    #[command(flatten)]
+    damper: DamperArguments,
+    /// Language of the source.
+    #[arg(long, value_enum)]
+    lang: Language,
+    /// Step the damper is built for, us.
+    #[arg(long, default_value_t = 1000, value_parser = clap::value_parser!(u32).range(1..=20_000), value_name = "US")]
+    step_us: u32,
+    /// Floating-point type.
+    #[arg(long, value_enum, default_value_t = Scalar::F32)]
+    scalar: Scalar,
+    /// Name of the constant; the damper's name in capitals when not given.
+    #[arg(long)]
+    name: Option<String>,
+    /// File to write.
+    #[arg(long, value_name = "FILE")]
+    output: PathBuf,
+    /// How results are printed.
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    format: Format,
+}
+
+#[derive(Serialize)]
+struct Report {
+    damper: String,
+    name: String,
+    output: String,
+    scalar: &'static str,
+    step_s: f64,
+    revision: u32,
+    damper_bytes: usize,
+    state_bytes: usize,
+}
+
+/// Builds the damper and writes its source.
+///
+/// # Errors
+/// The damper or the name is refused, or the file cannot be written.
+pub fn run(arguments: &ExportArguments) -> Outcome<()> {
+    let report = match arguments.scalar {
+        Scalar::F32 => export::<f32>(arguments),
+        Scalar::F64 => export::<f64>(arguments),
+    }?;
+    let mut out = std::io::stdout().lock();
+    let printed = match arguments.format {
+        Format::Text => writeln!(
+            out,
+            "{}: {} = {} for {} us, {}, revision {:#010x}: {} bytes, a state {} bytes",
+            report.output,
+            report.name,
+            report.damper,
+            arguments.step_us,
+            report.scalar,
+            report.revision,
+            report.damper_bytes,
+            report.state_bytes
+        ),
+        Format::Json => serde_json::to_writer_pretty(&mut out, &report)
+            .map_err(std::io::Error::from)
+            .and_then(|()| writeln!(out)),
+    };
+    printed.map_err(|error| Failure::new(format!("cannot print: {error}")))
+}
+
+fn export<T: Word + Real>(arguments: &ExportArguments) -> Outcome<Report> {
+    let name = match &arguments.name {
+        Some(name) => name.clone(),
+        None => constant_name(&arguments.damper.damper),
+    };
+    let step_s = f64::from(arguments.step_us) * 1e-6;
+    let damper: Damper<T> = arguments.damper.load()?.build(step_s)?;
+    let provenance = Provenance {
+        damper: &arguments.damper.damper,
+        step_us: arguments.step_us,
+        command: &command_line(arguments, T::NAME, &name),
+    };
+    let Language::Rust = arguments.lang;
+    let source = rust_source(&name, &damper, &provenance)?;
+    let path = &arguments.output;
+    write_whole(path, |file| {
+        file.write_all(source.as_bytes())
+            .map_err(|error| Failure::in_file(path, format!("cannot write: {error}")))
+    })?;
+    Ok(Report {
+        damper: arguments.damper.damper.clone(),
+        name,
+        output: path.display().to_string(),
+        scalar: T::NAME,
+        step_s,
+        revision: damper.revision(),
+        damper_bytes: size_of::<Damper<T>>(),
+        state_bytes: size_of::<dashpot_core::DamperState<T>>(),
+    })
+}
+
+/// The command line with every default written out.
+fn command_line(arguments: &ExportArguments, scalar: &str, name: &str) -> String {
+    let mut line = format!("dashpot export --damper '{}'", arguments.damper.damper);
+    for assignment in &arguments.damper.overrides {
+        line.push_str(&format!(" --set '{assignment}'"));
+    }
+    line.push_str(&format!(
+        " --lang rust --step-us {} --scalar {scalar} --name {name} --output '{}'",
+        arguments.step_us,
+        arguments.output.display()
+    ));
+    line
+}
+
+/// `data/my-damper.toml` is MY_DAMPER.
+fn constant_name(damper: &str) -> String {
+    let stem = Path::new(damper)
+        .file_stem()
+        .map_or_else(|| damper.into(), |stem| stem.to_string_lossy());
+    let name: String = stem
+        .chars()
+        .map(|letter| {
+            if letter.is_ascii_alphanumeric() {
+                letter.to_ascii_uppercase()
+            } else {
+                '_'
+            }
+        })
+        .collect();
+    if name.starts_with(|first: char| first.is_ascii_uppercase()) {
+        name
+    } else {
+        format!("DAMPER_{name}")
+    }
+}

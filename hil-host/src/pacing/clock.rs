@@ -1,0 +1,72 @@
+//! The clock a pacer lives by.
+
+/// A monotonic clock that can be slept on until an absolute time.
+pub trait Clock {
+    /// Time since an origin of the clock's own [ns].
+    fn now_ns(&self) -> u64;
+    /// Returns at `deadline_ns` or, as the system's scheduler has it, after.
+    fn sleep_until_ns(&self, deadline_ns: u64);
+}
+
+/// The system's monotonic clock: absolute deadlines on Linux, relative sleeps elsewhere.
+#[derive(Debug, Clone, Copy)]
+pub struct MonotonicClock {
+    origin: std::time::Instant,
+}
+
+impl Default for MonotonicClock {
+    fn default() -> Self {
+        Self {
+            origin: std::time::Instant::now(),
+        }
+    }
+}
+
+impl Clock for MonotonicClock {
+    fn now_ns(&self) -> u64 {
+        u64::try_from(self.origin.elapsed().as_nanos()).unwrap_or(u64::MAX)
+    }
+
+    #[cfg(target_os = "linux")]
+    fn sleep_until_ns(&self, deadline_ns: u64) {
+        use nix::errno::Errno;
+        use nix::sys::time::TimeSpec;
+        use nix::time::{ClockId, ClockNanosleepFlags, clock_gettime, clock_nanosleep};
+
+        // Instant hides its zero, so the deadline is carried over to CLOCK_MONOTONIC each time.
+        let Some(left) = deadline_ns.checked_sub(self.now_ns()) else {
+            return;
+        };
+        let Ok(now) = clock_gettime(ClockId::CLOCK_MONOTONIC) else {
+            return std::thread::sleep(std::time::Duration::from_nanos(left));
+        };
+        let deadline = now + TimeSpec::from(std::time::Duration::from_nanos(left));
+        let absolute = ClockNanosleepFlags::TIMER_ABSTIME;
+        while let Err(Errno::EINTR) = clock_nanosleep(ClockId::CLOCK_MONOTONIC, absolute, &deadline)
+        {
+        }
+    }
+
+    #[cfg(not(target_os = "linux"))]
+    fn sleep_until_ns(&self, deadline_ns: u64) {
+        while let Some(left) = deadline_ns
+            .checked_sub(self.now_ns())
+            .filter(|left| *left > 0)
+        {
+            std::thread::sleep(std::time::Duration::from_nanos(left));
+        }
+    }
+}
+
+/// Cost of reading the clock twice in a row [ns], median of ten thousand: what every time span
+/// measured with it holds beside the work.
+pub fn overhead_ns(clock: &impl Clock) -> u64 {
+    let mut spans: Vec<u64> = (0..10_000)
+        .map(|_| {
+            let before = clock.now_ns();
+            clock.now_ns() - before
+        })
+        .collect();
+    spans.sort_unstable();
+    spans[spans.len() / 2]
+}

@@ -1,0 +1,138 @@
+//! `dashpot export` and `dashpot budget` from outside; the exported file compiled for real.
+
+use std::process::{Command, Output};
+
+use dashpot_hil::excitation::Excitation;
+
+fn dashpot(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_dashpot"))
+        .args(arguments)
+        .output()
+        .unwrap()
+}
+
+#[test]
+fn the_exported_damper_steps_to_the_same_bits() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("damper.rs");
+    let output = dashpot(&[
+        "export",
+        "--damper",
+        "in-service",
+        "--lang",
+        "rust",
+        "--output",
+        file.to_str().unwrap(),
+    ]);
+    assert!(output.status.success(), "{output:?}");
+    let manifest = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
+    let core = manifest.parent().unwrap().join("core");
+    std::fs::write(
+        folder.path().join("Cargo.toml"),
+        format!(
+            "[package]\nname = \"consumer\"\nedition = \"2024\"\n[[bin]]\nname = \"consumer\"\npath = \"main.rs\"\n\
+             [dependencies]\ndashpot-core = {{ path = {core:?}, default-features = false }}\n[workspace]\n"
+        ),
+    )
+    .unwrap();
+    std::fs::copy(
+        manifest.parent().unwrap().join("Cargo.lock"),
+        folder.path().join("Cargo.lock"),
+    )
+    .unwrap();
+    std::fs::write(
+        folder.path().join("main.rs"),
+        "include!(\"damper.rs\");\nfn main() {\n let mut state = IN_SERVICE.at_rest(0.0);\n\
+         for line in std::io::stdin().lines() {\n let x = f32::from_bits(line.unwrap().parse().unwrap());\n\
+         println!(\"{}\", IN_SERVICE.step(&mut state, x).to_bits());\n }\n}\n",
+    )
+    .unwrap();
+    let motion: Vec<f32> = Excitation::Ride
+        .displacements_m(1e-3)
+        .into_iter()
+        .map(|x| x as f32)
+        .collect();
+    let input = folder.path().join("input");
+    let bits: Vec<String> = motion.iter().map(|x| x.to_bits().to_string()).collect();
+    std::fs::write(&input, bits.join("\n")).unwrap();
+    let output = Command::new(env!("CARGO"))
+        .args(["run", "--quiet", "--offline", "--manifest-path"])
+        .arg(folder.path().join("Cargo.toml"))
+        .env("CARGO_TARGET_DIR", folder.path().join("target"))
+        .stdin(std::fs::File::open(&input).unwrap())
+        .output()
+        .unwrap();
+    assert!(
+        output.status.success(),
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
+    let damper: dashpot_core::Damper<f32> = dashpot_hil::damper_file::load("in-service", &[])
+        .unwrap()
+        .build(1e-3)
+        .unwrap();
+    let mut state = damper.at_rest(0.0);
+    let expected: Vec<u32> = motion
+        .iter()
+        .map(|x| damper.step(&mut state, *x).to_bits())
+        .collect();
+    let found: Vec<u32> = String::from_utf8(output.stdout)
+        .unwrap()
+        .lines()
+        .map(|line| line.parse().unwrap())
+        .collect();
+    assert_eq!(found, expected);
+}
+
+#[test]
+fn budget_tells_its_keys() {
+    let output = dashpot(&["budget", "--steps", "2000", "--format", "json"]);
+    let report: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(report["ticks"], 2000);
+    assert_eq!(report["spreads"][1]["figures"]["count"], 2000);
+    assert_eq!(report["spreads"][0]["figures"]["count"], 20);
+    let output = dashpot(&[
+        "budget",
+        "--rate-hz",
+        "1000",
+        "--steps",
+        "50",
+        "--format",
+        "json",
+    ]);
+    let report: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(report["mode"], "paced");
+    assert!(report["missed_deadlines"].is_u64());
+    assert_eq!(report["first_ticks_ns"].as_array().unwrap().len(), 8);
+}
+
+#[test]
+fn wrong_options_say_what_is_allowed() {
+    for (arguments, code, part) in [
+        (&["budget", "--rate-hz", "999"][..], 2, "1000..=10000"),
+        (&["budget", "--steps", "0"][..], 2, "1..="),
+        (&["budget", "--fifo", "100"][..], 2, "1..=99"),
+        (
+            &["budget", "--core", "1000000"][..],
+            1,
+            "no core this process may use, allowed: ",
+        ),
+        (
+            &["export", "--lang", "rust", "--output", "none/such.rs"][..],
+            1,
+            "none/such.rs: cannot write",
+        ),
+        (
+            &[
+                "export", "--lang", "rust", "--name", "fn", "--output", "x.rs",
+            ][..],
+            1,
+            "allowed: A to Z first",
+        ),
+    ] {
+        let output = dashpot(arguments);
+        let message = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(code), "{arguments:?}: {message}");
+        assert!(message.contains(part), "{arguments:?}: {message}");
+    }
+}
