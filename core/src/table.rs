@@ -23,11 +23,11 @@ pub(crate) type Table<T> = [Piece<T>; 2 * PIECES];
 /// For each lane the piece around `y` (not negative, inside the table by construction) on the side of
 /// `direction`, and z in it. Any `y` is safe to read.
 #[inline(always)]
-pub(crate) fn locate<'a, T: Real, const L: usize>(
-    tables: [&'a Table<T>; L],
+pub(crate) fn locate<T: Real, const L: usize>(
+    tables: [&Table<T>; L],
     y: Lanes<T, L>,
     direction: Lanes<T, L>,
-) -> ([&'a Piece<T>; L], Lanes<T, L>) {
+) -> ([&Piece<T>; L], Lanes<T, L>) {
     let mut z = y;
     let mut pieces = tables.map(|table| &table[0]);
     for (((piece, table), z), direction) in
