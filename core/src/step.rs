@@ -90,6 +90,7 @@ fn of<T: Real, const L: usize>(
 /// Takes the displacements in: adopts states that another damper stepped, limits the travel, which it
 /// returns [m].
 #[inline(always)]
+#[allow(clippy::neg_cmp_op_on_partial_ord)] // so that NaN is rejected too
 fn enter<T: Real, const L: usize>(
     dampers: [&Damper<T>; L],
     states: &mut [DamperState<T>; L],

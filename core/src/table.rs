@@ -22,11 +22,11 @@ pub(crate) type Table<P> = [P; 2 * PIECES];
 /// For each lane the piece around `y` (not negative, inside the table by construction) on the side of
 /// `direction`, and z in it. Any `y` is safe to read.
 #[inline(always)]
-pub(crate) fn locate<'a, P, T: Real, const L: usize>(
-    tables: [&'a Table<P>; L],
+pub(crate) fn locate<P, T: Real, const L: usize>(
+    tables: [&Table<P>; L],
     y: Lanes<T, L>,
     direction: Lanes<T, L>,
-) -> ([&'a P; L], Lanes<T, L>) {
+) -> ([&P; L], Lanes<T, L>) {
     let mut z = y;
     let mut pieces = tables.map(|table| &table[0]);
     for (((piece, table), z), direction) in
