@@ -14,7 +14,7 @@ use crate::revision;
 use crate::state::DamperState;
 use crate::status::Status;
 use crate::step;
-use crate::table::{self, Piece, Table};
+use crate::table::{Piece, Table};
 
 /// gamma of the two stages.
 pub(crate) const IMPLICIT_SHARE: f64 = 1.0 - core::f64::consts::FRAC_1_SQRT_2;
@@ -42,11 +42,13 @@ pub struct Scalars<T> {
     pub(crate) stage_shift_root: T,
     /// Scale of the output table [1/m].
     pub(crate) output_scale: T,
+    /// Stiffness of the mount, which alone stretches under seal friction [N/m].
+    pub(crate) mount_stiffness: T,
 }
 
 impl<T: Real> Scalars<T> {
     /// The numbers in order of declaration.
-    pub(crate) fn as_array(&self) -> [T; 10] {
+    pub(crate) fn as_array(&self) -> [T; 11] {
         [
             self.step_s,
             self.half_clearance,
@@ -58,6 +60,7 @@ impl<T: Real> Scalars<T> {
             self.stage_shift,
             self.stage_shift_root,
             self.output_scale,
+            self.mount_stiffness,
         ]
     }
 }
@@ -95,7 +98,7 @@ pub struct Damper<T> {
     pub(crate) tables_revision: u32,
     /// Flow of a stage over the stretch beyond clearance and friction, and the flow potential reached.
     pub(crate) stage: Table<Piece<T>>,
-    /// Force over the stretch beyond the clearance [N].
+    /// Force beyond friction over the stretch beyond clearance and friction [N].
     pub(crate) output: Table<[T; 4]>,
 }
 
@@ -174,9 +177,7 @@ impl<T: Real> Damper<T> {
 
     /// Force [N] under a stretch of the springs [m], with the sign of `direction`.
     fn force_at(&self, sprung: T, direction: T) -> T {
-        let y = (sprung * self.scalars.output_scale).square_root();
-        let (pieces, z) = table::locate([&self.output], Lanes([y]), Lanes([direction]));
-        let Lanes([force]) = table::cubic(pieces, z);
+        let [force] = step::force([self], Lanes([sprung]), Lanes([direction])).0;
         force
     }
 

@@ -208,6 +208,28 @@ pub(crate) fn potential_at<T: Real>(damper: &Damper<T>, stretch: T) -> T {
     stage.potential().0[0]
 }
 
+/// Force [N] under a stretch of the springs [m], with the sign of `direction`: the mount's up to seal
+/// friction, beyond it the table's.
+#[inline(always)]
+pub(crate) fn force<T: Real, const L: usize>(
+    dampers: [&Damper<T>; L],
+    sprung: Lanes<T, L>,
+    direction: Lanes<T, L>,
+) -> Lanes<T, L> {
+    let held = of(dampers, |k| k.held);
+    let rubbing = sprung.smaller(held) * of(dampers, |k| k.mount_stiffness);
+    let beyond = (sprung - held).larger(Lanes::all(0.0));
+    let y = (beyond * of(dampers, |k| k.output_scale)).square_root();
+    let (pieces, z) = locate(dampers.map(|damper| &damper.output), y, direction);
+    let rubbing = rubbing.zip(
+        direction,
+        |force, direction| {
+            if direction < T::ZERO { -force } else { force }
+        },
+    );
+    rubbing + cubic(pieces, z)
+}
+
 /// Stores stretch and flow potential at the tick; returns the forces.
 #[inline(always)]
 fn leave<T: Real, const L: usize>(
@@ -218,9 +240,7 @@ fn leave<T: Real, const L: usize>(
     half_clearance: Lanes<T, L>,
 ) -> [T; L] {
     let sprung = (stretch.magnitude() - half_clearance).larger(Lanes::all(0.0));
-    let y = (sprung * of(dampers, |k| k.output_scale)).square_root();
-    let (pieces, z) = locate(dampers.map(|damper| &damper.output), y, stretch);
-    let force = cubic(pieces, z);
+    let force = force(dampers, sprung, stretch);
     let ends = stretch.0.iter().zip(potential.0).zip(force.0);
     for (state, ((stretch, potential), force)) in states.iter_mut().zip(ends) {
         state.stretch = *stretch;

@@ -5,7 +5,7 @@ use crate::table::{PIECES, Piece};
 
 /// Scalars, the two revisions, eight coefficients of each piece of a stage, four of the output.
 const WORDS: usize = OUTPUT + 2 * PIECES * 4;
-const SCALARS: usize = 10;
+const SCALARS: usize = 11;
 const STAGE: usize = SCALARS + 2;
 const OUTPUT: usize = STAGE + 2 * PIECES * 8;
 
@@ -59,6 +59,7 @@ macro_rules! words {
                         stage_shift: $float::from_bits(words[7]),
                         stage_shift_root: $float::from_bits(words[8]),
                         output_scale: $float::from_bits(words[9]),
+                        mount_stiffness: $float::from_bits(words[10]),
                     },
                     revision: words[SCALARS] as u32,
                     tables_revision: words[SCALARS + 1] as u32,
@@ -100,13 +101,13 @@ mod tests {
             let damper = Damper::<$float>::from_words(&words);
             let mut expected = words;
             // Revisions have 32 bits.
-            for index in [10, 11] {
+            for index in [11, 12] {
                 expected[index] = $word::from(words[index] as u32);
             }
             assert_eq!(damper.to_words(), expected);
             assert_eq!(damper.step_s().to_bits(), words[0]);
             assert_eq!(damper.force_limit_n().to_bits(), words[4]);
-            assert_eq!(damper.revision(), words[10] as u32);
+            assert_eq!(damper.revision(), words[11] as u32);
             assert_eq!(damper.output[127][3].to_bits(), words[WORDS - 1]);
             let bytes = WORDS * core::mem::size_of::<$word>();
             assert!(core::mem::size_of::<Damper<$float>>() <= bytes);

@@ -21,7 +21,7 @@ impl Grid {
     pub(crate) fn aligned(reach: f64, knee: f64, corners: &[(f64, f64)]) -> Self {
         let root = |stretch: f64| sqrt(stretch + knee) - sqrt(knee);
         let largest = (PIECES as f64 - 1.0) / root(reach);
-        let smallest = 0.5 * largest;
+        let smallest = 0.7 * largest;
         let misfit = |root_scale: f64| {
             corners
                 .iter()

@@ -19,10 +19,8 @@ use crate::table::Piece;
 /// Corners a table can align with.
 type Corners = Vec<(f64, f64), 24>;
 
-/// Weights of corners when a grid is aligned: the end of seal friction changes the springs' stiffness
-/// several-fold where forces are small; a reduced element yields in every run, a physical one at a
-/// limit it hardly meets.
-const FRICTION_WEIGHT: f64 = 5.0;
+/// Weights of corners when a grid is aligned: a reduced element yields in every run, a physical one at
+/// a limit it hardly meets.
 const VALVE_WEIGHT: f64 = 1.0;
 const LIMIT_WEIGHT: f64 = 1e-3;
 
@@ -134,10 +132,8 @@ impl DamperParameters {
             }
             let yields = branch.reach(branch.force_limit, stage_s) - held;
             let _ = stage_corners.push((yields, LIMIT_WEIGHT));
-            let _ = output_corners.push((branch.deflection(branch.force_limit), LIMIT_WEIGHT));
-            if held > 0.0 && branch.column.is_some() {
-                let _ = output_corners.push((held, FRICTION_WEIGHT));
-            }
+            let yields = branch.deflection(branch.force_limit) - held;
+            let _ = output_corners.push((yields, LIMIT_WEIGHT));
         }
         // The last stage looks at most sqrt(2) times the largest stretch past a move; the end of
         // a step lies at most an eighth of its travel beyond yield.
@@ -171,9 +167,10 @@ impl DamperParameters {
         });
         let output = fit::cubics(|compression, y| {
             let branch = &branches[usize::from(compression)];
-            let force = branch.force(output_grid.stretch(y));
+            let force = branch.force(output_grid.stretch(y) + held);
             // A rounding below the limit, so that no piece exceeds it.
-            side(compression) * force.min(branch.force_limit * (1.0 - 8.0 * T::EPSILON))
+            let highest = branch.force_limit * (1.0 - 8.0 * T::EPSILON);
+            side(compression) * (force.min(highest) - branch.friction()).max(0.0)
         });
         let stage = core::array::from_fn(|place| Piece {
             flow: flow[place],
@@ -192,6 +189,7 @@ impl DamperParameters {
                 stage_shift,
                 stage_shift_root: stage_shift.square_root(),
                 output_scale: T::from_f64(output_grid.scale),
+                mount_stiffness: T::from_f64(1.0 / branches[0].mount_compliance),
             },
             stage,
             output,
