@@ -13,7 +13,7 @@ const LANES: usize = 8;
 
 /// Steps `N` dampers: `forces[i] = dampers[i].step(&mut states[i], displacements[i])`, bit for bit.
 ///
-/// Displacements [m] and forces [N] have the signs of [`Damper::step`]; like it this cannot fail. One
+/// Displacements (m) and forces (N) have the signs of [`Damper::step`]; like it this cannot fail. One
 /// damper may serve several states.
 ///
 /// ```

@@ -45,7 +45,7 @@ impl Characteristic {
         })
     }
 
-    /// Force [N] at a constant velocity [m/s], both positive in extension; 0 at rest. At most the force
+    /// Force (N) at a constant velocity (m/s), both positive in extension; 0 at rest. At most the force
     /// at which the damper yields.
     pub fn force_n(&self, velocity_m_per_s: f64) -> f64 {
         if velocity_m_per_s == 0.0 {
@@ -74,7 +74,7 @@ impl Characteristic {
         }
     }
 
-    /// Flow [m^3/s] through a shim-pack valve under its pressure [Pa], the foot valve against the
+    /// Flow (m^3/s) through a shim-pack valve under its pressure (Pa), the foot valve against the
     /// reservoir: `Q = Cd 2 pi r_w k_w (P - P_0)+ sqrt(2 (P - P_b)+/rho)`. `None` for a reduced damper.
     ///
     /// ```

@@ -23,26 +23,26 @@ pub(crate) const IMPLICIT_SHARE: f64 = 1.0 - core::f64::consts::FRAC_1_SQRT_2;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C)]
 pub struct Scalars<T> {
-    /// Step [s].
+    /// Step (s).
     pub(crate) step_s: T,
-    /// Half the clearance, a [m].
+    /// Half the clearance, a (m).
     pub(crate) half_clearance: T,
-    /// Stretch of the mount under seal friction [m].
+    /// Stretch of the mount under seal friction (m).
     pub(crate) held: T,
-    /// Stretch of the springs at which the element yields [m].
+    /// Stretch of the springs at which the element yields (m).
     pub(crate) yield_stretch: T,
-    /// Force at which it yields [N].
+    /// Force at which it yields (N).
     pub(crate) force_limit: T,
-    /// Largest credible move of the input in a step [m].
+    /// Largest credible move of the input in a step (m).
     pub(crate) largest_move: T,
-    /// Scale of the stage table [1/m].
+    /// Scale of the stage table (1/m).
     pub(crate) stage_scale: T,
-    /// Shift of the stage table [1] and its root.
+    /// Shift of the stage table (1) and its root.
     pub(crate) stage_shift: T,
     pub(crate) stage_shift_root: T,
-    /// Scale of the output table [1/m].
+    /// Scale of the output table (1/m).
     pub(crate) output_scale: T,
-    /// Stiffness of the mount, which alone stretches under seal friction [N/m].
+    /// Stiffness of the mount, which alone stretches under seal friction (N/m).
     pub(crate) mount_stiffness: T,
 }
 
@@ -98,7 +98,7 @@ pub struct Damper<T> {
     pub(crate) tables_revision: u32,
     /// Flow of a stage over the stretch beyond clearance and friction, and the flow potential reached.
     pub(crate) stage: Table<Piece<T>>,
-    /// Force beyond friction over the stretch beyond clearance and friction [N].
+    /// Force beyond friction over the stretch beyond clearance and friction (N).
     pub(crate) output: Table<[T; 4]>,
 }
 
@@ -115,7 +115,7 @@ impl<T: Real> Damper<T> {
         }
     }
 
-    /// A state at rest at `displacement` [m], centred in the clearance, no force. A displacement that is
+    /// A state at rest at `displacement` (m), centred in the clearance, no force. A displacement that is
     /// not finite counts as 0.
     pub fn at_rest(&self, displacement: T) -> DamperState<T> {
         DamperState {
@@ -129,7 +129,7 @@ impl<T: Real> Damper<T> {
         }
     }
 
-    /// Step size [s].
+    /// Step size (s).
     pub fn step_s(&self) -> T {
         self.scalars.step_s
     }
@@ -139,17 +139,17 @@ impl<T: Real> Damper<T> {
         self.revision
     }
 
-    /// Clearance 2a, the whole play [m].
+    /// Clearance 2a, the whole play (m).
     pub fn clearance_m(&self) -> T {
         self.scalars.half_clearance + self.scalars.half_clearance
     }
 
-    /// Force at which the element yields [N]; no step returns more.
+    /// Force at which the element yields (N); no step returns more.
     pub fn force_limit_n(&self) -> T {
         self.scalars.force_limit
     }
 
-    /// Sets the clearance 2a [m]: a live change for firmware, a few dozen operations, no table touched.
+    /// Sets the clearance 2a (m): a live change for firmware, a few dozen operations, no table touched.
     /// Held to 0 to 0.1 m; a value that is not finite counts as 0.
     pub fn set_clearance_m(&mut self, clearance_m: T) {
         let half = T::from_f64(0.5) * clearance_m;
@@ -162,7 +162,7 @@ impl<T: Real> Damper<T> {
         self.revision = revision::of_damper(self.tables_revision, &self.scalars);
     }
 
-    /// Force [N] at this tick for the displacement [m] of the tick; positive when it resists
+    /// Force (N) at this tick for the displacement (m) of the tick; positive when it resists
     /// extension. The displacement is taken as linear since the last tick: no added delay.
     ///
     /// Never fails: bad input is held or limited and latched in the state's status. The force is
@@ -175,7 +175,7 @@ impl<T: Real> Damper<T> {
         force
     }
 
-    /// Force [N] under a stretch of the springs [m], with the sign of `direction`.
+    /// Force (N) under a stretch of the springs (m), with the sign of `direction`.
     fn force_at(&self, sprung: T, direction: T) -> T {
         let [force] = step::force([self], Lanes([sprung]), Lanes([direction])).0;
         force
@@ -208,7 +208,7 @@ impl<T: Real> Damper<T> {
         }
     }
 
-    /// Stretch of the springs [m] under a force magnitude [N], by bisection of the output table.
+    /// Stretch of the springs (m) under a force magnitude (N), by bisection of the output table.
     fn deflection(&self, magnitude: T, direction: T) -> T {
         let k = &self.scalars;
         let half = T::from_f64(0.5);

@@ -7,7 +7,7 @@ use crate::parameters::{ATMOSPHERIC_PRESSURE_PA, DENSITY_TEMPERATURE_C, Oil, Oil
 /// 0 degC in kelvin.
 pub(crate) const ZERO_CELSIUS_K: f64 = 273.15;
 
-/// Specific gas constant of dry air [J/(kg K)], ISO 2533.
+/// Specific gas constant of dry air (J/(kg K)), ISO 2533.
 const AIR_GAS_CONSTANT: f64 = 287.053;
 
 impl Oil {
@@ -51,7 +51,7 @@ impl Oil {
         self.column.as_ref().map_or(Ok(()), OilColumn::validate)
     }
 
-    /// Density of oil with entrained air under gauge pressure [kg/m^3], by mass balance:
+    /// Density of oil with entrained air under gauge pressure (kg/m^3), by mass balance:
     /// `rho = [(1 - alpha) rho_oil + alpha rho_air] / V(P)`, V the volume of a mixture that fills 1
     /// at atmospheric pressure.
     ///
@@ -81,7 +81,7 @@ impl Oil {
         }
     }
 
-    /// Kinematic viscosity at the working temperature [m^2/s], Walther's law (ASTM D341):
+    /// Kinematic viscosity at the working temperature (m^2/s), Walther's law (ASTM D341):
     /// `log10(log10(nu + 0.7)) = A - B log10(T)`, nu in mm^2/s, T in K, through the two given points.
     pub fn kinematic_viscosity_m2_per_s(&self) -> f64 {
         let ordinate = |viscosity: f64| log10(log10(viscosity * 1e6 + 0.7));
@@ -95,7 +95,7 @@ impl Oil {
         (pow(10.0, pow(10.0, y)) - 0.7) * 1e-6
     }
 
-    /// `sqrt(2 D/rho(P))` [m/s] of a pressure difference D from upstream pressure P, 0 when it does not
+    /// `sqrt(2 D/rho(P))` (m/s) of a pressure difference D from upstream pressure P, 0 when it does not
     /// drive.
     pub(crate) fn jet_velocity(&self, difference_pa: f64, upstream_pa: f64) -> f64 {
         if difference_pa > 0.0 {
@@ -142,7 +142,7 @@ impl OilColumn {
     }
 
     /// Share of its atmospheric volume by which the mixture shortens under gauge pressure P:
-    /// `(1 - alpha) P/E_l + alpha (1 - (p_a/(p_a + P))^(1/n))` [1].
+    /// `(1 - alpha) P/E_l + alpha (1 - (p_a/(p_a + P))^(1/n))` (1).
     pub fn compression(&self, pressure_pa: f64) -> f64 {
         let air = 1.0
             - pow(
@@ -152,7 +152,7 @@ impl OilColumn {
         (1.0 - self.air_fraction) * pressure_pa / self.bulk_modulus_pa + self.air_fraction * air
     }
 
-    /// Derivative of [`OilColumn::compression`] with respect to pressure [1/Pa].
+    /// Derivative of [`OilColumn::compression`] with respect to pressure (1/Pa).
     pub fn compressibility_per_pa(&self, pressure_pa: f64) -> f64 {
         let absolute = ATMOSPHERIC_PRESSURE_PA + pressure_pa;
         let n = self.polytropic_exponent;
@@ -160,7 +160,7 @@ impl OilColumn {
             + self.air_fraction * pow(ATMOSPHERIC_PRESSURE_PA / absolute, 1.0 / n) / (n * absolute)
     }
 
-    /// Bulk modulus of the mixture at absolute pressure p [Pa]: its volume over its compressibility,
+    /// Bulk modulus of the mixture at absolute pressure p (Pa): its volume over its compressibility,
     /// `E = E_l (1 + alpha (p_a/p)^(1/n)) / (1 + alpha p_a^(1/n) E_l/(n p^((n+1)/n)))` to first order
     /// in alpha.
     ///

@@ -1,7 +1,7 @@
 //! What a damper is: parameters in SI units, as a damper file or a literal gives them.
 //!
 //! Signals of the element: `x` relative displacement of the two seats, positive in
-//! extension [m]; `F` force [N], positive when it resists extension.
+//! extension (m); `F` force (N), positive when it resists extension.
 
 use heapless::Vec;
 
@@ -63,9 +63,9 @@ pub struct Hydraulics {
     serde(deny_unknown_fields)
 )]
 pub struct Geometry {
-    /// Rod diameter [m].
+    /// Rod diameter (m).
     pub rod_diameter_m: f64,
-    /// Piston diameter [m].
+    /// Piston diameter (m).
     pub piston_diameter_m: f64,
 }
 
@@ -77,9 +77,9 @@ pub struct Geometry {
     serde(deny_unknown_fields)
 )]
 pub struct Orifice {
-    /// Orifice diameter [m]; 0 closes it.
+    /// Orifice diameter (m); 0 closes it.
     pub diameter_m: f64,
-    /// Turbulent discharge coefficient [1].
+    /// Turbulent discharge coefficient (1).
     pub discharge_coefficient: f64,
     /// Reynolds number `Re = u d/nu` (u mean velocity in the bore) at which the laminar and the
     /// turbulent part of the pressure drop are equal; 0 is always turbulent.
@@ -108,7 +108,7 @@ pub struct Valves {
 
 /// A shim-pack valve: edge lift `w = k_w (P - P_0)+`, flow `Q = Cd 2 pi r_w w sqrt(2 P/rho)`.
 ///
-/// The edge compliance `k_w` [m/Pa] is `edge_compliance_m_per_pa * equivalent_pressure_factor`
+/// The edge compliance `k_w` (m/Pa) is `edge_compliance_m_per_pa * equivalent_pressure_factor`
 /// when the former is given, else `Cw(r_w) equivalent_pressure_factor / h_e^3` of the pack.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(
@@ -117,31 +117,31 @@ pub struct Valves {
     serde(deny_unknown_fields)
 )]
 pub struct Valve {
-    /// Clamping radius r_n of the discs [m].
+    /// Clamping radius r_n of the discs (m).
     pub clamp_radius_m: f64,
-    /// Free (outer) radius r_w of the discs [m].
+    /// Free (outer) radius r_w of the discs (m).
     pub free_radius_m: f64,
-    /// Thickness of each shim [m]; may be empty when the edge compliance is given.
+    /// Thickness of each shim (m); may be empty when the edge compliance is given.
     #[cfg_attr(feature = "serde", serde(default))]
     pub shims_m: Vec<f64, MAX_SHIMS>,
-    /// Edge lift per uniform pressure [m/Pa], in place of the pack's theory.
+    /// Edge lift per uniform pressure (m/Pa), in place of the pack's theory.
     #[cfg_attr(
         feature = "serde",
         serde(default, skip_serializing_if = "Option::is_none")
     )]
     pub edge_compliance_m_per_pa: Option<f64>,
-    /// Equivalent-pressure correction factor Ce [1].
+    /// Equivalent-pressure correction factor Ce (1).
     #[cfg_attr(feature = "serde", serde(default = "one"))]
     pub equivalent_pressure_factor: f64,
-    /// Discharge coefficient of the lifted edge [1].
+    /// Discharge coefficient of the lifted edge (1).
     pub discharge_coefficient: f64,
-    /// Opening pressure P_0 [Pa].
+    /// Opening pressure P_0 (Pa).
     #[cfg_attr(feature = "serde", serde(default))]
     pub preload_pa: f64,
-    /// Elastic modulus of the shims [Pa].
+    /// Elastic modulus of the shims (Pa).
     #[cfg_attr(feature = "serde", serde(default = "spring_steel_modulus_pa"))]
     pub elastic_modulus_pa: f64,
-    /// Poisson's ratio of the shims [1].
+    /// Poisson's ratio of the shims (1).
     #[cfg_attr(feature = "serde", serde(default = "spring_steel_poisson_ratio"))]
     pub poisson_ratio: f64,
 }
@@ -154,11 +154,11 @@ pub struct Valve {
     serde(deny_unknown_fields)
 )]
 pub struct Leakage {
-    /// Radial clearance c between piston and cylinder [m].
+    /// Radial clearance c between piston and cylinder (m).
     pub radial_clearance_m: f64,
-    /// Length L of the gap [m].
+    /// Length L of the gap (m).
     pub length_m: f64,
-    /// Eccentricity e over clearance [1], 0 concentric to 1 touching.
+    /// Eccentricity e over clearance (1), 0 concentric to 1 touching.
     #[cfg_attr(feature = "serde", serde(default))]
     pub eccentricity_ratio: f64,
 }
@@ -171,11 +171,11 @@ pub struct Leakage {
     serde(deny_unknown_fields)
 )]
 pub struct Relief {
-    /// Pressure at which it opens [Pa].
+    /// Pressure at which it opens (Pa).
     pub opening_pressure_pa: f64,
-    /// Flow area per pressure above opening [m^2/Pa].
+    /// Flow area per pressure above opening (m^2/Pa).
     pub area_gradient_m2_per_pa: f64,
-    /// Discharge coefficient [1].
+    /// Discharge coefficient (1).
     pub discharge_coefficient: f64,
 }
 
@@ -190,13 +190,13 @@ pub struct Relief {
     serde(deny_unknown_fields)
 )]
 pub struct Reservoir {
-    /// Gauge pressure when filled [Pa].
+    /// Gauge pressure when filled (Pa).
     pub fill_pressure_pa: f64,
-    /// Gas volume when filled [m^3].
+    /// Gas volume when filled (m^3).
     pub gas_volume_m3: f64,
-    /// Oil and gas temperature when filled [degC].
+    /// Oil and gas temperature when filled (degC).
     pub fill_temperature_c: f64,
-    /// Mean rod insertion beyond the position at filling [m], positive in compression.
+    /// Mean rod insertion beyond the position at filling (m), positive in compression.
     #[cfg_attr(feature = "serde", serde(default))]
     pub rod_insertion_m: f64,
 }
@@ -209,7 +209,7 @@ pub struct Reservoir {
     serde(deny_unknown_fields)
 )]
 pub struct Seal {
-    /// Friction force F_c [N].
+    /// Friction force F_c (N).
     pub friction_n: f64,
 }
 
@@ -222,7 +222,7 @@ pub struct Seal {
     serde(deny_unknown_fields)
 )]
 pub struct TwoChamber {
-    /// Lowest gauge pressure the rod-side chamber can reach [Pa], about -1e5.
+    /// Lowest gauge pressure the rod-side chamber can reach (Pa), about -1e5.
     pub vapour_pressure_pa: f64,
 }
 
@@ -234,18 +234,18 @@ pub struct TwoChamber {
     serde(deny_unknown_fields)
 )]
 pub struct Oil {
-    /// Density at 15 degC without air [kg/m^3].
+    /// Density at 15 degC without air (kg/m^3).
     pub density_kg_per_m3: f64,
-    /// Volumetric thermal expansion [1/K].
+    /// Volumetric thermal expansion (1/K).
     #[cfg_attr(feature = "serde", serde(default))]
     pub thermal_expansion_per_k: f64,
-    /// Working temperature [degC].
+    /// Working temperature (degC).
     #[cfg_attr(feature = "serde", serde(default = "reference_temperature_c"))]
     pub temperature_c: f64,
-    /// Kinematic viscosity at 40 degC [m^2/s].
+    /// Kinematic viscosity at 40 degC (m^2/s).
     #[cfg_attr(feature = "serde", serde(default = "viscosity_40c_m2_per_s"))]
     pub viscosity_40c_m2_per_s: f64,
-    /// Kinematic viscosity at 100 degC [m^2/s].
+    /// Kinematic viscosity at 100 degC (m^2/s).
     #[cfg_attr(feature = "serde", serde(default = "viscosity_100c_m2_per_s"))]
     pub viscosity_100c_m2_per_s: f64,
     /// The oil columns as springs; `None` is rigid oil.
@@ -265,16 +265,16 @@ pub struct Oil {
     serde(deny_unknown_fields)
 )]
 pub struct OilColumn {
-    /// Bulk modulus E_l of the oil without air [Pa].
+    /// Bulk modulus E_l of the oil without air (Pa).
     pub bulk_modulus_pa: f64,
-    /// Volume of the chamber under pressure in extension [m^3].
+    /// Volume of the chamber under pressure in extension (m^3).
     pub rod_side_volume_m3: f64,
-    /// Volume of the chamber under pressure in compression [m^3].
+    /// Volume of the chamber under pressure in compression (m^3).
     pub piston_side_volume_m3: f64,
-    /// Volume ratio alpha of entrained air at atmospheric pressure [1].
+    /// Volume ratio alpha of entrained air at atmospheric pressure (1).
     #[cfg_attr(feature = "serde", serde(default))]
     pub air_fraction: f64,
-    /// Polytropic exponent n of the air [1].
+    /// Polytropic exponent n of the air (1).
     #[cfg_attr(feature = "serde", serde(default = "one"))]
     pub polytropic_exponent: f64,
 }
@@ -287,15 +287,15 @@ pub struct OilColumn {
     serde(deny_unknown_fields)
 )]
 pub struct Mount {
-    /// Stiffness of the rubber bushes, or the whole effective stiffness Ke [N/m].
+    /// Stiffness of the rubber bushes, or the whole effective stiffness Ke (N/m).
     pub stiffness_n_per_m: f64,
-    /// Stiffness of the seats [N/m]; `None` is rigid.
+    /// Stiffness of the seats (N/m); `None` is rigid.
     #[cfg_attr(
         feature = "serde",
         serde(default, skip_serializing_if = "Option::is_none")
     )]
     pub seat_stiffness_n_per_m: Option<f64>,
-    /// Clearance 2a between damper and seats, the whole play [m].
+    /// Clearance 2a between damper and seats, the whole play (m).
     #[cfg_attr(feature = "serde", serde(default))]
     pub clearance_m: f64,
 }
@@ -308,9 +308,9 @@ pub struct Mount {
     serde(deny_unknown_fields)
 )]
 pub struct Reduced {
-    /// Damping coefficient C [N s/m].
+    /// Damping coefficient C (N s/m).
     pub damping_n_s_per_m: f64,
-    /// Saturation velocity V_r [m/s].
+    /// Saturation velocity V_r (m/s).
     pub saturation_velocity_m_per_s: f64,
 }
 
@@ -322,9 +322,9 @@ pub struct Reduced {
     serde(deny_unknown_fields, default)
 )]
 pub struct Limits {
-    /// Largest force magnitude [N]; beyond it the damper yields at constant force.
+    /// Largest force magnitude (N); beyond it the damper yields at constant force.
     pub force_n: f64,
-    /// Largest credible rate of the displacement input [m/s]; a faster input is followed at
+    /// Largest credible rate of the displacement input (m/s); a faster input is followed at
     /// this rate and flagged.
     pub rate_m_per_s: f64,
 }
@@ -338,10 +338,10 @@ impl Default for Limits {
     }
 }
 
-/// Absolute atmospheric pressure p_a [Pa], ISO 2533.
+/// Absolute atmospheric pressure p_a (Pa), ISO 2533.
 pub const ATMOSPHERIC_PRESSURE_PA: f64 = 101_325.0;
 
-/// Temperature at which the oil density is given [degC], as on data sheets (ISO 3675).
+/// Temperature at which the oil density is given (degC), as on data sheets (ISO 3675).
 pub const DENSITY_TEMPERATURE_C: f64 = 15.0;
 
 #[cfg(feature = "serde")]

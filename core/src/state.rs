@@ -9,13 +9,13 @@ use crate::status::Status;
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[repr(C)]
 pub struct DamperState<T> {
-    /// Displacement used last [m].
+    /// Displacement used last (m).
     pub(crate) displacement: T,
-    /// Stretch of clearance and series springs `x - x_r` [m].
+    /// Stretch of clearance and series springs `x - x_r` (m).
     pub(crate) stretch: T,
-    /// Flow potential at the stretch, times the step [m^2].
+    /// Flow potential at the stretch, times the step (m^2).
     pub(crate) potential: T,
-    /// Force returned last [N].
+    /// Force returned last (N).
     pub(crate) force: T,
     /// Revision of the damper that stepped last.
     pub(crate) revision: u32,
@@ -24,17 +24,17 @@ pub struct DamperState<T> {
 }
 
 impl<T: Real> DamperState<T> {
-    /// Displacement used last [m], positive in extension.
+    /// Displacement used last (m), positive in extension.
     pub fn displacement(&self) -> T {
         self.displacement
     }
 
-    /// Piston displacement in the cylinder `x_r` [m].
+    /// Piston displacement in the cylinder `x_r` (m).
     pub fn piston_displacement(&self) -> T {
         self.displacement - self.stretch
     }
 
-    /// Force returned last [N], positive when it resists extension.
+    /// Force returned last (N), positive when it resists extension.
     pub fn force(&self) -> T {
         self.force
     }

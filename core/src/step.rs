@@ -12,10 +12,10 @@ const EXPLICIT_RATIO: f64 = (1.0 - IMPLICIT_SHARE) / IMPLICIT_SHARE;
 /// The correction is at most this share of the step's travel, so it never undoes the damping.
 const CORRECTION_SHARE: f64 = 0.125;
 
-/// Added to a change of stretch to keep its inverse finite at a standstill [m]; lost in any other.
+/// Added to a change of stretch to keep its inverse finite at a standstill (m); lost in any other.
 const STANDSTILL: f64 = 1e-30;
 
-/// Steps `L` dampers; returns their forces [N].
+/// Steps `L` dampers; returns their forces (N).
 #[inline(always)]
 pub(crate) fn step<T: Real, const L: usize>(
     dampers: [&Damper<T>; L],
@@ -88,7 +88,7 @@ fn of<T: Real, const L: usize>(
 }
 
 /// Takes the displacements in: adopts states that another damper stepped, limits the travel, which it
-/// returns [m].
+/// returns (m).
 #[inline(always)]
 #[allow(clippy::neg_cmp_op_on_partial_ord)] // so that NaN is rejected too
 fn enter<T: Real, const L: usize>(
@@ -129,7 +129,7 @@ fn reject<T: Real>(state: &mut DamperState<T>, travel: T, largest_move: T) -> T 
 /// The constants of implicit stages.
 struct Stages<'a, T, const L: usize> {
     tables: [&'a Table<Piece<T>>; L],
-    /// Stretch up to which nothing flows [m].
+    /// Stretch up to which nothing flows (m).
     offset: Lanes<T, L>,
     scale: Lanes<T, L>,
     shift: Lanes<T, L>,
@@ -140,9 +140,9 @@ struct Stages<'a, T, const L: usize> {
 
 /// A solved stage.
 struct Stage<'a, T, const L: usize> {
-    /// [m].
+    /// (m).
     stretch: Lanes<T, L>,
-    /// Flow over the stage [m].
+    /// Flow over the stage (m).
     flow: Lanes<T, L>,
     pieces: [&'a Piece<T>; L],
     z: Lanes<T, L>,
@@ -180,14 +180,14 @@ impl<'a, T: Real, const L: usize> Stages<'a, T, L> {
 }
 
 impl<T: Real, const L: usize> Stage<'_, T, L> {
-    /// Flow potential times the step [m^2].
+    /// Flow potential times the step (m^2).
     #[inline(always)]
     fn potential(&self) -> Lanes<T, L> {
         cubic(self.pieces.map(|piece| &piece.potential), self.z)
     }
 }
 
-/// Flow potential times the step [m^2] of `damper` at a stretch [m], by bisection of its stages.
+/// Flow potential times the step (m^2) of `damper` at a stretch (m), by bisection of its stages.
 pub(crate) fn potential_at<T: Real>(damper: &Damper<T>, stretch: T) -> T {
     let stages = Stages::new([damper]);
     let k = &damper.scalars;
@@ -208,7 +208,7 @@ pub(crate) fn potential_at<T: Real>(damper: &Damper<T>, stretch: T) -> T {
     stage.potential().0[0]
 }
 
-/// Force [N] under a stretch of the springs [m], with the sign of `direction`: the mount's up to seal
+/// Force (N) under a stretch of the springs (m), with the sign of `direction`: the mount's up to seal
 /// friction, beyond it the table's.
 #[inline(always)]
 pub(crate) fn force<T: Real, const L: usize>(

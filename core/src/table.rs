@@ -9,9 +9,9 @@ pub(crate) const PIECES: usize = 64;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C)]
 pub(crate) struct Piece<T> {
-    /// Flow over the stage [m], with the sign of the stretch.
+    /// Flow over the stage (m), with the sign of the stretch.
     pub(crate) flow: [T; 4],
-    /// Flow potential times the step [m^2], positive.
+    /// Flow potential times the step (m^2), positive.
     pub(crate) potential: [T; 4],
 }
 

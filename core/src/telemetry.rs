@@ -11,9 +11,9 @@ use crate::status::Status;
 pub struct Sample {
     /// Tick count.
     pub tick: u32,
-    /// Displacement used [m], positive in extension.
+    /// Displacement used (m), positive in extension.
     pub displacement_m: f32,
-    /// Force returned [N], positive when it resists extension.
+    /// Force returned (N), positive when it resists extension.
     pub force_n: f32,
     /// Status bits latched by then.
     pub status: Status,
@@ -71,7 +71,7 @@ impl<const N: usize> Telemetry<N> {
         self.overwritten
     }
 
-    /// Root mean square of the force over the samples [N], 0 without any.
+    /// Root mean square of the force over the samples (N), 0 without any.
     ///
     /// For a display: its square root is approximate and errs by up to 6 %. The step never uses it.
     pub fn approximate_rms_force_n(&self) -> f32 {

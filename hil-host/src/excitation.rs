@@ -29,7 +29,7 @@ impl Excitation {
         }
     }
 
-    /// Length [s].
+    /// Length (s).
     pub fn duration_s(self) -> f64 {
         match self {
             Self::Sweep => 10.0,
@@ -37,7 +37,7 @@ impl Excitation {
         }
     }
 
-    /// Displacement [m] at ticks 0, 1, 2, ... of `step_s` [s], the first one 0.
+    /// Displacement (m) at ticks 0, 1, 2, ... of `step_s` (s), the first one 0.
     pub fn displacements_m(self, step_s: f64) -> Vec<f64> {
         let ticks = (self.duration_s() / step_s).round() as usize;
         let time = (0..=ticks).map(|tick| tick as f64 * step_s);

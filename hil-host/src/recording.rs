@@ -14,9 +14,9 @@ const COLUMNS: [&str; 2] = ["time_s", "displacement_m"];
 /// One row of a recording.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sample {
-    /// Time [s].
+    /// Time (s).
     pub time_s: f64,
-    /// Relative displacement of the seats [m], positive in extension.
+    /// Relative displacement of the seats (m), positive in extension.
     pub displacement_m: f64,
 }
 

@@ -9,9 +9,9 @@ use crate::recording::{Recording, Sample};
 /// One tick of a replay.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tick {
-    /// Time [s], first sample plus a whole number of steps.
+    /// Time (s), first sample plus a whole number of steps.
     pub time_s: f64,
-    /// Displacement there [m], linear between samples.
+    /// Displacement there (m), linear between samples.
     pub displacement_m: f64,
 }
 
@@ -29,7 +29,7 @@ pub struct Ticks {
 const MOST_TICKS: f64 = 864e6;
 
 impl Ticks {
-    /// The grid of `step_s` [s] over `recording`.
+    /// The grid of `step_s` (s) over `recording`.
     ///
     /// # Errors
     /// No readable row.
@@ -95,13 +95,13 @@ impl Ticks {
 pub struct Summary {
     /// Ticks stepped.
     pub ticks: u64,
-    /// Root mean square of the force [N].
+    /// Root mean square of the force (N).
     pub force_rms_n: f64,
-    /// Largest force in extension [N].
+    /// Largest force in extension (N).
     pub max_extension_force_n: f64,
-    /// Largest force in compression [N], positive.
+    /// Largest force in compression (N), positive.
     pub max_compression_force_n: f64,
-    /// Energy taken from the motion, `integral F dx` by the trapezoidal rule [J].
+    /// Energy taken from the motion, `integral F dx` by the trapezoidal rule (J).
     pub energy_j: f64,
     /// Latched status bits.
     pub status: Status,
@@ -110,7 +110,7 @@ pub struct Summary {
 }
 
 /// Steps `damper` over `ticks`, in real ticks where there is a pacer, and hands each tick with its force
-/// [N] to `sink`. Reading and writing happen in the slack of the ticks.
+/// (N) to `sink`. Reading and writing happen in the slack of the ticks.
 ///
 /// # Errors
 /// What `ticks` or `sink` return.

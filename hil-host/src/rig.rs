@@ -15,9 +15,9 @@ const MOST_CYCLES: usize = 200;
 /// A harmonic motion `x = A sin(2 pi f t)` of the seats.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Harmonic {
-    /// Amplitude A [m].
+    /// Amplitude A (m).
     pub amplitude_m: f64,
-    /// Frequency f [Hz].
+    /// Frequency f (Hz).
     pub frequency_hz: f64,
 }
 
@@ -28,7 +28,7 @@ impl Harmonic {
         frequency_hz: 0.64,
     };
 
-    /// Peak velocity `2 pi f A` [m/s].
+    /// Peak velocity `2 pi f A` (m/s).
     pub fn peak_velocity_m_per_s(&self) -> f64 {
         TAU * self.frequency_hz * self.amplitude_m
     }
@@ -51,34 +51,34 @@ impl Harmonic {
 /// Indices of one settled cycle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Indices {
-    /// Largest force in extension F_e [N].
+    /// Largest force in extension F_e (N).
     pub max_extension_force_n: f64,
-    /// Largest force in compression F_c [N], as a magnitude.
+    /// Largest force in compression F_c (N), as a magnitude.
     pub max_compression_force_n: f64,
-    /// `(F_e - F_c)/(F_e + F_c)` [1]; `None` without force.
+    /// `(F_e - F_c)/(F_e + F_c)` (1); `None` without force.
     pub asymmetry_rate: Option<f64>,
-    /// Energy taken from the motion in the cycle, the integral of F dx [J].
+    /// Energy taken from the motion in the cycle, the integral of F dx (J).
     pub energy_per_cycle_j: f64,
-    /// Mean of both largest forces over the peak velocity [N s/m].
+    /// Mean of both largest forces over the peak velocity (N s/m).
     pub damping_coefficient_n_s_per_m: f64,
 }
 
-/// One settled cycle: displacement [m] and force [N] at each step.
+/// One settled cycle: displacement (m) and force (N) at each step.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Cycle {
     /// The motion.
     pub motion: Harmonic,
-    /// Displacements [m], from the first step after zero.
+    /// Displacements (m), from the first step after zero.
     pub displacements_m: Vec<f64>,
-    /// Forces [N] at them.
+    /// Forces (N) at them.
     pub forces_n: Vec<f64>,
-    /// Step used [s]: the one asked for, shortened to a whole number of steps a cycle.
+    /// Step used (s): the one asked for, shortened to a whole number of steps a cycle.
     pub step_s: f64,
     /// Cycles run until the force repeated.
     pub cycles: usize,
 }
 
-/// Runs a damper in double precision through `motion` with steps of at most `step_s` [s] until the
+/// Runs a damper in double precision through `motion` with steps of at most `step_s` (s) until the
 /// force repeats.
 ///
 /// # Errors

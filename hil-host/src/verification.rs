@@ -9,21 +9,21 @@ use crate::reference::Reference;
 /// Deviation of one fixed step from the reference on one motion.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Deviation {
-    /// Step [s].
+    /// Step (s).
     pub step_s: f64,
-    /// Root mean square error over root mean square reference force [1].
+    /// Root mean square error over root mean square reference force (1).
     pub nrmse: f64,
-    /// Largest error over the largest reference force [1].
+    /// Largest error over the largest reference force (1).
     pub largest_error_over_peak: f64,
-    /// Largest error [N].
+    /// Largest error (N).
     pub largest_error_n: f64,
-    /// Root mean square of the reference force [N].
+    /// Root mean square of the reference force (N).
     pub reference_rms_n: f64,
-    /// Largest magnitude of the reference force [N].
+    /// Largest magnitude of the reference force (N).
     pub reference_peak_n: f64,
 }
 
-/// Force [N] of the fixed step at each displacement [m], the first one being where it starts at rest.
+/// Force (N) of the fixed step at each displacement (m), the first one being where it starts at rest.
 ///
 /// # Errors
 /// Parameters that cannot be built.
@@ -41,7 +41,7 @@ pub fn fixed_step_forces<T: Real>(
         .collect())
 }
 
-/// Reference force [N] at each displacement [m], linear between ticks of `step_s` [s].
+/// Reference force (N) at each displacement (m), linear between ticks of `step_s` (s).
 ///
 /// # Errors
 /// What the reference solver reports.
@@ -56,7 +56,7 @@ pub fn reference_forces(
     Reference::new(parameters)?.forces(&times, displacements_m)
 }
 
-/// Deviation of `forces` from `reference` [N].
+/// Deviation of `forces` from `reference` (N).
 ///
 /// # Errors
 /// Different lengths, or a reference force that is zero throughout.

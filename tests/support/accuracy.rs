@@ -37,7 +37,7 @@ pub const DAMPERS: [(&str, &str, &[&str]); 7] = [
     ),
 ];
 
-/// Step sizes of the accuracy table [s].
+/// Step sizes of the accuracy table (s).
 pub const STEPS_S: [f64; 2] = [1e-3, 1e-4];
 
 /// Errors of one damper under one excitation.
@@ -66,7 +66,7 @@ pub fn displacements_m(excitation: Excitation, step_s: f64) -> Vec<f64> {
     exact.iter().map(|x| f64::from(*x as f32)).collect()
 }
 
-/// Forces of the fixed step [N] over the displacements, from rest at the first one.
+/// Forces of the fixed step (N) over the displacements, from rest at the first one.
 pub fn stepped<T: Real>(
     parameters: &DamperParameters,
     step_s: f64,

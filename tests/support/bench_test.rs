@@ -6,42 +6,42 @@ use std::f64::consts::{PI, TAU};
 /// A harmonic motion of the seats.
 #[derive(Clone, Copy, Debug)]
 pub struct Harmonic {
-    /// Amplitude [m].
+    /// Amplitude (m).
     pub amplitude_m: f64,
-    /// Frequency [Hz].
+    /// Frequency (Hz).
     pub frequency_hz: f64,
 }
 
 /// What a settled cycle says; forces positive when they resist extension.
 #[derive(Clone, Copy, Debug)]
 pub struct Indices {
-    /// Largest force in extension [N].
+    /// Largest force in extension (N).
     pub max_extension_force_n: f64,
-    /// Largest force magnitude in compression [N].
+    /// Largest force magnitude in compression (N).
     pub max_compression_force_n: f64,
-    /// Work over the cycle, the integral of F dx [J].
+    /// Work over the cycle, the integral of F dx (J).
     pub energy_per_cycle_j: f64,
-    /// Part of the force in phase with the displacement, over the amplitude: K' [N/m].
+    /// Part of the force in phase with the displacement, over the amplitude: K' (N/m).
     pub storage_stiffness_n_per_m: f64,
-    /// Part of the force in phase with the velocity, over the velocity amplitude: C_dyn [N s/m].
+    /// Part of the force in phase with the velocity, over the velocity amplitude: C_dyn (N s/m).
     pub dynamic_damping_n_s_per_m: f64,
-    /// Largest velocity of the motion [m/s].
+    /// Largest velocity of the motion (m/s).
     pub velocity_m_per_s: f64,
 }
 
 impl Indices {
-    /// `(F_ext - F_comp)/(F_ext + F_comp)` [1], as in Table 5.
+    /// `(F_ext - F_comp)/(F_ext + F_comp)` (1), as in Table 5.
     pub fn asymmetry_rate(&self) -> f64 {
         (self.max_extension_force_n - self.max_compression_force_n)
             / (self.max_extension_force_n + self.max_compression_force_n)
     }
 
-    /// Mean of the two largest forces over the largest velocity [N s/m].
+    /// Mean of the two largest forces over the largest velocity (N s/m).
     pub fn damping_coefficient_n_s_per_m(&self) -> f64 {
         0.5 * (self.max_extension_force_n + self.max_compression_force_n) / self.velocity_m_per_s
     }
 
-    /// `E/(pi F x0)` [1], F the mean of the two largest forces; 1 for a linear damper.
+    /// `E/(pi F x0)` (1), F the mean of the two largest forces; 1 for a linear damper.
     pub fn energy_factor(&self, amplitude_m: f64) -> f64 {
         let force = 0.5 * (self.max_extension_force_n + self.max_compression_force_n);
         self.energy_per_cycle_j / (PI * force * amplitude_m)
@@ -88,7 +88,7 @@ pub fn settled_cycle(parameters: &DamperParameters, motion: Harmonic, step_s: f6
     }
 }
 
-/// Force once it has settled at a constant velocity [m/s], by the step in `f64` at 1 kHz.
+/// Force once it has settled at a constant velocity (m/s), by the step in `f64` at 1 kHz.
 pub fn settled_force(parameters: &DamperParameters, velocity_m_per_s: f64) -> f64 {
     const STEP_S: f64 = 1e-3;
     let damper: Damper<f64> = parameters.build(STEP_S).expect("a valid damper");

@@ -5,7 +5,7 @@ use dashpot_hil::reference::Reference;
 /// Force over velocity at equal distances.
 pub struct LookUp {
     forces_n: Vec<f32>,
-    /// Intervals per displacement of a step [1/m].
+    /// Intervals per displacement of a step (1/m).
     scale: f32,
     last: f32,
 }
@@ -13,7 +13,7 @@ pub struct LookUp {
 impl LookUp {
     const HALF: usize = 256;
 
-    /// The static curve of `reference` up to `velocity_m_per_s` either way, for a step [s].
+    /// The static curve of `reference` up to `velocity_m_per_s` either way, for a step (s).
     pub fn new(reference: &Reference, velocity_m_per_s: f64, step_s: f64) -> Self {
         let forces_n = (0..=2 * Self::HALF)
             .map(|index| {
@@ -28,7 +28,7 @@ impl LookUp {
         }
     }
 
-    /// Force [N] at the displacement [m] of the tick, linear between entries, held beyond the ends.
+    /// Force (N) at the displacement (m) of the tick, linear between entries, held beyond the ends.
     pub fn step(&mut self, x: f32) -> f32 {
         let place = (x - self.last) * self.scale + Self::HALF as f32;
         self.last = x;

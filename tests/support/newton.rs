@@ -13,16 +13,16 @@ const ITERATIONS: usize = 6;
 /// One side's constants.
 #[derive(Clone, Copy)]
 struct Side {
-    /// Piston area A [m^2].
+    /// Piston area A (m^2).
     area: f32,
-    /// A/K [m/Pa].
+    /// A/K (m/Pa).
     spring: f32,
-    /// gamma h b/A [m/Pa^0.5] and gamma h c/A [m/Pa^1.5].
+    /// gamma h b/A (m/Pa^0.5) and gamma h c/A (m/Pa^1.5).
     orifice: f32,
     shim: f32,
 }
 
-/// A damper and its piston's position x_r [m].
+/// A damper and its piston's position x_r (m).
 pub struct NewtonDamper {
     sides: [Side; 2],
     piston: f32,
@@ -30,7 +30,7 @@ pub struct NewtonDamper {
 }
 
 impl NewtonDamper {
-    /// The `paper` preset for a step [s]; `None` for the reduced element.
+    /// The `paper` preset for a step (s); `None` for the reduced element.
     pub fn new(parameters: &DamperParameters, step_s: f64) -> Option<Self> {
         let Element::Physical(hydraulics) = &parameters.element else {
             return None;
@@ -71,7 +71,7 @@ impl NewtonDamper {
         })
     }
 
-    /// Force [N] at the displacement [m] of the tick, positive when it resists extension.
+    /// Force (N) at the displacement (m) of the tick, positive when it resists extension.
     pub fn step(&mut self, x: f32) -> f32 {
         const IMPLICIT: f32 = (1.0 - FRAC_1_SQRT_2) as f32;
         const EXPLICIT_RATIO: f32 = (FRAC_1_SQRT_2 / (1.0 - FRAC_1_SQRT_2)) as f32;
@@ -84,7 +84,7 @@ impl NewtonDamper {
         force
     }
 
-    /// Force [N] and flow [m] of the stage that starts from the stretch `reach` [m].
+    /// Force (N) and flow (m) of the stage that starts from the stretch `reach` (m).
     fn stage(&self, reach: f32) -> (f32, f32) {
         let side = &self.sides[usize::from(reach < 0.0)];
         let target = reach.abs();

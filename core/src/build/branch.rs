@@ -14,20 +14,20 @@ pub(crate) enum Law<'a> {
     Reduced(Reduced),
 }
 
-/// A branch: all functions take the force magnitude [N] up to `force_limit`.
+/// A branch: all functions take the force magnitude (N) up to `force_limit`.
 #[derive(Clone, Copy)]
 pub(crate) struct Branch<'a> {
     pub(crate) law: Law<'a>,
-    /// `1/K_rubber + 1/K_seat` [m/N].
+    /// `1/K_rubber + 1/K_seat` (m/N).
     pub(crate) mount_compliance: f64,
-    /// Oil column and its volume [m^3].
+    /// Oil column and its volume (m^3).
     pub(crate) column: Option<(OilColumn, f64)>,
-    /// The branch yields at this force [N].
+    /// The branch yields at this force (N).
     pub(crate) force_limit: f64,
 }
 
 impl Branch<'_> {
-    /// `v_h(F)` [m/s].
+    /// `v_h(F)` (m/s).
     pub(crate) fn velocity(&self, force: f64) -> f64 {
         match &self.law {
             Law::Physical(side) => side.velocity(force),
@@ -35,7 +35,7 @@ impl Branch<'_> {
         }
     }
 
-    /// Force below which the piston does not move in the cylinder [N].
+    /// Force below which the piston does not move in the cylinder (N).
     pub(crate) fn friction(&self) -> f64 {
         match &self.law {
             Law::Physical(side) => side.laws.friction_n,
@@ -43,7 +43,7 @@ impl Branch<'_> {
         }
     }
 
-    /// Shortening of the chain `delta(F)` [m]: mount and oil column, the latter under the oil's
+    /// Shortening of the chain `delta(F)` (m): mount and oil column, the latter under the oil's
     /// gauge pressure.
     pub(crate) fn deflection(&self, force: f64) -> f64 {
         let oil = match (&self.column, &self.law) {
@@ -55,7 +55,7 @@ impl Branch<'_> {
         force * self.mount_compliance + oil
     }
 
-    /// `d delta/dF` [m/N].
+    /// `d delta/dF` (m/N).
     fn compliance(&self, force: f64) -> f64 {
         let oil = match (&self.column, &self.law) {
             (Some((column, volume)), Law::Physical(side)) if force > side.laws.friction_n => {
@@ -67,7 +67,7 @@ impl Branch<'_> {
         self.mount_compliance + oil
     }
 
-    /// Force of the chain shortened by `deflection` [N], at most the limit.
+    /// Force of the chain shortened by `deflection` (N), at most the limit.
     pub(crate) fn force(&self, deflection: f64) -> f64 {
         if deflection >= self.deflection(self.force_limit) {
             return self.force_limit;
@@ -77,7 +77,7 @@ impl Branch<'_> {
         })
     }
 
-    /// Force at the end of an implicit stage [N]: `delta(F) + g v_h(F) = reach`, at most the limit.
+    /// Force at the end of an implicit stage (N): `delta(F) + g v_h(F) = reach`, at most the limit.
     pub(crate) fn stage_force(&self, reach: f64, stage_s: f64) -> f64 {
         if reach >= self.reach(self.force_limit, stage_s) {
             return self.force_limit;
@@ -87,12 +87,12 @@ impl Branch<'_> {
         })
     }
 
-    /// `delta(F) + g v_h(F)` [m].
+    /// `delta(F) + g v_h(F)` (m).
     pub(crate) fn reach(&self, force: f64, stage_s: f64) -> f64 {
         self.deflection(force) + stage_s * self.velocity(force)
     }
 
-    /// Flow potential `H(F) = integral of v_h over delta from 0 to F` [m^2/s].
+    /// Flow potential `H(F) = integral of v_h over delta from 0 to F` (m^2/s).
     pub(crate) fn flow_potential(&self, force: f64) -> f64 {
         /// Five-point Gauss-Legendre rule on [-1, 1] (Abramowitz and Stegun 25.4.29).
         const RULE: [(f64, f64); 5] = [
@@ -120,7 +120,7 @@ impl Branch<'_> {
         sum * width
     }
 
-    /// Stretch `beta^2/(4 alpha)` [m] of a stage `alpha s^2 + beta s` at low pressure, s its root: below
+    /// Stretch `beta^2/(4 alpha)` (m) of a stage `alpha s^2 + beta s` at low pressure, s its root: below
     /// it the orifice's root law rules, above it the springs.
     pub(crate) fn knee(&self, stage_s: f64) -> f64 {
         match &self.law {
@@ -135,7 +135,7 @@ impl Branch<'_> {
         }
     }
 
-    /// Forces [N] at which `v_h` has a corner.
+    /// Forces (N) at which `v_h` has a corner.
     pub(crate) fn corners(&self) -> Vec<f64, 8> {
         match &self.law {
             Law::Physical(side) => side.corners(),

@@ -9,15 +9,15 @@ use crate::table::PIECES;
 /// Scale and shift of a grid.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Grid {
-    /// [1/m].
+    /// (1/m).
     pub(crate) scale: f64,
-    /// [1].
+    /// (1).
     pub(crate) shift: f64,
 }
 
 impl Grid {
-    /// A grid that holds stretches up to `reach` [m], with `knee = beta^2/(4 alpha)` [m], such that the
-    /// corners (stretch [m], weight) lie as near as possible to borders of pieces (y half-integer).
+    /// A grid that holds stretches up to `reach` (m), with `knee = beta^2/(4 alpha)` (m), such that the
+    /// corners (stretch (m), weight) lie as near as possible to borders of pieces (y half-integer).
     pub(crate) fn aligned(reach: f64, knee: f64, corners: &[(f64, f64)]) -> Self {
         let root = |stretch: f64| sqrt(stretch + knee) - sqrt(knee);
         let largest = (PIECES as f64 - 1.0) / root(reach);
@@ -50,7 +50,7 @@ impl Grid {
         }
     }
 
-    /// Stretch at `y` [m].
+    /// Stretch at `y` (m).
     pub(crate) fn stretch(&self, y: f64) -> f64 {
         y * (y + 2.0 * sqrt(self.shift)) / self.scale
     }

@@ -47,7 +47,7 @@ impl DamperParameters {
         }
     }
 
-    /// The constants of this damper for a fixed step [s].
+    /// The constants of this damper for a fixed step (s).
     ///
     /// Bounded work (some ten thousand evaluations of the flow laws), no allocation; run it on the
     /// host or outside the tick.

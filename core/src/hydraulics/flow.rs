@@ -1,4 +1,4 @@
-//! Volume flow [m^3/s] of each path under its pressure difference [Pa].
+//! Volume flow (m^3/s) of each path under its pressure difference (Pa).
 
 use core::f64::consts::PI;
 
@@ -10,7 +10,7 @@ use crate::shim::edge_compliance_m_per_pa;
 /// Shim-pack valve ready to evaluate: `Q = Cd 2 pi r_w k_w (P - P_0)+ sqrt(2 (P - P_b)+/rho)`.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ShimValve {
-    /// `Cd 2 pi r_w k_w` [m^2/Pa].
+    /// `Cd 2 pi r_w k_w` (m^2/Pa).
     area_gradient: f64,
     pub(crate) preload_pa: f64,
 }
@@ -75,11 +75,11 @@ impl ShimValve {
 /// The paths of the piston that are open both ways: orifice, annular leakage, relief valve.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct FlowPaths {
-    /// `Cd A` of the orifice [m^2].
+    /// `Cd A` of the orifice (m^2).
     pub(crate) orifice_area: f64,
-    /// Flow at which laminar and turbulent pressure drop of the orifice are equal [m^3/s].
+    /// Flow at which laminar and turbulent pressure drop of the orifice are equal (m^3/s).
     transition_flow: f64,
-    /// Leakage conductance times density [kg/(s Pa)].
+    /// Leakage conductance times density (kg/(s Pa)).
     leakage: f64,
     relief: Option<Relief>,
 }

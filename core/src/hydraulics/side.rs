@@ -13,7 +13,7 @@ pub(crate) struct HydraulicSide<'a> {
 }
 
 impl HydraulicSide<'_> {
-    /// Area under pressure [m^2].
+    /// Area under pressure (m^2).
     pub(crate) fn area(&self) -> f64 {
         if self.compression {
             self.laws.piston_area
@@ -22,12 +22,12 @@ impl HydraulicSide<'_> {
         }
     }
 
-    /// Gauge pressure `P = (|F| - F_c)+ / A` [Pa].
+    /// Gauge pressure `P = (|F| - F_c)+ / A` (Pa).
     pub(crate) fn pressure_pa(&self, force_n: f64) -> f64 {
         (force_n - self.laws.friction_n).max(0.0) / self.area()
     }
 
-    /// Velocity of the piston in the cylinder [m/s] under the force magnitude [N].
+    /// Velocity of the piston in the cylinder (m/s) under the force magnitude (N).
     pub(crate) fn velocity(&self, force_n: f64) -> f64 {
         let laws = self.laws;
         let pressure = self.pressure_pa(force_n);
@@ -43,13 +43,13 @@ impl HydraulicSide<'_> {
         (laws.through_piston(true, pressure, pressure) + laws.through_foot(pressure)) / self.area()
     }
 
-    /// Slope of the velocity over the root of the pressure, of the orifice alone [m/(s sqrt Pa)].
+    /// Slope of the velocity over the root of the pressure, of the orifice alone (m/(s sqrt Pa)).
     pub(crate) fn orifice_velocity_per_root_pressure(&self) -> f64 {
         let laws = self.laws;
         laws.paths.orifice_area * laws.oil.jet_velocity(1.0, 0.0) / self.area()
     }
 
-    /// Forces [N] at which the law has a corner: valves that open.
+    /// Forces (N) at which the law has a corner: valves that open.
     pub(crate) fn corners(&self) -> Vec<f64, 8> {
         let laws = self.laws;
         let mut corners = Vec::new();

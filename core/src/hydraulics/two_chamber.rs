@@ -3,7 +3,7 @@
 use super::flow::Laws;
 use crate::build::root::bracketed_root;
 
-/// Piston velocity [m/s] in compression under the force on the oil [N].
+/// Piston velocity (m/s) in compression under the force on the oil (N).
 ///
 /// `A_ext v = Q_piston(P1 - P2)`, `A_rod v = Q_foot(P1 - P_b)`, `F = P1 A_comp - P2 A_ext`. Where P2
 /// would fall below the vapour pressure it stays there and the oil flowing into the rod side no
@@ -27,7 +27,7 @@ pub(super) fn compression_velocity(laws: &Laws, vapour_pressure_pa: f64, force_n
         / piston
 }
 
-/// Force on the oil [N] at which the piston's pressure difference is `difference` [Pa].
+/// Force on the oil (N) at which the piston's pressure difference is `difference` (Pa).
 pub(super) fn force_at_difference(laws: &Laws, difference: f64) -> f64 {
     let rod_side = laws.rod_side_area;
     let rod = laws.piston_area - rod_side;

@@ -24,7 +24,7 @@ pub struct Disc {
     free_radius_m: f64,
     /// Coefficients of ln q, q^2, q^2 ln q and 1, with q = r/r_w, per P r_w^4/D.
     shape: [f64; 4],
-    /// r_w^4 h^3/D [m^6/N].
+    /// r_w^4 h^3/D (m^6/N).
     scale: f64,
     poisson_ratio: f64,
 }
@@ -100,7 +100,7 @@ impl Disc {
         })
     }
 
-    /// Deflection coefficient `Cw(r)` [m^6/N] of `w = Cw P/h^3`, `r` held within the disc.
+    /// Deflection coefficient `Cw(r)` (m^6/N) of `w = Cw P/h^3`, `r` held within the disc.
     pub fn deflection_coefficient(&self, radius_m: f64) -> f64 {
         let q =
             (radius_m / self.free_radius_m).clamp(self.clamp_radius_m / self.free_radius_m, 1.0);
@@ -109,12 +109,12 @@ impl Disc {
         self.scale * (c1 * ln + c2 * square + c3 * square * ln + c4 + square * square / 64.0)
     }
 
-    /// Largest deflection as `K` of `w(r_w) = K P r_w^4/D` [1] (Roark, case 2l).
+    /// Largest deflection as `K` of `w(r_w) = K P r_w^4/D` (1) (Roark, case 2l).
     pub fn edge_coefficient(&self) -> f64 {
         self.deflection_coefficient(self.free_radius_m) / self.scale
     }
 
-    /// Radial moment at the clamp as `K` of `|M| = K P r_w^2` [1] (Roark, case 2l).
+    /// Radial moment at the clamp as `K` of `|M| = K P r_w^2` (1) (Roark, case 2l).
     pub fn clamp_moment_coefficient(&self) -> f64 {
         let q = self.clamp_radius_m / self.free_radius_m;
         let nu = self.poisson_ratio;
@@ -126,12 +126,12 @@ impl Disc {
         curvature.abs()
     }
 
-    /// Clamping radius r_n [m].
+    /// Clamping radius r_n (m).
     pub fn clamp_radius_m(&self) -> f64 {
         self.clamp_radius_m
     }
 
-    /// Free radius r_w [m].
+    /// Free radius r_w (m).
     pub fn free_radius_m(&self) -> f64 {
         self.free_radius_m
     }

@@ -47,17 +47,17 @@ impl Pack {
         })
     }
 
-    /// Equivalent thickness cubed `h_e^3 = sum h_i^3` [m^3].
+    /// Equivalent thickness cubed `h_e^3 = sum h_i^3` (m^3).
     pub fn equivalent_thickness_cubed_m3(&self) -> f64 {
         self.shims_m.iter().map(|h| h * h * h).sum()
     }
 
-    /// Equivalent thickness h_e [m].
+    /// Equivalent thickness h_e (m).
     pub fn equivalent_thickness_m(&self) -> f64 {
         libm::cbrt(self.equivalent_thickness_cubed_m3())
     }
 
-    /// Deflection per uniform pressure at radius r, `Cw(r)/h_e^3` [m/Pa].
+    /// Deflection per uniform pressure at radius r, `Cw(r)/h_e^3` (m/Pa).
     pub fn compliance_m_per_pa(&self, radius_m: f64) -> f64 {
         self.disc.deflection_coefficient(radius_m) / self.equivalent_thickness_cubed_m3()
     }
@@ -68,7 +68,7 @@ impl Pack {
     }
 }
 
-/// Edge lift per working pressure of a valve [m/Pa]: the given or the computed compliance times
+/// Edge lift per working pressure of a valve (m/Pa): the given or the computed compliance times
 /// the equivalent-pressure factor Ce.
 ///
 /// # Errors

@@ -10,7 +10,7 @@ use crate::plot::style::{BLUE_LINE, RED_LINE};
 
 const PALE: RGBColor = RGBColor(160, 168, 176);
 
-/// The window of the ride shown large [s].
+/// The window of the ride shown large (s).
 pub(super) const WINDOW_S: (f64, f64) = (1.0, 2.0);
 
 fn panel(x: &str, y: &str, legend: SeriesLabelPosition, curves: Vec<Curve>) -> Panel {

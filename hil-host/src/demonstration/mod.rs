@@ -21,10 +21,10 @@ pub use page::write as page;
 /// Presets shown: the published equations as they stand, and the same damper in service.
 const DAMPERS: [&str; 2] = ["paper", "in-service"];
 
-/// Steps shown [s]: 1 and 10 kHz.
+/// Steps shown (s): 1 and 10 kHz.
 const STEPS_S: [f64; 2] = [1e-3, 1e-4];
 
-/// Amplitudes of the bench loops [m], at [`LOOP_FREQUENCY_HZ`].
+/// Amplitudes of the bench loops (m), at [`LOOP_FREQUENCY_HZ`].
 const LOOP_AMPLITUDES_M: [f64; 4] = [1e-3, 2.5e-3, 5e-3, 10e-3];
 const LOOP_FREQUENCY_HZ: f64 = 1.5;
 
@@ -35,15 +35,15 @@ pub struct Accuracy {
     pub damper: &'static str,
     /// `f32` or `f64`.
     pub scalar: &'static str,
-    /// Step [s].
+    /// Step (s).
     pub step_s: f64,
-    /// rms of the error over rms of the force [1].
+    /// rms of the error over rms of the force (1).
     pub nrmse: f64,
-    /// The project's limit for it [1].
+    /// The project's limit for it (1).
     pub nrmse_limit: f64,
-    /// Largest error over largest force [1].
+    /// Largest error over largest force (1).
     pub largest_error_over_peak: f64,
-    /// Median cost of a step, unpaced [ns].
+    /// Median cost of a step, unpaced (ns).
     pub median_ns_per_step: f64,
 }
 

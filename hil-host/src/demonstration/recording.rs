@@ -21,7 +21,7 @@ pub fn shipped() -> Outcome<Vec<Sample>> {
     open()?.read_all()
 }
 
-/// Times [s] from the first sample and displacements [m] at ticks of `step_s`, linear between samples.
+/// Times (s) from the first sample and displacements (m) at ticks of `step_s`, linear between samples.
 ///
 /// # Errors
 /// As [`shipped`].

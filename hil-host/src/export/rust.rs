@@ -36,7 +36,7 @@ fn literal(word: impl LowerHex, digits: usize) -> String {
 pub struct Provenance<'a> {
     /// Preset or file the damper came from.
     pub damper: &'a str,
-    /// Step as asked for [us].
+    /// Step as asked for (us).
     pub step_us: u32,
     /// Command line that makes the file again.
     pub command: &'a str,

@@ -2,7 +2,7 @@
 
 /// A monotonic clock that can be slept on until an absolute time.
 pub trait Clock {
-    /// Time since an origin of the clock's own [ns].
+    /// Time since an origin of the clock's own (ns).
     fn now_ns(&self) -> u64;
     /// Returns at `deadline_ns` or, as the system's scheduler has it, after.
     fn sleep_until_ns(&self, deadline_ns: u64);
@@ -58,7 +58,7 @@ impl Clock for MonotonicClock {
     }
 }
 
-/// Cost of reading the clock twice in a row [ns], median of ten thousand: what every time span
+/// Cost of reading the clock twice in a row (ns), median of ten thousand: what every time span
 /// measured with it holds beside the work.
 pub fn overhead_ns(clock: &impl Clock) -> u64 {
     let mut spans: Vec<u64> = (0..10_000)

@@ -42,9 +42,9 @@ pub struct Pacer<C: Clock = MonotonicClock> {
 pub struct TickTiming {
     /// Number of the tick.
     pub tick: u64,
-    /// Due, on the pacer's clock [ns].
+    /// Due, on the pacer's clock (ns).
     pub due_ns: u64,
-    /// Work began after it was due by [ns].
+    /// Work began after it was due by (ns).
     pub late_ns: u64,
 }
 
@@ -55,18 +55,18 @@ pub struct PacingReport {
     pub ticks: u64,
     /// Ticks whose work ended after the next tick was due.
     pub missed_deadlines: u64,
-    /// From due to the work's begin [ns].
+    /// From due to the work's begin (ns).
     pub lateness: Distribution,
-    /// From the work's begin to its end, one clock reading within [ns].
+    /// From the work's begin to its end, one clock reading within (ns).
     pub work: Distribution,
-    /// From due to the work's end [ns].
+    /// From due to the work's end (ns).
     pub response: Distribution,
-    /// Work of the first ticks, caches cold [ns].
+    /// Work of the first ticks, caches cold (ns).
     pub first_work_ns: Vec<u64>,
 }
 
 impl Pacer<MonotonicClock> {
-    /// A pacer of `step_s` [s] on the system's clock, with the thread that calls it made real-time as
+    /// A pacer of `step_s` (s) on the system's clock, with the thread that calls it made real-time as
     /// `options` ask.
     ///
     /// # Errors

@@ -1,6 +1,6 @@
 //! Compression with the pressures of both chambers.
 //!
-//! Pressures are gauge [Pa], flows [m^3/s], velocities [m/s], positive in compression. The working
+//! Pressures are gauge (Pa), flows (m^3/s), velocities (m/s), positive in compression. The working
 //! pressure is `F/A_comp`, seal friction taken off the force.
 
 use super::bracket::increasing_root;
@@ -14,12 +14,12 @@ pub(super) struct TwoChambers {
     pub(super) piston: PistonPaths,
     pub(super) foot: Foot,
     pub(super) areas: Areas,
-    /// Lowest gauge pressure of the rod side [Pa].
+    /// Lowest gauge pressure of the rod side (Pa).
     pub(super) vapour: f64,
 }
 
 impl TwoChambers {
-    /// Force up to which neither foot valve nor piston passes oil, the rod side not boiling [N].
+    /// Force up to which neither foot valve nor piston passes oil, the rod side not boiling (N).
     fn closed_force(&self) -> f64 {
         self.areas.rod * self.foot.closed_up_to()
             + self.areas.extension * self.piston.closed_up_to()

@@ -1,6 +1,6 @@
 //! Flow paths of the physical damper: piston velocity under a chamber pressure.
 //!
-//! Pressures are gauge [Pa], flows [m^3/s], velocities [m/s], all positive in the direction that
+//! Pressures are gauge (Pa), flows (m^3/s), velocities (m/s), all positive in the direction that
 //! works.
 
 use std::f64::consts::PI;
@@ -13,7 +13,7 @@ use super::chambers::TwoChambers;
 use super::oil::{Fluid, kelvin};
 use super::shim::edge_compliance_m_per_pa;
 
-/// Piston areas [m^2].
+/// Piston areas (m^2).
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Areas {
     pub(super) extension: f64,
@@ -38,9 +38,9 @@ impl Areas {
 /// (`gradient = Cd 2 pi r_w k_w`) or the relief valve (`gradient = Cd g`).
 #[derive(Clone, Copy, Debug)]
 struct Opening {
-    /// Effective area per pressure [m^2/Pa].
+    /// Effective area per pressure (m^2/Pa).
     gradient: f64,
-    /// Opening pressure [Pa].
+    /// Opening pressure (Pa).
     opens_at: f64,
 }
 
@@ -72,13 +72,13 @@ impl Opening {
 /// Everything that passes the piston in one direction: orifice, shims, leakage, relief.
 #[derive(Clone, Debug)]
 pub(super) struct PistonPaths {
-    /// `Cd A` of the orifice [m^2].
+    /// `Cd A` of the orifice (m^2).
     orifice: f64,
-    /// Flow `Q_t` at which laminar and turbulent drop of the orifice are equal [m^3/s].
+    /// Flow `Q_t` at which laminar and turbulent drop of the orifice are equal (m^3/s).
     transition: f64,
     shims: Opening,
     relief: Option<Opening>,
-    /// Leakage flow per pressure, times dynamic viscosity [m^3].
+    /// Leakage flow per pressure, times dynamic viscosity (m^3).
     leakage: f64,
     pub(super) fluid: Fluid,
 }
@@ -142,13 +142,13 @@ impl PistonPaths {
     }
 }
 
-/// `Q mu/P` of the annular gap, `pi R c^3 (1 + 1.5 e^2)/(6 L)` [m^3].
+/// `Q mu/P` of the annular gap, `pi R c^3 (1 + 1.5 e^2)/(6 L)` (m^3).
 fn annulus(leakage: &Leakage, radius: f64) -> f64 {
     let eccentric = 1.0 + 1.5 * leakage.eccentricity_ratio.powi(2);
     PI * radius * leakage.radial_clearance_m.powi(3) * eccentric / (6.0 * leakage.length_m)
 }
 
-/// Gauge back pressure [Pa] behind the foot valve.
+/// Gauge back pressure (Pa) behind the foot valve.
 fn back_pressure(reservoir: &Reservoir, rod_area: f64, temperature_c: f64) -> f64 {
     let volume = reservoir.gas_volume_m3 - rod_area * reservoir.rod_insertion_m;
     (reservoir.fill_pressure_pa + ATMOSPHERIC_PRESSURE_PA)
@@ -239,7 +239,7 @@ impl Passage {
         }
     }
 
-    /// Working pressure up to which the piston stands still [Pa].
+    /// Working pressure up to which the piston stands still (Pa).
     pub(super) fn closed_up_to(&self) -> f64 {
         match self {
             Self::Extension { piston, .. } => piston.closed_up_to(),
@@ -248,7 +248,7 @@ impl Passage {
         }
     }
 
-    /// Working pressures up to `limit` [Pa] at which a valve opens: the velocity has a kink there.
+    /// Working pressures up to `limit` (Pa) at which a valve opens: the velocity has a kink there.
     pub(super) fn kinks(&self, limit: f64) -> Vec<f64> {
         match self {
             Self::Extension { piston, .. } => piston.openings().collect(),
@@ -263,7 +263,7 @@ impl Passage {
         }
     }
 
-    /// Piston velocity [m/s] at working pressure `closed + above`, `closed` as `closed_up_to`.
+    /// Piston velocity (m/s) at working pressure `closed + above`, `closed` as `closed_up_to`.
     pub(super) fn velocity(&self, closed: f64, above: f64) -> f64 {
         let pressure = closed + above;
         match self {

@@ -53,7 +53,7 @@ impl Reference {
         })
     }
 
-    /// Force [N] at each time [s], the displacement [m] linear in between, from rest in the middle
+    /// Force (N) at each time (s), the displacement (m) linear in between, from rest in the middle
     /// of the clearance at the first sample. The input is taken as it is: no rate limit.
     ///
     /// Fails on times that do not increase, on values that are not finite, on unequal lengths, and
@@ -91,7 +91,7 @@ impl Reference {
         self.statistics
     }
 
-    /// Force [N] at a constant velocity [m/s] once the springs have settled, both signed: seal
+    /// Force (N) at a constant velocity (m/s) once the springs have settled, both signed: seal
     /// friction plus `A P` with `v(P)` the velocity, at most the force at which the damper yields.
     /// 0 at velocity 0, where any force up to the one that starts the piston is possible.
     pub fn static_force(&self, velocity_m_per_s: f64) -> f64 {

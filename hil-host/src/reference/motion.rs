@@ -33,11 +33,11 @@ pub(super) enum Mode {
 /// A linear piece of motion.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Piece {
-    /// Displacement at its start [m].
+    /// Displacement at its start (m).
     pub(super) start: f64,
-    /// Displacement at its end [m].
+    /// Displacement at its end (m).
     pub(super) end: f64,
-    /// How long it takes [s].
+    /// How long it takes (s).
     pub(super) duration: f64,
 }
 
@@ -49,7 +49,7 @@ pub struct Statistics {
     /// Changes of mode.
     pub events: usize,
     /// Largest difference between the piston travel integrated over a segment and the one the
-    /// chain's geometry leaves to it [m].
+    /// chain's geometry leaves to it (m).
     pub closure_m: f64,
 }
 
@@ -57,7 +57,7 @@ pub struct Statistics {
 pub(super) struct Motion {
     pub(super) sides: Rc<[Side; 2]>,
     pub(super) scales: Scales,
-    /// Half the clearance [m].
+    /// Half the clearance (m).
     pub(super) half_clearance: f64,
     pub(super) mode: Mode,
     pub(super) statistics: Statistics,
@@ -69,7 +69,7 @@ fn sign(side: usize) -> f64 {
 }
 
 impl Motion {
-    /// Force [N], positive when it resists extension, at displacement `x` of the seats.
+    /// Force (N), positive when it resists extension, at displacement `x` of the seats.
     pub(super) fn force(&self, x: f64) -> f64 {
         match self.mode {
             Mode::Clearance { .. } => 0.0,

@@ -2,12 +2,12 @@
 
 use dashpot_core::parameters::{ATMOSPHERIC_PRESSURE_PA, DENSITY_TEMPERATURE_C, Oil, OilColumn};
 
-/// Gas constant of dry air [J/(kg K)], ISO 2533.
+/// Gas constant of dry air (J/(kg K)), ISO 2533.
 const AIR_GAS_CONSTANT: f64 = 287.052_87;
-/// 0 degC [K].
+/// 0 degC (K).
 const ZERO_CELSIUS_K: f64 = 273.15;
 
-/// Absolute temperature [K] of a temperature in degC.
+/// Absolute temperature (K) of a temperature in degC.
 pub(super) fn kelvin(celsius: f64) -> f64 {
     celsius + ZERO_CELSIUS_K
 }
@@ -15,12 +15,12 @@ pub(super) fn kelvin(celsius: f64) -> f64 {
 /// Density and viscosity as functions of gauge pressure at one temperature.
 #[derive(Clone, Debug)]
 pub(super) struct Fluid {
-    /// Density of the oil without air at atmospheric pressure [kg/m^3].
+    /// Density of the oil without air at atmospheric pressure (kg/m^3).
     oil_density: f64,
-    /// Density of air at atmospheric pressure [kg/m^3].
+    /// Density of air at atmospheric pressure (kg/m^3).
     air_density: f64,
     column: Option<OilColumn>,
-    /// Kinematic viscosity [m^2/s].
+    /// Kinematic viscosity (m^2/s).
     pub(super) viscosity: f64,
 }
 
@@ -35,7 +35,7 @@ impl Fluid {
         }
     }
 
-    /// Density of oil and entrained air [kg/m^3] at gauge pressure [Pa]: the mass of a unit volume
+    /// Density of oil and entrained air (kg/m^3) at gauge pressure (Pa): the mass of a unit volume
     /// at atmospheric pressure over the volume it takes at `pressure`.
     pub(super) fn density(&self, pressure: f64) -> f64 {
         let Some(column) = &self.column else {
@@ -56,7 +56,7 @@ fn air_volume_ratio(column: &OilColumn, pressure: f64) -> f64 {
         .powf(1.0 / column.polytropic_exponent)
 }
 
-/// Kinematic viscosity [m^2/s] at the working temperature, ASTM D341:
+/// Kinematic viscosity (m^2/s) at the working temperature, ASTM D341:
 /// `log10 log10 (nu + 0.7)` linear in `log10 T`, nu in mm^2/s, T in K, through 40 and 100 degC.
 fn walther(oil: &Oil) -> f64 {
     let double_log = |nu: f64| (nu * 1e6 + 0.7).log10().log10();
@@ -73,7 +73,7 @@ fn walther(oil: &Oil) -> f64 {
 /// One oil column as a spring under gauge pressure.
 #[derive(Clone, Debug)]
 pub(super) struct ColumnSpring {
-    /// Chamber volume over piston area [m].
+    /// Chamber volume over piston area (m).
     length: f64,
     column: OilColumn,
 }
@@ -86,7 +86,7 @@ impl ColumnSpring {
         }
     }
 
-    /// Shortening [m] under gauge pressure [Pa].
+    /// Shortening (m) under gauge pressure (Pa).
     pub(super) fn shortening(&self, pressure: f64) -> f64 {
         let air = self.column.air_fraction;
         self.length
@@ -94,7 +94,7 @@ impl ColumnSpring {
                 + air * (1.0 - air_volume_ratio(&self.column, pressure)))
     }
 
-    /// Shortening per pressure [m/Pa] at gauge pressure [Pa].
+    /// Shortening per pressure (m/Pa) at gauge pressure (Pa).
     pub(super) fn compliance(&self, pressure: f64) -> f64 {
         let air = self.column.air_fraction;
         let exponent = self.column.polytropic_exponent;

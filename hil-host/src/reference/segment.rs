@@ -16,13 +16,13 @@ pub const STATES: usize = 3;
 /// Magnitudes that make the states of order one.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Scales {
-    /// Typical velocity of the seats [m/s].
+    /// Typical velocity of the seats (m/s).
     pub(super) velocity: f64,
     /// Coordinate of the typical force, each side.
     pub(super) coordinate: [f64; 2],
-    /// Relaxation time of the chain at that force [s].
+    /// Relaxation time of the chain at that force (s).
     pub(super) time: f64,
-    /// Stretch at that force [m].
+    /// Stretch at that force (m).
     pub(super) stretch: f64,
 }
 
@@ -33,13 +33,13 @@ pub struct Segment {
     pub(super) scales: Scales,
     /// 0 extension, 1 compression.
     pub(super) side: usize,
-    /// Velocity of the seats in the working direction [m/s].
+    /// Velocity of the seats in the working direction (m/s).
     pub(super) speed: f64,
     /// Coordinate at the start.
     pub(super) start: f64,
     /// Coordinate of the next opening, of zero or of yielding, in the direction of motion.
     pub(super) bound: f64,
-    /// Time left in the piece [s].
+    /// Time left in the piece (s).
     pub(super) duration: f64,
     /// Coordinate at which the clock has slowed.
     pub(super) knee: f64,

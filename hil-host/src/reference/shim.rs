@@ -2,7 +2,7 @@
 
 use dashpot_core::parameters::Valve;
 
-/// Edge lift per pressure `k_w` [m/Pa], the equivalent-pressure factor included.
+/// Edge lift per pressure `k_w` (m/Pa), the equivalent-pressure factor included.
 ///
 /// `k_w = w' Ce` with `w'` given, else `Cw(r_w)/h_e^3`, `h_e^3 = sum h_i^3` (frictionless stack).
 pub(super) fn edge_compliance_m_per_pa(valve: &Valve) -> f64 {
@@ -18,7 +18,7 @@ pub(super) fn edge_compliance_m_per_pa(valve: &Valve) -> f64 {
     uniform * valve.equivalent_pressure_factor
 }
 
-/// Deflection coefficient at the free edge `Cw(r_w) = w(r_w) h^3/P` [m^6/N] of a disc clamped at
+/// Deflection coefficient at the free edge `Cw(r_w) = w(r_w) h^3/P` (m^6/N) of a disc clamped at
 /// `inner` and free at `outer` under uniform pressure.
 ///
 /// `w = C1 ln r + C2 r^2 + C3 r^2 ln r + C4 + P r^4/(64 D)`, the constants from zero deflection
@@ -67,7 +67,7 @@ mod tests {
         }
     }
 
-    /// Discs of the source paper, Table 1; `Cw(r_w)` [m^6/N] worked out separately to five digits.
+    /// Discs of the source paper, Table 1; `Cw(r_w)` (m^6/N) worked out separately to five digits.
     #[test]
     fn coefficients_of_the_papers_discs() {
         for (inner, outer, expected) in [(0.016, 0.029, 2.1427e-19), (0.005, 0.011, 9.6981e-21)] {

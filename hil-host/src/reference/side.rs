@@ -11,14 +11,14 @@ use crate::failure::{Failure, Outcome};
 /// The velocity law and the coordinate in which it is smooth.
 #[derive(Clone, Debug)]
 enum Law {
-    /// `F = C v`; coordinate `F` [N].
+    /// `F = C v`; coordinate `F` (N).
     Reduced { damping: f64 },
-    /// `F = F_closed + A s^2`, `v = v(P)`; coordinate `s` [Pa^1/2], which tames the square roots.
+    /// `F = F_closed + A s^2`, `v = v(P)`; coordinate `s` (Pa^1/2), which tames the square roots.
     Hydraulic {
         passage: Passage,
-        /// Working area [m^2].
+        /// Working area (m^2).
         area: f64,
-        /// Working pressure up to which the piston stands still [Pa].
+        /// Working pressure up to which the piston stands still (Pa).
         closed: f64,
     },
 }
@@ -28,20 +28,20 @@ enum Law {
 #[derive(Clone, Debug)]
 pub(super) struct Side {
     law: Law,
-    /// Seal friction [N].
+    /// Seal friction (N).
     friction: f64,
-    /// Mount springs in series [N/m].
+    /// Mount springs in series (N/m).
     stiffness: f64,
     column: Option<ColumnSpring>,
-    /// Force up to which the piston stands still [N].
+    /// Force up to which the piston stands still (N).
     pub(super) closed_force: f64,
-    /// Stretch at that force [m].
+    /// Stretch at that force (m).
     pub(super) closed_stretch: f64,
-    /// Force at which the damper yields [N].
+    /// Force at which the damper yields (N).
     pub(super) yield_force: f64,
     /// Coordinate at that force.
     pub(super) yield_coordinate: f64,
-    /// Velocity through the valves at that force [m/s].
+    /// Velocity through the valves at that force (m/s).
     pub(super) yield_velocity: f64,
     /// Coordinates at which a valve opens.
     pub(super) kinks: Vec<f64>,
@@ -160,7 +160,7 @@ impl Side {
         }
     }
 
-    /// Force [N] at a coordinate.
+    /// Force (N) at a coordinate.
     pub(super) fn force(&self, y: f64) -> f64 {
         match &self.law {
             Law::Reduced { .. } => y,
@@ -176,7 +176,7 @@ impl Side {
         }
     }
 
-    /// Piston velocity [m/s] at a coordinate; odd, so that a trial stage below 0 stays smooth.
+    /// Piston velocity (m/s) at a coordinate; odd, so that a trial stage below 0 stays smooth.
     pub(super) fn velocity(&self, y: f64) -> f64 {
         match &self.law {
             Law::Reduced { damping } => y / damping,
@@ -186,7 +186,7 @@ impl Side {
         }
     }
 
-    /// Stretch of mount springs and oil column [m] under a force.
+    /// Stretch of mount springs and oil column (m) under a force.
     pub(super) fn stretch(&self, force: f64) -> f64 {
         force / self.stiffness
             + self
@@ -195,7 +195,7 @@ impl Side {
                 .map_or(0.0, |column| column.shortening(self.pressure(force)))
     }
 
-    /// Working pressure `(F - F_c)+/A` [Pa].
+    /// Working pressure `(F - F_c)+/A` (Pa).
     fn pressure(&self, force: f64) -> f64 {
         match &self.law {
             Law::Reduced { .. } => 0.0,
@@ -203,7 +203,7 @@ impl Side {
         }
     }
 
-    /// Force [N] of the still piston at a stretch [m] between 0 and `closed_stretch`.
+    /// Force (N) of the still piston at a stretch (m) between 0 and `closed_stretch`.
     pub(super) fn held_force(&self, stretch: f64) -> f64 {
         if stretch <= 0.0 {
             0.0
@@ -216,12 +216,12 @@ impl Side {
         }
     }
 
-    /// Coordinate at which the piston moves at `velocity` [m/s], at most the yield coordinate.
+    /// Coordinate at which the piston moves at `velocity` (m/s), at most the yield coordinate.
     pub(super) fn coordinate_at(&self, velocity: f64) -> f64 {
         increasing_root(0.0, self.yield_coordinate, |y| self.velocity(y) - velocity)
     }
 
-    /// Coordinate at which the springs are stretched by `stretch` [m], at most the yield one.
+    /// Coordinate at which the springs are stretched by `stretch` (m), at most the yield one.
     pub(super) fn coordinate_stretched(&self, stretch: f64) -> f64 {
         increasing_root(0.0, self.yield_coordinate, |y| {
             self.stretch(self.force(y)) - stretch
@@ -229,7 +229,7 @@ impl Side {
     }
 
     /// Rates of coordinate, time and piston position along the clock of [`super::segment`], the
-    /// seats parting at `speed` [m/s]; `knee` is the coordinate at which `speed` is balanced.
+    /// seats parting at `speed` (m/s); `knee` is the coordinate at which `speed` is balanced.
     ///
     /// `d delta/dt = speed - v`. In `s`, `d delta/ds` vanishes with `s`: the clock
     /// `dt/d tau = s/sqrt(s^2 + knee^2)` takes that zero out, so `s` passes 0 at a finite rate.
@@ -265,7 +265,7 @@ impl Side {
     }
 }
 
-/// Rubber and seat in series [N/m].
+/// Rubber and seat in series (N/m).
 fn series_stiffness(mount: &Mount) -> f64 {
     mount
         .seat_stiffness_n_per_m

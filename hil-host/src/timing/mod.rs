@@ -5,7 +5,7 @@ use serde::Serialize;
 
 /// Picoseconds in a nanosecond: the unit of the histogram, for means of batches.
 const UNITS: f64 = 1e3;
-/// Longest span held [ns]: ten seconds; a longer one counts as this long.
+/// Longest span held (ns): ten seconds; a longer one counts as this long.
 const LONGEST_NS: f64 = 10e9;
 
 /// Time spans counted to three significant digits, of constant size.
@@ -40,9 +40,9 @@ pub struct Figures {
 /// A bar of a histogram.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Bar {
-    /// Spans above this [ns] ...
+    /// Spans above this (ns) ...
     pub from_ns: f64,
-    /// ... and up to this [ns].
+    /// ... and up to this (ns).
     pub to_ns: f64,
     /// How many.
     pub count: u64,
@@ -66,7 +66,7 @@ impl Distribution {
         }
     }
 
-    /// Counts a span [ns]; no allocation.
+    /// Counts a span (ns); no allocation.
     pub fn record_ns(&mut self, span_ns: f64) {
         self.spans
             .saturating_record((span_ns * UNITS).round() as u64);
@@ -77,7 +77,7 @@ impl Distribution {
         self.spans.len()
     }
 
-    /// The shortest span that at least the share `quantile` (0 to 1) of all is at most as long as [ns].
+    /// The shortest span that at least the share `quantile` (0 to 1) of all is at most as long as (ns).
     pub fn quantile_ns(&self, quantile: f64) -> f64 {
         let value = self.spans.value_at_quantile(quantile);
         value.min(self.spans.max()) as f64 / UNITS
