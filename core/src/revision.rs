@@ -13,22 +13,18 @@ fn absorb<T: Real>(hash: u32, value: T) -> u32 {
     })
 }
 
-/// Hash of two tables.
+/// Hash of a table.
 #[cfg(feature = "builder")]
-pub(crate) fn of_tables<T: Real>(stage: &Table<Piece<T>>, output: &Table<[T; 4]>) -> u32 {
-    let stage = stage
-        .iter()
-        .flat_map(|piece| piece.flow.iter().chain(&piece.potential));
-    stage
-        .chain(output.iter().flatten())
-        .fold(0x811c_9dc5, |hash, value| absorb(hash, *value))
+pub(crate) fn of_table<T: Real>(table: &Table<T>) -> u32 {
+    let coefficients = table.iter().flat_map(Piece::coefficients);
+    coefficients.fold(0x811c_9dc5, |hash, value| absorb(hash, *value))
 }
 
-/// Hash of a damper: its tables' and its scalars', never 0.
-pub(crate) fn of_damper<T: Real>(tables: u32, scalars: &Scalars<T>) -> u32 {
+/// Hash of a damper: its table's and its scalars', never 0.
+pub(crate) fn of_damper<T: Real>(table: u32, scalars: &Scalars<T>) -> u32 {
     scalars
         .as_array()
         .iter()
-        .fold(tables, |hash, value| absorb(hash, *value))
+        .fold(table, |hash, value| absorb(hash, *value))
         .max(1)
 }
