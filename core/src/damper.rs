@@ -37,16 +37,22 @@ pub struct Scalars<T> {
     pub(crate) largest_move: T,
     /// Scale of the table (1/m).
     pub(crate) scale: T,
-    /// Shift of the table (1) and its root.
+    /// Shift of the table (1).
     pub(crate) shift: T,
-    pub(crate) shift_root: T,
+    /// What y lacks to the [`Real::place`] of its piece's index (1).
+    pub(crate) origin: T,
     /// Stiffness under seal friction (N/m): the mount's, or 0 without friction.
     pub(crate) held_stiffness: T,
+    /// Adding and subtracting it rounds a travel to the grid of positions: sums of such travels are
+    /// exact, so a piston at rest in its clearance does not drift (m).
+    pub(crate) position_rounder: T,
+    /// Adding and subtracting it rounds a stretch far below that grid to zero (m).
+    pub(crate) rest_rounder: T,
 }
 
 impl<T: Real> Scalars<T> {
     /// The numbers in order of declaration.
-    pub(crate) fn as_array(&self) -> [T; 10] {
+    pub(crate) fn as_array(&self) -> [T; 12] {
         [
             self.step_s,
             self.half_clearance,
@@ -56,8 +62,10 @@ impl<T: Real> Scalars<T> {
             self.largest_move,
             self.scale,
             self.shift,
-            self.shift_root,
+            self.origin,
             self.held_stiffness,
+            self.position_rounder,
+            self.rest_rounder,
         ]
     }
 }

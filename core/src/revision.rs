@@ -16,8 +16,8 @@ fn absorb<T: Real>(hash: u32, value: T) -> u32 {
 /// Hash of a table.
 #[cfg(feature = "builder")]
 pub(crate) fn of_table<T: Real>(table: &Table<T>) -> u32 {
-    let coefficients = table.iter().flat_map(Piece::coefficients);
-    coefficients.fold(0x811c_9dc5, |hash, value| absorb(hash, *value))
+    let numbers = table.iter().flat_map(Piece::numbers);
+    numbers.fold(0x811c_9dc5, |hash, value| absorb(hash, *value))
 }
 
 /// Hash of a damper: its table's and its scalars', never 0.

@@ -27,15 +27,15 @@ pub(crate) fn step<T: Real, const L: usize>(
     let stages = Stages::new(dampers);
     let first = stages.solve(start + gamma * travel);
     let last = stages.solve(start + travel - Lanes::all(1.0 - IMPLICIT_SHARE) * first.flow);
+    let bend = gamma * (last.flow - first.flow);
+    let quadrature = first.flow + bend;
+    let change = travel - quadrature;
+    let end = start + change;
 
     // The flow's mean over the straight path, by its potential and, off the path, by its slope.
-    let change = last.stretch - start;
     let inverse = Lanes::all(1.0) / (change + Lanes::all(STANDSTILL));
-    let off_path = first.stretch - start - gamma * change;
-    let difference = last.flow - first.flow;
     let end_potential = last.potential();
-    let area = end_potential - potential + difference * off_path;
-    let quadrature = first.flow + gamma * difference;
+    let area = end_potential - potential + bend * bend;
     let share = ((area * inverse - quadrature) * inverse)
         .at_least(-CORRECTION_SHARE)
         .at_most(CORRECTION_SHARE);
@@ -46,8 +46,8 @@ pub(crate) fn step<T: Real, const L: usize>(
     });
     let correction = share * correctable;
 
-    let rest = Lanes([T::REST_ROUNDER; L]);
-    let stretch = ((last.stretch + rest) - correction) - rest;
+    let rest = of(dampers, |k| k.rest_rounder);
+    let stretch = ((end + rest) - correction) - rest;
     let potential = end_potential - last.flow * correction;
     let force = force(dampers, stretch, last.stiffness());
     leave(dampers, states, stretch, potential, force)
@@ -84,7 +84,7 @@ fn enter<T: Real, const L: usize>(
             *travel = admit(damper, state, *travel);
         }
     }
-    let rounder = Lanes([T::POSITION_ROUNDER; L]);
+    let rounder = of(dampers, |k| k.position_rounder);
     let travel = (travel + rounder) - rounder;
     for (state, displacement) in states.iter_mut().zip((last + travel).0) {
         state.displacement = displacement;
@@ -121,13 +121,11 @@ struct Stages<'a, T, const L: usize> {
     offset: Lanes<T, L>,
     scale: Lanes<T, L>,
     shift: Lanes<T, L>,
-    shift_root: Lanes<T, L>,
+    origin: Lanes<T, L>,
 }
 
 /// A solved stage.
 struct Stage<'a, T, const L: usize> {
-    /// (m).
-    stretch: Lanes<T, L>,
     /// Flow times the step (m).
     flow: Lanes<T, L>,
     pieces: [&'a Piece<T>; L],
@@ -142,7 +140,7 @@ impl<'a, T: Real, const L: usize> Stages<'a, T, L> {
             offset: of(dampers, |k| k.offset),
             scale: of(dampers, |k| k.scale),
             shift: of(dampers, |k| k.shift),
-            shift_root: of(dampers, |k| k.shift_root),
+            origin: of(dampers, |k| k.origin),
         }
     }
 
@@ -150,11 +148,10 @@ impl<'a, T: Real, const L: usize> Stages<'a, T, L> {
     #[inline(always)]
     fn solve(&self, reach: Lanes<T, L>) -> Stage<'a, T, L> {
         let beyond = (reach.magnitude() - self.offset).at_least(0.0);
-        let y = (beyond * self.scale + self.shift).square_root() - self.shift_root;
-        let (pieces, z) = locate(self.tables, y, reach);
+        let y = (beyond * self.scale + self.shift).square_root();
+        let (pieces, z) = locate(self.tables, self.origin, y, reach);
         let flow = cubic(pieces.map(|piece| &piece.flow), z);
         Stage {
-            stretch: reach - Lanes::all(IMPLICIT_SHARE) * flow,
             flow,
             pieces,
             z,
@@ -219,19 +216,22 @@ pub(crate) fn settle<T: Real>(damper: &Damper<T>, force: T) -> (T, T) {
     let stages = Stages::new([damper]);
     let k = &damper.scalars;
     let signed = |value: T| if force < T::ZERO { -value } else { value };
-    let last = T::from_f64(PIECES as f64 - 1.0) + k.shift_root;
+    let last = damper.table[PIECES - 1].centre;
     let mut low = k.half_clearance;
     let mut high = (last * last - k.shift) / k.scale + k.offset;
-    let mut stage = stages.solve(Lanes([signed(low)]));
+    let mut found = (T::ZERO, T::ZERO);
     for _ in 0..T::DIGITS + 2 {
         let middle = T::from_f64(0.5) * (low + high);
-        stage = stages.solve(Lanes([signed(middle)]));
-        let [found] = self::force([damper], stage.stretch, stage.stiffness()).0;
-        if found < force.magnitude() {
+        let reach = Lanes([signed(middle)]);
+        let stage = stages.solve(reach);
+        let stretch = reach - Lanes::all(IMPLICIT_SHARE) * stage.flow;
+        let [reached] = self::force([damper], stretch, stage.stiffness()).0;
+        found = (stretch.0[0], stage.potential().0[0]);
+        if reached < force.magnitude() {
             low = middle;
         } else {
             high = middle;
         }
     }
-    (stage.stretch.0[0], stage.potential().0[0])
+    found
 }

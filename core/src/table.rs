@@ -5,7 +5,8 @@ use crate::math::{Lanes, Real};
 /// Pieces a side.
 pub(crate) const PIECES: usize = 64;
 
-/// Cubics of one piece: coefficients of 1, z, z^2, z^3, z in [-1/2, 1/2].
+/// Cubics of one piece in z = y - centre: coefficients of 1, z, z^2, z^3. Sixteen numbers, so that its
+/// address takes one shift.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C)]
 pub(crate) struct Piece<T> {
@@ -15,35 +16,40 @@ pub(crate) struct Piece<T> {
     pub(crate) potential: [T; 4],
     /// Force beyond friction over stretch beyond the offset, less the held stiffness (N/m).
     pub(crate) stiffness: [T; 4],
+    /// Where z is zero (1).
+    pub(crate) centre: T,
+    pub(crate) padding: [T; 3],
 }
 
 impl<T> Piece<T> {
-    /// The coefficients in order of declaration.
-    pub(crate) fn coefficients(&self) -> impl Iterator<Item = &T> {
-        self.flow.iter().chain(&self.potential).chain(&self.stiffness)
+    /// The numbers that mean something, in order of declaration.
+    pub(crate) fn numbers(&self) -> impl Iterator<Item = &T> {
+        let coefficients = self.flow.iter().chain(&self.potential).chain(&self.stiffness);
+        coefficients.chain([&self.centre])
     }
 }
 
-/// Pieces around y = 0, 1, 2, ... of extension, then of compression; y grows with the root of the
-/// stretch.
+/// Pieces of extension, then of compression; centres are one apart in y = sqrt(scale u + shift), from
+/// where the stretch u is zero.
 pub(crate) type Table<T> = [Piece<T>; 2 * PIECES];
 
-/// For each lane the piece around `y` (not negative, inside the table by construction) on the side of
-/// `direction`, and z in it. Any `y` is safe to read.
+/// For each lane the piece around `y` on the side of `direction`, and z in it; `origin` turns y into
+/// the index. Any `y` is safe to read.
 #[inline(always)]
-pub(crate) fn locate<T: Real, const L: usize>(
-    tables: [&Table<T>; L],
+pub(crate) fn locate<'a, T: Real, const L: usize>(
+    tables: [&'a Table<T>; L],
+    origin: Lanes<T, L>,
     y: Lanes<T, L>,
     direction: Lanes<T, L>,
-) -> ([&Piece<T>; L], Lanes<T, L>) {
+) -> ([&'a Piece<T>; L], Lanes<T, L>) {
     let mut z = y;
     let mut pieces = tables.map(|table| &table[0]);
-    for (((piece, table), z), direction) in
-        pieces.iter_mut().zip(tables).zip(&mut z.0).zip(direction.0)
-    {
-        let (index, rest) = z.split();
-        *piece = &table[(index & (PIECES - 1)) | (direction.sign_bit() * PIECES)];
-        *z = rest;
+    let places = (y + origin).0;
+    for lane in 0..L {
+        let index = places[lane].place() & (PIECES - 1);
+        let piece = &tables[lane][index | (direction.0[lane].sign_bit() * PIECES)];
+        pieces[lane] = piece;
+        z.0[lane] = z.0[lane] - piece.centre;
     }
     (pieces, z)
 }

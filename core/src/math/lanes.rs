@@ -59,12 +59,6 @@ impl<T: Real, const L: usize> Lanes<T, L> {
     pub(crate) fn at_most(self, most: f64) -> Self {
         self.map(|lane| lane.smaller(T::from_f64(most)))
     }
-
-    /// See [`Real::smaller`].
-    #[inline(always)]
-    pub(crate) fn smaller(self, other: Self) -> Self {
-        self.zip(other, T::smaller)
-    }
 }
 
 impl<T: Real, const L: usize> Add for Lanes<T, L> {
