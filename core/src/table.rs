@@ -24,7 +24,11 @@ pub(crate) struct Piece<T> {
 impl<T> Piece<T> {
     /// The numbers that mean something, in order of declaration.
     pub(crate) fn numbers(&self) -> impl Iterator<Item = &T> {
-        let coefficients = self.flow.iter().chain(&self.potential).chain(&self.stiffness);
+        let coefficients = self
+            .flow
+            .iter()
+            .chain(&self.potential)
+            .chain(&self.stiffness);
         coefficients.chain([&self.centre])
     }
 }
@@ -36,31 +40,22 @@ pub(crate) type Table<T> = [Piece<T>; 2 * PIECES];
 /// For each lane the piece around `y` on the side of `direction`, and z in it; `origin` turns y into
 /// the index. Any `y` is safe to read.
 #[inline(always)]
-pub(crate) fn locate<'a, T: Real, const L: usize>(
+pub(crate) fn locate<'a, T: Real, V: Lanes<T, L>, const L: usize>(
     tables: [&'a Table<T>; L],
-    origin: Lanes<T, L>,
-    y: Lanes<T, L>,
-    direction: Lanes<T, L>,
-) -> ([&'a Piece<T>; L], Lanes<T, L>) {
-    let mut z = y;
-    let mut pieces = tables.map(|table| &table[0]);
-    let places = (y + origin).0;
-    for lane in 0..L {
-        let index = places[lane].place() & (PIECES - 1);
-        let piece = &tables[lane][index | (direction.0[lane].sign_bit() * PIECES)];
-        pieces[lane] = piece;
-        z.0[lane] = z.0[lane] - piece.centre;
-    }
-    (pieces, z)
+    origin: V,
+    y: V,
+    direction: V,
+) -> ([&'a Piece<T>; L], V) {
+    let places = (y + origin).places(direction);
+    let pieces = core::array::from_fn(|lane| &tables[lane][places[lane] % (2 * PIECES)]);
+    let centre = V::new(pieces.map(|piece: &Piece<T>| piece.centre));
+    (pieces, y - centre)
 }
 
 /// `c0 + c1 z + c2 z^2 + c3 z^3` of each lane, in pairs: a shorter chain than Horner's for one product
 /// more.
 #[inline(always)]
-pub(crate) fn cubic<T: Real, const L: usize>(c: [&[T; 4]; L], z: Lanes<T, L>) -> Lanes<T, L> {
-    let c0 = Lanes(c.map(|c| c[0]));
-    let c1 = Lanes(c.map(|c| c[1]));
-    let c2 = Lanes(c.map(|c| c[2]));
-    let c3 = Lanes(c.map(|c| c[3]));
+pub(crate) fn cubic<T: Real, V: Lanes<T, L>, const L: usize>(coefficients: [[T; 4]; L], z: V) -> V {
+    let [c0, c1, c2, c3] = V::columns(coefficients);
     (c3 * z + c2) * (z * z) + (c1 * z + c0)
 }

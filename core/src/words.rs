@@ -56,18 +56,18 @@ macro_rules! words {
                 }
                 Self {
                     scalars: Scalars {
-                        step_s: $float::from_bits(words[0]),
-                        half_clearance: $float::from_bits(words[1]),
-                        held: $float::from_bits(words[2]),
-                        offset: $float::from_bits(words[3]),
-                        force_limit: $float::from_bits(words[4]),
-                        largest_move: $float::from_bits(words[5]),
-                        scale: $float::from_bits(words[6]),
-                        shift: $float::from_bits(words[7]),
-                        origin: $float::from_bits(words[8]),
+                        largest_move: $float::from_bits(words[0]),
+                        position_rounder: $float::from_bits(words[1]),
+                        rest_rounder: $float::from_bits(words[2]),
+                        step_s: $float::from_bits(words[3]),
+                        offset: $float::from_bits(words[4]),
+                        scale: $float::from_bits(words[5]),
+                        shift: $float::from_bits(words[6]),
+                        origin: $float::from_bits(words[7]),
+                        half_clearance: $float::from_bits(words[8]),
                         held_stiffness: $float::from_bits(words[9]),
-                        position_rounder: $float::from_bits(words[10]),
-                        rest_rounder: $float::from_bits(words[11]),
+                        force_limit: $float::from_bits(words[10]),
+                        held: $float::from_bits(words[11]),
                     },
                     revision: words[SCALARS] as u32,
                     table_revision: words[SCALARS + 1] as u32,
@@ -111,8 +111,8 @@ mod tests {
                 expected[index] = $word::from(words[index] as u32);
             }
             assert_eq!(damper.to_words(), expected);
-            assert_eq!(damper.step_s().to_bits(), words[0]);
-            assert_eq!(damper.force_limit_n().to_bits(), words[4]);
+            assert_eq!(damper.step_s().to_bits(), words[3]);
+            assert_eq!(damper.force_limit_n().to_bits(), words[10]);
             assert_eq!(damper.revision(), words[12] as u32);
             assert_eq!(damper.table[127].centre.to_bits(), words[WORDS - 1]);
         };

@@ -3,6 +3,10 @@
 use core::fmt::Debug;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+use super::Lanes;
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+use super::group::{GROUP, Pair};
 use super::square_root;
 
 /// `f32` or `f64` with the operations whose results are the same bits on every machine.
@@ -20,6 +24,11 @@ pub trait Real:
     + Sync
     + 'static
 {
+    /// A number for each damper of a group.
+    #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+    #[doc(hidden)]
+    type Group: Lanes<Self, GROUP>;
+
     /// Zero.
     const ZERO: Self;
     /// One.
@@ -52,8 +61,11 @@ pub trait Real:
 }
 
 macro_rules! real {
-    ($float:ident, $bits:ident) => {
+    ($float:ident, $bits:ident, $group:ident) => {
         impl Real for $float {
+            #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+            type Group = Pair<wide::$group>;
+
             const ZERO: Self = 0.0;
             const ONE: Self = 1.0;
             const EPSILON: f64 = $float::EPSILON as f64;
@@ -117,8 +129,8 @@ macro_rules! real {
     };
 }
 
-real!(f32, u32);
-real!(f64, u64);
+real!(f32, u32, f32x4);
+real!(f64, u64, f64x4);
 
 #[cfg(test)]
 mod tests {
@@ -128,6 +140,11 @@ mod tests {
     fn the_place_is_the_whole_part() {
         assert_eq!([770.75_f32, 768.0, 1023.9].map(Real::place), [2, 0, 255]);
         assert_eq!([770.75_f64, 768.0, 1023.9].map(Real::place), [2, 0, 255]);
-        assert!([f32::NAN, -1.0, 1e30].map(Real::place).iter().all(|place| *place < 256));
+        assert!(
+            [f32::NAN, -1.0, 1e30]
+                .map(Real::place)
+                .iter()
+                .all(|place| *place < 256)
+        );
     }
 }
