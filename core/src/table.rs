@@ -40,12 +40,12 @@ pub(crate) type Table<T> = [Piece<T>; 2 * PIECES];
 /// For each lane the piece around `y` on the side of `direction`, and z in it; `origin` turns y into
 /// the index. Any `y` is safe to read.
 #[inline(always)]
-pub(crate) fn locate<'a, T: Real, V: Lanes<T, L>, const L: usize>(
-    tables: [&'a Table<T>; L],
+pub(crate) fn locate<T: Real, V: Lanes<T, L>, const L: usize>(
+    tables: [&Table<T>; L],
     origin: V,
     y: V,
     direction: V,
-) -> ([&'a Piece<T>; L], V) {
+) -> ([&Piece<T>; L], V) {
     let places = (y + origin).places(direction);
     let pieces = core::array::from_fn(|lane| &tables[lane][places[lane] % (2 * PIECES)]);
     let centre = V::new(pieces.map(|piece: &Piece<T>| piece.centre));
