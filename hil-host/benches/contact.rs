@@ -11,7 +11,8 @@ use dashpot_hil::contact::pair::{Installation, Pair};
 use dashpot_hil::contact::polach::Polach;
 use dashpot_hil::contact::shen_hedrick_elkins::ShenHedrickElkins;
 use dashpot_hil::contact::table::{Grid, Tables};
-use dashpot_hil::contact::wheelset::{Motion, Rail, WheelsetContact};
+use dashpot_hil::contact::motion::{Motion, Rail};
+use dashpot_hil::contact::wheelset::WheelsetContact;
 
 /// Both rails pressed inward until tread and flange of both wheels are loaded.
 fn four_patches() -> (Motion, [Rail; 2]) {

@@ -8,7 +8,8 @@ use dashpot_hil::contact::hertz::Steel;
 use dashpot_hil::contact::pair::{Installation, Pair};
 use dashpot_hil::contact::polach::Polach;
 use dashpot_hil::contact::table::{Grid, Tables};
-use dashpot_hil::contact::wheelset::{Motion, Rail, WheelsetContact};
+use dashpot_hil::contact::motion::{Motion, Rail};
+use dashpot_hil::contact::wheelset::WheelsetContact;
 
 struct Counting;
 

@@ -10,7 +10,9 @@ use dashpot_hil::contact::pair::{Installation, Pair};
 use dashpot_hil::contact::polach::Polach;
 use dashpot_hil::contact::shen_hedrick_elkins::ShenHedrickElkins;
 use dashpot_hil::contact::table::{Grid, Tables};
-use dashpot_hil::contact::wheelset::{Motion, Rail, Status, WheelsetContact, WheelsetForces};
+use dashpot_hil::contact::forces::{Status, WheelsetForces};
+use dashpot_hil::contact::motion::{Motion, Rail};
+use dashpot_hil::contact::wheelset::WheelsetContact;
 use proptest::prelude::*;
 
 fn tables() -> &'static Tables {
