@@ -4,14 +4,14 @@ use std::sync::OnceLock;
 
 use dashpot_hil::contact::creepage::CreepLaw;
 use dashpot_hil::contact::fastsim::Fastsim;
+use dashpot_hil::contact::forces::{Status, WheelsetForces};
 use dashpot_hil::contact::friction::Friction;
 use dashpot_hil::contact::hertz::{Hertz, Steel};
+use dashpot_hil::contact::motion::{Motion, Rail};
 use dashpot_hil::contact::pair::{Installation, Pair};
 use dashpot_hil::contact::polach::Polach;
 use dashpot_hil::contact::shen_hedrick_elkins::ShenHedrickElkins;
 use dashpot_hil::contact::table::{Grid, Tables};
-use dashpot_hil::contact::forces::{Status, WheelsetForces};
-use dashpot_hil::contact::motion::{Motion, Rail};
 use dashpot_hil::contact::wheelset::WheelsetContact;
 use proptest::prelude::*;
 

@@ -197,6 +197,6 @@ impl Frame {
 fn sine_and_cosine(angle: f64) -> (f64, f64) {
     let x = angle.clamp(-0.3, 0.3);
     let square = x * x;
-    let sine = x * (1.0 - square / 6.0 * (1.0 - square / 20.0));
+    let sine = x * (1.0 - square * (1.0 / 6.0) * (1.0 - square * (1.0 / 20.0)));
     (sine, (1.0 - sine * sine).sqrt())
 }

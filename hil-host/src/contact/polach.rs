@@ -1,6 +1,6 @@
 //! Polach's creep law.
 
-use std::f64::consts::PI;
+use std::f64::consts::{FRAC_2_PI, FRAC_PI_4};
 
 use super::creepage::{CreepForces, CreepLaw, Creepage, LoadedContact, linear};
 
@@ -52,8 +52,8 @@ impl CreepLaw for Polach {
         } else {
             0.0
         };
-        let e = 0.25 * PI * shear * a * b * c * modified * per_limit;
-        let force = 2.0 * limit / PI * (e / (1.0 + e * e) + e.atan());
+        let e = FRAC_PI_4 * shear * a * b * c * modified * per_limit;
+        let force = FRAC_2_PI * limit * (e / (1.0 + e * e) + e.atan());
         let shape = 1.0 + 6.3 * (1.0 - (-a / b).exp());
         let stiffness = 8.0 / 3.0 * shear * b * (a * b).sqrt() * kalker.c23;
         let e_m = stiffness * across.abs() * per_limit / shape;
@@ -61,7 +61,7 @@ impl CreepLaw for Polach {
         let d = 1.0 - 2.0 * share;
         // (1 - d^2)^1.5
         let rest = (2.0 * e_m * share).powi(3);
-        let k_m = e_m * (d * d * d / 3.0 - d * d / 2.0 + 1.0 / 6.0) - rest / 3.0;
+        let k_m = e_m * (d * d * (d * (1.0 / 3.0) - 0.5) + 1.0 / 6.0) - rest * (1.0 / 3.0);
         // K is negative: the spin pushes against its own sense.
         let spin_force = 9.0 / 16.0 * a * limit * k_m * shape * spin * per_modified;
         let raw = CreepForces {

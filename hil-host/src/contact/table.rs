@@ -75,7 +75,7 @@ impl Reader {
     }
 
     /// Cell, share within it and whether `x` lies on the axis.
-    #[inline]
+    #[inline(always)]
     fn locate(&self, x: f64) -> (usize, f32, bool) {
         let ends = &self.ends;
         let held = x.max(ends[0]).min(ends[3]);
@@ -159,7 +159,15 @@ pub struct Tables {
 
 impl Tables {
     /// Computes every node of `grid`; on as many threads as the machine offers.
+    ///
+    /// # Panics
+    /// An axis without a cell.
     pub fn new(pair: Pair, steel: Steel, grid: Grid) -> Self {
+        let axes = [grid.lateral, grid.roll, grid.yaw_square];
+        assert!(
+            axes.iter().all(|axis| axis.nodes() >= 2),
+            "an axis of the tables has no cell"
+        );
         let kalker = KalkerTable::new(steel.poisson);
         let empty = Node([0.0; 2 * NUMBERS]);
         let count = grid.lateral.nodes() * grid.roll.nodes() * grid.yaw_square.nodes();
@@ -189,7 +197,7 @@ impl Tables {
             steel,
             grid,
             nodes,
-            readers: [grid.lateral, grid.roll, grid.yaw_square].map(Reader::new),
+            readers: axes.map(Reader::new),
             strides: [
                 grid.lateral.nodes(),
                 grid.lateral.nodes() * grid.roll.nodes(),
@@ -214,7 +222,8 @@ impl Tables {
 
     /// Tread and flange entry at `place`, linear in shift, roll and squared yaw; outside the grid
     /// its edge, told by `false`.
-    #[inline]
+    // Inlined always: passed through memory, the place and the entries stall the step.
+    #[inline(always)]
     pub fn at(&self, place: &Place) -> ([Entry; 2], bool) {
         let [lateral, roll, yaw] = &self.readers;
         let (i, t, inside_lateral) = lateral.locate(place.lateral);

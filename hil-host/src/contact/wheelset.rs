@@ -109,8 +109,7 @@ impl<L: CreepLaw> WheelsetContact<L> {
         );
         let ([x, y, z], turning) = (point, frame.turning);
         let along = frame.velocity[0] + turning[1] * z - turning[2] * y;
-        let aside =
-            frame.velocity[1] - rail.lateral_rate + turning[2] * x - turning[0] * z;
+        let aside = frame.velocity[1] - rail.lateral_rate + turning[2] * x - turning[0] * z;
         let down = frame.velocity[2] - rail.vertical_rate + turning[0] * y - turning[1] * x;
         let way = frame.way;
         let creepage = Creepage {
