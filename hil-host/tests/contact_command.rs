@@ -117,7 +117,7 @@ fn a_refused_profile_leaves_no_plots() {
     let (file, plots) = (folder.path().join("rail.csv"), folder.path().join("plots"));
     for (text, part) in [
         ("y_mm,z_mm\n0,0\n1,0\n", "too few points: 2"),
-        ("0,0\n1,nan\n", "line 2"),
+        ("0,0\n1,nan\n", "rail.csv:2: column z_mm: \"nan\""),
         ("0,0,0\n", "3 columns"),
         ("", "too few points: 0"),
     ] {
