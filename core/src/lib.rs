@@ -20,6 +20,7 @@ mod damper;
 mod error;
 #[cfg(feature = "builder")]
 mod hydraulics;
+mod image;
 mod math;
 #[cfg(feature = "builder")]
 mod oil;
@@ -37,6 +38,7 @@ mod words;
 pub use bank::step_bank;
 pub use damper::Damper;
 pub use error::BuildError;
+pub use image::ImageError;
 pub use math::Real;
 pub use parameters::DamperParameters;
 pub use state::DamperState;
