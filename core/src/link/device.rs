@@ -90,14 +90,10 @@ impl<const N: usize> Device<N> {
         }
     }
 
-    /// One tick of the free-running time; nothing while the host steps.
-    pub fn tick(&mut self) {
-        self.service.tick();
-    }
-
-    /// Counts a free-running tick that began after the next one was due.
-    pub fn count_overrun(&mut self) {
-        count(&mut self.service.counters.overruns);
+    /// Runs the `due` ticks that the timer counted since the last call, each one; more than one are
+    /// counted as overruns. Nothing while the host steps.
+    pub fn tick(&mut self, due: u32) {
+        self.service.tick(due);
     }
 
     /// Forces (N) for the actuators: of the last tick, or the safe output; 0 when stopped.

@@ -226,7 +226,7 @@ pub struct Counters {
     pub out_of_order: u32,
     /// Requests in sequence that were refused.
     pub refused: u32,
-    /// Free-running ticks that began after the next was due.
+    /// Free-running ticks that had not begun when the next was due.
     pub overruns: u32,
     /// Losses of the link.
     pub link_losses: u32,

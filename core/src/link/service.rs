@@ -65,16 +65,20 @@ impl<const N: usize> Service<N> {
         self.loaded.step_s()
     }
 
-    /// A free-running tick; nothing while the host steps.
-    pub(crate) fn tick(&mut self) {
+    /// The free-running ticks that are due; nothing while the host steps.
+    pub(crate) fn tick(&mut self, due: u32) {
         if !self.running {
             return;
         }
-        self.step();
-        let (outputs_n, lost) = self.watch.output(self.loaded.forces_n());
-        self.outputs_n = outputs_n;
-        if lost {
-            count(&mut self.counters.link_losses);
+        let overruns = &mut self.counters.overruns;
+        *overruns = overruns.saturating_add(due.saturating_sub(1));
+        for _ in 0..due {
+            self.step();
+            let (outputs_n, lost) = self.watch.output(self.loaded.forces_n());
+            self.outputs_n = outputs_n;
+            if lost {
+                count(&mut self.counters.link_losses);
+            }
         }
     }
 
