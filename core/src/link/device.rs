@@ -1,8 +1,6 @@
 //! The device's end of the link: bytes in, responses out, ticks.
 
-use serde::Serialize;
-
-use super::frame::{self, Frame, FrameReader, Message};
+use super::frame::{Frame, FrameReader, Message};
 use super::message::{Counters, Header, Refusal, Request, Response};
 use super::service::{Clock, Service, count};
 use super::session::{Session, Verdict};
@@ -17,15 +15,15 @@ use crate::damper::Damper;
 ///
 /// ```
 /// use dashpot_core::Damper;
-/// use dashpot_core::link::{Clock, Device, Frame, Header, PROTOCOL, Request, write_frame};
+/// use dashpot_core::link::{Clock, Device, Frame, Header, PROTOCOL, Request};
 ///
 /// static DAMPER: Damper<f32> = Damper::<f32>::from_words(&[0; Damper::<f32>::WORDS]);
 /// let clock = Clock { now: || 0, hz: 1_000_000 };
 /// let mut device = Device::new(&[&DAMPER; 2], clock);
 ///
 /// let mut hello = Frame::new();
-/// write_frame(&(Header { session: 1, sequence: 1 }, Request::Hello { protocol: PROTOCOL }), &mut hello);
-/// let answered = hello.iter().filter(|byte| device.receive(**byte)).count();
+/// hello.write(&(Header { session: 1, sequence: 1 }, Request::Hello { protocol: PROTOCOL }));
+/// let answered = hello.bytes().iter().filter(|byte| device.receive(**byte)).count();
 /// assert_eq!(answered, 1);
 /// assert_eq!(device.response().last(), Some(&0)); // a frame
 /// assert_eq!(device.counters().accepted, 1);
@@ -63,9 +61,8 @@ impl<const N: usize> Device<N> {
             None => return false,
             Some(Err(_)) => {
                 count(&mut self.service.counters.corrupt);
-                let header = self.session.last();
                 self.answers_with_notice = true;
-                answer(header, Err(Refusal::Corrupt), &mut self.notice);
+                answer(self.session.last(), Err(Refusal::Corrupt), &mut self.notice);
             }
             Some(Ok(message)) => {
                 let (session, service) = (&mut self.session, &mut self.service);
@@ -84,9 +81,9 @@ impl<const N: usize> Device<N> {
     /// The response to send: a whole frame.
     pub fn response(&self) -> &[u8] {
         if self.answers_with_notice {
-            &self.notice
+            self.notice.bytes()
         } else {
-            &self.stored
+            self.stored.bytes()
         }
     }
 
@@ -113,6 +110,7 @@ impl<const N: usize> Device<N> {
 }
 
 /// Judges and carries out a message; whether the answer is the notice.
+#[inline(never)]
 fn serve<const N: usize>(
     message: Message<'_>,
     session: &mut Session,
@@ -168,10 +166,16 @@ fn serve<const N: usize>(
 }
 
 /// Writes a response as a frame.
+#[inline(never)]
 fn answer(header: Header, done: Result<Response<'_>, Refusal>, frame: &mut Frame) {
-    #[derive(Serialize)]
-    struct Answer<'a>(Header, Response<'a>);
-    let response = done.unwrap_or_else(Response::Refused);
-    // Every response fits: see the test `the_longest_response_fits`.
-    let _ = frame::write(&Answer(header, response), frame);
+    let refused;
+    let response = match &done {
+        Ok(response) => response,
+        Err(refusal) => {
+            refused = Response::Refused(*refusal);
+            &refused
+        }
+    };
+    // Every response fits: see the test `the_longest_messages_fit`.
+    let _ = frame.write(&(header, response));
 }

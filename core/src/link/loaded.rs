@@ -86,8 +86,8 @@ impl<const N: usize> Loaded<N> {
     }
 
     /// Puts a damper in a place; its state keeps the force.
-    pub(crate) fn replace(&mut self, place: u8, damper: Damper<f32>) -> Result<(), Refusal> {
-        *self.damper(place)? = damper;
+    pub(crate) fn replace(&mut self, place: u8, damper: &Damper<f32>) -> Result<(), Refusal> {
+        *self.damper(place)? = *damper;
         self.carry_over(place);
         Ok(())
     }

@@ -16,9 +16,7 @@ mod service;
 mod session;
 
 pub use device::Device;
-pub use frame::{
-    FRAME_BYTES, Frame, FrameError, FrameReader, MESSAGE_BYTES, Message, write as write_frame,
-};
+pub use frame::{FRAME_BYTES, Frame, FrameError, FrameReader, MESSAGE_BYTES, Message};
 pub use loaded::bank_revision;
 pub use message::{
     CHUNK_BYTES, Counters, Forces, Header, MOST_DAMPERS, MOST_SAMPLES, PROTOCOL, Parameter, Reals,

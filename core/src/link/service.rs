@@ -44,7 +44,7 @@ impl<const N: usize> Service<N> {
         const { assert!(N > 0 && N <= MOST_DAMPERS, "1 to MOST_DAMPERS dampers") };
         Self {
             loaded: Loaded::new(dampers),
-            loading: Loading::default(),
+            loading: Loading::new(),
             watch: Watch::new(),
             running: false,
             outputs_n: [0.0; N],

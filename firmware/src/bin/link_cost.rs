@@ -9,7 +9,7 @@
 use core::fmt::Write;
 
 use cortex_m_rt::entry;
-use dashpot_core::link::{Clock, Device, Frame, Header, PROTOCOL, Reals, Request, write_frame};
+use dashpot_core::link::{Clock, Device, Frame, Header, PROTOCOL, Reals, Request};
 use dashpot_firmware::bank::{BANK, DAMPERS};
 use dashpot_firmware::board::{self, CLOCK_HZ, Port, Uart};
 use dashpot_firmware::outputs;
@@ -45,19 +45,25 @@ fn main() -> ! {
         sequence,
     };
     let hello = Request::Hello { protocol: PROTOCOL };
-    write_frame(&(header(0), hello), &mut frame);
-    let _ = frame.iter().filter(|byte| device.receive(**byte)).count();
+    frame.write(&(header(0), hello));
+    let _ = frame
+        .bytes()
+        .iter()
+        .filter(|byte| device.receive(**byte))
+        .count();
 
     let (mut total, mut most, mut bytes_in, mut bytes_out) = (0, 0, 0, 0);
     for tick in 1..=REQUESTS as u32 {
-        let displacements_m: Reals = (0..DAMPERS as u32).map(|i| triangle(tick + 9 * i)).collect();
+        let displacements_m: Reals = (0..DAMPERS as u32)
+            .map(|i| triangle(tick + 9 * i))
+            .collect();
         let step = Request::Step {
             tick,
             displacements_m,
         };
-        write_frame(&(header(tick), step), &mut frame);
+        frame.write(&(header(tick), step));
         let start = board::clock_now();
-        for byte in &frame {
+        for byte in frame.bytes() {
             // The register is read as when a byte waits in it.
             if uart.receive().is_none() && device.receive(*byte) {
                 outputs::drive(device.outputs_n());
@@ -69,7 +75,7 @@ fn main() -> ! {
         let taken = board::clock_now().wrapping_sub(start);
         total += taken;
         most = most.max(taken);
-        bytes_in += frame.len();
+        bytes_in += frame.bytes().len();
         bytes_out += device.response().len();
     }
     let mut printer = Printer(Uart::start(Port::Link, 1_000_000));
