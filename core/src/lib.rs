@@ -26,6 +26,7 @@ mod math;
 mod oil;
 pub mod parameters;
 mod revision;
+mod saved_state;
 #[cfg(feature = "builder")]
 pub mod shim;
 mod state;
@@ -41,5 +42,6 @@ pub use error::BuildError;
 pub use image::ImageError;
 pub use math::Real;
 pub use parameters::DamperParameters;
+pub use saved_state::SavedStateError;
 pub use state::DamperState;
 pub use status::Status;
