@@ -81,9 +81,11 @@ fn every_flipped_bit_is_refused_and_changes_nothing() {
             _ => refused == Err(ImageError::Checksum),
         };
         assert!(as_expected, "bit {bit}: {refused:?}");
+        assert_eq!(Damper::<f32>::check_image(&image), refused);
         image[bit / 8] ^= 1 << (bit % 8);
     }
     assert_eq!(loaded, kept);
+    assert_eq!(Damper::<f32>::check_image(&image), Ok(()));
     assert_eq!(loaded.load_image(&image), Ok(()));
     assert_eq!(loaded, single());
 }
@@ -160,10 +162,16 @@ fn constants_out_of_range_are_refused_though_their_revision_is_right() {
         .position(|word| *word == revision)
         .expect("the revision is among the words");
     assert_eq!(read(&forged(words.clone(), revision_at)), Ok(damper));
-    let mut cases = vec![(0, 0.0_f32), (1, 0.051)];
+    let mut cases = vec![(0, 0.0_f32), (1, 1e-3), (3, 1e-3)];
     for scalar in 0..revision_at {
         cases.extend([(scalar, f32::NAN), (scalar, f32::INFINITY), (scalar, -1.0)]);
     }
+    // Beyond the largest clearance, the sum that goes with it right.
+    let mut loose = words.clone();
+    loose[1] = 0.051_f32.to_bits();
+    loose[3] = (0.051 + f32::from_bits(words[2])).to_bits();
+    let refused = read(&forged(loose, revision_at));
+    assert_eq!(refused, Err(ImageError::Constants));
     let last = words.len() - 1;
     for coefficient in [revision_at + 2, last] {
         cases.extend([(coefficient, f32::NAN), (coefficient, f32::NEG_INFINITY)]);

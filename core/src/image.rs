@@ -18,6 +18,7 @@ use crc::{CRC_32_ISO_HDLC, Crc, NoTable};
 
 use crate::damper::{Damper, Scalars};
 use crate::revision;
+use crate::table::Piece;
 
 const MAGIC: [u8; 4] = *b"DASH";
 const BYTE_ORDER: u16 = 0xfeff;
@@ -184,79 +185,109 @@ macro_rules! image {
             /// # Errors
             /// The first fault found, from the front of the image; the damper is then as it was.
             pub fn load_image(&mut self, image: &[u8]) -> Result<(), ImageError> {
-                const SCALARS: usize = size_of::<Scalars<$float>>() / size_of::<$float>();
-                let body = body(image, size_of::<$word>(), Self::IMAGE_BYTES)?;
-                let (words, _) = body.as_chunks::<{ size_of::<$word>() }>();
+                let constants = Constants::<$float, _>::read(image)?;
+                self.scalars = constants.scalars;
+                self.revision = constants.revision;
+                self.table_revision = constants.table_revision;
+                let places = self.table.iter_mut().flat_map(Piece::coefficients_mut);
+                for (place, word) in places.zip(constants.coefficients) {
+                    *place = $float::from_le_bytes(*word);
+                }
+                Ok(())
+            }
+
+            /// Whether an image is a damper, without taking it.
+            ///
+            /// # Errors
+            /// Those of [`Self::load_image`].
+            pub fn check_image(image: &[u8]) -> Result<(), ImageError> {
+                Constants::<$float, _>::read(image).map(drop)
+            }
+        }
+
+        impl<'a> Constants<'a, $float, { size_of::<$float>() }> {
+            fn read(image: &'a [u8]) -> Result<Self, ImageError> {
+                const BYTES: usize = size_of::<$float>();
+                const SCALARS: usize = size_of::<Scalars<$float>>() / BYTES;
+                let body = body(image, BYTES, Damper::<$float>::IMAGE_BYTES)?;
+                let (words, _) = body.as_chunks::<BYTES>();
                 let parts = words
                     .split_first_chunk::<SCALARS>()
                     .and_then(|(scalars, rest)| Some((scalars, rest.split_first_chunk::<2>()?)));
                 let Some((scalars, (revisions, coefficients))) = parts else {
                     return Err(ImageError::Constants);
                 };
-                let scalars = scalars.map($word::from_le_bytes);
-                let [revision, tables_revision] = revisions.map($word::from_le_bytes);
-                let coefficients = coefficients.iter().map(|word| $word::from_le_bytes(*word));
-
-                let widened = |word| u64::from(word);
-                let tables_hash = revision::of_words(revision::START, coefficients.clone().map(widened));
-                let hash = revision::of_words(tables_hash, scalars.iter().copied().map(widened)).max(1);
-                let finite = coefficients.clone().all(|word| $float::from_bits(word).is_finite());
-                if $word::from(tables_hash) != tables_revision
-                    || $word::from(hash) != revision
-                    || !finite
-                {
-                    return Err(ImageError::Constants);
-                }
-                let scalars = in_order(scalars.map($float::from_bits));
-                let credible = scalars.as_array().iter().all(|scalar| *scalar >= 0.0 && scalar.is_finite())
+                let hash = |hash, words: &[[u8; BYTES]]| {
+                    let widened = words.iter().map(|word| $word::from_le_bytes(*word).into());
+                    revision::of_words(hash, widened)
+                };
+                let table_revision = hash(revision::START, coefficients);
+                let revision = hash(table_revision, scalars).max(1);
+                let finite = |word: &[u8; BYTES]| $float::from_le_bytes(*word).is_finite();
+                let finite = scalars.iter().chain(coefficients).all(finite);
+                let scalars = in_order(scalars.map($float::from_le_bytes));
+                let credible = scalars.as_array().iter().all(|scalar| *scalar >= 0.0)
                     && scalars.step_s > 0.0
-                    && scalars.half_clearance <= LARGEST_HALF_CLEARANCE as $float;
-                if !credible {
-                    return Err(ImageError::Constants);
+                    && scalars.half_clearance <= LARGEST_HALF_CLEARANCE as $float
+                    && scalars.offset == scalars.half_clearance + scalars.held;
+                if revisions.map($word::from_le_bytes) == [revision, table_revision].map($word::from)
+                    && finite
+                    && credible
+                {
+                    Ok(Self { scalars, revision, table_revision, coefficients })
+                } else {
+                    Err(ImageError::Constants)
                 }
-
-                self.scalars = scalars;
-                self.revision = hash;
-                self.tables_revision = tables_hash;
-                let stage = self.stage.iter_mut();
-                let stage = stage.flat_map(|piece| piece.flow.iter_mut().chain(&mut piece.potential));
-                let output = self.output.iter_mut().flatten();
-                for (place, word) in stage.chain(output).zip(coefficients) {
-                    *place = $float::from_bits(word);
-                }
-                Ok(())
             }
         }
     };
 }
 
+/// What an image holds, checked.
+struct Constants<'a, T, const BYTES: usize> {
+    scalars: Scalars<T>,
+    revision: u32,
+    table_revision: u32,
+    coefficients: &'a [[u8; BYTES]],
+}
+
 /// The inverse of [`Scalars::as_array`].
-fn in_order<T>(scalars: [T; 11]) -> Scalars<T> {
+fn in_order<T>(scalars: [T; 10]) -> Scalars<T> {
     let [
         step_s,
         half_clearance,
         held,
-        yield_stretch,
+        offset,
         force_limit,
         largest_move,
-        stage_scale,
-        stage_shift,
-        stage_shift_root,
-        output_scale,
-        mount_stiffness,
+        scale,
+        shift,
+        shift_root,
+        held_stiffness,
     ] = scalars;
     Scalars {
         step_s,
         half_clearance,
         held,
-        yield_stretch,
+        offset,
         force_limit,
         largest_move,
-        stage_scale,
-        stage_shift,
-        stage_shift_root,
-        output_scale,
-        mount_stiffness,
+        scale,
+        shift,
+        shift_root,
+        held_stiffness,
+    }
+}
+
+impl<T> Piece<T> {
+    /// The inverse of [`Piece::coefficients`].
+    fn coefficients_mut(&mut self) -> impl Iterator<Item = &mut T> {
+        let Self {
+            flow,
+            potential,
+            stiffness,
+        } = self;
+        flow.iter_mut().chain(potential).chain(stiffness)
     }
 }
 

@@ -16,18 +16,15 @@ pub(crate) fn of_words(hash: u32, words: impl Iterator<Item = u64>) -> u32 {
     })
 }
 
-/// Hash of two tables.
+/// Hash of a table.
 #[cfg(feature = "builder")]
-pub(crate) fn of_tables<T: Real>(stage: &Table<Piece<T>>, output: &Table<[T; 4]>) -> u32 {
-    let stage = stage
-        .iter()
-        .flat_map(|piece| piece.flow.iter().chain(&piece.potential));
-    let coefficients = stage.chain(output.iter().flatten());
+pub(crate) fn of_table<T: Real>(table: &Table<T>) -> u32 {
+    let coefficients = table.iter().flat_map(Piece::coefficients);
     of_words(START, coefficients.map(|value| value.to_bits_u64()))
 }
 
-/// Hash of a damper: its tables' and its scalars', never 0.
-pub(crate) fn of_damper<T: Real>(tables: u32, scalars: &Scalars<T>) -> u32 {
+/// Hash of a damper: its table's and its scalars', never 0.
+pub(crate) fn of_damper<T: Real>(table: u32, scalars: &Scalars<T>) -> u32 {
     let scalars = scalars.as_array();
-    of_words(tables, scalars.iter().map(|value| value.to_bits_u64())).max(1)
+    of_words(table, scalars.iter().map(|value| value.to_bits_u64())).max(1)
 }

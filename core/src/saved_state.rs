@@ -5,6 +5,7 @@ use core::fmt;
 use crate::damper::Damper;
 use crate::state::DamperState;
 use crate::status::Status;
+use crate::table::PIECES;
 
 /// Why bytes are no state of a damper.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -92,10 +93,10 @@ macro_rules! saved_state {
                         found: state.revision,
                     });
                 }
-                // Twice what an element that yields can be stretched to: rounding is far less.
+                // The reach of the table: no stage ends beyond it.
                 let k = &self.scalars;
-                let largest_stretch =
-                    2.0 * (k.half_clearance + k.held + k.yield_stretch) + k.largest_move;
+                let last = (PIECES - 1) as $float + k.shift_root;
+                let largest_stretch = (last * last - k.shift) / k.scale + k.offset;
                 let credible = state.displacement.is_finite()
                     && state.potential.is_finite()
                     && state.stretch.abs() <= largest_stretch

@@ -6,9 +6,6 @@ use crate::state::DamperState;
 use crate::status::Status;
 use crate::table::{PIECES, Piece, Table, cubic, locate};
 
-/// Weight of the first stage's flow over that of the last, (1 - gamma)/gamma.
-const EXPLICIT_RATIO: f64 = (1.0 - IMPLICIT_SHARE) / IMPLICIT_SHARE;
-
 /// The correction is at most this share of the step's travel, so it never undoes the damping.
 const CORRECTION_SHARE: f64 = 0.125;
 
@@ -24,58 +21,39 @@ pub(crate) fn step<T: Real, const L: usize>(
 ) -> [T; L] {
     let travel = enter(dampers, states, displacements);
     let start = Lanes(states.each_ref().map(|state| state.stretch));
+    let potential = Lanes(states.each_ref().map(|state| state.potential));
     let gamma = Lanes::all(IMPLICIT_SHARE);
-    let explicit_ratio = Lanes::all(EXPLICIT_RATIO);
-    let half_clearance = of(dampers, |k| k.half_clearance);
 
     let stages = Stages::new(dampers);
     let first = stages.solve(start + gamma * travel);
-    let last = stages.solve(start + travel - explicit_ratio * first.flow);
+    let last = stages.solve(start + travel - Lanes::all(1.0 - IMPLICIT_SHARE) * first.flow);
 
     // The flow's mean over the straight path, by its potential and, off the path, by its slope.
     let change = last.stretch - start;
     let inverse = Lanes::all(1.0) / (change + Lanes::all(STANDSTILL));
     let off_path = first.stretch - start - gamma * change;
-    let slope = (last.flow - first.flow) * Lanes::all(1.0 / IMPLICIT_SHARE);
-    let potential = Lanes(states.each_ref().map(|state| state.potential));
+    let difference = last.flow - first.flow;
     let end_potential = last.potential();
-    let mean = (end_potential - potential + slope * off_path) * inverse;
+    let area = end_potential - potential + difference * off_path;
+    let quadrature = first.flow + gamma * difference;
+    let share = ((area * inverse - quadrature) * inverse)
+        .at_least(-CORRECTION_SHARE)
+        .at_most(CORRECTION_SHARE);
+    // In contact on the same side at both ends there is nothing to correct but rounding.
+    let contact = last.flow * start * potential;
+    let correctable = change.zip(
+        contact,
+        |change, contact| {
+            if contact > T::ZERO { T::ZERO } else { change }
+        },
+    );
+    let correction = share * correctable;
 
-    // In contact on the same side all through there is nothing to correct but rounding; an element
-    // that yields follows the input.
-    let excess = first.stretch.magnitude().larger(last.stretch.magnitude())
-        - (half_clearance + of(dampers, |k| k.yield_stretch));
-    for (state, excess) in states.iter_mut().zip(excess.0) {
-        state.status.insert_if(excess >= T::ZERO, Status::SATURATED);
-    }
-    let touched = start.magnitude().smaller(last.stretch.magnitude()) - stages.offset;
-    let side =
-        (start * last.stretch).zip(
-            touched,
-            |product, touched| {
-                if touched > T::ZERO { product } else { T::ZERO }
-            },
-        );
-    let most = (change.magnitude() * Lanes::all(CORRECTION_SHARE))
-        .zip(
-            side,
-            |most, side| if side > T::ZERO { T::ZERO } else { most },
-        )
-        .zip(
-            excess,
-            |most, excess| {
-                if excess >= T::ZERO { T::ZERO } else { most }
-            },
-        );
-    let correction = (mean - (explicit_ratio * first.flow + last.flow))
-        .larger(-most)
-        .smaller(most);
     let rest = Lanes([T::REST_ROUNDER; L]);
     let stretch = ((last.stretch + rest) - correction) - rest;
-    let outflow = last.flow * Lanes::all(1.0 / IMPLICIT_SHARE);
-    let potential = end_potential - outflow * correction;
-
-    leave(dampers, states, stretch, potential, half_clearance)
+    let potential = end_potential - last.flow * correction;
+    let force = force(dampers, stretch, last.stiffness());
+    leave(dampers, states, stretch, potential, force)
 }
 
 /// A number of each damper.
@@ -87,35 +65,50 @@ fn of<T: Real, const L: usize>(
     Lanes(dampers.map(|damper| number(&damper.scalars)))
 }
 
-/// Takes the displacements in: adopts states that another damper stepped, limits the travel, which it
-/// returns (m).
+/// Takes the displacements in; returns the travels (m).
 #[inline(always)]
-#[allow(clippy::neg_cmp_op_on_partial_ord)] // so that NaN is rejected too
+#[allow(clippy::neg_cmp_op_on_partial_ord)] // so that NaN is noticed too
 fn enter<T: Real, const L: usize>(
     dampers: [&Damper<T>; L],
     states: &mut [DamperState<T>; L],
     displacements: [T; L],
 ) -> Lanes<T, L> {
-    let mut travels = displacements;
-    for ((damper, state), travel) in dampers.iter().zip(states).zip(&mut travels) {
-        if state.revision != damper.revision {
-            damper.adopt(state);
-        }
-        let largest_move = damper.scalars.largest_move;
-        let mut asked = *travel - state.displacement;
-        if !(asked.magnitude() <= largest_move) {
-            asked = reject(state, asked, largest_move);
-        }
-        *travel = (asked + T::POSITION_ROUNDER) - T::POSITION_ROUNDER;
-        state.displacement = state.displacement + *travel;
+    let largest_move = of(dampers, |k| k.largest_move);
+    let last = Lanes(states.each_ref().map(|state| state.displacement));
+    let mut travel = Lanes(displacements) - last;
+    let mut usual = true;
+    for ((damper, state), (travel, largest_move)) in dampers
+        .iter()
+        .zip(&*states)
+        .zip(travel.0.iter().zip(largest_move.0))
+    {
+        usual &= state.revision == damper.revision && travel.magnitude() <= largest_move;
     }
-    Lanes(travels)
+    if !usual {
+        for ((damper, state), travel) in dampers.iter().zip(&mut *states).zip(&mut travel.0) {
+            *travel = admit(damper, state, *travel);
+        }
+    }
+    let rounder = Lanes([T::POSITION_ROUNDER; L]);
+    let travel = (travel + rounder) - rounder;
+    for (state, displacement) in states.iter_mut().zip((last + travel).0) {
+        state.displacement = displacement;
+    }
+    travel
 }
 
-/// The travel to use instead of one that is not credible; latched and counted.
+/// The travel (m) to use for the one asked for: a state that another damper stepped is adopted, a travel
+/// that is not credible limited; both latched, the latter counted.
 #[cold]
 #[inline(never)]
-fn reject<T: Real>(state: &mut DamperState<T>, travel: T, largest_move: T) -> T {
+fn admit<T: Real>(damper: &Damper<T>, state: &mut DamperState<T>, travel: T) -> T {
+    if state.revision != damper.revision {
+        damper.adopt(state);
+    }
+    let largest_move = damper.scalars.largest_move;
+    if travel.magnitude() <= largest_move {
+        return travel;
+    }
     state.rejected_inputs = state.rejected_inputs.saturating_add(1);
     if travel.is_finite() {
         state.status.insert(Status::INPUT_LIMITED);
@@ -128,21 +121,19 @@ fn reject<T: Real>(state: &mut DamperState<T>, travel: T, largest_move: T) -> T 
 
 /// The constants of implicit stages.
 struct Stages<'a, T, const L: usize> {
-    tables: [&'a Table<Piece<T>>; L],
+    tables: [&'a Table<T>; L],
     /// Stretch up to which nothing flows (m).
     offset: Lanes<T, L>,
     scale: Lanes<T, L>,
     shift: Lanes<T, L>,
     shift_root: Lanes<T, L>,
-    /// The shift less what clearance and friction take off the reach.
-    net_shift: Lanes<T, L>,
 }
 
 /// A solved stage.
 struct Stage<'a, T, const L: usize> {
     /// (m).
     stretch: Lanes<T, L>,
-    /// Flow over the stage (m).
+    /// Flow times the step (m).
     flow: Lanes<T, L>,
     pieces: [&'a Piece<T>; L],
     z: Lanes<T, L>,
@@ -151,27 +142,24 @@ struct Stage<'a, T, const L: usize> {
 impl<'a, T: Real, const L: usize> Stages<'a, T, L> {
     #[inline(always)]
     fn new(dampers: [&'a Damper<T>; L]) -> Self {
-        let offset = of(dampers, |k| k.half_clearance) + of(dampers, |k| k.held);
-        let scale = of(dampers, |k| k.stage_scale);
-        let shift = of(dampers, |k| k.stage_shift);
         Self {
-            tables: dampers.map(|damper| &damper.stage),
-            offset,
-            scale,
-            shift,
-            shift_root: of(dampers, |k| k.stage_shift_root),
-            net_shift: shift - offset * scale,
+            tables: dampers.map(|damper| &damper.table),
+            offset: of(dampers, |k| k.offset),
+            scale: of(dampers, |k| k.scale),
+            shift: of(dampers, |k| k.shift),
+            shift_root: of(dampers, |k| k.shift_root),
         }
     }
 
     /// The stage whose stretch and flow sum to `reach`.
     #[inline(always)]
     fn solve(&self, reach: Lanes<T, L>) -> Stage<'a, T, L> {
-        let square = (reach.magnitude() * self.scale + self.net_shift).larger(self.shift);
-        let (pieces, z) = locate(self.tables, square.square_root() - self.shift_root, reach);
+        let beyond = (reach.magnitude() - self.offset).at_least(0.0);
+        let y = (beyond * self.scale + self.shift).square_root() - self.shift_root;
+        let (pieces, z) = locate(self.tables, y, reach);
         let flow = cubic(pieces.map(|piece| &piece.flow), z);
         Stage {
-            stretch: reach - flow,
+            stretch: reach - Lanes::all(IMPLICIT_SHARE) * flow,
             flow,
             pieces,
             z,
@@ -185,67 +173,78 @@ impl<T: Real, const L: usize> Stage<'_, T, L> {
     fn potential(&self) -> Lanes<T, L> {
         cubic(self.pieces.map(|piece| &piece.potential), self.z)
     }
-}
 
-/// Flow potential times the step (m^2) of `damper` at a stretch (m), by bisection of its stages.
-pub(crate) fn potential_at<T: Real>(damper: &Damper<T>, stretch: T) -> T {
-    let stages = Stages::new([damper]);
-    let k = &damper.scalars;
-    let last = T::from_f64(PIECES as f64 - 1.0) + k.stage_shift_root;
-    let mut low = stretch.magnitude();
-    let mut high = (last * last - k.stage_shift) / k.stage_scale + k.half_clearance + k.held;
-    let mut stage = stages.solve(Lanes([stretch]));
-    for _ in 0..T::DIGITS + 2 {
-        let middle = T::from_f64(0.5) * (low + high);
-        let reach = if stretch < T::ZERO { -middle } else { middle };
-        stage = stages.solve(Lanes([reach]));
-        if stage.stretch.0[0].magnitude() < stretch.magnitude() {
-            low = middle;
-        } else {
-            high = middle;
-        }
+    /// Force over stretch beyond the offset, less the held stiffness (N/m).
+    #[inline(always)]
+    fn stiffness(&self) -> Lanes<T, L> {
+        cubic(self.pieces.map(|piece| &piece.stiffness), self.z)
     }
-    stage.potential().0[0]
 }
 
-/// Force (N) under a stretch of the springs (m), with the sign of `direction`: the mount's up to seal
-/// friction, beyond it the table's.
+/// Force magnitude (N) at a stretch (m), by the stiffness of the stage that ended there; not yet limited.
 #[inline(always)]
-pub(crate) fn force<T: Real, const L: usize>(
+fn force<T: Real, const L: usize>(
     dampers: [&Damper<T>; L],
-    sprung: Lanes<T, L>,
-    direction: Lanes<T, L>,
+    stretch: Lanes<T, L>,
+    stiffness: Lanes<T, L>,
 ) -> Lanes<T, L> {
-    let held = of(dampers, |k| k.held);
-    let rubbing = sprung.smaller(held) * of(dampers, |k| k.mount_stiffness);
-    let beyond = (sprung - held).larger(Lanes::all(0.0));
-    let y = (beyond * of(dampers, |k| k.output_scale)).square_root();
-    let (pieces, z) = locate(dampers.map(|damper| &damper.output), y, direction);
-    let rubbing = rubbing.zip(
-        direction,
-        |force, direction| {
-            if direction < T::ZERO { -force } else { force }
-        },
-    );
-    rubbing + cubic(pieces, z)
+    let magnitude = stretch.magnitude();
+    let sprung = (magnitude - of(dampers, |k| k.half_clearance)).at_least(0.0);
+    let beyond = (magnitude - of(dampers, |k| k.offset)).at_least(0.0);
+    sprung * of(dampers, |k| k.held_stiffness) + beyond * stiffness
 }
 
-/// Stores stretch and flow potential at the tick; returns the forces.
+/// Stores what the step found; returns the forces (N).
 #[inline(always)]
 fn leave<T: Real, const L: usize>(
     dampers: [&Damper<T>; L],
     states: &mut [DamperState<T>; L],
     stretch: Lanes<T, L>,
     potential: Lanes<T, L>,
-    half_clearance: Lanes<T, L>,
+    magnitude: Lanes<T, L>,
 ) -> [T; L] {
-    let sprung = (stretch.magnitude() - half_clearance).larger(Lanes::all(0.0));
-    let force = force(dampers, sprung, stretch);
-    let ends = stretch.0.iter().zip(potential.0).zip(force.0);
-    for (state, ((stretch, potential), force)) in states.iter_mut().zip(ends) {
-        state.stretch = *stretch;
-        state.potential = potential;
+    let limit = of(dampers, |k| k.force_limit);
+    let mut forces = magnitude.0;
+    for lane in 0..L {
+        let state = &mut states[lane];
+        let yields = magnitude.0[lane] >= limit.0[lane];
+        state.status.insert_if(yields, Status::SATURATED);
+        let limited = if yields {
+            limit.0[lane]
+        } else {
+            magnitude.0[lane]
+        };
+        let force = if stretch.0[lane] >= T::ZERO {
+            limited
+        } else {
+            -limited
+        };
+        state.stretch = stretch.0[lane];
+        state.potential = potential.0[lane];
         state.force = force;
+        forces[lane] = force;
     }
-    force.0
+    forces
+}
+
+/// The stretch (m) and flow potential (m^2) at which `damper` has a force (N), by bisection of its stages.
+pub(crate) fn settle<T: Real>(damper: &Damper<T>, force: T) -> (T, T) {
+    let stages = Stages::new([damper]);
+    let k = &damper.scalars;
+    let signed = |value: T| if force < T::ZERO { -value } else { value };
+    let last = T::from_f64(PIECES as f64 - 1.0) + k.shift_root;
+    let mut low = k.half_clearance;
+    let mut high = (last * last - k.shift) / k.scale + k.offset;
+    let mut stage = stages.solve(Lanes([signed(low)]));
+    for _ in 0..T::DIGITS + 2 {
+        let middle = T::from_f64(0.5) * (low + high);
+        stage = stages.solve(Lanes([signed(middle)]));
+        let [found] = self::force([damper], stage.stretch, stage.stiffness()).0;
+        if found < force.magnitude() {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    (stage.stretch.0[0], stage.potential().0[0])
 }

@@ -5,28 +5,40 @@ use crate::math::{Lanes, Real};
 /// Pieces a side.
 pub(crate) const PIECES: usize = 64;
 
-/// Cubics of one piece of a stage: coefficients of 1, z, z^2, z^3, z in [-1/2, 1/2].
+/// Cubics of one piece: coefficients of 1, z, z^2, z^3, z in [-1/2, 1/2].
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C)]
 pub(crate) struct Piece<T> {
-    /// Flow over the stage (m), with the sign of the stretch.
+    /// Flow times the step (m), with the sign of the stretch.
     pub(crate) flow: [T; 4],
     /// Flow potential times the step (m^2), positive.
     pub(crate) potential: [T; 4],
+    /// Force beyond friction over stretch beyond the offset, less the held stiffness (N/m).
+    pub(crate) stiffness: [T; 4],
+}
+
+impl<T> Piece<T> {
+    /// The coefficients in order of declaration.
+    pub(crate) fn coefficients(&self) -> impl Iterator<Item = &T> {
+        self.flow
+            .iter()
+            .chain(&self.potential)
+            .chain(&self.stiffness)
+    }
 }
 
 /// Pieces around y = 0, 1, 2, ... of extension, then of compression; y grows with the root of the
 /// stretch.
-pub(crate) type Table<P> = [P; 2 * PIECES];
+pub(crate) type Table<T> = [Piece<T>; 2 * PIECES];
 
 /// For each lane the piece around `y` (not negative, inside the table by construction) on the side of
 /// `direction`, and z in it. Any `y` is safe to read.
 #[inline(always)]
-pub(crate) fn locate<P, T: Real, const L: usize>(
-    tables: [&Table<P>; L],
+pub(crate) fn locate<T: Real, const L: usize>(
+    tables: [&Table<T>; L],
     y: Lanes<T, L>,
     direction: Lanes<T, L>,
-) -> ([&P; L], Lanes<T, L>) {
+) -> ([&Piece<T>; L], Lanes<T, L>) {
     let mut z = y;
     let mut pieces = tables.map(|table| &table[0]);
     for (((piece, table), z), direction) in

@@ -3,11 +3,11 @@
 use crate::damper::{Damper, Scalars};
 use crate::table::{PIECES, Piece};
 
-/// Scalars, the two revisions, eight coefficients of each piece of a stage, four of the output.
-const WORDS: usize = OUTPUT + 2 * PIECES * 4;
-const SCALARS: usize = 11;
-const STAGE: usize = SCALARS + 2;
-const OUTPUT: usize = STAGE + 2 * PIECES * 8;
+/// Scalars, the two revisions, twelve coefficients of each piece.
+const WORDS: usize = TABLE + 2 * PIECES * PIECE;
+const SCALARS: usize = 10;
+const TABLE: usize = SCALARS + 2;
+const PIECE: usize = 12;
 
 macro_rules! words {
     ($float:ident, $word:ident) => {
@@ -18,9 +18,9 @@ macro_rules! words {
 
             /// The damper of these words, at compile time or later, without the `builder` feature.
             ///
-            /// Order: scalars, revision, revision of the tables, stage table, output table; each piece
-            /// of the stage the four coefficients of the flow, then of the potential. Words that [`Self::to_words`]
-            /// of this version did not make are read without harm, but step to forces without meaning.
+            /// Order: scalars, revision, revision of the table, table; each piece the four coefficients
+            /// of the flow, of the potential, of the stiffness. Words that [`Self::to_words`] of
+            /// this version did not make are read without harm, but step to forces without meaning.
             ///
             /// ```
             /// use dashpot_core::Damper;
@@ -38,13 +38,17 @@ macro_rules! words {
                         $float::from_bits(words[from + 3]),
                     ]
                 }
-                let mut stage = [Piece { flow: [0.0; 4], potential: [0.0; 4] }; 2 * PIECES];
-                let mut output = [[0.0; 4]; 2 * PIECES];
+                let mut table = [Piece {
+                    flow: [0.0; 4],
+                    potential: [0.0; 4],
+                    stiffness: [0.0; 4],
+                }; 2 * PIECES];
                 let mut index = 0;
                 while index < 2 * PIECES {
-                    stage[index].flow = cubic(words, STAGE + 8 * index);
-                    stage[index].potential = cubic(words, STAGE + 8 * index + 4);
-                    output[index] = cubic(words, OUTPUT + 4 * index);
+                    let from = TABLE + PIECE * index;
+                    table[index].flow = cubic(words, from);
+                    table[index].potential = cubic(words, from + 4);
+                    table[index].stiffness = cubic(words, from + 8);
                     index += 1;
                 }
                 Self {
@@ -52,27 +56,24 @@ macro_rules! words {
                         step_s: $float::from_bits(words[0]),
                         half_clearance: $float::from_bits(words[1]),
                         held: $float::from_bits(words[2]),
-                        yield_stretch: $float::from_bits(words[3]),
+                        offset: $float::from_bits(words[3]),
                         force_limit: $float::from_bits(words[4]),
                         largest_move: $float::from_bits(words[5]),
-                        stage_scale: $float::from_bits(words[6]),
-                        stage_shift: $float::from_bits(words[7]),
-                        stage_shift_root: $float::from_bits(words[8]),
-                        output_scale: $float::from_bits(words[9]),
-                        mount_stiffness: $float::from_bits(words[10]),
+                        scale: $float::from_bits(words[6]),
+                        shift: $float::from_bits(words[7]),
+                        shift_root: $float::from_bits(words[8]),
+                        held_stiffness: $float::from_bits(words[9]),
                     },
                     revision: words[SCALARS] as u32,
-                    tables_revision: words[SCALARS + 1] as u32,
-                    stage,
-                    output,
+                    table_revision: words[SCALARS + 1] as u32,
+                    table,
                 }
             }
 
             /// The words of this damper; [`Self::from_words`] gives it back to the bit.
             pub fn to_words(&self) -> [$word; WORDS] {
-                let revisions = [self.revision, self.tables_revision].map($word::from);
-                let stage = self.stage.iter().flat_map(|piece| piece.flow.iter().chain(&piece.potential));
-                let coefficients = stage.chain(self.output.iter().flatten());
+                let revisions = [self.revision, self.table_revision].map($word::from);
+                let coefficients = self.table.iter().flat_map(Piece::coefficients);
                 let scalars = self.scalars.as_array().map($float::to_bits);
                 let all = scalars.into_iter().chain(revisions).chain(coefficients.map(|c| c.to_bits()));
                 let mut words = [0; WORDS];
@@ -101,14 +102,14 @@ mod tests {
             let damper = Damper::<$float>::from_words(&words);
             let mut expected = words;
             // Revisions have 32 bits.
-            for index in [11, 12] {
+            for index in [10, 11] {
                 expected[index] = $word::from(words[index] as u32);
             }
             assert_eq!(damper.to_words(), expected);
             assert_eq!(damper.step_s().to_bits(), words[0]);
             assert_eq!(damper.force_limit_n().to_bits(), words[4]);
-            assert_eq!(damper.revision(), words[11] as u32);
-            assert_eq!(damper.output[127][3].to_bits(), words[WORDS - 1]);
+            assert_eq!(damper.revision(), words[10] as u32);
+            assert_eq!(damper.table[127].stiffness[3].to_bits(), words[WORDS - 1]);
             let bytes = WORDS * core::mem::size_of::<$word>();
             assert!(core::mem::size_of::<Damper<$float>>() <= bytes);
         };

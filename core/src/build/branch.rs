@@ -58,7 +58,7 @@ impl Branch<'_> {
     /// `d delta/dF` (m/N).
     fn compliance(&self, force: f64) -> f64 {
         let oil = match (&self.column, &self.law) {
-            (Some((column, volume)), Law::Physical(side)) if force > side.laws.friction_n => {
+            (Some((column, volume)), Law::Physical(side)) if force >= side.laws.friction_n => {
                 volume / (side.area() * side.area())
                     * column.compressibility_per_pa(side.pressure_pa(force))
             }
@@ -67,14 +67,15 @@ impl Branch<'_> {
         self.mount_compliance + oil
     }
 
-    /// Force of the chain shortened by `deflection` (N), at most the limit.
-    pub(crate) fn force(&self, deflection: f64) -> f64 {
-        if deflection >= self.deflection(self.force_limit) {
-            return self.force_limit;
+    /// Force beyond friction over the deflection beyond friction's (N/m), at friction the limit of it.
+    pub(crate) fn secant_stiffness(&self, force: f64) -> f64 {
+        let friction = self.friction();
+        let deflection = self.deflection(force) - friction * self.mount_compliance;
+        if force > friction && deflection > 0.0 {
+            (force - friction) / deflection
+        } else {
+            1.0 / self.compliance(friction)
         }
-        bracketed_root(0.0, self.force_limit, |force| {
-            self.deflection(force) - deflection
-        })
     }
 
     /// Force at the end of an implicit stage (N): `delta(F) + g v_h(F) = reach`, at most the limit.

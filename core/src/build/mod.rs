@@ -24,6 +24,9 @@ type Corners = Vec<(f64, f64), 24>;
 const VALVE_WEIGHT: f64 = 1.0;
 const LIMIT_WEIGHT: f64 = 1e-3;
 
+/// Share by which the table's force exceeds the limit where the element yields, above rounding in `f32`.
+const YIELD_MARGIN: f64 = 1e-5;
+
 impl DamperParameters {
     /// Checks every parameter.
     ///
@@ -111,89 +114,84 @@ impl DamperParameters {
         }
     }
 
-    /// Samples both branches into tables.
+    /// Samples both branches into a table.
     fn assemble<T: Real>(&self, branches: &[Branch<'_>; 2], step_s: f64) -> Damper<T> {
         let stage_s = IMPLICIT_SHARE * step_s;
         let largest_move = self.limits.rate_m_per_s * step_s;
         // Friction holds the piston until the mount, alike on both sides, has this stretch.
         let held = branches[0].friction() * branches[0].mount_compliance;
-        let yields = branches.map(|branch| branch.deflection(branch.force_limit));
-        let yield_largest = yields[0].max(yields[1]);
+        let held_stiffness = if held > 0.0 {
+            1.0 / branches[0].mount_compliance
+        } else {
+            0.0
+        };
 
-        let mut stage_corners = Corners::new();
-        let mut output_corners = Corners::new();
+        let mut corners = Corners::new();
         for branch in branches {
-            for corner in branch.corners() {
-                if corner < branch.force_limit {
-                    // Capacity 24 exceeds both branches' corners.
-                    let _ =
-                        stage_corners.push((branch.reach(corner, stage_s) - held, VALVE_WEIGHT));
-                }
+            let forces = branch.corners();
+            let met = forces.iter().filter(|&&force| force < branch.force_limit);
+            let limit = (branch.force_limit, LIMIT_WEIGHT);
+            for (force, weight) in met.map(|&force| (force, VALVE_WEIGHT)).chain([limit]) {
+                // Capacity 24 exceeds both branches' corners.
+                let _ = corners.push((branch.reach(force, stage_s) - held, weight));
             }
-            let yields = branch.reach(branch.force_limit, stage_s) - held;
-            let _ = stage_corners.push((yields, LIMIT_WEIGHT));
-            let yields = branch.deflection(branch.force_limit) - held;
-            let _ = output_corners.push((yields, LIMIT_WEIGHT));
         }
         // The last stage looks at most sqrt(2) times the largest stretch past a move; the end of
         // a step lies at most an eighth of its travel beyond yield.
-        let output_reach = 1.2 * yield_largest + 0.2 * largest_move;
-        let stage_reach = 1.5 * output_reach + largest_move;
-        let knee = branches
-            .iter()
-            .map(|branch| branch.knee(stage_s))
-            .fold(0.0, f64::max);
-        let stage_grid = Grid::aligned(stage_reach, knee, &stage_corners);
-        let output_grid = Grid::aligned(output_reach, 0.0, &output_corners);
+        let yields = branches.map(|branch| branch.deflection(branch.force_limit));
+        let reach = 1.5 * (1.2 * yields[0].max(yields[1]) + 0.2 * largest_move) + largest_move;
+        let knees = branches.map(|branch| branch.knee(stage_s));
+        let grid = Grid::aligned(reach, knees[0].max(knees[1]), &corners);
 
-        let side = |compression: bool| if compression { -1.0 } else { 1.0 };
         let at = |compression: bool, y: f64| {
             let branch = &branches[usize::from(compression)];
-            let reach = stage_grid.stretch(y) + held;
+            let reach = grid.stretch(y) + held;
             (branch, reach, branch.stage_force(reach, stage_s))
         };
         let flow = fit::cubics(|compression, y| {
             let (branch, reach, force) = at(compression, y);
-            side(compression)
-                * if force < branch.force_limit {
-                    stage_s * branch.velocity(force)
-                } else {
-                    reach - branch.deflection(force)
-                }
+            let flow = if force < branch.force_limit {
+                step_s * branch.velocity(force)
+            } else {
+                (reach - branch.deflection(force)) / IMPLICIT_SHARE
+            };
+            if compression { -flow } else { flow }
         });
         let potential = fit::cubics(|compression, y| {
             let (branch, _, force) = at(compression, y);
             step_s * branch.flow_potential(force)
         });
-        let output = fit::cubics(|compression, y| {
-            let branch = &branches[usize::from(compression)];
-            let force = branch.force(output_grid.stretch(y) + held);
-            // A rounding below the limit, so that no piece exceeds it.
-            let highest = branch.force_limit * (1.0 - 8.0 * T::EPSILON);
-            side(compression) * (force.min(highest) - branch.friction()).max(0.0)
+        let stiffness = fit::cubics(|compression, y| {
+            let (branch, _, force) = at(compression, y);
+            let secant = branch.secant_stiffness(force);
+            if force < branch.force_limit {
+                secant - held_stiffness
+            } else {
+                // A trace above the limit, to which the step then holds the force.
+                (1.0 + YIELD_MARGIN) * secant - held_stiffness
+            }
         });
-        let stage = core::array::from_fn(|place| Piece {
+        let table = core::array::from_fn(|place| Piece {
             flow: flow[place],
             potential: potential[place],
+            stiffness: stiffness[place],
         });
-        let stage_shift = T::from_f64(stage_grid.shift);
-        Damper::new(
-            Scalars {
-                step_s: T::from_f64(step_s),
-                half_clearance: T::from_f64(0.5 * self.mount.clearance_m),
-                held: T::from_f64(held),
-                yield_stretch: T::from_f64(yields[0].min(yields[1]) * (1.0 - 1e-5)),
-                force_limit: T::from_f64(branches[0].force_limit.max(branches[1].force_limit)),
-                largest_move: T::from_f64(largest_move),
-                stage_scale: T::from_f64(stage_grid.scale),
-                stage_shift,
-                stage_shift_root: stage_shift.square_root(),
-                output_scale: T::from_f64(output_grid.scale),
-                mount_stiffness: T::from_f64(1.0 / branches[0].mount_compliance),
-            },
-            stage,
-            output,
-        )
+        let half_clearance = T::from_f64(0.5 * self.mount.clearance_m);
+        let held = T::from_f64(held);
+        let shift = T::from_f64(grid.shift);
+        let scalars = Scalars {
+            step_s: T::from_f64(step_s),
+            half_clearance,
+            held,
+            offset: half_clearance + held,
+            force_limit: T::from_f64(branches[0].force_limit.max(branches[1].force_limit)),
+            largest_move: T::from_f64(largest_move),
+            scale: T::from_f64(grid.scale),
+            shift,
+            shift_root: shift.square_root(),
+            held_stiffness: T::from_f64(held_stiffness),
+        };
+        Damper::new(scalars, table)
     }
 }
 

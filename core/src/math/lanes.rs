@@ -48,10 +48,16 @@ impl<T: Real, const L: usize> Lanes<T, L> {
         self.map(T::square_root)
     }
 
-    /// See [`Real::larger`].
+    /// Not below a constant.
     #[inline(always)]
-    pub(crate) fn larger(self, other: Self) -> Self {
-        self.zip(other, T::larger)
+    pub(crate) fn at_least(self, least: f64) -> Self {
+        self.map(|lane| lane.larger(T::from_f64(least)))
+    }
+
+    /// Not above a constant.
+    #[inline(always)]
+    pub(crate) fn at_most(self, most: f64) -> Self {
+        self.map(|lane| lane.smaller(T::from_f64(most)))
     }
 
     /// See [`Real::smaller`].

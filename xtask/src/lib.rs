@@ -1,0 +1,5 @@
+//! What the developer commands and the tests of other packages share.
+
+pub mod run;
+pub mod target_toolchain;
+pub mod tools;
