@@ -2,7 +2,9 @@
 
 use std::process::ExitCode;
 
+use xtask::firmware;
 use xtask::run::{Outcome, cargo, cargo_output, cargo_with, version_of};
+use xtask::target_toolchain::TargetToolchain;
 use xtask::tools::install_missing;
 
 const HELP: &str = "\
@@ -12,6 +14,7 @@ Usage: cargo xtask <command>
 
 Commands:
   test                   install the tools that tests need, then run every test
+  firmware               build the images for the target
   bench                  measure time per step, side by side with yardstick and floor
   bench --instructions   count instructions per step (needs Valgrind and gungraun-runner)
   ci                     formatting, lints, documentation, Rust version, then test
@@ -35,6 +38,7 @@ fn main() -> ExitCode {
             Ok(())
         }
         ["test"] => test(),
+        ["firmware"] => build_firmware(),
         ["bench"] => cargo(&["bench", "--package", "dashpot", "--bench", "step"]),
         ["bench", "--instructions"] => count_instructions(),
         ["ci"] => ci(),
@@ -50,6 +54,12 @@ fn main() -> ExitCode {
             ExitCode::FAILURE
         }
     }
+}
+
+fn build_firmware() -> Outcome {
+    let images = firmware::build(&TargetToolchain::find()?)?;
+    println!("images are in {}", images.display());
+    Ok(())
 }
 
 fn test() -> Outcome {
