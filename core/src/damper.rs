@@ -14,7 +14,7 @@ use crate::revision;
 use crate::state::DamperState;
 use crate::status::Status;
 use crate::step;
-use crate::table::Table;
+use crate::table::{PIECES, Table};
 
 /// gamma of the two stages.
 pub(crate) const IMPLICIT_SHARE: f64 = 1.0 - core::f64::consts::FRAC_1_SQRT_2;
@@ -50,9 +50,12 @@ pub struct Scalars<T> {
     pub(crate) held: T,
 }
 
-impl<T: Real> Scalars<T> {
+impl<T: Copy> Scalars<T> {
+    /// How many there are.
+    pub(crate) const COUNT: usize = 12;
+
     /// The numbers in order of declaration.
-    pub(crate) fn as_array(&self) -> [T; 12] {
+    pub(crate) const fn as_array(&self) -> [T; 12] {
         [
             self.largest_move,
             self.position_rounder,
@@ -67,6 +70,38 @@ impl<T: Real> Scalars<T> {
             self.force_limit,
             self.held,
         ]
+    }
+
+    /// The inverse of [`Scalars::as_array`].
+    pub(crate) const fn from_array(numbers: [T; 12]) -> Self {
+        let [
+            largest_move,
+            position_rounder,
+            rest_rounder,
+            step_s,
+            offset,
+            scale,
+            shift,
+            origin,
+            half_clearance,
+            held_stiffness,
+            force_limit,
+            held,
+        ] = numbers;
+        Self {
+            largest_move,
+            position_rounder,
+            rest_rounder,
+            step_s,
+            offset,
+            scale,
+            shift,
+            origin,
+            half_clearance,
+            held_stiffness,
+            force_limit,
+            held,
+        }
     }
 }
 
@@ -178,6 +213,13 @@ impl<T: Real> Damper<T> {
     pub fn step(&self, state: &mut DamperState<T>, displacement: T) -> T {
         let [force] = step::step::<T, T, 1>([self], core::array::from_mut(state), [displacement]);
         force
+    }
+
+    /// Reach (m) at the centre of the last piece; no stage ends beyond it.
+    pub(crate) fn largest_reach(&self) -> T {
+        let k = &self.scalars;
+        let last = self.table[PIECES - 1].centre;
+        (last * last - k.shift) / k.scale + k.offset
     }
 
     /// Carries a state over from another damper: displacement and force stay, the stretch becomes

@@ -6,7 +6,8 @@
 //! nothing and uses + - * / and square root only, so every IEEE 754 machine computes the same bits.
 //!
 //! Features: `builder` (default) has the parameters-to-constants part; without it the crate is the step
-//! alone. `serde` reads and writes parameters, `log` reports builds through the `log` facade.
+//! alone. `serde` reads and writes parameters, `log` reports builds through the `log` facade,
+//! `link` serves a bank of dampers over a serial line.
 #![no_std]
 #![deny(unsafe_code)]
 #![warn(missing_docs)]
@@ -20,11 +21,15 @@ mod damper;
 mod error;
 #[cfg(feature = "builder")]
 mod hydraulics;
+mod image;
+#[cfg(feature = "link")]
+pub mod link;
 mod math;
 #[cfg(feature = "builder")]
 mod oil;
 pub mod parameters;
 mod revision;
+mod saved_state;
 #[cfg(feature = "builder")]
 pub mod shim;
 mod state;
@@ -37,7 +42,9 @@ mod words;
 pub use bank::step_bank;
 pub use damper::Damper;
 pub use error::BuildError;
+pub use image::ImageError;
 pub use math::Real;
 pub use parameters::DamperParameters;
+pub use saved_state::SavedStateError;
 pub use state::DamperState;
 pub use status::Status;

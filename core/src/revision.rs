@@ -6,10 +6,13 @@ use crate::math::Real;
 #[cfg(feature = "builder")]
 use crate::table::{Piece, Table};
 
-fn absorb<T: Real>(hash: u32, value: T) -> u32 {
-    let bytes = value.to_bits_u64().to_le_bytes();
-    bytes.iter().fold(hash, |hash, byte| {
-        (hash ^ u32::from(*byte)).wrapping_mul(0x0100_0193)
+/// Hash of nothing.
+pub(crate) const START: u32 = 0x811c_9dc5;
+
+/// `hash` continued over the bits of constants, zero-extended.
+pub(crate) fn of_words(hash: u32, words: impl Iterator<Item = u64>) -> u32 {
+    words.flat_map(u64::to_le_bytes).fold(hash, |hash, byte| {
+        (hash ^ u32::from(byte)).wrapping_mul(0x0100_0193)
     })
 }
 
@@ -17,14 +20,11 @@ fn absorb<T: Real>(hash: u32, value: T) -> u32 {
 #[cfg(feature = "builder")]
 pub(crate) fn of_table<T: Real>(table: &Table<T>) -> u32 {
     let numbers = table.iter().flat_map(Piece::numbers);
-    numbers.fold(0x811c_9dc5, |hash, value| absorb(hash, *value))
+    of_words(START, numbers.map(|value| value.to_bits_u64()))
 }
 
 /// Hash of a damper: its table's and its scalars', never 0.
 pub(crate) fn of_damper<T: Real>(table: u32, scalars: &Scalars<T>) -> u32 {
-    scalars
-        .as_array()
-        .iter()
-        .fold(table, |hash, value| absorb(hash, *value))
-        .max(1)
+    let scalars = scalars.as_array();
+    of_words(table, scalars.iter().map(|value| value.to_bits_u64())).max(1)
 }

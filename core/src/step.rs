@@ -4,7 +4,7 @@ use crate::damper::{Damper, IMPLICIT_SHARE};
 use crate::math::{Lanes, Real};
 use crate::state::DamperState;
 use crate::status::Status;
-use crate::table::{PIECES, Piece, Table, cubic, locate};
+use crate::table::{Piece, Table, cubic, locate};
 
 /// The correction is at most this share of the step's travel, so it never undoes the damping.
 const CORRECTION_SHARE: f64 = 0.125;
@@ -202,11 +202,9 @@ fn leave<T: Real, V: Lanes<T, L>, const L: usize>(
 /// The stretch (m) and flow potential (m^2) at which `damper` has a force (N), by bisection of its stages.
 pub(crate) fn settle<T: Real>(damper: &Damper<T>, force: T) -> (T, T) {
     let stages: Stages<'_, T, T, 1> = Stages::new([damper]);
-    let k = &damper.scalars;
     let signed = |value: T| if force < T::ZERO { -value } else { value };
-    let last = damper.table[PIECES - 1].centre;
-    let mut low = k.half_clearance;
-    let mut high = (last * last - k.shift) / k.scale + k.offset;
+    let mut low = damper.scalars.half_clearance;
+    let mut high = damper.largest_reach();
     let mut found = (T::ZERO, T::ZERO);
     for _ in 0..T::DIGITS + 2 {
         let middle = T::from_f64(0.5) * (low + high);

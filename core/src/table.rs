@@ -31,6 +31,14 @@ impl<T> Piece<T> {
             .chain(&self.stiffness);
         coefficients.chain([&self.centre])
     }
+
+    /// As [`Piece::numbers`], to be written.
+    pub(crate) fn numbers_mut(&mut self) -> impl Iterator<Item = &mut T> {
+        let coefficients = self.flow.iter_mut().chain(&mut self.potential);
+        coefficients
+            .chain(&mut self.stiffness)
+            .chain([&mut self.centre])
+    }
 }
 
 /// Pieces of extension, then of compression; centres are one apart in y = sqrt(scale u + shift), from

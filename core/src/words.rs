@@ -5,7 +5,7 @@ use crate::table::{PIECES, Piece};
 
 /// Scalars, the two revisions, thirteen numbers of each piece.
 const WORDS: usize = TABLE + 2 * PIECES * PIECE;
-const SCALARS: usize = 12;
+const SCALARS: usize = Scalars::<f32>::COUNT;
 const TABLE: usize = SCALARS + 2;
 const PIECE: usize = 13;
 
@@ -45,7 +45,13 @@ macro_rules! words {
                     centre: 0.0,
                     padding: [0.0; 3],
                 }; 2 * PIECES];
+                let mut scalars = [0.0; SCALARS];
                 let mut index = 0;
+                while index < SCALARS {
+                    scalars[index] = $float::from_bits(words[index]);
+                    index += 1;
+                }
+                index = 0;
                 while index < 2 * PIECES {
                     let from = TABLE + PIECE * index;
                     table[index].flow = cubic(words, from);
@@ -55,20 +61,7 @@ macro_rules! words {
                     index += 1;
                 }
                 Self {
-                    scalars: Scalars {
-                        largest_move: $float::from_bits(words[0]),
-                        position_rounder: $float::from_bits(words[1]),
-                        rest_rounder: $float::from_bits(words[2]),
-                        step_s: $float::from_bits(words[3]),
-                        offset: $float::from_bits(words[4]),
-                        scale: $float::from_bits(words[5]),
-                        shift: $float::from_bits(words[6]),
-                        origin: $float::from_bits(words[7]),
-                        half_clearance: $float::from_bits(words[8]),
-                        held_stiffness: $float::from_bits(words[9]),
-                        force_limit: $float::from_bits(words[10]),
-                        held: $float::from_bits(words[11]),
-                    },
+                    scalars: Scalars::from_array(scalars),
                     revision: words[SCALARS] as u32,
                     table_revision: words[SCALARS + 1] as u32,
                     table,

@@ -1,10 +1,11 @@
 //! Developer commands of Dashpot: `cargo xtask <command>`.
 
-mod run;
-
 use std::process::ExitCode;
 
-use run::{Outcome, cargo, cargo_output, cargo_with, version_of};
+use xtask::firmware;
+use xtask::run::{Outcome, cargo, cargo_output, cargo_with, version_of};
+use xtask::target_toolchain::TargetToolchain;
+use xtask::tools::install_missing;
 
 const HELP: &str = "\
 Developer commands of Dashpot
@@ -12,7 +13,8 @@ Developer commands of Dashpot
 Usage: cargo xtask <command>
 
 Commands:
-  test                   run every test of the workspace, documentation tests too
+  test                   install the tools that tests need, then run every test
+  firmware               build the images for the target
   bench                  measure time per step, side by side with yardstick and floor
   bench --instructions   count instructions per step (needs Valgrind and gungraun-runner)
   ci                     formatting, lints, documentation, Rust version, then test
@@ -20,6 +22,9 @@ Commands:
 
 Example: cargo xtask test
 Exit code: 0 done, 1 a check failed, 2 wrong use.";
+
+/// Not of the workspace: its library has a C name and its own panic strategy.
+const C_LIBRARY: &str = "capi/Cargo.toml";
 
 /// Of the `gungraun` in Cargo.toml; the runner must be of the same version.
 const GUNGRAUN: &str = "0.20";
@@ -33,6 +38,7 @@ fn main() -> ExitCode {
             Ok(())
         }
         ["test"] => test(),
+        ["firmware"] => build_firmware(),
         ["bench"] => cargo(&["bench", "--package", "dashpot", "--bench", "step"]),
         ["bench", "--instructions"] => count_instructions(),
         ["ci"] => ci(),
@@ -50,8 +56,16 @@ fn main() -> ExitCode {
     }
 }
 
+fn build_firmware() -> Outcome {
+    let images = firmware::build(&TargetToolchain::find()?)?;
+    println!("images are in {}", images.display());
+    Ok(())
+}
+
 fn test() -> Outcome {
-    cargo(&["test", "--workspace", "--no-fail-fast"])
+    install_missing()?;
+    cargo(&["test", "--workspace", "--no-fail-fast"])?;
+    cargo(&["test", "--manifest-path", C_LIBRARY])
 }
 
 fn ci() -> Outcome {
@@ -68,6 +82,16 @@ fn ci() -> Outcome {
         &["doc", "--workspace", "--no-deps"],
         &[("RUSTDOCFLAGS", "-D warnings")],
     )?;
+    cargo(&["fmt", "--manifest-path", C_LIBRARY, "--check"])?;
+    cargo(&[
+        "clippy",
+        "--manifest-path",
+        C_LIBRARY,
+        "--all-targets",
+        "--",
+        "-D",
+        "warnings",
+    ])?;
     check_rust_version()?;
     test()
 }

@@ -49,7 +49,8 @@ pub fn version_of(program: &str, arguments: &[&str]) -> Outcome<String> {
         .ok_or_else(|| format!("`{line}` names no version: `{}`", text.trim()))
 }
 
-fn output_of(mut command: Command, line: &str) -> Outcome<String> {
+/// What a command prints to its standard output.
+pub fn output_of(mut command: Command, line: &str) -> Outcome<String> {
     let output = command
         .output()
         .map_err(|error| format!("cannot run `{line}`: {error}"))?;

@@ -52,6 +52,18 @@ pub extern "C" fn checked_change(
     state.clear_status();
 }
 
+/// A damper over a link; whether it was taken.
+#[unsafe(no_mangle)]
+pub extern "C" fn checked_image(
+    damper: &mut Damper<f32>,
+    image: &[u8; 8192],
+    length: usize,
+) -> bool {
+    image
+        .get(..length)
+        .is_some_and(|image| damper.load_image(image).is_ok())
+}
+
 /// The telemetry ring, written and read.
 #[unsafe(no_mangle)]
 pub extern "C" fn checked_telemetry(

@@ -1,0 +1,91 @@
+//! The header checked in is the one cbindgen makes of the sources, with the sizes of this library.
+//!
+//! `DASHPOT_BLESS=1 cargo test --test header` writes it.
+
+use std::fmt::Write;
+use std::path::Path;
+
+/// Sizes are the compiler's to know, not cbindgen's.
+fn sizes() -> String {
+    let mut text = String::new();
+    for (name, value, holds) in [
+        (
+            "DAMPER_SIZE",
+            dashpot::DASHPOT_DAMPER_SIZE,
+            "Bytes of a dashpot_damper.",
+        ),
+        (
+            "DAMPER_ALIGN",
+            align_of::<dashpot::DashpotDamper>(),
+            "Alignment of a dashpot_damper (bytes).",
+        ),
+        (
+            "DAMPER_WORDS",
+            dashpot::DASHPOT_DAMPER_WORDS,
+            "Words of a dashpot_damper.",
+        ),
+        (
+            "STATE_SIZE",
+            dashpot::DASHPOT_STATE_SIZE,
+            "Bytes of a dashpot_state.",
+        ),
+        (
+            "STATE_ALIGN",
+            align_of::<dashpot::DashpotState>(),
+            "Alignment of a dashpot_state (bytes).",
+        ),
+        (
+            "STATE_WORDS",
+            dashpot::DASHPOT_STATE_WORDS,
+            "Words of a dashpot_state.",
+        ),
+        (
+            "IMAGE_SIZE",
+            dashpot::DASHPOT_IMAGE_SIZE,
+            "Bytes of an image, from which a damper is made.",
+        ),
+        (
+            "SAVED_STATE_SIZE",
+            dashpot::DASHPOT_SAVED_STATE_SIZE,
+            "Bytes of a saved state.",
+        ),
+    ] {
+        write!(
+            text,
+            "\n/**\n * {holds}\n */\n#define DASHPOT_{name} {value}\n"
+        )
+        .unwrap();
+    }
+    text
+}
+
+#[test]
+fn the_header_is_that_of_the_sources() {
+    let here = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut config = cbindgen::Config::from_file(here.join("cbindgen.toml")).unwrap();
+    config.after_includes = Some(sizes());
+    let bindings = cbindgen::Builder::new()
+        .with_crate(here)
+        .with_config(config)
+        .generate()
+        .unwrap();
+    let mut generated = Vec::new();
+    bindings.write(&mut generated);
+    let generated = String::from_utf8(generated).unwrap();
+    let file = here.join("include/dashpot.h");
+    if std::env::var_os("DASHPOT_BLESS").is_some_and(|value| value == "1") {
+        std::fs::write(&file, &generated).unwrap();
+    }
+    let checked_in = std::fs::read_to_string(&file).unwrap_or_default();
+    // An equality of whole texts would print both.
+    let differs = checked_in
+        .lines()
+        .zip(generated.lines())
+        .position(|(a, b)| a != b);
+    assert!(
+        checked_in == generated,
+        "{} differs from the sources at line {}: DASHPOT_BLESS=1 cargo test --test header",
+        file.display(),
+        differs.map_or("of its end".to_owned(), |line| (line + 1).to_string())
+    );
+}

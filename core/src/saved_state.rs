@@ -1,0 +1,167 @@
+//! A state as bytes: kept by a host or a file and given back to the same damper.
+
+use core::fmt;
+
+use crate::damper::Damper;
+use crate::state::DamperState;
+use crate::status::Status;
+
+/// Why bytes are no state of a damper.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SavedStateError {
+    /// Another damper stepped the state last.
+    Revision {
+        /// Revision of this damper.
+        expected: u32,
+        /// Revision in the bytes.
+        found: u32,
+    },
+    /// A number that no step of this damper leaves behind.
+    Values,
+}
+
+impl fmt::Display for SavedStateError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Revision { expected, found } => {
+                write!(f, "state of damper {found:#010x}, this is {expected:#010x}")
+            }
+            Self::Values => f.write_str("state with values that no step leaves behind"),
+        }
+    }
+}
+
+impl core::error::Error for SavedStateError {}
+
+macro_rules! saved_state {
+    ($float:ident, $bytes:literal) => {
+        impl DamperState<$float> {
+            /// Bytes of a saved state.
+            pub const BYTES: usize = $bytes;
+
+            /// This state as bytes, little-endian: displacement, stretch, flow potential, force, then
+            /// revision (4 bytes), status bits (2) and rejected inputs (2).
+            pub fn to_bytes(&self) -> [u8; $bytes] {
+                let reals = [self.displacement, self.stretch, self.potential, self.force];
+                let reals = reals.into_iter().flat_map($float::to_le_bytes);
+                let bytes = reals
+                    .chain(self.revision.to_le_bytes())
+                    .chain(self.status.bits().to_le_bytes())
+                    .chain(self.rejected_inputs.to_le_bytes());
+                let mut saved = [0; $bytes];
+                for (place, byte) in saved.iter_mut().zip(bytes) {
+                    *place = byte;
+                }
+                saved
+            }
+        }
+
+        impl Damper<$float> {
+            /// The state of [`DamperState::to_bytes`], to the bit.
+            ///
+            /// # Errors
+            /// The state is another damper's, or holds what no step of this damper leaves behind.
+            ///
+            /// ```
+            /// use dashpot_core::{Damper, SavedStateError};
+            #[doc = concat!("let damper = Damper::<", stringify!($float), ">::from_words(&[0; Damper::<", stringify!($float), ">::WORDS]);")]
+            /// let mut bytes = damper.at_rest(0.25).to_bytes();
+            /// assert_eq!(damper.restore(&bytes).unwrap().displacement(), 0.25);
+            #[doc = concat!("bytes[", stringify!($bytes), " - 8] = 7;")]
+            /// assert_eq!(damper.restore(&bytes), Err(SavedStateError::Revision { expected: 0, found: 7 }));
+            /// ```
+            pub fn restore(&self, bytes: &[u8; $bytes]) -> Result<DamperState<$float>, SavedStateError> {
+                const REAL: usize = size_of::<$float>();
+                let (reals, _) = bytes.as_chunks::<REAL>();
+                let [displacement, stretch, potential, force, ..] = *reals else {
+                    return Err(SavedStateError::Values);
+                };
+                let [.., r0, r1, r2, r3, s0, s1, n0, n1] = *bytes;
+                let state = DamperState {
+                    displacement: $float::from_le_bytes(displacement),
+                    stretch: $float::from_le_bytes(stretch),
+                    potential: $float::from_le_bytes(potential),
+                    force: $float::from_le_bytes(force),
+                    revision: u32::from_le_bytes([r0, r1, r2, r3]),
+                    status: Status::from_bits(u16::from_le_bytes([s0, s1])),
+                    rejected_inputs: u16::from_le_bytes([n0, n1]),
+                };
+                if state.revision != self.revision {
+                    return Err(SavedStateError::Revision {
+                        expected: self.revision,
+                        found: state.revision,
+                    });
+                }
+                let credible = state.displacement.is_finite()
+                    && state.potential.is_finite()
+                    && state.stretch.abs() <= self.largest_reach()
+                    && state.force.abs() <= self.scalars.force_limit;
+                if credible { Ok(state) } else { Err(SavedStateError::Values) }
+            }
+        }
+    };
+}
+
+saved_state!(f32, 24);
+saved_state!(f64, 40);
+
+#[cfg(test)]
+mod tests {
+    use super::SavedStateError;
+    use crate::Damper;
+
+    #[cfg(feature = "builder")]
+    fn damper() -> Damper<f32> {
+        use crate::parameters::{DamperParameters, Element, Limits, Mount, Reduced};
+        let parameters = DamperParameters {
+            element: Element::Reduced(Reduced {
+                damping_n_s_per_m: 120e3,
+                saturation_velocity_m_per_s: 0.03,
+            }),
+            mount: Mount {
+                stiffness_n_per_m: 8e6,
+                seat_stiffness_n_per_m: None,
+                clearance_m: 1e-3,
+            },
+            limits: Limits::default(),
+        };
+        parameters.build(1e-3).unwrap()
+    }
+
+    #[cfg(feature = "builder")]
+    #[test]
+    fn a_restored_state_goes_on_to_the_bit() {
+        let damper = damper();
+        let mut state = damper.at_rest(0.0);
+        for tick in 0..500 {
+            // Up to 0.3 m/s, ten times the saturation velocity, and a step too fast to follow.
+            let x = 0.01 * (0.03 * tick as f32).sin() + if tick == 250 { 5.0 } else { 0.0 };
+            let mut restored = damper.restore(&state.to_bytes()).unwrap();
+            assert_eq!(restored, state);
+            let force = damper.step(&mut state, x);
+            assert_eq!(damper.step(&mut restored, x).to_bits(), force.to_bits());
+        }
+        assert!(state.rejected_inputs() > 0);
+    }
+
+    #[cfg(feature = "builder")]
+    #[test]
+    fn values_that_no_step_leaves_are_refused() {
+        let damper = damper();
+        let state = damper.at_rest(0.0);
+        for (offset, value) in [
+            (0, f32::NAN),
+            (0, f32::INFINITY),
+            (4, 1.0),
+            (4, f32::NAN),
+            (8, f32::NEG_INFINITY),
+            (12, 3700.0),
+            (12, f32::NAN),
+        ] {
+            let mut bytes = state.to_bytes();
+            bytes[offset..offset + 4].copy_from_slice(&value.to_le_bytes());
+            let refused = damper.restore(&bytes);
+            assert_eq!(refused, Err(SavedStateError::Values), "{value} at {offset}");
+        }
+    }
+}

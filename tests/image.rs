@@ -1,0 +1,230 @@
+//! A damper as bytes: it comes back whole or is refused whole.
+
+use dashpot::damper;
+use dashpot_core::{Damper, ImageError};
+use proptest::prelude::*;
+
+/// CRC-32 as in ISO 3309, one bit at a time.
+fn crc_32(bytes: &[u8]) -> u32 {
+    !bytes.iter().fold(u32::MAX, |crc, byte| {
+        (0..8).fold(crc ^ u32::from(*byte), |crc, _| {
+            (crc >> 1) ^ (0xedb8_8320 * (crc & 1))
+        })
+    })
+}
+
+/// The image with a CRC-32 that is right.
+fn signed(mut image: Vec<u8>) -> Vec<u8> {
+    let end = image.len() - 4;
+    let check = crc_32(&image[..end]);
+    image[end..].copy_from_slice(&check.to_le_bytes());
+    image
+}
+
+fn single() -> Damper<f32> {
+    damper("in-service", &[]).build(1e-3).expect("a preset")
+}
+
+fn image() -> Vec<u8> {
+    single().to_image().to_vec()
+}
+
+fn read(image: &[u8]) -> Result<Damper<f32>, ImageError> {
+    Damper::<f32>::from_image(image)
+}
+
+#[test]
+fn every_preset_comes_back() {
+    for preset in ["paper", "in-service", "reduced-vertical", "reduced-lateral"] {
+        let single: Damper<f32> = damper(preset, &[]).build(1e-3).expect("a preset");
+        assert_eq!(read(&single.to_image()), Ok(single));
+        let double: Damper<f64> = damper(preset, &[]).build(1e-4).expect("a preset");
+        assert_eq!(Damper::<f64>::from_image(&double.to_image()), Ok(double));
+    }
+}
+
+#[test]
+fn a_damper_changed_live_comes_back() {
+    let mut damper = single();
+    damper.set_clearance_m(2.5e-3);
+    assert_eq!(read(&damper.to_image()), Ok(damper));
+}
+
+#[test]
+fn the_layout_is_as_documented() {
+    assert_eq!(crc_32(b"123456789"), 0xcbf4_3926); // the published check value
+    let (image, words) = (image(), single().to_words());
+    assert_eq!(image.len(), Damper::<f32>::IMAGE_BYTES);
+    assert_eq!(&image[..8], b"DASH\xff\xfe\x01\x00");
+    assert_eq!(image[8..12], 4_u32.to_le_bytes());
+    assert_eq!(image[12..16], (image.len() as u32).to_le_bytes());
+    let end = image.len() - 4;
+    let body: Vec<u8> = words.iter().flat_map(|word| word.to_le_bytes()).collect();
+    assert_eq!(image[16..end], body);
+    assert_eq!(signed(image.clone()), image);
+}
+
+#[test]
+fn every_flipped_bit_is_refused_and_changes_nothing() {
+    let mut image = image();
+    let kept: Damper<f32> = damper("paper", &[]).build(1e-3).expect("a preset");
+    let mut loaded = kept;
+    for bit in 0..8 * image.len() {
+        image[bit / 8] ^= 1 << (bit % 8);
+        let refused = loaded.load_image(&image);
+        let as_expected = match bit / 8 {
+            0..4 => refused == Err(ImageError::Magic),
+            4..6 => refused == Err(ImageError::ByteOrder),
+            6..8 => matches!(refused, Err(ImageError::Version(_))),
+            8..12 => matches!(refused, Err(ImageError::Scalar(_))),
+            12..16 => matches!(refused, Err(ImageError::Length { .. })),
+            _ => refused == Err(ImageError::Checksum),
+        };
+        assert!(as_expected, "bit {bit}: {refused:?}");
+        assert_eq!(Damper::<f32>::check_image(&image), refused);
+        image[bit / 8] ^= 1 << (bit % 8);
+    }
+    assert_eq!(loaded, kept);
+    assert_eq!(Damper::<f32>::check_image(&image), Ok(()));
+    assert_eq!(loaded.load_image(&image), Ok(()));
+    assert_eq!(loaded, single());
+}
+
+#[test]
+fn every_truncation_and_extra_bytes_are_refused() {
+    let mut image = image();
+    let expected = image.len();
+    for found in 0..expected {
+        let refused = read(&image[..found]);
+        assert_eq!(refused, Err(ImageError::Length { expected, found }));
+    }
+    image.push(0);
+    let found = expected + 1;
+    let refused = read(&image);
+    assert_eq!(refused, Err(ImageError::Length { expected, found }));
+}
+
+#[test]
+fn the_other_scalar_is_refused() {
+    let double: Damper<f64> = damper("paper", &[]).build(1e-3).expect("a preset");
+    assert_eq!(read(&double.to_image()), Err(ImageError::Scalar(8)));
+    let refused = Damper::<f64>::from_image(&image());
+    assert_eq!(refused, Err(ImageError::Scalar(4)));
+}
+
+/// What a right CRC-32 does not excuse: each word in turn not finite, and another number.
+#[test]
+fn constants_of_no_build_are_refused_though_signed() {
+    let image = image();
+    for at in (16..image.len() - 4).step_by(4) {
+        let word = u32::from_le_bytes(image[at..at + 4].try_into().expect("four bytes"));
+        let infinite = f32::INFINITY.to_bits();
+        for other in [f32::NAN.to_bits(), infinite, word ^ 1, word ^ 0x8000_0000] {
+            let mut changed = image.clone();
+            changed[at..at + 4].copy_from_slice(&other.to_le_bytes());
+            let refused = read(&signed(changed));
+            assert_eq!(
+                refused,
+                Err(ImageError::Constants),
+                "{other:#x} at byte {at}"
+            );
+        }
+    }
+}
+
+/// FNV-1a over words widened to 64 bits, as the revision is defined.
+fn fnv_1a(hash: u32, words: &[u32]) -> u32 {
+    let bytes = words.iter().flat_map(|word| u64::from(*word).to_le_bytes());
+    bytes.fold(hash, |hash, byte| {
+        (hash ^ u32::from(byte)).wrapping_mul(16_777_619)
+    })
+}
+
+/// The image of these words with both revisions and the CRC-32 made right.
+fn forged(mut words: Vec<u32>, revision_at: usize) -> Vec<u8> {
+    let tables = fnv_1a(2_166_136_261, &words[revision_at + 2..]);
+    words[revision_at + 1] = tables;
+    words[revision_at] = fnv_1a(tables, &words[..revision_at]);
+    let mut image = image();
+    for (place, word) in image[16..].chunks_exact_mut(4).zip(words) {
+        place.copy_from_slice(&word.to_le_bytes());
+    }
+    signed(image)
+}
+
+#[test]
+fn constants_out_of_range_are_refused_though_their_revision_is_right() {
+    let damper = single();
+    let words = damper.to_words().to_vec();
+    let revision = damper.revision();
+    let revision_at = words
+        .iter()
+        .position(|word| *word == revision)
+        .expect("the revision is among the words");
+    assert_eq!(read(&forged(words.clone(), revision_at)), Ok(damper));
+    // Step, offset, half the clearance; words in the order of the scalars.
+    let mut cases = vec![(3, 0.0_f32), (4, 1e-3), (8, 1e-3)];
+    for scalar in 0..revision_at {
+        cases.extend([(scalar, f32::NAN), (scalar, f32::INFINITY)]);
+        // The table's origin alone may lie below zero.
+        cases.extend((scalar != 7).then_some((scalar, -1.0)));
+    }
+    // Beyond the largest clearance, the sum that goes with it right.
+    let mut loose = words.clone();
+    loose[8] = 0.051_f32.to_bits();
+    loose[4] = (0.051 + f32::from_bits(words[11])).to_bits();
+    let refused = read(&forged(loose, revision_at));
+    assert_eq!(refused, Err(ImageError::Constants));
+    let last = words.len() - 1;
+    for coefficient in [revision_at + 2, last] {
+        cases.extend([(coefficient, f32::NAN), (coefficient, f32::NEG_INFINITY)]);
+    }
+    for (at, value) in cases {
+        let mut words = words.clone();
+        words[at] = value.to_bits();
+        let refused = read(&forged(words, revision_at));
+        assert_eq!(refused, Err(ImageError::Constants), "word {at} = {value}");
+    }
+}
+
+#[test]
+fn errors_say_what_is_wrong() {
+    let expected = Damper::<f32>::IMAGE_BYTES;
+    for (bytes, part) in [
+        (&b""[..], format!("0 bytes where a damper has {expected}")),
+        (&[0; 40][..], "DASH".into()),
+        (&image()[1..], "DASH".into()),
+    ] {
+        let message = read(bytes).expect_err("no damper").to_string();
+        assert!(message.contains(&part), "{message}");
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn arbitrary_bytes_are_refused(bytes in prop::collection::vec(any::<u8>(), 0..8000)) {
+        prop_assert!(read(&bytes).is_err());
+        prop_assert!(Damper::<f64>::from_image(&bytes).is_err());
+    }
+
+    #[test]
+    fn arbitrary_damage_is_refused(
+        from in 0_usize..6000, damage in prop::collection::vec(any::<u8>(), 1..100), sign: bool,
+    ) {
+        let mut damaged = image();
+        let from = from % damaged.len();
+        for (byte, damage) in damaged[from..].iter_mut().zip(&damage) {
+            *byte ^= damage;
+        }
+        if sign {
+            damaged = signed(damaged);
+        }
+        match read(&damaged) {
+            // Damage to the CRC-32 alone is mended by signing again, zeros are none.
+            Ok(read) => prop_assert!(damaged == image() && read == single()),
+            Err(_) => prop_assert_ne!(damaged, image()),
+        }
+    }
+}
