@@ -1,7 +1,7 @@
 //! Several dampers in one call: the same bits as one step each, in less time.
 //!
 //! A step is a chain of operations that wait for one another; the chains of different dampers do not.
-//! Where there are vector instructions, a bank takes four dampers through the step together.
+//! Where there are vector instructions, a bank takes eight dampers through the step together.
 
 use crate::damper::Damper;
 use crate::math::Real;
@@ -48,22 +48,37 @@ pub fn step_bank<T: Real, const N: usize>(
     displacements: &[T; N],
     forces: &mut [T; N],
 ) {
-    let mut alone = 0;
-    #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
-    {
-        let groups = dampers.as_chunks::<GROUP>().0.iter();
-        let states = states.as_chunks_mut::<GROUP>().0;
-        let displacements = displacements.as_chunks::<GROUP>().0;
-        let forces = forces.as_chunks_mut::<GROUP>().0;
-        for (((dampers, states), displacements), forces) in
-            groups.zip(states).zip(displacements).zip(forces)
-        {
-            *forces = step::<T, T::Group, GROUP>(*dampers, states, *displacements);
-            alone += GROUP;
-        }
-    }
+    let grouped = step_groups(dampers, states, displacements, forces);
     let rest = dampers.iter().zip(states).zip(displacements).zip(forces);
-    for (((damper, state), displacement), force) in rest.skip(alone) {
+    for (((damper, state), displacement), force) in rest.skip(grouped) {
         *force = damper.step(state, *displacement);
     }
+}
+
+/// Steps whole groups of dampers; returns how many dampers.
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+#[inline]
+fn step_groups<T: Real>(
+    dampers: &[&Damper<T>],
+    states: &mut [DamperState<T>],
+    displacements: &[T],
+    forces: &mut [T],
+) -> usize {
+    let (groups, rest) = dampers.as_chunks::<GROUP>();
+    let states = states.as_chunks_mut::<GROUP>().0;
+    let displacements = displacements.as_chunks::<GROUP>().0;
+    let forces = forces.as_chunks_mut::<GROUP>().0;
+    for (((dampers, states), displacements), forces) in
+        groups.iter().zip(states).zip(displacements).zip(forces)
+    {
+        *forces = step::<T, T::Group, GROUP>(*dampers, states, *displacements);
+    }
+    dampers.len() - rest.len()
+}
+
+/// A processor without vectors steps one damper after the other.
+#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+#[inline]
+fn step_groups<T: Real>(_: &[&Damper<T>], _: &mut [DamperState<T>], _: &[T], _: &mut [T]) -> usize {
+    0
 }

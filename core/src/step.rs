@@ -40,7 +40,7 @@ pub(crate) fn step<T: Real, V: Lanes<T, L>, const L: usize>(
         .at_most(V::all(CORRECTION_SHARE));
     // In contact on the same side at both ends there is nothing to correct but rounding.
     let contact = last.flow * start * potential;
-    let correction = share * change * contact.one_unless_positive();
+    let correction = (share * change).unless_positive(contact);
 
     let stretch = ((end + rest_rounder) - correction) - rest_rounder;
     let potential = end_potential - last.flow * correction;

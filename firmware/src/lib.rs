@@ -4,4 +4,5 @@
 pub mod bank;
 pub mod board;
 pub mod outputs;
+pub mod printer;
 mod safe_state;

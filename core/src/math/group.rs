@@ -110,8 +110,10 @@ macro_rules! group {
                 (self.at_most(limit), exceeds)
             }
             #[inline(always)]
-            fn one_unless_positive(self) -> Self {
-                self.map(|v| v.simd_gt($vector::ZERO).select($vector::ZERO, $vector::ONE))
+            fn unless_positive(self, gate: Self) -> Self {
+                self.zip(gate, |v, gate| {
+                    gate.simd_gt($vector::ZERO).select($vector::ZERO, v)
+                })
             }
             #[inline(always)]
             fn along(self, direction: Self) -> Self {

@@ -38,8 +38,8 @@ pub trait Lanes<T: Real, const L: usize>:
     fn all_within(self, other: Self) -> bool;
     /// The smaller, and whether this number is not; not for NaN.
     fn limited(self, limit: Self) -> (Self, [bool; L]);
-    /// 0 for a positive number, else 1.
-    fn one_unless_positive(self) -> Self;
+    /// 0 where `gate` is positive.
+    fn unless_positive(self, gate: Self) -> Self;
     /// Negated where `direction` is below zero.
     fn along(self, direction: Self) -> Self;
     /// [`Real::place`] below 64, and 64 more where `direction` has its sign bit set.
@@ -85,8 +85,8 @@ impl<T: Real> Lanes<T, 1> for T {
         (if exceeds { limit } else { self }, [exceeds])
     }
     #[inline(always)]
-    fn one_unless_positive(self) -> Self {
-        if self > T::ZERO { T::ZERO } else { T::ONE }
+    fn unless_positive(self, gate: Self) -> Self {
+        if gate > T::ZERO { T::ZERO } else { self }
     }
     #[inline(always)]
     fn along(self, direction: Self) -> Self {

@@ -31,8 +31,6 @@ pub trait Real:
 
     /// Zero.
     const ZERO: Self;
-    /// One.
-    const ONE: Self;
     /// Distance from 1 to the next larger number.
     const EPSILON: f64;
     /// Significant binary digits.
@@ -67,7 +65,6 @@ macro_rules! real {
             type Group = Pair<wide::$group>;
 
             const ZERO: Self = 0.0;
-            const ONE: Self = 1.0;
             const EPSILON: f64 = $float::EPSILON as f64;
             const DIGITS: u32 = $float::MANTISSA_DIGITS;
 

@@ -13,22 +13,12 @@ use dashpot_core::link::{Clock, Device, Frame, Header, PROTOCOL, Reals, Request}
 use dashpot_firmware::bank::{BANK, DAMPERS};
 use dashpot_firmware::board::{self, CLOCK_HZ, Port, Uart};
 use dashpot_firmware::outputs;
+use dashpot_firmware::printer::Printer;
 
 const REQUESTS: usize = 1000;
 /// Of the triangular motion (m), its half period (ticks).
 const AMPLITUDE_M: f32 = 5e-3;
 const HALF_PERIOD: u32 = 125;
-
-struct Printer(Uart);
-
-impl Write for Printer {
-    fn write_str(&mut self, text: &str) -> core::fmt::Result {
-        for byte in text.bytes() {
-            while !self.0.send(byte) {}
-        }
-        Ok(())
-    }
-}
 
 #[entry]
 fn main() -> ! {

@@ -1,0 +1,18 @@
+//! Text on a UART, for the images that measure.
+
+use core::fmt::{Result, Write};
+
+use crate::board::Uart;
+
+/// Writes to a UART, waiting for room.
+#[derive(Debug)]
+pub struct Printer(pub Uart);
+
+impl Write for Printer {
+    fn write_str(&mut self, text: &str) -> Result {
+        for byte in text.bytes() {
+            while !self.0.send(byte) {}
+        }
+        Ok(())
+    }
+}
