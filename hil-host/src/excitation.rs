@@ -1,6 +1,10 @@
 //! Made excitations: displacement over time in closed form, the same in demonstration, tests and benches.
+//!
+//! Sine and exponential are those of `libm`, so the samples are the same on every machine.
 
 use std::f64::consts::TAU;
+
+use libm::{exp, log, sin};
 
 /// A made excitation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -55,7 +59,7 @@ impl Excitation {
             Self::Sweep => time.map(sweep).collect(),
             Self::Saw => time.map(saw).collect(),
             Self::Decay => time
-                .map(|t| 0.01 * (-t / 0.5).exp() * (TAU * 1.4 * t).sin())
+                .map(|t| 0.01 * exp(-t / 0.5) * sin(TAU * 1.4 * t))
                 .collect(),
         }
     }
@@ -69,7 +73,7 @@ struct Line {
 
 impl Line {
     fn at(&self, time_s: f64) -> f64 {
-        self.amplitude_m * (TAU * self.frequency_hz * time_s + self.phase).sin()
+        self.amplitude_m * sin(TAU * self.frequency_hz * time_s + self.phase)
     }
 }
 
@@ -109,8 +113,8 @@ fn ride_lines() -> Vec<Line> {
 fn sweep(time_s: f64) -> f64 {
     const FROM_HZ: f64 = 0.2;
     const TO_HZ: f64 = 25.0;
-    let rate = (TO_HZ / FROM_HZ).ln() / Excitation::Sweep.duration_s();
-    0.8e-3 * (TAU * FROM_HZ * ((rate * time_s).exp() - 1.0) / rate).sin()
+    let rate = log(TO_HZ / FROM_HZ) / Excitation::Sweep.duration_s();
+    0.8e-3 * sin(TAU * FROM_HZ * (exp(rate * time_s) - 1.0) / rate)
 }
 
 fn saw(time_s: f64) -> f64 {

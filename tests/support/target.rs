@@ -1,0 +1,180 @@
+//! Experiments on the emulated Cortex-M7: what `firmware/src/bin/step_cost.rs` measures, and the same
+//! motion on this machine.
+
+use std::io::{BufRead, BufReader, Write};
+use std::path::Path;
+use std::process::{Child, Command, Stdio};
+
+use dashpot_core::{Damper, step_bank};
+use dashpot_hil::excitation::Excitation;
+use serde::Deserialize;
+
+/// Step of every experiment (s).
+pub const STEP_S: f64 = 1e-3;
+
+/// Dampers in a bank.
+pub const BANK: usize = 12;
+
+/// Lanes of a bank run this many ticks apart.
+const LAG: usize = 9;
+
+/// Clock ticks of an instruction: 1024 ns each (`-icount shift=10`), 25 ticks a microsecond.
+const TICKS_PER_INSTRUCTION: f64 = 25.6;
+
+/// A damper driven over an excitation, to its end and back until the steps are done.
+pub struct Experiment<'a> {
+    /// The damper.
+    pub damper: &'a Damper<f32>,
+    /// Another one, swapped in at the end.
+    pub other: &'a Damper<f32>,
+    /// The motion.
+    pub excitation: Excitation,
+    /// Whether a bank of [`BANK`] or one damper.
+    pub bank: bool,
+    /// Steps.
+    pub steps: u32,
+}
+
+/// What the target printed, in clock ticks and bytes.
+#[derive(Deserialize)]
+struct Printed {
+    call: u64,
+    least: u64,
+    most: u64,
+    sum: u64,
+    digest: String,
+    single_call: u64,
+    first: u64,
+    held: u64,
+    swapped: u64,
+    stack_bytes: u32,
+    damper_bytes: u32,
+    state_bytes: u32,
+}
+
+/// What an experiment found on the target.
+#[derive(Clone, Debug)]
+pub struct Found {
+    /// Instructions of a call: mean, fewest, most.
+    pub mean: f64,
+    /// Fewest.
+    pub least: f64,
+    /// Most.
+    pub most: f64,
+    /// Of the first step after a reset, one whose input is held, one that swaps the damper.
+    pub first: f64,
+    /// Input held.
+    pub held: f64,
+    /// Damper swapped.
+    pub swapped: f64,
+    /// Most stack of these three (bytes).
+    pub stack_bytes: u32,
+    /// Size of a damper (bytes).
+    pub damper_bytes: u32,
+    /// Size of a state (bytes).
+    pub state_bytes: u32,
+    /// FNV-1a (64 bit) of the force bits.
+    pub digest: String,
+}
+
+/// Ended when dropped.
+struct Emulator(Child);
+
+impl Drop for Emulator {
+    fn drop(&mut self) {
+        let _ = self.0.kill();
+        let _ = self.0.wait();
+    }
+}
+
+impl Experiment<'_> {
+    /// Samples of the excitation (m).
+    fn motion(&self) -> Vec<f32> {
+        let exact = self.excitation.displacements_m(STEP_S);
+        exact.iter().map(|x| *x as f32).collect()
+    }
+
+    /// Runs on the target: the image `step-cost` in the emulator.
+    pub fn on_target(&self, image: &Path) -> Found {
+        let mut data = tempfile::NamedTempFile::new().expect("a writable folder");
+        let motion = self.motion();
+        let words = self.other.to_words().into_iter().chain(self.damper.to_words());
+        let counts = [u32::from(self.bank), self.steps, motion.len() as u32];
+        let words = words.chain(counts).chain(motion.iter().map(|x| x.to_bits()));
+        let bytes: Vec<u8> = words.flat_map(u32::to_le_bytes).collect();
+        data.write_all(&bytes).expect("room on the disk");
+
+        let loader = format!(
+            "loader,file={},addr=0x20200000,force-raw=on",
+            data.path().display()
+        );
+        let mut command = Command::new("qemu-system-arm");
+        command
+            .args(["-M", "mps2-an500", "-cpu", "cortex-m7", "-nographic"])
+            .args(["-monitor", "none", "-serial", "stdio"])
+            .args(["-icount", "shift=10", "-device", &loader, "-kernel"])
+            .arg(image);
+        let child = command
+            .stdin(Stdio::null())
+            .stdout(Stdio::piped())
+            .spawn()
+            .expect("qemu-system-arm starts");
+        let mut emulator = Emulator(child);
+        let mut line = String::new();
+        let output = emulator.0.stdout.take().expect("it is piped");
+        BufReader::new(output)
+            .read_line(&mut line)
+            .expect("the target prints text");
+        let printed: Printed = serde_json::from_str(&line)
+            .unwrap_or_else(|error| panic!("the target printed `{line}`: {error}"));
+        printed.found(self.steps)
+    }
+
+    /// Digest of the same steps on this machine.
+    pub fn digest_here(&self) -> String {
+        let motion = self.motion();
+        let last = motion.len() - 1;
+        let at = |step: usize| {
+            let place = step % (2 * last);
+            motion[place.min(2 * last - place)]
+        };
+        let mut hash = 0xcbf2_9ce4_8422_2325_u64;
+        let mut add = |force: f32| {
+            for byte in force.to_bits().to_le_bytes() {
+                hash = (hash ^ u64::from(byte)).wrapping_mul(0x100_0000_01b3);
+            }
+        };
+        let mut states = [self.damper.at_rest(at(0)); BANK];
+        let mut forces = [0.0; BANK];
+        for step in 0..self.steps as usize {
+            if self.bank {
+                let motion = std::array::from_fn(|lane| at(step + LAG * lane));
+                step_bank(&[self.damper; BANK], &mut states, &motion, &mut forces);
+                forces.into_iter().for_each(&mut add);
+            } else {
+                add(self.damper.step(&mut states[0], at(step)));
+            }
+        }
+        format!("{hash:016x}")
+    }
+}
+
+impl Printed {
+    fn found(self, steps: u32) -> Found {
+        // A call of nothing is its return alone.
+        let beyond = |ticks: f64, call: u64| (ticks - call as f64) / TICKS_PER_INSTRUCTION + 1.0;
+        let whole = |ticks: u64, call| beyond(ticks as f64, call).round();
+        Found {
+            mean: beyond(self.sum as f64 / f64::from(steps), self.call),
+            least: whole(self.least, self.call),
+            most: whole(self.most, self.call),
+            first: whole(self.first, self.single_call),
+            held: whole(self.held, self.single_call),
+            swapped: whole(self.swapped, self.single_call),
+            stack_bytes: self.stack_bytes,
+            damper_bytes: self.damper_bytes,
+            state_bytes: self.state_bytes,
+            digest: self.digest,
+        }
+    }
+}
