@@ -8,7 +8,7 @@ use std::process::{Command, Output};
 use dashpot::damper;
 use dashpot_core::Damper;
 use dashpot_hil::export::{Provenance, c_source};
-use xtask::target_toolchain::TARGET;
+use xtask::c_library::{self, build_for_host, build_for_target};
 use xtask::tools::{ARM_GCC, GCC, GXX, QEMU, VALGRIND, have, have_target};
 
 const WARNINGS: [&str; 8] = [
@@ -28,10 +28,6 @@ const CORTEX_M7: [&str; 5] = [
     "-mfloat-abi=hard",
     "-ffreestanding",
 ];
-
-fn capi() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("capi")
-}
 
 fn succeed(command: &mut Command) -> Output {
     let output = command
@@ -66,29 +62,14 @@ fn export(folder: &Path) -> Vec<PathBuf> {
         .into()
 }
 
-/// Builds `libdashpot.a` with `cargo`, a command that `cargo rustc` starts, below `folder`.
-fn library(mut cargo: Command, folder: &str) -> PathBuf {
-    cargo.args(["--crate-type", "staticlib", "--features", "panic-handler"]);
-    succeed(&mut cargo);
-    capi().join("target").join(folder).join("libdashpot.a")
-}
-
-fn host_library() -> PathBuf {
-    let mut cargo = Command::new(env!("CARGO"));
-    cargo
-        .args(["rustc", "--release", "--manifest-path"])
-        .arg(capi().join("Cargo.toml"));
-    library(cargo, "release")
-}
-
 /// `compiler` for the example on `platform`, everything but the result named.
 fn compile(compiler: &str, platform: &str, dampers: &[PathBuf], library: &Path) -> Command {
-    let examples = capi().join("examples");
+    let examples = c_library::folder().join("examples");
     let mut command = Command::new(compiler);
     command.args(WARNINGS).args(["-O2", "-g"]);
     command
         .arg("-I")
-        .arg(capi().join("include"))
+        .arg(c_library::folder().join("include"))
         .arg("-I")
         .arg(&examples);
     command
@@ -99,14 +80,13 @@ fn compile(compiler: &str, platform: &str, dampers: &[PathBuf], library: &Path) 
 }
 
 /// The image for the Cortex-M7, or nothing when a tool is missing, which has been said.
-fn cortex_m7(folder: &Path) -> Option<PathBuf> {
+fn cortex_m7(output: &Path) -> Option<PathBuf> {
     let what = "the C library on a Cortex-M7";
     let toolchain = have_target(what).filter(|_| have(&[ARM_GCC, QEMU], what))?;
-    let cargo = toolchain.cargo("rustc", &capi().join("Cargo.toml"), "release");
-    let library = library(cargo, &format!("{TARGET}/release"));
-    let image = folder.join("controller.elf");
-    let script = capi().join("examples/cortex-m7/link.ld");
-    let mut compiler = compile(ARM_GCC.program, "cortex-m7", &export(folder), &library);
+    let library = build_for_target(&toolchain).unwrap_or_else(|error| panic!("{error}"));
+    let image = output.join("controller.elf");
+    let script = c_library::folder().join("examples/cortex-m7/link.ld");
+    let mut compiler = compile(ARM_GCC.program, "cortex-m7", &export(output), &library);
     compiler
         .args(CORTEX_M7)
         .args(["-ffunction-sections", "-fdata-sections", "-nostdlib"]);
@@ -199,7 +179,7 @@ fn the_controller_on_the_host_prints_what_rust_does() {
     }
     let folder = tempfile::tempdir().expect("a temporary folder");
     let dampers = export(folder.path());
-    let library = host_library();
+    let library = build_for_host().unwrap_or_else(|error| panic!("{error}"));
     let sanitized = folder.path().join("sanitized");
     let mut compiler = compile(GCC.program, "host", &dampers, &library);
     compiler.args([
@@ -326,7 +306,7 @@ fn the_header_compiles_as_c_and_as_cpp() {
         std::fs::write(&source, lines).expect("a writable folder");
         let mut compiler = Command::new(tool.program);
         compiler.args([language, standard]).args(&WARNINGS[1..]);
-        compiler.arg("-I").arg(capi().join("include"));
+        compiler.arg("-I").arg(c_library::folder().join("include"));
         succeed(compiler.args(["-fsyntax-only"]).arg(&source));
     }
 }

@@ -2,7 +2,9 @@
 
 use std::process::ExitCode;
 
+use xtask::c_library::{build_for_host, build_for_target};
 use xtask::run::{Outcome, cargo, cargo_output, cargo_with, version_of};
+use xtask::target_toolchain::TargetToolchain;
 use xtask::tools::install_missing;
 
 const HELP: &str = "\
@@ -14,6 +16,7 @@ Commands:
   test                   install the tools that tests need, then run every test
   bench                  measure time per step, side by side with yardstick and floor
   bench --instructions   count instructions per step (needs Valgrind and gungraun-runner)
+  c-library              build libdashpot.a for this machine and for a Cortex-M7
   ci                     formatting, lints, documentation, Rust version, then test
   help                   this text
 
@@ -37,6 +40,7 @@ fn main() -> ExitCode {
         ["test"] => test(),
         ["bench"] => cargo(&["bench", "--package", "dashpot", "--bench", "step"]),
         ["bench", "--instructions"] => count_instructions(),
+        ["c-library"] => c_library(),
         ["ci"] => ci(),
         _ => {
             eprintln!("wrong use: `{}`\n\n{HELP}", words.join(" "));
@@ -84,6 +88,15 @@ fn ci() -> Outcome {
     ])?;
     check_rust_version()?;
     test()
+}
+
+fn c_library() -> Outcome {
+    let header = xtask::c_library::folder().join("include/dashpot.h");
+    println!("header     {}", header.display());
+    println!("this host  {}", build_for_host()?.display());
+    let toolchain = TargetToolchain::find()?;
+    println!("Cortex-M7  {}", build_for_target(&toolchain)?.display());
+    Ok(())
 }
 
 /// The `rust-version` that Cargo.toml states must not be above the compiler that ran the checks.
