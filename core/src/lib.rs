@@ -6,7 +6,8 @@
 //! nothing and uses + - * / and square root only, so every IEEE 754 machine computes the same bits.
 //!
 //! Features: `builder` (default) has the parameters-to-constants part; without it the crate is the step
-//! alone. `serde` reads and writes parameters, `log` reports builds through the `log` facade.
+//! alone. `serde` reads and writes parameters, `log` reports builds through the `log` facade,
+//! `link` serves a bank of dampers over a serial line.
 #![no_std]
 #![deny(unsafe_code)]
 #![warn(missing_docs)]
@@ -21,6 +22,8 @@ mod error;
 #[cfg(feature = "builder")]
 mod hydraulics;
 mod image;
+#[cfg(feature = "link")]
+pub mod link;
 mod math;
 #[cfg(feature = "builder")]
 mod oil;

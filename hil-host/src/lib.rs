@@ -11,6 +11,7 @@ pub mod export;
 pub mod failure;
 pub mod output;
 pub mod pacing;
+pub mod pil;
 mod plot;
 pub mod recording;
 pub mod reference;

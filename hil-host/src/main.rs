@@ -7,6 +7,7 @@ use dashpot_hil::commands::budget::{self, BudgetArguments};
 use dashpot_hil::commands::contact::{self, ContactArguments};
 use dashpot_hil::commands::demonstrate::{self, DemonstrateArguments};
 use dashpot_hil::commands::export::{self, ExportArguments};
+use dashpot_hil::commands::pil::{self, PilArguments};
 use dashpot_hil::commands::replay::{self, ReplayArguments};
 use dashpot_hil::commands::rig::{self, RigArguments};
 use dashpot_hil::commands::shims::{self, ShimsArguments};
@@ -39,6 +40,7 @@ enum Command {
     Budget(BudgetArguments),
     Export(ExportArguments),
     Contact(ContactArguments),
+    Pil(PilArguments),
 }
 
 fn main() -> ExitCode {
@@ -52,6 +54,7 @@ fn main() -> ExitCode {
         Some(Command::Budget(arguments)) => budget::run(arguments),
         Some(Command::Export(arguments)) => export::run(arguments),
         Some(Command::Contact(arguments)) => contact::run(arguments),
+        Some(Command::Pil(arguments)) => pil::run(arguments),
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,

@@ -3,6 +3,7 @@
 use std::process::ExitCode;
 
 use xtask::c_library::{build_for_host, build_for_target};
+use xtask::firmware;
 use xtask::run::{Outcome, cargo, cargo_output, cargo_with, version_of};
 use xtask::target_toolchain::TargetToolchain;
 use xtask::tools::install_missing;
@@ -14,6 +15,7 @@ Usage: cargo xtask <command>
 
 Commands:
   test                   install the tools that tests need, then run every test
+  firmware               build the images for the target
   bench                  measure time per step, side by side with yardstick and floor
   bench --instructions   count instructions per step (needs Valgrind and gungraun-runner)
   c-library              build libdashpot.a for this machine and for a Cortex-M7
@@ -38,6 +40,7 @@ fn main() -> ExitCode {
             Ok(())
         }
         ["test"] => test(),
+        ["firmware"] => build_firmware(),
         ["bench"] => cargo(&["bench", "--package", "dashpot", "--bench", "step"]),
         ["bench", "--instructions"] => count_instructions(),
         ["c-library"] => c_library(),
@@ -54,6 +57,12 @@ fn main() -> ExitCode {
             ExitCode::FAILURE
         }
     }
+}
+
+fn build_firmware() -> Outcome {
+    let images = firmware::build(&TargetToolchain::find()?)?;
+    println!("images are in {}", images.display());
+    Ok(())
 }
 
 fn test() -> Outcome {

@@ -4,6 +4,7 @@ pub mod budget;
 pub mod contact;
 pub mod demonstrate;
 pub mod export;
+pub mod pil;
 pub mod progress;
 pub mod replay;
 pub mod rig;

@@ -1,0 +1,276 @@
+//! The messages: what a host asks and a device answers, postcard on the wire.
+
+use heapless::Vec;
+use serde::{Deserialize, Serialize};
+
+use super::safe_output::LossOfLink;
+
+/// Version of the messages; changes whenever their bytes do.
+pub const PROTOCOL: u16 = 1;
+/// Dampers a device may hold.
+pub const MOST_DAMPERS: usize = 16;
+/// Bytes of a damper's image in one [`Request::Chunk`] at most.
+pub const CHUNK_BYTES: usize = 256;
+/// Telemetry samples in one response at most.
+pub const MOST_SAMPLES: usize = 8;
+
+/// One number for each damper, in order of the dampers.
+pub type Reals = Vec<f32, MOST_DAMPERS>;
+
+/// What stands before every request and, given back, before its response.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Header {
+    /// Chosen by the host when it says hello.
+    pub session: u16,
+    /// Grows by one with every request of a session and wraps; a repeated request keeps its number.
+    pub sequence: u32,
+}
+
+/// What a host asks. Displacements (m) are positive in extension.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Request<'a> {
+    /// Opens the session of the header. Moves no state.
+    Hello {
+        /// [`PROTOCOL`] of the host.
+        protocol: u16,
+    },
+    /// Makes room for the image of a damper; what was sent before without a commit is dropped.
+    BeginLoad {
+        /// Which damper, from 0.
+        damper: u8,
+        /// Bytes of the whole image.
+        bytes: u32,
+    },
+    /// The next bytes of the image.
+    Chunk {
+        /// Bytes sent before this chunk.
+        offset: u32,
+        /// At most [`CHUNK_BYTES`].
+        bytes: &'a [u8],
+    },
+    /// Checks the image and puts the damper in the place of the old one; the state's force is kept.
+    CommitLoad,
+    /// Changes one parameter of one damper at once.
+    Set {
+        /// Which damper, from 0.
+        damper: u8,
+        /// Which parameter.
+        parameter: Parameter,
+        /// Its value, in the unit of its name.
+        value: f32,
+    },
+    /// What happens when the link is lost.
+    LossOfLink(LossOfLink),
+    /// Puts every damper at rest at these displacements; tick 0.
+    Reset {
+        /// One a damper (m).
+        displacements_m: Reals,
+    },
+    /// Steps every damper once.
+    Step {
+        /// Tick of these displacements: the last tick and one.
+        tick: u32,
+        /// One a damper (m).
+        displacements_m: Reals,
+    },
+    /// Starts the free-running tick with every damper at rest at these displacements; ends a loss of
+    /// link.
+    Run {
+        /// One a damper (m).
+        displacements_m: Reals,
+    },
+    /// Displacements of the free-running ticks from now on.
+    Displace {
+        /// One a damper (m).
+        displacements_m: Reals,
+    },
+    /// Ends the free-running tick.
+    Stop,
+    /// Asks for the states of all dampers.
+    Save,
+    /// Gives all dampers their states back, or none.
+    Restore {
+        /// Tick of the states.
+        tick: u32,
+        /// [`DamperState::to_bytes`](crate::DamperState) of each damper, in order.
+        states: &'a [u8],
+    },
+    /// Takes the oldest telemetry samples.
+    Telemetry {
+        /// The damper to record from now on; a change of it drops what was recorded.
+        damper: u8,
+    },
+    /// Asks for the counters.
+    Counters,
+}
+
+/// Parameters by their key in a damper file. Only the clearance can change without a rebuild.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Parameter {
+    /// `mount.clearance_m`: 2a, the whole play.
+    ClearanceM,
+    /// `mount.stiffness_n_per_m`.
+    StiffnessNPerM,
+    /// `reduced.damping_n_s_per_m`.
+    DampingNSPerM,
+    /// `reduced.saturation_velocity_m_per_s`.
+    SaturationVelocityMPerS,
+    /// `limits.force_n`.
+    ForceLimitN,
+}
+
+/// What a device answers.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Response<'a> {
+    /// To hello.
+    #[serde(borrow)]
+    Welcome(Welcome<'a>),
+    /// Done as asked.
+    Done,
+    /// To step, run and displace.
+    Forces(Forces),
+    /// To save.
+    Saved {
+        /// Last tick.
+        tick: u32,
+        /// [`DamperState::to_bytes`](crate::DamperState) of each damper, in order.
+        states: &'a [u8],
+    },
+    /// To telemetry.
+    Telemetry {
+        /// Samples lost to newer ones since the damper was chosen.
+        overwritten: u32,
+        /// Oldest first.
+        samples: Vec<Sample, MOST_SAMPLES>,
+    },
+    /// To counters.
+    Counters(Counters),
+    /// Not done; nothing changed.
+    Refused(Refusal),
+}
+
+/// Who answers, and what it holds.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Welcome<'a> {
+    /// [`PROTOCOL`] of the device.
+    pub protocol: u16,
+    /// Version of dashpot-core in the device.
+    pub core_version: &'a str,
+    /// Dampers it holds.
+    pub dampers: u8,
+    /// [`bank_revision`](super::bank_revision) of the dampers loaded now.
+    pub bank_revision: u32,
+    /// Type of displacement, force and state.
+    pub scalar: Scalar,
+    /// Step of every damper (s).
+    pub step_s: f32,
+    /// Bytes of a damper's image.
+    pub image_bytes: u32,
+    /// Last tick.
+    pub tick: u32,
+    /// Rate of the clock behind [`Forces::clock_ticks`] (Hz).
+    pub clock_hz: u32,
+    /// Whether the tick runs free.
+    pub running: bool,
+}
+
+/// Floating-point type of a device's dampers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Scalar {
+    /// Single precision.
+    F32,
+    /// Double precision.
+    F64,
+}
+
+/// A tick's result.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Forces {
+    /// The tick.
+    pub tick: u32,
+    /// Output of each damper (N), positive when it resists extension.
+    pub forces_n: Reals,
+    /// Latched [`Status`](crate::Status) bits of each damper.
+    pub status: Vec<u16, MOST_DAMPERS>,
+    /// Clock ticks that stepping the bank took.
+    pub clock_ticks: u32,
+}
+
+/// A tick of the recorded damper.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Sample {
+    /// Tick count.
+    pub tick: u32,
+    /// Displacement used (m).
+    pub displacement_m: f32,
+    /// Force returned (N).
+    pub force_n: f32,
+    /// Latched [`Status`](crate::Status) bits.
+    pub status: u16,
+}
+
+/// What happened since power on; each stops at its largest value.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Counters {
+    /// Requests carried out.
+    pub accepted: u32,
+    /// Frames broken on the way: framing, length or CRC-32.
+    pub corrupt: u32,
+    /// Whole frames that hold no request of this protocol.
+    pub unreadable: u32,
+    /// Requests of a session that is not open.
+    pub no_session: u32,
+    /// Requests received again, answered again, not carried out again.
+    pub repeated: u32,
+    /// Requests out of sequence.
+    pub out_of_order: u32,
+    /// Requests in sequence that were refused.
+    pub refused: u32,
+    /// Free-running ticks that had not begun when the next was due.
+    pub overruns: u32,
+    /// Losses of the link.
+    pub link_losses: u32,
+}
+
+/// Why a request was not carried out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Refusal {
+    /// The frame was broken on the way; the header is not that of a request. Send again.
+    Corrupt,
+    /// The frame holds no request of this protocol.
+    Unreadable,
+    /// The device speaks this protocol.
+    Protocol(u16),
+    /// No such session: say hello first. A device that was reset has none.
+    NoSession,
+    /// Expected this sequence number.
+    OutOfOrder(u32),
+    /// Expected this tick.
+    Tick(u32),
+    /// Expected this many displacements or states.
+    Count(u8),
+    /// There is no such damper; this many are there.
+    Damper(u8),
+    /// Needs a rebuild on the host, then a load.
+    NeedsRebuild,
+    /// The value is not finite or out of range.
+    Range,
+    /// Expected an image of this many bytes.
+    ImageBytes(u32),
+    /// No load was begun.
+    NoLoad,
+    /// Expected this offset of the image.
+    Offset(u32),
+    /// The image is no damper.
+    Image,
+    /// The image is of a damper built for another step.
+    StepSize,
+    /// A saved state is another damper's or damaged.
+    State,
+    /// Not while the tick runs free: stop first.
+    Running,
+    /// Only while the tick runs free.
+    NotRunning,
+    /// The link was lost: the safe output stays until run.
+    LinkLost,
+}

@@ -1,0 +1,133 @@
+//! What the outputs do when the link is lost while the tick runs free.
+
+use serde::{Deserialize, Serialize};
+
+/// When the link counts as lost, and the output then.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct LossOfLink {
+    /// Ticks without new displacements that are still good, at least 1.
+    pub after_ticks: u32,
+    /// The output from the next tick on.
+    pub output: SafeOutput,
+}
+
+impl Default for LossOfLink {
+    /// After 100 ticks to zero in 100 ticks: a tenth of a second each at 1 kHz.
+    fn default() -> Self {
+        Self {
+            after_ticks: 100,
+            output: SafeOutput::RampToZero { ticks: 100 },
+        }
+    }
+}
+
+/// Output of every damper after the loss of the link.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum SafeOutput {
+    /// The last good force.
+    Hold,
+    /// From the last good force to zero in equal parts.
+    RampToZero {
+        /// Ticks from the loss to zero.
+        ticks: u32,
+    },
+    /// Zero at once.
+    Zero,
+}
+
+/// Counts silent ticks and makes the output of each tick.
+#[derive(Clone, Debug)]
+pub(crate) struct Watch<const N: usize> {
+    pub(crate) configuration: LossOfLink,
+    silent_ticks: u32,
+    /// Output of the last tick before the loss (N).
+    last_good: [f32; N],
+}
+
+impl<const N: usize> Watch<N> {
+    pub(crate) fn new() -> Self {
+        Self {
+            configuration: LossOfLink::default(),
+            silent_ticks: 0,
+            last_good: [0.0; N],
+        }
+    }
+
+    /// New displacements came.
+    pub(crate) fn alive(&mut self) {
+        self.silent_ticks = 0;
+    }
+
+    pub(crate) fn lost(&self) -> bool {
+        self.silent_ticks > self.configuration.after_ticks
+    }
+
+    /// The outputs of a tick whose dampers give `forces` (N), and whether the link was lost in it.
+    pub(crate) fn output(&mut self, forces: &[f32; N]) -> ([f32; N], bool) {
+        let was_lost = self.lost();
+        self.silent_ticks = self.silent_ticks.saturating_add(1);
+        if !self.lost() {
+            self.last_good = *forces;
+            return (*forces, false);
+        }
+        let since = self.silent_ticks - self.configuration.after_ticks;
+        let share = match self.configuration.output {
+            SafeOutput::Hold => 1.0,
+            SafeOutput::Zero => 0.0,
+            SafeOutput::RampToZero { ticks } if since < ticks => {
+                (ticks - since) as f32 / ticks as f32
+            }
+            SafeOutput::RampToZero { .. } => 0.0,
+        };
+        (self.last_good.map(|force| force * share), !was_lost)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{LossOfLink, SafeOutput, Watch};
+
+    fn outputs(output: SafeOutput) -> [f32; 8] {
+        let mut watch = Watch::<1>::new();
+        watch.configuration = LossOfLink {
+            after_ticks: 3,
+            output,
+        };
+        core::array::from_fn(|tick| {
+            let ([force], lost) = watch.output(&[100.0 + tick as f32]);
+            assert_eq!(lost, tick == 3);
+            force
+        })
+    }
+
+    #[test]
+    fn hold_keeps_the_last_good_force() {
+        let expected = [100.0, 101.0, 102.0, 102.0, 102.0, 102.0, 102.0, 102.0];
+        assert_eq!(outputs(SafeOutput::Hold), expected);
+    }
+
+    #[test]
+    fn zero_is_zero_at_once() {
+        let expected = [100.0, 101.0, 102.0, 0.0, 0.0, 0.0, 0.0, 0.0];
+        assert_eq!(outputs(SafeOutput::Zero), expected);
+    }
+
+    #[test]
+    fn a_ramp_falls_in_equal_parts() {
+        let expected = [100.0, 101.0, 102.0, 76.5, 51.0, 25.5, 0.0, 0.0];
+        assert_eq!(outputs(SafeOutput::RampToZero { ticks: 4 }), expected);
+        assert_eq!(outputs(SafeOutput::RampToZero { ticks: 0 })[3], 0.0);
+    }
+
+    #[test]
+    fn a_displacement_in_time_keeps_the_link() {
+        let mut watch = Watch::<1>::new();
+        for _ in 0..10_000 {
+            watch.alive();
+            for _ in 0..100 {
+                assert_eq!(watch.output(&[7.0]), ([7.0], false));
+            }
+        }
+        assert_eq!(watch.output(&[7.0]), ([7.0 * 0.99], true));
+    }
+}

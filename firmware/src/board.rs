@@ -1,0 +1,86 @@
+//! The board's UART and timer: CMSDK peripherals of the MPS2 (Arm DUI 0479, chapters 4.2 and 4.4).
+//!
+//! For another board this file changes, and `memory.x`.
+
+use core::ptr::{with_exposed_provenance, with_exposed_provenance_mut};
+
+/// Clock of processor, timer and SysTick (Hz).
+pub const CLOCK_HZ: u32 = 25_000_000;
+
+const UART_DATA: usize = 0x00;
+/// Bit 0: the transmitter is full; bit 1: a received byte waits.
+const UART_STATE: usize = 0x04;
+/// Bit 0: transmit; bit 1: receive.
+const UART_CONTROL: usize = 0x08;
+/// Clocks a bit, 16 at least.
+const UART_BAUD_DIVISOR: usize = 0x10;
+
+const TIMER0: usize = 0x4000_0000;
+/// Bit 0: count.
+const TIMER_CONTROL: usize = TIMER0;
+/// Counts down.
+const TIMER_VALUE: usize = TIMER0 + 0x04;
+const TIMER_RELOAD: usize = TIMER0 + 0x08;
+
+fn read(register: usize) -> u32 {
+    // SAFETY: every address here is a register of the board, word-aligned and always readable.
+    unsafe { with_exposed_provenance::<u32>(register).read_volatile() }
+}
+
+fn write(register: usize, value: u32) {
+    // SAFETY: as above; no register written here has an effect on memory.
+    unsafe { with_exposed_provenance_mut::<u32>(register).write_volatile(value) }
+}
+
+/// A UART of the board, by the address of its registers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Port {
+    /// UART0: the link.
+    Link = 0x4000_4000,
+    /// UART1.
+    Spare = 0x4000_5000,
+}
+
+/// A serial line, 8 data bits, no parity.
+#[derive(Debug)]
+pub struct Uart(usize);
+
+impl Uart {
+    /// Starts the UART of a port at `baud` bits a second, up to 1 562 500.
+    pub fn start(port: Port, baud: u32) -> Self {
+        let base = port as usize;
+        write(base + UART_BAUD_DIVISOR, (CLOCK_HZ / baud.max(1)).max(16));
+        write(base + UART_CONTROL, 0b11);
+        Self(base)
+    }
+
+    /// A received byte, if one waits.
+    #[inline]
+    pub fn receive(&mut self) -> Option<u8> {
+        let waits = read(self.0 + UART_STATE) & 0b10 != 0;
+        waits.then(|| read(self.0 + UART_DATA) as u8)
+    }
+
+    /// Sends a byte; false when the transmitter is full.
+    #[inline]
+    pub fn send(&mut self, byte: u8) -> bool {
+        let ready = read(self.0 + UART_STATE) & 0b01 == 0;
+        if ready {
+            write(self.0 + UART_DATA, u32::from(byte));
+        }
+        ready
+    }
+}
+
+/// Starts the clock that [`clock_now`] reads.
+pub fn start_clock() {
+    write(TIMER_RELOAD, u32::MAX);
+    write(TIMER_VALUE, u32::MAX);
+    write(TIMER_CONTROL, 1);
+}
+
+/// Clock ticks since the start, wrapping, [`CLOCK_HZ`] a second. The processor's own cycle counter
+/// (DWT) would do as well; QEMU does not have it.
+pub fn clock_now() -> u32 {
+    !read(TIMER_VALUE)
+}

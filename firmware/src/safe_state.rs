@@ -1,0 +1,27 @@
+//! The end after a panic or a fault: outputs zero, nothing runs, the host gets no answer.
+
+use core::panic::PanicInfo;
+
+use cortex_m_rt::exception;
+
+use crate::bank::DAMPERS;
+use crate::outputs;
+
+#[panic_handler]
+fn panic(_: &PanicInfo<'_>) -> ! {
+    halt()
+}
+
+// SAFETY: the handler touches nothing but the outputs, which are atomic.
+#[exception]
+unsafe fn HardFault(_: &cortex_m_rt::ExceptionFrame) -> ! {
+    halt()
+}
+
+fn halt() -> ! {
+    cortex_m::interrupt::disable();
+    outputs::drive(&[0.0; DAMPERS]);
+    loop {
+        cortex_m::asm::wfi();
+    }
+}

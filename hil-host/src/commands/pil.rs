@@ -1,0 +1,216 @@
+//! `dashpot pil`: processor in the loop.
+
+use std::path::PathBuf;
+use std::time::Duration;
+
+use dashpot_core::Damper;
+use serde::Serialize;
+
+use super::{DamperArguments, Format, progress};
+use crate::failure::{Failure, Outcome};
+use crate::pil::{
+    Client, FaultCounts, FaultRates, FaultyLink, LinkChoice, Patience, Report, Session,
+};
+use crate::recording::Recording;
+use crate::replay::Ticks;
+
+/// Drive a damper on a target and compare every force with this host's, bit for bit.
+#[derive(Debug, Clone, clap::Args)]
+#[command(after_help = "Examples:
+  dashpot pil --link qemu --damper in-service --input data/excitations/ride_made.csv
+  dashpot pil --link serial:/dev/ttyACM0 --damper my.toml --input run7.csv --format json
+  dashpot pil --link qemu --input run7.csv --faults drop=0.01,corrupt=0.01,reset=0.001 --seed 7
+
+The damper is loaded into every place of the target's bank; place i runs i ticks behind the first. Faults are
+probabilities per frame: drop, corrupt, delay, duplicate, reorder, reset. Exit code 1 when a force differs.")]
+pub struct PilArguments {
+    #[command(flatten)]
+    damper: DamperArguments,
+    /// The target: tcp:HOST:PORT, serial:DEVICE, qemu (an emulator of our own) or qemu:IMAGE.
+    #[arg(long, value_name = "LINK")]
+    link: LinkChoice,
+    /// Recorded motion, CSV with columns time_s,displacement_m.
+    #[arg(long, value_name = "FILE")]
+    input: PathBuf,
+    /// Ticks at most; the whole recording when not given.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    ticks: Option<u32>,
+    /// Faults to make on the link: kind=probability, separated by commas.
+    #[arg(long, value_name = "FAULTS")]
+    faults: Option<FaultRates>,
+    /// Seed of the faults.
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// Wait for an answer, ms.
+    #[arg(long, default_value_t = 200, value_parser = clap::value_parser!(u64).range(1..=60_000), value_name = "MS")]
+    timeout_ms: u64,
+    /// Tries of a request before the target counts as silent.
+    #[arg(long, default_value_t = 8, value_parser = clap::value_parser!(u32).range(1..=1000))]
+    tries: u32,
+    /// Rate of a serial device, bit/s.
+    #[arg(long, default_value_t = 1_000_000)]
+    baud: u32,
+    /// How results are printed.
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    format: Format,
+}
+
+#[derive(Serialize)]
+struct Result {
+    #[serde(flatten)]
+    report: Report,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    injected_faults: Option<FaultCounts>,
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// A damper, recording or target that cannot be used, a target lost for good, or a force that differs.
+pub fn run(arguments: &PilArguments) -> Outcome<()> {
+    let parameters = arguments.damper.load()?;
+    let recording = Recording::open(&arguments.input)?;
+    let rates = arguments.faults.unwrap_or_default();
+    let link = FaultyLink::new(arguments.link.open(arguments.baud)?, rates, arguments.seed)?;
+    let patience = Patience {
+        timeout: Duration::from_millis(arguments.timeout_ms),
+        tries: arguments.tries,
+    };
+    let mut session = Session::open(Client::new(link, patience, fastrand::u16(..)))?;
+
+    let step_s = whole_us(session.target().step_s)?;
+    let damper: Damper<f32> = parameters.build(step_s)?;
+    let length = std::fs::metadata(&arguments.input).map_or(0, |data| data.len());
+    let bar = progress::bar(length, "pil");
+    let mut ticks = Ticks::new(recording, step_s)?;
+    let mut left = arguments.ticks.unwrap_or(u32::MAX);
+    let motion = || {
+        if left == 0 {
+            return Ok(None);
+        }
+        left -= 1;
+        if left.is_multiple_of(256) {
+            bar.set_position(ticks.position());
+        }
+        Ok(ticks.next_tick()?.map(|tick| tick.displacement_m as f32))
+    };
+    let report = session.run(&damper, motion, |_| ())?;
+    bar.finish_and_clear();
+    let result = Result {
+        report,
+        injected_faults: arguments.faults.map(|_| session.link().counts()),
+    };
+    match arguments.format {
+        Format::Json => super::print_json(&result)?,
+        Format::Text => print_text(&result, arguments)?,
+    }
+    let report = &result.report;
+    if report.mismatches > 0 || report.state_mismatches > 0 {
+        return Err(Failure::new(format!(
+            "{} forces or status words and {} states differ from the host's",
+            report.mismatches, report.state_mismatches
+        )));
+    }
+    Ok(())
+}
+
+/// A step in whole microseconds, as dampers are built for (s).
+fn whole_us(step_s: f32) -> Outcome<f64> {
+    let step_us = (f64::from(step_s) * 1e6).round();
+    if (1.0..=20_000.0).contains(&step_us) {
+        Ok(step_us * 1e-6)
+    } else {
+        Err(Failure::new(format!(
+            "the target steps {step_s} s; allowed: 1 us to 20 ms"
+        )))
+    }
+}
+
+fn print_text(result: &Result, arguments: &PilArguments) -> Outcome<()> {
+    let report = &result.report;
+    let target = &report.target;
+    let dampers = target.dampers as f64;
+    let us = |ns: f64| ns * 1e-3;
+    let mut lines = vec![
+        format!(
+            "{} ticks of {:.0} us through {} x {} on the target (dashpot-core {})",
+            report.ticks,
+            target.step_s * 1e6,
+            target.dampers,
+            arguments.damper.damper,
+            target.core_version
+        ),
+        match report.mismatches + report.state_mismatches as u64 {
+            0 => "mismatches            none: every force, status and state has the host's bits"
+                .into(),
+            _ => format!(
+                "mismatches            {} forces or status words, {} states",
+                report.mismatches, report.state_mismatches
+            ),
+        },
+    ];
+    if let Some(first) = report.first_mismatch {
+        lines.push(format!(
+            "  first at tick {}, damper {}: target {} N status {:#x}, host {} N status {:#x}",
+            first.tick,
+            first.damper,
+            first.target_force_n,
+            first.target_status,
+            first.host_force_n,
+            first.host_status
+        ));
+    }
+    let trip = &report.round_trip;
+    lines.push(format!(
+        "round trip            {:.0} us at the median, {:.0} us at 99 %, {:.0} us at 99.9 %, {:.0} us at most",
+        us(trip.p50_ns),
+        us(trip.p99_ns),
+        us(trip.p99_9_ns),
+        us(trip.worst_ns)
+    ));
+    let clock = &report.clock_ticks;
+    lines.push(format!(
+        "step of the bank      {:.1} clock ticks of {:.0} MHz ({:.0} to {:.0})",
+        clock.mean,
+        f64::from(target.clock_hz) * 1e-6,
+        clock.min,
+        clock.max
+    ));
+    if let Some(instructions) = &report.instructions {
+        lines.push(format!(
+            "                      {:.0} instructions ({:.0} to {:.0}), {:.1} a damper",
+            instructions.mean,
+            instructions.min,
+            instructions.max,
+            instructions.mean / dampers
+        ));
+    }
+    let seen = &report.link_faults;
+    lines.push(format!(
+        "link faults seen      {} timeouts, {} broken requests, {} broken answers, {} stale answers, {} lost \
+         sessions",
+        seen.timeouts,
+        seen.corrupt_requests,
+        seen.corrupt_answers,
+        seen.stale_answers,
+        seen.lost_sessions
+    ));
+    lines.push(format!(
+        "  repaired by         {} repeated requests, {} restored states",
+        seen.repeated_requests, report.recoveries
+    ));
+    if let Some(made) = &result.injected_faults {
+        lines.push(format!(
+            "link faults made      {} dropped, {} corrupted, {} delayed, {} duplicated, {} reordered, {} resets \
+             (seed {})",
+            made.dropped,
+            made.corrupted,
+            made.delayed,
+            made.duplicated,
+            made.reordered,
+            made.resets,
+            arguments.seed
+        ));
+    }
+    super::print_lines(&lines)
+}

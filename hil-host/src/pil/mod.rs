@@ -1,0 +1,22 @@
+//! Processor in the loop: the host drives a bank of dampers on a target over the link of
+//! [`dashpot_core::link`] and compares every force with its own core, bit for bit.
+
+mod client;
+mod desk;
+mod fault;
+mod link;
+mod qemu;
+#[cfg(feature = "serial")]
+mod serial;
+mod session;
+mod tcp;
+
+pub use client::{Client, LinkError, LinkFaults, Patience};
+pub use desk::Desk;
+pub use fault::{FaultCounts, FaultRates, FaultyLink};
+pub use link::{Link, LinkChoice};
+pub use qemu::{DEFAULT_IMAGE, Qemu};
+#[cfg(feature = "serial")]
+pub use serial::Serial;
+pub use session::{Cost, Mismatch, Report, Session, Target};
+pub use tcp::Tcp;

@@ -1,0 +1,28 @@
+//! The dampers linked into the firmware are what `dashpot export` makes today.
+
+use std::path::Path;
+use std::process::Command;
+
+#[test]
+fn export_gives_the_bank_of_the_firmware_again() {
+    let repository = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::create_dir_all(folder.path().join("firmware/src/bank")).unwrap();
+    for damper in ["in-service", "reduced-vertical", "reduced-lateral"] {
+        // The file names its own path, so the export runs where that path is free.
+        let file = format!("firmware/src/bank/{}.rs", damper.replace('-', "_"));
+        let output = Command::new(env!("CARGO_BIN_EXE_dashpot"))
+            .current_dir(folder.path())
+            .args(["export", "--damper", damper, "--lang", "rust", "--step-us"])
+            .args(["1000", "--output", &file])
+            .output()
+            .unwrap();
+        assert!(output.status.success(), "{output:?}");
+        let exported = std::fs::read_to_string(folder.path().join(&file)).unwrap();
+        let kept = std::fs::read_to_string(repository.join(&file)).unwrap();
+        assert!(
+            exported == kept,
+            "{file} is out of date: dashpot export --damper {damper} --lang rust --step-us 1000 --output {file}"
+        );
+    }
+}
