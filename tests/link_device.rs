@@ -550,7 +550,7 @@ fn telemetry_has_the_last_ticks_of_the_chosen_damper() {
     for tick in 1..=70 {
         forces.push(
             bench
-                .step(tick, [0.0, 1e-5 * tick as f32])
+                .step(tick, [0.0, tick as f32 / 65_536.0])
                 .forces()
                 .forces_n[1],
         );
@@ -563,12 +563,12 @@ fn telemetry_has_the_last_ticks_of_the_chosen_damper() {
     else {
         panic!("{answer:?}");
     };
-    // A ring of 64.
+    // A ring of 64; displacements on the step's grid are used as they are.
     assert_eq!((overwritten, samples.len()), (6, 8));
     for (sample, tick) in samples.iter().zip(7..) {
         assert_eq!(sample.tick, tick);
         assert_eq!(sample.force_n, forces[tick as usize - 1]);
-        assert_eq!(sample.displacement_m, 1e-5 * tick as f32);
+        assert_eq!(sample.displacement_m, tick as f32 / 65_536.0);
     }
 }
 
