@@ -1,6 +1,8 @@
 //! The host's end of the link against the firmware's device on the desk, through every kind of fault.
 
 use std::collections::VecDeque;
+use std::io::{ErrorKind, Read, Write};
+use std::net::{Ipv4Addr, TcpListener};
 use std::time::Duration;
 
 use dashpot_core::link::{Frame, FrameReader, Header, Refusal, Request, Response};
@@ -9,8 +11,10 @@ use dashpot_hil::damper_file;
 use dashpot_hil::excitation::Excitation;
 use dashpot_hil::failure::{Failure, Outcome};
 use dashpot_hil::pil::{
-    Client, Desk, FaultCounts, FaultRates, FaultyLink, Link, Patience, Report, Session,
+    Client, Desk, FaultCounts, FaultRates, FaultyLink, Link, Patience, Report, Session, Tcp,
 };
+#[cfg(all(unix, feature = "serial"))]
+use {dashpot_hil::pil::Serial, std::path::Path};
 
 /// The desk's waits are not real.
 const PATIENCE: Patience = Patience {
@@ -215,7 +219,10 @@ fn a_target_that_falls_silent_stops_the_run_with_the_reason() {
         left > 0 && frame.write(&(header, response))
     }));
     let message = silent.unwrap_err().to_string();
-    assert_eq!(message, "no answer from the target to 30 tries of 1000 ms");
+    assert_eq!(
+        message,
+        "after tick 68: no answer from the target to 30 tries of 1000 ms"
+    );
 }
 
 #[test]
@@ -243,7 +250,53 @@ fn a_target_reset_again_and_again_stops_the_run_with_the_reason() {
         }
     }
     let message = report_of(Forgetful(desk())).unwrap_err().to_string();
-    assert_eq!(message, "at tick 0: the target was lost 10 times in a row");
+    assert_eq!(
+        message,
+        "after tick 0: the target was lost 10 times in a row"
+    );
+}
+
+/// Serves a desk over a line until the host leaves.
+fn serve(mut line: impl Read + Write + Send + 'static) {
+    std::thread::spawn(move || {
+        let mut desk = desk();
+        let mut buffer = [0; 1024];
+        loop {
+            let received = match line.read(&mut buffer) {
+                Ok(count) if count > 0 => count,
+                Err(error) if error.kind() == ErrorKind::TimedOut => continue,
+                _ => return,
+            };
+            desk.send(&buffer[..received]).unwrap();
+            let count = desk.receive(&mut buffer, Duration::ZERO).unwrap();
+            if line.write_all(&buffer[..count]).is_err() {
+                return;
+            }
+        }
+    });
+}
+
+#[test]
+fn a_tcp_port_is_a_link() {
+    let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, 0)).unwrap();
+    let address = listener.local_addr().unwrap();
+    std::thread::spawn(move || serve(listener.accept().unwrap().0));
+    let report = report_of(Tcp::connect(&address.to_string()).unwrap()).unwrap();
+    assert_eq!((report.ticks, report.mismatches), (100, 0));
+}
+
+#[cfg(all(unix, feature = "serial"))]
+#[test]
+fn a_serial_device_is_a_link() {
+    use serialport::SerialPort;
+    let (mut target, host) = serialport::TTYPort::pair().unwrap();
+    target.set_timeout(Duration::from_millis(100)).unwrap();
+    let device = host.name().unwrap();
+    let line = Serial::open(Path::new(&device), 115_200).unwrap();
+    serve(target);
+    let report = report_of(line).unwrap();
+    assert_eq!((report.ticks, report.mismatches), (100, 0));
+    drop(host);
 }
 
 #[test]
