@@ -213,6 +213,7 @@ fn a_target_that_cannot_be_compared_is_refused() {
 
 #[test]
 fn a_target_that_falls_silent_stops_the_run_with_the_reason() {
+    // 149 answers: two to hello, three dampers in 25 chunks with begin and commit, restore, 65 steps.
     let mut left = 150;
     let silent = report_of(altered(move |header, response, frame: &mut Frame| {
         left -= 1;
@@ -221,7 +222,7 @@ fn a_target_that_falls_silent_stops_the_run_with_the_reason() {
     let message = silent.unwrap_err().to_string();
     assert_eq!(
         message,
-        "after tick 68: no answer from the target to 30 tries of 1000 ms"
+        "after tick 65: no answer from the target to 30 tries of 1000 ms"
     );
 }
 
