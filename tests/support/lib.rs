@@ -5,6 +5,7 @@ pub mod bench_test;
 pub mod document;
 pub mod look_up;
 pub mod newton;
+pub mod target;
 pub mod tolerance;
 
 use dashpot_core::DamperParameters;

@@ -28,6 +28,9 @@ Exit code: 0 done, 1 a check failed, 2 wrong use.";
 /// Not of the workspace: its library has a C name and its own panic strategy.
 const C_LIBRARY: &str = "capi/Cargo.toml";
 
+/// Not of the workspace: it is built for the target only.
+const FIRMWARE: &str = "firmware/Cargo.toml";
+
 /// Of the `gungraun` in Cargo.toml; the runner must be of the same version.
 const GUNGRAUN: &str = "0.20";
 
@@ -95,6 +98,7 @@ fn ci() -> Outcome {
         "-D",
         "warnings",
     ])?;
+    cargo(&["fmt", "--manifest-path", FIRMWARE, "--check"])?;
     check_rust_version()?;
     test()
 }

@@ -28,7 +28,7 @@ use crate::damper::Damper;
 /// assert_eq!(device.response().last(), Some(&0)); // a frame
 /// assert_eq!(device.counters().accepted, 1);
 /// ```
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Device<const N: usize> {
     reader: FrameReader,
     session: Session,

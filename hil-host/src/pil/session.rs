@@ -225,12 +225,12 @@ impl<L: Link> Session<L> {
             match ask(&mut self.client) {
                 // Another session may have been opened and have stepped: start over from our state.
                 Err(LinkError::SessionLost | LinkError::Refused(Refusal::Tick(_))) => {}
-                done => return Ok(done?),
+                done => return done.map_err(|error| after(host.tick, error)),
             }
             self.recover(host, measured)?;
         }
         Err(Failure::new(format!(
-            "at tick {}: the target was lost {MOST_RECOVERIES} times in a row",
+            "after tick {}: the target was lost {MOST_RECOVERIES} times in a row",
             host.tick
         )))
     }
@@ -241,7 +241,7 @@ impl<L: Link> Session<L> {
         for _ in 0..MOST_RECOVERIES {
             match give(&mut self.client, &self.target, host) {
                 Err(LinkError::SessionLost) => {}
-                done => return Ok(done?),
+                done => return done.map_err(|error| after(host.tick, error)),
             }
         }
         Err(Failure::new(format!(
@@ -356,6 +356,11 @@ impl Cost {
             max: self.max * factor,
         }
     }
+}
+
+/// The reason a run stopped, with the last tick that both sides confirmed.
+fn after(tick: u32, error: LinkError) -> Failure {
+    Failure::new(format!("after tick {tick}: {error}"))
 }
 
 fn target<L: Link>(client: &mut Client<L>) -> Result<Target, LinkError> {

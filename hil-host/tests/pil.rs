@@ -1,0 +1,329 @@
+//! The host's end of the link against the firmware's device on the desk, through every kind of fault.
+
+use std::collections::VecDeque;
+use std::io::{ErrorKind, Read, Write};
+use std::net::{Ipv4Addr, TcpListener};
+use std::time::Duration;
+
+use dashpot_core::link::{Frame, FrameReader, Header, Refusal, Request, Response};
+use dashpot_core::{Damper, Status};
+use dashpot_hil::damper_file;
+use dashpot_hil::excitation::Excitation;
+use dashpot_hil::failure::{Failure, Outcome};
+use dashpot_hil::pil::{
+    Client, Desk, FaultCounts, FaultRates, FaultyLink, Link, Patience, Report, Session, Tcp,
+};
+#[cfg(all(unix, feature = "serial"))]
+use {dashpot_hil::pil::Serial, std::path::Path};
+
+/// The desk's waits are not real.
+const PATIENCE: Patience = Patience {
+    timeout: Duration::from_secs(1),
+    tries: 30,
+};
+
+fn built(name: &str) -> Damper<f32> {
+    let parameters = damper_file::load(name, &[]).unwrap();
+    parameters.build(1e-3).unwrap()
+}
+
+/// A bank of three other dampers than the one that is driven.
+fn desk() -> Desk<3> {
+    Desk::new([
+        built("reduced-vertical"),
+        built("in-service"),
+        built("reduced-lateral"),
+    ])
+}
+
+fn motion(ticks: usize) -> impl FnMut() -> Outcome<Option<f32>> {
+    let ride = Excitation::Ride.displacements_m(1e-3);
+    let mut ride = ride.into_iter().take(ticks);
+    move || Ok(ride.next().map(|x| x as f32))
+}
+
+fn drive(rates: &str, seed: u64) -> (Report, FaultCounts) {
+    let rates: FaultRates = rates.parse().unwrap();
+    let link = FaultyLink::new(desk(), rates, seed).unwrap();
+    let mut session = Session::open(Client::new(link, PATIENCE, 40)).unwrap();
+    let report = session
+        .run(&built("paper"), motion(1000), |_| ())
+        .unwrap_or_else(|failure| panic!("{rates:?}: {failure}"));
+    (report, session.link().counts())
+}
+
+#[test]
+fn without_faults_every_force_has_the_hosts_bits() {
+    let (report, made) = drive("drop=0", 1);
+    assert_eq!(
+        (report.ticks, report.mismatches, report.state_mismatches),
+        (1000, 0, 0)
+    );
+    assert_eq!((report.recoveries, made), (0, FaultCounts::default()));
+    assert_eq!(report.link_faults, Default::default());
+    assert_eq!(report.target_counters.corrupt, 0);
+    // Hello twice, reset's restore, three dampers of 25 chunks with begin and commit, the steps, save.
+    let loads = 3 * (Damper::<f32>::IMAGE_BYTES.div_ceil(256) as u32 + 2);
+    assert_eq!(report.target_counters.accepted, 3 + loads + 1000 + 1);
+    assert_eq!(report.round_trip.count, 1000);
+}
+
+#[test]
+fn after_any_fault_the_run_goes_on_to_the_bit() {
+    for (kind, count) in [
+        ("drop", (|c| c.dropped) as fn(&FaultCounts) -> u64),
+        ("corrupt", |c| c.corrupted),
+        ("delay", |c| c.delayed),
+        ("duplicate", |c| c.duplicated),
+        ("reorder", |c| c.reordered),
+        ("reset", |c| c.resets),
+    ] {
+        let rate = if kind == "reset" { 0.005 } else { 0.1 };
+        let (report, made) = drive(&format!("{kind}={rate}"), 3);
+        assert!(count(&made) > 4, "{kind}: {made:?}");
+        assert_eq!((report.ticks, report.mismatches), (1000, 0), "{kind}");
+        assert_eq!(report.state_mismatches, 0, "{kind}");
+        if kind == "reset" {
+            assert!(report.recoveries > 0);
+        } else {
+            assert_eq!(report.recoveries, 0, "{kind}");
+            // Every tick was stepped once, whatever was sent twice.
+            assert!(report.target_counters.accepted >= 1000);
+        }
+    }
+}
+
+#[test]
+fn all_faults_together_and_the_same_for_the_same_seed() {
+    let all = "drop=0.03,corrupt=0.03,delay=0.03,duplicate=0.03,reorder=0.03,reset=0.001";
+    for seed in 1..6 {
+        let (report, made) = drive(all, seed);
+        assert_eq!((report.ticks, report.mismatches), (1000, 0), "seed {seed}");
+        assert_eq!(report.state_mismatches, 0);
+        let (again, made_again) = drive(all, seed);
+        assert_eq!(made, made_again);
+        assert_eq!(report.link_faults, again.link_faults);
+        assert_eq!(report.target_counters, again.target_counters);
+    }
+    assert_ne!(drive(all, 1).1, drive(all, 2).1);
+}
+
+/// A desk whose answers go through `change`.
+struct Altered<F> {
+    desk: Desk<3>,
+    change: F,
+    answers: VecDeque<u8>,
+    reader: FrameReader,
+}
+
+fn altered<F>(change: F) -> Altered<F>
+where
+    F: FnMut(Header, Response<'_>, &mut Frame) -> bool,
+{
+    Altered {
+        desk: desk(),
+        change,
+        answers: VecDeque::new(),
+        reader: FrameReader::new(),
+    }
+}
+
+impl<F: FnMut(Header, Response<'_>, &mut Frame) -> bool> Link for Altered<F> {
+    fn send(&mut self, bytes: &[u8]) -> Outcome<()> {
+        self.desk.send(bytes)?;
+        let mut buffer = [0; 1024];
+        let count = self.desk.receive(&mut buffer, Duration::ZERO)?;
+        for byte in &buffer[..count] {
+            if let Some(message) = self.reader.push(*byte) {
+                let (header, response) = postcard::from_bytes(message.unwrap().bytes).unwrap();
+                let mut frame = Frame::new();
+                if (self.change)(header, response, &mut frame) {
+                    self.answers.extend(frame.bytes());
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn receive(&mut self, buffer: &mut [u8], _: Duration) -> Outcome<usize> {
+        let count = buffer.len().min(self.answers.len());
+        for (place, byte) in buffer.iter_mut().zip(self.answers.drain(..count)) {
+            *place = byte;
+        }
+        Ok(count)
+    }
+}
+
+fn report_of(link: impl Link) -> Outcome<Report> {
+    let mut session = Session::open(Client::new(link, PATIENCE, 40))?;
+    session.run(&built("paper"), motion(100), |_| ())
+}
+
+#[test]
+fn one_wrong_bit_of_one_force_is_a_mismatch() {
+    let report = report_of(altered(|header, mut response, frame: &mut Frame| {
+        if let Response::Forces(forces) = &mut response
+            && forces.tick == 42
+        {
+            forces.forces_n[2] = f32::from_bits(forces.forces_n[2].to_bits() ^ 1);
+        }
+        frame.write(&(header, response))
+    }))
+    .unwrap();
+    assert_eq!(report.mismatches, 1);
+    let first = report.first_mismatch.unwrap();
+    assert_eq!((first.tick, first.damper), (42, 2));
+    assert_eq!(first.target_status & Status::INPUT_HELD.bits(), 0);
+}
+
+#[test]
+fn a_target_that_cannot_be_compared_is_refused() {
+    let version = report_of(altered(|header, mut response, frame: &mut Frame| {
+        if let Response::Welcome(welcome) = &mut response {
+            welcome.core_version = "9.9.9";
+        }
+        frame.write(&(header, response))
+    }));
+    assert!(
+        version
+            .unwrap_err()
+            .to_string()
+            .contains("dashpot-core 9.9.9")
+    );
+    let protocol = report_of(altered(|header, _, frame: &mut Frame| {
+        frame.write(&(header, Response::Refused(Refusal::Protocol(2))))
+    }));
+    let message = protocol.unwrap_err().to_string();
+    assert!(
+        message.contains("version 2 of the link protocol, this host 1"),
+        "{message}"
+    );
+    let step = report_of(altered(|header, mut response, frame: &mut Frame| {
+        if let Response::Welcome(welcome) = &mut response {
+            welcome.step_s = 5e-4;
+        }
+        frame.write(&(header, response))
+    }));
+    let message = step.unwrap_err().to_string();
+    assert!(
+        message.contains("0.001 s, the target steps 0.0005 s"),
+        "{message}"
+    );
+}
+
+#[test]
+fn a_target_that_falls_silent_stops_the_run_with_the_reason() {
+    // 149 answers: two to hello, three dampers in 25 chunks with begin and commit, restore, 65 steps.
+    let mut left = 150;
+    let silent = report_of(altered(move |header, response, frame: &mut Frame| {
+        left -= 1;
+        left > 0 && frame.write(&(header, response))
+    }));
+    let message = silent.unwrap_err().to_string();
+    assert_eq!(
+        message,
+        "after tick 65: no answer from the target to 30 tries of 1000 ms"
+    );
+}
+
+#[test]
+fn a_target_reset_again_and_again_stops_the_run_with_the_reason() {
+    struct Forgetful(Desk<3>);
+    impl Link for Forgetful {
+        fn send(&mut self, bytes: &[u8]) -> Outcome<()> {
+            let mut reader = FrameReader::new();
+            let mut step = false;
+            for byte in bytes {
+                if let Some(Ok(message)) = reader.push(*byte) {
+                    let (_, request): (Header, Request<'_>) =
+                        postcard::from_bytes(message.bytes)
+                            .map_err(|e| Failure::new(e.to_string()))?;
+                    step = matches!(request, Request::Step { .. });
+                }
+            }
+            if step {
+                self.0.reset_target()?;
+            }
+            self.0.send(bytes)
+        }
+        fn receive(&mut self, buffer: &mut [u8], timeout: Duration) -> Outcome<usize> {
+            self.0.receive(buffer, timeout)
+        }
+    }
+    let message = report_of(Forgetful(desk())).unwrap_err().to_string();
+    assert_eq!(
+        message,
+        "after tick 0: the target was lost 10 times in a row"
+    );
+}
+
+/// Serves a desk over a line until the host leaves.
+fn serve(mut line: impl Read + Write + Send + 'static) {
+    std::thread::spawn(move || {
+        let mut desk = desk();
+        let mut buffer = [0; 1024];
+        loop {
+            let received = match line.read(&mut buffer) {
+                Ok(count) if count > 0 => count,
+                Err(error) if error.kind() == ErrorKind::TimedOut => continue,
+                _ => return,
+            };
+            desk.send(&buffer[..received]).unwrap();
+            let count = desk.receive(&mut buffer, Duration::ZERO).unwrap();
+            if line.write_all(&buffer[..count]).is_err() {
+                return;
+            }
+        }
+    });
+}
+
+#[test]
+fn a_tcp_port_is_a_link() {
+    let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, 0)).unwrap();
+    let address = listener.local_addr().unwrap();
+    std::thread::spawn(move || serve(listener.accept().unwrap().0));
+    let report = report_of(Tcp::connect(&address.to_string()).unwrap()).unwrap();
+    assert_eq!((report.ticks, report.mismatches), (100, 0));
+}
+
+#[cfg(all(unix, feature = "serial"))]
+#[test]
+fn a_serial_device_is_a_link() {
+    use serialport::SerialPort;
+    let (mut target, host) = serialport::TTYPort::pair().unwrap();
+    target.set_timeout(Duration::from_millis(100)).unwrap();
+    let device = host.name().unwrap();
+    let line = Serial::open(Path::new(&device), 115_200).unwrap();
+    serve(target);
+    let report = report_of(line).unwrap();
+    assert_eq!((report.ticks, report.mismatches), (100, 0));
+    drop(host);
+}
+
+#[test]
+fn faults_are_checked() {
+    for (text, reason) in [
+        ("drop", "`drop` is not KIND=PROBABILITY"),
+        (
+            "lose=0.1",
+            "`lose` is no fault; allowed: drop, corrupt, delay, duplicate, reorder, reset",
+        ),
+        ("drop=0.6", "drop: `0.6` is not within 0 to 0.5"),
+        ("drop=nan", "drop: `nan` is not within 0 to 0.5"),
+        (
+            "drop=0.5,delay=0.4,corrupt=0.2",
+            "the probabilities add up to more than 1",
+        ),
+    ] {
+        assert_eq!(text.parse::<FaultRates>().unwrap_err(), reason);
+    }
+    let rates = "reset=0.1".parse().unwrap();
+    let refused = FaultyLink::new(altered(|_, _, _: &mut Frame| true), rates, 1);
+    assert!(
+        refused
+            .err()
+            .unwrap()
+            .to_string()
+            .contains("cannot reset its target")
+    );
+}

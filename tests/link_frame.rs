@@ -1,0 +1,157 @@
+//! Frames: what comes back, what is refused, and that a zero byte ends any trouble.
+
+use dashpot_core::link::{
+    FRAME_BYTES, Frame, FrameError, FrameReader, Header, MESSAGE_BYTES, MOST_DAMPERS, Request,
+    Response,
+};
+use proptest::prelude::*;
+
+/// Messages of a stream, each `None` where the reader found a fault.
+fn read(bytes: &[u8]) -> Vec<Option<Vec<u8>>> {
+    let mut reader = FrameReader::new();
+    let mut messages = Vec::new();
+    for byte in bytes {
+        if let Some(result) = reader.push(*byte) {
+            messages.push(result.ok().map(|message| message.bytes.to_vec()));
+        }
+    }
+    messages
+}
+
+fn step(tick: u32) -> (Header, Request<'static>) {
+    let header = Header {
+        session: 0xabcd,
+        sequence: tick,
+    };
+    let displacements_m = (0..12).map(|i| 1e-3 * (i as f32 - 4.0)).collect();
+    (
+        header,
+        Request::Step {
+            tick,
+            displacements_m,
+        },
+    )
+}
+
+/// CRC-32 from its definition (ISO 3309): reflected polynomial 0xedb88320, all ones before and after.
+fn crc_32(bytes: &[u8]) -> u32 {
+    !bytes.iter().fold(u32::MAX, |crc, byte| {
+        (0..8).fold(crc ^ u32::from(*byte), |crc, _| {
+            (crc >> 1) ^ (0xedb8_8320 * (crc & 1))
+        })
+    })
+}
+
+/// COBS by its definition (Cheshire and Baker 1999): each code byte is the distance to the next.
+fn cobs_decoded(bytes: &[u8]) -> Vec<u8> {
+    let (mut decoded, mut place) = (Vec::new(), 0);
+    while place < bytes.len() {
+        let code = usize::from(bytes[place]);
+        decoded.extend(&bytes[place + 1..place + code]);
+        place += code;
+        if code < 255 && place < bytes.len() {
+            decoded.push(0);
+        }
+    }
+    decoded
+}
+
+#[test]
+fn a_frame_is_cobs_of_message_and_crc() {
+    let mut frame = Frame::new();
+    assert!(frame.write(&step(7)));
+    let (end, encoded) = frame.bytes().split_last().unwrap();
+    assert_eq!(*end, 0);
+    assert!(!encoded.contains(&0));
+    let decoded = cobs_decoded(encoded);
+    let (message, check) = decoded.split_at(decoded.len() - 4);
+    assert_eq!(check, crc_32(message).to_le_bytes());
+    assert_eq!(read(frame.bytes()), [Some(message.to_vec())]);
+    let parsed: (Header, Request<'_>) = postcard::from_bytes(message).unwrap();
+    assert_eq!(parsed, step(7));
+}
+
+#[test]
+fn every_wrong_bit_of_a_frame_is_refused() {
+    let mut frame = Frame::new();
+    for tick in [1, 0x0100_0000, u32::MAX] {
+        assert!(frame.write(&step(tick)));
+        for bit in 0..8 * frame.bytes().len() {
+            let mut wrong = frame.bytes().to_vec();
+            wrong[bit / 8] ^= 1 << (bit % 8);
+            wrong.push(0);
+            for message in read(&wrong) {
+                assert_eq!(message, None, "bit {bit}");
+            }
+        }
+    }
+}
+
+#[test]
+fn every_cut_frame_is_refused_and_the_next_is_read() {
+    let mut frame = Frame::new();
+    assert!(frame.write(&step(3)));
+    let whole = frame.bytes();
+    let message = read(whole).remove(0);
+    for length in 1..whole.len() - 1 {
+        let stream = [&whole[..length], &[0], whole].concat();
+        assert_eq!(read(&stream), [None, message.clone()], "{length} bytes");
+    }
+}
+
+#[test]
+fn the_longest_messages_fit() {
+    let header = Header {
+        session: u16::MAX,
+        sequence: u32::MAX,
+    };
+    let states = [0xff; MOST_DAMPERS * 24];
+    let mut frame = Frame::new();
+    let tick = u32::MAX;
+    assert!(frame.write(&(
+        header,
+        Request::Restore {
+            tick,
+            states: &states
+        }
+    )));
+    let saved = Response::Saved {
+        tick,
+        states: &states,
+    };
+    assert!(frame.write(&(header, saved)));
+    assert!(frame.bytes().len() <= FRAME_BYTES);
+}
+
+#[test]
+fn what_is_too_long_is_not_written_and_not_read() {
+    let mut frame = Frame::new();
+    assert!(frame.write(&[7_u8; 32]));
+    let long = "x".repeat(MESSAGE_BYTES);
+    assert!(!frame.write(&long.as_str()));
+    assert_eq!(frame.bytes(), []);
+
+    let mut reader = FrameReader::new();
+    for _ in 0..10 * FRAME_BYTES {
+        assert_eq!(reader.push(1), None);
+    }
+    assert_eq!(reader.push(0), Some(Err(FrameError::TooLong)));
+    assert!(frame.write(&step(1)));
+    let results = frame
+        .bytes()
+        .iter()
+        .filter_map(|byte| reader.push(*byte).map(|r| r.is_ok()));
+    assert_eq!(results.collect::<Vec<_>>(), [true]);
+}
+
+proptest! {
+    #[test]
+    fn any_bytes_then_a_zero_then_a_frame(noise in prop::collection::vec(any::<u8>(), 0..2000), tick in any::<u32>()) {
+        let mut frame = Frame::new();
+        prop_assert!(frame.write(&step(tick)));
+        let stream = [&noise[..], &[0], frame.bytes()].concat();
+        let messages = read(&stream);
+        let expected = read(frame.bytes());
+        prop_assert_eq!(messages.last(), expected.last());
+    }
+}

@@ -1,0 +1,150 @@
+//! The firmware under QEMU: the host's bits through every fault, and the cost of a tick.
+
+use std::io::Read;
+use std::path::PathBuf;
+use std::process::{Command, Stdio};
+use std::sync::OnceLock;
+use std::time::Duration;
+
+use dashpot::damper;
+use dashpot_hil::excitation::Excitation;
+use dashpot_hil::failure::Outcome;
+use dashpot_hil::pil::{Client, FaultRates, FaultyLink, Link, Patience, Qemu, Report, Session};
+use xtask::tools::{ARM_GCC, QEMU, have, have_target};
+
+/// Instructions of a 400 MHz core at one a cycle that a tick may take: 3 % at 1 kHz.
+const BUDGET_1_KHZ: f64 = 0.03 * 400e6 / 1e3;
+/// 25 % at 10 kHz.
+const BUDGET_10_KHZ: f64 = 0.25 * 400e6 / 10e3;
+
+/// The folder of the images; none, said loudly, where they cannot be built.
+fn images() -> Option<PathBuf> {
+    static IMAGES: OnceLock<Option<PathBuf>> = OnceLock::new();
+    let build = || {
+        let what = "the firmware under QEMU";
+        if !have(&[QEMU, ARM_GCC], what) {
+            return None;
+        }
+        let toolchain = have_target(what)?;
+        Some(xtask::firmware::build(&toolchain).unwrap())
+    };
+    IMAGES.get_or_init(build).clone()
+}
+
+/// Resets the target before the frames of these numbers.
+struct ResetAt {
+    link: Qemu,
+    sent: u32,
+    resets: &'static [u32],
+}
+
+impl Link for ResetAt {
+    fn send(&mut self, bytes: &[u8]) -> Outcome<()> {
+        self.sent += 1;
+        if self.resets.contains(&self.sent) {
+            self.link.reset_target()?;
+        }
+        self.link.send(bytes)
+    }
+    fn receive(&mut self, buffer: &mut [u8], timeout: Duration) -> Outcome<usize> {
+        self.link.receive(buffer, timeout)
+    }
+    fn instructions_per_s(&self) -> Option<f64> {
+        self.link.instructions_per_s()
+    }
+}
+
+fn run(rates: &str, resets: &'static [u32], ticks: usize) -> Option<Report> {
+    let image = images()?.join("dashpot-firmware");
+    let rates: FaultRates = rates.parse().unwrap();
+    let link = ResetAt {
+        link: Qemu::start(&image).unwrap(),
+        sent: 0,
+        resets,
+    };
+    let link = FaultyLink::new(link, rates, 5).unwrap();
+    let patience = Patience {
+        timeout: Duration::from_millis(100),
+        tries: 50,
+    };
+    let mut session = Session::open(Client::new(link, patience, 1)).unwrap();
+    let ride = Excitation::Ride.displacements_m(1e-3);
+    let mut ride = ride.into_iter().take(ticks);
+    let damper = damper("in-service", &["mount.clearance_m=1e-3"]);
+    let motion = || Ok(ride.next().map(|x| x as f32));
+    let report = session.run(&damper.build(1e-3).unwrap(), motion, |_| ());
+    Some(report.unwrap())
+}
+
+#[test]
+fn the_target_has_the_hosts_bits() {
+    let Some(report) = run("drop=0", &[], 2000) else {
+        return;
+    };
+    assert_eq!(
+        (report.ticks, report.mismatches, report.state_mismatches),
+        (2000, 0, 0)
+    );
+    assert_eq!(report.target.dampers, 12);
+    let instructions = report.instructions.unwrap();
+    println!("{instructions:?}");
+    assert!(instructions.mean > 12.0 * 50.0 && instructions.max < BUDGET_10_KHZ);
+}
+
+#[test]
+fn the_target_has_the_hosts_bits_through_every_fault() {
+    let faults = "drop=0.01,corrupt=0.02,delay=0.01,duplicate=0.02,reorder=0.01";
+    // While it steps, while it is loaded again after that, and late in the run.
+    let Some(report) = run(faults, &[500, 700, 1300], 600) else {
+        return;
+    };
+    assert_eq!(
+        (report.ticks, report.mismatches, report.state_mismatches),
+        (600, 0, 0)
+    );
+    assert!(report.recoveries >= 2, "{report:?}");
+    assert!(report.link_faults.repeated_requests > 0);
+}
+
+#[test]
+fn a_tick_with_everything_the_link_takes_keeps_the_budget() {
+    let Some(images) = images() else {
+        return;
+    };
+    let mut emulator = Command::new("qemu-system-arm")
+        .args([
+            "-M",
+            "mps2-an500",
+            "-cpu",
+            "cortex-m7",
+            "-nographic",
+            "-monitor",
+            "none",
+        ])
+        .args(["-icount", "shift=0", "-serial", "stdio", "-kernel"])
+        .arg(images.join("link-cost"))
+        .stdin(Stdio::null())
+        .stdout(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let mut printed = String::new();
+    let mut output = emulator.stdout.take().unwrap();
+    let mut byte = [0];
+    while output.read(&mut byte).unwrap() == 1 && byte[0] != b'\n' {
+        printed.push(char::from(byte[0]));
+    }
+    emulator.kill().unwrap();
+    emulator.wait().unwrap();
+    let number = |key: &str| -> f64 {
+        let (_, rest) = printed.split_once(&format!("\"{key}\": ")).unwrap();
+        rest.split([',', '}']).next().unwrap().parse().unwrap()
+    };
+    let requests = number("requests");
+    assert_eq!(number("accepted"), requests + 1.0, "hello and every step");
+    let instructions_per_clock_tick = 1e9 / number("clock_hz");
+    let mean = number("clock_ticks") * instructions_per_clock_tick / requests;
+    let most = number("most_clock_ticks") * instructions_per_clock_tick;
+    println!("a tick of 12 dampers with its link: {mean:.0} instructions, {most:.0} at most");
+    assert!(most <= BUDGET_1_KHZ, "{most}");
+    assert!(most <= BUDGET_10_KHZ, "{most}");
+}
