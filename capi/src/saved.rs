@@ -3,8 +3,7 @@
 //! `DAST`, format version and bytes of a scalar (2 each), the bytes of [`DamperState::to_bytes`], CRC-32
 //! (ISO-HDLC) of all before; little-endian.
 
-use crc::{CRC_32_ISO_HDLC, Crc, NoTable};
-use dashpot_core::{Damper, DamperState};
+use dashpot_core::{Damper, DamperState, crc_32};
 
 use crate::error::DashpotError;
 
@@ -14,8 +13,6 @@ const VERSION: u16 = 1;
 const SCALAR_BYTES: u16 = 4;
 const STATE_BYTES: usize = DamperState::<f32>::BYTES;
 pub(crate) const BYTES: usize = 8 + STATE_BYTES + 4;
-
-const CHECK: Crc<u32, NoTable> = Crc::<u32, NoTable>::new(&CRC_32_ISO_HDLC);
 
 /// The bytes of a state.
 pub(crate) fn save(state: &DamperState<f32>) -> [u8; BYTES] {
@@ -29,7 +26,7 @@ pub(crate) fn save(state: &DamperState<f32>) -> [u8; BYTES] {
         *place = byte;
     }
     if let Some((checked, check)) = saved.split_last_chunk_mut::<4>() {
-        *check = CHECK.checksum(checked).to_le_bytes();
+        *check = crc_32(checked).to_le_bytes();
     }
     saved
 }
@@ -52,7 +49,7 @@ pub(crate) fn restore(
         Err(DashpotError::Version)
     } else if u16::from_le_bytes([s0, s1]) != SCALAR_BYTES {
         Err(DashpotError::Scalar)
-    } else if CHECK.checksum(checked) != u32::from_le_bytes(*check) {
+    } else if crc_32(checked) != u32::from_le_bytes(*check) {
         Err(DashpotError::Checksum)
     } else {
         Ok(damper.restore(state)?)

@@ -14,8 +14,7 @@
 
 use core::fmt;
 
-use crc::{CRC_32_ISO_HDLC, Crc, NoTable};
-
+use crate::checksum::crc_32;
 use crate::damper::{Damper, Scalars};
 use crate::revision;
 use crate::table::Piece;
@@ -28,9 +27,6 @@ const HEADER_BYTES: usize = 16;
 const CHECK_BYTES: usize = 4;
 /// Half the largest clearance that [`Damper::set_clearance_m`] lets through (m).
 const LARGEST_HALF_CLEARANCE: f64 = 0.05;
-
-/// Bit by bit: an image is read once, a table would stay in flash.
-const CHECK: Crc<u32, NoTable> = Crc::<u32, NoTable>::new(&CRC_32_ISO_HDLC);
 
 /// Why bytes are no damper.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -132,7 +128,7 @@ fn body(bytes: &[u8], scalar_bytes: usize, expected: usize) -> Result<&[u8], Ima
         Err(length(stated))
     } else if bytes.len() != expected {
         Err(length(bytes.len()))
-    } else if CHECK.checksum(checked) != u32::from_le_bytes(*check) {
+    } else if crc_32(checked) != u32::from_le_bytes(*check) {
         Err(ImageError::Checksum)
     } else {
         Ok(body)
@@ -157,7 +153,7 @@ macro_rules! image {
                     *place = byte;
                 }
                 if let Some((checked, check)) = image.split_last_chunk_mut::<CHECK_BYTES>() {
-                    *check = CHECK.checksum(checked).to_le_bytes();
+                    *check = crc_32(checked).to_le_bytes();
                 }
                 image
             }

@@ -17,6 +17,7 @@ pub mod bank;
 mod build;
 #[cfg(feature = "builder")]
 pub mod characteristic;
+mod checksum;
 mod damper;
 mod error;
 #[cfg(feature = "builder")]
@@ -40,6 +41,7 @@ pub mod telemetry;
 mod words;
 
 pub use bank::step_bank;
+pub use checksum::crc_32;
 pub use damper::Damper;
 pub use error::BuildError;
 pub use image::ImageError;

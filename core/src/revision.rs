@@ -11,8 +11,13 @@ pub(crate) const START: u32 = 0x811c_9dc5;
 
 /// `hash` continued over the bits of constants, zero-extended.
 pub(crate) fn of_words(hash: u32, words: impl Iterator<Item = u64>) -> u32 {
-    words.flat_map(u64::to_le_bytes).fold(hash, |hash, byte| {
-        (hash ^ u32::from(byte)).wrapping_mul(0x0100_0193)
+    words.fold(hash, of_word)
+}
+
+#[inline(never)] // one copy in flash
+fn of_word(hash: u32, word: u64) -> u32 {
+    word.to_le_bytes().iter().fold(hash, |hash, byte| {
+        (hash ^ u32::from(*byte)).wrapping_mul(0x0100_0193)
     })
 }
 

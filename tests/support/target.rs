@@ -98,9 +98,15 @@ impl Experiment<'_> {
     pub fn on_target(&self, image: &Path) -> Found {
         let mut data = tempfile::NamedTempFile::new().expect("a writable folder");
         let motion = self.motion();
-        let words = self.other.to_words().into_iter().chain(self.damper.to_words());
+        let words = self
+            .other
+            .to_words()
+            .into_iter()
+            .chain(self.damper.to_words());
         let counts = [u32::from(self.bank), self.steps, motion.len() as u32];
-        let words = words.chain(counts).chain(motion.iter().map(|x| x.to_bits()));
+        let words = words
+            .chain(counts)
+            .chain(motion.iter().map(|x| x.to_bits()));
         let bytes: Vec<u8> = words.flat_map(u32::to_le_bytes).collect();
         data.write_all(&bytes).expect("room on the disk");
 
@@ -144,7 +150,7 @@ impl Experiment<'_> {
                 hash = (hash ^ u64::from(byte)).wrapping_mul(0x100_0000_01b3);
             }
         };
-        let mut states = [self.damper.at_rest(at(0)); BANK];
+        let mut states = std::array::from_fn(|lane| self.damper.at_rest(at(LAG * lane)));
         let mut forces = [0.0; BANK];
         for step in 0..self.steps as usize {
             if self.bank {

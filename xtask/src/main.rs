@@ -1,10 +1,11 @@
 //! Developer commands of Dashpot: `cargo xtask <command>`.
 
+use std::path::Path;
 use std::process::ExitCode;
 
 use xtask::c_library::{build_for_host, build_for_target};
 use xtask::firmware;
-use xtask::run::{Outcome, cargo, cargo_output, cargo_with, version_of};
+use xtask::run::{Outcome, cargo, cargo_aside, cargo_output, cargo_with, version_of};
 use xtask::target_toolchain::TargetToolchain;
 use xtask::tools::install_missing;
 
@@ -16,6 +17,7 @@ Usage: cargo xtask <command>
 Commands:
   test                   install the tools that tests need, then run every test
   firmware               build the images for the target
+  target [--format json] measure the core on an emulated Cortex-M7 against its budget
   bench                  measure time per step, side by side with yardstick and floor
   bench --instructions   count instructions per step (needs Valgrind and gungraun-runner)
   c-library              build libdashpot.a for this machine and for a Cortex-M7
@@ -44,6 +46,9 @@ fn main() -> ExitCode {
         }
         ["test"] => test(),
         ["firmware"] => build_firmware(),
+        ["target"] => measure_target(false),
+        ["target", "--format", "json"] => measure_target(true),
+        ["target", "--format", "text"] => measure_target(false),
         ["bench"] => cargo(&["bench", "--package", "dashpot", "--bench", "step"]),
         ["bench", "--instructions"] => count_instructions(),
         ["c-library"] => c_library(),
@@ -133,6 +138,33 @@ fn check_rust_version() -> Outcome {
     }
     println!("rust-version is at most rustc {compiler}");
     Ok(())
+}
+
+/// Runs the test that holds the budget and prints what it measured.
+fn measure_target(json: bool) -> Outcome {
+    install_missing()?;
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../target/target_figures.json");
+    let _ = std::fs::remove_file(&path);
+    let held = cargo_aside(
+        &["test", "--package", "dashpot", "--test", "target"],
+        &[("DASHPOT_TARGET_REPORT", &path.to_string_lossy())],
+    );
+    let report = std::fs::read_to_string(&path).unwrap_or_default();
+    if report.is_empty() {
+        return held.and(Err("nothing was measured: see above what is missing".into()));
+    }
+    if json {
+        print!("{report}");
+    } else {
+        for line in report.lines().filter_map(|line| line.split_once(": ")) {
+            let (name, value) = (
+                line.0.trim().trim_matches('"'),
+                line.1.trim_end_matches(','),
+            );
+            println!("{name:40} {value:>10}");
+        }
+    }
+    held
 }
 
 fn count_instructions() -> Outcome {

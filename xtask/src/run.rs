@@ -1,7 +1,7 @@
 //! Runs programs in the workspace's folder and says which one failed.
 
 use std::path::Path;
-use std::process::Command;
+use std::process::{Command, Stdio};
 
 /// Done, or what failed.
 pub type Outcome<T = ()> = Result<T, String>;
@@ -13,10 +13,20 @@ pub fn cargo(arguments: &[&str]) -> Outcome {
 
 /// Runs cargo with environment variables, its output shown.
 pub fn cargo_with(arguments: &[&str], variables: &[(&str, &str)]) -> Outcome {
+    show(arguments, variables, Stdio::inherit())
+}
+
+/// As [`cargo_with`], with all output on standard error: standard output is free for a result.
+pub fn cargo_aside(arguments: &[&str], variables: &[(&str, &str)]) -> Outcome {
+    show(arguments, variables, std::io::stderr().into())
+}
+
+fn show(arguments: &[&str], variables: &[(&str, &str)], output: Stdio) -> Outcome {
     let line = format!("cargo {}", arguments.join(" "));
     eprintln!("> {line}");
     let status = cargo_command(arguments)
         .envs(variables.iter().copied())
+        .stdout(output)
         .status()
         .map_err(|error| format!("cannot run `{line}`: {error}"))?;
     if status.success() {

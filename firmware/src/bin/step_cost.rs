@@ -20,6 +20,7 @@ use dashpot_firmware::printer::Printer;
 /// Where the host loads the experiment: the upper half of RAM.
 const EXPERIMENT: usize = 0x2020_0000;
 const BANK: usize = 12;
+const LAG: u32 = 9;
 /// Stack looked at below the measured call (bytes).
 const PAINTED: usize = 2048;
 const PAINT: u32 = 0xa5a5_a5a5;
@@ -170,7 +171,9 @@ fn main() -> ! {
 
     let mut usual = Cost::new();
     let mut hash = 0xcbf2_9ce4_8422_2325;
-    let mut states = [damper.at_rest(displacement(0)); BANK];
+    // The lanes of a bank run apart.
+    let lane_displacement = |step: u32, lane: usize| displacement(step + LAG * lane as u32);
+    let mut states = core::array::from_fn(|lane| damper.at_rest(lane_displacement(0, lane)));
     let mut forces = [0.0; BANK];
     let dampers = [&damper; BANK];
     let call;
@@ -184,7 +187,7 @@ fn main() -> ! {
     } else {
         call = timed_bank(no_bank, &dampers, &mut states, &[0.0; BANK], &mut forces);
         for count in 0..experiment.steps {
-            let displacements = core::array::from_fn(|lane| displacement(count + 9 * lane as u32));
+            let displacements = core::array::from_fn(|lane| lane_displacement(count, lane));
             let ticks = timed_bank(bank, &dampers, &mut states, &displacements, &mut forces);
             usual.add(ticks);
             hash = forces.iter().fold(hash, |hash, force| digest(hash, *force));
