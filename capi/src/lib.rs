@@ -5,10 +5,6 @@
 #![no_std]
 #![warn(missing_docs)]
 
-// On a system that has one, the standard library's panic handler; a host's tools need no feature then.
-#[cfg(not(any(feature = "panic-handler", target_os = "none")))]
-extern crate std;
-
 mod error;
 mod functions;
 mod pointer;

@@ -55,10 +55,8 @@ fn at_rest(damper: &DashpotDamper, displacement_m: f32) -> DashpotState {
 fn step(damper: &DashpotDamper, state: &mut DashpotState, displacement_m: f32) -> f32 {
     let mut force = f32::NAN;
     // SAFETY: references are valid pointers.
-    assert_eq!(
-        unsafe { dashpot_step(damper, state, displacement_m, &mut force) },
-        DONE
-    );
+    let done = unsafe { dashpot_step(damper, state, displacement_m, &mut force) };
+    assert_eq!(done, DONE);
     force
 }
 
@@ -74,10 +72,8 @@ fn read(state: &DashpotState) -> DashpotReading {
 fn save(state: &DashpotState) -> [u8; SAVED] {
     let mut saved = [0; SAVED];
     // SAFETY: references are valid pointers.
-    assert_eq!(
-        unsafe { dashpot_state_save(state, saved.as_mut_ptr(), SAVED) },
-        DONE
-    );
+    let done = unsafe { dashpot_state_save(state, saved.as_mut_ptr(), SAVED) };
+    assert_eq!(done, DONE);
     saved
 }
 
@@ -186,10 +182,8 @@ fn the_clearance_changes_live_as_in_the_core() {
         if tick == 250 {
             core.set_clearance_m(3e-3);
             // SAFETY: references are valid pointers.
-            assert_eq!(
-                unsafe { dashpot_damper_set_clearance(&mut damper, 3e-3) },
-                DONE
-            );
+            let done = unsafe { dashpot_damper_set_clearance(&mut damper, 3e-3) };
+            assert_eq!(done, DONE);
         }
         let force = step(&damper, &mut state, displacement(tick));
         assert_eq!(
@@ -437,11 +431,8 @@ fn storage_without_a_damper_is_refused() {
 #[test]
 fn every_code_has_its_own_text_and_no_other_number_crashes() {
     // SAFETY: the text is static and ends in a zero.
-    let text = |code| {
-        unsafe { CStr::from_ptr(dashpot_error_text(code)) }
-            .to_str()
-            .unwrap()
-    };
+    let found = |code| unsafe { CStr::from_ptr(dashpot_error_text(code)) };
+    let text = |code| found(code).to_str().unwrap();
     let mut texts: Vec<&str> = Vec::new();
     for (code, error) in DashpotError::ALL.into_iter().enumerate() {
         assert_eq!(error as usize, code);

@@ -1,15 +1,15 @@
 //! Several dampers in one call: the same bits as one step each, in less time.
 //!
 //! A step is a chain of operations that wait for one another; the chains of different dampers do not.
-//! A bank takes a few dampers through the step together, in vector instructions where there are any.
+//! Where there are vector instructions, a bank takes four dampers through the step together.
 
 use crate::damper::Damper;
 use crate::math::Real;
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+use crate::math::group::GROUP;
 use crate::state::DamperState;
-use crate::step;
-
-/// Dampers taken through the step together.
-const LANES: usize = 8;
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+use crate::step::step;
 
 /// Steps `N` dampers: `forces[i] = dampers[i].step(&mut states[i], displacements[i])`, bit for bit.
 ///
@@ -48,21 +48,22 @@ pub fn step_bank<T: Real, const N: usize>(
     displacements: &[T; N],
     forces: &mut [T; N],
 ) {
-    let (dampers, dampers_left) = dampers.as_chunks::<LANES>();
-    let (states, states_left) = states.as_chunks_mut::<LANES>();
-    let (displacements, displacements_left) = displacements.as_chunks::<LANES>();
-    let (forces, forces_left) = forces.as_chunks_mut::<LANES>();
-    for (((dampers, states), displacements), forces) in
-        dampers.iter().zip(states).zip(displacements).zip(forces)
+    let mut alone = 0;
+    #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
     {
-        *forces = step::step(*dampers, states, *displacements);
+        let groups = dampers.as_chunks::<GROUP>().0.iter();
+        let states = states.as_chunks_mut::<GROUP>().0;
+        let displacements = displacements.as_chunks::<GROUP>().0;
+        let forces = forces.as_chunks_mut::<GROUP>().0;
+        for (((dampers, states), displacements), forces) in
+            groups.zip(states).zip(displacements).zip(forces)
+        {
+            *forces = step::<T, T::Group, GROUP>(*dampers, states, *displacements);
+            alone += GROUP;
+        }
     }
-    for (((damper, state), displacement), force) in dampers_left
-        .iter()
-        .zip(states_left)
-        .zip(displacements_left)
-        .zip(forces_left)
-    {
+    let rest = dampers.iter().zip(states).zip(displacements).zip(forces);
+    for (((damper, state), displacement), force) in rest.skip(alone) {
         *force = damper.step(state, *displacement);
     }
 }

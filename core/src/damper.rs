@@ -14,51 +14,94 @@ use crate::revision;
 use crate::state::DamperState;
 use crate::status::Status;
 use crate::step;
-use crate::table::Table;
+use crate::table::{PIECES, Table};
 
 /// gamma of the two stages.
 pub(crate) const IMPLICIT_SHARE: f64 = 1.0 - core::f64::consts::FRAC_1_SQRT_2;
 
-/// Numbers of a damper beside its tables, in SI units.
+/// Numbers of a damper beside its table, in SI units; in the order the step reads them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C)]
 pub struct Scalars<T> {
-    /// Step (s).
-    pub(crate) step_s: T,
-    /// Half the clearance, a (m).
-    pub(crate) half_clearance: T,
-    /// Stretch of the mount under seal friction (m).
-    pub(crate) held: T,
-    /// Stretch up to which nothing flows (m): half the clearance and the stretch held.
-    pub(crate) offset: T,
-    /// Force at which the element yields (N).
-    pub(crate) force_limit: T,
     /// Largest credible move of the input in a step (m).
     pub(crate) largest_move: T,
+    /// Adding and subtracting it rounds a travel to the grid of positions: sums of such travels are
+    /// exact, so a piston at rest in its clearance does not drift (m).
+    pub(crate) position_rounder: T,
+    /// Adding and subtracting it rounds a stretch far below that grid to zero (m).
+    pub(crate) rest_rounder: T,
+    /// Step (s).
+    pub(crate) step_s: T,
+    /// Stretch up to which nothing flows (m): half the clearance and the stretch held.
+    pub(crate) offset: T,
     /// Scale of the table (1/m).
     pub(crate) scale: T,
-    /// Shift of the table (1) and its root.
+    /// Shift of the table (1).
     pub(crate) shift: T,
-    pub(crate) shift_root: T,
+    /// What y lacks to the [`Real::place`] of its piece's index (1).
+    pub(crate) origin: T,
+    /// Half the clearance, a (m).
+    pub(crate) half_clearance: T,
     /// Stiffness under seal friction (N/m): the mount's, or 0 without friction.
     pub(crate) held_stiffness: T,
+    /// Force at which the element yields (N).
+    pub(crate) force_limit: T,
+    /// Stretch of the mount under seal friction (m).
+    pub(crate) held: T,
 }
 
-impl<T: Real> Scalars<T> {
+impl<T: Copy> Scalars<T> {
+    /// How many there are.
+    pub(crate) const COUNT: usize = 12;
+
     /// The numbers in order of declaration.
-    pub(crate) fn as_array(&self) -> [T; 10] {
+    pub(crate) const fn as_array(&self) -> [T; 12] {
         [
-            self.step_s,
-            self.half_clearance,
-            self.held,
-            self.offset,
-            self.force_limit,
             self.largest_move,
+            self.position_rounder,
+            self.rest_rounder,
+            self.step_s,
+            self.offset,
             self.scale,
             self.shift,
-            self.shift_root,
+            self.origin,
+            self.half_clearance,
             self.held_stiffness,
+            self.force_limit,
+            self.held,
         ]
+    }
+
+    /// The inverse of [`Scalars::as_array`].
+    pub(crate) const fn from_array(numbers: [T; 12]) -> Self {
+        let [
+            largest_move,
+            position_rounder,
+            rest_rounder,
+            step_s,
+            offset,
+            scale,
+            shift,
+            origin,
+            half_clearance,
+            held_stiffness,
+            force_limit,
+            held,
+        ] = numbers;
+        Self {
+            largest_move,
+            position_rounder,
+            rest_rounder,
+            step_s,
+            offset,
+            scale,
+            shift,
+            origin,
+            half_clearance,
+            held_stiffness,
+            force_limit,
+            held,
+        }
     }
 }
 
@@ -168,8 +211,15 @@ impl<T: Real> Damper<T> {
     /// A state that another damper stepped before is carried over first, its force kept.
     #[inline]
     pub fn step(&self, state: &mut DamperState<T>, displacement: T) -> T {
-        let [force] = step::step([self], core::array::from_mut(state), [displacement]);
+        let [force] = step::step::<T, T, 1>([self], core::array::from_mut(state), [displacement]);
         force
+    }
+
+    /// Reach (m) at the centre of the last piece; no stage ends beyond it.
+    pub(crate) fn largest_reach(&self) -> T {
+        let k = &self.scalars;
+        let last = self.table[PIECES - 1].centre;
+        (last * last - k.shift) / k.scale + k.offset
     }
 
     /// Carries a state over from another damper: displacement and force stay, the stretch becomes

@@ -189,7 +189,7 @@ macro_rules! image {
                 self.scalars = constants.scalars;
                 self.revision = constants.revision;
                 self.table_revision = constants.table_revision;
-                let places = self.table.iter_mut().flat_map(Piece::coefficients_mut);
+                let places = self.table.iter_mut().flat_map(Piece::numbers_mut);
                 for (place, word) in places.zip(constants.coefficients) {
                     *place = $float::from_le_bytes(*word);
                 }
@@ -208,7 +208,7 @@ macro_rules! image {
         impl<'a> Constants<'a, $float, { size_of::<$float>() }> {
             fn read(image: &'a [u8]) -> Result<Self, ImageError> {
                 const BYTES: usize = size_of::<$float>();
-                const SCALARS: usize = size_of::<Scalars<$float>>() / BYTES;
+                const SCALARS: usize = Scalars::<$float>::COUNT;
                 let body = body(image, BYTES, Damper::<$float>::IMAGE_BYTES)?;
                 let (words, _) = body.as_chunks::<BYTES>();
                 let parts = words
@@ -225,8 +225,9 @@ macro_rules! image {
                 let revision = hash(table_revision, scalars).max(1);
                 let finite = |word: &[u8; BYTES]| $float::from_le_bytes(*word).is_finite();
                 let finite = scalars.iter().chain(coefficients).all(finite);
-                let scalars = in_order(scalars.map($float::from_le_bytes));
-                let credible = scalars.as_array().iter().all(|scalar| *scalar >= 0.0)
+                let scalars = Scalars::from_array(scalars.map($float::from_le_bytes));
+                let positive = Scalars { origin: 0.0, ..scalars };
+                let credible = positive.as_array().iter().all(|scalar| *scalar >= 0.0)
                     && scalars.step_s > 0.0
                     && scalars.half_clearance <= LARGEST_HALF_CLEARANCE as $float
                     && scalars.offset == scalars.half_clearance + scalars.held;
@@ -249,46 +250,6 @@ struct Constants<'a, T, const BYTES: usize> {
     revision: u32,
     table_revision: u32,
     coefficients: &'a [[u8; BYTES]],
-}
-
-/// The inverse of [`Scalars::as_array`].
-fn in_order<T>(scalars: [T; 10]) -> Scalars<T> {
-    let [
-        step_s,
-        half_clearance,
-        held,
-        offset,
-        force_limit,
-        largest_move,
-        scale,
-        shift,
-        shift_root,
-        held_stiffness,
-    ] = scalars;
-    Scalars {
-        step_s,
-        half_clearance,
-        held,
-        offset,
-        force_limit,
-        largest_move,
-        scale,
-        shift,
-        shift_root,
-        held_stiffness,
-    }
-}
-
-impl<T> Piece<T> {
-    /// The inverse of [`Piece::coefficients`].
-    fn coefficients_mut(&mut self) -> impl Iterator<Item = &mut T> {
-        let Self {
-            flow,
-            potential,
-            stiffness,
-        } = self;
-        flow.iter_mut().chain(potential).chain(stiffness)
-    }
 }
 
 image!(f32, u32);

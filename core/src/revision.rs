@@ -19,8 +19,8 @@ pub(crate) fn of_words(hash: u32, words: impl Iterator<Item = u64>) -> u32 {
 /// Hash of a table.
 #[cfg(feature = "builder")]
 pub(crate) fn of_table<T: Real>(table: &Table<T>) -> u32 {
-    let coefficients = table.iter().flat_map(Piece::coefficients);
-    of_words(START, coefficients.map(|value| value.to_bits_u64()))
+    let numbers = table.iter().flat_map(Piece::numbers);
+    of_words(START, numbers.map(|value| value.to_bits_u64()))
 }
 
 /// Hash of a damper: its table's and its scalars', never 0.

@@ -5,7 +5,6 @@ use core::fmt;
 use crate::damper::Damper;
 use crate::state::DamperState;
 use crate::status::Status;
-use crate::table::PIECES;
 
 /// Why bytes are no state of a damper.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -93,14 +92,10 @@ macro_rules! saved_state {
                         found: state.revision,
                     });
                 }
-                // The reach of the table: no stage ends beyond it.
-                let k = &self.scalars;
-                let last = (PIECES - 1) as $float + k.shift_root;
-                let largest_stretch = (last * last - k.shift) / k.scale + k.offset;
                 let credible = state.displacement.is_finite()
                     && state.potential.is_finite()
-                    && state.stretch.abs() <= largest_stretch
-                    && state.force.abs() <= k.force_limit;
+                    && state.stretch.abs() <= self.largest_reach()
+                    && state.force.abs() <= self.scalars.force_limit;
                 if credible { Ok(state) } else { Err(SavedStateError::Values) }
             }
         }

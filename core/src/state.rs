@@ -49,6 +49,12 @@ impl<T: Real> DamperState<T> {
         self.rejected_inputs
     }
 
+    /// The numbers of the step, in order of declaration.
+    #[inline(always)]
+    pub(crate) fn numbers(&self) -> [T; 4] {
+        [self.displacement, self.stretch, self.potential, self.force]
+    }
+
     /// Clears the status bits and the counter.
     pub fn clear_status(&mut self) {
         self.status = Status::empty();

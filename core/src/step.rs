@@ -1,10 +1,10 @@
 //! The step of one damper or of several side by side. The method is described in `damper`.
 
-use crate::damper::{Damper, IMPLICIT_SHARE, Scalars};
+use crate::damper::{Damper, IMPLICIT_SHARE};
 use crate::math::{Lanes, Real};
 use crate::state::DamperState;
 use crate::status::Status;
-use crate::table::{PIECES, Piece, Table, cubic, locate};
+use crate::table::{Piece, Table, cubic, locate};
 
 /// The correction is at most this share of the step's travel, so it never undoes the damping.
 const CORRECTION_SHARE: f64 = 0.125;
@@ -14,87 +14,68 @@ const STANDSTILL: f64 = 1e-30;
 
 /// Steps `L` dampers; returns their forces (N).
 #[inline(always)]
-pub(crate) fn step<T: Real, const L: usize>(
+pub(crate) fn step<T: Real, V: Lanes<T, L>, const L: usize>(
     dampers: [&Damper<T>; L],
     states: &mut [DamperState<T>; L],
     displacements: [T; L],
 ) -> [T; L] {
-    let travel = enter(dampers, states, displacements);
-    let start = Lanes(states.each_ref().map(|state| state.stretch));
-    let potential = Lanes(states.each_ref().map(|state| state.potential));
-    let gamma = Lanes::all(IMPLICIT_SHARE);
+    let (travel, rest_rounder) = enter::<T, V, L>(dampers, states, V::new(displacements));
+    let [_, start, potential, _] = V::columns(states.each_ref().map(DamperState::numbers));
 
     let stages = Stages::new(dampers);
+    let gamma = V::all(IMPLICIT_SHARE);
     let first = stages.solve(start + gamma * travel);
-    let last = stages.solve(start + travel - Lanes::all(1.0 - IMPLICIT_SHARE) * first.flow);
+    let last = stages.solve(start + travel - V::all(1.0 - IMPLICIT_SHARE) * first.flow);
+    let bend = gamma * (last.flow - first.flow);
+    let quadrature = first.flow + bend;
+    let change = travel - quadrature;
+    let end = start + change;
 
     // The flow's mean over the straight path, by its potential and, off the path, by its slope.
-    let change = last.stretch - start;
-    let inverse = Lanes::all(1.0) / (change + Lanes::all(STANDSTILL));
-    let off_path = first.stretch - start - gamma * change;
-    let difference = last.flow - first.flow;
+    let inverse = V::all(1.0) / (change + V::all(STANDSTILL));
     let end_potential = last.potential();
-    let area = end_potential - potential + difference * off_path;
-    let quadrature = first.flow + gamma * difference;
+    let area = end_potential - potential + bend * bend;
     let share = ((area * inverse - quadrature) * inverse)
-        .at_least(-CORRECTION_SHARE)
-        .at_most(CORRECTION_SHARE);
+        .at_least(V::all(-CORRECTION_SHARE))
+        .at_most(V::all(CORRECTION_SHARE));
     // In contact on the same side at both ends there is nothing to correct but rounding.
     let contact = last.flow * start * potential;
-    let correctable = change.zip(
-        contact,
-        |change, contact| {
-            if contact > T::ZERO { T::ZERO } else { change }
-        },
-    );
-    let correction = share * correctable;
+    let correction = share * change * contact.one_unless_positive();
 
-    let rest = Lanes([T::REST_ROUNDER; L]);
-    let stretch = ((last.stretch + rest) - correction) - rest;
+    let stretch = ((end + rest_rounder) - correction) - rest_rounder;
     let potential = end_potential - last.flow * correction;
-    let force = force(dampers, stretch, last.stiffness());
-    leave(dampers, states, stretch, potential, force)
+    leave(dampers, states, stretch, potential, last.stiffness())
 }
 
-/// A number of each damper.
+/// Takes the displacements (m) in; returns the travels (m) and the numbers that round a rest to zero (m).
 #[inline(always)]
-fn of<T: Real, const L: usize>(
-    dampers: [&Damper<T>; L],
-    number: impl Fn(&Scalars<T>) -> T,
-) -> Lanes<T, L> {
-    Lanes(dampers.map(|damper| number(&damper.scalars)))
-}
-
-/// Takes the displacements in; returns the travels (m).
-#[inline(always)]
-#[allow(clippy::neg_cmp_op_on_partial_ord)] // so that NaN is noticed too
-fn enter<T: Real, const L: usize>(
+fn enter<T: Real, V: Lanes<T, L>, const L: usize>(
     dampers: [&Damper<T>; L],
     states: &mut [DamperState<T>; L],
-    displacements: [T; L],
-) -> Lanes<T, L> {
-    let largest_move = of(dampers, |k| k.largest_move);
-    let last = Lanes(states.each_ref().map(|state| state.displacement));
-    let mut travel = Lanes(displacements) - last;
-    let mut usual = true;
-    for ((damper, state), (travel, largest_move)) in dampers
+    displacement: V,
+) -> (V, V) {
+    let [largest_move, position_rounder, rest_rounder, _] = V::columns(dampers.map(|damper| {
+        let k = &damper.scalars;
+        [k.largest_move, k.position_rounder, k.rest_rounder, k.step_s]
+    }));
+    let [last, ..] = V::columns(states.each_ref().map(DamperState::numbers));
+    let mut travel = displacement - last;
+    let known = dampers
         .iter()
         .zip(&*states)
-        .zip(travel.0.iter().zip(largest_move.0))
-    {
-        usual &= state.revision == damper.revision && travel.magnitude() <= largest_move;
-    }
-    if !usual {
-        for ((damper, state), travel) in dampers.iter().zip(&mut *states).zip(&mut travel.0) {
+        .all(|(damper, state)| damper.revision == state.revision);
+    if !(known && travel.magnitudes().all_within(largest_move)) {
+        let mut travels = travel.array();
+        for ((damper, state), travel) in dampers.iter().zip(&mut *states).zip(&mut travels) {
             *travel = admit(damper, state, *travel);
         }
+        travel = V::new(travels);
     }
-    let rounder = Lanes([T::POSITION_ROUNDER; L]);
-    let travel = (travel + rounder) - rounder;
-    for (state, displacement) in states.iter_mut().zip((last + travel).0) {
+    let travel = (travel + position_rounder) - position_rounder;
+    for (state, displacement) in states.iter_mut().zip((last + travel).array()) {
         state.displacement = displacement;
     }
-    travel
+    (travel, rest_rounder)
 }
 
 /// The travel (m) to use for the one asked for: a state that another damper stepped is adopted, a travel
@@ -120,131 +101,123 @@ fn admit<T: Real>(damper: &Damper<T>, state: &mut DamperState<T>, travel: T) -> 
 }
 
 /// The constants of implicit stages.
-struct Stages<'a, T, const L: usize> {
+struct Stages<'a, T, V, const L: usize> {
     tables: [&'a Table<T>; L],
-    /// Stretch up to which nothing flows (m).
-    offset: Lanes<T, L>,
-    scale: Lanes<T, L>,
-    shift: Lanes<T, L>,
-    shift_root: Lanes<T, L>,
+    offset: V,
+    scale: V,
+    shift: V,
+    origin: V,
 }
 
 /// A solved stage.
-struct Stage<'a, T, const L: usize> {
-    /// (m).
-    stretch: Lanes<T, L>,
+struct Stage<'a, T, V, const L: usize> {
     /// Flow times the step (m).
-    flow: Lanes<T, L>,
+    flow: V,
     pieces: [&'a Piece<T>; L],
-    z: Lanes<T, L>,
+    z: V,
 }
 
-impl<'a, T: Real, const L: usize> Stages<'a, T, L> {
+impl<'a, T: Real, V: Lanes<T, L>, const L: usize> Stages<'a, T, V, L> {
     #[inline(always)]
     fn new(dampers: [&'a Damper<T>; L]) -> Self {
+        let [offset, scale, shift, origin] = V::columns(dampers.map(|damper| {
+            let k = &damper.scalars;
+            [k.offset, k.scale, k.shift, k.origin]
+        }));
         Self {
             tables: dampers.map(|damper| &damper.table),
-            offset: of(dampers, |k| k.offset),
-            scale: of(dampers, |k| k.scale),
-            shift: of(dampers, |k| k.shift),
-            shift_root: of(dampers, |k| k.shift_root),
+            offset,
+            scale,
+            shift,
+            origin,
         }
     }
 
-    /// The stage whose stretch and flow sum to `reach`.
+    /// The stage whose stretch and flow sum to `reach` (m).
     #[inline(always)]
-    fn solve(&self, reach: Lanes<T, L>) -> Stage<'a, T, L> {
-        let beyond = (reach.magnitude() - self.offset).at_least(0.0);
-        let y = (beyond * self.scale + self.shift).square_root() - self.shift_root;
-        let (pieces, z) = locate(self.tables, y, reach);
-        let flow = cubic(pieces.map(|piece| &piece.flow), z);
-        Stage {
-            stretch: reach - Lanes::all(IMPLICIT_SHARE) * flow,
-            flow,
-            pieces,
-            z,
-        }
+    fn solve(&self, reach: V) -> Stage<'a, T, V, L> {
+        let beyond = (reach.magnitudes() - self.offset).at_least(V::all(0.0));
+        let y = (beyond * self.scale + self.shift).square_roots();
+        let (pieces, z) = locate(self.tables, self.origin, y, reach);
+        let flow = cubic(pieces.map(|piece| piece.flow), z);
+        Stage { flow, pieces, z }
     }
 }
 
-impl<T: Real, const L: usize> Stage<'_, T, L> {
+impl<T: Real, V: Lanes<T, L>, const L: usize> Stage<'_, T, V, L> {
     /// Flow potential times the step (m^2).
     #[inline(always)]
-    fn potential(&self) -> Lanes<T, L> {
-        cubic(self.pieces.map(|piece| &piece.potential), self.z)
+    fn potential(&self) -> V {
+        cubic(self.pieces.map(|piece| piece.potential), self.z)
     }
 
     /// Force over stretch beyond the offset, less the held stiffness (N/m).
     #[inline(always)]
-    fn stiffness(&self) -> Lanes<T, L> {
-        cubic(self.pieces.map(|piece| &piece.stiffness), self.z)
+    fn stiffness(&self) -> V {
+        cubic(self.pieces.map(|piece| piece.stiffness), self.z)
     }
 }
 
-/// Force magnitude (N) at a stretch (m), by the stiffness of the stage that ended there; not yet limited.
+/// Force magnitude (N) at a stretch (m), by the stiffness of the stage that ended there, and the limit
+/// (N) that it may exceed.
 #[inline(always)]
-fn force<T: Real, const L: usize>(
+fn force<T: Real, V: Lanes<T, L>, const L: usize>(
     dampers: [&Damper<T>; L],
-    stretch: Lanes<T, L>,
-    stiffness: Lanes<T, L>,
-) -> Lanes<T, L> {
-    let magnitude = stretch.magnitude();
-    let sprung = (magnitude - of(dampers, |k| k.half_clearance)).at_least(0.0);
-    let beyond = (magnitude - of(dampers, |k| k.offset)).at_least(0.0);
-    sprung * of(dampers, |k| k.held_stiffness) + beyond * stiffness
+    stretch: V,
+    stiffness: V,
+) -> (V, V) {
+    let [half_clearance, held_stiffness, limit, _] = V::columns(dampers.map(|damper| {
+        let k = &damper.scalars;
+        [k.half_clearance, k.held_stiffness, k.force_limit, k.held]
+    }));
+    let offset = V::new(dampers.map(|damper| damper.scalars.offset));
+    let magnitude = stretch.magnitudes();
+    let sprung = (magnitude - half_clearance).at_least(V::all(0.0));
+    let beyond = (magnitude - offset).at_least(V::all(0.0));
+    (sprung * held_stiffness + beyond * stiffness, limit)
 }
 
 /// Stores what the step found; returns the forces (N).
 #[inline(always)]
-fn leave<T: Real, const L: usize>(
+fn leave<T: Real, V: Lanes<T, L>, const L: usize>(
     dampers: [&Damper<T>; L],
     states: &mut [DamperState<T>; L],
-    stretch: Lanes<T, L>,
-    potential: Lanes<T, L>,
-    magnitude: Lanes<T, L>,
+    stretch: V,
+    potential: V,
+    stiffness: V,
 ) -> [T; L] {
-    let limit = of(dampers, |k| k.force_limit);
-    let mut forces = magnitude.0;
-    for lane in 0..L {
-        let state = &mut states[lane];
-        let yields = magnitude.0[lane] >= limit.0[lane];
-        state.status.insert_if(yields, Status::SATURATED);
-        let limited = if yields {
-            limit.0[lane]
-        } else {
-            magnitude.0[lane]
-        };
-        let force = if stretch.0[lane] >= T::ZERO {
-            limited
-        } else {
-            -limited
-        };
-        state.stretch = stretch.0[lane];
-        state.potential = potential.0[lane];
-        state.force = force;
-        forces[lane] = force;
+    let (magnitude, limit) = force(dampers, stretch, stiffness);
+    let (limited, yields) = magnitude.limited(limit);
+    let forces = limited.along(stretch).array();
+    let (stretches, potentials) = (stretch.array(), potential.array());
+    for (lane, state) in states.iter_mut().enumerate() {
+        state.stretch = stretches[lane];
+        state.potential = potentials[lane];
+        state.force = forces[lane];
+        state.status.insert_if(yields[lane], Status::SATURATED);
     }
     forces
 }
 
 /// The stretch (m) and flow potential (m^2) at which `damper` has a force (N), by bisection of its stages.
 pub(crate) fn settle<T: Real>(damper: &Damper<T>, force: T) -> (T, T) {
-    let stages = Stages::new([damper]);
-    let k = &damper.scalars;
+    let stages: Stages<'_, T, T, 1> = Stages::new([damper]);
     let signed = |value: T| if force < T::ZERO { -value } else { value };
-    let last = T::from_f64(PIECES as f64 - 1.0) + k.shift_root;
-    let mut low = k.half_clearance;
-    let mut high = (last * last - k.shift) / k.scale + k.offset;
-    let mut stage = stages.solve(Lanes([signed(low)]));
+    let mut low = damper.scalars.half_clearance;
+    let mut high = damper.largest_reach();
+    let mut found = (T::ZERO, T::ZERO);
     for _ in 0..T::DIGITS + 2 {
         let middle = T::from_f64(0.5) * (low + high);
-        stage = stages.solve(Lanes([signed(middle)]));
-        let [found] = self::force([damper], stage.stretch, stage.stiffness()).0;
-        if found < force.magnitude() {
+        let reach = signed(middle);
+        let stage = stages.solve(reach);
+        let stretch = reach - T::from_f64(IMPLICIT_SHARE) * stage.flow;
+        let (reached, _) = self::force([damper], stretch, stage.stiffness());
+        found = (stretch, stage.potential());
+        if reached < force.magnitude() {
             low = middle;
         } else {
             high = middle;
         }
     }
-    (stage.stretch.0[0], stage.potential().0[0])
+    found
 }

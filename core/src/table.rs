@@ -5,7 +5,8 @@ use crate::math::{Lanes, Real};
 /// Pieces a side.
 pub(crate) const PIECES: usize = 64;
 
-/// Cubics of one piece: coefficients of 1, z, z^2, z^3, z in [-1/2, 1/2].
+/// Cubics of one piece in z = y - centre: coefficients of 1, z, z^2, z^3. Sixteen numbers, so that its
+/// address takes one shift.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C)]
 pub(crate) struct Piece<T> {
@@ -15,49 +16,54 @@ pub(crate) struct Piece<T> {
     pub(crate) potential: [T; 4],
     /// Force beyond friction over stretch beyond the offset, less the held stiffness (N/m).
     pub(crate) stiffness: [T; 4],
+    /// Where z is zero (1).
+    pub(crate) centre: T,
+    pub(crate) padding: [T; 3],
 }
 
 impl<T> Piece<T> {
-    /// The coefficients in order of declaration.
-    pub(crate) fn coefficients(&self) -> impl Iterator<Item = &T> {
-        self.flow
+    /// The numbers that mean something, in order of declaration.
+    pub(crate) fn numbers(&self) -> impl Iterator<Item = &T> {
+        let coefficients = self
+            .flow
             .iter()
             .chain(&self.potential)
-            .chain(&self.stiffness)
+            .chain(&self.stiffness);
+        coefficients.chain([&self.centre])
+    }
+
+    /// As [`Piece::numbers`], to be written.
+    pub(crate) fn numbers_mut(&mut self) -> impl Iterator<Item = &mut T> {
+        let coefficients = self.flow.iter_mut().chain(&mut self.potential);
+        coefficients
+            .chain(&mut self.stiffness)
+            .chain([&mut self.centre])
     }
 }
 
-/// Pieces around y = 0, 1, 2, ... of extension, then of compression; y grows with the root of the
-/// stretch.
+/// Pieces of extension, then of compression; centres are one apart in y = sqrt(scale u + shift), from
+/// where the stretch u is zero.
 pub(crate) type Table<T> = [Piece<T>; 2 * PIECES];
 
-/// For each lane the piece around `y` (not negative, inside the table by construction) on the side of
-/// `direction`, and z in it. Any `y` is safe to read.
+/// For each lane the piece around `y` on the side of `direction`, and z in it; `origin` turns y into
+/// the index. Any `y` is safe to read.
 #[inline(always)]
-pub(crate) fn locate<T: Real, const L: usize>(
+pub(crate) fn locate<T: Real, V: Lanes<T, L>, const L: usize>(
     tables: [&Table<T>; L],
-    y: Lanes<T, L>,
-    direction: Lanes<T, L>,
-) -> ([&Piece<T>; L], Lanes<T, L>) {
-    let mut z = y;
-    let mut pieces = tables.map(|table| &table[0]);
-    for (((piece, table), z), direction) in
-        pieces.iter_mut().zip(tables).zip(&mut z.0).zip(direction.0)
-    {
-        let (index, rest) = z.split();
-        *piece = &table[(index & (PIECES - 1)) | (direction.sign_bit() * PIECES)];
-        *z = rest;
-    }
-    (pieces, z)
+    origin: V,
+    y: V,
+    direction: V,
+) -> ([&Piece<T>; L], V) {
+    let places = (y + origin).places(direction);
+    let pieces = core::array::from_fn(|lane| &tables[lane][places[lane] % (2 * PIECES)]);
+    let centre = V::new(pieces.map(|piece: &Piece<T>| piece.centre));
+    (pieces, y - centre)
 }
 
 /// `c0 + c1 z + c2 z^2 + c3 z^3` of each lane, in pairs: a shorter chain than Horner's for one product
 /// more.
 #[inline(always)]
-pub(crate) fn cubic<T: Real, const L: usize>(c: [&[T; 4]; L], z: Lanes<T, L>) -> Lanes<T, L> {
-    let c0 = Lanes(c.map(|c| c[0]));
-    let c1 = Lanes(c.map(|c| c[1]));
-    let c2 = Lanes(c.map(|c| c[2]));
-    let c3 = Lanes(c.map(|c| c[3]));
+pub(crate) fn cubic<T: Real, V: Lanes<T, L>, const L: usize>(coefficients: [[T; 4]; L], z: V) -> V {
+    let [c0, c1, c2, c3] = V::columns(coefficients);
     (c3 * z + c2) * (z * z) + (c1 * z + c0)
 }

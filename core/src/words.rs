@@ -3,11 +3,11 @@
 use crate::damper::{Damper, Scalars};
 use crate::table::{PIECES, Piece};
 
-/// Scalars, the two revisions, twelve coefficients of each piece.
+/// Scalars, the two revisions, thirteen numbers of each piece.
 const WORDS: usize = TABLE + 2 * PIECES * PIECE;
-const SCALARS: usize = 10;
+const SCALARS: usize = Scalars::<f32>::COUNT;
 const TABLE: usize = SCALARS + 2;
-const PIECE: usize = 12;
+const PIECE: usize = 13;
 
 macro_rules! words {
     ($float:ident, $word:ident) => {
@@ -19,7 +19,7 @@ macro_rules! words {
             /// The damper of these words, at compile time or later, without the `builder` feature.
             ///
             /// Order: scalars, revision, revision of the table, table; each piece the four coefficients
-            /// of the flow, of the potential, of the stiffness. Words that [`Self::to_words`] of
+            /// of the flow, of the potential, of the stiffness, then its centre. Words that [`Self::to_words`] of
             /// this version did not make are read without harm, but step to forces without meaning.
             ///
             /// ```
@@ -42,28 +42,26 @@ macro_rules! words {
                     flow: [0.0; 4],
                     potential: [0.0; 4],
                     stiffness: [0.0; 4],
+                    centre: 0.0,
+                    padding: [0.0; 3],
                 }; 2 * PIECES];
+                let mut scalars = [0.0; SCALARS];
                 let mut index = 0;
+                while index < SCALARS {
+                    scalars[index] = $float::from_bits(words[index]);
+                    index += 1;
+                }
+                index = 0;
                 while index < 2 * PIECES {
                     let from = TABLE + PIECE * index;
                     table[index].flow = cubic(words, from);
                     table[index].potential = cubic(words, from + 4);
                     table[index].stiffness = cubic(words, from + 8);
+                    table[index].centre = $float::from_bits(words[from + 12]);
                     index += 1;
                 }
                 Self {
-                    scalars: Scalars {
-                        step_s: $float::from_bits(words[0]),
-                        half_clearance: $float::from_bits(words[1]),
-                        held: $float::from_bits(words[2]),
-                        offset: $float::from_bits(words[3]),
-                        force_limit: $float::from_bits(words[4]),
-                        largest_move: $float::from_bits(words[5]),
-                        scale: $float::from_bits(words[6]),
-                        shift: $float::from_bits(words[7]),
-                        shift_root: $float::from_bits(words[8]),
-                        held_stiffness: $float::from_bits(words[9]),
-                    },
+                    scalars: Scalars::from_array(scalars),
                     revision: words[SCALARS] as u32,
                     table_revision: words[SCALARS + 1] as u32,
                     table,
@@ -73,9 +71,9 @@ macro_rules! words {
             /// The words of this damper; [`Self::from_words`] gives it back to the bit.
             pub fn to_words(&self) -> [$word; WORDS] {
                 let revisions = [self.revision, self.table_revision].map($word::from);
-                let coefficients = self.table.iter().flat_map(Piece::coefficients);
+                let numbers = self.table.iter().flat_map(Piece::numbers);
                 let scalars = self.scalars.as_array().map($float::to_bits);
-                let all = scalars.into_iter().chain(revisions).chain(coefficients.map(|c| c.to_bits()));
+                let all = scalars.into_iter().chain(revisions).chain(numbers.map(|number| number.to_bits()));
                 let mut words = [0; WORDS];
                 for (word, value) in words.iter_mut().zip(all) {
                     *word = value;
@@ -102,16 +100,14 @@ mod tests {
             let damper = Damper::<$float>::from_words(&words);
             let mut expected = words;
             // Revisions have 32 bits.
-            for index in [10, 11] {
+            for index in [12, 13] {
                 expected[index] = $word::from(words[index] as u32);
             }
             assert_eq!(damper.to_words(), expected);
-            assert_eq!(damper.step_s().to_bits(), words[0]);
-            assert_eq!(damper.force_limit_n().to_bits(), words[4]);
-            assert_eq!(damper.revision(), words[10] as u32);
-            assert_eq!(damper.table[127].stiffness[3].to_bits(), words[WORDS - 1]);
-            let bytes = WORDS * core::mem::size_of::<$word>();
-            assert!(core::mem::size_of::<Damper<$float>>() <= bytes);
+            assert_eq!(damper.step_s().to_bits(), words[3]);
+            assert_eq!(damper.force_limit_n().to_bits(), words[10]);
+            assert_eq!(damper.revision(), words[12] as u32);
+            assert_eq!(damper.table[127].centre.to_bits(), words[WORDS - 1]);
         };
     }
 

@@ -1,6 +1,6 @@
 //! `dashpot contact` from outside: its numbers, its plots, its failures.
 
-use std::process::{Command, Output};
+use std::process::{Command, Output, Stdio};
 
 fn dashpot(arguments: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_dashpot"))
@@ -75,11 +75,62 @@ fn failures_say_what_and_what_is_allowed() {
             1,
             "--smoothing-m: 1, allowed: 0 to 0.05 m",
         ),
+        (
+            &["--gauge-m", "nan", "--no-plots"][..],
+            1,
+            "gauge: NaN, allowed: 0.5 to 2",
+        ),
+        (
+            &["--wheel-radius-m", "1e9", "--no-plots"][..],
+            1,
+            "wheel radius: 1000000000, allowed: 0.1 to 1",
+        ),
         (&["--format", "xml"][..], 2, "possible values: text, json"),
     ] {
         let output = dashpot(arguments);
         let message = String::from_utf8(output.stderr).unwrap();
         assert_eq!(output.status.code(), Some(code), "{arguments:?}: {message}");
         assert!(message.contains(part), "{arguments:?}: {message}");
+    }
+}
+
+#[test]
+fn a_reader_that_leaves_is_no_failure() {
+    for format in ["text", "json"] {
+        let mut child = Command::new(env!("CARGO_BIN_EXE_dashpot"))
+            .args(["contact", "--no-plots", "--format", format])
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        // Gone before the first line: the geometry takes longer than this.
+        drop(child.stdout.take());
+        let output = child.wait_with_output().unwrap();
+        assert!(output.status.success(), "{format}: {output:?}");
+        assert!(output.stderr.is_empty(), "{format}: {output:?}");
+    }
+}
+
+#[test]
+fn a_refused_profile_leaves_no_plots() {
+    let folder = tempfile::tempdir().unwrap();
+    let (file, plots) = (folder.path().join("rail.csv"), folder.path().join("plots"));
+    for (text, part) in [
+        ("y_mm,z_mm\n0,0\n1,0\n", "too few points: 2"),
+        ("0,0\n1,nan\n", "rail.csv:2: column z_mm: \"nan\""),
+        ("0,0,0\n", "3 columns"),
+        ("", "too few points: 0"),
+    ] {
+        std::fs::write(&file, text).unwrap();
+        let output = dashpot(&[
+            "--rail",
+            file.to_str().unwrap(),
+            "--plots",
+            plots.to_str().unwrap(),
+        ]);
+        let message = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(1), "{message}");
+        assert!(message.contains(part), "{message}");
+        assert!(output.stdout.is_empty() && !plots.exists());
     }
 }

@@ -143,7 +143,7 @@ fn table_errors() -> Vec<(&'static str, f64, f64)> {
                 (r.z - c.z) * 1e6,
                 (r.slope.atan() - c.slope.atan()) * 1e3,
                 (r.stiffness / c.stiffness - 1.0) * 1e2,
-                (r.kalker[1] / c.kalker[1] - 1.0) * 1e2,
+                (r.kalker.c22 / c.kalker.c22 - 1.0) * 1e2,
             ];
             for (error, off) in errors.iter_mut().zip(off) {
                 error.1 += off * off;

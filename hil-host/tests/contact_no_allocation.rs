@@ -5,10 +5,11 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use dashpot_hil::contact::friction::Friction;
 use dashpot_hil::contact::hertz::Steel;
+use dashpot_hil::contact::motion::{Motion, Rail};
 use dashpot_hil::contact::pair::{Installation, Pair};
 use dashpot_hil::contact::polach::Polach;
 use dashpot_hil::contact::table::{Grid, Tables};
-use dashpot_hil::contact::wheelset::{Motion, Rail, WheelsetContact};
+use dashpot_hil::contact::wheelset::WheelsetContact;
 
 struct Counting;
 

@@ -84,6 +84,88 @@ fn the_exported_damper_steps_to_the_same_bits() {
     assert_eq!(found, expected);
 }
 
+/// The in-service damper as the command writes it.
+fn exported(lang: &str, more: &[&str]) -> Vec<u8> {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("damper");
+    let arguments = [
+        "export",
+        "--damper",
+        "in-service",
+        "--lang",
+        lang,
+        "--output",
+    ];
+    let output = dashpot(&[&arguments[..], &[file.to_str().unwrap()], more].concat());
+    assert!(output.status.success(), "{output:?}");
+    std::fs::read(file).unwrap()
+}
+
+fn in_service<T: dashpot_core::Real>() -> dashpot_core::Damper<T> {
+    let parameters = dashpot_hil::damper_file::load("in-service", &[]).unwrap();
+    parameters.build(1e-3).unwrap()
+}
+
+#[test]
+fn the_exported_bytes_are_the_damper() {
+    let read = dashpot_core::Damper::<f32>::from_image(&exported("bin", &[]));
+    assert_eq!(read, Ok(in_service()));
+    let read = dashpot_core::Damper::<f64>::from_image(&exported("bin", &["--scalar", "f64"]));
+    assert_eq!(read, Ok(in_service()));
+}
+
+/// The source compiled as C and as C++, warnings errors, then run: it prints the array.
+#[test]
+fn the_exported_c_source_holds_the_same_bytes() {
+    let source = exported("c", &["--name", "MY_DAMPER"]);
+    let text = String::from_utf8(source.clone()).unwrap();
+    for part in [
+        "in-service",
+        "1000 us",
+        "--lang c",
+        "--name MY_DAMPER",
+        "do not edit",
+    ] {
+        assert!(text.contains(part), "no {part} in the comment");
+    }
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("damper.c"), &source).unwrap();
+    std::fs::write(
+        folder.path().join("main.c"),
+        "#include <stdio.h>\n#include \"damper.c\"\nint main(void) {\n\
+         return fwrite(MY_DAMPER, 1, sizeof MY_DAMPER, stdout) != sizeof MY_DAMPER\n\
+         || (uintptr_t)MY_DAMPER % 4 != 0;\n}\n",
+    )
+    .unwrap();
+    for (tool, options) in [
+        (xtask::tools::GCC, ["-xc", "-std=c11"]),
+        (xtask::tools::GXX, ["-xc++", "-std=c++17"]),
+    ] {
+        if !xtask::tools::have(&[tool], "exported C source, compiled and run") {
+            continue;
+        }
+        let compiled = Command::new(tool.program)
+            .args(options)
+            .args([
+                "-Wall",
+                "-Wextra",
+                "-Wpedantic",
+                "-Werror",
+                "main.c",
+                "-o",
+                "main",
+            ])
+            .current_dir(folder.path())
+            .output()
+            .unwrap();
+        let messages = String::from_utf8_lossy(&compiled.stderr);
+        assert!(compiled.status.success(), "{}: {messages}", tool.program);
+        let run = Command::new(folder.path().join("main")).output().unwrap();
+        assert!(run.status.success(), "{}: not aligned", tool.program);
+        assert_eq!(run.stdout, exported("bin", &[]), "{}", tool.program);
+    }
+}
+
 #[test]
 fn budget_tells_its_keys() {
     let output = dashpot(&["budget", "--steps", "2000", "--format", "json"]);
@@ -128,6 +210,38 @@ fn wrong_options_say_what_is_allowed() {
             ][..],
             1,
             "allowed: A to Z first",
+        ),
+        (
+            &["export", "--lang", "c", "--name", "9X", "--output", "x.c"][..],
+            1,
+            "allowed: A to Z first",
+        ),
+        (
+            &[
+                "export",
+                "--lang",
+                "c",
+                "--name",
+                "INT32_MAX",
+                "--output",
+                "x.c",
+            ][..],
+            1,
+            "allowed: not NULL",
+        ),
+        (
+            &[
+                "export", "--lang", "c", "--scalar", "f64", "--output", "x.c",
+            ][..],
+            1,
+            "allowed with --lang c: f32",
+        ),
+        (
+            &[
+                "export", "--lang", "bin", "--name", "X", "--output", "x.bin",
+            ][..],
+            1,
+            "allowed: --lang rust or c",
         ),
     ] {
         let output = dashpot(arguments);

@@ -2,6 +2,7 @@
 
 use std::process::ExitCode;
 
+use xtask::c_library::{build_for_host, build_for_target};
 use xtask::firmware;
 use xtask::run::{Outcome, cargo, cargo_output, cargo_with, version_of};
 use xtask::target_toolchain::TargetToolchain;
@@ -17,6 +18,7 @@ Commands:
   firmware               build the images for the target
   bench                  measure time per step, side by side with yardstick and floor
   bench --instructions   count instructions per step (needs Valgrind and gungraun-runner)
+  c-library              build libdashpot.a for this machine and for a Cortex-M7
   ci                     formatting, lints, documentation, Rust version, then test
   help                   this text
 
@@ -44,6 +46,7 @@ fn main() -> ExitCode {
         ["firmware"] => build_firmware(),
         ["bench"] => cargo(&["bench", "--package", "dashpot", "--bench", "step"]),
         ["bench", "--instructions"] => count_instructions(),
+        ["c-library"] => c_library(),
         ["ci"] => ci(),
         _ => {
             eprintln!("wrong use: `{}`\n\n{HELP}", words.join(" "));
@@ -98,6 +101,15 @@ fn ci() -> Outcome {
     cargo(&["fmt", "--manifest-path", FIRMWARE, "--check"])?;
     check_rust_version()?;
     test()
+}
+
+fn c_library() -> Outcome {
+    let header = xtask::c_library::folder().join("include/dashpot.h");
+    println!("header     {}", header.display());
+    println!("this host  {}", build_for_host()?.display());
+    let toolchain = TargetToolchain::find()?;
+    println!("Cortex-M7  {}", build_for_target(&toolchain)?.display());
+    Ok(())
 }
 
 /// The `rust-version` that Cargo.toml states must not be above the compiler that ran the checks.

@@ -1,7 +1,7 @@
-//! The grid of a table: knots equally spaced in `y = sqrt(scale u + shift) - sqrt(shift)`.
+//! The grid of a table: pieces equally spaced in the root `sqrt(scale u + shift) - sqrt(shift)`.
 //!
 //! With orifice flow a stage is `alpha s^2 + beta s = u` in the root s of the pressure; the shift
-//! `scale beta^2/(4 alpha)` makes y proportional to s, so flow and force are cubic in y.
+//! `scale beta^2/(4 alpha)` makes that root proportional to s, so flow and force are cubic in it.
 
 use crate::math::elementary::sqrt;
 use crate::table::PIECES;

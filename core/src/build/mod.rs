@@ -14,7 +14,7 @@ use crate::error::{BuildError, require};
 use crate::hydraulics::{HydraulicSide, Laws};
 use crate::math::Real;
 use crate::parameters::{DamperParameters, Element, Limits, Mount, OilColumn, Reduced};
-use crate::table::Piece;
+use crate::table::{PIECES, Piece};
 
 /// Corners a table can align with.
 type Corners = Vec<(f64, f64), 24>;
@@ -171,14 +171,18 @@ impl DamperParameters {
                 (1.0 + YIELD_MARGIN) * secant - held_stiffness
             }
         });
+        let shift = T::from_f64(grid.shift);
+        let start = shift.square_root();
         let table = core::array::from_fn(|place| Piece {
             flow: flow[place],
             potential: potential[place],
             stiffness: stiffness[place],
+            centre: start + T::from_f64((place % PIECES) as f64),
+            padding: [T::ZERO; 3],
         });
+        let span = position_span(largest_move);
         let half_clearance = T::from_f64(0.5 * self.mount.clearance_m);
         let held = T::from_f64(held);
-        let shift = T::from_f64(grid.shift);
         let scalars = Scalars {
             step_s: T::from_f64(step_s),
             half_clearance,
@@ -188,11 +192,24 @@ impl DamperParameters {
             largest_move: T::from_f64(largest_move),
             scale: T::from_f64(grid.scale),
             shift,
-            shift_root: shift.square_root(),
+            origin: T::from_f64(768.5 - start.to_f64()),
             held_stiffness: T::from_f64(held_stiffness),
+            position_rounder: T::from_f64(1.5 * span),
+            // Twice the grid of positions.
+            rest_rounder: T::from_f64(2.0 * span * T::EPSILON),
         };
         Damper::new(scalars, table)
     }
+}
+
+/// Span (m) over which the unit in the last place is the grid of positions: moves are at most half of
+/// it, and it is at least 2^-7 m, a grid of 2^-30 m in `f32`.
+fn position_span(largest_move: f64) -> f64 {
+    let mut span = 1.0 / 128.0;
+    while span < 2.0 * largest_move {
+        span *= 2.0;
+    }
+    span
 }
 
 fn validate_mount(mount: &Mount) -> Result<(), BuildError> {

@@ -1,108 +1,99 @@
 //! A number for each of `L` dampers: the step is written once, for one damper and for several.
 //!
-//! Every lane is computed as a single number is, so the bits do not depend on `L`; the compiler uses
-//! vector instructions where there are any.
+//! Every lane is computed as a single number is, so the bits do not depend on `L`.
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
 use super::Real;
 
-/// One number a lane.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Lanes<T, const L: usize>(pub(crate) [T; L]);
-
-impl<T: Real, const L: usize> Lanes<T, L> {
+/// `L` numbers computed side by side.
+pub trait Lanes<T: Real, const L: usize>:
+    Copy
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+{
+    /// The numbers of an array.
+    fn new(lanes: [T; L]) -> Self;
     /// The same number in every lane.
     #[inline(always)]
-    pub(crate) fn all(value: f64) -> Self {
-        Self([T::from_f64(value); L])
+    fn all(value: f64) -> Self {
+        Self::new([T::from_f64(value); L])
     }
-
-    /// `f` of each lane.
-    #[inline(always)]
-    pub(crate) fn map(mut self, f: impl Fn(T) -> T) -> Self {
-        for lane in &mut self.0 {
-            *lane = f(*lane);
-        }
-        self
-    }
-
-    /// `f` of each lane of two.
-    #[inline(always)]
-    pub(crate) fn zip(mut self, other: Self, f: impl Fn(T, T) -> T) -> Self {
-        for (lane, other) in self.0.iter_mut().zip(other.0) {
-            *lane = f(*lane, other);
-        }
-        self
-    }
-
+    /// The numbers as an array.
+    fn array(self) -> [T; L];
+    /// Four numbers of each lane as four times a number a lane.
+    fn columns(rows: [[T; 4]; L]) -> [Self; 4];
     /// See [`Real::magnitude`].
-    #[inline(always)]
-    pub(crate) fn magnitude(self) -> Self {
-        self.map(T::magnitude)
-    }
-
+    fn magnitudes(self) -> Self;
     /// See [`Real::square_root`].
-    #[inline(always)]
-    pub(crate) fn square_root(self) -> Self {
-        self.map(T::square_root)
-    }
-
-    /// Not below a constant.
-    #[inline(always)]
-    pub(crate) fn at_least(self, least: f64) -> Self {
-        self.map(|lane| lane.larger(T::from_f64(least)))
-    }
-
-    /// Not above a constant.
-    #[inline(always)]
-    pub(crate) fn at_most(self, most: f64) -> Self {
-        self.map(|lane| lane.smaller(T::from_f64(most)))
-    }
-
-    /// See [`Real::smaller`].
-    #[inline(always)]
-    pub(crate) fn smaller(self, other: Self) -> Self {
-        self.zip(other, T::smaller)
-    }
+    fn square_roots(self) -> Self;
+    /// The larger, `other` not NaN.
+    fn at_least(self, other: Self) -> Self;
+    /// The smaller, `other` not NaN.
+    fn at_most(self, other: Self) -> Self;
+    /// Whether every number is at most the other; not for NaN.
+    fn all_within(self, other: Self) -> bool;
+    /// The smaller, and whether this number is not; not for NaN.
+    fn limited(self, limit: Self) -> (Self, [bool; L]);
+    /// 0 for a positive number, else 1.
+    fn one_unless_positive(self) -> Self;
+    /// Negated where `direction` is below zero.
+    fn along(self, direction: Self) -> Self;
+    /// [`Real::place`] below 64, and 64 more where `direction` has its sign bit set.
+    fn places(self, direction: Self) -> [usize; L];
 }
 
-impl<T: Real, const L: usize> Add for Lanes<T, L> {
-    type Output = Self;
+impl<T: Real> Lanes<T, 1> for T {
     #[inline(always)]
-    fn add(self, other: Self) -> Self {
-        self.zip(other, |a, b| a + b)
+    fn new([lane]: [T; 1]) -> Self {
+        lane
     }
-}
-
-impl<T: Real, const L: usize> Sub for Lanes<T, L> {
-    type Output = Self;
     #[inline(always)]
-    fn sub(self, other: Self) -> Self {
-        self.zip(other, |a, b| a - b)
+    fn array(self) -> [T; 1] {
+        [self]
     }
-}
-
-impl<T: Real, const L: usize> Mul for Lanes<T, L> {
-    type Output = Self;
     #[inline(always)]
-    fn mul(self, other: Self) -> Self {
-        self.zip(other, |a, b| a * b)
+    fn columns([row]: [[T; 4]; 1]) -> [Self; 4] {
+        row
     }
-}
-
-impl<T: Real, const L: usize> Div for Lanes<T, L> {
-    type Output = Self;
     #[inline(always)]
-    fn div(self, other: Self) -> Self {
-        self.zip(other, |a, b| a / b)
+    fn magnitudes(self) -> Self {
+        self.magnitude()
     }
-}
-
-impl<T: Real, const L: usize> Neg for Lanes<T, L> {
-    type Output = Self;
     #[inline(always)]
-    fn neg(self) -> Self {
-        self.map(|a| -a)
+    fn square_roots(self) -> Self {
+        self.square_root()
+    }
+    #[inline(always)]
+    fn at_least(self, other: Self) -> Self {
+        self.larger(other)
+    }
+    #[inline(always)]
+    fn at_most(self, other: Self) -> Self {
+        self.smaller(other)
+    }
+    #[inline(always)]
+    fn all_within(self, other: Self) -> bool {
+        self <= other
+    }
+    #[inline(always)]
+    fn limited(self, limit: Self) -> (Self, [bool; 1]) {
+        let exceeds = self >= limit;
+        (if exceeds { limit } else { self }, [exceeds])
+    }
+    #[inline(always)]
+    fn one_unless_positive(self) -> Self {
+        if self > T::ZERO { T::ZERO } else { T::ONE }
+    }
+    #[inline(always)]
+    fn along(self, direction: Self) -> Self {
+        if direction >= T::ZERO { self } else { -self }
+    }
+    #[inline(always)]
+    fn places(self, direction: Self) -> [usize; 1] {
+        [self.place() & 63 | direction.sign_bit() << 6]
     }
 }

@@ -1,6 +1,8 @@
 //! Arithmetic the step is allowed to use: + - * / and square root, exact in IEEE 754.
 
 pub(crate) mod approximate;
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+pub(crate) mod group;
 mod lanes;
 mod real;
 mod square_root;

@@ -3,6 +3,10 @@
 use core::fmt::Debug;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+use super::Lanes;
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+use super::group::{GROUP, Pair};
 use super::square_root;
 
 /// `f32` or `f64` with the operations whose results are the same bits on every machine.
@@ -20,6 +24,11 @@ pub trait Real:
     + Sync
     + 'static
 {
+    /// A number for each damper of a group.
+    #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+    #[doc(hidden)]
+    type Group: Lanes<Self, GROUP>;
+
     /// Zero.
     const ZERO: Self;
     /// One.
@@ -28,12 +37,6 @@ pub trait Real:
     const EPSILON: f64;
     /// Significant binary digits.
     const DIGITS: u32;
-    /// Adding and subtracting it rounds a displacement below 4 mm to the grid of positions
-    /// (2^-30 m in `f32`, 2^-59 m in `f64`): sums of such steps are exact, so a piston at rest
-    /// in its clearance does not drift.
-    const POSITION_ROUNDER: Self;
-    /// Adding and subtracting it rounds a stretch far below the position grid to zero.
-    const REST_ROUNDER: Self;
 
     /// The nearest representable number.
     fn from_f64(value: f64) -> Self;
@@ -49,8 +52,8 @@ pub trait Real:
     fn smaller(self, other: Self) -> Self;
     /// 1 when the sign bit is set, else 0.
     fn sign_bit(self) -> usize;
-    /// Nearest integer modulo 2^16 and the signed rest, for 0 <= self < 2^20.
-    fn split(self) -> (usize, Self);
+    /// Whole part of a number in [768, 1024), less 768; of any other a number below 256.
+    fn place(self) -> usize;
     /// Bits, zero-extended.
     fn to_bits_u64(self) -> u64;
     /// Whether the number is neither NaN nor infinite.
@@ -58,14 +61,15 @@ pub trait Real:
 }
 
 macro_rules! real {
-    ($float:ident, $bits:ident, $position:expr, $rest:expr) => {
+    ($float:ident, $bits:ident, $group:ident) => {
         impl Real for $float {
+            #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+            type Group = Pair<wide::$group>;
+
             const ZERO: Self = 0.0;
             const ONE: Self = 1.0;
             const EPSILON: f64 = $float::EPSILON as f64;
             const DIGITS: u32 = $float::MANTISSA_DIGITS;
-            const POSITION_ROUNDER: Self = $position;
-            const REST_ROUNDER: Self = $rest;
 
             #[inline(always)]
             fn from_f64(value: f64) -> Self {
@@ -109,14 +113,9 @@ macro_rules! real {
                 (self.to_bits() >> ($bits::BITS - 1)) as usize
             }
             #[inline(always)]
-            fn split(self) -> (usize, Self) {
-                // In [2^(d-1), 2^d), d significant digits, the numbers are the integers.
-                const INTEGERS: $float = 1.5 * (1_u64 << ($float::MANTISSA_DIGITS - 1)) as $float;
-                let shifted = self + INTEGERS;
-                (
-                    usize::from(shifted.to_bits() as u16),
-                    self - (shifted - INTEGERS),
-                )
+            fn place(self) -> usize {
+                // Below the leading digit of the fraction: 512 and 256 take two.
+                (self.to_bits() >> ($float::MANTISSA_DIGITS - 10)) as usize & 0xff
             }
             #[inline(always)]
             fn to_bits_u64(self) -> u64 {
@@ -130,30 +129,22 @@ macro_rules! real {
     };
 }
 
-// 1.5 * 2^-7 and 1.5 * 2^-7: ulp 2^-30 (f32) and 2^-59 (f64); 2^-29 and 2^-58 are on that grid.
-real!(f32, u32, 0.011_718_75, 1.862_645_1e-9);
-real!(f64, u64, 0.011_718_75, 3.469_446_951_953_614e-18);
+real!(f32, u32, f32x4);
+real!(f64, u64, f64x4);
 
 #[cfg(test)]
 mod tests {
     use super::Real;
 
     #[test]
-    fn split_rounds_to_nearest() {
-        assert_eq!(2.75_f32.split(), (3, -0.25));
-        assert_eq!(0.25_f64.split(), (0, 0.25));
-        assert_eq!(63.0_f32.split(), (63, 0.0));
-    }
-
-    #[test]
-    fn position_grid_is_as_stated() {
-        let grid = 2.0_f32.powi(-30);
-        let rounded = (1.3 * grid + f32::POSITION_ROUNDER) - f32::POSITION_ROUNDER;
-        assert_eq!(rounded, grid);
-        assert_eq!(f32::REST_ROUNDER % grid, 0.0);
-        let grid = 2.0_f64.powi(-59);
-        let rounded = (1.3 * grid + f64::POSITION_ROUNDER) - f64::POSITION_ROUNDER;
-        assert_eq!(rounded, grid);
-        assert_eq!(f64::REST_ROUNDER % grid, 0.0);
+    fn the_place_is_the_whole_part() {
+        assert_eq!([770.75_f32, 768.0, 1023.9].map(Real::place), [2, 0, 255]);
+        assert_eq!([770.75_f64, 768.0, 1023.9].map(Real::place), [2, 0, 255]);
+        assert!(
+            [f32::NAN, -1.0, 1e30]
+                .map(Real::place)
+                .iter()
+                .all(|place| *place < 256)
+        );
     }
 }

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 
-use super::Format;
+use super::{Format, print_json, print_lines};
 use crate::contact::conicity::RollingRadius;
 use crate::contact::geometry::RigidContact;
 use crate::contact::measured;
@@ -147,14 +147,10 @@ pub fn run(arguments: &ContactArguments) -> Outcome<()> {
         draw(&arguments.plots, &pair, &contacts, &rolling)?
     };
     let report = report(&pair, &contacts, &rolling, plots);
-    let mut out = std::io::stdout().lock();
-    let printed = match arguments.format {
-        Format::Text => print(&mut out, &report),
-        Format::Json => serde_json::to_writer_pretty(&mut out, &report)
-            .map_err(std::io::Error::from)
-            .and_then(|()| writeln!(out)),
-    };
-    printed.map_err(|error| Failure::new(format!("cannot print: {error}")))
+    match arguments.format {
+        Format::Text => print_lines(&lines(&report)),
+        Format::Json => print_json(&report),
+    }
 }
 
 /// The profile called `name`: the built-in one or a file.
@@ -195,11 +191,10 @@ fn draw(
         .step_by(20)
         .filter(|c| c.lateral.abs() < 8.1e-3)
         .collect();
-    let radius = pair.installation.wheel_radius;
     let drawings = [
         ("contact-points.svg", plot::contact_points(pair, &lines)?),
-        ("rolling-radius.svg", plot::rolling_radius(contacts)?),
-        ("conicity.svg", plot::conicity(rolling, radius, 8e-3)?),
+        ("rolling-radius.svg", plot::rolling_radius(pair, contacts)?),
+        ("conicity.svg", plot::conicity(pair, rolling, 8e-3)?),
     ];
     let mut paths = Vec::new();
     for (name, svg) in drawings {
@@ -253,40 +248,41 @@ fn report(
     }
 }
 
-fn print(out: &mut impl Write, report: &Report) -> std::io::Result<()> {
+fn lines(report: &Report) -> Vec<String> {
     let inclination = if report.rail_inclination == 0.0 {
         "upright".to_owned()
     } else {
         format!("1:{:.0}", 1.0 / report.rail_inclination)
     };
-    writeln!(
-        out,
-        "{} on {}, rails {inclination}, gauge {:.1} mm, back to back {:.1} mm, wheel radius {:.1} mm",
-        report.wheel,
-        report.rail,
-        report.gauge_m * 1e3,
-        report.back_to_back_m * 1e3,
-        report.wheel_radius_m * 1e3
-    )?;
-    writeln!(
-        out,
-        "\nequivalent conicity (EN 15302)\n  amplitude mm   conicity"
-    )?;
-    for row in &report.conicity {
+    let mut lines = vec![
+        format!(
+            "{} on {}, rails {inclination}, gauge {:.1} mm, back to back {:.1} mm, wheel radius {:.1} mm",
+            report.wheel,
+            report.rail,
+            report.gauge_m * 1e3,
+            report.back_to_back_m * 1e3,
+            report.wheel_radius_m * 1e3
+        ),
+        String::new(),
+        "equivalent conicity (EN 15302)".to_owned(),
+        "  amplitude mm   conicity".to_owned(),
+    ];
+    lines.extend(report.conicity.iter().map(|row| {
         let value = row.equivalent_conicity.map_or_else(
             || "no closed path".to_owned(),
             |value| format!("{value:8.4}"),
         );
-        writeln!(out, "  {:12.1}   {value}", row.amplitude_m * 1e3)?;
-    }
-    writeln!(
-        out,
-        "\nrigid wheelset (shift at the rails' top, right positive; places on the wheel from the tread datum)\n  \
-         shift mm  radius difference mm  angle left deg  right deg  place left mm  right mm"
-    )?;
-    for row in &report.shifts {
-        writeln!(
-            out,
+        format!("  {:12.1}   {value}", row.amplitude_m * 1e3)
+    }));
+    lines.extend([
+        String::new(),
+        "rigid wheelset (shift at the rails' top, right positive; places on the wheel from the tread datum)"
+            .to_owned(),
+        "  shift mm  radius difference mm  angle left deg  right deg  place left mm  right mm"
+            .to_owned(),
+    ]);
+    lines.extend(report.shifts.iter().map(|row| {
+        format!(
             "  {:8.1}  {:20.3}  {:14.2}  {:9.2}  {:13.2}  {:8.2}",
             row.lateral_shift_m * 1e3,
             row.rolling_radius_difference_m * 1e3,
@@ -294,10 +290,11 @@ fn print(out: &mut impl Write, report: &Report) -> std::io::Result<()> {
             row.contact_angle_right_rad.to_degrees(),
             row.wheel_place_left_m * 1e3,
             row.wheel_place_right_m * 1e3
-        )?;
-    }
+        )
+    }));
     if !report.plots.is_empty() {
-        writeln!(out, "\nplots: {}", report.plots.join(", "))?;
+        lines.push(String::new());
+        lines.push(format!("plots: {}", report.plots.join(", ")));
     }
-    Ok(())
+    lines
 }

@@ -1,13 +1,13 @@
-//! `dashpot export`: the built damper as a constant for firmware.
+//! `dashpot export`: the built damper as a constant or as bytes for firmware.
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use dashpot_core::{Damper, Real};
+use dashpot_core::Damper;
 use serde::Serialize;
 
 use super::{DamperArguments, Format, Scalar};
-use crate::export::{Provenance, Word, rust_source};
+use crate::export::{Provenance, Word, c_source, rust_source};
 use crate::failure::{Failure, Outcome};
 use crate::output::write_whole;
 
@@ -16,13 +16,29 @@ use crate::output::write_whole;
 pub enum Language {
     /// A Rust source with a `static` of dashpot-core.
     Rust,
+    /// A C source with the bytes that the C library takes; C++ too.
+    C,
+    /// The bytes alone: for a link, a file system or another linker.
+    Bin,
 }
 
-/// Write the built damper as a constant for firmware.
+impl Language {
+    fn name(self) -> &'static str {
+        match self {
+            Self::Rust => "rust",
+            Self::C => "c",
+            Self::Bin => "bin",
+        }
+    }
+}
+
+/// Write the built damper as a constant or as bytes for firmware.
 #[derive(Debug, Clone, clap::Args)]
 #[command(after_help = "Example:
   dashpot export --damper reduced-vertical --lang rust --step-us 500 --output vertical.rs
-then in the firmware: mod vertical; ... vertical::REDUCED_VERTICAL.step(&mut state, x)")]
+then in the firmware: mod vertical; ... vertical::REDUCED_VERTICAL.step(&mut state, x)
+  dashpot export --damper in-service --lang c --output in_service.c
+then in C: dashpot_damper_init(&damper, IN_SERVICE, sizeof IN_SERVICE)")]
 pub struct ExportArguments {
     #[command(flatten)]
     damper: DamperArguments,
@@ -35,7 +51,7 @@ pub struct ExportArguments {
     /// Floating-point type.
     #[arg(long, value_enum, default_value_t = Scalar::F32)]
     scalar: Scalar,
-    /// Name of the constant; the damper's name in capitals when not given.
+    /// Name of the constant; the damper's name in capitals when not given. Bytes alone have none.
     #[arg(long)]
     name: Option<String>,
     /// File to write.
@@ -49,13 +65,18 @@ pub struct ExportArguments {
 #[derive(Serialize)]
 struct Report {
     damper: String,
-    name: String,
+    /// Of the constant; bytes alone have none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    name: Option<String>,
     output: String,
     scalar: &'static str,
     step_s: f64,
     revision: u32,
     damper_bytes: usize,
     state_bytes: usize,
+    /// Bytes of an image; source in Rust holds words.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    image_bytes: Option<usize>,
 }
 
 /// Builds the damper and writes its source.
@@ -71,9 +92,13 @@ pub fn run(arguments: &ExportArguments) -> Outcome<()> {
     let printed = match arguments.format {
         Format::Text => writeln!(
             out,
-            "{}: {} = {} for {} us, {}, revision {:#010x}: {} bytes, a state {} bytes",
+            "{}: {}{} for {} us, {}, revision {:#010x}: {} bytes, a state {} bytes",
             report.output,
-            report.name,
+            report
+                .name
+                .iter()
+                .map(|name| format!("{name} = "))
+                .collect::<String>(),
             report.damper,
             arguments.step_us,
             report.scalar,
@@ -88,23 +113,33 @@ pub fn run(arguments: &ExportArguments) -> Outcome<()> {
     printed.map_err(|error| Failure::new(format!("cannot print: {error}")))
 }
 
-fn export<T: Word + Real>(arguments: &ExportArguments) -> Outcome<Report> {
-    let name = match &arguments.name {
-        Some(name) => name.clone(),
-        None => constant_name(&arguments.damper.damper),
+fn export<T: Word>(arguments: &ExportArguments) -> Outcome<Report> {
+    let name = match (&arguments.name, arguments.lang) {
+        (None, Language::Bin) => None,
+        (Some(name), Language::Bin) => {
+            return Err(Failure::new(format!(
+                "--name {name}: bytes have no name, allowed: --lang rust or c"
+            )));
+        }
+        (Some(name), _) => Some(name.clone()),
+        (None, _) => Some(constant_name(&arguments.damper.damper)),
     };
     let step_s = f64::from(arguments.step_us) * 1e-6;
     let damper: Damper<T> = arguments.damper.load()?.build(step_s)?;
+    let constant = name.as_deref().unwrap_or_default();
     let provenance = Provenance {
         damper: &arguments.damper.damper,
         step_us: arguments.step_us,
-        command: &command_line(arguments, T::NAME, &name),
+        command: &command_line(arguments, T::NAME, constant),
     };
-    let Language::Rust = arguments.lang;
-    let source = rust_source(&name, &damper, &provenance)?;
+    let bytes = match arguments.lang {
+        Language::Rust => rust_source(constant, &damper, &provenance)?.into_bytes(),
+        Language::C => c_source(constant, &damper, &provenance)?.into_bytes(),
+        Language::Bin => T::image(&damper),
+    };
     let path = &arguments.output;
     write_whole(path, |file| {
-        file.write_all(source.as_bytes())
+        file.write_all(&bytes)
             .map_err(|error| Failure::in_file(path, format!("cannot write: {error}")))
     })?;
     Ok(Report {
@@ -116,6 +151,7 @@ fn export<T: Word + Real>(arguments: &ExportArguments) -> Outcome<Report> {
         revision: damper.revision(),
         damper_bytes: size_of::<Damper<T>>(),
         state_bytes: size_of::<dashpot_core::DamperState<T>>(),
+        image_bytes: (arguments.lang != Language::Rust).then(|| T::image(&damper).len()),
     })
 }
 
@@ -126,7 +162,8 @@ fn command_line(arguments: &ExportArguments, scalar: &str, name: &str) -> String
         line.push_str(&format!(" --set '{assignment}'"));
     }
     line.push_str(&format!(
-        " --lang rust --step-us {} --scalar {scalar} --name {name} --output '{}'",
+        " --lang {} --step-us {} --scalar {scalar} --name {name} --output '{}'",
+        arguments.lang.name(),
         arguments.step_us,
         arguments.output.display()
     ));

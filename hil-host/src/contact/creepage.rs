@@ -126,9 +126,9 @@ pub fn keep_passive(
     mut forces: CreepForces,
 ) -> CreepForces {
     let limit = contact.friction * contact.load;
-    let magnitude = forces.magnitude();
-    if magnitude > limit {
-        let share = limit / magnitude;
+    let square = forces.longitudinal * forces.longitudinal + forces.lateral * forces.lateral;
+    if square > limit * limit {
+        let share = limit / square.sqrt();
         forces.longitudinal *= share;
         forces.lateral *= share;
     }
@@ -139,10 +139,12 @@ pub fn keep_passive(
         forces.moment = (forces.moment - gain / creepage.spin).max(-turn).min(turn);
         gain = -forces.loss(creepage);
     }
-    let square = creepage.longitudinal.powi(2) + creepage.lateral.powi(2);
-    if gain > 0.0 && square > 0.0 {
-        forces.longitudinal -= gain * creepage.longitudinal / square;
-        forces.lateral -= gain * creepage.lateral / square;
+    if gain > 0.0 {
+        let square = creepage.longitudinal.powi(2) + creepage.lateral.powi(2);
+        if square > 0.0 {
+            forces.longitudinal -= gain * creepage.longitudinal / square;
+            forces.lateral -= gain * creepage.lateral / square;
+        }
     }
     forces
 }

@@ -7,7 +7,7 @@ pub struct Friction {
     pub at_rest: f64,
     /// Share left at infinite sliding speed, 0 to 1; 1 for constant friction.
     pub rest: f64,
-    /// Sliding speed over which the falling share drops to 1/e, m/s.
+    /// Sliding speed over which the falling share drops to 1/e, positive, m/s.
     pub speed: f64,
 }
 

@@ -18,17 +18,23 @@ use crate::plot::style::{
 pub fn contact_points(pair: &Pair, contacts: &[RigidContact]) -> Outcome<String> {
     /// The wheel is drawn lifted by this, mm, to leave room for the lines.
     const LIFT: f64 = 30.0;
-    draw(1000, 690, |area| {
-        let datum = pair.installation.datum() * 1e3;
-        let wheel = || {
-            pair.wheel
-                .points
-                .iter()
-                .map(move |p| (p.y * 1e3 + datum, LIFT - p.z * 1e3))
-        };
-        let rail = || pair.rail.points.iter().map(|p| (p.y * 1e3, -p.z * 1e3));
-        let x = extent(wheel().chain(rail()).map(|p| p.0));
-        let y = extent(wheel().chain(rail()).map(|p| p.1));
+    /// What margins, labels and the title take of the sheet, pixels.
+    const AROUND: [f64; 2] = [88.0, 90.0];
+    let datum = pair.installation.datum() * 1e3;
+    let wheel = || {
+        pair.wheel
+            .points
+            .iter()
+            .map(move |p| (p.y * 1e3 + datum, LIFT - p.z * 1e3))
+    };
+    let rail = || pair.rail.points.iter().map(|p| (p.y * 1e3, -p.z * 1e3));
+    let x = extent(wheel().chain(rail()).map(|p| p.0));
+    let y = extent(wheel().chain(rail()).map(|p| p.1));
+    // One millimetre is as long upward as across.
+    let width = 1000;
+    let scale = (f64::from(width) - AROUND[0]) / (x.end - x.start);
+    let height = (scale * (y.end - y.start) + AROUND[1]).round() as u32;
+    draw(width, height, |area| {
         let title = format!(
             "Contact points, right side: {} on {}",
             pair.wheel.name, pair.rail.name
@@ -48,8 +54,14 @@ pub fn contact_points(pair: &Pair, contacts: &[RigidContact]) -> Outcome<String>
         for contact in contacts {
             let side = &contact.sides[1];
             let share = contact.lateral / greatest;
-            let colour = if share < 0.0 { BLUE_LINE } else { RED_LINE };
-            let style = colour.mix(0.25 + 0.75 * share.abs()).stroke_width(FINE);
+            let colour = if share < -1e-9 {
+                BLUE_LINE
+            } else if share > 1e-9 {
+                RED_LINE
+            } else {
+                INK
+            };
+            let style = colour.mix(0.45 + 0.55 * share.abs()).stroke_width(FINE);
             let top = (side.s * 1e3 + datum, LIFT - side.z * 1e3);
             let rail_depth = pair.rail.at(side.y).z;
             let bottom = (side.y * 1e3, -rail_depth * 1e3);
@@ -93,16 +105,25 @@ pub fn contact_points(pair: &Pair, contacts: &[RigidContact]) -> Outcome<String>
                 ))
                 .map_err(failed)?;
         }
-        let fine = FINE as i32;
-        for (row, note) in [
-            "lines join what touches at the told shift of the wheelset, mm",
-            "red: shifted to the right; blue: to the left; stronger the further",
+        // In the free space of the rail's head, whatever the profile.
+        let middle = 0.5
+            * (rail().map(|p| p.0).fold(f64::MAX, f64::min)
+                + rail().map(|p| p.0).fold(f64::MIN, f64::max));
+        for (row, (note, colour)) in [
+            ("lines join the points in contact,", &INK),
+            ("numbers: lateral shift of the wheelset, mm", &INK),
+            ("shifted to the right (+)", &RED_LINE),
+            ("shifted to the left (-)", &BLUE_LINE),
         ]
         .into_iter()
         .enumerate()
         {
-            let place = (400 * fine, (500 + 22 * row as i32) * fine);
-            area.draw(&Text::new(note, place, letters(14, &INK)))
+            let style = letters(14, colour).pos(Pos::new(HPos::Center, VPos::Top));
+            let below = 22 * row as i32 * FINE as i32;
+            chart
+                .draw_series(std::iter::once(
+                    EmptyElement::at((middle, -14.0)) + Text::new(note, (0, below), style),
+                ))
                 .map_err(failed)?;
         }
         Ok(())
@@ -113,7 +134,11 @@ pub fn contact_points(pair: &Pair, contacts: &[RigidContact]) -> Outcome<String>
 ///
 /// # Errors
 /// The drawing fails.
-pub fn rolling_radius(contacts: &[RigidContact]) -> Outcome<String> {
+pub fn rolling_radius(pair: &Pair, contacts: &[RigidContact]) -> Outcome<String> {
+    let title = format!(
+        "Rolling radius difference, right less left: {} on {}",
+        pair.wheel.name, pair.rail.name
+    );
     draw(1000, 760, |area| {
         let (upper, lower) = area.split_vertically(380 * FINE);
         let shift = |c: &RigidContact| c.lateral * 1e3;
@@ -121,7 +146,7 @@ pub fn rolling_radius(contacts: &[RigidContact]) -> Outcome<String> {
         let difference = |c: &RigidContact| c.rolling_radius_difference() * 1e3;
         let mut chart = axes!(
             &upper,
-            "Rolling radius difference, right less left",
+            title,
             x.clone(),
             extent(contacts.iter().map(difference)),
             "lateral shift at the rails' top, mm (right positive)",
@@ -177,7 +202,12 @@ pub fn rolling_radius(contacts: &[RigidContact]) -> Outcome<String> {
 ///
 /// # Errors
 /// The drawing fails.
-pub fn conicity(rolling: &RollingRadius, radius: f64, reach: f64) -> Outcome<String> {
+pub fn conicity(pair: &Pair, rolling: &RollingRadius, reach: f64) -> Outcome<String> {
+    let radius = pair.installation.wheel_radius;
+    let title = format!(
+        "Equivalent conicity (EN 15302): {} on {}",
+        pair.wheel.name, pair.rail.name
+    );
     draw(1000, 620, |area| {
         let points: Vec<(f64, f64)> = (1..=400)
             .map(|i| reach * f64::from(i) / 400.0)
@@ -187,11 +217,11 @@ pub fn conicity(rolling: &RollingRadius, radius: f64, reach: f64) -> Outcome<Str
         let highest = points.iter().fold(0.05, |most: f64, p| most.max(p.1));
         let mut chart = axes!(
             area,
-            "Equivalent conicity (EN 15302)",
+            title,
             0.0..reach * 1e3,
             0.0..1.08 * highest,
-            "amplitude of the lateral motion, mm",
-            "equivalent conicity, tan",
+            "amplitude of the lateral shift, mm",
+            "equivalent conicity, dimensionless",
             (0, 1)
         );
         chart

@@ -1,6 +1,6 @@
 //! Polach's creep law.
 
-use std::f64::consts::PI;
+use std::f64::consts::{FRAC_2_PI, FRAC_PI_4};
 
 use super::creepage::{CreepForces, CreepLaw, Creepage, LoadedContact, linear};
 
@@ -32,33 +32,36 @@ impl CreepLaw for Polach {
         } = *creepage;
         let limit = friction * load;
         let with_spin = lateral + spin * a;
-        let across = if with_spin.abs() <= lateral.abs() {
-            lateral
-        } else {
+        let across = if with_spin.abs() > lateral.abs() {
             with_spin
+        } else {
+            lateral
         };
         let modified = (longitudinal * longitudinal + across * across).sqrt();
         if modified == 0.0 {
             return CreepForces::default();
         }
-        let (along, aside) = (kalker.c11 * longitudinal, kalker.c22 * lateral);
-        let pull = (along * along + aside * aside).sqrt();
-        // Division is the slow operation here: one each for what is divided by often.
+        // Division and roots are the slow operations here: each once.
         let (per_limit, per_modified) = (1.0 / limit, 1.0 / modified);
-        let sliding = creepage.sliding();
+        let (along, aside) = (kalker.c11 * longitudinal, kalker.c22 * lateral);
+        let sliding = longitudinal * longitudinal + lateral * lateral;
+        let pull = along * along + aside * aside;
+        // Pure spin: the force it would scale has no direction.
         let c = if sliding > 0.0 {
-            pull / sliding
+            (pull / sliding).sqrt()
         } else {
-            kalker.c22
+            0.0
         };
-        let e = 0.25 * PI * shear * a * b * c * modified * per_limit;
-        let force = 2.0 * limit / PI * (e / (1.0 + e * e) + e.atan());
+        let e = FRAC_PI_4 * shear * a * b * c * modified * per_limit;
+        let force = FRAC_2_PI * limit * (e / (1.0 + e * e) + e.atan());
         let shape = 1.0 + 6.3 * (1.0 - (-a / b).exp());
-        let e_m =
-            8.0 / 3.0 * shear * b * (a * b).sqrt() * per_limit * kalker.c23 * across.abs() / shape;
-        let d = (e_m * e_m - 1.0) / (e_m * e_m + 1.0);
-        let rest = (1.0 - d * d).max(0.0);
-        let k_m = e_m * (d * d * d / 3.0 - d * d / 2.0 + 1.0 / 6.0) - rest * rest.sqrt() / 3.0;
+        let stiffness = 8.0 / 3.0 * shear * b * (a * b).sqrt() * kalker.c23;
+        let e_m = stiffness * across.abs() * per_limit / shape;
+        let share = 1.0 / (e_m * e_m + 1.0);
+        let d = 1.0 - 2.0 * share;
+        // (1 - d^2)^1.5
+        let rest = (2.0 * e_m * share).powi(3);
+        let k_m = e_m * (d * d * (d * (1.0 / 3.0) - 0.5) + 1.0 / 6.0) - rest * (1.0 / 3.0);
         // K is negative: the spin pushes against its own sense.
         let spin_force = 9.0 / 16.0 * a * limit * k_m * shape * spin * per_modified;
         let raw = CreepForces {
@@ -67,9 +70,10 @@ impl CreepLaw for Polach {
             moment: 0.0,
         };
         let linear = linear(contact, creepage);
-        let whole = linear.magnitude();
-        let share = if whole > 0.0 {
-            (raw.magnitude() / whole).min(1.0)
+        let square = |f: &CreepForces| f.longitudinal * f.longitudinal + f.lateral * f.lateral;
+        let (whole, part) = (square(&linear), square(&raw));
+        let share = if whole > part {
+            (part / whole).sqrt()
         } else {
             1.0
         };

@@ -17,7 +17,7 @@ impl CreepLaw for ShenHedrickElkins {
         let forces = linear(contact, creepage);
         let f = forces.magnitude() / (contact.friction * contact.load);
         let share = if f < 3.0 {
-            1.0 - f / 3.0 + f * f / 27.0
+            1.0 + f * (f * (1.0 / 27.0) - 1.0 / 3.0)
         } else {
             1.0 / f
         };

@@ -2,13 +2,15 @@
 
 use super::geometry::{Patch, Patches, SOFTNESS};
 use super::hertz::{Hertz, Steel};
-use super::kalker::KalkerTable;
+use super::kalker::{Coefficients, KalkerTable};
 use super::pair::{Pair, Place};
 
 /// Numbers of one patch at one node, in the order of [`Entry`]'s fields.
 const NUMBERS: usize = 12;
-/// One node: the tread's numbers, then the flange's.
-type Node = [f32; 2 * NUMBERS];
+/// One node: the tread's numbers, then the flange's; aligned for whole vectors.
+#[derive(Debug, Clone, Copy)]
+#[repr(align(32))]
+struct Node([f32; 2 * NUMBERS]);
 
 /// Flattest transverse contact told by curvatures alone, 1/m: a root closer fitted than this spreads
 /// its load over its whole width, as an ellipse of this curvature does.
@@ -47,9 +49,10 @@ impl Axis {
 /// An axis with its cells' widths inverted, for reading.
 #[derive(Debug, Clone, Copy)]
 struct Reader {
-    axis: Axis,
+    ends: [f64; 4],
     first: [f64; 3],
     per_unit: [f64; 3],
+    last_cell: u32,
 }
 
 impl Reader {
@@ -64,21 +67,26 @@ impl Reader {
             }
         });
         Self {
-            axis,
+            ends: axis.ends,
             first: [0.0, a as f64, (a + b) as f64],
             per_unit,
+            last_cell: axis.nodes() as u32 - 2,
         }
     }
 
     /// Cell, share within it and whether `x` lies on the axis.
-    #[inline]
+    #[inline(always)]
     fn locate(&self, x: f64) -> (usize, f32, bool) {
-        let ends = &self.axis.ends;
+        let ends = &self.ends;
         let held = x.max(ends[0]).min(ends[3]);
         let part = usize::from(held >= ends[1]) + usize::from(held > ends[2]);
         let position = self.first[part] + (held - ends[part]) * self.per_unit[part];
-        let cell = (position as usize).min(self.axis.nodes() - 2);
-        (cell, (position - cell as f64) as f32, x == held)
+        let cell = (position as u32).min(self.last_cell);
+        (
+            cell as usize,
+            (position - f64::from(cell)) as f32,
+            x == held,
+        )
     }
 }
 
@@ -133,8 +141,8 @@ pub struct Entry {
     pub rolling: f64,
     /// Semi-axis across over the root of the penetration, m^0.5.
     pub across: f64,
-    /// Kalker's `C11`, `C22`, `C23`, `C33`.
-    pub kalker: [f64; 4],
+    /// Kalker's coefficients of the ellipse.
+    pub kalker: Coefficients,
 }
 
 /// The tables of one pair; the same for the right wheel and, mirrored, the left.
@@ -145,13 +153,23 @@ pub struct Tables {
     grid: Grid,
     nodes: Vec<Node>,
     readers: [Reader; 3],
+    /// Nodes from one roll to the next and from one yaw to the next.
+    strides: [usize; 2],
 }
 
 impl Tables {
     /// Computes every node of `grid`; on as many threads as the machine offers.
+    ///
+    /// # Panics
+    /// An axis without a cell.
     pub fn new(pair: Pair, steel: Steel, grid: Grid) -> Self {
+        let axes = [grid.lateral, grid.roll, grid.yaw_square];
+        assert!(
+            axes.iter().all(|axis| axis.nodes() >= 2),
+            "an axis of the tables has no cell"
+        );
         let kalker = KalkerTable::new(steel.poisson);
-        let empty: Node = [0.0; 2 * NUMBERS];
+        let empty = Node([0.0; 2 * NUMBERS]);
         let count = grid.lateral.nodes() * grid.roll.nodes() * grid.yaw_square.nodes();
         let mut nodes = vec![empty; count];
         let threads = std::thread::available_parallelism().map_or(1, usize::from);
@@ -165,7 +183,7 @@ impl Tables {
                         let place = place_of(grid, part * chunk + i);
                         let Patches { tread, flange } = pair.patches(&place, SOFTNESS, &mut room);
                         for (patch, numbers) in
-                            [tread, flange].iter().zip(node.chunks_exact_mut(NUMBERS))
+                            [tread, flange].iter().zip(node.0.chunks_exact_mut(NUMBERS))
                         {
                             let entry = entry(pair, steel, kalker, patch, place.roll);
                             numbers.copy_from_slice(&store(&entry));
@@ -179,7 +197,11 @@ impl Tables {
             steel,
             grid,
             nodes,
-            readers: [grid.lateral, grid.roll, grid.yaw_square].map(Reader::new),
+            readers: axes.map(Reader::new),
+            strides: [
+                grid.lateral.nodes(),
+                grid.lateral.nodes() * grid.roll.nodes(),
+            ],
         }
     }
 
@@ -200,24 +222,28 @@ impl Tables {
 
     /// Tread and flange entry at `place`, linear in shift, roll and squared yaw; outside the grid
     /// its edge, told by `false`.
-    #[inline]
+    // Inlined always: passed through memory, the place and the entries stall the step.
+    #[inline(always)]
     pub fn at(&self, place: &Place) -> ([Entry; 2], bool) {
         let [lateral, roll, yaw] = &self.readers;
         let (i, t, inside_lateral) = lateral.locate(place.lateral);
         let (j, u, inside_roll) = roll.locate(place.roll);
         let (k, v, inside_yaw) = yaw.locate(place.yaw * place.yaw);
-        let column = lateral.axis.nodes();
-        let sheet = column * roll.axis.nodes();
-        let mut sum: Node = [0.0; 2 * NUMBERS];
-        for (dk, wk) in [(0, 1.0 - v), (1, v)] {
-            for (dj, wj) in [(0, 1.0 - u), (1, u)] {
-                let start = (k + dk) * sheet + (j + dj) * column + i;
-                let [near, far] = [&self.nodes[start], &self.nodes[start + 1]];
-                let (low, high) = (wk * wj * (1.0 - t), wk * wj * t);
-                for ((sum, near), far) in sum.iter_mut().zip(near).zip(far) {
-                    *sum += low * near + high * far;
-                }
-            }
+        let [column, sheet] = self.strides;
+        let start = k * sheet + j * column + i;
+        let nodes = [0, column, sheet, sheet + column].map(|offset| {
+            let at = start + offset;
+            [&self.nodes[at].0, &self.nodes[at + 1].0]
+        });
+        let (v0, v1) = (1.0 - v, v);
+        let weights = [v0 * (1.0 - u), v0 * u, v1 * (1.0 - u), v1 * u];
+        let mut sum = [0.0_f32; 2 * NUMBERS];
+        for (n, sum) in sum.iter_mut().enumerate() {
+            let along = |row: usize| (1.0 - t) * nodes[row][0][n] + t * nodes[row][1][n];
+            *sum = weights[0] * along(0)
+                + weights[1] * along(1)
+                + weights[2] * along(2)
+                + weights[3] * along(3);
         }
         let (tread, flange) = sum.split_at(NUMBERS);
         (
@@ -251,7 +277,6 @@ fn entry(pair: &Pair, steel: &Steel, kalker: &KalkerTable, patch: &Patch, roll: 
     let radius = pair.installation.wheel_radius + patch.z;
     let rolling = (patch.slope.atan() - roll).cos().max(0.01) / radius;
     let hertz = Hertz::new(steel, rolling, patch.curvature.max(LEAST_CURVATURE));
-    let c = kalker.at(hertz.rolling / hertz.across);
     // Numbers below f32's normal range would slow the step; a millionth of a load is none.
     let share = if patch.share < 1e-6 { 0.0 } else { patch.share };
     let narrowing = share.cbrt();
@@ -264,7 +289,7 @@ fn entry(pair: &Pair, steel: &Steel, kalker: &KalkerTable, patch: &Patch, roll: 
         stiffness: hertz.stiffness * share,
         rolling: hertz.rolling * narrowing,
         across: hertz.across * narrowing,
-        kalker: [c.c11, c.c22, c.c23, c.c33],
+        kalker: kalker.at(hertz.rolling / hertz.across),
     }
 }
 
@@ -278,10 +303,10 @@ fn store(e: &Entry) -> [f32; NUMBERS] {
         e.stiffness,
         e.rolling,
         e.across,
-        e.kalker[0],
-        e.kalker[1],
-        e.kalker[2],
-        e.kalker[3],
+        e.kalker.c11,
+        e.kalker.c22,
+        e.kalker.c23,
+        e.kalker.c33,
     ]
     .map(|number| number as f32)
 }
@@ -298,6 +323,11 @@ fn load(numbers: &[f32]) -> Entry {
         stiffness: number(5),
         rolling: number(6),
         across: number(7),
-        kalker: [number(8), number(9), number(10), number(11)],
+        kalker: Coefficients {
+            c11: number(8),
+            c22: number(9),
+            c23: number(10),
+            c33: number(11),
+        },
     }
 }

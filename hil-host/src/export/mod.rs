@@ -1,5 +1,12 @@
-//! A built damper as source text for firmware.
+//! A built damper as a file for firmware: Rust or C source, or bytes.
 
+mod c;
+mod name;
+mod provenance;
 mod rust;
+mod word;
 
-pub use rust::{Provenance, Word, rust_source};
+pub use c::c_source;
+pub use provenance::Provenance;
+pub use rust::rust_source;
+pub use word::Word;

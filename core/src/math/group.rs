@@ -1,0 +1,137 @@
+//! Eight dampers in the vector instructions of a desktop processor.
+
+use core::ops::{Add, Div, Mul, Neg, Sub};
+
+use wide::bytemuck::cast;
+use wide::{f32x4, f64x4, u32x4, u64x4};
+
+use super::Lanes;
+
+/// Lanes of a group.
+pub(crate) const GROUP: usize = 8;
+
+/// Two vectors: the operations of one fill the waiting times of the other.
+#[derive(Clone, Copy)]
+pub struct Pair<V>(V, V);
+
+macro_rules! operator {
+    ($operator:ident, $method:ident) => {
+        impl<V: $operator<Output = V>> $operator for Pair<V> {
+            type Output = Self;
+            #[inline(always)]
+            fn $method(self, other: Self) -> Self {
+                Self(self.0.$method(other.0), self.1.$method(other.1))
+            }
+        }
+    };
+}
+
+operator!(Add, add);
+operator!(Sub, sub);
+operator!(Mul, mul);
+operator!(Div, div);
+
+impl<V: Neg<Output = V>> Neg for Pair<V> {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self(-self.0, -self.1)
+    }
+}
+
+/// The two halves of an array.
+#[inline(always)]
+fn halves<T: Copy>([a, b, c, d, e, f, g, h]: [T; GROUP]) -> [[T; 4]; 2] {
+    [[a, b, c, d], [e, f, g, h]]
+}
+
+/// The array of two halves.
+#[inline(always)]
+fn whole<T: Copy>([[a, b, c, d], [e, f, g, h]]: [[T; 4]; 2]) -> [T; GROUP] {
+    [a, b, c, d, e, f, g, h]
+}
+
+macro_rules! group {
+    ($float:ident, $vector:ident, $bits:ident) => {
+        impl Pair<$vector> {
+            #[inline(always)]
+            fn map(self, f: impl Fn($vector) -> $vector) -> Self {
+                Self(f(self.0), f(self.1))
+            }
+
+            #[inline(always)]
+            fn zip(self, other: Self, f: impl Fn($vector, $vector) -> $vector) -> Self {
+                Self(f(self.0, other.0), f(self.1, other.1))
+            }
+        }
+
+        impl Lanes<$float, GROUP> for Pair<$vector> {
+            #[inline(always)]
+            fn new(lanes: [$float; GROUP]) -> Self {
+                let [low, high] = halves(lanes).map($vector::new);
+                Self(low, high)
+            }
+            #[inline(always)]
+            fn array(self) -> [$float; GROUP] {
+                whole([self.0.to_array(), self.1.to_array()])
+            }
+            #[inline(always)]
+            fn columns(rows: [[$float; 4]; GROUP]) -> [Self; 4] {
+                let columns = |rows: [[$float; 4]; 4]| $vector::transpose(rows.map($vector::new));
+                let [low, high] = halves(rows).map(columns);
+                core::array::from_fn(|column| Self(low[column], high[column]))
+            }
+            #[inline(always)]
+            fn magnitudes(self) -> Self {
+                self.map($vector::abs)
+            }
+            #[inline(always)]
+            fn square_roots(self) -> Self {
+                self.map($vector::sqrt)
+            }
+            #[inline(always)]
+            fn at_least(self, other: Self) -> Self {
+                self.zip(other, $vector::fast_max)
+            }
+            #[inline(always)]
+            fn at_most(self, other: Self) -> Self {
+                self.zip(other, $vector::fast_min)
+            }
+            #[inline(always)]
+            fn all_within(self, other: Self) -> bool {
+                let within = self.zip(other, $vector::simd_le);
+                (within.0 & within.1).all()
+            }
+            #[inline(always)]
+            fn limited(self, limit: Self) -> (Self, [bool; GROUP]) {
+                let exceeds = self.zip(limit, $vector::simd_ge);
+                let bits = exceeds.0.to_bitmask() | exceeds.1.to_bitmask() << 4;
+                let exceeds = core::array::from_fn(|lane| bits >> lane & 1 != 0);
+                (self.at_most(limit), exceeds)
+            }
+            #[inline(always)]
+            fn one_unless_positive(self) -> Self {
+                self.map(|v| v.simd_gt($vector::ZERO).select($vector::ZERO, $vector::ONE))
+            }
+            #[inline(always)]
+            fn along(self, direction: Self) -> Self {
+                self.zip(direction, |v, direction| {
+                    direction.simd_ge($vector::ZERO).select(v, -v)
+                })
+            }
+            #[inline(always)]
+            fn places(self, direction: Self) -> [usize; GROUP] {
+                let places = |place: $vector, direction: $vector| {
+                    let [place, direction]: [$bits; 2] = [cast(place), cast(direction)];
+                    let place = (place >> ($float::MANTISSA_DIGITS - 10)) & $bits::splat(63);
+                    let side = (direction >> (8 * size_of::<$float>() as u32 - 1)) << 6_u32;
+                    (place | side).to_array().map(|index| index as usize)
+                };
+                whole([places(self.0, direction.0), places(self.1, direction.1)])
+            }
+        }
+    };
+}
+
+group!(f32, f32x4, u32x4);
+group!(f64, f64x4, u64x4);

@@ -1,0 +1,51 @@
+//! Where an exported damper came from, as a comment of its source.
+
+use dashpot_core::{Damper, DamperState};
+
+use super::Word;
+
+/// How an exported damper was made, written into the file.
+pub struct Provenance<'a> {
+    /// Preset or file the damper came from.
+    pub damper: &'a str,
+    /// Step as asked for (us).
+    pub step_us: u32,
+    /// Command line that makes the file again.
+    pub command: &'a str,
+}
+
+impl Provenance<'_> {
+    /// Damper and step in a few words.
+    pub(super) fn title(&self) -> String {
+        format!(
+            "Damper `{}`, step {} us.",
+            one_line(self.damper),
+            self.step_us
+        )
+    }
+
+    /// Comment lines of Rust or C; `stored` says what the source holds, `needs` what reads it.
+    pub(super) fn comment<T: Word>(&self, damper: &Damper<T>, stored: &str, needs: &str) -> String {
+        let version = env!("CARGO_PKG_VERSION");
+        format!(
+            "// Damper `{}` for a step of {} us ({:.6} kHz), {}, revision {:#010x}.\n\
+             // {stored} in flash; a state takes {} bytes.\n\
+             // Made by dashpot {version} with\n//     {}\n\
+             // Needs {needs}; do not edit.\n",
+            one_line(self.damper),
+            self.step_us,
+            1e3 / f64::from(self.step_us),
+            T::NAME,
+            damper.revision(),
+            size_of::<DamperState<T>>(),
+            one_line(self.command),
+        )
+    }
+}
+
+/// A file name may hold a line break, which would end the comment.
+fn one_line(text: &str) -> String {
+    text.chars()
+        .map(|letter| if letter.is_control() { ' ' } else { letter })
+        .collect()
+}
