@@ -4,12 +4,15 @@ use std::io::Read;
 use std::path::PathBuf;
 use std::process::{Command, Stdio};
 use std::sync::OnceLock;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use dashpot::damper;
+use dashpot_core::link::{Counters, LossOfLink, Reals, Refusal, Request, Response, SafeOutput};
 use dashpot_hil::excitation::Excitation;
 use dashpot_hil::failure::Outcome;
-use dashpot_hil::pil::{Client, FaultRates, FaultyLink, Link, Patience, Qemu, Report, Session};
+use dashpot_hil::pil::{
+    Client, FaultRates, FaultyLink, Link, LinkError, Patience, Qemu, Report, Session,
+};
 use xtask::tools::{ARM_GCC, QEMU, have, have_target};
 
 /// Instructions of a 400 MHz core at one a cycle that a tick may take: 3 % at 1 kHz.
@@ -104,6 +107,66 @@ fn the_target_has_the_hosts_bits_through_every_fault() {
     );
     assert!(report.recoveries >= 2, "{report:?}");
     assert!(report.link_faults.repeated_requests > 0);
+}
+
+#[test]
+fn the_free_running_target_loses_the_link_and_outputs_zero() {
+    let Some(images) = images() else {
+        return;
+    };
+    let link = Qemu::start(&images.join("dashpot-firmware")).unwrap();
+    let patience = Patience {
+        timeout: Duration::from_secs(2),
+        tries: 10,
+    };
+    let mut client = Client::new(link, patience, 9);
+    client.hello().unwrap();
+    let after_ticks = 200;
+    let ramp = SafeOutput::RampToZero { ticks: 10 };
+    let loss = LossOfLink {
+        after_ticks,
+        output: ramp,
+    };
+    client.request(&Request::LossOfLink(loss)).unwrap();
+    let all = |x: f32| -> Reals { (0..12).map(|_| x).collect() };
+    let run = Request::Run {
+        displacements_m: all(0.0),
+    };
+    client.request(&run).unwrap();
+    // Moved on at every answer, so forces come; the tick is the target's own.
+    let (mut tick, mut x, mut forces_n) = (0, 0.0, Reals::new());
+    while tick < 100 {
+        x += 0.2e-3;
+        let displace = Request::Displace {
+            displacements_m: all(x),
+        };
+        let Ok(Response::Forces(forces)) = client.request(&displace) else {
+            panic!("no forces after tick {tick}");
+        };
+        assert!(forces.tick >= tick);
+        (tick, forces_n) = (forces.tick, forces.forces_n);
+    }
+    assert!(forces_n.iter().any(|force| *force > 100.0), "{forces_n:?}");
+    // Counters are no displacement: the link goes.
+    let mut counters = Counters::default();
+    let begin = Instant::now();
+    while counters.link_losses == 0 && begin.elapsed() < Duration::from_secs(60) {
+        let Ok(Response::Counters(now)) = client.request(&Request::Counters) else {
+            panic!("no counters");
+        };
+        counters = now;
+    }
+    assert_eq!((counters.link_losses, counters.overruns), (1, 0));
+    let displace = Request::Displace {
+        displacements_m: all(x),
+    };
+    let refused = client.request(&displace);
+    assert_eq!(refused, Err(LinkError::Refused(Refusal::LinkLost)));
+    let Ok(Response::Forces(forces)) = client.request(&run) else {
+        panic!("no forces");
+    };
+    assert_eq!((forces.tick, &forces.forces_n), (0, &all(0.0)));
+    assert_eq!(client.request(&Request::Stop), Ok(Response::Done));
 }
 
 #[test]
