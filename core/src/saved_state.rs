@@ -63,12 +63,27 @@ macro_rules! saved_state {
             /// The state is another damper's, or holds what no step of this damper leaves behind.
             ///
             /// ```
+            /// # #[cfg(feature = "builder")] {
+            /// use dashpot_core::parameters::{DamperParameters, Element, Limits, Mount, Reduced};
             /// use dashpot_core::{Damper, SavedStateError};
-            #[doc = concat!("let damper = Damper::<", stringify!($float), ">::from_words(&[0; Damper::<", stringify!($float), ">::WORDS]);")]
+            ///
+            /// let parameters = DamperParameters {
+            ///     element: Element::Reduced(Reduced {
+            ///         damping_n_s_per_m: 120e3,
+            ///         saturation_velocity_m_per_s: 0.03,
+            ///     }),
+            ///     mount: Mount { stiffness_n_per_m: 8e6, seat_stiffness_n_per_m: None, clearance_m: 1e-3 },
+            ///     limits: Limits::default(),
+            /// };
+            #[doc = concat!("let damper: Damper<", stringify!($float), "> = parameters.build(1e-3)?;")]
             /// let mut bytes = damper.at_rest(0.25).to_bytes();
             /// assert_eq!(damper.restore(&bytes).unwrap().displacement(), 0.25);
-            #[doc = concat!("bytes[", stringify!($bytes), " - 8] = 7;")]
-            /// assert_eq!(damper.restore(&bytes), Err(SavedStateError::Revision { expected: 0, found: 7 }));
+            #[doc = concat!("let revision = &mut bytes[", stringify!($bytes), " - 8..][..4];")]
+            /// revision.copy_from_slice(&7_u32.to_le_bytes());
+            /// let refused = SavedStateError::Revision { expected: damper.revision(), found: 7 };
+            /// assert_eq!(damper.restore(&bytes), Err(refused));
+            /// # }
+            /// # Ok::<(), dashpot_core::BuildError>(())
             /// ```
             pub fn restore(&self, bytes: &[u8; $bytes]) -> Result<DamperState<$float>, SavedStateError> {
                 const REAL: usize = size_of::<$float>();
