@@ -37,6 +37,35 @@ pub fn write_whole(
     Ok(())
 }
 
+/// Writes `bytes` to `path`, whole or not at all.
+///
+/// # Errors
+/// The file cannot be written.
+pub fn write_bytes(path: &Path, bytes: &[u8]) -> Outcome<()> {
+    write_whole(path, |file| {
+        file.write_all(bytes)
+            .map_err(|error| Failure::in_file(path, format!("cannot write: {error}")))
+    })
+}
+
+/// Writes each file, a name and its text, into `folder`, made where it is missing, and tells their
+/// paths.
+///
+/// # Errors
+/// The folder cannot be made or a file not be written.
+pub fn write_folder(folder: &Path, files: &[(&str, String)]) -> Outcome<Vec<String>> {
+    std::fs::create_dir_all(folder)
+        .map_err(|error| Failure::in_file(folder, format!("cannot make the folder: {error}")))?;
+    files
+        .iter()
+        .map(|(name, text)| {
+            let path = folder.join(name);
+            write_bytes(&path, text.as_bytes())?;
+            Ok(path.display().to_string())
+        })
+        .collect()
+}
+
 /// A temporary file is private to its owner; a result is for everyone who may read the folder.
 #[cfg(unix)]
 fn make_readable(path: &Path) -> std::io::Result<()> {

@@ -84,6 +84,18 @@ impl Ticks {
         }))
     }
 
+    /// Displacements (m) at all ticks left.
+    ///
+    /// # Errors
+    /// As [`Ticks::next_tick`].
+    pub fn displacements_m(mut self) -> Outcome<Vec<f64>> {
+        let mut displacements_m = Vec::new();
+        while let Some(tick) = self.next_tick()? {
+            displacements_m.push(tick.displacement_m);
+        }
+        Ok(displacements_m)
+    }
+
     /// Bytes of the recording read so far.
     pub fn position(&self) -> u64 {
         self.recording.position()

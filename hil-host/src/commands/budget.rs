@@ -1,14 +1,14 @@
 //! `dashpot budget`: time per step on this host, free running or in real ticks.
 
 use std::hint::black_box;
-use std::io::Write;
+use std::io::{self, Write};
 
 use dashpot_core::{Damper, DamperState, Real};
 use serde::Serialize;
 
-use super::{DamperArguments, Format, Scalar};
+use super::{DamperArguments, Format, Scalar, print_report};
 use crate::excitation::Excitation;
-use crate::failure::{Failure, Outcome};
+use crate::failure::Outcome;
 use crate::pacing::{Clock, FIRST_TICKS, MonotonicClock, Pacer, RealtimeOptions, overhead_ns};
 use crate::timing::{Bar, Distribution, Figures};
 
@@ -99,14 +99,7 @@ pub fn run(arguments: &BudgetArguments) -> Outcome<()> {
         Scalar::F32 => measure::<f32>(arguments, "f32"),
         Scalar::F64 => measure::<f64>(arguments, "f64"),
     }?;
-    let mut out = std::io::stdout().lock();
-    let printed = match arguments.format {
-        Format::Text => print(&mut out, &report),
-        Format::Json => serde_json::to_writer_pretty(&mut out, &report)
-            .map_err(std::io::Error::from)
-            .and_then(|()| writeln!(out)),
-    };
-    printed.map_err(|error| Failure::new(format!("cannot print: {error}")))
+    print_report(arguments.format, &report, print)
 }
 
 /// Dampers on a ride that ends where it began, a decay, then rest.
@@ -215,7 +208,7 @@ fn measure<T: Real>(arguments: &BudgetArguments, scalar: &'static str) -> Outcom
     Ok(report)
 }
 
-fn print(out: &mut impl Write, report: &Report) -> std::io::Result<()> {
+fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
     writeln!(
         out,
         "{} {}, {} dampers a tick, {} ticks, {}; tick {:.0} us; two clock readings {} ns{}",

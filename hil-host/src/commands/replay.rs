@@ -1,13 +1,13 @@
 //! `dashpot replay`: force over a recorded motion.
 
-use std::io::Write;
+use std::io::{self, Write};
 use std::path::PathBuf;
 
 use dashpot_core::{DamperParameters, Real, Status};
 use serde::Serialize;
 
 use super::budget::RealtimeArguments;
-use super::{DamperArguments, Format, Scalar, progress, step_s};
+use super::{DamperArguments, Format, Scalar, print_report, progress, step_s};
 use crate::failure::{Failure, Outcome};
 use crate::output::write_whole;
 use crate::pacing::Pacer;
@@ -117,10 +117,9 @@ pub fn run(arguments: &ReplayArguments) -> Outcome<()> {
             work: pacer.report().work.figures(),
         }),
     };
-    match arguments.format {
-        Format::Json => super::print_json(&report),
-        Format::Text => print_text(&report, arguments),
-    }
+    print_report(arguments.format, &report, |out, report| {
+        print(out, report, arguments)
+    })
 }
 
 fn same_file(a: &std::path::Path, b: &std::path::Path) -> bool {
@@ -157,42 +156,47 @@ fn write<T: Real + std::fmt::Display>(
     summary.ok_or_else(|| Failure::new("nothing was replayed"))
 }
 
-fn print_text(report: &Report, arguments: &ReplayArguments) -> Outcome<()> {
-    let mut lines = vec![
-        format!(
-            "{} ticks of {} us through damper {}",
-            report.ticks, arguments.step_us, arguments.damper.damper
+fn print(out: &mut dyn Write, report: &Report, arguments: &ReplayArguments) -> io::Result<()> {
+    writeln!(
+        out,
+        "{} ticks of {} us through damper {}",
+        report.ticks, arguments.step_us, arguments.damper.damper
+    )?;
+    for (name, value, unit) in [
+        ("force rms", report.force_rms_n, "N"),
+        ("largest in extension", report.max_extension_force_n, "N"),
+        (
+            "largest in compression",
+            report.max_compression_force_n,
+            "N",
         ),
-        format!("force rms              {:>12.1} N", report.force_rms_n),
-        format!(
-            "largest in extension   {:>12.1} N",
-            report.max_extension_force_n
-        ),
-        format!(
-            "largest in compression {:>12.1} N",
-            report.max_compression_force_n
-        ),
-        format!("energy dissipated      {:>12.1} J", report.energy_j),
-    ];
+        ("energy dissipated", report.energy_j, "J"),
+    ] {
+        writeln!(out, "{name:<22} {value:>12.1} {unit}")?;
+    }
     if report.input_limited {
-        lines.push(format!(
+        writeln!(
+            out,
             "warning: {} ticks moved faster than limits.rate_m_per_s and were followed at that rate",
             report.rejected_inputs
-        ));
+        )?;
     }
     if report.saturated {
-        lines.push("note: the damper reached its saturation force or force limit".into());
+        writeln!(
+            out,
+            "note: the damper reached its saturation force or force limit"
+        )?;
     }
     if let Some(realtime) = &report.realtime {
-        lines.push(format!(
+        writeln!(
+            out,
             "real ticks: {} deadlines missed; late by {:.1} us at most, {:.1} us at the 99th percentile; \
              step {:.2} us at most",
             realtime.missed_deadlines,
             realtime.lateness.worst_ns * 1e-3,
             realtime.lateness.p99_ns * 1e-3,
             realtime.work.worst_ns * 1e-3
-        ));
+        )?;
     }
-    lines.push(format!("wrote {}", arguments.output.display()));
-    super::print_lines(&lines)
+    writeln!(out, "wrote {}", arguments.output.display())
 }
