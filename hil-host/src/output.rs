@@ -19,6 +19,10 @@ pub fn write_whole(
         _ => Path::new("."),
     };
     let failed = |error: std::io::Error| Failure::in_file(path, format!("cannot write: {error}"));
+    if !folder.is_dir() {
+        let message = format!("cannot write: there is no folder {}", folder.display());
+        return Err(Failure::in_file(path, message));
+    }
     let file = tempfile::Builder::new()
         .prefix(".dashpot-")
         .tempfile_in(folder)

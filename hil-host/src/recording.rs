@@ -52,7 +52,7 @@ impl Recording {
     pub fn read(path: &Path, source: Box<dyn Read>) -> Outcome<Self> {
         let mut reader = ReaderBuilder::new()
             .comment(Some(b'#'))
-            .trim(csv::Trim::All)
+            .trim(csv::Trim::Headers)
             .from_reader(source);
         let header = reader
             .byte_headers()
@@ -128,7 +128,9 @@ impl Recording {
     }
 
     fn number(&self, column: usize) -> Outcome<f64> {
+        // Trimming in the reader would cost as much again as all of its reading.
         let cell = self.record.get(self.columns[column]).unwrap_or_default();
+        let cell = cell.trim_ascii();
         let text = std::str::from_utf8(cell).ok();
         match text.and_then(|text| text.parse::<f64>().ok()) {
             Some(number) if number.is_finite() => Ok(number),

@@ -211,7 +211,7 @@ fn measure<T: Real>(arguments: &BudgetArguments, scalar: &'static str) -> Outcom
 fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
     writeln!(
         out,
-        "{} {}, {} dampers a tick, {} ticks, {}; tick {:.0} us; two clock readings {} ns{}",
+        "{} {}, dampers a tick: {}, {} ticks, {}; tick {:.0} us; two clock readings {} ns{}",
         report.damper,
         report.scalar,
         report.dampers,

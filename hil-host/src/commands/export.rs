@@ -33,11 +33,13 @@ impl Language {
 
 /// Write the built damper as a constant or as bytes for firmware.
 #[derive(Debug, Clone, clap::Args)]
-#[command(after_help = "Example:
+#[command(after_help = "Examples:
   dashpot export --damper reduced-vertical --lang rust --step-us 500 --output vertical.rs
-then in the firmware: mod vertical; ... vertical::REDUCED_VERTICAL.step(&mut state, x)
   dashpot export --damper in-service --lang c --output in_service.c
-then in C: dashpot_damper_init(&damper, IN_SERVICE, sizeof IN_SERVICE)")]
+  dashpot export --damper in-service --lang bin --output in_service.bin
+
+Then in Rust: mod vertical; ... vertical::REDUCED_VERTICAL.step(&mut state, x)
+and in C: dashpot_damper_init(&damper, IN_SERVICE, sizeof IN_SERVICE)")]
 pub struct ExportArguments {
     #[command(flatten)]
     damper: DamperArguments,
@@ -93,12 +95,15 @@ pub fn run(arguments: &ExportArguments) -> Outcome<()> {
         }
         writeln!(
             out,
-            "{}: {} for {} us, {}, revision {:#010x}: {} bytes, a state {} bytes",
+            "{}: {} for {} us, {}, revision {:#010x}: {}{} bytes in memory, a state {} bytes",
             report.output,
             report.damper,
             arguments.step_us,
             report.scalar,
             report.revision,
+            report
+                .image_bytes
+                .map_or_else(String::new, |bytes| format!("image {bytes} bytes, ")),
             report.damper_bytes,
             report.state_bytes
         )

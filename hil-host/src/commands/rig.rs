@@ -11,9 +11,12 @@ use crate::rig::{self, Harmonic};
 
 /// Bench test: a harmonic motion until the force repeats, indices of one settled cycle.
 #[derive(Debug, Clone, clap::Args)]
-#[command(after_help = "Examples:
+#[command(
+    allow_negative_numbers = true,
+    after_help = "Examples:
   dashpot rig --damper paper --amplitude-m 24.875e-3 --frequency-hz 0.64
-  dashpot rig --damper in-service --set mount.clearance_m=2e-3 --amplitude-m 5e-3 --frequency-hz 2 --format json")]
+  dashpot rig --damper in-service --set mount.clearance_m=2e-3 --amplitude-m 5e-3 --frequency-hz 2 --format json"
+)]
 pub struct RigArguments {
     /// The damper.
     #[command(flatten)]

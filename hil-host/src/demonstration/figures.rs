@@ -13,12 +13,13 @@ const PALE: RGBColor = RGBColor(160, 168, 176);
 /// The window of the ride shown large (s).
 pub(super) const WINDOW_S: (f64, f64) = (1.0, 2.0);
 
-fn panel(x: &str, y: &str, legend: SeriesLabelPosition, curves: Vec<Curve>) -> Panel {
+fn panel(x: &str, y: &str, legend: Option<SeriesLabelPosition>, curves: Vec<Curve>) -> Panel {
     Panel {
         title: String::new(),
         x_label: x.into(),
         y_label: y.into(),
         legend,
+        sides: false,
         curves,
     }
 }
@@ -31,15 +32,23 @@ fn over_time<'a>(ride: &Ride, forces: &'a [f64]) -> impl Iterator<Item = (f64, f
         .zip(forces.iter().copied())
 }
 
-/// Two panels side by side: force (kN) over displacement (mm) and over velocity (m/s).
-fn loops(displacement: Vec<Curve>, velocity: Vec<Curve>) -> Outcome<String> {
-    let panel = |x, curves| panel(x, "force, kN", SeriesLabelPosition::UpperLeft, curves);
+/// Two panels side by side: force (kN) over displacement (mm) and over velocity (m/s). The legend, if
+/// there is one, stands in the second, whose upper left is free.
+fn loops(
+    displacement: Vec<Curve>,
+    velocity: Vec<Curve>,
+    legend: Option<SeriesLabelPosition>,
+) -> Outcome<String> {
+    let panel = |x, legend, curves| Panel {
+        sides: true,
+        ..panel(x, "force, kN", legend, curves)
+    };
     sheet(
         1040,
         400,
         &[
-            panel("displacement, mm", displacement),
-            panel("velocity, m/s", velocity),
+            panel("displacement, mm", None, displacement),
+            panel("velocity, m/s", legend, velocity),
         ],
     )
 }
@@ -61,7 +70,7 @@ pub(super) fn force(ride: &Ride) -> Outcome<String> {
         )
         .wide(6),
     ];
-    let legend = SeriesLabelPosition::UpperRight;
+    let legend = Some(SeriesLabelPosition::UpperRight);
     sheet(1040, 360, &[panel("time, s", "force, kN", legend, curves)])
 }
 
@@ -71,11 +80,10 @@ pub(super) fn error(ride: &Ride) -> Outcome<String> {
         .zip(&ride.reference_n)
         .map(|((time, force), reference)| (time, force - reference));
     let curve = Curve::new("error", RED_LINE, errors).wide(4);
-    let legend = SeriesLabelPosition::UpperRight;
     sheet(
         1040,
         260,
-        &[panel("time, s", "error, N", legend, vec![curve])],
+        &[panel("time, s", "error, N", None, vec![curve])],
     )
 }
 
@@ -89,7 +97,7 @@ pub(super) fn ride_loops(ride: &Ride) -> Outcome<String> {
         .map(|pair| (pair[1] - pair[0]) / ride.step_s)
         .zip(forces.skip(1));
     let thin = |points: Vec<(f64, f64)>| vec![Curve::new("ride", BLUE_LINE, points).wide(3)];
-    loops(thin(displacement.collect()), thin(velocity.collect()))
+    loops(thin(displacement.collect()), thin(velocity.collect()), None)
 }
 
 /// Settled loops of harmonic motions of rising amplitude.
@@ -113,7 +121,8 @@ pub(super) fn bench_loops(bench: &Bench) -> Outcome<String> {
             (0..=ticks).map(|tick| (speed(tick), at(tick).1)),
         ));
     }
-    loops(displacement, velocity)
+    let legend = Some(SeriesLabelPosition::UpperLeft);
+    loops(displacement, velocity, legend)
 }
 
 /// Force over constant velocity of every damper.
@@ -128,7 +137,7 @@ pub(super) fn characteristics(benches: &[Bench]) -> Outcome<String> {
             });
             Curve::new(bench.damper, colour, points).wide(10)
         });
-    let legend = SeriesLabelPosition::UpperLeft;
+    let legend = Some(SeriesLabelPosition::UpperLeft);
     sheet(
         1040,
         400,

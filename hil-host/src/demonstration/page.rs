@@ -77,7 +77,7 @@ pub fn write(shown: &Demonstration) -> Outcome<String> {
             &figures::bench_loops(bench)?,
             &format!(
                 "Settled loops of a harmonic motion at {LOOP_FREQUENCY_HZ} Hz, by amplitude: force over \
-                 displacement (left) and velocity (right)."
+                 displacement (left) and velocity (right, with the legend of both)."
             ),
         ));
     }

@@ -17,9 +17,12 @@ use report::{print, report};
 
 /// Contact geometry of a wheelset on a track: contact points, rolling radius, equivalent conicity.
 #[derive(Debug, Clone, clap::Args)]
-#[command(after_help = "Examples:
+#[command(
+    allow_negative_numbers = true,
+    after_help = "Examples:
   dashpot contact
-  dashpot contact --rail worn.csv --gauge-m 1.432 --plots worn-plots --format json")]
+  dashpot contact --rail worn.csv --gauge-m 1.432 --plots worn-plots --format json"
+)]
 pub struct ContactArguments {
     /// Wheel profile: `s1002` or a file of y_mm, z_mm from the tread datum, field side and down positive.
     #[arg(long, default_value = "s1002", value_name = "NAME|FILE")]

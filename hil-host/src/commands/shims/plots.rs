@@ -35,7 +35,8 @@ pub(super) fn draw(
                 title: format!("{} valve", capital(place.name)),
                 x_label: "radius, mm".into(),
                 y_label: "deflection under uniform pressure, mm".into(),
-                legend: SeriesLabelPosition::UpperLeft,
+                legend: Some(SeriesLabelPosition::UpperLeft),
+                sides: false,
                 curves: curves.collect(),
             });
         }
@@ -48,7 +49,8 @@ pub(super) fn draw(
             title: format!("{} valve", capital(place.name)),
             x_label: "pressure, MPa".into(),
             y_label: "flow through the pack, cm³/s".into(),
-            legend: SeriesLabelPosition::UpperLeft,
+            legend: None,
+            sides: false,
             curves: vec![Curve::new(place.name, BLUE_LINE, points)],
         });
     }

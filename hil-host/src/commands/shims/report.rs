@@ -3,8 +3,8 @@
 use std::io::{self, Write};
 
 use dashpot_core::characteristic::Characteristic;
-use dashpot_core::parameters::Hydraulics;
-use dashpot_core::shim::edge_compliance_m_per_pa;
+use dashpot_core::parameters::{Hydraulics, Valve};
+use dashpot_core::shim::{Pack, edge_compliance_m_per_pa};
 use serde::Serialize;
 
 use super::place::{Place, radii};
@@ -78,6 +78,20 @@ impl<'a> Report<'a> {
     }
 }
 
+/// Cw from clamp to edge, four equal parts; a clamp's rounding counts as the zero it is.
+fn coefficients(pack: &Pack, valve: &Valve) -> Vec<Coefficient> {
+    let cw = |radius_m| pack.disc().deflection_coefficient(radius_m);
+    let rounding = 1e-12 * cw(valve.free_radius_m);
+    radii(valve, 4)
+        .map(|radius_m| Coefficient {
+            radius_m,
+            cw_m6_per_n: Some(cw(radius_m))
+                .filter(|cw| *cw > rounding)
+                .unwrap_or(0.0),
+        })
+        .collect()
+}
+
 /// What a valve does beside its published deflections, which `paper` was described with.
 pub(super) fn valve_report(
     place: &Place,
@@ -120,12 +134,7 @@ pub(super) fn valve_report(
         shims_m: valve.shims_m.to_vec(),
         pack: pack.as_ref().map(|pack| PackReport {
             equivalent_thickness_m: pack.equivalent_thickness_m(),
-            cw: radii(valve, 4)
-                .map(|radius_m| Coefficient {
-                    radius_m,
-                    cw_m6_per_n: pack.disc().deflection_coefficient(radius_m),
-                })
-                .collect(),
+            cw: coefficients(pack, valve),
             edge_compliance_m_per_pa: pack.compliance_m_per_pa(valve.free_radius_m),
         }),
         given_edge_compliance_m_per_pa: valve.edge_compliance_m_per_pa,
