@@ -55,7 +55,10 @@ fn a_page_that_cannot_be_written_fails_and_wrong_use_is_told() {
     let output = dashpot(&["--output", "none/x.html"], folder.path());
     assert_eq!(output.status.code(), Some(1));
     let message = String::from_utf8(output.stderr).unwrap();
-    assert!(message.contains("none/x.html: cannot write: there is no folder none"), "{message}");
+    assert!(
+        message.contains("none/x.html: cannot write: there is no folder none"),
+        "{message}"
+    );
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
 }
 

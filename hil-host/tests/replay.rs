@@ -255,7 +255,9 @@ fn a_million_rows_replay_in_bounded_memory() {
     let limited = |arguments: &str| {
         Command::new("sh")
             .arg("-c")
-            .arg(format!("ulimit -c 0 && ulimit -d 4096 && exec \"$0\" {arguments}"))
+            .arg(format!(
+                "ulimit -c 0 && ulimit -d 4096 && exec \"$0\" {arguments}"
+            ))
             .arg(env!("CARGO_BIN_EXE_dashpot"))
             .current_dir(folder.path())
             .output()

@@ -102,7 +102,6 @@ fn a_reader_that_has_left_is_no_failure() {
         &["shims", "--no-plots"][..],
         &["shims", "--no-plots", "--format", "json"],
         &["rig"],
-        &["contact", "--no-plots"],
         &["budget", "--steps", "1000"],
     ] {
         let mut child = Command::new(env!("CARGO_BIN_EXE_dashpot"))

@@ -18,6 +18,7 @@ use serde::Serialize;
 
 use crate::damper_file;
 use crate::failure::{Failure, Outcome};
+use crate::pacing::RealtimeOptions;
 
 /// How a command prints its results.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, clap::ValueEnum)]
@@ -57,6 +58,31 @@ impl DamperArguments {
     /// As [`damper_file::load`].
     pub fn load(&self) -> Outcome<DamperParameters> {
         damper_file::load(&self.damper, &self.overrides)
+    }
+}
+
+/// Real-time options of a paced run.
+#[derive(Debug, Clone, Copy, Default, clap::Args)]
+pub struct RealtimeArguments {
+    /// Run under SCHED_FIFO with this priority.
+    #[arg(long, value_name = "PRIORITY", value_parser = clap::value_parser!(u8).range(1..=99))]
+    pub fifo: Option<u8>,
+    /// Lock all memory.
+    #[arg(long)]
+    pub lock_memory: bool,
+    /// Pin to this core.
+    #[arg(long, value_name = "N")]
+    pub core: Option<usize>,
+}
+
+impl RealtimeArguments {
+    /// The options as the pacer takes them.
+    pub fn options(&self) -> RealtimeOptions {
+        RealtimeOptions {
+            fifo_priority: self.fifo,
+            lock_memory: self.lock_memory,
+            core: self.core,
+        }
     }
 }
 

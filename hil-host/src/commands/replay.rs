@@ -6,8 +6,7 @@ use std::path::PathBuf;
 use dashpot_core::{DamperParameters, Real, Status};
 use serde::Serialize;
 
-use super::budget::RealtimeArguments;
-use super::{DamperArguments, Format, Scalar, print_report, progress, step_s};
+use super::{DamperArguments, Format, RealtimeArguments, Scalar, print_report, progress, step_s};
 use crate::failure::{Failure, Outcome};
 use crate::output::write_whole;
 use crate::pacing::Pacer;
