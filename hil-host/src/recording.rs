@@ -98,10 +98,9 @@ impl Recording {
         if let Some(last) = self.last_time_s
             && time_s <= last
         {
-            return Err(self.in_cell(
-                0,
-                format!("time {time_s} s does not grow; the row before has {last} s"),
-            ));
+            return Err(self.in_time(format!(
+                "time {time_s} s does not grow; the row before has {last} s"
+            )));
         }
         self.last_time_s = Some(time_s);
         Ok(Some(Sample {
@@ -125,6 +124,11 @@ impl Recording {
     /// Bytes read so far, for a progress bar.
     pub fn position(&self) -> u64 {
         self.reader.position().byte()
+    }
+
+    /// A failure of the time in the row read last.
+    pub(crate) fn in_time(&self, message: String) -> Failure {
+        self.in_cell(0, message)
     }
 
     fn number(&self, column: usize) -> Outcome<f64> {

@@ -129,6 +129,40 @@ fn a_failed_replay_keeps_the_output_that_was_there() {
     assert!(error_of(&output).contains("is the input too"));
 }
 
+#[cfg(unix)]
+#[test]
+fn a_pipe_is_written_to_and_a_link_followed() {
+    use std::os::unix::fs::{FileTypeExt, symlink};
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    std::fs::write(at("in.csv"), "time_s,displacement_m\n0,0\n0.002,0\n").unwrap();
+    std::fs::write(at("real.csv"), "old").unwrap();
+    symlink("real.csv", at("link.csv")).unwrap();
+    let arguments = ["replay", "--input", "in.csv", "--output", "link.csv"];
+    assert!(dashpot(&arguments, folder.path()).status.success());
+    assert!(
+        std::fs::symlink_metadata(at("link.csv"))
+            .unwrap()
+            .is_symlink()
+    );
+    let written = std::fs::read_to_string(at("real.csv")).unwrap();
+    assert_eq!(written.lines().count(), 4);
+
+    assert!(
+        Command::new("mkfifo")
+            .arg(at("pipe"))
+            .status()
+            .unwrap()
+            .success()
+    );
+    let pipe = at("pipe");
+    let reader = std::thread::spawn(move || std::fs::read_to_string(pipe).unwrap());
+    let arguments = ["replay", "--input", "in.csv", "--output", "pipe"];
+    assert!(dashpot(&arguments, folder.path()).status.success());
+    assert!(std::fs::metadata(at("pipe")).unwrap().file_type().is_fifo());
+    assert_eq!(reader.join().unwrap(), written);
+}
+
 #[test]
 fn a_gap_is_crossed_in_a_straight_line() {
     let (output, written) = replay_of(

@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use serde::Serialize;
 
 use super::{DamperArguments, Format, print_report};
-use crate::failure::Outcome;
+use crate::failure::{Failure, Outcome};
 use crate::published::{NominalIndex, nominal_indices};
 use crate::rig::{self, Harmonic};
 
@@ -63,6 +63,12 @@ pub fn run(arguments: &RigArguments) -> Outcome<()> {
         amplitude_m: arguments.amplitude_m,
         frequency_hz: arguments.frequency_hz,
     };
+    if !(1.0..=2e4).contains(&arguments.step_us) {
+        return Err(Failure::new(format!(
+            "--step-us: {}, allowed: 1 to 20000 us",
+            arguments.step_us
+        )));
+    }
     let cycle = rig::settle(&damper, motion, arguments.step_us * 1e-6)?;
     let indices = cycle.indices();
     let report = Report {
