@@ -16,7 +16,15 @@ fuzz_target!(|bytes: &[u8]| {
             continue;
         };
         assert!(!samples.is_empty());
-        assert!(samples.iter().all(|s| s.time_s.is_finite() && s.displacement_m.is_finite()));
-        assert!(samples.windows(2).all(|pair| pair[0].time_s < pair[1].time_s));
+        assert!(
+            samples
+                .iter()
+                .all(|s| s.time_s.is_finite() && s.displacement_m.is_finite())
+        );
+        assert!(
+            samples
+                .windows(2)
+                .all(|pair| pair[0].time_s < pair[1].time_s)
+        );
     }
 });
