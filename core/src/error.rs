@@ -58,3 +58,17 @@ pub(crate) fn require(
         })
     }
 }
+
+/// Requires fields of one table of the damper file to lie in their ranges, each told in words with its unit.
+#[cfg(feature = "builder")]
+macro_rules! require_ranges {
+    ($section:expr, $of:expr; $($field:ident in $range:expr, $allowed:literal;)+) => {
+        [$((stringify!($field), $of.$field, $range, $allowed)),+]
+            .into_iter()
+            .try_for_each(|(field, value, range, allowed)| {
+                $crate::error::require($section, field, value, range.contains(&value), allowed)
+            })
+    };
+}
+#[cfg(feature = "builder")]
+pub(crate) use require_ranges;

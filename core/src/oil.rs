@@ -1,6 +1,6 @@
 //! Oil at its working temperature: density, viscosity and the oil column as a spring.
 
-use crate::error::{BuildError, require};
+use crate::error::{BuildError, require, require_ranges};
 use crate::math::elementary::{log10, pow, sqrt};
 use crate::parameters::{ATMOSPHERIC_PRESSURE_PA, DENSITY_TEMPERATURE_C, Oil, OilColumn};
 
@@ -16,32 +16,14 @@ impl Oil {
     /// # Errors
     /// The first field out of its range.
     pub(crate) fn validate(&self) -> Result<(), BuildError> {
-        let check = |field, value, valid, allowed| require("oil", field, value, valid, allowed);
-        check(
-            "density_kg_per_m3",
-            self.density_kg_per_m3,
-            (500.0..=2000.0).contains(&self.density_kg_per_m3),
-            "500 to 2000 kg/m3",
+        require_ranges!("oil", self;
+            density_kg_per_m3 in 500.0..=2000.0, "500 to 2000 kg/m3";
+            thermal_expansion_per_k in 0.0..=2e-3, "0 to 2e-3 1/K";
+            temperature_c in -60.0..=150.0, "-60 to 150 degC";
+            viscosity_40c_m2_per_s in 1e-6..=1e-2, "1e-6 to 1e-2 m2/s";
         )?;
-        check(
-            "thermal_expansion_per_k",
-            self.thermal_expansion_per_k,
-            (0.0..=2e-3).contains(&self.thermal_expansion_per_k),
-            "0 to 2e-3 1/K",
-        )?;
-        check(
-            "temperature_c",
-            self.temperature_c,
-            (-60.0..=150.0).contains(&self.temperature_c),
-            "-60 to 150 degC",
-        )?;
-        check(
-            "viscosity_40c_m2_per_s",
-            self.viscosity_40c_m2_per_s,
-            (1e-6..=1e-2).contains(&self.viscosity_40c_m2_per_s),
-            "1e-6 to 1e-2 m2/s",
-        )?;
-        check(
+        require(
+            "oil",
             "viscosity_100c_m2_per_s",
             self.viscosity_100c_m2_per_s,
             self.viscosity_100c_m2_per_s >= 5e-7
@@ -108,36 +90,12 @@ impl Oil {
 
 impl OilColumn {
     fn validate(&self) -> Result<(), BuildError> {
-        let check =
-            |field, value, valid, allowed| require("oil.column", field, value, valid, allowed);
-        check(
-            "bulk_modulus_pa",
-            self.bulk_modulus_pa,
-            (1e8..=1e11).contains(&self.bulk_modulus_pa),
-            "1e8 to 1e11 Pa",
-        )?;
-        for (field, volume) in [
-            ("rod_side_volume_m3", self.rod_side_volume_m3),
-            ("piston_side_volume_m3", self.piston_side_volume_m3),
-        ] {
-            check(
-                field,
-                volume,
-                (1e-7..=1.0).contains(&volume),
-                "1e-7 to 1 m3",
-            )?;
-        }
-        check(
-            "air_fraction",
-            self.air_fraction,
-            (0.0..=0.2).contains(&self.air_fraction),
-            "0 to 0.2",
-        )?;
-        check(
-            "polytropic_exponent",
-            self.polytropic_exponent,
-            (1.0..=1.67).contains(&self.polytropic_exponent),
-            "1 to 1.67",
+        require_ranges!("oil.column", self;
+            bulk_modulus_pa in 1e8..=1e11, "1e8 to 1e11 Pa";
+            rod_side_volume_m3 in 1e-7..=1.0, "1e-7 to 1 m3";
+            piston_side_volume_m3 in 1e-7..=1.0, "1e-7 to 1 m3";
+            air_fraction in 0.0..=0.2, "0 to 0.2";
+            polytropic_exponent in 1.0..=1.67, "1 to 1.67";
         )
     }
 

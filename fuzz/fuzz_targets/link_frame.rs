@@ -19,6 +19,9 @@ fuzz_target!(|bytes: &[u8]| {
     }
     let mut frame = Frame::new();
     assert!(frame.write(&bytes.len()));
-    let read = frame.bytes().iter().filter_map(|byte| reader.push(*byte).map(|r| r.is_ok()));
+    let read = frame
+        .bytes()
+        .iter()
+        .filter_map(|byte| reader.push(*byte).map(|r| r.is_ok()));
     assert!(read.eq([true]));
 });

@@ -13,6 +13,7 @@ pub mod output;
 pub mod pacing;
 pub mod pil;
 mod plot;
+pub mod published;
 pub mod recording;
 pub mod reference;
 pub mod replay;

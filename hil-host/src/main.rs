@@ -1,5 +1,6 @@
 //! The `dashpot` command.
 
+use std::io::Write;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
@@ -59,7 +60,8 @@ fn main() -> ExitCode {
     match outcome {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
-            eprintln!("error: {failure}");
+            // Nobody to tell when standard error is closed.
+            let _ = writeln!(std::io::stderr(), "error: {failure}");
             ExitCode::from(1)
         }
     }

@@ -52,7 +52,7 @@ impl Recording {
     pub fn read(path: &Path, source: Box<dyn Read>) -> Outcome<Self> {
         let mut reader = ReaderBuilder::new()
             .comment(Some(b'#'))
-            .trim(csv::Trim::All)
+            .trim(csv::Trim::Headers)
             .from_reader(source);
         let header = reader
             .byte_headers()
@@ -98,10 +98,9 @@ impl Recording {
         if let Some(last) = self.last_time_s
             && time_s <= last
         {
-            return Err(self.in_cell(
-                0,
-                format!("time {time_s} s does not grow; the row before has {last} s"),
-            ));
+            return Err(self.in_time(format!(
+                "time {time_s} s does not grow; the row before has {last} s"
+            )));
         }
         self.last_time_s = Some(time_s);
         Ok(Some(Sample {
@@ -127,8 +126,15 @@ impl Recording {
         self.reader.position().byte()
     }
 
+    /// A failure of the time in the row read last.
+    pub(crate) fn in_time(&self, message: String) -> Failure {
+        self.in_cell(0, message)
+    }
+
     fn number(&self, column: usize) -> Outcome<f64> {
+        // Trimming in the reader would cost as much again as all of its reading.
         let cell = self.record.get(self.columns[column]).unwrap_or_default();
+        let cell = cell.trim_ascii();
         let text = std::str::from_utf8(cell).ok();
         match text.and_then(|text| text.parse::<f64>().ok()) {
             Some(number) if number.is_finite() => Ok(number),

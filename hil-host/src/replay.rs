@@ -61,9 +61,9 @@ impl Ticks {
                 return Ok(None);
             };
             if (next.time_s - self.start_s) / self.step_s > MOST_TICKS {
-                return Err(Failure::new(format!(
-                    "time {} s is more than {MOST_TICKS} ticks after the first sample; split the \
-                     recording or take a larger step",
+                return Err(self.recording.in_time(format!(
+                    "{} s is more than {MOST_TICKS} ticks after the first sample; split the recording \
+                     or take a larger step",
                     next.time_s
                 )));
             }
@@ -82,6 +82,18 @@ impl Ticks {
             time_s,
             displacement_m: from + share * (to - from),
         }))
+    }
+
+    /// Displacements (m) at all ticks left.
+    ///
+    /// # Errors
+    /// As [`Ticks::next_tick`].
+    pub fn displacements_m(mut self) -> Outcome<Vec<f64>> {
+        let mut displacements_m = Vec::new();
+        while let Some(tick) = self.next_tick()? {
+            displacements_m.push(tick.displacement_m);
+        }
+        Ok(displacements_m)
     }
 
     /// Bytes of the recording read so far.
@@ -147,7 +159,7 @@ pub fn replay<T: Real>(
         ticks: count,
         force_rms_n: (square / count.max(1) as f64).sqrt(),
         max_extension_force_n: highest,
-        max_compression_force_n: -lowest,
+        max_compression_force_n: 0.0 - lowest,
         energy_j: energy,
         status: state.as_ref().map_or(Status::empty(), DamperState::status),
         rejected_inputs: state.as_ref().map_or(0, DamperState::rejected_inputs),

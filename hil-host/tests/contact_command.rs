@@ -69,7 +69,11 @@ fn failures_say_what_and_what_is_allowed() {
             1,
             "allowed: 0.03 to 0.12 m",
         ),
-        (&["--smoothing-m", "-1"][..], 2, "unexpected argument '-1'"),
+        (
+            &["--smoothing-m", "-1"][..],
+            1,
+            "--smoothing-m: -1, allowed: 0 to 0.05 m",
+        ),
         (
             &["--smoothing-m=1"][..],
             1,

@@ -26,16 +26,6 @@ fn check_limit(row: &serde_json::Value) {
 }
 
 #[test]
-fn the_in_service_damper_at_10_khz_is_within_its_limits() {
-    let folder = tempfile::tempdir().unwrap();
-    let output = dashpot(&["--format", "json"], folder.path());
-    let report: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
-    for row in report["accuracy"].as_array().unwrap() {
-        check_limit(row);
-    }
-}
-
-#[test]
 fn the_page_is_whole_self_contained_and_accurate() {
     let folder = tempfile::tempdir().unwrap();
     let output = dashpot(&["--format", "json"], folder.path());
@@ -44,12 +34,8 @@ fn the_page_is_whole_self_contained_and_accurate() {
     let rows = report["accuracy"].as_array().unwrap();
     assert_eq!(rows.len(), 8);
     for row in rows {
-        let value = |key: &str| row[key].as_f64().unwrap();
-        // The in-service damper at 10 kHz has a test of its own.
-        if row["damper"] == "paper" || value("step_s") > 5e-4 {
-            check_limit(row);
-        }
-        assert!(value("median_ns_per_step") > 0.0);
+        check_limit(row);
+        assert!(row["median_ns_per_step"].as_f64().unwrap() > 0.0);
     }
     let page = std::fs::read_to_string(folder.path().join("dashpot-report.html")).unwrap();
     assert!(page.starts_with("<!DOCTYPE html>") && page.trim_end().ends_with("</html>"));
@@ -69,7 +55,10 @@ fn a_page_that_cannot_be_written_fails_and_wrong_use_is_told() {
     let output = dashpot(&["--output", "none/x.html"], folder.path());
     assert_eq!(output.status.code(), Some(1));
     let message = String::from_utf8(output.stderr).unwrap();
-    assert!(message.contains("none/x.html: cannot write"), "{message}");
+    assert!(
+        message.contains("none/x.html: cannot write: there is no folder none"),
+        "{message}"
+    );
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
 }
 

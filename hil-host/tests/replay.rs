@@ -129,6 +129,40 @@ fn a_failed_replay_keeps_the_output_that_was_there() {
     assert!(error_of(&output).contains("is the input too"));
 }
 
+#[cfg(unix)]
+#[test]
+fn a_pipe_is_written_to_and_a_link_followed() {
+    use std::os::unix::fs::{FileTypeExt, symlink};
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    std::fs::write(at("in.csv"), "time_s,displacement_m\n0,0\n0.002,0\n").unwrap();
+    std::fs::write(at("real.csv"), "old").unwrap();
+    symlink("real.csv", at("link.csv")).unwrap();
+    let arguments = ["replay", "--input", "in.csv", "--output", "link.csv"];
+    assert!(dashpot(&arguments, folder.path()).status.success());
+    assert!(
+        std::fs::symlink_metadata(at("link.csv"))
+            .unwrap()
+            .is_symlink()
+    );
+    let written = std::fs::read_to_string(at("real.csv")).unwrap();
+    assert_eq!(written.lines().count(), 4);
+
+    assert!(
+        Command::new("mkfifo")
+            .arg(at("pipe"))
+            .status()
+            .unwrap()
+            .success()
+    );
+    let pipe = at("pipe");
+    let reader = std::thread::spawn(move || std::fs::read_to_string(pipe).unwrap());
+    let arguments = ["replay", "--input", "in.csv", "--output", "pipe"];
+    assert!(dashpot(&arguments, folder.path()).status.success());
+    assert!(std::fs::metadata(at("pipe")).unwrap().file_type().is_fifo());
+    assert_eq!(reader.join().unwrap(), written);
+}
+
 #[test]
 fn a_gap_is_crossed_in_a_straight_line() {
     let (output, written) = replay_of(
@@ -235,4 +269,44 @@ fn damper_files_name_what_is_wrong() {
         folder.path(),
     );
     assert!(error_of(&output).contains("did you mean `paper`"));
+}
+
+/// A million rows in 4 MiB of heap, where holding them takes 16: the system refuses more.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_million_rows_replay_in_bounded_memory() {
+    use std::io::Write;
+    const ROWS: u32 = 1_000_000;
+    let folder = tempfile::tempdir().unwrap();
+    let input = std::fs::File::create(folder.path().join("in.csv")).unwrap();
+    let mut input = std::io::BufWriter::new(input);
+    writeln!(input, "time_s,displacement_m").unwrap();
+    for row in 0..ROWS {
+        let time_s = f64::from(row) * 1e-3;
+        writeln!(input, "{time_s:.3},{:.6}", 1e-2 * (8.8 * time_s).sin()).unwrap();
+    }
+    input.into_inner().unwrap();
+    let limited = |arguments: &str| {
+        Command::new("sh")
+            .arg("-c")
+            .arg(format!(
+                "ulimit -c 0 && ulimit -d 4096 && exec \"$0\" {arguments}"
+            ))
+            .arg(env!("CARGO_BIN_EXE_dashpot"))
+            .current_dir(folder.path())
+            .output()
+            .unwrap()
+    };
+    let output = limited("replay --input in.csv --output out.csv");
+    assert!(output.status.success(), "{}", error_of(&output));
+    let written = std::fs::read_to_string(folder.path().join("out.csv")).unwrap();
+    assert_eq!(written.lines().count(), 1 + ROWS as usize);
+    // The limit bites: verification keeps every tick.
+    let output = limited("verify --input in.csv");
+    assert!(!output.status.success());
+    assert!(
+        error_of(&output).contains("memory allocation"),
+        "{}",
+        error_of(&output)
+    );
 }

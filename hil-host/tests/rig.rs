@@ -139,7 +139,11 @@ fn failures_say_what_and_what_is_allowed() {
             1,
             "--frequency-hz: NaN, allowed",
         ),
-        (&["--step-us", "0.1"][..], 1, "allowed: 1e-6 to 2e-2 s"),
+        (
+            &["--step-us", "0.1"][..],
+            1,
+            "--step-us: 0.1, allowed: 1 to 20000 us",
+        ),
         (&["--frequency-hz", "900"][..], 1, "allowed: 20 to 2e7"),
         (
             &["--amplitude-m", "0.5", "--frequency-hz", "10"][..],

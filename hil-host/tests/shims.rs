@@ -1,6 +1,6 @@
 //! `dashpot shims` from outside: theory, tables, flow, plots, failures.
 
-use std::process::{Command, Output};
+use std::process::{Command, Output, Stdio};
 
 fn dashpot(arguments: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_dashpot"))
@@ -94,4 +94,25 @@ fn a_reduced_damper_has_no_packs() {
         message.contains("reduced damper has no shim packs; allowed:"),
         "{message}"
     );
+}
+
+#[test]
+fn a_reader_that_has_left_is_no_failure() {
+    for command in [
+        &["shims", "--no-plots"][..],
+        &["shims", "--no-plots", "--format", "json"],
+        &["rig"],
+        &["budget", "--steps", "1000"],
+    ] {
+        let mut child = Command::new(env!("CARGO_BIN_EXE_dashpot"))
+            .args(command)
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        drop(child.stdout.take());
+        let output = child.wait_with_output().unwrap();
+        assert!(output.status.success(), "{command:?}: {output:?}");
+        assert!(output.stderr.is_empty(), "{command:?}: {output:?}");
+    }
 }

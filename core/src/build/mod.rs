@@ -10,7 +10,7 @@ use grid::Grid;
 use heapless::Vec;
 
 use crate::damper::{Damper, IMPLICIT_SHARE, Scalars};
-use crate::error::{BuildError, require};
+use crate::error::{BuildError, require, require_ranges};
 use crate::hydraulics::{HydraulicSide, Laws};
 use crate::math::Real;
 use crate::parameters::{DamperParameters, Element, Limits, Mount, OilColumn, Reduced};
@@ -213,57 +213,29 @@ fn position_span(largest_move: f64) -> f64 {
 }
 
 fn validate_mount(mount: &Mount) -> Result<(), BuildError> {
-    let check = |field, value, valid, allowed| require("mount", field, value, valid, allowed);
-    check(
-        "stiffness_n_per_m",
-        mount.stiffness_n_per_m,
-        (1e4..=1e12).contains(&mount.stiffness_n_per_m),
-        "1e4 to 1e12 N/m",
-    )?;
+    require_ranges!("mount", mount; stiffness_n_per_m in 1e4..=1e12, "1e4 to 1e12 N/m";)?;
     if let Some(stiffness) = mount.seat_stiffness_n_per_m {
-        check(
+        require(
+            "mount",
             "seat_stiffness_n_per_m",
             stiffness,
             (1e4..=1e12).contains(&stiffness),
             "1e4 to 1e12 N/m",
         )?;
     }
-    check(
-        "clearance_m",
-        mount.clearance_m,
-        (0.0..=0.1).contains(&mount.clearance_m),
-        "0 to 0.1 m",
-    )
+    require_ranges!("mount", mount; clearance_m in 0.0..=0.1, "0 to 0.1 m";)
 }
 
 fn validate_limits(limits: &Limits) -> Result<(), BuildError> {
-    let check = |field, value, valid, allowed| require("limits", field, value, valid, allowed);
-    check(
-        "force_n",
-        limits.force_n,
-        (1.0..=1e7).contains(&limits.force_n),
-        "1 to 1e7 N",
-    )?;
-    check(
-        "rate_m_per_s",
-        limits.rate_m_per_s,
-        (1e-3..=100.0).contains(&limits.rate_m_per_s),
-        "1e-3 to 100 m/s",
+    require_ranges!("limits", limits;
+        force_n in 1.0..=1e7, "1 to 1e7 N";
+        rate_m_per_s in 1e-3..=100.0, "1e-3 to 100 m/s";
     )
 }
 
 fn validate_reduced(reduced: &Reduced) -> Result<(), BuildError> {
-    let check = |field, value, valid, allowed| require("reduced", field, value, valid, allowed);
-    check(
-        "damping_n_s_per_m",
-        reduced.damping_n_s_per_m,
-        (1.0..=1e9).contains(&reduced.damping_n_s_per_m),
-        "1 to 1e9 N s/m",
-    )?;
-    check(
-        "saturation_velocity_m_per_s",
-        reduced.saturation_velocity_m_per_s,
-        (1e-6..=100.0).contains(&reduced.saturation_velocity_m_per_s),
-        "1e-6 to 100 m/s",
+    require_ranges!("reduced", reduced;
+        damping_n_s_per_m in 1.0..=1e9, "1 to 1e9 N s/m";
+        saturation_velocity_m_per_s in 1e-6..=100.0, "1e-6 to 100 m/s";
     )
 }

@@ -2,7 +2,7 @@
 
 use core::f64::consts::PI;
 
-use crate::error::{BuildError, require};
+use crate::error::{BuildError, require, require_ranges};
 use crate::math::elementary::sqrt;
 use crate::parameters::{Hydraulics, Oil, Relief, Valve};
 use crate::shim::edge_compliance_m_per_pa;
@@ -31,23 +31,10 @@ impl ShimValve {
             valve.clamp_radius_m > 0.0 && valve.clamp_radius_m < valve.free_radius_m,
             "above 0 and below free_radius_m",
         )?;
-        check(
-            "equivalent_pressure_factor",
-            valve.equivalent_pressure_factor,
-            (0.0..=10.0).contains(&valve.equivalent_pressure_factor),
-            "0 to 10",
-        )?;
-        check(
-            "discharge_coefficient",
-            valve.discharge_coefficient,
-            (0.0..=1.0).contains(&valve.discharge_coefficient),
-            "0 to 1",
-        )?;
-        check(
-            "preload_pa",
-            valve.preload_pa,
-            (0.0..=1e8).contains(&valve.preload_pa),
-            "0 to 1e8 Pa",
+        require_ranges!(section, valve;
+            equivalent_pressure_factor in 0.0..=10.0, "0 to 10";
+            discharge_coefficient in 0.0..=1.0, "0 to 1";
+            preload_pa in 0.0..=1e8, "0 to 1e8 Pa";
         )?;
         Ok(Self {
             area_gradient: valve.discharge_coefficient
@@ -172,13 +159,7 @@ impl Laws {
 
 fn areas(hydraulics: &Hydraulics) -> Result<(f64, f64), BuildError> {
     let geometry = &hydraulics.geometry;
-    require(
-        "geometry",
-        "piston_diameter_m",
-        geometry.piston_diameter_m,
-        (1e-3..=1.0).contains(&geometry.piston_diameter_m),
-        "1e-3 to 1 m",
-    )?;
+    require_ranges!("geometry", geometry; piston_diameter_m in 1e-3..=1.0, "1e-3 to 1 m";)?;
     require(
         "geometry",
         "rod_diameter_m",
@@ -196,24 +177,16 @@ fn areas(hydraulics: &Hydraulics) -> Result<(f64, f64), BuildError> {
 
 fn flow_paths(hydraulics: &Hydraulics) -> Result<FlowPaths, BuildError> {
     let orifice = &hydraulics.orifice;
-    let check = |field, value, valid, allowed| require("orifice", field, value, valid, allowed);
-    check(
+    require(
+        "orifice",
         "diameter_m",
         orifice.diameter_m,
         orifice.diameter_m >= 0.0 && orifice.diameter_m < hydraulics.geometry.piston_diameter_m,
         "0 to below piston_diameter_m",
     )?;
-    check(
-        "discharge_coefficient",
-        orifice.discharge_coefficient,
-        (0.0..=1.0).contains(&orifice.discharge_coefficient),
-        "0 to 1",
-    )?;
-    check(
-        "transition_reynolds",
-        orifice.transition_reynolds,
-        (0.0..=1e5).contains(&orifice.transition_reynolds),
-        "0 to 1e5",
+    require_ranges!("orifice", orifice;
+        discharge_coefficient in 0.0..=1.0, "0 to 1";
+        transition_reynolds in 0.0..=1e5, "0 to 1e5";
     )?;
     let area = 0.25 * PI * orifice.diameter_m * orifice.diameter_m;
     let transition_flow = if orifice.diameter_m > 0.0 {
@@ -234,22 +207,12 @@ fn leakage(hydraulics: &Hydraulics) -> Result<f64, BuildError> {
     let Some(leakage) = &hydraulics.leakage else {
         return Ok(0.0);
     };
-    let check = |field, value, valid, allowed| require("leakage", field, value, valid, allowed);
-    let c = leakage.radial_clearance_m;
-    check(
-        "radial_clearance_m",
-        c,
-        (0.0..=1e-3).contains(&c),
-        "0 to 1e-3 m",
+    require_ranges!("leakage", leakage;
+        radial_clearance_m in 0.0..=1e-3, "0 to 1e-3 m";
+        length_m in 1e-4..=1.0, "1e-4 to 1 m";
+        eccentricity_ratio in 0.0..=1.0, "0 to 1";
     )?;
-    check(
-        "length_m",
-        leakage.length_m,
-        (1e-4..=1.0).contains(&leakage.length_m),
-        "1e-4 to 1 m",
-    )?;
-    let e = leakage.eccentricity_ratio;
-    check("eccentricity_ratio", e, (0.0..=1.0).contains(&e), "0 to 1")?;
+    let (c, e) = (leakage.radial_clearance_m, leakage.eccentricity_ratio);
     let radius = 0.5 * hydraulics.geometry.piston_diameter_m;
     Ok(PI * radius * c * c * c * (1.0 + 1.5 * e * e)
         / (6.0 * hydraulics.oil.kinematic_viscosity_m2_per_s() * leakage.length_m))
@@ -259,24 +222,10 @@ fn relief(hydraulics: &Hydraulics) -> Result<Option<Relief>, BuildError> {
     let Some(relief) = hydraulics.relief else {
         return Ok(None);
     };
-    let check = |field, value, valid, allowed| require("relief", field, value, valid, allowed);
-    check(
-        "opening_pressure_pa",
-        relief.opening_pressure_pa,
-        (0.0..=1e8).contains(&relief.opening_pressure_pa),
-        "0 to 1e8 Pa",
-    )?;
-    check(
-        "area_gradient_m2_per_pa",
-        relief.area_gradient_m2_per_pa,
-        (0.0..=1e-6).contains(&relief.area_gradient_m2_per_pa),
-        "0 to 1e-6 m2/Pa",
-    )?;
-    check(
-        "discharge_coefficient",
-        relief.discharge_coefficient,
-        (0.0..=1.0).contains(&relief.discharge_coefficient),
-        "0 to 1",
+    require_ranges!("relief", relief;
+        opening_pressure_pa in 0.0..=1e8, "0 to 1e8 Pa";
+        area_gradient_m2_per_pa in 0.0..=1e-6, "0 to 1e-6 m2/Pa";
+        discharge_coefficient in 0.0..=1.0, "0 to 1";
     )?;
     Ok(Some(relief))
 }
@@ -287,27 +236,14 @@ fn back_pressure(hydraulics: &Hydraulics, rod_area: f64) -> Result<f64, BuildErr
     let Some(reservoir) = &hydraulics.reservoir else {
         return Ok(0.0);
     };
-    let check = |field, value, valid, allowed| require("reservoir", field, value, valid, allowed);
-    check(
-        "fill_pressure_pa",
-        reservoir.fill_pressure_pa,
-        (0.0..=1e7).contains(&reservoir.fill_pressure_pa),
-        "0 to 1e7 Pa",
-    )?;
-    check(
-        "gas_volume_m3",
-        reservoir.gas_volume_m3,
-        (1e-6..=1.0).contains(&reservoir.gas_volume_m3),
-        "1e-6 to 1 m3",
-    )?;
-    check(
-        "fill_temperature_c",
-        reservoir.fill_temperature_c,
-        (-60.0..=150.0).contains(&reservoir.fill_temperature_c),
-        "-60 to 150 degC",
+    require_ranges!("reservoir", reservoir;
+        fill_pressure_pa in 0.0..=1e7, "0 to 1e7 Pa";
+        gas_volume_m3 in 1e-6..=1.0, "1e-6 to 1 m3";
+        fill_temperature_c in -60.0..=150.0, "-60 to 150 degC";
     )?;
     let volume = reservoir.gas_volume_m3 - rod_area * reservoir.rod_insertion_m;
-    check(
+    require(
+        "reservoir",
         "rod_insertion_m",
         reservoir.rod_insertion_m,
         reservoir.rod_insertion_m.abs() <= 1.0 && volume >= 0.1 * reservoir.gas_volume_m3,
@@ -325,13 +261,7 @@ fn friction(hydraulics: &Hydraulics) -> Result<f64, BuildError> {
     let Some(seal) = &hydraulics.seal else {
         return Ok(0.0);
     };
-    require(
-        "seal",
-        "friction_n",
-        seal.friction_n,
-        (0.0..=1e4).contains(&seal.friction_n),
-        "0 to 1e4 N",
-    )?;
+    require_ranges!("seal", seal; friction_n in 0.0..=1e4, "0 to 1e4 N";)?;
     Ok(seal.friction_n)
 }
 
@@ -340,12 +270,8 @@ fn vapour_pressure(hydraulics: &Hydraulics) -> Result<Option<f64>, BuildError> {
     let Some(two_chamber) = &hydraulics.two_chamber else {
         return Ok(None);
     };
-    require(
-        "two_chamber",
-        "vapour_pressure_pa",
-        two_chamber.vapour_pressure_pa,
-        (-ATMOSPHERIC_PRESSURE_PA..=0.0).contains(&two_chamber.vapour_pressure_pa),
-        "-101325 to 0 Pa (gauge)",
+    require_ranges!("two_chamber", two_chamber;
+        vapour_pressure_pa in -ATMOSPHERIC_PRESSURE_PA..=0.0, "-101325 to 0 Pa (gauge)";
     )?;
     require(
         "geometry",

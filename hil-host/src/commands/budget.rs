@@ -1,44 +1,19 @@
 //! `dashpot budget`: time per step on this host, free running or in real ticks.
 
 use std::hint::black_box;
-use std::io::Write;
+use std::io::{self, Write};
 
 use dashpot_core::{Damper, DamperState, Real};
 use serde::Serialize;
 
-use super::{DamperArguments, Format, Scalar};
+use super::{DamperArguments, Format, RealtimeArguments, Scalar, print_report};
 use crate::excitation::Excitation;
-use crate::failure::{Failure, Outcome};
+use crate::failure::Outcome;
 use crate::pacing::{Clock, FIRST_TICKS, MonotonicClock, Pacer, RealtimeOptions, overhead_ns};
 use crate::timing::{Bar, Distribution, Figures};
 
 /// Ticks timed together, so that reading the clock costs each a hundredth of itself.
 const BATCH: usize = 100;
-
-/// Real-time options of a paced run.
-#[derive(Debug, Clone, Copy, Default, clap::Args)]
-pub struct RealtimeArguments {
-    /// Run under SCHED_FIFO with this priority.
-    #[arg(long, value_name = "PRIORITY", value_parser = clap::value_parser!(u8).range(1..=99))]
-    pub fifo: Option<u8>,
-    /// Lock all memory.
-    #[arg(long)]
-    pub lock_memory: bool,
-    /// Pin to this core.
-    #[arg(long, value_name = "N")]
-    pub core: Option<usize>,
-}
-
-impl RealtimeArguments {
-    /// The options as the pacer takes them.
-    pub fn options(&self) -> RealtimeOptions {
-        RealtimeOptions {
-            fifo_priority: self.fifo,
-            lock_memory: self.lock_memory,
-            core: self.core,
-        }
-    }
-}
 
 /// Time per step on this host: histogram, percentiles, worst case, missed deadlines.
 #[derive(Debug, Clone, clap::Args)]
@@ -99,14 +74,7 @@ pub fn run(arguments: &BudgetArguments) -> Outcome<()> {
         Scalar::F32 => measure::<f32>(arguments, "f32"),
         Scalar::F64 => measure::<f64>(arguments, "f64"),
     }?;
-    let mut out = std::io::stdout().lock();
-    let printed = match arguments.format {
-        Format::Text => print(&mut out, &report),
-        Format::Json => serde_json::to_writer_pretty(&mut out, &report)
-            .map_err(std::io::Error::from)
-            .and_then(|()| writeln!(out)),
-    };
-    printed.map_err(|error| Failure::new(format!("cannot print: {error}")))
+    print_report(arguments.format, &report, print)
 }
 
 /// Dampers on a ride that ends where it began, a decay, then rest.
@@ -144,25 +112,30 @@ impl<T: Real> Bench<T> {
     }
 }
 
+/// What a run saw.
+struct Seen {
+    ticks: u64,
+    missed_deadlines: Option<u64>,
+    first_ticks_ns: Vec<u64>,
+    spreads: Vec<(&'static str, Distribution)>,
+}
+
 fn measure<T: Real>(arguments: &BudgetArguments, scalar: &'static str) -> Outcome<Report> {
     let step_s = 1.0 / f64::from(arguments.rate_hz.unwrap_or(1000));
     let damper: Damper<T> = arguments.damper.load()?.build(step_s)?;
     let mut bench = Bench::new(damper, arguments.dampers, step_s);
     let options = arguments.realtime.options();
-    let mut report = Report {
-        mode: "free",
-        damper: arguments.damper.damper.clone(),
-        scalar,
-        dampers: arguments.dampers,
-        ticks: 0,
-        step_s,
-        clock_overhead_ns: overhead_ns(&MonotonicClock::default()),
-        realtime: options,
-        missed_deadlines: None,
-        first_ticks_ns: Vec::new(),
-        spreads: Vec::new(),
+    let clock_overhead_ns = overhead_ns(&MonotonicClock::default());
+    let (mode, seen) = if let Some(rate) = arguments.rate_hz {
+        let ticks = arguments.steps.unwrap_or(5 * u64::from(rate));
+        let pacer = Pacer::new(step_s, &options)?;
+        ("paced", paced(&mut bench, ticks, pacer))
+    } else {
+        let ticks = arguments.steps.unwrap_or(1_000_000);
+        options.apply()?;
+        ("free", free(&mut bench, ticks, clock_overhead_ns as f64))
     };
-    let spread = |name, distribution: &Distribution| {
+    let spreads = seen.spreads.iter().map(|(name, distribution)| {
         let figures = distribution.figures();
         Spread {
             name,
@@ -170,55 +143,75 @@ fn measure<T: Real>(arguments: &BudgetArguments, scalar: &'static str) -> Outcom
             figures,
             histogram: distribution.bars(16),
         }
-    };
-    if let Some(rate) = arguments.rate_hz {
-        let mut pacer = Pacer::new(step_s, &options)?;
-        for tick in 0..arguments.steps.unwrap_or(5 * u64::from(rate)) {
-            let timing = pacer.wait(tick);
-            bench.tick();
-            pacer.finish(timing);
-        }
-        let seen = pacer.report();
-        report.mode = "paced";
-        report.ticks = seen.ticks;
-        report.missed_deadlines = Some(seen.missed_deadlines);
-        report.first_ticks_ns = seen.first_work_ns.clone();
-        report.spreads = vec![
-            spread("work", &seen.work),
-            spread("lateness", &seen.lateness),
-            spread("response", &seen.response),
-        ];
-        return Ok(report);
+    });
+    Ok(Report {
+        mode,
+        damper: arguments.damper.damper.clone(),
+        scalar,
+        dampers: arguments.dampers,
+        ticks: seen.ticks,
+        step_s,
+        clock_overhead_ns,
+        realtime: options,
+        missed_deadlines: seen.missed_deadlines,
+        first_ticks_ns: seen.first_ticks_ns,
+        spreads: spreads.collect(),
+    })
+}
+
+/// In real ticks.
+fn paced<T: Real>(bench: &mut Bench<T>, ticks: u64, mut pacer: Pacer) -> Seen {
+    for tick in 0..ticks {
+        let timing = pacer.wait(tick);
+        bench.tick();
+        pacer.finish(timing);
     }
-    options.apply()?;
+    let report = pacer.report().clone();
+    Seen {
+        ticks: report.ticks,
+        missed_deadlines: Some(report.missed_deadlines),
+        first_ticks_ns: report.first_work_ns,
+        spreads: vec![
+            ("work", report.work),
+            ("lateness", report.lateness),
+            ("response", report.response),
+        ],
+    }
+}
+
+/// One tick after another: each timed alone, then in batches; without what the clock takes.
+fn free<T: Real>(bench: &mut Bench<T>, ticks: u64, overhead_ns: f64) -> Seen {
     let clock = MonotonicClock::default();
-    let steps = arguments.steps.unwrap_or(1_000_000);
-    let overhead = report.clock_overhead_ns as f64;
+    let mut first_ticks_ns = Vec::new();
     let (mut single, mut batched) = (Distribution::new(), Distribution::new());
-    for tick in 0..steps {
+    for tick in 0..ticks {
         let begin = clock.now_ns();
         bench.tick();
         let span = clock.now_ns() - begin;
-        single.record_ns((span as f64 - overhead).max(0.0));
+        single.record_ns((span as f64 - overhead_ns).max(0.0));
         if tick < FIRST_TICKS as u64 {
-            report.first_ticks_ns.push(span);
+            first_ticks_ns.push(span);
         }
     }
-    for _ in 0..steps.div_ceil(BATCH as u64) {
+    for _ in 0..ticks.div_ceil(BATCH as u64) {
         let begin = clock.now_ns();
         (0..BATCH).for_each(|_| bench.tick());
-        let span = (clock.now_ns() - begin) as f64 - overhead;
+        let span = (clock.now_ns() - begin) as f64 - overhead_ns;
         batched.record_ns(span.max(0.0) / BATCH as f64);
     }
-    report.ticks = steps;
-    report.spreads = vec![spread("batched", &batched), spread("single", &single)];
-    Ok(report)
+    Seen {
+        ticks,
+        missed_deadlines: None,
+        first_ticks_ns,
+        spreads: vec![("batched", batched), ("single", single)],
+    }
 }
 
-fn print(out: &mut impl Write, report: &Report) -> std::io::Result<()> {
+/// The report for people.
+fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
     writeln!(
         out,
-        "{} {}, {} dampers a tick, {} ticks, {}; tick {:.0} us; two clock readings {} ns{}",
+        "{} {}, dampers a tick: {}, {} ticks, {}; tick {:.0} us; two clock readings {} ns{}",
         report.damper,
         report.scalar,
         report.dampers,
@@ -260,11 +253,11 @@ fn print(out: &mut impl Write, report: &Report) -> std::io::Result<()> {
         for bar in &spread.histogram {
             let length = (40 * bar.count).div_ceil(f.count.max(1)) as usize;
             let bars = "#".repeat(length);
-            writeln!(
-                out,
+            let row = format!(
                 "  {:>12.1} to {:>12.1}  {:>9}  {bars}",
                 bar.from_ns, bar.to_ns, bar.count
-            )?;
+            );
+            writeln!(out, "{}", row.trim_end())?;
         }
     }
     Ok(())

@@ -1,15 +1,14 @@
 //! `dashpot` without a command: the demonstration.
 
-use std::io::Write;
+use std::io::{self, Write};
 use std::path::PathBuf;
 
-use indicatif::{ProgressBar, ProgressStyle};
 use serde::Serialize;
 
-use super::Format;
-use crate::demonstration::{self, Accuracy, Demonstration, WORK};
-use crate::failure::{Failure, Outcome};
-use crate::output::write_whole;
+use super::{Format, print_report, progress};
+use crate::demonstration::{self, Accuracy};
+use crate::failure::Outcome;
+use crate::output::write_bytes;
 
 /// The demonstration: two presets on the shipped ride, accuracy, cost, and a page that shows them.
 #[derive(Debug, Clone, clap::Args)]
@@ -23,8 +22,8 @@ pub struct DemonstrateArguments {
 }
 
 #[derive(Serialize)]
-struct Report<'a> {
-    accuracy: &'a [Accuracy],
+struct Report {
+    accuracy: Vec<Accuracy>,
     page: String,
 }
 
@@ -33,45 +32,23 @@ struct Report<'a> {
 /// # Errors
 /// The reference does not reach its tolerance, or the page cannot be written.
 pub fn run(arguments: &DemonstrateArguments) -> Outcome<()> {
-    // Drawn on a terminal only.
-    let bar = ProgressBar::new(WORK + 1);
-    if let Ok(style) = ProgressStyle::with_template("{bar:30} {pos}/{len}  {msg}") {
-        bar.set_style(style);
-    }
-    bar.enable_steady_tick(std::time::Duration::from_millis(200));
-    let mut begun = false;
-    let shown = demonstration::run(|work| {
-        if std::mem::replace(&mut begun, true) {
-            bar.inc(1);
-        }
+    let bar = progress::bar(demonstration::WORK, "");
+    let shown = demonstration::run(|work, done| {
+        bar.set_position(done);
         bar.set_message(work);
     })?;
-    bar.inc(1);
-    bar.set_message("page");
     let page = demonstration::page(&shown)?;
     let path = &arguments.output;
-    write_whole(path, |file| {
-        file.write_all(page.as_bytes())
-            .map_err(|error| Failure::in_file(path, format!("cannot write: {error}")))
-    })?;
+    write_bytes(path, page.as_bytes())?;
     bar.finish_and_clear();
-    let mut out = std::io::stdout().lock();
-    let printed = match arguments.format {
-        Format::Text => print(&mut out, &shown, &path.display().to_string()),
-        Format::Json => {
-            let report = Report {
-                accuracy: &shown.accuracy,
-                page: path.display().to_string(),
-            };
-            serde_json::to_writer_pretty(&mut out, &report)
-                .map_err(std::io::Error::from)
-                .and_then(|()| writeln!(out))
-        }
+    let report = Report {
+        accuracy: shown.accuracy,
+        page: path.display().to_string(),
     };
-    printed.map_err(|error| Failure::new(format!("cannot print: {error}")))
+    print_report(arguments.format, &report, print)
 }
 
-fn print(out: &mut impl Write, shown: &Demonstration, page: &str) -> std::io::Result<()> {
+fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
     writeln!(
         out,
         "locomotive damper on a made ride, fixed step against reference\n\n  {:<12}{:>10}{:>11}{:>23}{:>10}{:>22}{:>16}",
@@ -83,7 +60,7 @@ fn print(out: &mut impl Write, shown: &Demonstration, page: &str) -> std::io::Re
         "largest error / peak",
         "median ns/step"
     )?;
-    for row in &shown.accuracy {
+    for row in &report.accuracy {
         writeln!(
             out,
             "  {:<12}{:>10.0}{:>11}{:>23.2e}{:>10.0e}{:>22.2e}{:>16.0}{}",
@@ -97,5 +74,5 @@ fn print(out: &mut impl Write, shown: &Demonstration, page: &str) -> std::io::Re
             if row.over_limit() { "  over" } else { "" }
         )?;
     }
-    writeln!(out, "\npage: {page}")
+    writeln!(out, "\npage: {}", report.page)
 }

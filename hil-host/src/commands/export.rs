@@ -1,15 +1,14 @@
 //! `dashpot export`: the built damper as a constant or as bytes for firmware.
 
-use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use dashpot_core::Damper;
 use serde::Serialize;
 
-use super::{DamperArguments, Format, Scalar};
+use super::{DamperArguments, Format, Scalar, print_report, step_s};
 use crate::export::{Provenance, Word, c_source, rust_source};
 use crate::failure::{Failure, Outcome};
-use crate::output::write_whole;
+use crate::output::write_bytes;
 
 /// Language of the exported source.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
@@ -34,11 +33,13 @@ impl Language {
 
 /// Write the built damper as a constant or as bytes for firmware.
 #[derive(Debug, Clone, clap::Args)]
-#[command(after_help = "Example:
+#[command(after_help = "Examples:
   dashpot export --damper reduced-vertical --lang rust --step-us 500 --output vertical.rs
-then in the firmware: mod vertical; ... vertical::REDUCED_VERTICAL.step(&mut state, x)
   dashpot export --damper in-service --lang c --output in_service.c
-then in C: dashpot_damper_init(&damper, IN_SERVICE, sizeof IN_SERVICE)")]
+  dashpot export --damper in-service --lang bin --output in_service.bin
+
+Then in Rust: mod vertical; ... vertical::REDUCED_VERTICAL.step(&mut state, x)
+and in C: dashpot_damper_init(&damper, IN_SERVICE, sizeof IN_SERVICE)")]
 pub struct ExportArguments {
     #[command(flatten)]
     damper: DamperArguments,
@@ -88,29 +89,25 @@ pub fn run(arguments: &ExportArguments) -> Outcome<()> {
         Scalar::F32 => export::<f32>(arguments),
         Scalar::F64 => export::<f64>(arguments),
     }?;
-    let mut out = std::io::stdout().lock();
-    let printed = match arguments.format {
-        Format::Text => writeln!(
+    print_report(arguments.format, &report, |out, report| {
+        if let Some(name) = &report.name {
+            write!(out, "{name} in ")?;
+        }
+        writeln!(
             out,
-            "{}: {}{} for {} us, {}, revision {:#010x}: {} bytes, a state {} bytes",
+            "{}: {} for {} us, {}, revision {:#010x}: {}{} bytes in memory, a state {} bytes",
             report.output,
-            report
-                .name
-                .iter()
-                .map(|name| format!("{name} = "))
-                .collect::<String>(),
             report.damper,
             arguments.step_us,
             report.scalar,
             report.revision,
+            report
+                .image_bytes
+                .map_or_else(String::new, |bytes| format!("image {bytes} bytes, ")),
             report.damper_bytes,
             report.state_bytes
-        ),
-        Format::Json => serde_json::to_writer_pretty(&mut out, &report)
-            .map_err(std::io::Error::from)
-            .and_then(|()| writeln!(out)),
-    };
-    printed.map_err(|error| Failure::new(format!("cannot print: {error}")))
+        )
+    })
 }
 
 fn export<T: Word>(arguments: &ExportArguments) -> Outcome<Report> {
@@ -124,7 +121,7 @@ fn export<T: Word>(arguments: &ExportArguments) -> Outcome<Report> {
         (Some(name), _) => Some(name.clone()),
         (None, _) => Some(constant_name(&arguments.damper.damper)),
     };
-    let step_s = f64::from(arguments.step_us) * 1e-6;
+    let step_s = step_s(arguments.step_us);
     let damper: Damper<T> = arguments.damper.load()?.build(step_s)?;
     let constant = name.as_deref().unwrap_or_default();
     let provenance = Provenance {
@@ -138,10 +135,7 @@ fn export<T: Word>(arguments: &ExportArguments) -> Outcome<Report> {
         Language::Bin => T::image(&damper),
     };
     let path = &arguments.output;
-    write_whole(path, |file| {
-        file.write_all(&bytes)
-            .map_err(|error| Failure::in_file(path, format!("cannot write: {error}")))
-    })?;
+    write_bytes(path, &bytes)?;
     Ok(Report {
         damper: arguments.damper.damper.clone(),
         name,

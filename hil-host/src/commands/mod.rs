@@ -11,13 +11,14 @@ pub mod rig;
 pub mod shims;
 pub mod verify;
 
-use std::io::Write;
+use std::io::{self, BufWriter, Write};
 
 use dashpot_core::DamperParameters;
 use serde::Serialize;
 
 use crate::damper_file;
 use crate::failure::{Failure, Outcome};
+use crate::pacing::RealtimeOptions;
 
 /// How a command prints its results.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, clap::ValueEnum)]
@@ -60,34 +61,57 @@ impl DamperArguments {
     }
 }
 
+/// Real-time options of a paced run.
+#[derive(Debug, Clone, Copy, Default, clap::Args)]
+pub struct RealtimeArguments {
+    /// Run under SCHED_FIFO with this priority.
+    #[arg(long, value_name = "PRIORITY", value_parser = clap::value_parser!(u8).range(1..=99))]
+    pub fifo: Option<u8>,
+    /// Lock all memory.
+    #[arg(long)]
+    pub lock_memory: bool,
+    /// Pin to this core.
+    #[arg(long, value_name = "N")]
+    pub core: Option<usize>,
+}
+
+impl RealtimeArguments {
+    /// The options as the pacer takes them.
+    pub fn options(&self) -> RealtimeOptions {
+        RealtimeOptions {
+            fifo_priority: self.fifo,
+            lock_memory: self.lock_memory,
+            core: self.core,
+        }
+    }
+}
+
 /// Step in seconds of one in microseconds.
 pub fn step_s(step_us: u32) -> f64 {
     f64::from(step_us) * 1e-6
 }
 
-/// Prints one JSON object and a line feed.
+/// Prints `report` in the format asked for: what `text` writes, or one JSON object. A reader that has
+/// left, such as `head`, is no failure.
 ///
 /// # Errors
-/// Standard output cannot be written, but for a reader that has left.
-pub fn print_json(value: &impl Serialize) -> Outcome<()> {
-    let text =
-        serde_json::to_string_pretty(value).map_err(|error| Failure::new(error.to_string()))?;
-    print_lines(&[text])
-}
-
-/// Prints lines.
-///
-/// # Errors
-/// Standard output cannot be written, but for a reader that has left.
-pub fn print_lines(lines: &[impl AsRef<str>]) -> Outcome<()> {
-    let mut out = std::io::stdout().lock();
-    for line in lines {
-        if let Err(error) = writeln!(out, "{}", line.as_ref()) {
-            return match error.kind() {
-                std::io::ErrorKind::BrokenPipe => Ok(()),
-                _ => Err(Failure::new(format!("standard output: {error}"))),
-            };
+/// Standard output cannot be written.
+pub fn print_report<R: Serialize>(
+    format: Format,
+    report: &R,
+    text: impl FnOnce(&mut dyn Write, &R) -> io::Result<()>,
+) -> Outcome<()> {
+    let mut out = BufWriter::new(io::stdout().lock());
+    let printed = match format {
+        Format::Text => text(&mut out, report),
+        Format::Json => serde_json::to_writer_pretty(&mut out, report)
+            .map_err(io::Error::from)
+            .and_then(|()| writeln!(out)),
+    };
+    match printed.and_then(|()| out.flush()) {
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
+            Err(Failure::new(format!("standard output: {error}")))
         }
+        _ => Ok(()),
     }
-    Ok(())
 }

@@ -1,12 +1,13 @@
 //! `dashpot pil`: processor in the loop.
 
+use std::io::{self, Write};
 use std::path::PathBuf;
 use std::time::Duration;
 
 use dashpot_core::Damper;
 use serde::Serialize;
 
-use super::{DamperArguments, Format, progress};
+use super::{DamperArguments, Format, print_report, progress};
 use crate::failure::{Failure, Outcome};
 use crate::pil::{
     Client, FaultCounts, FaultRates, FaultyLink, LinkChoice, Patience, Report, Session,
@@ -100,10 +101,9 @@ pub fn run(arguments: &PilArguments) -> Outcome<()> {
         report,
         injected_faults: arguments.faults.map(|_| session.link().counts()),
     };
-    match arguments.format {
-        Format::Json => super::print_json(&result)?,
-        Format::Text => print_text(&result, arguments)?,
-    }
+    print_report(arguments.format, &result, |out, result| {
+        print(out, result, arguments)
+    })?;
     let report = &result.report;
     if report.mismatches > 0 || report.state_mismatches > 0 {
         return Err(Failure::new(format!(
@@ -126,31 +126,34 @@ fn whole_us(step_s: f32) -> Outcome<f64> {
     }
 }
 
-fn print_text(result: &Result, arguments: &PilArguments) -> Outcome<()> {
+fn print(out: &mut dyn Write, result: &Result, arguments: &PilArguments) -> io::Result<()> {
     let report = &result.report;
     let target = &report.target;
     let dampers = target.dampers as f64;
     let us = |ns: f64| ns * 1e-3;
-    let mut lines = vec![
-        format!(
-            "{} ticks of {:.0} us through {} x {} on the target (dashpot-core {})",
-            report.ticks,
-            target.step_s * 1e6,
-            target.dampers,
-            arguments.damper.damper,
-            target.core_version
-        ),
-        match report.mismatches + report.state_mismatches as u64 {
-            0 => "mismatches            none: every force, status and state has the host's bits"
-                .into(),
-            _ => format!(
-                "mismatches            {} forces or status words, {} states",
-                report.mismatches, report.state_mismatches
-            ),
-        },
-    ];
+    writeln!(
+        out,
+        "{} ticks of {:.0} us through {} x {} on the target (dashpot-core {})",
+        report.ticks,
+        target.step_s * 1e6,
+        target.dampers,
+        arguments.damper.damper,
+        target.core_version
+    )?;
+    match report.mismatches + report.state_mismatches as u64 {
+        0 => writeln!(
+            out,
+            "mismatches            none: every force, status and state has the host's bits"
+        )?,
+        _ => writeln!(
+            out,
+            "mismatches            {} forces or status words, {} states",
+            report.mismatches, report.state_mismatches
+        )?,
+    }
     if let Some(first) = report.first_mismatch {
-        lines.push(format!(
+        writeln!(
+            out,
             "  first at tick {}, damper {}: target {} N status {:#x}, host {} N status {:#x}",
             first.tick,
             first.damper,
@@ -158,35 +161,39 @@ fn print_text(result: &Result, arguments: &PilArguments) -> Outcome<()> {
             first.target_status,
             first.host_force_n,
             first.host_status
-        ));
+        )?;
     }
     let trip = &report.round_trip;
-    lines.push(format!(
+    writeln!(
+        out,
         "round trip            {:.0} us at the median, {:.0} us at 99 %, {:.0} us at 99.9 %, {:.0} us at most",
         us(trip.p50_ns),
         us(trip.p99_ns),
         us(trip.p99_9_ns),
         us(trip.worst_ns)
-    ));
+    )?;
     let clock = &report.clock_ticks;
-    lines.push(format!(
+    writeln!(
+        out,
         "step of the bank      {:.1} clock ticks of {:.0} MHz ({:.0} to {:.0})",
         clock.mean,
         f64::from(target.clock_hz) * 1e-6,
         clock.min,
         clock.max
-    ));
+    )?;
     if let Some(instructions) = &report.instructions {
-        lines.push(format!(
+        writeln!(
+            out,
             "                      {:.0} instructions ({:.0} to {:.0}), {:.1} a damper",
             instructions.mean,
             instructions.min,
             instructions.max,
             instructions.mean / dampers
-        ));
+        )?;
     }
     let seen = &report.link_faults;
-    lines.push(format!(
+    writeln!(
+        out,
         "link faults seen      {} timeouts, {} broken requests, {} broken answers, {} stale answers, {} lost \
          sessions",
         seen.timeouts,
@@ -194,13 +201,15 @@ fn print_text(result: &Result, arguments: &PilArguments) -> Outcome<()> {
         seen.corrupt_answers,
         seen.stale_answers,
         seen.lost_sessions
-    ));
-    lines.push(format!(
+    )?;
+    writeln!(
+        out,
         "  repaired by         {} repeated requests, {} restored states",
         seen.repeated_requests, report.recoveries
-    ));
+    )?;
     if let Some(made) = &result.injected_faults {
-        lines.push(format!(
+        writeln!(
+            out,
             "link faults made      {} dropped, {} corrupted, {} delayed, {} duplicated, {} reordered, {} resets \
              (seed {})",
             made.dropped,
@@ -210,7 +219,7 @@ fn print_text(result: &Result, arguments: &PilArguments) -> Outcome<()> {
             made.reordered,
             made.resets,
             arguments.seed
-        ));
+        )?;
     }
-    super::print_lines(&lines)
+    Ok(())
 }

@@ -1,13 +1,12 @@
 //! `dashpot replay`: force over a recorded motion.
 
-use std::io::Write;
+use std::io::{self, Write};
 use std::path::PathBuf;
 
 use dashpot_core::{DamperParameters, Real, Status};
 use serde::Serialize;
 
-use super::budget::RealtimeArguments;
-use super::{DamperArguments, Format, Scalar, progress, step_s};
+use super::{DamperArguments, Format, RealtimeArguments, Scalar, print_report, progress, step_s};
 use crate::failure::{Failure, Outcome};
 use crate::output::write_whole;
 use crate::pacing::Pacer;
@@ -19,12 +18,11 @@ use crate::timing::Figures;
 #[derive(Debug, Clone, clap::Args)]
 #[command(after_help = "Examples:
   dashpot replay --damper paper --input data/excitations/ride_made.csv --output force.csv
-  dashpot replay --damper my.toml --set mount.clearance_m=1e-3 --input run7.csv --output f.csv --step-us 100
+  dashpot replay --damper my.toml --set mount.clearance_m=1e-3 --input run7.csv --output f.csv
+  dashpot replay --input run7.csv --output f.csv --realtime --fifo 80 --lock-memory --core 1
 
-Input columns time_s,displacement_m (any order, uneven times allowed); output time_s,displacement_m,force_n
-on ticks from the first sample on, the displacement linear between samples.
-
-  dashpot replay --input run7.csv --output f.csv --realtime --fifo 80 --lock-memory --core 1")]
+Input columns: time_s,displacement_m in any order; uneven times are allowed, other columns passed over.
+Output columns: time_s,displacement_m,force_n at ticks from the first sample on, the displacement linear between samples.")]
 pub struct ReplayArguments {
     #[command(flatten)]
     damper: DamperArguments,
@@ -35,7 +33,7 @@ pub struct ReplayArguments {
     #[arg(long, value_name = "FILE")]
     output: PathBuf,
     /// Step, us.
-    #[arg(long, default_value_t = 1000, value_parser = clap::value_parser!(u32).range(1..=20_000))]
+    #[arg(long, default_value_t = 1000, value_parser = clap::value_parser!(u32).range(1..=20_000), value_name = "US")]
     step_us: u32,
     /// Floating-point type of the step.
     #[arg(long, value_enum, default_value_t = Scalar::F32)]
@@ -117,17 +115,16 @@ pub fn run(arguments: &ReplayArguments) -> Outcome<()> {
             work: pacer.report().work.figures(),
         }),
     };
-    match arguments.format {
-        Format::Json => super::print_json(&report),
-        Format::Text => print_text(&report, arguments),
-    }
+    print_report(arguments.format, &report, |out, report| {
+        print(out, report, arguments)
+    })
 }
 
 fn same_file(a: &std::path::Path, b: &std::path::Path) -> bool {
     matches!((a.canonicalize(), b.canonicalize()), (Ok(a), Ok(b)) if a == b)
 }
 
-fn write<T: Real + std::fmt::Display>(
+fn write<T: Real + Serialize>(
     parameters: &DamperParameters,
     arguments: &ReplayArguments,
     pacer: Option<&mut Pacer>,
@@ -141,58 +138,73 @@ fn write<T: Real + std::fmt::Display>(
     )?;
     let mut summary = None;
     write_whole(&arguments.output, |file| {
-        let failed = |error| Failure::in_file(&arguments.output, format!("cannot write: {error}"));
-        writeln!(file, "time_s,displacement_m,force_n").map_err(failed)?;
+        let failed = |error: csv::Error| {
+            Failure::in_file(&arguments.output, format!("cannot write: {error}"))
+        };
+        let mut rows = csv::Writer::from_writer(file);
+        rows.write_record(["time_s", "displacement_m", "force_n"])
+            .map_err(failed)?;
         let mut number = 0_u32;
         summary = Some(replay(&damper, &mut ticks, pacer, |tick, force, ticks| {
             number = number.wrapping_add(1);
             if number.is_multiple_of(65_536) {
                 bar.set_position(ticks.position());
             }
-            writeln!(file, "{:.6},{},{force}", tick.time_s, tick.displacement_m).map_err(failed)
+            rows.serialize((whole_us(tick.time_s), tick.displacement_m, force))
+                .map_err(failed)
         })?);
-        Ok(())
+        rows.flush().map_err(|error| failed(error.into()))
     })?;
     bar.finish_and_clear();
     summary.ok_or_else(|| Failure::new("nothing was replayed"))
 }
 
-fn print_text(report: &Report, arguments: &ReplayArguments) -> Outcome<()> {
-    let mut lines = vec![
-        format!(
-            "{} ticks of {} us through damper {}",
-            report.ticks, arguments.step_us, arguments.damper.damper
+/// The nearest whole microsecond (s), free of the rounding of sums.
+fn whole_us(time_s: f64) -> f64 {
+    (time_s * 1e6).round() / 1e6
+}
+
+fn print(out: &mut dyn Write, report: &Report, arguments: &ReplayArguments) -> io::Result<()> {
+    writeln!(
+        out,
+        "{} ticks of {} us through damper {}",
+        report.ticks, arguments.step_us, arguments.damper.damper
+    )?;
+    for (name, value, unit) in [
+        ("force rms", report.force_rms_n, "N"),
+        ("largest in extension", report.max_extension_force_n, "N"),
+        (
+            "largest in compression",
+            report.max_compression_force_n,
+            "N",
         ),
-        format!("force rms              {:>12.1} N", report.force_rms_n),
-        format!(
-            "largest in extension   {:>12.1} N",
-            report.max_extension_force_n
-        ),
-        format!(
-            "largest in compression {:>12.1} N",
-            report.max_compression_force_n
-        ),
-        format!("energy dissipated      {:>12.1} J", report.energy_j),
-    ];
+        ("energy dissipated", report.energy_j, "J"),
+    ] {
+        writeln!(out, "{name:<22} {value:>12.1} {unit}")?;
+    }
     if report.input_limited {
-        lines.push(format!(
+        writeln!(
+            out,
             "warning: {} ticks moved faster than limits.rate_m_per_s and were followed at that rate",
             report.rejected_inputs
-        ));
+        )?;
     }
     if report.saturated {
-        lines.push("note: the damper reached its saturation force or force limit".into());
+        writeln!(
+            out,
+            "note: the damper reached its saturation force or force limit"
+        )?;
     }
     if let Some(realtime) = &report.realtime {
-        lines.push(format!(
+        writeln!(
+            out,
             "real ticks: {} deadlines missed; late by {:.1} us at most, {:.1} us at the 99th percentile; \
              step {:.2} us at most",
             realtime.missed_deadlines,
             realtime.lateness.worst_ns * 1e-3,
             realtime.lateness.p99_ns * 1e-3,
             realtime.work.worst_ns * 1e-3
-        ));
+        )?;
     }
-    lines.push(format!("wrote {}", arguments.output.display()));
-    super::print_lines(&lines)
+    writeln!(out, "wrote {}", arguments.output.display())
 }

@@ -1,20 +1,22 @@
 //! `dashpot rig`: the bench test and its indices.
 
-use std::io::Write;
+use std::io::{self, Write};
 
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
-use super::{DamperArguments, Format};
+use super::{DamperArguments, Format, print_report};
 use crate::failure::{Failure, Outcome};
+use crate::published::{NominalIndex, nominal_indices};
 use crate::rig::{self, Harmonic};
-
-const TABLE_5: &str = include_str!("../../../data/published/table5_nominal_characteristic.csv");
 
 /// Bench test: a harmonic motion until the force repeats, indices of one settled cycle.
 #[derive(Debug, Clone, clap::Args)]
-#[command(after_help = "Examples:
+#[command(
+    allow_negative_numbers = true,
+    after_help = "Examples:
   dashpot rig --damper paper --amplitude-m 24.875e-3 --frequency-hz 0.64
-  dashpot rig --damper in-service --set mount.clearance_m=2e-3 --amplitude-m 5e-3 --frequency-hz 2 --format json")]
+  dashpot rig --damper in-service --set mount.clearance_m=2e-3 --amplitude-m 5e-3 --frequency-hz 2 --format json"
+)]
 pub struct RigArguments {
     /// The damper.
     #[command(flatten)]
@@ -48,13 +50,8 @@ struct Report<'a> {
     damping_coefficient_n_s_per_m: f64,
 }
 
-/// A row of Table 5.
-#[derive(Deserialize)]
-struct Published {
-    index: String,
-    simulation: f64,
-    test: f64,
-}
+/// An index here, and its row of Table 5.
+type Row = (String, NominalIndex);
 
 /// Runs the bench test and prints its indices.
 ///
@@ -66,6 +63,12 @@ pub fn run(arguments: &RigArguments) -> Outcome<()> {
         amplitude_m: arguments.amplitude_m,
         frequency_hz: arguments.frequency_hz,
     };
+    if !(1.0..=2e4).contains(&arguments.step_us) {
+        return Err(Failure::new(format!(
+            "--step-us: {}, allowed: 1 to 20000 us",
+            arguments.step_us
+        )));
+    }
     let cycle = rig::settle(&damper, motion, arguments.step_us * 1e-6)?;
     let indices = cycle.indices();
     let report = Report {
@@ -81,37 +84,24 @@ pub fn run(arguments: &RigArguments) -> Outcome<()> {
         energy_per_cycle_j: indices.energy_per_cycle_j,
         damping_coefficient_n_s_per_m: indices.damping_coefficient_n_s_per_m,
     };
-    let published = published(&motion)?;
-    let mut out = std::io::stdout().lock();
-    let printed = match arguments.format {
-        Format::Text => print(&mut out, &report, &published),
-        Format::Json => serde_json::to_writer_pretty(&mut out, &report)
-            .map_err(std::io::Error::from)
-            .and_then(|()| writeln!(out)),
-    };
-    printed.map_err(|error| Failure::new(format!("cannot print: {error}")))
+    let rows: Vec<Row> = nominal_indices()?
+        .into_iter()
+        .map(|published| Ok((published.of(&indices)?, published)))
+        .collect::<Outcome<_>>()?;
+    let nominal = is_nominal(&motion);
+    print_report(arguments.format, &report, |out, report| {
+        print(out, report, &rows, nominal)
+    })
 }
 
-/// Table 5, for its motion only.
-fn published(motion: &Harmonic) -> Outcome<Vec<Published>> {
+/// Whether the motion is that of Table 5.
+fn is_nominal(motion: &Harmonic) -> bool {
     let nominal = Harmonic::TABLE_5;
     let same = |a: f64, b: f64| (a - b).abs() <= 1e-6 * b;
-    if !(same(motion.amplitude_m, nominal.amplitude_m)
-        && same(motion.frequency_hz, nominal.frequency_hz))
-    {
-        return Ok(Vec::new());
-    }
-    csv::Reader::from_reader(TABLE_5.as_bytes())
-        .deserialize()
-        .collect::<Result<_, _>>()
-        .map_err(|error| Failure::new(format!("Table 5: {error}")))
+    same(motion.amplitude_m, nominal.amplitude_m) && same(motion.frequency_hz, nominal.frequency_hz)
 }
 
-fn print(
-    out: &mut impl Write,
-    report: &Report<'_>,
-    published: &[Published],
-) -> std::io::Result<()> {
+fn print(out: &mut dyn Write, report: &Report<'_>, rows: &[Row], nominal: bool) -> io::Result<()> {
     writeln!(
         out,
         "{}: +-{:.3} mm at {} Hz, peak velocity {:.4} m/s; cycle {} repeats, step {:.2} us\n",
@@ -122,47 +112,24 @@ fn print(
         report.cycles,
         report.step_s * 1e6
     )?;
-    let asymmetry = report.asymmetry_rate.map_or_else(
-        || "no force".to_owned(),
-        |rate| format!("{:.2}", rate * 1e2),
-    );
-    let rows = [
-        (
-            "damping coefficient",
-            "kN s/m",
-            format!("{:.2}", report.damping_coefficient_n_s_per_m * 1e-3),
-        ),
-        (
-            "maximum extension force",
-            "N",
-            format!("{:.0}", report.max_extension_force_n),
-        ),
-        (
-            "maximum compression force",
-            "N",
-            format!("{:.0}", report.max_compression_force_n),
-        ),
-        ("asymmetry rate", "%", asymmetry),
-        (
-            "energy per cycle",
-            "N m",
-            format!("{:.2}", report.energy_per_cycle_j),
-        ),
-    ];
-    let heading = if published.is_empty() {
-        String::new()
-    } else {
+    let heading = if nominal {
         format!("{:>17}{:>15}", "paper simulation", "paper test")
+    } else {
+        String::new()
     };
     writeln!(out, "  {:<27}{:<8}{:>12}{heading}", "index", "unit", "here")?;
-    for (name, unit, value) in rows {
-        write!(out, "  {name:<27}{unit:<8}{value:>12}")?;
-        if let Some(row) = published.iter().find(|row| row.index == name) {
-            write!(out, "{:>17}{:>15}", row.simulation, row.test)?;
+    for (here, published) in rows {
+        write!(
+            out,
+            "  {:<27}{:<8}{here:>12}",
+            published.index, published.unit
+        )?;
+        if nominal {
+            write!(out, "{:>17}{:>15}", published.simulation, published.test)?;
         }
         writeln!(out)?;
     }
-    if !published.is_empty() {
+    if nominal {
         writeln!(
             out,
             "\npaper: Table 5, same motion. Its equations with its Tables 2-4 do not give its Table 5 \

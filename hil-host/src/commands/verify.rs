@@ -1,11 +1,12 @@
 //! `dashpot verify`: the fixed step against the reference solver on a recorded motion.
 
+use std::io::{self, Write};
 use std::path::PathBuf;
 
 use serde::Serialize;
 
-use super::{DamperArguments, Format, Scalar, progress, step_s};
-use crate::failure::Outcome;
+use super::{DamperArguments, Format, print_report, progress, step_s};
+use crate::failure::{Failure, Outcome};
 use crate::recording::Recording;
 use crate::replay::Ticks;
 use crate::verification::{Deviation, deviation, fixed_step_forces, reference_forces};
@@ -40,6 +41,11 @@ struct Row {
     deviation: Deviation,
 }
 
+#[derive(Serialize)]
+struct Report {
+    deviations: Vec<Row>,
+}
+
 /// Runs the command.
 ///
 /// # Errors
@@ -50,65 +56,62 @@ pub fn run(arguments: &VerifyArguments) -> Outcome<()> {
     let mut rows = Vec::new();
     for &step_us in &arguments.step_us {
         let step_s = step_s(step_us);
-        let mut ticks = Ticks::new(Recording::open(&arguments.input)?, step_s)?;
-        let mut displacements_m = Vec::new();
-        while let Some(tick) = ticks.next_tick()? {
-            displacements_m.push(tick.displacement_m);
-        }
+        let ticks = Ticks::new(Recording::open(&arguments.input)?, step_s)?;
+        let displacements_m = ticks.displacements_m()?;
         let reference = reference_forces(&parameters, step_s, &displacements_m)?;
-        for scalar in [Scalar::F32, Scalar::F64] {
-            let (name, forces) = match scalar {
-                Scalar::F32 => (
-                    "f32",
-                    fixed_step_forces::<f32>(&parameters, step_s, &displacements_m)?,
-                ),
-                Scalar::F64 => (
-                    "f64",
-                    fixed_step_forces::<f64>(&parameters, step_s, &displacements_m)?,
-                ),
-            };
+        for (scalar, forces) in [
+            (
+                "f32",
+                fixed_step_forces::<f32>(&parameters, step_s, &displacements_m)?,
+            ),
+            (
+                "f64",
+                fixed_step_forces::<f64>(&parameters, step_s, &displacements_m)?,
+            ),
+        ] {
             rows.push(Row {
-                scalar: name,
+                scalar,
                 deviation: deviation(step_s, &forces, &reference)?,
             });
         }
         bar.inc(1);
     }
     bar.finish_and_clear();
-    match arguments.format {
-        Format::Json => super::print_json(&serde_json::json!({ "deviations": rows }))?,
-        Format::Text => print_text(&rows, arguments)?,
-    }
-    let worst = rows
+    let report = Report { deviations: rows };
+    print_report(arguments.format, &report, |out, report| {
+        print(out, report, arguments)
+    })?;
+    let worst = report
+        .deviations
         .iter()
         .map(|row| row.deviation.nrmse)
         .fold(0.0, f64::max);
     match arguments.at_most {
-        Some(limit) if worst > limit => Err(crate::failure::Failure::new(format!(
+        Some(limit) if worst > limit => Err(Failure::new(format!(
             "NRMSE {worst:.2e} is above --at-most {limit:.2e}"
         ))),
         _ => Ok(()),
     }
 }
 
-fn print_text(rows: &[Row], arguments: &VerifyArguments) -> Outcome<()> {
-    let mut lines = vec![
-        format!(
-            "damper {} on {}, fixed step against the adaptive reference",
-            arguments.damper.damper,
-            arguments.input.display()
-        ),
-        "  step us  scalar      NRMSE  largest/peak  largest N   rms N".into(),
-    ];
-    for Row { scalar, deviation } in rows {
-        lines.push(format!(
+fn print(out: &mut dyn Write, report: &Report, arguments: &VerifyArguments) -> io::Result<()> {
+    writeln!(
+        out,
+        "damper {} on {}, fixed step against the adaptive reference\n  \
+         step us  scalar      NRMSE  largest/peak  largest N   rms N",
+        arguments.damper.damper,
+        arguments.input.display()
+    )?;
+    for Row { scalar, deviation } in &report.deviations {
+        writeln!(
+            out,
             "{:>9.0}  {scalar:<6}  {:>9.2e}  {:>12.2e}  {:>9.2}  {:>6.0}",
             deviation.step_s * 1e6,
             deviation.nrmse,
             deviation.largest_error_over_peak,
             deviation.largest_error_n,
             deviation.reference_rms_n
-        ));
+        )?;
     }
-    super::print_lines(&lines)
+    Ok(())
 }

@@ -13,22 +13,51 @@ const PALE: RGBColor = RGBColor(160, 168, 176);
 /// The window of the ride shown large (s).
 pub(super) const WINDOW_S: (f64, f64) = (1.0, 2.0);
 
-fn panel(x: &str, y: &str, legend: SeriesLabelPosition, curves: Vec<Curve>) -> Panel {
+fn panel(x: &str, y: &str, legend: Option<SeriesLabelPosition>, curves: Vec<Curve>) -> Panel {
     Panel {
         title: String::new(),
         x_label: x.into(),
         y_label: y.into(),
         legend,
+        sides: false,
         curves,
     }
 }
 
+/// Forces of a ride with their times (s).
+fn over_time<'a>(ride: &Ride, forces: &'a [f64]) -> impl Iterator<Item = (f64, f64)> + 'a {
+    let step_s = ride.step_s;
+    (0_u32..)
+        .map(move |tick| f64::from(tick) * step_s)
+        .zip(forces.iter().copied())
+}
+
+/// Two panels side by side: force (kN) over displacement (mm) and over velocity (m/s). The legend, if
+/// there is one, stands in the second, whose upper left is free.
+fn loops(
+    displacement: Vec<Curve>,
+    velocity: Vec<Curve>,
+    legend: Option<SeriesLabelPosition>,
+) -> Outcome<String> {
+    let panel = |x, legend, curves| Panel {
+        sides: true,
+        ..panel(x, "force, kN", legend, curves)
+    };
+    sheet(
+        1040,
+        400,
+        &[
+            panel("displacement, mm", None, displacement),
+            panel("velocity, m/s", legend, velocity),
+        ],
+    )
+}
+
 /// Force of reference and fixed step over the window.
 pub(super) fn force(ride: &Ride) -> Outcome<String> {
-    let shown = |forces: &[f64]| -> Vec<(f64, f64)> {
-        let times = ride.times_s.iter().copied();
-        times
-            .zip(forces.iter().map(|force| force * 1e-3))
+    let shown = |forces| -> Vec<(f64, f64)> {
+        over_time(ride, forces)
+            .map(|(time, force)| (time, force * 1e-3))
             .filter(|(time, _)| (WINDOW_S.0..=WINDOW_S.1).contains(time))
             .collect()
     };
@@ -41,24 +70,20 @@ pub(super) fn force(ride: &Ride) -> Outcome<String> {
         )
         .wide(6),
     ];
-    let legend = SeriesLabelPosition::UpperRight;
+    let legend = Some(SeriesLabelPosition::UpperRight);
     sheet(1040, 360, &[panel("time, s", "force, kN", legend, curves)])
 }
 
 /// Error of the fixed step over the whole ride.
 pub(super) fn error(ride: &Ride) -> Outcome<String> {
-    let errors = ride
-        .times_s
-        .iter()
-        .zip(&ride.fixed_step_n)
+    let errors = over_time(ride, &ride.fixed_step_n)
         .zip(&ride.reference_n)
-        .map(|((time, force), reference)| (*time, force - reference));
+        .map(|((time, force), reference)| (time, force - reference));
     let curve = Curve::new("error", RED_LINE, errors).wide(4);
-    let legend = SeriesLabelPosition::UpperRight;
     sheet(
         1040,
         260,
-        &[panel("time, s", "error, N", legend, vec![curve])],
+        &[panel("time, s", "error, N", None, vec![curve])],
     )
 }
 
@@ -66,32 +91,13 @@ pub(super) fn error(ride: &Ride) -> Outcome<String> {
 pub(super) fn ride_loops(ride: &Ride) -> Outcome<String> {
     let x = &ride.displacements_m;
     let forces = ride.fixed_step_n.iter().map(|force| force * 1e-3);
-    let step_s = ride.times_s[1] - ride.times_s[0];
     let displacement = x.iter().map(|x| x * 1e3).zip(forces.clone());
     let velocity = x
         .windows(2)
-        .map(|pair| (pair[1] - pair[0]) / step_s)
+        .map(|pair| (pair[1] - pair[0]) / ride.step_s)
         .zip(forces.skip(1));
-    let legend = SeriesLabelPosition::UpperLeft;
     let thin = |points: Vec<(f64, f64)>| vec![Curve::new("ride", BLUE_LINE, points).wide(3)];
-    sheet(
-        1040,
-        400,
-        &[
-            panel(
-                "displacement, mm",
-                "force, kN",
-                legend.clone(),
-                thin(displacement.collect()),
-            ),
-            panel(
-                "velocity, m/s",
-                "force, kN",
-                legend,
-                thin(velocity.collect()),
-            ),
-        ],
-    )
+    loops(thin(displacement.collect()), thin(velocity.collect()), None)
 }
 
 /// Settled loops of harmonic motions of rising amplitude.
@@ -115,20 +121,8 @@ pub(super) fn bench_loops(bench: &Bench) -> Outcome<String> {
             (0..=ticks).map(|tick| (speed(tick), at(tick).1)),
         ));
     }
-    let legend = SeriesLabelPosition::UpperLeft;
-    sheet(
-        1040,
-        400,
-        &[
-            panel(
-                "displacement, mm",
-                "force, kN",
-                legend.clone(),
-                displacement,
-            ),
-            panel("velocity, m/s", "force, kN", legend, velocity),
-        ],
-    )
+    let legend = Some(SeriesLabelPosition::UpperLeft);
+    loops(displacement, velocity, legend)
 }
 
 /// Force over constant velocity of every damper.
@@ -143,7 +137,7 @@ pub(super) fn characteristics(benches: &[Bench]) -> Outcome<String> {
             });
             Curve::new(bench.damper, colour, points).wide(10)
         });
-    let legend = SeriesLabelPosition::UpperLeft;
+    let legend = Some(SeriesLabelPosition::UpperLeft);
     sheet(
         1040,
         400,

@@ -1,22 +1,22 @@
 //! The demonstration: two presets on the shipped ride, fixed step against reference, bench test, cost.
 
+mod cost;
 mod figures;
 mod page;
 mod recording;
 
-use std::hint::black_box;
-use std::time::Instant;
-
+use dashpot_core::DamperParameters;
 use dashpot_core::characteristic::Characteristic;
-use dashpot_core::{DamperParameters, Real};
 use serde::Serialize;
 
 use crate::damper_file;
 use crate::failure::Outcome;
-use crate::reference::Reference;
 use crate::rig::{self, Cycle, Harmonic, Indices};
+use crate::verification::{deviation, fixed_step_forces, nrmse_limit, reference_forces};
 
 pub use page::write as page;
+
+use cost::median_ns_per_step;
 
 /// Presets shown: the published equations as they stand, and the same damper in service.
 const DAMPERS: [&str; 2] = ["paper", "in-service"];
@@ -54,19 +54,10 @@ impl Accuracy {
     }
 }
 
-/// The project's limits of [`Accuracy::nrmse`] for series stiffnesses up to 14 MN/m.
-fn nrmse_limit(step_s: f64, scalar: &str) -> f64 {
-    match (step_s, scalar) {
-        (step_s, _) if step_s > 1.1e-4 => 1e-3,
-        (_, "f32") => 6e-5,
-        _ => 3e-5,
-    }
-}
-
 /// Forces over the ride at 1 kHz.
 struct Ride {
     damper: &'static str,
-    times_s: Vec<f64>,
+    step_s: f64,
     displacements_m: Vec<f64>,
     reference_n: Vec<f64>,
     /// Single precision, as on the target.
@@ -94,11 +85,11 @@ pub struct Demonstration {
 /// Pieces of work [`run`] tells of.
 pub const WORK: u64 = (DAMPERS.len() * (STEPS_S.len() + 1)) as u64;
 
-/// Runs the demonstration; `tell` hears what is about to be done.
+/// Runs the demonstration; `tell` hears what is about to be done and how many pieces are done.
 ///
 /// # Errors
 /// A preset, the recording or the reference fails.
-pub fn run(mut tell: impl FnMut(String)) -> Outcome<Demonstration> {
+pub fn run(mut tell: impl FnMut(String, u64)) -> Outcome<Demonstration> {
     let samples = recording::shipped()?;
     let duration_s = match (samples.first(), samples.last()) {
         (Some(first), Some(last)) => last.time_s - first.time_s,
@@ -111,40 +102,57 @@ pub fn run(mut tell: impl FnMut(String)) -> Outcome<Demonstration> {
         rides: Vec::new(),
         benches: Vec::new(),
     };
+    let mut pieces = 0..;
+    let mut tell = |work| tell(work, pieces.next().unwrap_or(WORK));
     for name in DAMPERS {
         let damper = damper_file::load(name, &[])?;
         for step_s in STEPS_S {
             tell(format!("{name}: ride at {:.0} kHz", 1e-3 / step_s));
-            let (times_s, displacements_m) = recording::at_ticks(step_s)?;
-            let reference_n = Reference::new(&damper)?.forces(&times_s, &displacements_m)?;
-            let single = measure::<f32>(&damper, step_s, &displacements_m)?;
-            let double = measure::<f64>(&damper, step_s, &displacements_m)?;
-            for (scalar, measured) in [("f32", &single), ("f64", &double)] {
-                let (nrmse, largest) = errors(&measured.forces_n, &reference_n);
-                shown.accuracy.push(Accuracy {
-                    damper: name,
-                    scalar,
-                    step_s,
-                    nrmse,
-                    nrmse_limit: nrmse_limit(step_s, scalar),
-                    largest_error_over_peak: largest,
-                    median_ns_per_step: measured.median_ns,
-                });
-            }
-            if step_s == STEPS_S[0] {
-                shown.rides.push(Ride {
-                    damper: name,
-                    times_s,
-                    displacements_m,
-                    reference_n,
-                    fixed_step_n: single.forces_n,
-                });
-            }
+            shown.ride(name, &damper, step_s)?;
         }
         tell(format!("{name}: bench"));
         shown.benches.push(bench(name, &damper)?);
     }
     Ok(shown)
+}
+
+impl Demonstration {
+    /// Runs the shipped recording at one step size, in both precisions.
+    fn ride(&mut self, name: &'static str, damper: &DamperParameters, step_s: f64) -> Outcome<()> {
+        let displacements_m = recording::at_ticks(step_s)?;
+        let reference_n = reference_forces(damper, step_s, &displacements_m)?;
+        let single_n = fixed_step_forces::<f32>(damper, step_s, &displacements_m)?;
+        let double_n = fixed_step_forces::<f64>(damper, step_s, &displacements_m)?;
+        let costs = [
+            median_ns_per_step::<f32>(damper, step_s, &displacements_m)?,
+            median_ns_per_step::<f64>(damper, step_s, &displacements_m)?,
+        ];
+        for ((scalar, forces), median_ns_per_step) in [("f32", &single_n), ("f64", &double_n)]
+            .into_iter()
+            .zip(costs)
+        {
+            let deviation = deviation(step_s, forces, &reference_n)?;
+            self.accuracy.push(Accuracy {
+                damper: name,
+                scalar,
+                step_s,
+                nrmse: deviation.nrmse,
+                nrmse_limit: nrmse_limit(step_s, scalar == "f32"),
+                largest_error_over_peak: deviation.largest_error_over_peak,
+                median_ns_per_step,
+            });
+        }
+        if step_s == STEPS_S[0] {
+            self.rides.push(Ride {
+                damper: name,
+                step_s,
+                displacements_m,
+                reference_n,
+                fixed_step_n: single_n,
+            });
+        }
+        Ok(())
+    }
 }
 
 fn bench(name: &'static str, damper: &DamperParameters) -> Outcome<Bench> {
@@ -164,56 +172,4 @@ fn bench(name: &'static str, damper: &DamperParameters) -> Outcome<Bench> {
         loops,
         table_5: rig::settle(damper, Harmonic::TABLE_5, 1e-4)?.indices(),
     })
-}
-
-struct Measured {
-    forces_n: Vec<f64>,
-    median_ns: f64,
-}
-
-/// Forces over the motion from rest, and the median cost of a step over blocks of it.
-fn measure<T: Real>(
-    parameters: &DamperParameters,
-    step_s: f64,
-    displacements_m: &[f64],
-) -> Outcome<Measured> {
-    /// Steps timed together: long against the clock's resolution, short against an interruption.
-    const BLOCK: usize = 500;
-    const STEPS: usize = 200_000;
-    let damper = parameters.build::<T>(step_s)?;
-    let motion: Vec<T> = displacements_m.iter().map(|&x| T::from_f64(x)).collect();
-    let mut state = damper.at_rest(motion[0]);
-    let forces_n = motion
-        .iter()
-        .map(|&x| damper.step(&mut state, x).to_f64())
-        .collect();
-    let mut costs = Vec::new();
-    while costs.len() * BLOCK < STEPS {
-        let mut state = damper.at_rest(motion[0]);
-        for block in motion.chunks_exact(BLOCK) {
-            let start = Instant::now();
-            for &x in block {
-                black_box(black_box(&damper).step(&mut state, black_box(x)));
-            }
-            costs.push(start.elapsed().as_secs_f64() * 1e9 / BLOCK as f64);
-        }
-    }
-    costs.sort_by(f64::total_cmp);
-    Ok(Measured {
-        forces_n,
-        median_ns: costs[costs.len() / 2],
-    })
-}
-
-/// rms error over rms force, and largest error over largest force.
-fn errors(forces: &[f64], reference: &[f64]) -> (f64, f64) {
-    let (mut square, mut scale, mut largest, mut peak) = (0.0, 0.0, 0.0_f64, 0.0_f64);
-    for (force, reference) in forces.iter().zip(reference) {
-        let error = force - reference;
-        square += error * error;
-        scale += reference * reference;
-        largest = largest.max(error.abs());
-        peak = peak.max(reference.abs());
-    }
-    ((square / scale).sqrt(), largest / peak)
 }

@@ -2,21 +2,11 @@
 
 use std::fmt::Write as _;
 
-use serde::Deserialize;
-
 use super::{Accuracy, Bench, Demonstration, LOOP_FREQUENCY_HZ, figures};
-use crate::failure::{Failure, Outcome};
+use crate::failure::Outcome;
+use crate::published::nominal_indices;
 
 const STYLE: &str = include_str!("page.css");
-const TABLE_5: &str = include_str!("../../../data/published/table5_nominal_characteristic.csv");
-
-#[derive(Deserialize)]
-struct Published {
-    index: String,
-    unit: String,
-    simulation: String,
-    test: String,
-}
 
 /// The demonstration as HTML.
 ///
@@ -87,7 +77,7 @@ pub fn write(shown: &Demonstration) -> Outcome<String> {
             &figures::bench_loops(bench)?,
             &format!(
                 "Settled loops of a harmonic motion at {LOOP_FREQUENCY_HZ} Hz, by amplitude: force over \
-                 displacement (left) and velocity (right)."
+                 displacement (left) and velocity (right, with the legend of both)."
             ),
         ));
     }
@@ -204,10 +194,6 @@ fn accuracy_table(rows: &[Accuracy]) -> String {
 
 /// Table 5 beside both dampers.
 fn bench_table(benches: &[Bench]) -> Outcome<String> {
-    let published: Vec<Published> = csv::Reader::from_reader(TABLE_5.as_bytes())
-        .deserialize()
-        .collect::<Result<_, _>>()
-        .map_err(|error| Failure::new(format!("Table 5: {error}")))?;
     let mut table = String::from(
         "<h3>Table 5 of the paper: ±24.875 mm at 0.64 Hz</h3>\n<div class=\"wide\"><table>\n<tr><th>index</th><th>unit</th>",
     );
@@ -215,23 +201,10 @@ fn bench_table(benches: &[Bench]) -> Outcome<String> {
         let _ = write!(table, "<th>{}, here</th>", bench.damper);
     }
     table.push_str("<th>paper,<br>simulation</th><th>paper,<br>test</th></tr>\n");
-    for row in &published {
+    for row in &nominal_indices()? {
         let _ = write!(table, "<tr><td>{}</td><td>{}</td>", row.index, row.unit);
         for bench in benches {
-            let indices = &bench.table_5;
-            let value = match row.index.as_str() {
-                "damping coefficient" => {
-                    format!("{:.2}", indices.damping_coefficient_n_s_per_m * 1e-3)
-                }
-                "maximum extension force" => format!("{:.0}", indices.max_extension_force_n),
-                "maximum compression force" => format!("{:.0}", indices.max_compression_force_n),
-                "asymmetry rate" => indices
-                    .asymmetry_rate
-                    .map_or_else(String::new, |rate| format!("{:.2}", rate * 1e2)),
-                "energy per cycle" => format!("{:.1}", indices.energy_per_cycle_j),
-                other => return Err(Failure::new(format!("Table 5: unknown index {other}"))),
-            };
-            let _ = write!(table, "<td>{value}</td>");
+            let _ = write!(table, "<td>{}</td>", row.of(&bench.table_5)?);
         }
         let _ = writeln!(
             table,

@@ -21,18 +21,10 @@ pub fn shipped() -> Outcome<Vec<Sample>> {
     open()?.read_all()
 }
 
-/// Times (s) from the first sample and displacements (m) at ticks of `step_s`, linear between samples.
+/// Displacements (m) at ticks of `step_s` (s), linear between samples.
 ///
 /// # Errors
 /// As [`shipped`].
-pub fn at_ticks(step_s: f64) -> Outcome<(Vec<f64>, Vec<f64>)> {
-    let mut ticks = Ticks::new(open()?, step_s)?;
-    let mut displacements_m = Vec::new();
-    while let Some(tick) = ticks.next_tick()? {
-        displacements_m.push(tick.displacement_m);
-    }
-    let times_s = (0..displacements_m.len())
-        .map(|tick| tick as f64 * step_s)
-        .collect();
-    Ok((times_s, displacements_m))
+pub fn at_ticks(step_s: f64) -> Outcome<Vec<f64>> {
+    Ticks::new(open()?, step_s)?.displacements_m()
 }

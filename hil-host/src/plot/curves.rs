@@ -43,8 +43,10 @@ pub(crate) struct Panel {
     pub(crate) title: String,
     pub(crate) x_label: String,
     pub(crate) y_label: String,
-    /// Where the legend of several curves stands.
-    pub(crate) legend: SeriesLabelPosition,
+    /// Where the legend stands, if there is one.
+    pub(crate) legend: Option<SeriesLabelPosition>,
+    /// Whether the curves keep off the sides, as loops do, or fill the width.
+    pub(crate) sides: bool,
     pub(crate) curves: Vec<Curve>,
 }
 
@@ -63,12 +65,17 @@ pub(crate) fn sheet(width: u32, height: u32, panels: &[Panel]) -> Outcome<String
 
 fn draw_panel(area: &Area<'_>, panel: &Panel) -> Outcome<()> {
     let points = || panel.curves.iter().flat_map(|curve| &curve.points);
-    let x = points().fold(f64::MAX..f64::MIN, |range, p| {
-        range.start.min(p.0)..range.end.max(p.0)
-    });
+    let x = if panel.sides {
+        extent(points().map(|p| p.0))
+    } else {
+        points().fold(f64::MAX..f64::MIN, |range, p| {
+            range.start.min(p.0)..range.end.max(p.0)
+        })
+    };
     let mut y = extent(points().map(|p| p.1));
-    // A curve that starts at zero keeps zero at the edge.
-    if points().all(|p| p.1 >= 0.0) {
+    // A curve that starts at zero, but for rounding, keeps zero at the edge.
+    let rounding = 1e-9 * y.end;
+    if points().all(|p| p.1 >= -rounding) {
         y.start = 0.0;
     }
     let digits = (digits(&x), digits(&y));
@@ -89,10 +96,10 @@ fn draw_panel(area: &Area<'_>, panel: &Panel) -> Outcome<()> {
             .label(&curve.name)
             .legend(move |(x, y)| PathElement::new([(x, y), (x + 22 * FINE as i32, y)], style));
     }
-    if panel.curves.len() > 1 {
+    if let Some(place) = &panel.legend {
         chart
             .configure_series_labels()
-            .position(panel.legend.clone())
+            .position(place.clone())
             .label_font(letters(14, &INK))
             .legend_area_size(30 * FINE)
             .margin(8 * FINE)

@@ -54,8 +54,12 @@ pub(crate) fn label(value: f64, digits: usize) -> String {
 /// One set of axes with the house's lettering; `$digits` are those behind the point, (x, y).
 macro_rules! axes {
     ($area:expr, $title:expr, $x:expr, $y:expr, $x_label:expr, $y_label:expr, $digits:expr) => {{
-        let mut chart = ChartBuilder::on($area)
-            .caption($title, letters(20, &INK))
+        let title = String::from($title);
+        let mut builder = ChartBuilder::on($area);
+        if !title.is_empty() {
+            builder.caption(&title, letters(20, &INK));
+        }
+        let mut chart = builder
             .margin(14 * FINE)
             .x_label_area_size(44 * FINE)
             .y_label_area_size(60 * FINE)

@@ -1,11 +1,10 @@
 //! `dashpot contact`: the geometry of a wheel and a rail, in numbers and plots.
 
-use std::io::Write;
+mod report;
+
 use std::path::{Path, PathBuf};
 
-use serde::Serialize;
-
-use super::{Format, print_json, print_lines};
+use super::{Format, print_report};
 use crate::contact::conicity::RollingRadius;
 use crate::contact::geometry::RigidContact;
 use crate::contact::measured;
@@ -13,13 +12,17 @@ use crate::contact::pair::{Installation, Pair};
 use crate::contact::profile::{Body, Profile};
 use crate::contact::{plot, s1002, uic60};
 use crate::failure::{Failure, Outcome};
-use crate::output::write_whole;
+use crate::output::write_folder;
+use report::{print, report};
 
 /// Contact geometry of a wheelset on a track: contact points, rolling radius, equivalent conicity.
 #[derive(Debug, Clone, clap::Args)]
-#[command(after_help = "Examples:
+#[command(
+    allow_negative_numbers = true,
+    after_help = "Examples:
   dashpot contact
-  dashpot contact --rail worn.csv --gauge-m 1.432 --plots worn-plots --format json")]
+  dashpot contact --rail worn.csv --gauge-m 1.432 --plots worn-plots --format json"
+)]
 pub struct ContactArguments {
     /// Wheel profile: `s1002` or a file of y_mm, z_mm from the tread datum, field side and down positive.
     #[arg(long, default_value = "s1002", value_name = "NAME|FILE")]
@@ -63,37 +66,6 @@ pub struct ContactArguments {
 const REACH: f64 = 0.012;
 /// Cells of the rolling radius difference over both sides, each 25 um: jumps are placed within it.
 const CELLS: usize = 960;
-
-#[derive(Serialize)]
-struct Conicity {
-    amplitude_m: f64,
-    equivalent_conicity: Option<f64>,
-}
-
-#[derive(Serialize)]
-struct Shift {
-    lateral_shift_m: f64,
-    rolling_radius_difference_m: f64,
-    roll_rad: f64,
-    contact_angle_left_rad: f64,
-    contact_angle_right_rad: f64,
-    wheel_place_left_m: f64,
-    wheel_place_right_m: f64,
-}
-
-#[derive(Serialize)]
-struct Report {
-    wheel: String,
-    rail: String,
-    gauge_m: f64,
-    back_to_back_m: f64,
-    wheel_radius_m: f64,
-    rail_inclination: f64,
-    conicity_at_3mm: Option<f64>,
-    conicity: Vec<Conicity>,
-    shifts: Vec<Shift>,
-    plots: Vec<String>,
-}
 
 /// Prints the geometry of the pair asked for and draws it.
 ///
@@ -147,10 +119,7 @@ pub fn run(arguments: &ContactArguments) -> Outcome<()> {
         draw(&arguments.plots, &pair, &contacts, &rolling)?
     };
     let report = report(&pair, &contacts, &rolling, plots);
-    match arguments.format {
-        Format::Text => print_lines(&lines(&report)),
-        Format::Json => print_json(&report),
-    }
+    print_report(arguments.format, &report, print)
 }
 
 /// The profile called `name`: the built-in one or a file.
@@ -182,8 +151,6 @@ fn draw(
     contacts: &[RigidContact],
     rolling: &RollingRadius,
 ) -> Outcome<Vec<String>> {
-    std::fs::create_dir_all(folder)
-        .map_err(|error| Failure::in_file(folder, format!("cannot make the folder: {error}")))?;
     // A line each half millimetre up to 8 mm, where the flange face is reached.
     let lines: Vec<RigidContact> = contacts
         .iter()
@@ -191,110 +158,12 @@ fn draw(
         .step_by(20)
         .filter(|c| c.lateral.abs() < 8.1e-3)
         .collect();
-    let drawings = [
-        ("contact-points.svg", plot::contact_points(pair, &lines)?),
-        ("rolling-radius.svg", plot::rolling_radius(pair, contacts)?),
-        ("conicity.svg", plot::conicity(pair, rolling, 8e-3)?),
-    ];
-    let mut paths = Vec::new();
-    for (name, svg) in drawings {
-        let path = folder.join(name);
-        write_whole(&path, |file| {
-            file.write_all(svg.as_bytes())
-                .map_err(|error| Failure::in_file(&path, format!("cannot write: {error}")))
-        })?;
-        paths.push(path.display().to_string());
-    }
-    Ok(paths)
-}
-
-fn report(
-    pair: &Pair,
-    contacts: &[RigidContact],
-    rolling: &RollingRadius,
-    plots: Vec<String>,
-) -> Report {
-    let installation = &pair.installation;
-    let conicity = |amplitude| rolling.conicity(amplitude, installation.wheel_radius);
-    Report {
-        wheel: pair.wheel.name.clone(),
-        rail: pair.rail.name.clone(),
-        gauge_m: installation.gauge,
-        back_to_back_m: installation.back_to_back,
-        wheel_radius_m: installation.wheel_radius,
-        rail_inclination: installation.inclination,
-        conicity_at_3mm: conicity(3e-3),
-        conicity: (1..=16)
-            .map(|i| f64::from(i) * 0.5e-3)
-            .map(|amplitude_m| Conicity {
-                amplitude_m,
-                equivalent_conicity: conicity(amplitude_m),
-            })
-            .collect(),
-        shifts: contacts
-            .iter()
-            .step_by(40)
-            .map(|c| Shift {
-                lateral_shift_m: c.lateral,
-                rolling_radius_difference_m: c.rolling_radius_difference(),
-                roll_rad: c.roll,
-                contact_angle_left_rad: -c.sides[0].slope.atan(),
-                contact_angle_right_rad: -c.sides[1].slope.atan(),
-                wheel_place_left_m: c.sides[0].s,
-                wheel_place_right_m: c.sides[1].s,
-            })
-            .collect(),
-        plots,
-    }
-}
-
-fn lines(report: &Report) -> Vec<String> {
-    let inclination = if report.rail_inclination == 0.0 {
-        "upright".to_owned()
-    } else {
-        format!("1:{:.0}", 1.0 / report.rail_inclination)
-    };
-    let mut lines = vec![
-        format!(
-            "{} on {}, rails {inclination}, gauge {:.1} mm, back to back {:.1} mm, wheel radius {:.1} mm",
-            report.wheel,
-            report.rail,
-            report.gauge_m * 1e3,
-            report.back_to_back_m * 1e3,
-            report.wheel_radius_m * 1e3
-        ),
-        String::new(),
-        "equivalent conicity (EN 15302)".to_owned(),
-        "  amplitude mm   conicity".to_owned(),
-    ];
-    lines.extend(report.conicity.iter().map(|row| {
-        let value = row.equivalent_conicity.map_or_else(
-            || "no closed path".to_owned(),
-            |value| format!("{value:8.4}"),
-        );
-        format!("  {:12.1}   {value}", row.amplitude_m * 1e3)
-    }));
-    lines.extend([
-        String::new(),
-        "rigid wheelset (shift at the rails' top, right positive; places on the wheel from the tread datum)"
-            .to_owned(),
-        "  shift mm  radius difference mm  angle left deg  right deg  place left mm  right mm"
-            .to_owned(),
-    ]);
-    lines.extend(report.shifts.iter().map(|row| {
-        format!(
-            "  {:8.1}  {:20.3}  {:14.2}  {:9.2}  {:13.2}  {:8.2}",
-            row.lateral_shift_m * 1e3,
-            row.rolling_radius_difference_m * 1e3,
-            row.contact_angle_left_rad.to_degrees(),
-            row.contact_angle_right_rad.to_degrees(),
-            row.wheel_place_left_m * 1e3,
-            row.wheel_place_right_m * 1e3
-        )
-    }));
-    if !report.plots.is_empty() {
-        lines.push(String::new());
-        lines.push(format!("plots: {}", report.plots.join(", ")));
-    }
-    lines
+    write_folder(
+        folder,
+        &[
+            ("contact-points.svg", plot::contact_points(pair, &lines)?),
+            ("rolling-radius.svg", plot::rolling_radius(pair, contacts)?),
+            ("conicity.svg", plot::conicity(pair, rolling, 8e-3)?),
+        ],
+    )
 }

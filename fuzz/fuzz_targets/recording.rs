@@ -1,0 +1,30 @@
+//! Any bytes as a recording: refused, or rows of finite numbers whose time grows.
+#![no_main]
+
+use std::io::Cursor;
+use std::path::Path;
+
+use dashpot_hil::recording::Recording;
+use libfuzzer_sys::fuzz_target;
+
+fuzz_target!(|bytes: &[u8]| {
+    // With and without a header, which bytes at random hardly ever are.
+    let headed = [b"time_s,displacement_m\n", bytes].concat();
+    for text in [bytes.to_vec(), headed] {
+        let recording = Recording::read(Path::new("fuzz.csv"), Box::new(Cursor::new(text)));
+        let Ok(samples) = recording.and_then(Recording::read_all) else {
+            continue;
+        };
+        assert!(!samples.is_empty());
+        assert!(
+            samples
+                .iter()
+                .all(|s| s.time_s.is_finite() && s.displacement_m.is_finite())
+        );
+        assert!(
+            samples
+                .windows(2)
+                .all(|pair| pair[0].time_s < pair[1].time_s)
+        );
+    }
+});

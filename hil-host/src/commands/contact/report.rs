@@ -1,0 +1,131 @@
+//! What `dashpot contact` tells of a pair: conicity and the rigid wheelset over its shift.
+
+use std::io::{self, Write};
+
+use serde::Serialize;
+
+use crate::contact::conicity::RollingRadius;
+use crate::contact::geometry::RigidContact;
+use crate::contact::pair::Pair;
+
+#[derive(Serialize)]
+struct Conicity {
+    amplitude_m: f64,
+    equivalent_conicity: Option<f64>,
+}
+
+#[derive(Serialize)]
+struct Shift {
+    lateral_shift_m: f64,
+    rolling_radius_difference_m: f64,
+    roll_rad: f64,
+    contact_angle_left_rad: f64,
+    contact_angle_right_rad: f64,
+    wheel_place_left_m: f64,
+    wheel_place_right_m: f64,
+}
+
+#[derive(Serialize)]
+pub(super) struct Report {
+    wheel: String,
+    rail: String,
+    gauge_m: f64,
+    back_to_back_m: f64,
+    wheel_radius_m: f64,
+    rail_inclination: f64,
+    conicity_at_3mm: Option<f64>,
+    conicity: Vec<Conicity>,
+    shifts: Vec<Shift>,
+    plots: Vec<String>,
+}
+
+/// What the pair does: `contacts` at lateral shifts from side to side, and the files drawn.
+pub(super) fn report(
+    pair: &Pair,
+    contacts: &[RigidContact],
+    rolling: &RollingRadius,
+    plots: Vec<String>,
+) -> Report {
+    let installation = &pair.installation;
+    let conicity = |amplitude| rolling.conicity(amplitude, installation.wheel_radius);
+    Report {
+        wheel: pair.wheel.name.clone(),
+        rail: pair.rail.name.clone(),
+        gauge_m: installation.gauge,
+        back_to_back_m: installation.back_to_back,
+        wheel_radius_m: installation.wheel_radius,
+        rail_inclination: installation.inclination,
+        conicity_at_3mm: conicity(3e-3),
+        conicity: (1..=16)
+            .map(|i| f64::from(i) * 0.5e-3)
+            .map(|amplitude_m| Conicity {
+                amplitude_m,
+                equivalent_conicity: conicity(amplitude_m),
+            })
+            .collect(),
+        shifts: contacts
+            .iter()
+            .step_by(40)
+            .map(|c| Shift {
+                lateral_shift_m: c.lateral,
+                rolling_radius_difference_m: c.rolling_radius_difference(),
+                roll_rad: c.roll,
+                contact_angle_left_rad: -c.sides[0].slope.atan(),
+                contact_angle_right_rad: -c.sides[1].slope.atan(),
+                wheel_place_left_m: c.sides[0].s,
+                wheel_place_right_m: c.sides[1].s,
+            })
+            .collect(),
+        plots,
+    }
+}
+
+/// The report for people.
+pub(super) fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
+    let inclination = if report.rail_inclination == 0.0 {
+        "upright".to_owned()
+    } else {
+        format!("1:{:.0}", 1.0 / report.rail_inclination)
+    };
+    writeln!(
+        out,
+        "{} on {}, rails {inclination}, gauge {:.1} mm, back to back {:.1} mm, wheel radius {:.1} mm",
+        report.wheel,
+        report.rail,
+        report.gauge_m * 1e3,
+        report.back_to_back_m * 1e3,
+        report.wheel_radius_m * 1e3
+    )?;
+    writeln!(
+        out,
+        "\nequivalent conicity (EN 15302)\n  amplitude mm   conicity"
+    )?;
+    for row in &report.conicity {
+        let value = row.equivalent_conicity.map_or_else(
+            || "no closed path".to_owned(),
+            |value| format!("{value:8.4}"),
+        );
+        writeln!(out, "  {:12.1}   {value}", row.amplitude_m * 1e3)?;
+    }
+    writeln!(
+        out,
+        "\nrigid wheelset (shift at the rails' top, right positive; places on the wheel from the tread datum)\n  \
+         shift mm  radius difference mm  angle left deg  right deg  place left mm  right mm"
+    )?;
+    for row in &report.shifts {
+        writeln!(
+            out,
+            "  {:8.1}  {:20.3}  {:14.2}  {:9.2}  {:13.2}  {:8.2}",
+            row.lateral_shift_m * 1e3,
+            row.rolling_radius_difference_m * 1e3,
+            row.contact_angle_left_rad.to_degrees(),
+            row.contact_angle_right_rad.to_degrees(),
+            row.wheel_place_left_m * 1e3,
+            row.wheel_place_right_m * 1e3
+        )?;
+    }
+    if !report.plots.is_empty() {
+        writeln!(out, "\nplots: {}", report.plots.join(", "))?;
+    }
+    Ok(())
+}

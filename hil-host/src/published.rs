@@ -1,0 +1,81 @@
+//! The source paper's tables that results are shown beside.
+
+use serde::Deserialize;
+use serde::de::DeserializeOwned;
+
+use crate::failure::{Failure, Outcome};
+use crate::rig::Indices;
+
+/// Table 2: piston extension valve.
+pub const TABLE_2: &str = include_str!("../../data/published/table2_piston_extension.csv");
+/// Table 3: piston compression valve.
+pub const TABLE_3: &str = include_str!("../../data/published/table3_piston_compression.csv");
+/// Table 4: foot compression valve.
+pub const TABLE_4: &str = include_str!("../../data/published/table4_foot_compression.csv");
+const TABLE_5: &str = include_str!("../../data/published/table5_nominal_characteristic.csv");
+
+/// A row of Tables 2-4: deflection of a shim pack's edge under pressure.
+#[derive(Clone, Debug, Deserialize)]
+pub struct Deflection {
+    /// Pressure (MPa).
+    pub pressure_mpa: f64,
+    /// Deflection by theory under uniform pressure (mm).
+    pub theory_uniform_mm: f64,
+    /// Deflection by finite elements under the real pressure (mm).
+    pub fea_real_mm: f64,
+}
+
+/// A row of Table 5: an index of the bench test, its numbers as printed.
+#[derive(Clone, Debug, Deserialize)]
+pub struct NominalIndex {
+    /// Name.
+    pub index: String,
+    /// Unit of the numbers.
+    pub unit: String,
+    /// The paper's simulation.
+    pub simulation: String,
+    /// The paper's test.
+    pub test: String,
+}
+
+impl NominalIndex {
+    /// The same index of `indices` in this row's unit.
+    ///
+    /// # Errors
+    /// A name that [`Indices`] does not have.
+    pub fn of(&self, indices: &Indices) -> Outcome<String> {
+        Ok(match self.index.as_str() {
+            "damping coefficient" => format!("{:.2}", indices.damping_coefficient_n_s_per_m * 1e-3),
+            "maximum extension force" => format!("{:.0}", indices.max_extension_force_n),
+            "maximum compression force" => format!("{:.0}", indices.max_compression_force_n),
+            "asymmetry rate" => indices
+                .asymmetry_rate
+                .map_or_else(|| "no force".into(), |rate| format!("{:.2}", rate * 1e2)),
+            "energy per cycle" => format!("{:.2}", indices.energy_per_cycle_j),
+            other => return Err(Failure::new(format!("Table 5: unknown index {other}"))),
+        })
+    }
+}
+
+/// Rows of [`TABLE_2`], [`TABLE_3`] or [`TABLE_4`].
+///
+/// # Errors
+/// The table in the program is not as it was shipped.
+pub fn deflections(table: &str) -> Outcome<Vec<Deflection>> {
+    rows(table)
+}
+
+/// Rows of Table 5.
+///
+/// # Errors
+/// As [`deflections`].
+pub fn nominal_indices() -> Outcome<Vec<NominalIndex>> {
+    rows(TABLE_5)
+}
+
+fn rows<T: DeserializeOwned>(table: &str) -> Outcome<Vec<T>> {
+    csv::Reader::from_reader(table.as_bytes())
+        .deserialize()
+        .collect::<Result<_, _>>()
+        .map_err(|error| Failure::new(format!("a published table: {error}")))
+}
