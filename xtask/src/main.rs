@@ -184,7 +184,7 @@ fn measure_target(json: bool) -> Outcome {
 fn count_instructions() -> Outcome {
     version_of("valgrind", &["--version"])
         .map_err(|error| format!("{error}; install Valgrind, e.g. apt-get install valgrind"))?;
-    let install = format!("cargo install gungraun-runner --version '{GUNGRAUN}'");
+    let install = format!("cargo install gungraun-runner --version '^{GUNGRAUN}'");
     let runner = version_of("gungraun-runner", &["--version"])
         .map_err(|error| format!("{error}; {install}"))?;
     if numbers(&runner)[..2] != numbers(GUNGRAUN)[..] {

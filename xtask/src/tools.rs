@@ -3,7 +3,6 @@
 use std::path::Path;
 use std::process::Command;
 
-use crate::run::Outcome;
 use crate::target_toolchain::TargetToolchain;
 
 /// A program and the Debian package that has it.
