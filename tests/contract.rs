@@ -1,7 +1,7 @@
 //! The contract for bad values: input, output, tiny states, nonsense parameters, live changes.
 
 use dashpot::damper;
-use dashpot_core::{Damper, DamperParameters, DamperState, Real, Status};
+use dashpot_core::{Damper, DamperParameters, DamperState, Real, Status, step_bank};
 use dashpot_hil::damper_file;
 
 const STEP_S: f64 = 1e-3;
@@ -435,4 +435,38 @@ fn the_clearance_is_set_without_a_rebuild() {
         damper.set_clearance_m(given);
         assert_eq!(damper.clearance_m(), taken);
     }
+}
+
+#[test]
+fn a_force_from_constants_that_overflow_is_the_limit() {
+    let sound: Damper<f32> = build("in-service");
+    let words = sound.to_words();
+    let mut huge = words;
+    // Past the scalars and the two revisions: the table.
+    for word in &mut huge[14..] {
+        *word = f32::MAX.to_bits();
+    }
+    let damper = Damper::<f32>::from_words(&huge);
+    let bank = [&damper; 8];
+    let mut states = [damper.at_rest(0.0); 8];
+    let mut alone = states[0];
+    let mut forces = [0.0; 8];
+    for tick in 1..100 {
+        let x = 1e-3 * (0.1 * tick as f32).sin();
+        let force = damper.step(&mut alone, x);
+        step_bank(&bank, &mut states, &[x; 8], &mut forces);
+        assert!(force.abs() <= damper.force_limit_n(), "{force}");
+        assert!(forces.iter().all(|bank| bank.to_bits() == force.to_bits()));
+    }
+}
+
+#[test]
+fn a_start_far_out_does_not_stretch_what_stands_still() {
+    let damper: Damper<f32> = build("in-service");
+    let mut state = damper.at_rest(1e6);
+    for _ in 0..100 {
+        // 2 mm a tick is lost beside 1000 km: nothing moves, so nothing pulls.
+        assert_eq!(damper.step(&mut state, 0.0), 0.0);
+    }
+    assert_eq!(state.rejected_inputs(), 100);
 }

@@ -510,6 +510,20 @@ fn a_lost_link_ends_in_the_safe_output_until_run() {
 }
 
 #[test]
+fn outputs_stay_zero_while_the_host_steps() {
+    let mut bench = Bench::open();
+    for tick in 1..=50 {
+        let step = Request::Step {
+            tick,
+            displacements_m: reals([1e-4 * tick as f32; 2]),
+        };
+        let forces = bench.ask(&step).forces().forces_n;
+        assert!(tick < 50 || forces.iter().all(|force| *force > 100.0));
+        assert_eq!(*bench.device.outputs_n(), [0.0; 2]);
+    }
+}
+
+#[test]
 fn while_the_tick_runs_free_the_host_cannot_step() {
     let mut bench = Bench::open();
     let start = reals([0.0; 2]);

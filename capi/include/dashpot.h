@@ -109,7 +109,7 @@ enum dashpot_error
      */
     DASHPOT_ERROR_NO_DAMPER = 3,
     /**
-     * A length or count is not what is asked for, or an image is of a library with other tables.
+     * A length or count is not what is asked for, or an image is of a library with another table.
      */
     DASHPOT_ERROR_LENGTH = 4,
     /**

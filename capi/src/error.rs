@@ -16,7 +16,7 @@ pub enum DashpotError {
     Misaligned = 2,
     /// The storage holds no damper: call `dashpot_damper_init` first.
     NoDamper = 3,
-    /// A length or count is not what is asked for, or an image is of a library with other tables.
+    /// A length or count is not what is asked for, or an image is of a library with another table.
     Length = 4,
     /// The bytes do not start as an image or a saved state does.
     Magic = 5,

@@ -5,15 +5,13 @@
 //! changes that storage during the call, or uses it where the call changes it.
 #![allow(clippy::missing_safety_doc)] // stated once, above, and in the header
 
+use dashpot_core::parameters::LARGEST_CLEARANCE_M;
 use dashpot_core::{Damper, DamperState};
 
 use crate::error::DashpotError;
 use crate::pointer::{bytes, check, check_count, exclusive, shared};
 use crate::saved;
 use crate::types::{DashpotDamper, DashpotDamperInfo, DashpotReading, DashpotState};
-
-/// The largest clearance 2a (m).
-const LARGEST_CLEARANCE_M: f32 = 0.1;
 
 /// A damper that was made from an image.
 ///
@@ -97,7 +95,7 @@ pub unsafe extern "C" fn dashpot_damper_set_clearance(
     let done = || {
         // SAFETY: the caller's promise; the reference ends here.
         unsafe { made(damper) }?;
-        if !(0.0..=LARGEST_CLEARANCE_M).contains(&clearance_m) {
+        if !(0.0..=LARGEST_CLEARANCE_M as f32).contains(&clearance_m) {
             return Err(DashpotError::Range);
         }
         // SAFETY: the caller's promise; the storage is a Damper's to the byte.

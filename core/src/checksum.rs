@@ -1,4 +1,4 @@
-//! The checksum of images and saved states.
+//! The checksum of images, and of the C library's saved states.
 
 use crc::{CRC_32_ISO_HDLC, Crc, NoTable};
 

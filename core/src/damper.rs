@@ -10,6 +10,7 @@
 //! takes away their leading error. See docs/numerics.md.
 
 use crate::math::Real;
+use crate::parameters::LARGEST_CLEARANCE_M;
 use crate::revision;
 use crate::state::DamperState;
 use crate::status::Status;
@@ -190,7 +191,7 @@ impl<T: Real> Damper<T> {
     /// Held to 0 to 0.1 m; a value that is not finite counts as 0.
     pub fn set_clearance_m(&mut self, clearance_m: T) {
         let half = T::from_f64(0.5) * clearance_m;
-        let most = T::from_f64(0.05);
+        let most = T::from_f64(0.5 * LARGEST_CLEARANCE_M);
         let half = if half > T::ZERO && half.is_finite() {
             half.smaller(most)
         } else {

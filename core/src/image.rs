@@ -16,6 +16,7 @@ use core::fmt;
 
 use crate::checksum::crc_32;
 use crate::damper::{Damper, Scalars};
+use crate::parameters::LARGEST_CLEARANCE_M;
 use crate::revision;
 use crate::table::Piece;
 
@@ -25,13 +26,11 @@ const BYTE_ORDER: u16 = 0xfeff;
 const VERSION: u16 = 1;
 const HEADER_BYTES: usize = 16;
 const CHECK_BYTES: usize = 4;
-/// Half the largest clearance that [`Damper::set_clearance_m`] lets through (m).
-const LARGEST_HALF_CLEARANCE: f64 = 0.05;
 
 /// Why bytes are no damper.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ImageError {
-    /// Cut short, too long, or of a core with other tables.
+    /// Cut short, too long, or of a core with another table.
     Length {
         /// Bytes of an image.
         expected: usize,
@@ -225,7 +224,9 @@ macro_rules! image {
                 let positive = Scalars { origin: 0.0, ..scalars };
                 let credible = positive.as_array().iter().all(|scalar| *scalar >= 0.0)
                     && scalars.step_s > 0.0
-                    && scalars.half_clearance <= LARGEST_HALF_CLEARANCE as $float
+                    && scalars.scale > 0.0
+                    && scalars.largest_move > 0.0
+                    && scalars.half_clearance <= (0.5 * LARGEST_CLEARANCE_M) as $float
                     && scalars.offset == scalars.half_clearance + scalars.held;
                 if revisions.map($word::from_le_bytes) == [revision, table_revision].map($word::from)
                     && finite

@@ -11,6 +11,9 @@ use serde::{Deserialize, Serialize};
 /// Most shims a pack may hold.
 pub const MAX_SHIMS: usize = 16;
 
+/// Largest clearance 2a (m).
+pub const LARGEST_CLEARANCE_M: f64 = 0.1;
+
 /// Everything that defines one damper.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DamperParameters {

@@ -93,7 +93,9 @@ fn admit<T: Real>(damper: &Damper<T>, state: &mut DamperState<T>, travel: T) -> 
     state.rejected_inputs = state.rejected_inputs.saturating_add(1);
     if travel.is_finite() {
         state.status.insert(Status::INPUT_LIMITED);
-        travel.larger(-largest_move).smaller(largest_move)
+        let limited = travel.larger(-largest_move).smaller(largest_move);
+        // What the displacement can move by: far out, less than the limit.
+        (state.displacement + limited) - state.displacement
     } else {
         state.status.insert(Status::INPUT_HELD);
         T::ZERO

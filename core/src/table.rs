@@ -1,4 +1,4 @@
-//! Piecewise cubics of the stretch, read in constant time.
+//! Piecewise cubics of a stage's reach, read in constant time.
 
 use crate::math::{Lanes, Real};
 

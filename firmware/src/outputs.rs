@@ -1,4 +1,5 @@
-//! The forces as the rig's actuator driver reads them, at any time and from any interrupt.
+//! The forces as the rig's actuator driver reads them, at any time and from any interrupt: each force
+//! whole by itself, those of an interrupted [`drive`] of two ticks.
 
 use core::sync::atomic::{AtomicU32, Ordering};
 

@@ -18,6 +18,12 @@ unsafe fn HardFault(_: &cortex_m_rt::ExceptionFrame) -> ! {
     halt()
 }
 
+// SAFETY: as above. Every other exception and interrupt: none is expected.
+#[exception]
+unsafe fn DefaultHandler(_: i16) -> ! {
+    halt()
+}
+
 fn halt() -> ! {
     cortex_m::interrupt::disable();
     outputs::drive(&[0.0; DAMPERS]);

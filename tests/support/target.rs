@@ -91,6 +91,7 @@ impl Experiment<'_> {
     /// Samples of the excitation (m).
     fn motion(&self) -> Vec<f32> {
         let exact = self.excitation.displacements_m(STEP_S);
+        assert!(exact.len() <= 100_000, "the target has room for no more");
         exact.iter().map(|x| *x as f32).collect()
     }
 

@@ -13,7 +13,9 @@ use crate::damper::{Damper, IMPLICIT_SHARE, Scalars};
 use crate::error::{BuildError, require, require_ranges};
 use crate::hydraulics::{HydraulicSide, Laws};
 use crate::math::Real;
-use crate::parameters::{DamperParameters, Element, Limits, Mount, OilColumn, Reduced};
+use crate::parameters::{
+    DamperParameters, Element, LARGEST_CLEARANCE_M, Limits, Mount, OilColumn, Reduced,
+};
 use crate::table::{PIECES, Piece};
 
 /// Corners a table can align with.
@@ -223,7 +225,7 @@ fn validate_mount(mount: &Mount) -> Result<(), BuildError> {
             "1e4 to 1e12 N/m",
         )?;
     }
-    require_ranges!("mount", mount; clearance_m in 0.0..=0.1, "0 to 0.1 m";)
+    require_ranges!("mount", mount; clearance_m in 0.0..=LARGEST_CLEARANCE_M, "0 to 0.1 m";)
 }
 
 fn validate_limits(limits: &Limits) -> Result<(), BuildError> {

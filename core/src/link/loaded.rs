@@ -3,6 +3,7 @@
 use super::message::{Forces, MOST_DAMPERS, Reals, Refusal};
 use crate::bank::step_bank;
 use crate::damper::Damper;
+use crate::parameters::LARGEST_CLEARANCE_M;
 use crate::revision;
 use crate::state::DamperState;
 
@@ -95,7 +96,7 @@ impl<const N: usize> Loaded<N> {
     /// Changes the clearance 2a (m) of a damper; its state keeps the force.
     pub(crate) fn set_clearance(&mut self, place: u8, clearance_m: f32) -> Result<(), Refusal> {
         let damper = self.damper(place)?;
-        if !(0.0..=0.1).contains(&clearance_m) {
+        if !(0.0..=LARGEST_CLEARANCE_M as f32).contains(&clearance_m) {
             return Err(Refusal::Range);
         }
         damper.set_clearance_m(clearance_m);

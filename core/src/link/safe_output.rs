@@ -38,7 +38,7 @@ pub enum SafeOutput {
 /// Counts silent ticks and makes the output of each tick.
 #[derive(Clone, Debug)]
 pub(crate) struct Watch<const N: usize> {
-    pub(crate) configuration: LossOfLink,
+    configuration: LossOfLink,
     silent_ticks: u32,
     /// Output of the last tick before the loss (N).
     last_good: [f32; N],
@@ -51,6 +51,12 @@ impl<const N: usize> Watch<N> {
             silent_ticks: 0,
             last_good: [0.0; N],
         }
+    }
+
+    /// A new configuration; ticks that were silent until now never lose the link by themselves.
+    pub(crate) fn configure(&mut self, configuration: LossOfLink) {
+        self.silent_ticks = self.silent_ticks.min(configuration.after_ticks);
+        self.configuration = configuration;
     }
 
     /// New displacements came.
@@ -89,10 +95,10 @@ mod tests {
 
     fn outputs(output: SafeOutput) -> [f32; 8] {
         let mut watch = Watch::<1>::new();
-        watch.configuration = LossOfLink {
+        watch.configure(LossOfLink {
             after_ticks: 3,
             output,
-        };
+        });
         core::array::from_fn(|tick| {
             let ([force], lost) = watch.output(&[100.0 + tick as f32]);
             assert_eq!(lost, tick == 3);
@@ -117,6 +123,20 @@ mod tests {
         let expected = [100.0, 101.0, 102.0, 76.5, 51.0, 25.5, 0.0, 0.0];
         assert_eq!(outputs(SafeOutput::RampToZero { ticks: 4 }), expected);
         assert_eq!(outputs(SafeOutput::RampToZero { ticks: 0 })[3], 0.0);
+    }
+
+    #[test]
+    fn a_stricter_configuration_loses_the_link_at_the_next_silent_tick() {
+        let mut watch = Watch::<1>::new();
+        for _ in 0..50 {
+            assert_eq!(watch.output(&[7.0]), ([7.0], false));
+        }
+        watch.configure(LossOfLink {
+            after_ticks: 1,
+            output: SafeOutput::RampToZero { ticks: 100 },
+        });
+        assert!(!watch.lost());
+        assert_eq!(watch.output(&[7.0]), ([7.0 * 0.99], true));
     }
 
     #[test]

@@ -128,7 +128,7 @@ impl<const N: usize> Service<N> {
                     return Err(Refusal::Range);
                 }
                 self.link_good()?;
-                self.watch.configuration = *configuration;
+                self.watch.configure(*configuration);
             }
             Request::Reset { displacements_m } => {
                 self.stepped()?;
@@ -146,8 +146,9 @@ impl<const N: usize> Service<N> {
                 }
                 self.loaded.displace(displacements_m)?;
                 self.step();
-                self.outputs_n = *self.loaded.forces_n();
-                return Ok(self.forces());
+                // The answer alone has them: outputs are driven while the tick runs free.
+                let forces = self.loaded.forces(self.loaded.forces_n(), self.clock_ticks);
+                return Ok(Response::Forces(forces));
             }
             Request::Run { displacements_m } => {
                 if self.running && !self.watch.lost() {
@@ -185,7 +186,6 @@ impl<const N: usize> Service<N> {
             Request::Restore { tick, states } => {
                 self.stepped()?;
                 self.loaded.restore(*tick, states)?;
-                self.outputs_n = *self.loaded.forces_n();
             }
             Request::Telemetry { damper } => return self.telemetry(*damper),
             Request::Counters => return Ok(Response::Counters(self.counters)),

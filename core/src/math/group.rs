@@ -104,10 +104,14 @@ macro_rules! group {
             }
             #[inline(always)]
             fn limited(self, limit: Self) -> (Self, [bool; GROUP]) {
-                let exceeds = self.zip(limit, $vector::simd_ge);
-                let bits = exceeds.0.to_bitmask() | exceeds.1.to_bitmask() << 4;
-                let exceeds = core::array::from_fn(|lane| bits >> lane & 1 != 0);
-                (self.at_most(limit), exceeds)
+                let below = self.zip(limit, $vector::simd_lt);
+                let bits = below.0.to_bitmask() | below.1.to_bitmask() << 4;
+                let exceeds = core::array::from_fn(|lane| bits >> lane & 1 == 0);
+                let limited = Self(
+                    below.0.select(self.0, limit.0),
+                    below.1.select(self.1, limit.1),
+                );
+                (limited, exceeds)
             }
             #[inline(always)]
             fn unless_positive(self, gate: Self) -> Self {

@@ -36,7 +36,7 @@ pub trait Lanes<T: Real, const L: usize>:
     fn at_most(self, other: Self) -> Self;
     /// Whether every number is at most the other; not for NaN.
     fn all_within(self, other: Self) -> bool;
-    /// The smaller, and whether this number is not; not for NaN.
+    /// The smaller, and whether this number is not below the limit; of NaN the limit.
     fn limited(self, limit: Self) -> (Self, [bool; L]);
     /// 0 where `gate` is positive.
     fn unless_positive(self, gate: Self) -> Self;
@@ -81,8 +81,8 @@ impl<T: Real> Lanes<T, 1> for T {
     }
     #[inline(always)]
     fn limited(self, limit: Self) -> (Self, [bool; 1]) {
-        let exceeds = self >= limit;
-        (if exceeds { limit } else { self }, [exceeds])
+        let below = self < limit;
+        (if below { self } else { limit }, [!below])
     }
     #[inline(always)]
     fn unless_positive(self, gate: Self) -> Self {
