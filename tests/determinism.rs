@@ -5,6 +5,7 @@
 use std::f64::consts::TAU;
 use std::fmt::Write;
 
+use dashpot::digest::Digest;
 use dashpot::{damper, document};
 use dashpot_core::{Damper, DamperParameters, Real};
 
@@ -35,11 +36,11 @@ const MOTIONS: [Motion; 4] = [
     }),
 ];
 
-/// FNV-1a, 64 bit, over the bits of the forces.
+/// Digest of the bits of the forces.
 fn digest<T: Real>(parameters: &DamperParameters, motion: fn(f64) -> f64) -> u64 {
     let damper: Damper<T> = parameters.build(STEP_S).expect("a valid damper");
     let mut state = damper.at_rest(T::from_f64(motion(0.0)));
-    let mut hash = 0xcbf2_9ce4_8422_2325_u64;
+    let mut digest = Digest::default();
     for tick in 0..=TICKS {
         let force = damper.step(&mut state, T::from_f64(motion(STEP_S * f64::from(tick))));
         // Both zeros are one force.
@@ -48,15 +49,13 @@ fn digest<T: Real>(parameters: &DamperParameters, motion: fn(f64) -> f64) -> u64
         } else {
             force.to_bits_u64()
         };
-        for byte in bits.to_le_bytes() {
-            hash = (hash ^ u64::from(byte)).wrapping_mul(0x100_0000_01b3);
-        }
+        digest.add(bits.to_le_bytes());
     }
     assert!(
         state.rejected_inputs() == 0,
         "the motion is within the rate limit"
     );
-    hash
+    digest.value()
 }
 
 #[test]

@@ -1,12 +1,11 @@
 //! The firmware under QEMU: the host's bits through every fault, and the cost of a tick.
 
-use std::io::Read;
 use std::path::PathBuf;
-use std::process::{Command, Stdio};
 use std::sync::OnceLock;
 use std::time::{Duration, Instant};
 
 use dashpot::damper;
+use dashpot::target::first_line;
 use dashpot_core::link::{Counters, LossOfLink, Reals, Refusal, Request, Response, SafeOutput};
 use dashpot_hil::excitation::Excitation;
 use dashpot_hil::failure::Outcome;
@@ -174,34 +173,9 @@ fn a_tick_with_everything_the_link_takes_keeps_the_budget() {
     let Some(images) = images() else {
         return;
     };
-    let mut emulator = Command::new("qemu-system-arm")
-        .args([
-            "-M",
-            "mps2-an500",
-            "-cpu",
-            "cortex-m7",
-            "-nographic",
-            "-monitor",
-            "none",
-        ])
-        .args(["-icount", "shift=0", "-serial", "stdio", "-kernel"])
-        .arg(images.join("link-cost"))
-        .stdin(Stdio::null())
-        .stdout(Stdio::piped())
-        .spawn()
-        .unwrap();
-    let mut printed = String::new();
-    let mut output = emulator.stdout.take().unwrap();
-    let mut byte = [0];
-    while output.read(&mut byte).unwrap() == 1 && byte[0] != b'\n' {
-        printed.push(char::from(byte[0]));
-    }
-    emulator.kill().unwrap();
-    emulator.wait().unwrap();
-    let number = |key: &str| -> f64 {
-        let (_, rest) = printed.split_once(&format!("\"{key}\": ")).unwrap();
-        rest.split([',', '}']).next().unwrap().parse().unwrap()
-    };
+    let printed = first_line(&images.join("link-cost"), 0, &[]);
+    let printed: serde_json::Value = serde_json::from_str(&printed).unwrap();
+    let number = |key: &str| printed[key].as_f64().unwrap();
     let requests = number("requests");
     assert_eq!(number("accepted"), requests + 1.0, "hello and every step");
     let instructions_per_clock_tick = 1e9 / number("clock_hz");

@@ -5,10 +5,8 @@
 
 use crate::damper::Damper;
 use crate::math::Real;
-#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 use crate::math::group::GROUP;
 use crate::state::DamperState;
-#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 use crate::step::step;
 
 /// Steps `N` dampers: `forces[i] = dampers[i].step(&mut states[i], displacements[i])`, bit for bit.
@@ -48,37 +46,16 @@ pub fn step_bank<T: Real, const N: usize>(
     displacements: &[T; N],
     forces: &mut [T; N],
 ) {
-    let grouped = step_groups(dampers, states, displacements, forces);
-    let rest = dampers.iter().zip(states).zip(displacements).zip(forces);
-    for (((damper, state), displacement), force) in rest.skip(grouped) {
-        *force = damper.step(state, *displacement);
-    }
-}
-
-/// Steps whole groups of dampers; returns how many dampers.
-#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
-#[inline]
-fn step_groups<T: Real>(
-    dampers: &[&Damper<T>],
-    states: &mut [DamperState<T>],
-    displacements: &[T],
-    forces: &mut [T],
-) -> usize {
-    let (groups, rest) = dampers.as_chunks::<GROUP>();
-    let states = states.as_chunks_mut::<GROUP>().0;
-    let displacements = displacements.as_chunks::<GROUP>().0;
-    let forces = forces.as_chunks_mut::<GROUP>().0;
-    for (((dampers, states), displacements), forces) in
-        groups.iter().zip(states).zip(displacements).zip(forces)
-    {
+    let (dampers, dampers_left) = dampers.as_chunks::<GROUP>();
+    let (states, states_left) = states.as_chunks_mut::<GROUP>();
+    let (displacements, displacements_left) = displacements.as_chunks::<GROUP>();
+    let (forces, forces_left) = forces.as_chunks_mut::<GROUP>();
+    let groups = dampers.iter().zip(states).zip(displacements).zip(forces);
+    for (((dampers, states), displacements), forces) in groups {
         *forces = step::<T, T::Group, GROUP>(*dampers, states, *displacements);
     }
-    dampers.len() - rest.len()
-}
-
-/// A processor without vectors steps one damper after the other.
-#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
-#[inline]
-fn step_groups<T: Real>(_: &[&Damper<T>], _: &mut [DamperState<T>], _: &[T], _: &mut [T]) -> usize {
-    0
+    let left = dampers_left.iter().zip(states_left).zip(displacements_left);
+    for (((damper, state), displacement), force) in left.zip(forces_left) {
+        *force = damper.step(state, *displacement);
+    }
 }

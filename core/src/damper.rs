@@ -51,60 +51,40 @@ pub struct Scalars<T> {
     pub(crate) held: T,
 }
 
-impl<T: Copy> Scalars<T> {
-    /// How many there are.
-    pub(crate) const COUNT: usize = 12;
+/// The scalars as an array and back, from one list of their names.
+macro_rules! array_of_scalars {
+    ($($name:ident),* $(,)?) => {
+        /// How many scalars there are.
+        pub(crate) const SCALARS: usize = [$(stringify!($name)),*].len();
 
-    /// The numbers in order of declaration.
-    pub(crate) const fn as_array(&self) -> [T; 12] {
-        [
-            self.largest_move,
-            self.position_rounder,
-            self.rest_rounder,
-            self.step_s,
-            self.offset,
-            self.scale,
-            self.shift,
-            self.origin,
-            self.half_clearance,
-            self.held_stiffness,
-            self.force_limit,
-            self.held,
-        ]
-    }
+        impl<T: Copy> Scalars<T> {
+            /// The numbers in order of declaration.
+            pub(crate) const fn as_array(&self) -> [T; SCALARS] {
+                [$(self.$name),*]
+            }
 
-    /// The inverse of [`Scalars::as_array`].
-    pub(crate) const fn from_array(numbers: [T; 12]) -> Self {
-        let [
-            largest_move,
-            position_rounder,
-            rest_rounder,
-            step_s,
-            offset,
-            scale,
-            shift,
-            origin,
-            half_clearance,
-            held_stiffness,
-            force_limit,
-            held,
-        ] = numbers;
-        Self {
-            largest_move,
-            position_rounder,
-            rest_rounder,
-            step_s,
-            offset,
-            scale,
-            shift,
-            origin,
-            half_clearance,
-            held_stiffness,
-            force_limit,
-            held,
+            /// The inverse of [`Scalars::as_array`].
+            pub(crate) const fn from_array([$($name),*]: [T; SCALARS]) -> Self {
+                Self { $($name),* }
+            }
         }
-    }
+    };
 }
+
+array_of_scalars!(
+    largest_move,
+    position_rounder,
+    rest_rounder,
+    step_s,
+    offset,
+    scale,
+    shift,
+    origin,
+    half_clearance,
+    held_stiffness,
+    force_limit,
+    held,
+);
 
 /// A built damper: constants for one step size, shared by any number of states.
 ///

@@ -15,7 +15,7 @@
 use core::fmt;
 
 use crate::checksum::crc_32;
-use crate::damper::{Damper, Scalars};
+use crate::damper::{Damper, SCALARS, Scalars};
 use crate::parameters::LARGEST_CLEARANCE_M;
 use crate::revision;
 use crate::table::Piece;
@@ -203,7 +203,6 @@ macro_rules! image {
         impl<'a> Constants<'a, $float, { size_of::<$float>() }> {
             fn read(image: &'a [u8]) -> Result<Self, ImageError> {
                 const BYTES: usize = size_of::<$float>();
-                const SCALARS: usize = Scalars::<$float>::COUNT;
                 let body = body(image, BYTES, Damper::<$float>::IMAGE_BYTES)?;
                 let (words, _) = body.as_chunks::<BYTES>();
                 let parts = words
@@ -212,15 +211,12 @@ macro_rules! image {
                 let Some((scalars, (revisions, coefficients))) = parts else {
                     return Err(ImageError::Constants);
                 };
-                let hash = |hash, words: &[[u8; BYTES]]| {
-                    let widened = words.iter().map(|word| $word::from_le_bytes(*word).into());
-                    revision::of_words(hash, widened)
-                };
-                let table_revision = hash(revision::START, coefficients);
-                let revision = hash(table_revision, scalars).max(1);
-                let finite = |word: &[u8; BYTES]| $float::from_le_bytes(*word).is_finite();
-                let finite = scalars.iter().chain(coefficients).all(finite);
-                let scalars = Scalars::from_array(scalars.map($float::from_le_bytes));
+                let number = |word: &[u8; BYTES]| $float::from_le_bytes(*word);
+                let finite = scalars.iter().chain(coefficients).all(|word| number(word).is_finite());
+                let scalars = Scalars::from_array(scalars.map(|word| number(&word)));
+                let widened = coefficients.iter().map(|word| number(word).to_bits().into());
+                let table_revision = revision::of_words(revision::START, widened);
+                let revision = revision::of_damper(table_revision, &scalars);
                 let positive = Scalars { origin: 0.0, ..scalars };
                 let credible = positive.as_array().iter().all(|scalar| *scalar >= 0.0)
                     && scalars.step_s > 0.0

@@ -20,6 +20,8 @@ pub mod characteristic;
 mod checksum;
 mod damper;
 mod error;
+#[cfg(all(test, feature = "builder"))]
+mod example;
 #[cfg(feature = "builder")]
 mod hydraulics;
 mod image;

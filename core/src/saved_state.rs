@@ -127,20 +127,7 @@ mod tests {
 
     #[cfg(feature = "builder")]
     fn damper() -> Damper<f32> {
-        use crate::parameters::{DamperParameters, Element, Limits, Mount, Reduced};
-        let parameters = DamperParameters {
-            element: Element::Reduced(Reduced {
-                damping_n_s_per_m: 120e3,
-                saturation_velocity_m_per_s: 0.03,
-            }),
-            mount: Mount {
-                stiffness_n_per_m: 8e6,
-                seat_stiffness_n_per_m: None,
-                clearance_m: 1e-3,
-            },
-            limits: Limits::default(),
-        };
-        parameters.build(1e-3).unwrap()
+        crate::example::reduced_vertical().build(1e-3).unwrap()
     }
 
     #[cfg(feature = "builder")]

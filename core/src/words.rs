@@ -1,11 +1,10 @@
 //! A built damper as plain words: how a host hands constants to firmware.
 
-use crate::damper::{Damper, Scalars};
+use crate::damper::{Damper, SCALARS, Scalars};
 use crate::table::{PIECES, Piece};
 
 /// Scalars, the two revisions, thirteen numbers of each piece.
 const WORDS: usize = TABLE + 2 * PIECES * PIECE;
-const SCALARS: usize = Scalars::<f32>::COUNT;
 const TABLE: usize = SCALARS + 2;
 const PIECE: usize = 13;
 
@@ -124,19 +123,7 @@ mod tests {
     #[cfg(feature = "builder")]
     #[test]
     fn a_built_damper_comes_back() {
-        use crate::parameters::{DamperParameters, Element, Limits, Mount, Reduced};
-        let parameters = DamperParameters {
-            element: Element::Reduced(Reduced {
-                damping_n_s_per_m: 120e3,
-                saturation_velocity_m_per_s: 0.03,
-            }),
-            mount: Mount {
-                stiffness_n_per_m: 8e6,
-                seat_stiffness_n_per_m: None,
-                clearance_m: 1e-3,
-            },
-            limits: Limits::default(),
-        };
+        let parameters = crate::example::reduced_vertical();
         let single: Damper<f32> = parameters.build(1e-3).unwrap();
         assert_eq!(Damper::<f32>::from_words(&single.to_words()), single);
         let double: Damper<f64> = parameters.build(1e-4).unwrap();

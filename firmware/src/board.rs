@@ -4,6 +4,8 @@
 
 use core::ptr::{with_exposed_provenance, with_exposed_provenance_mut};
 
+use dashpot_core::link::Clock;
+
 /// Clock of processor, timer and SysTick (Hz).
 pub const CLOCK_HZ: u32 = 25_000_000;
 
@@ -73,10 +75,14 @@ impl Uart {
 }
 
 /// Starts the clock that [`clock_now`] reads.
-pub fn start_clock() {
+pub fn start_clock() -> Clock {
     write(TIMER_RELOAD, u32::MAX);
     write(TIMER_VALUE, u32::MAX);
     write(TIMER_CONTROL, 1);
+    Clock {
+        now: clock_now,
+        hz: CLOCK_HZ,
+    }
 }
 
 /// Clock ticks since the start, wrapping, [`CLOCK_HZ`] a second. The processor's own cycle counter

@@ -9,7 +9,7 @@ use core::sync::atomic::{AtomicU32, Ordering};
 
 use cortex_m::peripheral::syst::SystClkSource;
 use cortex_m_rt::{entry, exception};
-use dashpot_core::link::{Clock, Device};
+use dashpot_core::link::Device;
 use dashpot_firmware::bank::{BANK, DAMPERS};
 use dashpot_firmware::board::{self, CLOCK_HZ, Port, Uart};
 use dashpot_firmware::outputs;
@@ -26,12 +26,7 @@ fn SysTick() {
 
 #[entry]
 fn main() -> ! {
-    board::start_clock();
-    let clock = Clock {
-        now: board::clock_now,
-        hz: CLOCK_HZ,
-    };
-    let mut device = Device::<DAMPERS>::new(&BANK, clock);
+    let mut device = Device::<DAMPERS>::new(&BANK, board::start_clock());
     if let Some(mut core) = cortex_m::Peripherals::take() {
         let period = device.step_s() * CLOCK_HZ as f32 + 0.5;
         core.SYST.set_clock_source(SystClkSource::Core);

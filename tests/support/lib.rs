@@ -2,6 +2,7 @@
 
 pub mod accuracy;
 pub mod bench_test;
+pub mod digest;
 pub mod document;
 pub mod look_up;
 pub mod newton;

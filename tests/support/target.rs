@@ -9,6 +9,8 @@ use dashpot_core::{Damper, step_bank};
 use dashpot_hil::excitation::Excitation;
 use serde::Deserialize;
 
+use crate::digest::Digest;
+
 /// Step of every experiment (s).
 pub const STEP_S: f64 = 1e-3;
 
@@ -87,6 +89,31 @@ impl Drop for Emulator {
     }
 }
 
+/// The first line that an image prints on its UART, in an emulator where an instruction takes
+/// 2^`shift` ns.
+pub fn first_line(image: &Path, shift: u32, arguments: &[&str]) -> String {
+    let mut command = Command::new("qemu-system-arm");
+    command
+        .args(["-M", "mps2-an500", "-cpu", "cortex-m7", "-nographic"])
+        .args(["-monitor", "none", "-serial", "stdio"])
+        .args(["-icount", &format!("shift={shift}")])
+        .args(arguments)
+        .arg("-kernel")
+        .arg(image);
+    let child = command
+        .stdin(Stdio::null())
+        .stdout(Stdio::piped())
+        .spawn()
+        .expect("qemu-system-arm starts");
+    let mut emulator = Emulator(child);
+    let output = emulator.0.stdout.take().expect("it is piped");
+    let mut line = String::new();
+    BufReader::new(output)
+        .read_line(&mut line)
+        .expect("the target prints text");
+    line
+}
+
 impl Experiment<'_> {
     /// Samples of the excitation (m).
     fn motion(&self) -> Vec<f32> {
@@ -115,23 +142,7 @@ impl Experiment<'_> {
             "loader,file={},addr=0x20200000,force-raw=on",
             data.path().display()
         );
-        let mut command = Command::new("qemu-system-arm");
-        command
-            .args(["-M", "mps2-an500", "-cpu", "cortex-m7", "-nographic"])
-            .args(["-monitor", "none", "-serial", "stdio"])
-            .args(["-icount", "shift=10", "-device", &loader, "-kernel"])
-            .arg(image);
-        let child = command
-            .stdin(Stdio::null())
-            .stdout(Stdio::piped())
-            .spawn()
-            .expect("qemu-system-arm starts");
-        let mut emulator = Emulator(child);
-        let mut line = String::new();
-        let output = emulator.0.stdout.take().expect("it is piped");
-        BufReader::new(output)
-            .read_line(&mut line)
-            .expect("the target prints text");
+        let line = first_line(image, 10, &["-device", &loader]);
         let printed: Printed = serde_json::from_str(&line)
             .unwrap_or_else(|error| panic!("the target printed `{line}`: {error}"));
         printed.found(self.steps)
@@ -145,12 +156,8 @@ impl Experiment<'_> {
             let place = step % (2 * last);
             motion[place.min(2 * last - place)]
         };
-        let mut hash = 0xcbf2_9ce4_8422_2325_u64;
-        let mut add = |force: f32| {
-            for byte in force.to_bits().to_le_bytes() {
-                hash = (hash ^ u64::from(byte)).wrapping_mul(0x100_0000_01b3);
-            }
-        };
+        let mut digest = Digest::default();
+        let mut add = |force: f32| digest.add(force.to_bits().to_le_bytes());
         let mut states = std::array::from_fn(|lane| self.damper.at_rest(at(LAG * lane)));
         let mut forces = [0.0; BANK];
         for step in 0..self.steps as usize {
@@ -162,7 +169,7 @@ impl Experiment<'_> {
                 add(self.damper.step(&mut states[0], at(step)));
             }
         }
-        format!("{hash:016x}")
+        format!("{:016x}", digest.value())
     }
 }
 

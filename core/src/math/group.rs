@@ -10,6 +10,11 @@ use super::Lanes;
 /// Lanes of a group.
 pub(crate) const GROUP: usize = 8;
 
+/// A number for each damper of a group.
+pub type F32 = Pair<f32x4>;
+/// As [`F32`].
+pub type F64 = Pair<f64x4>;
+
 /// Two vectors: the operations of one fill the waiting times of the other.
 #[derive(Clone, Copy)]
 pub struct Pair<V>(V, V);

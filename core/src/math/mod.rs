@@ -1,7 +1,10 @@
 //! Arithmetic the step is allowed to use: + - * / and square root, exact in IEEE 754.
 
 pub(crate) mod approximate;
-#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+#[cfg_attr(
+    not(any(target_arch = "x86_64", target_arch = "aarch64")),
+    path = "single.rs"
+)]
 pub(crate) mod group;
 mod lanes;
 mod real;

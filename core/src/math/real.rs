@@ -3,11 +3,8 @@
 use core::fmt::Debug;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
-#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
-use super::Lanes;
-#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
-use super::group::{GROUP, Pair};
-use super::square_root;
+use super::group::{self, GROUP};
+use super::{Lanes, square_root};
 
 /// `f32` or `f64` with the operations whose results are the same bits on every machine.
 pub trait Real:
@@ -25,7 +22,6 @@ pub trait Real:
     + 'static
 {
     /// A number for each damper of a group.
-    #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
     #[doc(hidden)]
     type Group: Lanes<Self, GROUP>;
 
@@ -61,8 +57,7 @@ pub trait Real:
 macro_rules! real {
     ($float:ident, $bits:ident, $group:ident) => {
         impl Real for $float {
-            #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
-            type Group = Pair<wide::$group>;
+            type Group = group::$group;
 
             const ZERO: Self = 0.0;
             const EPSILON: f64 = $float::EPSILON as f64;
@@ -126,8 +121,8 @@ macro_rules! real {
     };
 }
 
-real!(f32, u32, f32x4);
-real!(f64, u64, f64x4);
+real!(f32, u32, F32);
+real!(f64, u64, F64);
 
 #[cfg(test)]
 mod tests {

@@ -9,7 +9,7 @@
 use core::fmt::Write;
 
 use cortex_m_rt::entry;
-use dashpot_core::link::{Clock, Device, Frame, Header, PROTOCOL, Reals, Request};
+use dashpot_core::link::{Device, Frame, Header, PROTOCOL, Reals, Request};
 use dashpot_firmware::bank::{BANK, DAMPERS};
 use dashpot_firmware::board::{self, CLOCK_HZ, Port, Uart};
 use dashpot_firmware::outputs;
@@ -22,12 +22,7 @@ const HALF_PERIOD: u32 = 125;
 
 #[entry]
 fn main() -> ! {
-    board::start_clock();
-    let clock = Clock {
-        now: board::clock_now,
-        hz: CLOCK_HZ,
-    };
-    let mut device = Device::<DAMPERS>::new(&BANK, clock);
+    let mut device = Device::<DAMPERS>::new(&BANK, board::start_clock());
     let mut uart = Uart::start(Port::Spare, 1_000_000);
     let mut frame = Frame::new();
     let header = |sequence| Header {
