@@ -55,7 +55,7 @@ fn the_layout_is_as_documented() {
     assert_eq!(crc_32(b"123456789"), 0xcbf4_3926); // the published check value
     let (image, words) = (image(), single().to_words());
     assert_eq!(image.len(), Damper::<f32>::IMAGE_BYTES);
-    assert_eq!(&image[..8], b"DASH\xff\xfe\x01\x00");
+    assert_eq!(&image[..8], b"DASH\xff\xfe\x02\x00");
     assert_eq!(image[8..12], 4_u32.to_le_bytes());
     assert_eq!(image[12..16], (image.len() as u32).to_le_bytes());
     let end = image.len() - 4;
@@ -162,17 +162,16 @@ fn constants_out_of_range_are_refused_though_their_revision_is_right() {
         .position(|word| *word == revision)
         .expect("the revision is among the words");
     assert_eq!(read(&forged(words.clone(), revision_at)), Ok(damper));
-    // Step, offset, half the clearance; words in the order of the scalars.
-    let mut cases = vec![(3, 0.0_f32), (4, 1e-3), (8, 1e-3)];
+    // Step, lead, first knot, half the clearance; words in the order of the scalars.
+    let mut cases = vec![(3, 0.0_f32), (4, 1e-3), (5, 0.0), (6, 1e-3)];
     for scalar in 0..revision_at {
-        cases.extend([(scalar, f32::NAN), (scalar, f32::INFINITY)]);
-        // The table's origin alone may lie below zero.
-        cases.extend((scalar != 7).then_some((scalar, -1.0)));
+        cases.extend([f32::NAN, f32::INFINITY, -1.0].map(|value| (scalar, value)));
     }
-    // Beyond the largest clearance, the sum that goes with it right.
+    // Beyond the largest clearance, the lead that goes with it right.
     let mut loose = words.clone();
-    loose[8] = 0.051_f32.to_bits();
-    loose[4] = (0.051 + f32::from_bits(words[11])).to_bits();
+    loose[6] = 0.051_f32.to_bits();
+    let lead = 0.051 + f32::from_bits(words[8]) - f32::from_bits(words[5]);
+    loose[4] = (lead + lead * f32::EPSILON).to_bits();
     let refused = read(&forged(loose, revision_at));
     assert_eq!(refused, Err(ImageError::Constants));
     let last = words.len() - 1;

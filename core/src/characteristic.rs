@@ -1,9 +1,10 @@
 //! Static laws of a damper, for curves and checks outside the step.
 
+use crate::build::ElementLaws;
 use crate::build::root::bracketed_root;
 use crate::error::BuildError;
-use crate::hydraulics::{HydraulicSide, Laws};
-use crate::parameters::{DamperParameters, Element, Reduced};
+use crate::hydraulics::{HydraulicSide, jet_velocity};
+use crate::parameters::DamperParameters;
 
 /// One of the three shim-pack valves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -16,15 +17,9 @@ pub enum ShimPackValve {
     FootCompression,
 }
 
-#[allow(clippy::large_enum_variant)] // one per damper, never in an array
-enum Law {
-    Physical(Laws),
-    Reduced(Reduced),
-}
-
 /// Laws of a damper at constant velocity: springs settled, clearance taken up.
 pub struct Characteristic {
-    law: Law,
+    laws: ElementLaws,
     force_limit_n: f64,
 }
 
@@ -34,13 +29,8 @@ impl Characteristic {
     /// # Errors
     /// As [`DamperParameters::validate`].
     pub fn new(parameters: &DamperParameters) -> Result<Self, BuildError> {
-        parameters.validate()?;
-        let law = match &parameters.element {
-            Element::Physical(hydraulics) => Law::Physical(Laws::new(hydraulics)?),
-            Element::Reduced(reduced) => Law::Reduced(*reduced),
-        };
         Ok(Self {
-            law,
+            laws: parameters.laws()?,
             force_limit_n: parameters.limits.force_n,
         })
     }
@@ -52,8 +42,8 @@ impl Characteristic {
             return 0.0;
         }
         let speed = velocity_m_per_s.abs();
-        let force = match &self.law {
-            Law::Physical(laws) => {
+        let force = match &self.laws {
+            ElementLaws::Physical(laws) => {
                 let side = HydraulicSide {
                     laws,
                     compression: velocity_m_per_s < 0.0,
@@ -62,7 +52,7 @@ impl Characteristic {
                     side.velocity(force) - speed
                 })
             }
-            Law::Reduced(reduced) => {
+            ElementLaws::Reduced(reduced) => {
                 let yields = reduced.saturation_velocity_m_per_s;
                 (reduced.damping_n_s_per_m * speed.min(yields)).min(self.force_limit_n)
             }
@@ -95,7 +85,7 @@ impl Characteristic {
     /// # Ok::<(), dashpot_core::BuildError>(())
     /// ```
     pub fn valve_flow_m3_per_s(&self, valve: ShimPackValve, pressure_pa: f64) -> Option<f64> {
-        let Law::Physical(laws) = &self.law else {
+        let ElementLaws::Physical(laws) = &self.laws else {
             return None;
         };
         let (valve, back_pressure) = match valve {
@@ -103,11 +93,8 @@ impl Characteristic {
             ShimPackValve::PistonCompression => (&laws.compression, 0.0),
             ShimPackValve::FootCompression => (&laws.foot, laws.back_pressure_pa),
         };
-        Some(valve.flow(
-            &laws.oil,
-            pressure_pa,
-            pressure_pa - back_pressure,
-            pressure_pa,
-        ))
+        let density = laws.oil.density_kg_per_m3(pressure_pa);
+        let jet = jet_velocity((pressure_pa - back_pressure).max(0.0), density);
+        Some(valve.flow(pressure_pa, jet))
     }
 }

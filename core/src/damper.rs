@@ -15,7 +15,7 @@ use crate::revision;
 use crate::state::DamperState;
 use crate::status::Status;
 use crate::step;
-use crate::table::{PIECES, Table};
+use crate::table::{DOUBLINGS, Table};
 
 /// gamma of the two stages.
 pub(crate) const IMPLICIT_SHARE: f64 = 1.0 - core::f64::consts::FRAC_1_SQRT_2;
@@ -33,18 +33,13 @@ pub struct Scalars<T> {
     pub(crate) rest_rounder: T,
     /// Step (s).
     pub(crate) step_s: T,
-    /// Stretch up to which nothing flows (m): half the clearance and the stretch held.
-    pub(crate) offset: T,
-    /// Scale of the table (1/m).
-    pub(crate) scale: T,
-    /// Shift of the table (1).
-    pub(crate) shift: T,
-    /// What y lacks to the [`Real::place`] of its piece's index (1).
-    pub(crate) origin: T,
+    /// Stretch (m) up to which nothing flows, half the clearance and the stretch held, less the first
+    /// knot: see [`lead`].
+    pub(crate) lead: T,
+    /// Where the first piece of either side begins, a power of two (m).
+    pub(crate) first_knot: T,
     /// Half the clearance, a (m).
     pub(crate) half_clearance: T,
-    /// Stiffness under seal friction (N/m): the mount's, or 0 without friction.
-    pub(crate) held_stiffness: T,
     /// Force at which the element yields (N).
     pub(crate) force_limit: T,
     /// Stretch of the mount under seal friction (m).
@@ -76,15 +71,19 @@ array_of_scalars!(
     position_rounder,
     rest_rounder,
     step_s,
-    offset,
-    scale,
-    shift,
-    origin,
+    lead,
+    first_knot,
     half_clearance,
-    held_stiffness,
     force_limit,
     held,
 );
+
+/// What a reach has to lose to be looked up (m): rounded up, so that a stretch at which nothing flows never
+/// comes to lie beyond the first knot.
+pub(crate) fn lead<T: Real>(half_clearance: T, held: T, first_knot: T) -> T {
+    let exact = half_clearance + held - first_knot;
+    exact + exact.magnitude() * T::from_f64(T::EPSILON)
+}
 
 /// A built damper: constants for one step size, shared by any number of states.
 ///
@@ -179,7 +178,7 @@ impl<T: Real> Damper<T> {
         };
         let k = &mut self.scalars;
         k.half_clearance = half;
-        k.offset = half + k.held;
+        k.lead = lead(half, k.held, k.first_knot);
         self.revision = revision::of_damper(self.table_revision, k);
     }
 
@@ -196,11 +195,11 @@ impl<T: Real> Damper<T> {
         force
     }
 
-    /// Reach (m) at the centre of the last piece; no stage ends beyond it.
+    /// Reach (m) at the end of the bins; no stage looks beyond it.
     pub(crate) fn largest_reach(&self) -> T {
         let k = &self.scalars;
-        let last = self.table[PIECES - 1].centre;
-        (last * last - k.shift) / k.scale + k.offset
+        let end = T::from_f64(f64::from(1_u32 << DOUBLINGS));
+        end * k.first_knot + k.half_clearance + k.held
     }
 
     /// Carries a state over from another damper: displacement and force stay, the stretch becomes

@@ -15,7 +15,7 @@
 use core::fmt;
 
 use crate::checksum::crc_32;
-use crate::damper::{Damper, SCALARS, Scalars};
+use crate::damper::{Damper, SCALARS, Scalars, lead};
 use crate::parameters::LARGEST_CLEARANCE_M;
 use crate::revision;
 use crate::table::Piece;
@@ -23,7 +23,7 @@ use crate::table::Piece;
 const MAGIC: [u8; 4] = *b"DASH";
 const BYTE_ORDER: u16 = 0xfeff;
 /// Changes whenever the same words would mean another damper.
-const VERSION: u16 = 1;
+const VERSION: u16 = 2;
 const HEADER_BYTES: usize = 16;
 const CHECK_BYTES: usize = 4;
 
@@ -184,10 +184,11 @@ macro_rules! image {
                 self.scalars = constants.scalars;
                 self.revision = constants.revision;
                 self.table_revision = constants.table_revision;
-                let places = self.table.iter_mut().flat_map(Piece::numbers_mut);
+                let places = self.table.pieces.iter_mut().flat_map(Piece::numbers_mut);
                 for (place, word) in places.zip(constants.coefficients) {
                     *place = $float::from_le_bytes(*word);
                 }
+                self.table.index();
                 Ok(())
             }
 
@@ -217,13 +218,13 @@ macro_rules! image {
                 let widened = coefficients.iter().map(|word| number(word).to_bits().into());
                 let table_revision = revision::of_words(revision::START, widened);
                 let revision = revision::of_damper(table_revision, &scalars);
-                let positive = Scalars { origin: 0.0, ..scalars };
+                let positive = Scalars { lead: 0.0, ..scalars };
                 let credible = positive.as_array().iter().all(|scalar| *scalar >= 0.0)
                     && scalars.step_s > 0.0
-                    && scalars.scale > 0.0
                     && scalars.largest_move > 0.0
                     && scalars.half_clearance <= (0.5 * LARGEST_CLEARANCE_M) as $float
-                    && scalars.offset == scalars.half_clearance + scalars.held;
+                    && scalars.first_knot > 0.0
+                    && scalars.lead == lead(scalars.half_clearance, scalars.held, scalars.first_knot);
                 if revisions.map($word::from_le_bytes) == [revision, table_revision].map($word::from)
                     && finite
                     && credible

@@ -1,7 +1,7 @@
 //! Oil at its working temperature: density, viscosity and the oil column as a spring.
 
 use crate::error::{BuildError, require, require_ranges};
-use crate::math::elementary::{log10, pow, sqrt};
+use crate::math::elementary::{log10, pow};
 use crate::parameters::{ATMOSPHERIC_PRESSURE_PA, DENSITY_TEMPERATURE_C, Oil, OilColumn};
 
 /// 0 degC in kelvin.
@@ -76,16 +76,6 @@ impl Oil {
         let y = y40 + slope * (abscissa(self.temperature_c) - abscissa(40.0));
         (pow(10.0, pow(10.0, y)) - 0.7) * 1e-6
     }
-
-    /// `sqrt(2 D/rho(P))` (m/s) of a pressure difference D from upstream pressure P, 0 when it does not
-    /// drive.
-    pub(crate) fn jet_velocity(&self, difference_pa: f64, upstream_pa: f64) -> f64 {
-        if difference_pa > 0.0 {
-            sqrt(2.0 * difference_pa / self.density_kg_per_m3(upstream_pa))
-        } else {
-            0.0
-        }
-    }
 }
 
 impl OilColumn {
@@ -102,20 +92,26 @@ impl OilColumn {
     /// Share of its atmospheric volume by which the mixture shortens under gauge pressure P:
     /// `(1 - alpha) P/E_l + alpha (1 - (p_a/(p_a + P))^(1/n))` (1).
     pub fn compression(&self, pressure_pa: f64) -> f64 {
-        let air = 1.0
-            - pow(
-                ATMOSPHERIC_PRESSURE_PA / (ATMOSPHERIC_PRESSURE_PA + pressure_pa),
-                1.0 / self.polytropic_exponent,
-            );
-        (1.0 - self.air_fraction) * pressure_pa / self.bulk_modulus_pa + self.air_fraction * air
+        (1.0 - self.air_fraction) * pressure_pa / self.bulk_modulus_pa
+            + self.air_fraction * (1.0 - self.air_volume(pressure_pa))
+    }
+
+    /// Volume of the air over its atmospheric volume, `(p_a/(p_a + P))^(1/n)` (1).
+    fn air_volume(&self, pressure_pa: f64) -> f64 {
+        let ratio = ATMOSPHERIC_PRESSURE_PA / (ATMOSPHERIC_PRESSURE_PA + pressure_pa);
+        if self.polytropic_exponent == 1.0 {
+            ratio
+        } else {
+            pow(ratio, 1.0 / self.polytropic_exponent)
+        }
     }
 
     /// Derivative of [`OilColumn::compression`] with respect to pressure (1/Pa).
     pub fn compressibility_per_pa(&self, pressure_pa: f64) -> f64 {
         let absolute = ATMOSPHERIC_PRESSURE_PA + pressure_pa;
-        let n = self.polytropic_exponent;
         (1.0 - self.air_fraction) / self.bulk_modulus_pa
-            + self.air_fraction * pow(ATMOSPHERIC_PRESSURE_PA / absolute, 1.0 / n) / (n * absolute)
+            + self.air_fraction * self.air_volume(pressure_pa)
+                / (self.polytropic_exponent * absolute)
     }
 
     /// Bulk modulus of the mixture at absolute pressure p (Pa): its volume over its compressibility,

@@ -24,7 +24,7 @@ fn of_word(hash: u32, word: u64) -> u32 {
 /// Hash of a table.
 #[cfg(feature = "builder")]
 pub(crate) fn of_table<T: Real>(table: &Table<T>) -> u32 {
-    let numbers = table.iter().flat_map(Piece::numbers);
+    let numbers = table.pieces.iter().flat_map(Piece::numbers);
     of_words(START, numbers.map(|value| value.to_bits_u64()))
 }
 

@@ -9,9 +9,6 @@ use crate::table::{Piece, Table, cubic, locate};
 /// The correction is at most this share of the step's travel, so it never undoes the damping.
 const CORRECTION_SHARE: f64 = 0.125;
 
-/// Added to a change of stretch to keep its inverse finite at a standstill (m); lost in any other.
-const STANDSTILL: f64 = 1e-30;
-
 /// Steps `L` dampers; returns their forces (N).
 #[inline(always)]
 pub(crate) fn step<T: Real, V: Lanes<T, L>, const L: usize>(
@@ -32,19 +29,26 @@ pub(crate) fn step<T: Real, V: Lanes<T, L>, const L: usize>(
     let end = start + change;
 
     // The flow's mean over the straight path, by its potential and, off the path, by its slope.
-    let inverse = V::all(1.0) / (change + V::all(STANDSTILL));
     let end_potential = last.potential();
     let area = end_potential - potential + bend * bend;
-    let share = ((area * inverse - quadrature) * inverse)
-        .at_least(V::all(-CORRECTION_SHARE))
-        .at_most(V::all(CORRECTION_SHARE));
-    // In contact on the same side at both ends there is nothing to correct but rounding.
+    let most = (change * V::all(CORRECTION_SHARE)).magnitudes();
+    let correction = (area / change - quadrature).at_most(most).at_least(-most);
     let contact = last.flow * start * potential;
-    let correction = (share * change).unless_positive(contact);
+    let correction = correction.unless_positive(contact);
 
     let stretch = ((end + rest_rounder) - correction) - rest_rounder;
     let potential = end_potential - last.flow * correction;
-    leave(dampers, states, stretch, potential, last.stiffness())
+    let magnitude = stages.force(stretch, last.stiffness());
+    let yields = magnitude.reaches(stages.force_limit);
+    let forces = magnitude.at_most(stages.force_limit).along(stretch).array();
+    let (stretches, potentials) = (stretch.array(), potential.array());
+    for (lane, state) in states.iter_mut().enumerate() {
+        state.stretch = stretches[lane];
+        state.potential = potentials[lane];
+        state.force = forces[lane];
+        state.status.insert_if(yields[lane], Status::SATURATED);
+    }
+    forces
 }
 
 /// Takes the displacements (m) in; returns the travels (m) and the numbers that round a rest to zero (m).
@@ -105,10 +109,10 @@ fn admit<T: Real>(damper: &Damper<T>, state: &mut DamperState<T>, travel: T) -> 
 /// The constants of implicit stages.
 struct Stages<'a, T, V, const L: usize> {
     tables: [&'a Table<T>; L],
-    offset: V,
-    scale: V,
-    shift: V,
-    origin: V,
+    lead: V,
+    first_knot: V,
+    half_clearance: V,
+    force_limit: V,
 }
 
 /// A solved stage.
@@ -122,27 +126,34 @@ struct Stage<'a, T, V, const L: usize> {
 impl<'a, T: Real, V: Lanes<T, L>, const L: usize> Stages<'a, T, V, L> {
     #[inline(always)]
     fn new(dampers: [&'a Damper<T>; L]) -> Self {
-        let [offset, scale, shift, origin] = V::columns(dampers.map(|damper| {
+        let [lead, first_knot, half_clearance, force_limit] = V::columns(dampers.map(|damper| {
             let k = &damper.scalars;
-            [k.offset, k.scale, k.shift, k.origin]
+            [k.lead, k.first_knot, k.half_clearance, k.force_limit]
         }));
         Self {
             tables: dampers.map(|damper| &damper.table),
-            offset,
-            scale,
-            shift,
-            origin,
+            lead,
+            first_knot,
+            half_clearance,
+            force_limit,
         }
     }
 
     /// The stage whose stretch and flow sum to `reach` (m).
     #[inline(always)]
     fn solve(&self, reach: V) -> Stage<'a, T, V, L> {
-        let beyond = (reach.magnitudes() - self.offset).at_least(V::all(0.0));
-        let y = (beyond * self.scale + self.shift).square_roots();
-        let (pieces, z) = locate(self.tables, self.origin, y, reach);
+        let beyond = (reach.magnitudes() - self.lead).at_least(self.first_knot);
+        let (pieces, z) = locate(self.tables, beyond, reach);
         let flow = cubic(pieces.map(|piece| piece.flow), z);
         Stage { flow, pieces, z }
+    }
+
+    /// Force magnitude (N) at a stretch (m), by the stiffness of the stage that ended there; it may exceed
+    /// the limit.
+    #[inline(always)]
+    fn force(&self, stretch: V, stiffness: V) -> V {
+        let beyond = (stretch.magnitudes() - self.half_clearance).at_least(V::all(0.0));
+        beyond * stiffness
     }
 }
 
@@ -153,52 +164,11 @@ impl<T: Real, V: Lanes<T, L>, const L: usize> Stage<'_, T, V, L> {
         cubic(self.pieces.map(|piece| piece.potential), self.z)
     }
 
-    /// Force over stretch beyond the offset, less the held stiffness (N/m).
+    /// Force over stretch beyond the clearance (N/m).
     #[inline(always)]
     fn stiffness(&self) -> V {
         cubic(self.pieces.map(|piece| piece.stiffness), self.z)
     }
-}
-
-/// Force magnitude (N) at a stretch (m), by the stiffness of the stage that ended there, and the limit
-/// (N) that it may exceed.
-#[inline(always)]
-fn force<T: Real, V: Lanes<T, L>, const L: usize>(
-    dampers: [&Damper<T>; L],
-    stretch: V,
-    stiffness: V,
-) -> (V, V) {
-    let [half_clearance, held_stiffness, limit, _] = V::columns(dampers.map(|damper| {
-        let k = &damper.scalars;
-        [k.half_clearance, k.held_stiffness, k.force_limit, k.held]
-    }));
-    let offset = V::new(dampers.map(|damper| damper.scalars.offset));
-    let magnitude = stretch.magnitudes();
-    let sprung = (magnitude - half_clearance).at_least(V::all(0.0));
-    let beyond = (magnitude - offset).at_least(V::all(0.0));
-    (sprung * held_stiffness + beyond * stiffness, limit)
-}
-
-/// Stores what the step found; returns the forces (N).
-#[inline(always)]
-fn leave<T: Real, V: Lanes<T, L>, const L: usize>(
-    dampers: [&Damper<T>; L],
-    states: &mut [DamperState<T>; L],
-    stretch: V,
-    potential: V,
-    stiffness: V,
-) -> [T; L] {
-    let (magnitude, limit) = force(dampers, stretch, stiffness);
-    let (limited, yields) = magnitude.limited(limit);
-    let forces = limited.along(stretch).array();
-    let (stretches, potentials) = (stretch.array(), potential.array());
-    for (lane, state) in states.iter_mut().enumerate() {
-        state.stretch = stretches[lane];
-        state.potential = potentials[lane];
-        state.force = forces[lane];
-        state.status.insert_if(yields[lane], Status::SATURATED);
-    }
-    forces
 }
 
 /// The stretch (m) and flow potential (m^2) at which `damper` has a force (N), by bisection of its stages.
@@ -213,7 +183,7 @@ pub(crate) fn settle<T: Real>(damper: &Damper<T>, force: T) -> (T, T) {
         let reach = signed(middle);
         let stage = stages.solve(reach);
         let stretch = reach - T::from_f64(IMPLICIT_SHARE) * stage.flow;
-        let (reached, _) = self::force([damper], stretch, stage.stiffness());
+        let reached = stages.force(stretch, stage.stiffness());
         found = (stretch, stage.potential());
         if reached < force.magnitude() {
             low = middle;

@@ -1,24 +1,47 @@
-//! Piecewise cubics of a stage's reach, read in constant time.
+//! Piecewise cubics of a stage's reach, found and read in constant time.
+//!
+//! Knots lie where the law has its corners and as close between them as its curvature asks, so they are
+//! not equally spaced. A reach finds its piece through bins: its exponent and the leading bits of its
+//! fraction, 16 bins to each doubling, name a bin, and a bin names the piece around its lower border.
+//! At most [`KNOTS_PER_BIN`] knots lie within a bin, so as many comparisons end at the right piece.
 
 use crate::math::{Lanes, Real};
 
 /// Pieces a side.
 pub(crate) const PIECES: usize = 64;
 
-/// Cubics of one piece in z = y - centre: coefficients of 1, z, z^2, z^3. Sixteen numbers, so that its
-/// address takes one shift.
+/// Bins a side: 16 doublings of the reach.
+pub(crate) const BINS: usize = 1 << BIN_BITS;
+pub(crate) const BIN_BITS: u32 = 9;
+
+/// Leading bits of the fraction that take part in the number of a bin.
+pub(crate) const BIN_FRACTION_BITS: u32 = 5;
+
+/// Knots within a bin.
+pub(crate) const KNOTS_PER_BIN: usize = 2;
+
+/// Doublings of the reach from the first knot to the end of the bins.
+pub(crate) const DOUBLINGS: u32 = 1 << (BIN_BITS - BIN_FRACTION_BITS);
+
+/// A power of two, so that masked indices are within bounds.
+const _: () = assert!((2 * PIECES).is_power_of_two() && 2 * PIECES <= 256);
+
+/// Cubics of one piece in z, the reach beyond its knot: coefficients of 1, z, z^2, z^3. Sixteen numbers,
+/// so that its address takes one shift.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C)]
-pub(crate) struct Piece<T> {
+pub struct Piece<T> {
     /// Flow times the step (m), with the sign of the stretch.
     pub(crate) flow: [T; 4],
     /// Flow potential times the step (m^2), positive.
     pub(crate) potential: [T; 4],
-    /// Force beyond friction over stretch beyond the offset, less the held stiffness (N/m).
+    /// Force over stretch beyond the clearance (N/m).
     pub(crate) stiffness: [T; 4],
-    /// Where z is zero (1).
-    pub(crate) centre: T,
-    pub(crate) padding: [T; 3],
+    /// Where the piece begins (m).
+    pub(crate) knot: T,
+    /// Where the next pieces begin (m).
+    pub(crate) next_knots: [T; KNOTS_PER_BIN],
+    pub(crate) padding: T,
 }
 
 impl<T> Piece<T> {
@@ -29,7 +52,7 @@ impl<T> Piece<T> {
             .iter()
             .chain(&self.potential)
             .chain(&self.stiffness);
-        coefficients.chain([&self.centre])
+        coefficients.chain([&self.knot])
     }
 
     /// As [`Piece::numbers`], to be written.
@@ -37,27 +60,100 @@ impl<T> Piece<T> {
         let coefficients = self.flow.iter_mut().chain(&mut self.potential);
         coefficients
             .chain(&mut self.stiffness)
-            .chain([&mut self.centre])
+            .chain([&mut self.knot])
     }
 }
 
-/// Pieces of extension, then of compression; centres are one apart in y = sqrt(scale u + shift), from
-/// where the stretch u is zero.
-pub(crate) type Table<T> = [Piece<T>; 2 * PIECES];
+/// Pieces of extension, then of compression, and the bins that find them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C)]
+pub struct Table<T> {
+    pub(crate) bins: [u8; 2 * BINS],
+    pub(crate) pieces: [Piece<T>; 2 * PIECES],
+}
 
-/// For each lane the piece around `y` on the side of `direction`, and z in it; `origin` turns y into
-/// the index. Any `y` is safe to read.
+macro_rules! table {
+    ($float:ident, $word:ident) => {
+        impl Table<$float> {
+            /// Pieces without meaning, to be written.
+            pub(crate) const ZERO: Self = Self {
+                pieces: [Piece {
+                    flow: [0.0; 4],
+                    potential: [0.0; 4],
+                    stiffness: [0.0; 4],
+                    knot: 0.0,
+                    next_knots: [0.0; KNOTS_PER_BIN],
+                    padding: 0.0,
+                }; 2 * PIECES],
+                bins: [0; 2 * BINS],
+            };
+
+            /// Sets bins and next knots by the knots. Knots rise on either side, the first a power of two.
+            pub(crate) const fn index(&mut self) {
+                const WIDTH: $word = 1 << bin_shift($float::MANTISSA_DIGITS);
+                let mut side = 0;
+                while side < 2 {
+                    let (start, end) = (side * PIECES, (side + 1) * PIECES);
+                    let mut piece = start;
+                    while piece < end {
+                        let mut next = 0;
+                        while next < KNOTS_PER_BIN {
+                            let after = piece + next + 1;
+                            self.pieces[piece].next_knots[next] = if after < end {
+                                self.pieces[after].knot
+                            } else {
+                                $float::MAX
+                            };
+                            next += 1;
+                        }
+                        piece += 1;
+                    }
+                    piece = start;
+                    let mut border = self.pieces[start].knot.to_bits();
+                    let mut bin = 0;
+                    while bin < BINS {
+                        while piece + 1 < end && self.pieces[piece + 1].knot.to_bits() <= border {
+                            piece += 1;
+                        }
+                        let place = (border / WIDTH) as usize % BINS;
+                        self.bins[side * BINS + place] = piece as u8;
+                        border = border.wrapping_add(WIDTH);
+                        bin += 1;
+                    }
+                    side += 1;
+                }
+            }
+        }
+    };
+}
+
+table!(f32, u32);
+table!(f64, u64);
+
+/// Bits below those that number a bin, in a number with so many significant digits.
+pub(crate) const fn bin_shift(digits: u32) -> u32 {
+    digits - 1 - BIN_FRACTION_BITS
+}
+
+/// For each lane the piece around the positive `reach` on the side of `direction`, and z in it. Any
+/// number is safe to look up.
 #[inline(always)]
 pub(crate) fn locate<T: Real, V: Lanes<T, L>, const L: usize>(
     tables: [&Table<T>; L],
-    origin: V,
-    y: V,
+    reach: V,
     direction: V,
 ) -> ([&Piece<T>; L], V) {
-    let places = (y + origin).places(direction);
-    let pieces = core::array::from_fn(|lane| &tables[lane][places[lane] % (2 * PIECES)]);
-    let centre = V::new(pieces.map(|piece: &Piece<T>| piece.centre));
-    (pieces, y - centre)
+    let bins = reach.bins(direction);
+    let reaches = reach.array();
+    let pieces = core::array::from_fn(|lane| {
+        let table = tables[lane];
+        let first = usize::from(table.bins[bins[lane] % (2 * BINS)]) % (2 * PIECES);
+        let beyond = |knot: T| reaches[lane].is_beyond(knot);
+        let [next, second] = table.pieces[first].next_knots;
+        &table.pieces[(first + beyond(next) + beyond(second)) % (2 * PIECES)]
+    });
+    let knot = V::new(pieces.map(|piece: &Piece<T>| piece.knot));
+    (pieces, reach - knot)
 }
 
 /// `c0 + c1 z + c2 z^2 + c3 z^3` of each lane, in pairs: a shorter chain than Horner's for one product

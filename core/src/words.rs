@@ -1,7 +1,7 @@
 //! A built damper as plain words: how a host hands constants to firmware.
 
 use crate::damper::{Damper, SCALARS, Scalars};
-use crate::table::{PIECES, Piece};
+use crate::table::{PIECES, Piece, Table};
 
 /// Scalars, the two revisions, thirteen numbers of each piece.
 const WORDS: usize = TABLE + 2 * PIECES * PIECE;
@@ -18,7 +18,7 @@ macro_rules! words {
             /// The damper of these words, at compile time or later, without the `builder` feature.
             ///
             /// Order: scalars, revision, revision of the table, table; each piece the four coefficients
-            /// of the flow, of the potential, of the stiffness, then its centre. Words that [`Self::to_words`] of
+            /// of the flow, of the potential, of the stiffness, then its knot. Words that [`Self::to_words`] of
             /// this version did not make are read without harm, but step to forces without meaning.
             ///
             /// ```
@@ -37,13 +37,7 @@ macro_rules! words {
                         $float::from_bits(words[from + 3]),
                     ]
                 }
-                let mut table = [Piece {
-                    flow: [0.0; 4],
-                    potential: [0.0; 4],
-                    stiffness: [0.0; 4],
-                    centre: 0.0,
-                    padding: [0.0; 3],
-                }; 2 * PIECES];
+                let mut table = Table::<$float>::ZERO;
                 let mut scalars = [0.0; SCALARS];
                 let mut index = 0;
                 while index < SCALARS {
@@ -53,12 +47,14 @@ macro_rules! words {
                 index = 0;
                 while index < 2 * PIECES {
                     let from = TABLE + PIECE * index;
-                    table[index].flow = cubic(words, from);
-                    table[index].potential = cubic(words, from + 4);
-                    table[index].stiffness = cubic(words, from + 8);
-                    table[index].centre = $float::from_bits(words[from + 12]);
+                    let piece = &mut table.pieces[index];
+                    piece.flow = cubic(words, from);
+                    piece.potential = cubic(words, from + 4);
+                    piece.stiffness = cubic(words, from + 8);
+                    piece.knot = $float::from_bits(words[from + 12]);
                     index += 1;
                 }
+                table.index();
                 Self {
                     scalars: Scalars::from_array(scalars),
                     revision: words[SCALARS] as u32,
@@ -70,7 +66,7 @@ macro_rules! words {
             /// The words of this damper; [`Self::from_words`] gives it back to the bit.
             pub fn to_words(&self) -> [$word; WORDS] {
                 let revisions = [self.revision, self.table_revision].map($word::from);
-                let numbers = self.table.iter().flat_map(Piece::numbers);
+                let numbers = self.table.pieces.iter().flat_map(Piece::numbers);
                 let scalars = self.scalars.as_array().map($float::to_bits);
                 let all = scalars.into_iter().chain(revisions).chain(numbers.map(|number| number.to_bits()));
                 let mut words = [0; WORDS];
@@ -99,14 +95,14 @@ mod tests {
             let damper = Damper::<$float>::from_words(&words);
             let mut expected = words;
             // Revisions have 32 bits.
-            for index in [12, 13] {
+            for index in [9, 10] {
                 expected[index] = $word::from(words[index] as u32);
             }
             assert_eq!(damper.to_words(), expected);
             assert_eq!(damper.step_s().to_bits(), words[3]);
-            assert_eq!(damper.force_limit_n().to_bits(), words[10]);
-            assert_eq!(damper.revision(), words[12] as u32);
-            assert_eq!(damper.table[127].centre.to_bits(), words[WORDS - 1]);
+            assert_eq!(damper.force_limit_n().to_bits(), words[7]);
+            assert_eq!(damper.revision(), words[9] as u32);
+            assert_eq!(damper.table.pieces[127].knot.to_bits(), words[WORDS - 1]);
         };
     }
 

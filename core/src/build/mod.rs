@@ -2,32 +2,30 @@
 
 mod branch;
 mod fit;
-mod grid;
+mod knots;
 pub(crate) mod root;
+mod span;
 
 use branch::{Branch, Law};
-use grid::Grid;
-use heapless::Vec;
+use span::Stage;
 
-use crate::damper::{Damper, IMPLICIT_SHARE, Scalars};
+use crate::damper::{Damper, Scalars, lead};
 use crate::error::{BuildError, require, require_ranges};
 use crate::hydraulics::{HydraulicSide, Laws};
 use crate::math::Real;
 use crate::parameters::{
     DamperParameters, Element, LARGEST_CLEARANCE_M, Limits, Mount, OilColumn, Reduced,
 };
-use crate::table::{PIECES, Piece};
+use crate::table::{DOUBLINGS, PIECES};
 
-/// Corners a table can align with.
-type Corners = Vec<(f64, f64), 24>;
-
-/// Weights of corners when a grid is aligned: a reduced element yields in every run, a physical one at
-/// a limit it hardly meets.
-const VALVE_WEIGHT: f64 = 1.0;
-const LIMIT_WEIGHT: f64 = 1e-3;
-
-/// Share by which the table's force exceeds the limit where the element yields, above rounding in `f32`.
-const YIELD_MARGIN: f64 = 1e-5;
+/// The laws of an element, checked and ready to evaluate.
+#[allow(clippy::large_enum_variant)] // one per damper, never in an array
+pub(crate) enum ElementLaws {
+    /// Hydraulics.
+    Physical(Laws),
+    /// Damping coefficient and saturation velocity.
+    Reduced(Reduced),
+}
 
 impl DamperParameters {
     /// Checks every parameter.
@@ -35,6 +33,11 @@ impl DamperParameters {
     /// # Errors
     /// The first field out of its range, with the range.
     pub fn validate(&self) -> Result<(), BuildError> {
+        self.laws().map(drop)
+    }
+
+    /// The laws of the element, every parameter checked.
+    pub(crate) fn laws(&self) -> Result<ElementLaws, BuildError> {
         validate_mount(&self.mount)?;
         validate_limits(&self.limits)?;
         match &self.element {
@@ -46,15 +49,19 @@ impl DamperParameters {
                     self.limits.force_n,
                     self.limits.force_n > 2.0 * laws.friction_n,
                     "above twice seal.friction_n",
-                )
+                )?;
+                Ok(ElementLaws::Physical(laws))
             }
-            Element::Reduced(reduced) => validate_reduced(reduced),
+            Element::Reduced(reduced) => {
+                validate_reduced(reduced)?;
+                Ok(ElementLaws::Reduced(*reduced))
+            }
         }
     }
 
     /// The constants of this damper for a fixed step (s).
     ///
-    /// Bounded work (some ten thousand evaluations of the flow laws), no allocation; run it on the
+    /// Bounded work (some thousand evaluations of the flow laws), no allocation; run it on the
     /// host or outside the tick.
     ///
     /// # Errors
@@ -67,10 +74,8 @@ impl DamperParameters {
             (1e-6..=2e-2).contains(&step_s),
             "1e-6 to 2e-2 s",
         )?;
-        self.validate()?;
-        let damper = match &self.element {
-            Element::Physical(hydraulics) => {
-                let laws = Laws::new(hydraulics)?;
+        let damper = match &self.laws()? {
+            ElementLaws::Physical(laws) => {
                 let branch = |compression: bool| {
                     let volume = |column: OilColumn| {
                         let volume = if compression {
@@ -80,15 +85,12 @@ impl DamperParameters {
                         };
                         (column, volume)
                     };
-                    let law = Law::Physical(HydraulicSide {
-                        laws: &laws,
-                        compression,
-                    });
+                    let law = Law::Physical(HydraulicSide { laws, compression });
                     self.branch(law, laws.oil.column.map(volume), self.limits.force_n)
                 };
                 self.assemble(&[branch(false), branch(true)], step_s)
             }
-            Element::Reduced(reduced) => {
+            ElementLaws::Reduced(reduced) => {
                 let saturation = reduced.damping_n_s_per_m * reduced.saturation_velocity_m_per_s;
                 let limit = saturation.min(self.limits.force_n);
                 let branch = self.branch(Law::Reduced(*reduced), None, limit);
@@ -118,90 +120,52 @@ impl DamperParameters {
 
     /// Samples both branches into a table.
     fn assemble<T: Real>(&self, branches: &[Branch<'_>; 2], step_s: f64) -> Damper<T> {
-        let stage_s = IMPLICIT_SHARE * step_s;
         let largest_move = self.limits.rate_m_per_s * step_s;
-        // Friction holds the piston until the mount, alike on both sides, has this stretch.
-        let held = branches[0].friction() * branches[0].mount_compliance;
-        let held_stiffness = if held > 0.0 {
-            1.0 / branches[0].mount_compliance
-        } else {
-            0.0
-        };
-
-        let mut corners = Corners::new();
-        for branch in branches {
-            let forces = branch.corners();
-            let met = forces.iter().filter(|&&force| force < branch.force_limit);
-            let limit = (branch.force_limit, LIMIT_WEIGHT);
-            for (force, weight) in met.map(|&force| (force, VALVE_WEIGHT)).chain([limit]) {
-                // Capacity 24 exceeds both branches' corners.
-                let _ = corners.push((branch.reach(force, stage_s) - held, weight));
-            }
-        }
         // The last stage looks at most sqrt(2) times the largest stretch past a move; the end of
         // a step lies at most an eighth of its travel beyond yield.
         let yields = branches.map(|branch| branch.deflection(branch.force_limit));
         let reach = 1.5 * (1.2 * yields[0].max(yields[1]) + 0.2 * largest_move) + largest_move;
-        let knees = branches.map(|branch| branch.knee(stage_s));
-        let grid = Grid::aligned(reach, knees[0].max(knees[1]), &corners);
-
-        let at = |compression: bool, y: f64| {
-            let branch = &branches[usize::from(compression)];
-            let reach = grid.stretch(y) + held;
-            (branch, reach, branch.stage_force(reach, stage_s))
-        };
-        let flow = fit::cubics(|compression, y| {
-            let (branch, reach, force) = at(compression, y);
-            let flow = if force < branch.force_limit {
-                step_s * branch.velocity(force)
-            } else {
-                (reach - branch.deflection(force)) / IMPLICIT_SHARE
-            };
-            if compression { -flow } else { flow }
-        });
-        let potential = fit::cubics(|compression, y| {
-            let (branch, _, force) = at(compression, y);
-            step_s * branch.flow_potential(force)
-        });
-        let stiffness = fit::cubics(|compression, y| {
-            let (branch, _, force) = at(compression, y);
-            let secant = branch.secant_stiffness(force);
-            if force < branch.force_limit {
-                secant - held_stiffness
-            } else {
-                // A trace above the limit, to which the step then holds the force.
-                (1.0 + YIELD_MARGIN) * secant - held_stiffness
-            }
-        });
-        let shift = T::from_f64(grid.shift);
-        let start = shift.square_root();
-        let table = core::array::from_fn(|place| Piece {
-            flow: flow[place],
-            potential: potential[place],
-            stiffness: stiffness[place],
-            centre: start + T::from_f64((place % PIECES) as f64),
-            padding: [T::ZERO; 3],
-        });
+        let first_knot = first_knot(reach);
+        let mut table = T::TABLE;
+        let (extension, compression) = table.pieces.split_at_mut(PIECES);
+        for (branch, direction, pieces) in [
+            (&branches[0], 1.0, extension),
+            (&branches[1], -1.0, compression),
+        ] {
+            knots::write(&Stage::new(branch, step_s, first_knot), direction, pieces);
+        }
+        T::index(&mut table);
         let span = position_span(largest_move);
         let half_clearance = T::from_f64(0.5 * self.mount.clearance_m);
-        let held = T::from_f64(held);
+        // Friction holds the piston until the mount, alike on both sides, has this stretch.
+        let held = T::from_f64(branches[0].held());
+        let first_knot = T::from_f64(first_knot);
         let scalars = Scalars {
             step_s: T::from_f64(step_s),
             half_clearance,
             held,
-            offset: half_clearance + held,
+            lead: lead(half_clearance, held, first_knot),
+            first_knot,
             force_limit: T::from_f64(branches[0].force_limit.max(branches[1].force_limit)),
             largest_move: T::from_f64(largest_move),
-            scale: T::from_f64(grid.scale),
-            shift,
-            origin: T::from_f64(768.5 - start.to_f64()),
-            held_stiffness: T::from_f64(held_stiffness),
             position_rounder: T::from_f64(1.5 * span),
             // Twice the grid of positions.
             rest_rounder: T::from_f64(2.0 * span * T::EPSILON),
         };
         Damper::new(scalars, table)
     }
+}
+
+/// The power of two (m) from which the doublings of a table go beyond `reach`.
+fn first_knot(reach: f64) -> f64 {
+    let mut end = 1.0;
+    while end < reach {
+        end *= 2.0;
+    }
+    while 0.5 * end >= reach {
+        end *= 0.5;
+    }
+    end / f64::from(1_u32 << DOUBLINGS)
 }
 
 /// Span (m) over which the unit in the last place is the grid of positions: moves are at most half of

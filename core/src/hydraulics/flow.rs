@@ -46,16 +46,9 @@ impl ShimValve {
         })
     }
 
-    /// Flow at `difference_pa` across the valve, which lifts under `lift_pa`, from `upstream_pa`.
-    pub(crate) fn flow(
-        &self,
-        oil: &Oil,
-        lift_pa: f64,
-        difference_pa: f64,
-        upstream_pa: f64,
-    ) -> f64 {
-        let lift = (lift_pa - self.preload_pa).max(0.0);
-        self.area_gradient * lift * oil.jet_velocity(difference_pa, upstream_pa)
+    /// Flow of a jet at `jet_m_per_s` through the valve, which lifts under `lift_pa`.
+    pub(crate) fn flow(&self, lift_pa: f64, jet_m_per_s: f64) -> f64 {
+        self.area_gradient * (lift_pa - self.preload_pa).max(0.0) * jet_m_per_s
     }
 }
 
@@ -63,7 +56,7 @@ impl ShimValve {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct FlowPaths {
     /// `Cd A` of the orifice (m^2).
-    pub(crate) orifice_area: f64,
+    orifice_area: f64,
     /// Flow at which laminar and turbulent pressure drop of the orifice are equal (m^3/s).
     transition_flow: f64,
     /// Leakage conductance times density (kg/(s Pa)).
@@ -72,12 +65,9 @@ pub(crate) struct FlowPaths {
 }
 
 impl FlowPaths {
-    /// Flow at `pressure_pa` across the piston, from `upstream_pa`.
-    pub(crate) fn flow(&self, oil: &Oil, pressure_pa: f64, upstream_pa: f64) -> f64 {
-        if pressure_pa <= 0.0 {
-            return 0.0;
-        }
-        let turbulent = self.orifice_area * oil.jet_velocity(pressure_pa, upstream_pa);
+    /// Flow at `pressure_pa` across the piston of oil of a density, whose jet has `jet_m_per_s`.
+    fn flow(&self, pressure_pa: f64, density_kg_per_m3: f64, jet_m_per_s: f64) -> f64 {
+        let turbulent = self.orifice_area * jet_m_per_s;
         // P = R_t Q^2 + R_l Q with R_l = R_t Q_t and turbulent^2 = P/R_t.
         let orifice = if self.transition_flow > 0.0 && turbulent > 0.0 {
             let half = 0.5 * self.transition_flow;
@@ -89,11 +79,15 @@ impl FlowPaths {
             valve.discharge_coefficient
                 * valve.area_gradient_m2_per_pa
                 * (pressure_pa - valve.opening_pressure_pa).max(0.0)
-                * oil.jet_velocity(pressure_pa, upstream_pa)
+                * jet_m_per_s
         });
-        let leakage = self.leakage * pressure_pa / oil.density_kg_per_m3(upstream_pa);
-        orifice + leakage + relief
+        orifice + self.leakage * pressure_pa / density_kg_per_m3 + relief
     }
+}
+
+/// `sqrt(2 D/rho)` (m/s) of a pressure difference D (Pa) that drives oil of a density.
+pub(crate) fn jet_velocity(difference_pa: f64, density_kg_per_m3: f64) -> f64 {
+    sqrt(2.0 * difference_pa / density_kg_per_m3)
 }
 
 /// Every law of a physical damper, checked and ready to evaluate.
@@ -113,11 +107,25 @@ pub(crate) struct Laws {
 }
 
 impl Laws {
+    /// Area of the rod (m^2).
+    pub(crate) fn rod_area(&self) -> f64 {
+        self.piston_area - self.rod_side_area
+    }
+
+    /// Gauge pressure on the piston side from which the foot valve passes oil (Pa).
+    pub(crate) fn foot_opening_pa(&self) -> f64 {
+        self.foot.preload_pa.max(self.back_pressure_pa)
+    }
+
     /// Flow through the foot valve under the piston-side pressure.
     pub(crate) fn through_foot(&self, pressure_pa: f64) -> f64 {
         let difference = pressure_pa - self.back_pressure_pa;
+        if difference <= 0.0 {
+            return 0.0;
+        }
+        let density = self.oil.density_kg_per_m3(pressure_pa);
         self.foot
-            .flow(&self.oil, pressure_pa, difference, pressure_pa)
+            .flow(pressure_pa, jet_velocity(difference, density))
     }
 
     /// Flow through the piston in extension or compression at a difference from an upstream pressure.
@@ -127,13 +135,17 @@ impl Laws {
         difference_pa: f64,
         upstream_pa: f64,
     ) -> f64 {
+        if difference_pa <= 0.0 {
+            return 0.0;
+        }
         let valve = if compression {
-            self.compression
+            &self.compression
         } else {
-            self.extension
+            &self.extension
         };
-        self.paths.flow(&self.oil, difference_pa, upstream_pa)
-            + valve.flow(&self.oil, difference_pa, difference_pa, upstream_pa)
+        let density = self.oil.density_kg_per_m3(upstream_pa);
+        let jet = jet_velocity(difference_pa, density);
+        self.paths.flow(difference_pa, density, jet) + valve.flow(difference_pa, jet)
     }
 
     pub(crate) fn new(hydraulics: &Hydraulics) -> Result<Self, BuildError> {

@@ -4,5 +4,5 @@ mod flow;
 mod side;
 mod two_chamber;
 
-pub(crate) use flow::Laws;
+pub(crate) use flow::{Laws, jet_velocity};
 pub(crate) use side::HydraulicSide;

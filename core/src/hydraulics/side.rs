@@ -3,7 +3,12 @@
 use heapless::Vec;
 
 use super::flow::Laws;
-use super::two_chamber::{compression_velocity, force_at_difference};
+use super::two_chamber::{above_vapour_pa, compression_velocity, force_at_difference};
+use crate::build::root::bracketed_root;
+use crate::math::elementary::sqrt;
+
+/// Panels, equal in the root of the force, in which vapour may begin or end to form.
+const VAPOUR_PANELS: u32 = 32;
 
 /// Extension (rod-side chamber) or compression (piston-side chamber) of a physical damper.
 #[derive(Clone, Copy, Debug)]
@@ -43,44 +48,46 @@ impl HydraulicSide<'_> {
         (laws.through_piston(true, pressure, pressure) + laws.through_foot(pressure)) / self.area()
     }
 
-    /// Slope of the velocity over the root of the pressure, of the orifice alone (m/(s sqrt Pa)).
-    pub(crate) fn orifice_velocity_per_root_pressure(&self) -> f64 {
+    /// Forces (N) below `limit_n` at which the law has a corner: valves that open, vapour that forms.
+    pub(crate) fn corners(&self, limit_n: f64) -> Vec<f64, 8> {
         let laws = self.laws;
-        laws.paths.orifice_area * laws.oil.jet_velocity(1.0, 0.0) / self.area()
-    }
-
-    /// Forces (N) at which the law has a corner: valves that open.
-    pub(crate) fn corners(&self) -> Vec<f64, 8> {
-        let laws = self.laws;
+        let friction = laws.friction_n;
         let mut corners = Vec::new();
-        let mut add = |pressure_pa: f64, area: f64| {
-            if pressure_pa > 0.0 {
-                // Capacity 8 exceeds the number of valves.
-                let _ = corners.push(laws.friction_n + pressure_pa * area);
+        let mut add = |force: f64| {
+            if force > 0.0 && force < limit_n - friction {
+                // Capacity 8 exceeds the number of corners.
+                let _ = corners.push(friction + force);
             }
         };
-        if let (true, Some(_)) = (self.compression, laws.vapour_pressure_pa) {
-            // The rod side adds pressure only with flow, so the foot valve opens on the rod area.
-            let rod = laws.piston_area - laws.rod_side_area;
-            add(laws.foot.preload_pa.max(laws.back_pressure_pa), rod);
-            for opening in [Some(laws.compression.preload_pa), laws.relief_opening_pa] {
-                if let Some(opening) = opening.filter(|pressure| *pressure > 0.0) {
-                    add(force_at_difference(laws, opening), 1.0);
-                }
+        let foot = laws.foot_opening_pa();
+        let valve = if self.compression {
+            &laws.compression
+        } else {
+            &laws.extension
+        };
+        let openings = [Some(valve.preload_pa), laws.relief_opening_pa];
+        let openings = openings
+            .into_iter()
+            .flatten()
+            .filter(|opening| *opening > 0.0);
+        let Some(vapour) = laws.vapour_pressure_pa.filter(|_| self.compression) else {
+            openings.for_each(|opening| add(opening * self.area()));
+            if self.compression {
+                add(foot * self.area());
             }
             return corners;
-        }
-        let valve = if self.compression {
-            laws.compression
-        } else {
-            laws.extension
         };
-        add(valve.preload_pa, self.area());
-        if let Some(opening) = laws.relief_opening_pa {
-            add(opening, self.area());
-        }
-        if self.compression {
-            add(laws.foot.preload_pa.max(laws.back_pressure_pa), self.area());
+        // The rod side adds pressure only with flow, so the foot valve opens on the rod area.
+        add(foot * laws.rod_area());
+        openings.for_each(|opening| add(force_at_difference(laws, vapour, opening)));
+        let above = |root: f64| above_vapour_pa(laws, vapour, root * root);
+        let width = sqrt(limit_n - friction) / f64::from(VAPOUR_PANELS);
+        for panel in 0..VAPOUR_PANELS {
+            let (from, to) = (width * f64::from(panel), width * f64::from(panel + 1));
+            if above(from) * above(to) < 0.0 {
+                let root = bracketed_root(from, to, above);
+                add(root * root);
+            }
         }
         corners
     }

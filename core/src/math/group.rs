@@ -6,6 +6,7 @@ use wide::bytemuck::cast;
 use wide::{f32x4, f64x4, u32x4, u64x4};
 
 use super::Lanes;
+use crate::table::{BIN_BITS, BINS, bin_shift};
 
 /// Lanes of a group.
 pub(crate) const GROUP: usize = 8;
@@ -96,11 +97,20 @@ macro_rules! group {
             }
             #[inline(always)]
             fn at_least(self, other: Self) -> Self {
-                self.zip(other, $vector::fast_max)
+                // One instruction there; elsewhere it would pass NaN on.
+                if cfg!(target_arch = "x86_64") {
+                    self.zip(other, $vector::fast_max)
+                } else {
+                    self.zip(other, |v, other| v.simd_gt(other).select(v, other))
+                }
             }
             #[inline(always)]
             fn at_most(self, other: Self) -> Self {
-                self.zip(other, $vector::fast_min)
+                if cfg!(target_arch = "x86_64") {
+                    self.zip(other, $vector::fast_min)
+                } else {
+                    self.zip(other, |v, other| v.simd_lt(other).select(v, other))
+                }
             }
             #[inline(always)]
             fn all_within(self, other: Self) -> bool {
@@ -108,15 +118,10 @@ macro_rules! group {
                 (within.0 & within.1).all()
             }
             #[inline(always)]
-            fn limited(self, limit: Self) -> (Self, [bool; GROUP]) {
+            fn reaches(self, limit: Self) -> [bool; GROUP] {
                 let below = self.zip(limit, $vector::simd_lt);
                 let bits = below.0.to_bitmask() | below.1.to_bitmask() << 4;
-                let exceeds = core::array::from_fn(|lane| bits >> lane & 1 == 0);
-                let limited = Self(
-                    below.0.select(self.0, limit.0),
-                    below.1.select(self.1, limit.1),
-                );
-                (limited, exceeds)
+                core::array::from_fn(|lane| bits >> lane & 1 == 0)
             }
             #[inline(always)]
             fn unless_positive(self, gate: Self) -> Self {
@@ -131,14 +136,15 @@ macro_rules! group {
                 })
             }
             #[inline(always)]
-            fn places(self, direction: Self) -> [usize; GROUP] {
-                let places = |place: $vector, direction: $vector| {
-                    let [place, direction]: [$bits; 2] = [cast(place), cast(direction)];
-                    let place = (place >> ($float::MANTISSA_DIGITS - 10)) & $bits::splat(63);
-                    let side = (direction >> (8 * size_of::<$float>() as u32 - 1)) << 6_u32;
-                    (place | side).to_array().map(|index| index as usize)
+            fn bins(self, direction: Self) -> [usize; GROUP] {
+                let bins = |reach: $vector, direction: $vector| {
+                    let [reach, direction]: [$bits; 2] = [cast(reach), cast(direction)];
+                    let bin = (reach >> bin_shift($float::MANTISSA_DIGITS))
+                        & $bits::splat((BINS - 1) as _);
+                    let side = (direction >> (8 * size_of::<$float>() as u32 - 1)) << BIN_BITS;
+                    (bin | side).to_array().map(|index| index as usize)
                 };
-                whole([places(self.0, direction.0), places(self.1, direction.1)])
+                whole([bins(self.0, direction.0), bins(self.1, direction.1)])
             }
         }
     };

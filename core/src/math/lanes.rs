@@ -5,6 +5,7 @@
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
 use super::Real;
+use crate::table::BIN_BITS;
 
 /// `L` numbers computed side by side.
 pub trait Lanes<T: Real, const L: usize>:
@@ -30,20 +31,20 @@ pub trait Lanes<T: Real, const L: usize>:
     fn magnitudes(self) -> Self;
     /// See [`Real::square_root`].
     fn square_roots(self) -> Self;
-    /// The larger, `other` not NaN.
+    /// The larger; of NaN `other`, which is none.
     fn at_least(self, other: Self) -> Self;
-    /// The smaller, `other` not NaN.
+    /// The smaller; of NaN `other`, which is none.
     fn at_most(self, other: Self) -> Self;
     /// Whether every number is at most the other; not for NaN.
     fn all_within(self, other: Self) -> bool;
-    /// The smaller, and whether this number is not below the limit; of NaN the limit.
-    fn limited(self, limit: Self) -> (Self, [bool; L]);
+    /// Whether each number is not below the limit; true for NaN.
+    fn reaches(self, limit: Self) -> [bool; L];
     /// 0 where `gate` is positive.
     fn unless_positive(self, gate: Self) -> Self;
     /// Negated where `direction` is below zero.
     fn along(self, direction: Self) -> Self;
-    /// [`Real::place`] below 64, and 64 more where `direction` has its sign bit set.
-    fn places(self, direction: Self) -> [usize; L];
+    /// [`Real::bin`], and [`BINS`] more where `direction` has its sign bit set.
+    fn bins(self, direction: Self) -> [usize; L];
 }
 
 impl<T: Real> Lanes<T, 1> for T {
@@ -80,9 +81,9 @@ impl<T: Real> Lanes<T, 1> for T {
         self <= other
     }
     #[inline(always)]
-    fn limited(self, limit: Self) -> (Self, [bool; 1]) {
+    fn reaches(self, limit: Self) -> [bool; 1] {
         let below = self < limit;
-        (if below { self } else { limit }, [!below])
+        [!below]
     }
     #[inline(always)]
     fn unless_positive(self, gate: Self) -> Self {
@@ -93,7 +94,7 @@ impl<T: Real> Lanes<T, 1> for T {
         if direction >= T::ZERO { self } else { -self }
     }
     #[inline(always)]
-    fn places(self, direction: Self) -> [usize; 1] {
-        [self.place() & 63 | direction.sign_bit() << 6]
+    fn bins(self, direction: Self) -> [usize; 1] {
+        [self.bin() | direction.sign_bit() << BIN_BITS]
     }
 }

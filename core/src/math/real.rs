@@ -5,6 +5,7 @@ use core::ops::{Add, Div, Mul, Neg, Sub};
 
 use super::group::{self, GROUP};
 use super::{Lanes, square_root};
+use crate::table::{BINS, Table, bin_shift};
 
 /// `f32` or `f64` with the operations whose results are the same bits on every machine.
 pub trait Real:
@@ -29,6 +30,11 @@ pub trait Real:
     const ZERO: Self;
     /// Distance from 1 to the next larger number.
     const EPSILON: f64;
+    /// Largest finite number.
+    const LARGEST: Self;
+    /// A table without meaning, to be written.
+    #[doc(hidden)]
+    const TABLE: Table<Self>;
     /// Significant binary digits.
     const DIGITS: u32;
 
@@ -40,14 +46,20 @@ pub trait Real:
     fn square_root(self) -> Self;
     /// Magnitude.
     fn magnitude(self) -> Self;
-    /// The larger of two numbers, neither NaN, not zeros of opposite sign.
+    /// The larger of two numbers that are not zeros of opposite sign; of NaN `other`, which is none.
     fn larger(self, other: Self) -> Self;
-    /// The smaller of two numbers, neither NaN, not zeros of opposite sign.
+    /// The smaller of two numbers that are not zeros of opposite sign; of NaN `other`, which is none.
     fn smaller(self, other: Self) -> Self;
     /// 1 when the sign bit is set, else 0.
     fn sign_bit(self) -> usize;
-    /// Whole part of a number in [768, 1024), less 768; of any other a number below 256.
-    fn place(self) -> usize;
+    /// Number of the bin of a table that a positive number lies in, below [`BINS`]; of any other number
+    /// one below it too.
+    fn bin(self) -> usize;
+    /// 1 when this number is larger than the other, else 0; both positive.
+    fn is_beyond(self, other: Self) -> usize;
+    /// See [`Table::index`].
+    #[doc(hidden)]
+    fn index(table: &mut Table<Self>);
     /// Bits, zero-extended.
     fn to_bits_u64(self) -> u64;
     /// Whether the number is neither NaN nor infinite.
@@ -61,6 +73,8 @@ macro_rules! real {
 
             const ZERO: Self = 0.0;
             const EPSILON: f64 = $float::EPSILON as f64;
+            const LARGEST: Self = $float::MAX;
+            const TABLE: Table<Self> = Table::<$float>::ZERO;
             const DIGITS: u32 = $float::MANTISSA_DIGITS;
 
             #[inline(always)]
@@ -105,9 +119,16 @@ macro_rules! real {
                 (self.to_bits() >> ($bits::BITS - 1)) as usize
             }
             #[inline(always)]
-            fn place(self) -> usize {
-                // Below the leading digit of the fraction: 512 and 256 take two.
-                (self.to_bits() >> ($float::MANTISSA_DIGITS - 10)) as usize & 0xff
+            fn bin(self) -> usize {
+                (self.to_bits() >> bin_shift($float::MANTISSA_DIGITS)) as usize % BINS
+            }
+            #[inline(always)]
+            fn is_beyond(self, other: Self) -> usize {
+                // Positive numbers are in the order of their bits.
+                (other.to_bits().wrapping_sub(self.to_bits()) >> ($bits::BITS - 1)) as usize
+            }
+            fn index(table: &mut Table<Self>) {
+                table.index();
             }
             #[inline(always)]
             fn to_bits_u64(self) -> u64 {
@@ -127,16 +148,22 @@ real!(f64, u64, F64);
 #[cfg(test)]
 mod tests {
     use super::Real;
+    use crate::table::BINS;
 
     #[test]
-    fn the_place_is_the_whole_part() {
-        assert_eq!([770.75_f32, 768.0, 1023.9].map(Real::place), [2, 0, 255]);
-        assert_eq!([770.75_f64, 768.0, 1023.9].map(Real::place), [2, 0, 255]);
+    fn a_doubling_has_sixteen_bins() {
+        let bins = [1.0, 1.0624, 1.0625, 1.999, 2.0, 4.0].map(|x: f64| (x.bin(), (x as f32).bin()));
+        let from_one = |(double, single): (usize, usize)| {
+            [(double, 1.0_f64.bin()), (single, 1.0_f32.bin())]
+                .map(|(bin, one)| (bin + BINS - one) % BINS)
+        };
+        let expected = [0, 0, 1, 15, 16, 32].map(|bin| [bin; 2]);
+        assert_eq!(bins.map(from_one), expected);
         assert!(
             [f32::NAN, -1.0, 1e30]
-                .map(Real::place)
+                .map(Real::bin)
                 .iter()
-                .all(|place| *place < 256)
+                .all(|bin| *bin < BINS)
         );
     }
 }

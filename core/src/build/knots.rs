@@ -1,0 +1,124 @@
+//! Where the knots of a branch lie: at its corners, and between them where its cubics would miss most.
+
+use heapless::Vec;
+
+use super::root::bracketed_root;
+use super::span::{Span, Stage};
+use crate::damper::IMPLICIT_SHARE;
+use crate::math::Real;
+use crate::table::{DOUBLINGS, KNOTS_PER_BIN, PIECES, Piece};
+
+/// A span that is missed by no more than this share is not divided.
+const TOLERANCE: f64 = 1e-9;
+
+/// Share by which the table's force exceeds the limit where the element yields, above rounding in `f32`.
+const YIELD_MARGIN: f64 = 1e-5;
+
+/// The last piece is the one beyond the limit.
+type Spans = Vec<Span, { PIECES - 1 }>;
+
+/// Writes the pieces of a branch; flow has the sign of `direction`.
+pub(super) fn write<T: Real>(stage: &Stage<'_>, direction: f64, pieces: &mut [Piece<T>]) {
+    let mut knot_of = pieces.iter_mut();
+    let mut potential = 0.0;
+    let spans = spans::<T>(stage);
+    for (span, piece) in spans.iter().zip(knot_of.by_ref()) {
+        piece.knot = T::from_f64(span.start().reach);
+        let knot = piece.knot.to_f64();
+        let flow = span.cubic(knot, |sample| direction * sample.flow);
+        let stiffness = span.cubic(knot, |sample| sample.stiffness);
+        let (cubic, end) = span.potential(stage, knot, potential);
+        potential = end;
+        piece.flow = flow.map(T::from_f64);
+        piece.stiffness = stiffness.map(T::from_f64);
+        piece.potential = cubic.map(T::from_f64);
+    }
+    let Some(end) = spans.last().map(Span::end) else {
+        return;
+    };
+    let mut knot = T::from_f64(end.reach);
+    let flow = end.flow + (knot.to_f64() - end.reach) / IMPLICIT_SHARE;
+    for piece in knot_of {
+        // Where the element yields, what is not stretch is flow: exactly, over any reach.
+        let linear = [direction * flow, direction / IMPLICIT_SHARE, 0.0, 0.0];
+        piece.knot = knot;
+        piece.flow = linear.map(T::from_f64);
+        piece.stiffness = constant((1.0 + YIELD_MARGIN) * end.stiffness);
+        piece.potential = constant(potential);
+        // Pieces left over are never reached.
+        knot = T::LARGEST;
+    }
+}
+
+fn constant<T: Real>(value: f64) -> [T; 4] {
+    [value, 0.0, 0.0, 0.0].map(T::from_f64)
+}
+
+/// Spans from corner to corner, the one missed most divided until there are as many as pieces.
+fn spans<T: Real>(stage: &Stage<'_>) -> Spans {
+    let mut spans: Spans = corners::<T>(stage)
+        .windows(2)
+        .map(|corners| Span::new(stage, corners[0], corners[1]))
+        .collect();
+    while !spans.is_full() {
+        let misfit = |index: &usize| spans[*index].misfit;
+        let worst = (0..spans.len()).max_by(|a, b| misfit(a).total_cmp(&misfit(b)));
+        let Some(worst) = worst.filter(|worst| misfit(worst) > TOLERANCE) else {
+            break;
+        };
+        let starts = spans.iter().map(|span| span.start().reach);
+        let knots = starts.chain(spans.last().map(|span| span.end().reach));
+        if has_room::<T>(knots, spans[worst].middle().reach) {
+            let [before, after] = spans[worst].halves(stage);
+            spans[worst] = before;
+            // There is room: the loop's condition.
+            let _ = spans.insert(worst + 1, after);
+        } else {
+            spans[worst].misfit = 0.0;
+        }
+    }
+    spans
+}
+
+/// Forces (N) that knots must lie at, rising: where the branch begins and ends, and its corners.
+///
+/// Left out is a corner whose bin is full of other corners: within a span the law is then smoothed over
+/// less than a bin.
+fn corners<T: Real>(stage: &Stage<'_>) -> Vec<f64, 10> {
+    let (start, end) = (stage.branch.friction(), end(stage));
+    let mut forces = Vec::from_array([start, end]);
+    for corner in stage.branch.corners() {
+        let knots = forces.iter().map(|force| stage.sample(*force).reach);
+        if start < corner && corner < end && has_room::<T>(knots, stage.sample(corner).reach) {
+            // Its capacity exceeds the number of a branch's corners by the two ends.
+            let _ = forces.push(corner);
+        }
+    }
+    forces.sort_unstable_by(f64::total_cmp);
+    forces
+}
+
+/// Force at the end of the table (N): the limit or, when no stage gets there, what the bins end at.
+fn end(stage: &Stage<'_>) -> f64 {
+    let limit = stage.branch.force_limit;
+    let most = stage.first_knot * f64::from(1_u32 << DOUBLINGS);
+    if stage.sample(limit).reach < most {
+        return limit;
+    }
+    bracketed_root(stage.branch.friction(), limit, |force| {
+        stage.sample(force).reach - most
+    })
+}
+
+/// Whether a knot at `reach` (m) is neither one too many in its bin nor at the place of another.
+fn has_room<T: Real>(knots: impl Iterator<Item = f64>, reach: f64) -> bool {
+    let knot = T::from_f64(reach);
+    let mut within = 0;
+    for other in knots.map(T::from_f64) {
+        if other == knot {
+            return false;
+        }
+        within += usize::from(other.bin() == knot.bin());
+    }
+    within < KNOTS_PER_BIN
+}

@@ -1,0 +1,194 @@
+//! A stretch of a branch between two knots, sampled: its cubics and what they miss.
+
+use super::branch::Branch;
+use super::fit;
+use crate::damper::IMPLICIT_SHARE;
+use crate::math::elementary::sqrt;
+
+/// Share of the limit at whose force an error is a share of the flow at least; see [`Stage::floor`].
+const LOW_FORCE: f64 = 1e-3;
+/// As [`LOW_FORCE`], of the flow at the limit, for a branch that is closed at low force.
+const LOW_FLOW: f64 = 1e-4;
+
+/// What an implicit stage finds at a force.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Sample {
+    /// Reach beyond the stretch held, from the first knot on (m).
+    pub(super) reach: f64,
+    /// Flow times the step (m).
+    pub(super) flow: f64,
+    /// Force over stretch (N/m).
+    pub(super) stiffness: f64,
+}
+
+/// The implicit stages of a branch, for a step.
+pub(super) struct Stage<'a> {
+    pub(super) branch: &'a Branch<'a>,
+    pub(super) step_s: f64,
+    pub(super) first_knot: f64,
+    /// Flow times the step of which an error is a share at the least (m): what passes at low force hardly
+    /// matters where the force is not low.
+    floor: f64,
+}
+
+impl<'a> Stage<'a> {
+    pub(super) fn new(branch: &'a Branch<'a>, step_s: f64, first_knot: f64) -> Self {
+        let start = branch.friction();
+        let low = start + LOW_FORCE * (branch.force_limit - start);
+        let flow = |force| step_s * branch.velocity(force);
+        Self {
+            branch,
+            step_s,
+            first_knot,
+            floor: flow(low).max(LOW_FLOW * flow(branch.force_limit)),
+        }
+    }
+
+    /// What a stage that ends at a force (N) starts from and finds.
+    pub(super) fn sample(&self, force: f64) -> Sample {
+        let flow = self.step_s * self.branch.velocity(force);
+        let deflection = self.branch.deflection(force);
+        Sample {
+            reach: deflection + IMPLICIT_SHARE * flow - self.branch.held() + self.first_knot,
+            flow,
+            stiffness: self.branch.secant_stiffness(force, deflection),
+        }
+    }
+}
+
+/// Samples of a span: those its cubics go through, and those between that tell what they miss.
+const SAMPLES: usize = 7;
+const NODES: [usize; 4] = [0, 2, 4, 6];
+const CHECKS: [usize; 3] = [1, 3, 5];
+
+/// A stretch of a branch between two knots.
+///
+/// Its forces are `F = corner + (width t)^2`, `corner` the one before it: where a path opens with the root
+/// of the force, as the orifice does at zero, everything is smooth in t.
+#[derive(Clone, Copy)]
+pub(super) struct Span {
+    corner: f64,
+    width: f64,
+    t: [f64; 2],
+    samples: [Sample; SAMPLES],
+    /// Largest share by which the cubics miss flow or stiffness (1).
+    pub(super) misfit: f64,
+}
+
+impl Span {
+    /// The span between the forces (N) of two corners.
+    pub(super) fn new(stage: &Stage<'_>, from: f64, to: f64) -> Self {
+        let mut span = Self {
+            corner: from,
+            width: sqrt(to - from),
+            t: [0.0, 1.0],
+            samples: [Sample::default(); SAMPLES],
+            misfit: 0.0,
+        };
+        span.samples[0] = stage.sample(from);
+        span.samples[SAMPLES - 1] = stage.sample(to);
+        for node in [2, 4] {
+            span.samples[node] = stage.sample(span.force(node));
+        }
+        span.check(stage);
+        span
+    }
+
+    /// Both halves, at equal steps of t.
+    pub(super) fn halves(&self, stage: &Stage<'_>) -> [Self; 2] {
+        let middle = 0.5 * (self.t[0] + self.t[1]);
+        let half = |t: [f64; 2], from: usize| {
+            let mut half = Self { t, ..*self };
+            for (node, index) in NODES.into_iter().zip(from..) {
+                half.samples[node] = self.samples[index];
+            }
+            half.check(stage);
+            half
+        };
+        [
+            half([self.t[0], middle], 0),
+            half([middle, self.t[1]], SAMPLES / 2),
+        ]
+    }
+
+    pub(super) fn start(&self) -> &Sample {
+        &self.samples[0]
+    }
+
+    pub(super) fn middle(&self) -> &Sample {
+        &self.samples[SAMPLES / 2]
+    }
+
+    pub(super) fn end(&self) -> &Sample {
+        &self.samples[SAMPLES - 1]
+    }
+
+    /// The cubic of a quantity over the reach beyond `knot` (m).
+    pub(super) fn cubic(&self, knot: f64, quantity: impl Fn(&Sample) -> f64) -> [f64; 4] {
+        self.cubic_of(knot, NODES.map(|node| quantity(&self.samples[node])))
+    }
+
+    /// The cubic of the flow potential times the step (m^2), which is `start` at the start, and its value at
+    /// the end.
+    pub(super) fn potential(&self, stage: &Stage<'_>, knot: f64, start: f64) -> ([f64; 4], f64) {
+        let mut values = [start; NODES.len()];
+        for third in 1..values.len() {
+            values[third] = values[third - 1] + self.potential_of_third(stage, third - 1);
+        }
+        (self.cubic_of(knot, values), values[NODES.len() - 1])
+    }
+
+    fn cubic_of(&self, knot: f64, values: [f64; 4]) -> [f64; 4] {
+        fit::cubic(NODES.map(|node| self.samples[node].reach - knot), values)
+    }
+
+    /// Flow potential times the step gained over a third (m^2), `integral of h v_h d delta`.
+    fn potential_of_third(&self, stage: &Stage<'_>, third: usize) -> f64 {
+        /// Three-point Gauss-Legendre rule on [-1, 1] (Abramowitz and Stegun 25.4.29).
+        const RULE: [(f64, f64); 3] = [
+            (-0.774_596_669_241_483, 5.0 / 9.0),
+            (0.0, 8.0 / 9.0),
+            (0.774_596_669_241_483, 5.0 / 9.0),
+        ];
+        let half = (self.t[1] - self.t[0]) / 6.0;
+        let middle = self.t[0] + (2 * third + 1) as f64 * half;
+        let sum: f64 = RULE
+            .iter()
+            .map(|(node, weight)| {
+                let t = middle + half * node;
+                let force = self.force_at(t);
+                let force_slope = 2.0 * self.width * self.width * t;
+                weight * stage.branch.velocity(force) * stage.branch.compliance(force) * force_slope
+            })
+            .sum();
+        stage.step_s * half * sum
+    }
+
+    /// Samples between the nodes, and what the cubics miss there.
+    fn check(&mut self, stage: &Stage<'_>) {
+        for check in CHECKS {
+            self.samples[check] = stage.sample(self.force(check));
+        }
+        let knot = self.start().reach;
+        let flow = self.cubic(knot, |sample| sample.flow);
+        let stiffness = self.cubic(knot, |sample| sample.stiffness);
+        self.misfit = 0.0;
+        for sample in CHECKS.map(|check| self.samples[check]) {
+            let miss = |cubic, value: f64| (fit::value(cubic, sample.reach - knot) - value).abs();
+            // A closed branch holds a stretch for seconds: 1e-5 of it counts as flow.
+            let share = sample.flow + stage.floor + 1e-5 * sample.reach;
+            let misfit = (miss(flow, sample.flow) / share)
+                .max(miss(stiffness, sample.stiffness) / sample.stiffness);
+            self.misfit = self.misfit.max(misfit);
+        }
+    }
+
+    fn force(&self, sample: usize) -> f64 {
+        let share = sample as f64 / (SAMPLES - 1) as f64;
+        self.force_at(self.t[0] + share * (self.t[1] - self.t[0]))
+    }
+
+    fn force_at(&self, t: f64) -> f64 {
+        self.corner + (self.width * t) * (self.width * t)
+    }
+}
