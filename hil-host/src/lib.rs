@@ -19,5 +19,6 @@ pub mod recording;
 pub mod reference;
 pub mod replay;
 pub mod rig;
+pub mod shim_valves;
 pub mod timing;
 pub mod verification;
