@@ -1,7 +1,7 @@
 //! A free run: one tick after another.
 
-use super::{FIRST_TICKS, Length, Run, Series, stop};
-use crate::pacing::Clock;
+use super::{Length, Run, Series, stop};
+use crate::pacing::{Clock, FIRST_TICKS};
 use crate::timing::Distribution;
 
 /// Ticks timed together, so that reading the clock costs each a hundredth of itself.

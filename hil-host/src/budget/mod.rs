@@ -13,9 +13,6 @@ use serde::Serialize;
 use crate::failure::{Failure, Outcome};
 use crate::timing::{Distribution, span};
 
-/// Ticks listed one by one after the start.
-pub use crate::pacing::FIRST_TICKS;
-
 /// How long a run lasts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Length {
