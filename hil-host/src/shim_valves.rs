@@ -80,7 +80,7 @@ impl Place {
     /// Rows of the published table.
     ///
     /// # Errors
-    /// As [`deflections`].
+    /// The table in the program is not as it was shipped.
     pub fn published(&self) -> Outcome<Vec<Deflection>> {
         deflections(self.published)
     }
