@@ -2,6 +2,7 @@
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
 
+pub mod budget;
 pub mod commands;
 pub mod contact;
 pub mod damper_file;
@@ -18,5 +19,6 @@ pub mod recording;
 pub mod reference;
 pub mod replay;
 pub mod rig;
+pub mod shim_valves;
 pub mod timing;
 pub mod verification;

@@ -14,7 +14,7 @@ use dashpot_hil::commands::rig::{self, RigArguments};
 use dashpot_hil::commands::shims::{self, ShimsArguments};
 use dashpot_hil::commands::verify::{self, VerifyArguments};
 
-/// Desk host of the Dashpot damper. Without a command: the demonstration.
+/// Desk host of the Dashpot damper. Without a command: the demonstration on a made ride.
 #[derive(Parser)]
 #[command(
     name = "dashpot",

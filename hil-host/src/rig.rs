@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 
 use dashpot_core::{DamperParameters, Status};
+use serde::Serialize;
 
 use crate::failure::{Failure, Outcome};
 
@@ -49,7 +50,7 @@ impl Harmonic {
 }
 
 /// Indices of one settled cycle.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Indices {
     /// Largest force in extension F_e (N).
     pub max_extension_force_n: f64,
@@ -148,6 +149,15 @@ pub fn settle(parameters: &DamperParameters, motion: Harmonic, step_s: f64) -> O
 }
 
 impl Cycle {
+    /// Velocities (m/s) at the displacements: `2 pi f A cos(2 pi f t)`.
+    pub fn velocities_m_per_s(&self) -> Vec<f64> {
+        let ticks = self.displacements_m.len();
+        let peak = self.motion.peak_velocity_m_per_s();
+        (1..=ticks)
+            .map(|tick| peak * (TAU * tick as f64 / ticks as f64).cos())
+            .collect()
+    }
+
     /// The indices of this cycle; its energy by the trapezoidal rule.
     pub fn indices(&self) -> Indices {
         let (forces, x) = (&self.forces_n, &self.displacements_m);

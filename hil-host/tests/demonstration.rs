@@ -2,6 +2,7 @@
 
 use std::path::Path;
 use std::process::{Command, Output};
+use std::sync::LazyLock;
 
 use dashpot_hil::excitation::Excitation;
 
@@ -12,6 +13,14 @@ fn dashpot(arguments: &[&str], folder: &Path) -> Output {
         .output()
         .unwrap()
 }
+
+/// What the command prints for people, and its page.
+static SHOWN: LazyLock<(String, String)> = LazyLock::new(|| {
+    let folder = tempfile::tempdir().unwrap();
+    let output = dashpot(&[], folder.path());
+    let page = std::fs::read_to_string(folder.path().join("dashpot-report.html")).unwrap();
+    (String::from_utf8(output.stdout).unwrap(), page)
+});
 
 /// The project's accuracy limits.
 fn check_limit(row: &serde_json::Value) {
@@ -43,8 +52,63 @@ fn the_page_is_whole_self_contained_and_accurate() {
         assert!(!page.contains(outside), "{outside}");
     }
     assert_eq!(page.matches("<svg").count(), page.matches("</svg>").count());
-    assert!(page.matches("<svg").count() >= 9);
+    // Nine figures, each for a desk and for a phone.
+    for class in ["desk", "phone"] {
+        let figures = page.matches(&format!("<svg class=\"{class}\"")).count();
+        assert_eq!(figures, 9, "{class}");
+    }
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
+}
+
+/// The ride is made: nothing on the page or in the report says that it was recorded or measured. What the
+/// paper measured and what was timed here are called so.
+#[test]
+fn made_signals_are_called_made_and_measured_ones_measured() {
+    let (report, page) = &*SHOWN;
+    assert!(report.contains("made ride"), "{report}");
+    let captions: Vec<&str> = page
+        .split("<figcaption>")
+        .skip(1)
+        .filter_map(|rest| rest.split_once("</figcaption>"))
+        .map(|(caption, _)| caption)
+        .collect();
+    assert_eq!(captions.len(), 9);
+    for caption in &captions[1..] {
+        assert!(caption.contains("made "), "{caption}");
+    }
+    for words in [
+        "that is made, not measured",
+        "paper on the made ride",
+        "in-service on the made ride",
+        "test, measured",
+        "measured on this machine",
+    ] {
+        assert!(page.contains(words), "{words}");
+    }
+    for text in [report, page] {
+        assert!(!text.contains("recorded"), "{text:.200}");
+    }
+    let help = String::from_utf8(dashpot(&["--help"], Path::new(".")).stdout).unwrap();
+    assert!(help.contains("made ride"), "{help}");
+}
+
+/// Figures of the text are those of the damper files.
+#[test]
+fn the_page_tells_the_parameters_of_the_presets() {
+    let (_, page) = &*SHOWN;
+    for words in [
+        "69.8 mm piston and 28 mm rod",
+        "orifice of 2 mm",
+        "adds 1 mm clearance, seats of 40 MN/m, valve preloads of 0.5, 0.3 (piston) and 0 MPa (foot), leakage \
+         through a piston gap of 30 µm, a relief valve that opens at 5 MPa, seal friction of 100 N",
+        "oil column with 0.05 % entrained air",
+        // 5 MPa on 3.2107e-3 and 3.8265e-3 m2, and 100 N.
+        "opens at 5 MPa: 16 kN in extension, 19 kN in compression",
+        "±24.875 mm at 0.64 Hz",
+        "33, 41 and 30 times",
+    ] {
+        assert!(page.contains(words), "{words}");
+    }
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! `dashpot export` and `dashpot budget` from outside; the exported file compiled for real.
+//! `dashpot export` from outside; the exported file compiled for real.
 
 use std::process::{Command, Output};
 
@@ -167,38 +167,8 @@ fn the_exported_c_source_holds_the_same_bytes() {
 }
 
 #[test]
-fn budget_tells_its_keys() {
-    let output = dashpot(&["budget", "--steps", "2000", "--format", "json"]);
-    let report: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
-    assert_eq!(report["ticks"], 2000);
-    assert_eq!(report["spreads"][1]["figures"]["count"], 2000);
-    assert_eq!(report["spreads"][0]["figures"]["count"], 20);
-    let output = dashpot(&[
-        "budget",
-        "--rate-hz",
-        "1000",
-        "--steps",
-        "50",
-        "--format",
-        "json",
-    ]);
-    let report: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
-    assert_eq!(report["mode"], "paced");
-    assert!(report["missed_deadlines"].is_u64());
-    assert_eq!(report["first_ticks_ns"].as_array().unwrap().len(), 8);
-}
-
-#[test]
 fn wrong_options_say_what_is_allowed() {
     for (arguments, code, part) in [
-        (&["budget", "--rate-hz", "999"][..], 2, "1000..=10000"),
-        (&["budget", "--steps", "0"][..], 2, "1..="),
-        (&["budget", "--fifo", "100"][..], 2, "1..=99"),
-        (
-            &["budget", "--core", "1000000"][..],
-            1,
-            "no core this process may use, allowed: ",
-        ),
         (
             &["export", "--lang", "rust", "--output", "none/such.rs"][..],
             1,

@@ -55,10 +55,77 @@ fn theory_stands_beside_the_published_deflections() {
             near(&row["flow_m3_per_s"], flow, 1e-3);
         }
     }
-    for name in ["shim-deflection.svg", "valve-flow.svg"] {
+    for name in ["shim-lift.svg", "shim-deflection.svg", "valve-flow.svg"] {
         let svg = std::fs::read_to_string(plots.join(name)).unwrap();
         assert!(svg.starts_with("<svg width=\"1440\"") && svg.trim_end().ends_with("</svg>"));
         assert!(svg.matches("<polyline").count() >= 3);
+    }
+}
+
+/// The plot of the edge lift with `arguments`, and the words in it.
+fn lift_plot(arguments: &[&str]) -> (String, Vec<String>) {
+    let folder = tempfile::tempdir().unwrap();
+    let plots = folder.path().to_str().unwrap();
+    let output = dashpot(&[arguments, &["--plots", plots]].concat());
+    assert!(output.status.success(), "{output:?}");
+    let svg = std::fs::read_to_string(folder.path().join("shim-lift.svg")).unwrap();
+    let lines = svg.lines().map(str::trim);
+    let words = lines.filter(|line| !line.is_empty() && !line.starts_with('<'));
+    let words = words.map(str::to_owned).collect();
+    (svg, words)
+}
+
+/// Slopes by hand: theory of Table 1, last rows of Tables 2-4, and those times Ce.
+#[test]
+fn theory_published_and_used_lift_are_named_curves() {
+    let (svg, words) = lift_plot(&[]);
+    for name in [
+        "Piston extension valve, published in Table 2",
+        "Piston compression valve, published in Table 3",
+        "Foot compression valve, published in Table 4",
+        "pressure, MPa",
+        "lift of the edge, mm",
+        "disc theory, uniform pressure: 0.451 mm/MPa",
+        "disc theory, uniform pressure: 0.565 mm/MPa",
+        "disc theory, uniform pressure: 0.0427 mm/MPa",
+        "published, uniform pressure: 0.0136 mm/MPa",
+        "published, uniform pressure: 0.0137 mm/MPa",
+        "published, uniform pressure: 0.00145 mm/MPa",
+        "published, real pressure (FEA)",
+        "used, given compliance × Ce: 0.00295 mm/MPa",
+        "used, given compliance × Ce: 0.00274 mm/MPa",
+        "used, given compliance × Ce: 0.00120 mm/MPa",
+    ] {
+        assert!(words.iter().any(|word| word == name), "{name}: {words:?}");
+    }
+    // A point for each of the five rows of three tables, and one a key.
+    assert_eq!(svg.matches("<circle").count(), 3 * (5 + 1));
+}
+
+#[test]
+fn a_pack_that_is_not_the_papers_has_no_published_curve() {
+    let (svg, words) = lift_plot(&[
+        "--set",
+        "valves.piston_extension.free_radius_m=0.03",
+        "--set",
+        "valves.piston_compression.free_radius_m=0.03",
+    ]);
+    assert!(words.iter().any(|word| word == "Piston extension valve"));
+    assert_eq!(svg.matches("<circle").count(), 5 + 1);
+}
+
+/// A preload closes the valve below it: the logarithm of no lift, or of its rounding, is not drawn.
+#[test]
+fn a_preload_leaves_the_scale_readable() {
+    for preload_pa in ["3e5", "7e5", "2e7"] {
+        let (_, words) = lift_plot(&[
+            "--set",
+            &format!("valves.foot_compression.preload_pa={preload_pa}"),
+        ]);
+        let numbers: Vec<f64> = words.iter().filter_map(|word| word.parse().ok()).collect();
+        let least = numbers.iter().filter(|number| **number > 0.0);
+        let least = least.fold(f64::MAX, |least, number| least.min(*number));
+        assert!((1e-5..1e-2).contains(&least), "{preload_pa}: {words:?}");
     }
 }
 

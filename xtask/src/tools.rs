@@ -1,4 +1,4 @@
-//! Programs of others that the target's tests run: installed, or named loudly.
+//! Programs of others that tests run: installed, or named loudly.
 
 use std::path::Path;
 use std::process::Command;
@@ -25,8 +25,11 @@ pub const ARM_GCC: Tool = tool("arm-none-eabi-gcc", "gcc-arm-none-eabi");
 /// Emulator of the target.
 pub const QEMU: Tool = tool("qemu-system-arm", "qemu-system-arm");
 
+/// Browser, for what a page looks like.
+pub const CHROMIUM: Tool = tool("chromium", "chromium");
+
 /// All of them.
-pub const TOOLS: [Tool; 5] = [GCC, GXX, VALGRIND, ARM_GCC, QEMU];
+pub const TOOLS: [Tool; 6] = [GCC, GXX, VALGRIND, ARM_GCC, QEMU, CHROMIUM];
 
 /// A compiler for the target where rustup has none: packages of Debian.
 const TOOLCHAIN_PACKAGES: [&str; 3] = ["rustc-web", "cargo-web", "rust-web-src"];

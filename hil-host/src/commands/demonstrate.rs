@@ -10,7 +10,7 @@ use crate::demonstration::{self, Accuracy};
 use crate::failure::Outcome;
 use crate::output::write_bytes;
 
-/// The demonstration: two presets on the shipped ride, accuracy, cost, and a page that shows them.
+/// The demonstration: two presets on a made ride, accuracy, cost, and a page that shows them.
 #[derive(Debug, Clone, clap::Args)]
 pub struct DemonstrateArguments {
     /// The page, one self-contained HTML file.

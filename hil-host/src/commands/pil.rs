@@ -14,6 +14,7 @@ use crate::pil::{
 };
 use crate::recording::Recording;
 use crate::replay::Ticks;
+use crate::timing::{optional_span, span};
 
 /// Drive a damper on a target and compare every force with this host's, bit for bit.
 #[derive(Debug, Clone, clap::Args)]
@@ -130,7 +131,6 @@ fn print(out: &mut dyn Write, result: &Result, arguments: &PilArguments) -> io::
     let report = &result.report;
     let target = &report.target;
     let dampers = target.dampers as f64;
-    let us = |ns: f64| ns * 1e-3;
     writeln!(
         out,
         "{} ticks of {:.0} us through {} x {} on the target (dashpot-core {})",
@@ -166,11 +166,11 @@ fn print(out: &mut dyn Write, result: &Result, arguments: &PilArguments) -> io::
     let trip = &report.round_trip;
     writeln!(
         out,
-        "round trip            {:.0} us at the median, {:.0} us at 99 %, {:.0} us at 99.9 %, {:.0} us at most",
-        us(trip.p50_ns),
-        us(trip.p99_ns),
-        us(trip.p99_9_ns),
-        us(trip.worst_ns)
+        "round trip            {} at the median, {} at 99 %, {} at 99.9 %, {} at most",
+        optional_span(trip.p50_ns),
+        optional_span(trip.p99_ns),
+        optional_span(trip.p99_9_ns),
+        span(trip.worst_ns)
     )?;
     let clock = &report.clock_ticks;
     writeln!(

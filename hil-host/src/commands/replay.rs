@@ -12,7 +12,7 @@ use crate::output::write_whole;
 use crate::pacing::Pacer;
 use crate::recording::Recording;
 use crate::replay::{Summary, Ticks, replay};
-use crate::timing::Figures;
+use crate::timing::{Figures, optional_span, span};
 
 /// Force of a damper over a recorded motion.
 #[derive(Debug, Clone, clap::Args)]
@@ -198,12 +198,11 @@ fn print(out: &mut dyn Write, report: &Report, arguments: &ReplayArguments) -> i
     if let Some(realtime) = &report.realtime {
         writeln!(
             out,
-            "real ticks: {} deadlines missed; late by {:.1} us at most, {:.1} us at the 99th percentile; \
-             step {:.2} us at most",
+            "real ticks: {} deadlines missed; late by {} at most, {} at the 99th percentile; step {} at most",
             realtime.missed_deadlines,
-            realtime.lateness.worst_ns * 1e-3,
-            realtime.lateness.p99_ns * 1e-3,
-            realtime.work.worst_ns * 1e-3
+            span(realtime.lateness.worst_ns),
+            optional_span(realtime.lateness.p99_ns),
+            span(realtime.work.worst_ns)
         )?;
     }
     writeln!(out, "wrote {}", arguments.output.display())

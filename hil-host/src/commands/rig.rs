@@ -1,20 +1,29 @@
 //! `dashpot rig`: the bench test and its indices.
 
 use std::io::{self, Write};
+use std::path::{Path, PathBuf};
 
+use plotters::prelude::SeriesLabelPosition;
 use serde::Serialize;
 
 use super::{DamperArguments, Format, print_report};
 use crate::failure::{Failure, Outcome};
-use crate::published::{NominalIndex, nominal_indices};
-use crate::rig::{self, Harmonic};
+use crate::output::write_folder;
+use crate::plot::curves::Curve;
+use crate::plot::loops;
+use crate::plot::sheet::{Layout, sheet};
+use crate::plot::style::{BLUE_LINE, RED_LINE};
+use crate::published::{
+    NominalCharacteristic, NominalIndex, nominal_characteristic, nominal_indices,
+};
+use crate::rig::{self, Cycle, Harmonic, Indices};
 
-/// Bench test: a harmonic motion until the force repeats, indices of one settled cycle.
+/// Bench test: a made harmonic motion until the force repeats, indices and loops of one settled cycle.
 #[derive(Debug, Clone, clap::Args)]
 #[command(
     allow_negative_numbers = true,
     after_help = "Examples:
-  dashpot rig --damper paper --amplitude-m 24.875e-3 --frequency-hz 0.64
+  dashpot rig --damper paper --amplitude-m 24.875e-3 --frequency-hz 0.64 --plots rig-plots
   dashpot rig --damper in-service --set mount.clearance_m=2e-3 --amplitude-m 5e-3 --frequency-hz 2 --format json"
 )]
 pub struct RigArguments {
@@ -30,6 +39,10 @@ pub struct RigArguments {
     /// Step, microseconds; shortened to a whole number of steps a cycle.
     #[arg(long, default_value_t = 100.0, value_name = "US")]
     pub step_us: f64,
+    /// Folder the loops of force over displacement and velocity are written to, as force-loops.svg; none
+    /// when not given.
+    #[arg(long, value_name = "FOLDER")]
+    pub plots: Option<PathBuf>,
     /// How results are printed.
     #[arg(long, value_enum, default_value_t = Format::Text)]
     pub format: Format,
@@ -43,11 +56,11 @@ struct Report<'a> {
     peak_velocity_m_per_s: f64,
     step_s: f64,
     cycles: usize,
-    max_extension_force_n: f64,
-    max_compression_force_n: f64,
-    asymmetry_rate: Option<f64>,
-    energy_per_cycle_j: f64,
-    damping_coefficient_n_s_per_m: f64,
+    #[serde(flatten)]
+    indices: Indices,
+    /// Table 5 of the paper, where the motion is that of the table.
+    published: Option<NominalCharacteristic>,
+    plots: Vec<String>,
 }
 
 /// An index here, and its row of Table 5.
@@ -71,27 +84,73 @@ pub fn run(arguments: &RigArguments) -> Outcome<()> {
     }
     let cycle = rig::settle(&damper, motion, arguments.step_us * 1e-6)?;
     let indices = cycle.indices();
+    let published = is_nominal(&motion)
+        .then(nominal_characteristic)
+        .transpose()?;
+    let name = &arguments.damper.damper;
+    let plots = match &arguments.plots {
+        Some(folder) => draw(folder, name, &cycle, published.as_ref())?,
+        None => Vec::new(),
+    };
+    let rows: Vec<Row> = nominal_indices()?
+        .into_iter()
+        .map(|row| Ok((row.of(&indices)?, row)))
+        .collect::<Outcome<_>>()?;
     let report = Report {
-        damper: &arguments.damper.damper,
+        damper: name,
         amplitude_m: motion.amplitude_m,
         frequency_hz: motion.frequency_hz,
         peak_velocity_m_per_s: motion.peak_velocity_m_per_s(),
         step_s: cycle.step_s,
         cycles: cycle.cycles,
-        max_extension_force_n: indices.max_extension_force_n,
-        max_compression_force_n: indices.max_compression_force_n,
-        asymmetry_rate: indices.asymmetry_rate,
-        energy_per_cycle_j: indices.energy_per_cycle_j,
-        damping_coefficient_n_s_per_m: indices.damping_coefficient_n_s_per_m,
+        indices,
+        published,
+        plots,
     };
-    let rows: Vec<Row> = nominal_indices()?
-        .into_iter()
-        .map(|published| Ok((published.of(&indices)?, published)))
-        .collect::<Outcome<_>>()?;
-    let nominal = is_nominal(&motion);
     print_report(arguments.format, &report, |out, report| {
-        print(out, report, &rows, nominal)
+        print(out, report, &rows)
     })
+}
+
+/// Writes the loops of a cycle called `name` into `folder`, with the largest forces measured where they
+/// are published, and tells their path.
+fn draw(
+    folder: &Path,
+    name: &str,
+    cycle: &Cycle,
+    published: Option<&NominalCharacteristic>,
+) -> Outcome<Vec<String>> {
+    let motion = &cycle.motion;
+    let computed = format!("{name}, computed");
+    let (displacement, velocity) = loops::of_cycle(&computed, BLUE_LINE, cycle);
+    let (mut displacement, mut velocity) = (vec![displacement], vec![velocity]);
+    if let Some(NominalCharacteristic { test, .. }) = published {
+        let (x, v) = (motion.amplitude_m * 1e3, motion.peak_velocity_m_per_s());
+        for (name, force_n) in [
+            (
+                "largest forces measured (Table 5)",
+                test.max_extension_force_n,
+            ),
+            ("", -test.max_compression_force_n),
+        ] {
+            for (curves, reach) in [(&mut displacement, x), (&mut velocity, v)] {
+                let points = [-reach, reach].map(|at| (at, force_n * 1e-3));
+                curves.push(Curve::new(name, RED_LINE, points).dashed());
+            }
+        }
+    }
+    let mut panels = loops::panels(displacement, velocity, None);
+    // A loop has room within.
+    panels[0].legend = Some(SeriesLabelPosition::MiddleMiddle);
+    for (panel, over) in panels.iter_mut().zip(["displacement", "velocity"]) {
+        panel.title = format!(
+            "Force over {over}, made motion of ±{:.3} mm at {} Hz",
+            motion.amplitude_m * 1e3,
+            motion.frequency_hz
+        );
+    }
+    let drawing = sheet(Layout::row(panels.len(), 640, 480), &panels)?;
+    write_folder(folder, &[("force-loops.svg", drawing)])
 }
 
 /// Whether the motion is that of Table 5.
@@ -101,10 +160,10 @@ fn is_nominal(motion: &Harmonic) -> bool {
     same(motion.amplitude_m, nominal.amplitude_m) && same(motion.frequency_hz, nominal.frequency_hz)
 }
 
-fn print(out: &mut dyn Write, report: &Report<'_>, rows: &[Row], nominal: bool) -> io::Result<()> {
+fn print(out: &mut dyn Write, report: &Report<'_>, rows: &[Row]) -> io::Result<()> {
     writeln!(
         out,
-        "{}: +-{:.3} mm at {} Hz, peak velocity {:.4} m/s; cycle {} repeats, step {:.2} us\n",
+        "{}: made motion of +-{:.3} mm at {} Hz, peak velocity {:.4} m/s; cycle {} repeats, step {:.2} us\n",
         report.damper,
         report.amplitude_m * 1e3,
         report.frequency_hz,
@@ -112,12 +171,17 @@ fn print(out: &mut dyn Write, report: &Report<'_>, rows: &[Row], nominal: bool) 
         report.cycles,
         report.step_s * 1e6
     )?;
+    let nominal = report.published.is_some();
     let heading = if nominal {
-        format!("{:>17}{:>15}", "paper simulation", "paper test")
+        format!("{:>18}{:>23}", "paper simulation", "paper test, measured")
     } else {
         String::new()
     };
-    writeln!(out, "  {:<27}{:<8}{:>12}{heading}", "index", "unit", "here")?;
+    writeln!(
+        out,
+        "  {:<27}{:<8}{:>12}{heading}",
+        "index", "unit", "computed"
+    )?;
     for (here, published) in rows {
         write!(
             out,
@@ -125,7 +189,7 @@ fn print(out: &mut dyn Write, report: &Report<'_>, rows: &[Row], nominal: bool) 
             published.index, published.unit
         )?;
         if nominal {
-            write!(out, "{:>17}{:>15}", published.simulation, published.test)?;
+            write!(out, "{:>18}{:>23}", published.simulation, published.test)?;
         }
         writeln!(out)?;
     }
@@ -135,6 +199,9 @@ fn print(out: &mut dyn Write, report: &Report<'_>, rows: &[Row], nominal: bool) 
             "\npaper: Table 5, same motion. Its equations with its Tables 2-4 do not give its Table 5 \
              (docs/validation.md)."
         )?;
+    }
+    if !report.plots.is_empty() {
+        writeln!(out, "\nplots: {}", report.plots.join(", "))?;
     }
     Ok(())
 }

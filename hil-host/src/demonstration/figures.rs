@@ -1,26 +1,83 @@
 //! Figures of the page.
 
 use plotters::prelude::SeriesLabelPosition;
-use plotters::style::RGBColor;
 
 use super::{Bench, LOOP_AMPLITUDES_M, Ride};
 use crate::failure::Outcome;
-use crate::plot::curves::{Curve, Panel, ramp, sheet};
-use crate::plot::style::{BLUE_LINE, RED_LINE};
+use crate::plot::curves::{Curve, ramp};
+use crate::plot::loops;
+use crate::plot::sheet::{Layout, Panel, Scale, sheet};
+use crate::plot::style::{BLUE_LINE, PALE, RED_LINE};
 
-const PALE: RGBColor = RGBColor(160, 168, 176);
+/// Width of a figure on a desk (pixels).
+const DESK_WIDTH: u32 = 1040;
+/// Width of a figure on a phone (pixels), where panels stand one below the other.
+const PHONE_WIDTH: u32 = 360;
+/// Height of a panel on a phone (pixels).
+const PHONE_HEIGHT: u32 = 280;
 
 /// The window of the ride shown large (s).
 pub(super) const WINDOW_S: (f64, f64) = (1.0, 2.0);
 
-fn panel(x: &str, y: &str, legend: Option<SeriesLabelPosition>, curves: Vec<Curve>) -> Panel {
-    Panel {
+/// A figure of the page.
+pub(super) struct Figure {
+    panels: Vec<Panel>,
+    /// Height on a desk (pixels).
+    height: u32,
+}
+
+impl Figure {
+    /// Panels in one row, for a desk.
+    ///
+    /// # Errors
+    /// The drawing fails.
+    pub(super) fn desk(&self) -> Outcome<String> {
+        let columns = self.panels.len();
+        let layout = Layout::row(columns, DESK_WIDTH / columns as u32, self.height);
+        sheet(layout, &self.panels)
+    }
+
+    /// Panels in one column, for a phone.
+    ///
+    /// # Errors
+    /// The drawing fails.
+    pub(super) fn phone(&self) -> Outcome<String> {
+        sheet(Layout::column(PHONE_WIDTH, PHONE_HEIGHT), &self.panels)
+    }
+}
+
+/// A figure of one panel whose curves fill the width.
+fn panel(
+    x: &str,
+    y: &str,
+    height: u32,
+    legend: Option<SeriesLabelPosition>,
+    curves: Vec<Curve>,
+) -> Figure {
+    let panel = Panel {
         title: String::new(),
         x_label: x.into(),
         y_label: y.into(),
         legend,
         sides: false,
+        scale: Scale::Linear,
         curves,
+    };
+    Figure {
+        panels: vec![panel],
+        height,
+    }
+}
+
+/// A figure of two panels, see [`loops::panels`].
+fn loop_figure(
+    displacement: Vec<Curve>,
+    velocity: Vec<Curve>,
+    legend: Option<SeriesLabelPosition>,
+) -> Figure {
+    Figure {
+        panels: loops::panels(displacement, velocity, legend),
+        height: 400,
     }
 }
 
@@ -32,29 +89,8 @@ fn over_time<'a>(ride: &Ride, forces: &'a [f64]) -> impl Iterator<Item = (f64, f
         .zip(forces.iter().copied())
 }
 
-/// Two panels side by side: force (kN) over displacement (mm) and over velocity (m/s). The legend, if
-/// there is one, stands in the second, whose upper left is free.
-fn loops(
-    displacement: Vec<Curve>,
-    velocity: Vec<Curve>,
-    legend: Option<SeriesLabelPosition>,
-) -> Outcome<String> {
-    let panel = |x, legend, curves| Panel {
-        sides: true,
-        ..panel(x, "force, kN", legend, curves)
-    };
-    sheet(
-        1040,
-        400,
-        &[
-            panel("displacement, mm", None, displacement),
-            panel("velocity, m/s", legend, velocity),
-        ],
-    )
-}
-
 /// Force of reference and fixed step over the window.
-pub(super) fn force(ride: &Ride) -> Outcome<String> {
+pub(super) fn force(ride: &Ride) -> Figure {
     let shown = |forces| -> Vec<(f64, f64)> {
         over_time(ride, forces)
             .map(|(time, force)| (time, force * 1e-3))
@@ -63,32 +99,23 @@ pub(super) fn force(ride: &Ride) -> Outcome<String> {
     };
     let curves = vec![
         Curve::new("reference", PALE, shown(&ride.reference_n)).wide(22),
-        Curve::new(
-            "fixed step, 1 kHz, f32",
-            BLUE_LINE,
-            shown(&ride.fixed_step_n),
-        )
-        .wide(6),
+        Curve::new("fixed step", BLUE_LINE, shown(&ride.fixed_step_n)).wide(6),
     ];
-    let legend = Some(SeriesLabelPosition::UpperRight);
-    sheet(1040, 360, &[panel("time, s", "force, kN", legend, curves)])
+    let legend = Some(SeriesLabelPosition::LowerRight);
+    panel("time, s", "computed force, kN", 360, legend, curves)
 }
 
 /// Error of the fixed step over the whole ride.
-pub(super) fn error(ride: &Ride) -> Outcome<String> {
+pub(super) fn error(ride: &Ride) -> Figure {
     let errors = over_time(ride, &ride.fixed_step_n)
         .zip(&ride.reference_n)
         .map(|((time, force), reference)| (time, force - reference));
     let curve = Curve::new("error", RED_LINE, errors).wide(4);
-    sheet(
-        1040,
-        260,
-        &[panel("time, s", "error, N", None, vec![curve])],
-    )
+    panel("time, s", "error, N", 260, None, vec![curve])
 }
 
 /// Force over displacement and velocity along the whole ride.
-pub(super) fn ride_loops(ride: &Ride) -> Outcome<String> {
+pub(super) fn ride_loops(ride: &Ride) -> Figure {
     let x = &ride.displacements_m;
     let forces = ride.fixed_step_n.iter().map(|force| force * 1e-3);
     let displacement = x.iter().map(|x| x * 1e3).zip(forces.clone());
@@ -97,36 +124,23 @@ pub(super) fn ride_loops(ride: &Ride) -> Outcome<String> {
         .map(|pair| (pair[1] - pair[0]) / ride.step_s)
         .zip(forces.skip(1));
     let thin = |points: Vec<(f64, f64)>| vec![Curve::new("ride", BLUE_LINE, points).wide(3)];
-    loops(thin(displacement.collect()), thin(velocity.collect()), None)
+    loop_figure(thin(displacement.collect()), thin(velocity.collect()), None)
 }
 
 /// Settled loops of harmonic motions of rising amplitude.
-pub(super) fn bench_loops(bench: &Bench) -> Outcome<String> {
+pub(super) fn bench_loops(bench: &Bench) -> Figure {
     let colours = ramp(bench.loops.len());
-    let (mut displacement, mut velocity) = (Vec::new(), Vec::new());
-    for ((cycle, colour), amplitude) in bench.loops.iter().zip(colours).zip(LOOP_AMPLITUDES_M) {
-        let name = format!("{} mm", amplitude * 1e3);
-        let (x, forces) = (&cycle.displacements_m, &cycle.forces_n);
-        let ticks = x.len();
-        let at = |tick: usize| (x[tick % ticks], forces[tick % ticks] * 1e-3);
-        displacement.push(Curve::new(
-            &name,
-            colour,
-            (0..=ticks).map(|tick| (at(tick).0 * 1e3, at(tick).1)),
-        ));
-        let speed = |tick: usize| (at(tick + 1).0 - at(tick + ticks - 1).0) / (2.0 * cycle.step_s);
-        velocity.push(Curve::new(
-            &name,
-            colour,
-            (0..=ticks).map(|tick| (speed(tick), at(tick).1)),
-        ));
-    }
-    let legend = Some(SeriesLabelPosition::UpperLeft);
-    loops(displacement, velocity, legend)
+    let curves = bench.loops.iter().zip(colours).zip(LOOP_AMPLITUDES_M);
+    let (displacement, velocity) = curves
+        .map(|((cycle, colour), amplitude_m)| {
+            loops::of_cycle(&format!("{} mm", amplitude_m * 1e3), colour, cycle)
+        })
+        .unzip();
+    loop_figure(displacement, velocity, Some(SeriesLabelPosition::UpperLeft))
 }
 
 /// Force over constant velocity of every damper.
-pub(super) fn characteristics(benches: &[Bench]) -> Outcome<String> {
+pub(super) fn characteristics(benches: &[Bench]) -> Figure {
     let curves = benches
         .iter()
         .zip([PALE, BLUE_LINE])
@@ -138,14 +152,11 @@ pub(super) fn characteristics(benches: &[Bench]) -> Outcome<String> {
             Curve::new(bench.damper, colour, points).wide(10)
         });
     let legend = Some(SeriesLabelPosition::UpperLeft);
-    sheet(
-        1040,
+    panel(
+        "velocity, m/s",
+        "computed force, kN",
         400,
-        &[panel(
-            "velocity, m/s",
-            "force, kN",
-            legend,
-            curves.collect(),
-        )],
+        legend,
+        curves.collect(),
     )
 }

@@ -1,6 +1,7 @@
-//! The demonstration: two presets on the shipped ride, fixed step against reference, bench test, cost.
+//! The demonstration: two presets on the shipped made ride, fixed step against reference, bench test, cost.
 
 mod cost;
+mod description;
 mod figures;
 mod page;
 mod recording;
@@ -67,6 +68,7 @@ struct Ride {
 /// A preset on the bench.
 struct Bench {
     damper: &'static str,
+    parameters: DamperParameters,
     characteristic: Characteristic,
     loops: Vec<Cycle>,
     table_5: Indices,
@@ -168,6 +170,7 @@ fn bench(name: &'static str, damper: &DamperParameters) -> Outcome<Bench> {
         .collect::<Outcome<_>>()?;
     Ok(Bench {
         damper: name,
+        parameters: damper.clone(),
         characteristic: Characteristic::new(damper)?,
         loops,
         table_5: rig::settle(damper, Harmonic::TABLE_5, 1e-4)?.indices(),

@@ -2,9 +2,11 @@
 
 use std::fmt::Write as _;
 
-use super::{Accuracy, Bench, Demonstration, LOOP_FREQUENCY_HZ, figures};
+use super::figures::{self, Figure};
+use super::{Accuracy, Bench, Demonstration, LOOP_FREQUENCY_HZ, description};
 use crate::failure::Outcome;
 use crate::published::nominal_indices;
+use crate::rig::Harmonic;
 
 const STYLE: &str = include_str!("page.css");
 
@@ -26,70 +28,63 @@ pub fn write(shown: &Demonstration) -> Outcome<String> {
     add("<h1>A rail damper in real time</h1>");
     add(&lead(shown));
     add(&tiles(shown));
-    add(
-        "<h2>What the damper is</h2>\n<p>The secondary vertical damper of a locomotive: a twin-tube \
-         hydraulic damper, 69.8 mm piston and 28 mm rod. A constant orifice of 2 mm in the piston is \
-         open both ways; three packs of thin steel shims, one working in extension and two in \
-         compression, bend open under oil pressure. In series stand rubber bushes and, in service, \
-         the oil column with its entrained air, the seats and a clearance.</p>\n<p><b>paper</b> is the \
-         published damper literally: no clearance, no in-service term. <b>in-service</b> adds 1 mm \
-         clearance, valve preload, leakage, a relief valve, seal friction, reservoir pressure, a \
-         laminar orifice at low flow and a compressible oil column. Displacement and force are \
-         positive in extension.</p>",
-    );
+    add("<h2>What the damper is</h2>");
+    add(&description::damper(&shown.benches));
     add(&figure(
-        &figures::characteristics(&shown.benches)?,
-        "Force over constant velocity, extension to the right. The relief valve of \
-         <b>in-service</b> opens at 5 MPa: 16 kN in extension, 19 kN in compression.",
-    ));
+        &figures::characteristics(&shown.benches),
+        &format!(
+            "Computed force over constant velocity, extension to the right.{}",
+            description::relief(&shown.benches)
+        ),
+    )?);
     add("<h2>Fixed step against reference</h2>");
     add(
         "<p>Fixed step: two implicit stages from tables, a fixed number of operations, + − × ÷ and square \
          root only. Reference: the same laws written independently, with pressure and piston as \
          states, clearance and valve openings as events, integrated adaptively to 1e-12 a step. Both \
-         follow the recorded motion, linear between ticks.</p>",
+         follow the made motion, linear between ticks.</p>",
     );
     add(&accuracy_table(&shown.accuracy));
     for ride in &shown.rides {
-        add(&format!("<h3>{} on the recorded ride</h3>", ride.damper));
+        add(&format!("<h3>{} on the made ride</h3>", ride.damper));
         add(&figure(
-            &figures::force(ride)?,
+            &figures::force(ride),
             &format!(
-                "Force, {} to {} s of the ride: fixed step at 1 kHz in single precision over the reference.",
+                "Computed force, {} to {} s of the made ride: fixed step at 1 kHz in single precision over the \
+                 reference.",
                 figures::WINDOW_S.0,
                 figures::WINDOW_S.1
             ),
-        ));
+        )?);
         add(&figure(
-            &figures::error(ride)?,
-            "Error of that fixed step over the whole ride: fixed step less reference, in newtons.",
-        ));
+            &figures::error(ride),
+            "Error of that fixed step over the whole made ride: fixed step less reference, in newtons.",
+        )?);
         add(&figure(
-            &figures::ride_loops(ride)?,
-            "Force over displacement (left) and velocity (right) along the whole ride, 1 kHz, single \
-             precision.",
-        ));
+            &figures::ride_loops(ride),
+            "Computed force over displacement (first) and velocity (second) along the whole made ride, 1 kHz, \
+             single precision.",
+        )?);
     }
     add("<h2>On the bench</h2>");
     for bench in &shown.benches {
         add(&format!("<h3>{}</h3>", bench.damper));
         add(&figure(
-            &figures::bench_loops(bench)?,
+            &figures::bench_loops(bench),
             &format!(
-                "Settled loops of a harmonic motion at {LOOP_FREQUENCY_HZ} Hz, by amplitude: force over \
-                 displacement (left) and velocity (right, with the legend of both)."
+                "Settled loops of a made harmonic motion at {LOOP_FREQUENCY_HZ} Hz, by amplitude: computed force \
+                 over displacement (first) and velocity (second, with the legend of both)."
             ),
-        ));
+        )?);
     }
     add(&bench_table(&shown.benches)?);
-    add(
-        "<div class=\"note\">\n<p><b>Two errata of the source paper.</b> Its Tables 2–4 do not follow from \
-         its Table 1: the disc theory gives 33, 41 and 30 times the tabulated deflections. And its \
-         equations with those tables do not give its Table 5: they are progressive in velocity, \
-         the published energy per cycle asks for a digressive curve. The <b>paper</b> preset is \
-         literal all the same and is not tuned; hence the difference in the table above. Both are told \
-         with their numbers in docs/validation.md.</p>\n</div>",
-    );
+    add(&format!(
+        "<div class=\"note\">\n<p><b>Two errata of the source paper.</b> {} And its equations with those \
+         tables do not give its Table 5: they are progressive in velocity, the published energy per cycle \
+         asks for a digressive curve. The <b>paper</b> preset is literal all the same and is not tuned; hence \
+         the difference in the table above. Both are told with their numbers in docs/validation.md.</p>\n</div>",
+        description::erratum(&shown.benches)?
+    ));
     add(&footer());
     add("</main>\n</body>\n</html>");
     Ok(page)
@@ -98,8 +93,8 @@ pub fn write(shown: &Demonstration) -> Outcome<String> {
 fn lead(shown: &Demonstration) -> String {
     format!(
         "<p class=\"lead\">Dashpot computes a locomotive damper’s force from its displacement at 1 to \
-         10 kHz, in constant time, for hardware-in-the-loop rigs. Here it runs on a made ride of \
-         {:.1} s, recorded as a logger would: {} samples at uneven times, with a gap.</p>",
+         10 kHz, in constant time, for hardware-in-the-loop rigs. Here it runs on a ride of {:.1} s \
+         that is made, not measured, and sampled as a logger would: {} samples at uneven times, with a gap.</p>",
         shown.duration_s, shown.samples
     )
 }
@@ -134,7 +129,7 @@ fn tiles(shown: &Demonstration) -> String {
         tile(
             format!("{:.0} ns", slow.1.max(fast.1)),
             &format!(
-                "a step on this machine, single precision, median{}",
+                "a step, measured on this machine: single precision, median{}",
                 built()
             )
         ),
@@ -194,13 +189,16 @@ fn accuracy_table(rows: &[Accuracy]) -> String {
 
 /// Table 5 beside both dampers.
 fn bench_table(benches: &[Bench]) -> Outcome<String> {
-    let mut table = String::from(
-        "<h3>Table 5 of the paper: ±24.875 mm at 0.64 Hz</h3>\n<div class=\"wide\"><table>\n<tr><th>index</th><th>unit</th>",
+    let motion = Harmonic::TABLE_5;
+    let mut table = format!(
+        "<h3>Table 5 of the paper: ±{:.3} mm at {} Hz</h3>\n<div class=\"wide worded\"><table>\n<tr><th>index</th><th>unit</th>",
+        motion.amplitude_m * 1e3,
+        motion.frequency_hz
     );
     for bench in benches {
-        let _ = write!(table, "<th>{}, here</th>", bench.damper);
+        let _ = write!(table, "<th>{},<br>computed</th>", bench.damper);
     }
-    table.push_str("<th>paper,<br>simulation</th><th>paper,<br>test</th></tr>\n");
+    table.push_str("<th>paper,<br>simulation</th><th>paper,<br>test, measured</th></tr>\n");
     for row in &nominal_indices()? {
         let _ = write!(table, "<tr><td>{}</td><td>{}</td>", row.index, row.unit);
         for bench in benches {
@@ -216,10 +214,20 @@ fn bench_table(benches: &[Bench]) -> Outcome<String> {
     Ok(table)
 }
 
-fn figure(svg: &str, caption: &str) -> String {
+/// A figure drawn twice, for a desk and for a phone; the style shows the one that fits.
+fn figure(figure: &Figure, caption: &str) -> Outcome<String> {
     // Sized by the page; inline SVG has its namespace from HTML.
-    let svg = svg.replacen(" xmlns=\"http://www.w3.org/2000/svg\"", "", 1);
-    format!("<figure>\n{svg}\n<figcaption>{caption}</figcaption>\n</figure>")
+    let inline = |svg: String, class: &str| {
+        svg.replacen(" xmlns=\"http://www.w3.org/2000/svg\"", "", 1)
+            .replacen("<svg", &format!("<svg class=\"{class}\""), 1)
+    };
+    let (desk, phone) = (
+        inline(figure.desk()?, "desk"),
+        inline(figure.phone()?, "phone"),
+    );
+    Ok(format!(
+        "<figure>\n{desk}\n{phone}\n<figcaption>{caption}</figcaption>\n</figure>"
+    ))
 }
 
 fn footer() -> String {

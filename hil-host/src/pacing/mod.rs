@@ -48,6 +48,15 @@ pub struct TickTiming {
     pub late_ns: u64,
 }
 
+/// A tick whose work has ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct FinishedTick {
+    /// From the work's begin to its end (ns).
+    pub work_ns: u64,
+    /// Whether the work ended before the next tick was due.
+    pub met_deadline: bool,
+}
+
 /// What a pacer saw.
 #[derive(Debug, Clone)]
 pub struct PacingReport {
@@ -125,26 +134,39 @@ impl<C: Clock> Pacer<C> {
         }
     }
 
-    /// Ends the work of a tick and books it; whether the deadline was met.
-    pub fn finish(&mut self, timing: TickTiming) -> bool {
+    /// Ends the work of a tick and books it.
+    pub fn finish(&mut self, timing: TickTiming) -> FinishedTick {
         let response_ns = self.clock.now_ns().saturating_sub(timing.due_ns);
         let work_ns = response_ns.saturating_sub(timing.late_ns);
         let report = &mut self.report;
         if report.first_work_ns.len() < FIRST_TICKS {
             report.first_work_ns.push(work_ns);
         }
-        let met = response_ns as f64 <= self.step_ns;
+        let met_deadline = response_ns as f64 <= self.step_ns;
         report.ticks += 1;
-        report.missed_deadlines += u64::from(!met);
+        report.missed_deadlines += u64::from(!met_deadline);
         report.lateness.record_ns(timing.late_ns as f64);
         report.work.record_ns(work_ns as f64);
         report.response.record_ns(response_ns as f64);
-        met
+        FinishedTick {
+            work_ns,
+            met_deadline,
+        }
     }
 
     /// What was seen so far.
     pub fn report(&self) -> &PacingReport {
         &self.report
+    }
+
+    /// What was seen, of a pacer that is done.
+    pub fn into_report(self) -> PacingReport {
+        self.report
+    }
+
+    /// Step (s).
+    pub fn step_s(&self) -> f64 {
+        self.step_ns * 1e-9
     }
 
     /// The clock.

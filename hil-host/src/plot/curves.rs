@@ -1,21 +1,34 @@
-//! Panels of curves side by side on one sheet.
+//! Curves: lines, dashes or points, and their keys in the legend.
 
+use plotters::coord::ranged1d::Ranged;
 use plotters::prelude::*;
 
-use super::style::{Area, FINE, INK, axes, draw, extent, failed, letters};
+use super::style::{FINE, failed};
 use crate::failure::Outcome;
+
+/// How a curve is drawn.
+#[derive(Clone, Copy)]
+enum Stroke {
+    Line,
+    Dashes,
+    Points,
+}
 
 /// One curve: its name in the legend, its colour and its points.
 pub(crate) struct Curve {
-    pub(crate) name: String,
-    pub(crate) colour: RGBColor,
+    name: String,
+    colour: RGBColor,
     /// Width of the line in quarters of a pixel.
-    pub(crate) width: u32,
-    pub(crate) points: Vec<(f64, f64)>,
+    width: u32,
+    stroke: Stroke,
+    points: Vec<(f64, f64)>,
 }
 
+/// A set of axes that curves are drawn on.
+type Chart<'a, 'b, X, Y> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<X, Y>>;
+
 impl Curve {
-    /// A curve of the usual width.
+    /// A curve of the usual width; without a name it is not in the legend.
     pub(crate) fn new(
         name: impl Into<String>,
         colour: RGBColor,
@@ -25,6 +38,7 @@ impl Curve {
             name: name.into(),
             colour,
             width: 2 * FINE,
+            stroke: Stroke::Line,
             points: points.into_iter().collect(),
         }
     }
@@ -36,85 +50,68 @@ impl Curve {
             ..self
         }
     }
-}
 
-/// One set of axes with its curves.
-pub(crate) struct Panel {
-    pub(crate) title: String,
-    pub(crate) x_label: String,
-    pub(crate) y_label: String,
-    /// Where the legend stands, if there is one.
-    pub(crate) legend: Option<SeriesLabelPosition>,
-    /// Whether the curves keep off the sides, as loops do, or fill the width.
-    pub(crate) sides: bool,
-    pub(crate) curves: Vec<Curve>,
-}
-
-/// Draws panels in one row on a sheet of `width` by `height` pixels.
-///
-/// # Errors
-/// The drawing fails.
-pub(crate) fn sheet(width: u32, height: u32, panels: &[Panel]) -> Outcome<String> {
-    draw(width, height, |area| {
-        for (cell, panel) in area.split_evenly((1, panels.len())).iter().zip(panels) {
-            draw_panel(cell, panel)?;
+    /// The same curve dashed.
+    pub(crate) fn dashed(self) -> Self {
+        Self {
+            stroke: Stroke::Dashes,
+            ..self
         }
+    }
+
+    /// The same curve as points without a line between them.
+    pub(crate) fn dotted(self) -> Self {
+        Self {
+            stroke: Stroke::Points,
+            ..self
+        }
+    }
+
+    /// Its points.
+    pub(crate) fn points(&self) -> &[(f64, f64)] {
+        &self.points
+    }
+
+    /// Draws it and enters its key into the legend.
+    ///
+    /// # Errors
+    /// The drawing fails.
+    pub(crate) fn draw<'a, 'b: 'a, X, Y>(&self, chart: &mut Chart<'a, 'b, X, Y>) -> Outcome<()>
+    where
+        X: Ranged<ValueType = f64> + 'a,
+        Y: Ranged<ValueType = f64> + 'a,
+    {
+        const DASH: i32 = 6 * FINE as i32;
+        const KEY: i32 = 22 * FINE as i32;
+        let style = self.colour.stroke_width(self.width);
+        let mark = self.colour.filled();
+        let radius = 4 * FINE;
+        let points = self.points.iter().copied();
+        let drawn = match self.stroke {
+            Stroke::Line => chart.draw_series(LineSeries::new(points, style)),
+            Stroke::Dashes => chart.draw_series(DashedLineSeries::new(points, DASH, DASH, style)),
+            Stroke::Points => chart.draw_series(points.map(|at| Circle::new(at, radius, mark))),
+        }
+        .map_err(failed)?;
+        if self.name.is_empty() {
+            return Ok(());
+        }
+        drawn.label(&self.name);
+        match self.stroke {
+            Stroke::Line => {
+                drawn.legend(move |(x, y)| PathElement::new([(x, y), (x + KEY, y)], style))
+            }
+            Stroke::Dashes => drawn.legend(move |at| {
+                EmptyElement::at(at)
+                    + PathElement::new([(0, 0), (KEY / 2 - DASH / 2, 0)], style)
+                    + PathElement::new([(KEY / 2 + DASH / 2, 0), (KEY, 0)], style)
+            }),
+            Stroke::Points => {
+                drawn.legend(move |(x, y)| Circle::new((x + KEY / 2, y), radius, mark))
+            }
+        };
         Ok(())
-    })
-}
-
-fn draw_panel(area: &Area<'_>, panel: &Panel) -> Outcome<()> {
-    let points = || panel.curves.iter().flat_map(|curve| &curve.points);
-    let x = if panel.sides {
-        extent(points().map(|p| p.0))
-    } else {
-        points().fold(f64::MAX..f64::MIN, |range, p| {
-            range.start.min(p.0)..range.end.max(p.0)
-        })
-    };
-    let mut y = extent(points().map(|p| p.1));
-    // A curve that starts at zero, but for rounding, keeps zero at the edge.
-    let rounding = 1e-9 * y.end;
-    if points().all(|p| p.1 >= -rounding) {
-        y.start = 0.0;
     }
-    let digits = (digits(&x), digits(&y));
-    let mut chart = axes!(
-        area,
-        &panel.title,
-        x,
-        y,
-        &panel.x_label,
-        &panel.y_label,
-        digits
-    );
-    for curve in &panel.curves {
-        let style = curve.colour.stroke_width(curve.width);
-        chart
-            .draw_series(LineSeries::new(curve.points.iter().copied(), style))
-            .map_err(failed)?
-            .label(&curve.name)
-            .legend(move |(x, y)| PathElement::new([(x, y), (x + 22 * FINE as i32, y)], style));
-    }
-    if let Some(place) = &panel.legend {
-        chart
-            .configure_series_labels()
-            .position(place.clone())
-            .label_font(letters(14, &INK))
-            .legend_area_size(30 * FINE)
-            .margin(8 * FINE)
-            .background_style(WHITE.mix(0.85))
-            .border_style(INK.mix(0.2).stroke_width(FINE))
-            .draw()
-            .map_err(failed)?;
-    }
-    Ok(())
-}
-
-/// Digits behind the point that tell labels of an axis apart.
-fn digits(range: &std::ops::Range<f64>) -> usize {
-    let apart = (range.end - range.start).max(1e-12) / 6.0;
-    (-apart.log10().floor()).clamp(0.0, 6.0) as usize
 }
 
 /// Colours from light to strong for `count` curves of one family.

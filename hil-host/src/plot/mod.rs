@@ -1,4 +1,6 @@
 //! Plots as SVG, all in one style.
 
 pub(crate) mod curves;
+pub(crate) mod loops;
+pub(crate) mod sheet;
 pub(crate) mod style;

@@ -1,5 +1,7 @@
 //! Sheet, colours, lettering and axes of every plot.
 
+use std::ops::Range;
+
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
@@ -11,6 +13,8 @@ const FONT: &str = "sans-serif";
 pub(crate) const INK: RGBColor = RGBColor(38, 50, 56);
 pub(crate) const BLUE_LINE: RGBColor = RGBColor(21, 101, 192);
 pub(crate) const RED_LINE: RGBColor = RGBColor(198, 40, 40);
+pub(crate) const GREEN_LINE: RGBColor = RGBColor(46, 125, 50);
+pub(crate) const PALE: RGBColor = RGBColor(160, 168, 176);
 pub(crate) const LINE: u32 = 2 * FINE;
 
 pub(crate) type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
@@ -42,8 +46,27 @@ pub(crate) fn letters(size: u32, colour: &'static RGBColor) -> TextStyle<'static
     TextStyle::from((FONT, size * FINE).into_font()).color(colour)
 }
 
+/// Digits behind the point of the numbers on an axis.
+#[derive(Clone, Copy)]
+pub(crate) enum Digits {
+    /// As many for every number.
+    Behind(usize),
+    /// As many as the number's power of ten takes.
+    OfDecade,
+}
+
+impl From<usize> for Digits {
+    fn from(digits: usize) -> Self {
+        Self::Behind(digits)
+    }
+}
+
 /// A number on an axis, zero without a sign.
-pub(crate) fn label(value: f64, digits: usize) -> String {
+pub(crate) fn label(value: f64, digits: impl Into<Digits>) -> String {
+    let digits = match digits.into() {
+        Digits::Behind(digits) => digits,
+        Digits::OfDecade => (-value.abs().log10().round()).clamp(0.0, 12.0) as usize,
+    };
     let text = format!("{value:.digits$}");
     match text.strip_prefix('-') {
         Some(zero) if zero.chars().all(|c| c == '0' || c == '.') => zero.to_owned(),
@@ -77,7 +100,8 @@ macro_rules! axes {
             .set_all_tick_mark_size(5 * FINE)
             .x_label_formatter(&|x| $crate::plot::style::label(*x, $digits.0))
             .y_label_formatter(&|y| $crate::plot::style::label(*y, $digits.1))
-            .x_labels(11)
+            // A label takes some 40 pixels.
+            .x_labels((($area.dim_in_pixel().0 / (40 * FINE)) as usize).min(11))
             .y_labels(8)
             .draw()
             .map_err(failed)?;
@@ -87,11 +111,16 @@ macro_rules! axes {
 
 pub(crate) use axes;
 
+/// Least and greatest of `values`.
+pub(crate) fn span(values: impl Iterator<Item = f64>) -> Range<f64> {
+    values.fold(f64::MAX..f64::MIN, |range, value| {
+        range.start.min(value)..range.end.max(value)
+    })
+}
+
 /// Least and greatest of `values`, widened by a twentieth.
-pub(crate) fn extent(values: impl Iterator<Item = f64>) -> std::ops::Range<f64> {
-    let (low, high) = values.fold((f64::MAX, f64::MIN), |(low, high), value| {
-        (low.min(value), high.max(value))
-    });
-    let room = 0.05 * (high - low).max(1e-6);
-    low - room..high + room
+pub(crate) fn extent(values: impl Iterator<Item = f64>) -> Range<f64> {
+    let Range { start, end } = span(values);
+    let room = 0.05 * (end - start).max(1e-6);
+    start - room..end + room
 }

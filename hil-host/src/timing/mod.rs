@@ -1,20 +1,37 @@
-//! Time spans and how they are spread: percentiles, worst, bars.
+//! Time spans and how they are spread: percentiles, the longest and its place, bins.
+
+mod bins;
+mod machine;
+mod text;
+
+pub use bins::Bin;
+pub use machine::Machine;
+pub use text::{optional_span, span};
 
 use hdrhistogram::Histogram;
 use serde::Serialize;
 
+use bins::Bins;
+
 /// Picoseconds in a nanosecond: the unit of the histogram, for means of batches.
 const UNITS: f64 = 1e3;
-/// Longest span held (ns): ten seconds; a longer one counts as this long.
+/// Longest span the percentiles tell apart (ns): ten seconds.
 const LONGEST_NS: f64 = 10e9;
+/// A percentile is told when at least this many spans are expected beyond it: with fewer it would be
+/// the accident of a few spans.
+const SPANS_BEYOND: u64 = 10;
 
-/// Time spans counted to three significant digits, of constant size.
+/// Time spans, percentiles to three significant digits, of constant size.
 #[derive(Debug, Clone)]
 pub struct Distribution {
     spans: Histogram<u64>,
+    bins: Bins,
+    worst_ns: f64,
+    worst_index: u64,
 }
 
-/// Figures of a distribution, in nanoseconds.
+/// Figures of a distribution, in nanoseconds. The percentile p is `None` unless `count (1 - p/100)` is at
+/// least 10: p50 takes 20 spans, p90 100, p99 1000, p99.9 10 000 and p99.99 100 000.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Figures {
     /// Number of spans.
@@ -24,28 +41,19 @@ pub struct Figures {
     /// Mean.
     pub mean_ns: f64,
     /// Median.
-    pub p50_ns: f64,
+    pub p50_ns: Option<f64>,
     /// Percentile 90: nine tenths are at most this long.
-    pub p90_ns: f64,
+    pub p90_ns: Option<f64>,
     /// Percentile 99.
-    pub p99_ns: f64,
+    pub p99_ns: Option<f64>,
     /// Percentile 99.9.
-    pub p99_9_ns: f64,
+    pub p99_9_ns: Option<f64>,
     /// Percentile 99.99.
-    pub p99_99_ns: f64,
+    pub p99_99_ns: Option<f64>,
     /// Longest.
     pub worst_ns: f64,
-}
-
-/// A bar of a histogram.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Bar {
-    /// Spans above this (ns) ...
-    pub from_ns: f64,
-    /// ... and up to this (ns).
-    pub to_ns: f64,
-    /// How many.
-    pub count: u64,
+    /// Spans counted before the longest; of several as long, the first.
+    pub worst_index: u64,
 }
 
 impl Default for Distribution {
@@ -63,11 +71,19 @@ impl Distribution {
         let longest = (LONGEST_NS * UNITS) as u64;
         Self {
             spans: Histogram::new_with_bounds(1, longest, 3).expect("constant bounds are valid"),
+            bins: Bins::default(),
+            worst_ns: 0.0,
+            worst_index: 0,
         }
     }
 
     /// Counts a span (ns); no allocation.
     pub fn record_ns(&mut self, span_ns: f64) {
+        if span_ns > self.worst_ns {
+            self.worst_ns = span_ns;
+            self.worst_index = self.count();
+        }
+        self.bins.count(span_ns);
         self.spans
             .saturating_record((span_ns * UNITS).round() as u64);
     }
@@ -83,43 +99,30 @@ impl Distribution {
         value.min(self.spans.max()) as f64 / UNITS
     }
 
-    /// The figures; all 0 when nothing was counted.
+    /// The quantile that one span in `one_in` lies beyond, where the spans carry it (ns).
+    fn carried_ns(&self, one_in: u64) -> Option<f64> {
+        let carried = self.count() >= SPANS_BEYOND * one_in;
+        carried.then(|| self.quantile_ns(1.0 - 1.0 / one_in as f64))
+    }
+
+    /// The figures; 0 and `None` when nothing was counted.
     pub fn figures(&self) -> Figures {
         Figures {
             count: self.count(),
             min_ns: self.spans.min() as f64 / UNITS,
             mean_ns: self.spans.mean() / UNITS,
-            p50_ns: self.quantile_ns(0.5),
-            p90_ns: self.quantile_ns(0.9),
-            p99_ns: self.quantile_ns(0.99),
-            p99_9_ns: self.quantile_ns(0.999),
-            p99_99_ns: self.quantile_ns(0.9999),
-            worst_ns: self.spans.max() as f64 / UNITS,
+            p50_ns: self.carried_ns(2),
+            p90_ns: self.carried_ns(10),
+            p99_ns: self.carried_ns(100),
+            p99_9_ns: self.carried_ns(1000),
+            p99_99_ns: self.carried_ns(10_000),
+            worst_ns: self.worst_ns,
+            worst_index: self.worst_index,
         }
     }
 
-    /// Up to `most` bars from shortest to longest span, their borders in geometric progression;
-    /// together they hold every span.
-    pub fn bars(&self, most: usize) -> Vec<Bar> {
-        if self.count() == 0 || most == 0 {
-            return Vec::new();
-        }
-        let low = self.spans.min().max(1) as f64;
-        let high = (self.spans.max() as f64).max(low);
-        let ratio = (high / low).max(1.0 + 1e-3).powf(1.0 / most as f64);
-        let border = |index: usize| low * ratio.powi(index as i32);
-        let mut bars: Vec<Bar> = (0..most)
-            .map(|index| Bar {
-                from_ns: border(index) / UNITS,
-                to_ns: border(index + 1) / UNITS,
-                count: 0,
-            })
-            .collect();
-        for step in self.spans.iter_recorded() {
-            let value = step.value_iterated_to() as f64;
-            let index = (value.max(low) / low).ln() / ratio.ln();
-            bars[(index as usize).min(most - 1)].count += step.count_since_last_iteration();
-        }
-        bars
+    /// The bins that hold spans, shortest first.
+    pub fn bins(&self) -> Vec<Bin> {
+        self.bins.occupied()
     }
 }

@@ -1,6 +1,5 @@
-//! `dashpot shims`: the shim packs of a damper, theory beside published.
+//! `dashpot shims`: the shim packs of a damper, theory beside published and used.
 
-mod place;
 mod plots;
 mod report;
 
@@ -12,10 +11,10 @@ use dashpot_core::parameters::Element;
 use super::{DamperArguments, Format, print_report};
 use crate::damper_file;
 use crate::failure::{Failure, Outcome};
-use place::PLACES;
+use crate::shim_valves::{PLACES, erratum};
 use report::{Report, ValveReport, print, valve_report};
 
-/// Shim packs: Cw over radius, equivalent thickness, deflection under pressure, flow; theory beside published.
+/// Shim packs: Cw over radius, equivalent thickness, lift under pressure by theory, as published and as used, flow.
 #[derive(Debug, Clone, clap::Args)]
 #[command(after_help = "Examples:
   dashpot shims --damper paper
@@ -61,6 +60,6 @@ pub fn run(arguments: &ShimsArguments) -> Outcome<()> {
     } else {
         plots::draw(&arguments.plots, hydraulics, &valves, &characteristic)?
     };
-    let report = Report::new(name, valves, plots);
+    let report = Report::new(name, valves, &erratum(paper)?, plots);
     print_report(arguments.format, &report, print)
 }

@@ -1,4 +1,4 @@
-//! Drawings of `dashpot shims`: deflection over radius, flow over pressure.
+//! Drawings of `dashpot shims`: edge lift over pressure, deflection over radius, flow over pressure.
 
 use std::path::Path;
 
@@ -6,12 +6,25 @@ use dashpot_core::characteristic::Characteristic;
 use dashpot_core::parameters::Hydraulics;
 use plotters::prelude::SeriesLabelPosition;
 
-use super::place::{PLACES, radii};
-use super::report::ValveReport;
+use super::report::{ValveReport, radii};
 use crate::failure::Outcome;
 use crate::output::write_folder;
-use crate::plot::curves::{Curve, Panel, ramp, sheet};
-use crate::plot::style::BLUE_LINE;
+use crate::plot::curves::{Curve, ramp};
+use crate::plot::sheet::{Layout, Panel, Scale, sheet};
+use crate::plot::style::{BLUE_LINE, GREEN_LINE, RED_LINE};
+use crate::published::Deflection;
+use crate::shim_valves::{PLACES, Place};
+
+/// Steps of pressure in a curve.
+const STEPS: u32 = 200;
+/// End of the published tables (MPa), the least end of a curve.
+const LEAST_END_MPA: f64 = 10.0;
+
+/// Pressures drawn (MPa): from zero to the end of the published tables or to twice the preload.
+fn pressures_mpa(preload_pa: f64) -> impl Iterator<Item = f64> {
+    let end_mpa = LEAST_END_MPA.max(2e-6 * preload_pa);
+    (0..=STEPS).map(move |i| end_mpa * f64::from(i) / f64::from(STEPS))
+}
 
 /// Writes the plots into `folder` and tells their paths.
 pub(super) fn draw(
@@ -20,50 +33,136 @@ pub(super) fn draw(
     valves: &[ValveReport],
     characteristic: &Characteristic,
 ) -> Outcome<Vec<String>> {
+    let mut lifts = Vec::new();
     let mut deflections = Vec::new();
     let mut flows = Vec::new();
     for (place, report) in PLACES.iter().zip(valves) {
-        let valve = (place.of)(hydraulics);
-        if let Some(pack) = place.pack(hydraulics)? {
-            let colours = ramp(report.pressures.len());
-            let curves = report.pressures.iter().zip(colours).map(|(row, colour)| {
-                let points = radii(valve, 120)
-                    .map(|r| (r * 1e3, pack.compliance_m_per_pa(r) * row.pressure_pa * 1e3));
-                Curve::new(format!("{:.0} MPa", row.pressure_pa * 1e-6), colour, points)
-            });
-            deflections.push(Panel {
-                title: format!("{} valve", capital(place.name)),
-                x_label: "radius, mm".into(),
-                y_label: "deflection under uniform pressure, mm".into(),
-                legend: Some(SeriesLabelPosition::UpperLeft),
-                sides: false,
-                curves: curves.collect(),
-            });
-        }
-        let points = (0..=200).map(|i| {
-            let pressure_mpa = 0.05 * f64::from(i);
-            let flow = characteristic.valve_flow_m3_per_s(place.valve, pressure_mpa * 1e6);
-            (pressure_mpa, flow.unwrap_or(0.0) * 1e6)
-        });
-        flows.push(Panel {
-            title: format!("{} valve", capital(place.name)),
-            x_label: "pressure, MPa".into(),
-            y_label: "flow through the pack, cm³/s".into(),
-            legend: None,
-            sides: false,
-            curves: vec![Curve::new(place.name, BLUE_LINE, points)],
-        });
+        lifts.push(lift(place, report));
+        deflections.extend(deflection(place, report, hydraulics)?);
+        flows.push(flow(place, report, characteristic));
     }
     let mut drawings = Vec::new();
     for (name, panels) in [
+        ("shim-lift.svg", lifts),
         ("shim-deflection.svg", deflections),
         ("valve-flow.svg", flows),
     ] {
         if !panels.is_empty() {
-            drawings.push((name, sheet(480 * panels.len() as u32, 440, &panels)?));
+            let layout = Layout::row(panels.len(), 480, 440);
+            drawings.push((name, sheet(layout, &panels)?));
         }
     }
     write_folder(folder, &drawings)
+}
+
+/// Edge lift over pressure: the disc theory, the published table and what the damper works with.
+fn lift(place: &Place, report: &ValveReport) -> Panel {
+    let line = |m_per_pa: f64, preload_pa: f64| {
+        let lift_mm = move |mpa: f64| (mpa * 1e6 - preload_pa) * m_per_pa * 1e3;
+        let pressures = pressures_mpa(report.preload_pa);
+        // A logarithm has no place for a closed valve, nor for the rounding of one about to open.
+        let open = pressures.filter(move |mpa| mpa * 1e6 > 1.01 * preload_pa && *mpa > 0.0);
+        open.map(move |mpa| (mpa, lift_mm(mpa)))
+    };
+    let mut curves = Vec::new();
+    if let Some(theory) = report.theory_m_per_pa() {
+        let name = format!("disc theory, uniform pressure: {}", rate(theory));
+        curves.push(Curve::new(name, BLUE_LINE, line(theory, 0.0)));
+    }
+    if let Some(published) = report.published() {
+        let points = |of: fn(&Deflection) -> f64| {
+            let rows = published.iter();
+            rows.map(move |row| (row.pressure_mpa, of(row) * 1e3))
+        };
+        if let Some(row) = published.last() {
+            let slope = rate(row.theory_uniform_m() / row.pressure_pa());
+            let name = format!("published, uniform pressure: {slope}");
+            let uniform: Vec<_> = points(Deflection::theory_uniform_m).collect();
+            curves.push(Curve::new(name, RED_LINE, between(&uniform)).dashed());
+        }
+        let real = points(Deflection::fea_real_m);
+        curves.push(Curve::new("published, real pressure (FEA)", RED_LINE, real).dotted());
+    }
+    let used = report.effective_edge_compliance_m_per_pa;
+    let name = format!("used, {} × Ce: {}", report.source(), rate(used));
+    curves.push(Curve::new(name, GREEN_LINE, line(used, report.preload_pa)).wide(11));
+    let table = match report.published() {
+        Some(_) => format!(", published in Table {}", place.table),
+        None => String::new(),
+    };
+    Panel {
+        title: format!("{} valve{table}", capital(place.name)),
+        x_label: "pressure, MPa".into(),
+        y_label: "lift of the edge, mm".into(),
+        legend: Some(SeriesLabelPosition::LowerRight),
+        sides: false,
+        scale: Scale::Decades,
+        curves,
+    }
+}
+
+/// Points with straight lines between them, in ten parts each: on a scale of decades a line is a bow.
+fn between(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
+    let parts = points.windows(2).flat_map(|pair| {
+        let [(x0, y0), (x1, y1)] = [pair[0], pair[1]];
+        (0..10).map(move |i| {
+            let share = 0.1 * f64::from(i);
+            (x0 + share * (x1 - x0), y0 + share * (y1 - y0))
+        })
+    });
+    parts.chain(points.last().copied()).collect()
+}
+
+/// A compliance (m/Pa) in mm/MPa, to three significant digits.
+fn rate(m_per_pa: f64) -> String {
+    let mm_per_mpa = m_per_pa * 1e9;
+    let digits = (2.0 - mm_per_mpa.log10().floor()).clamp(0.0, 9.0) as usize;
+    format!("{mm_per_mpa:.digits$} mm/MPa")
+}
+
+/// Deflection over radius by the disc theory, a curve for each published pressure.
+fn deflection(
+    place: &Place,
+    report: &ValveReport,
+    hydraulics: &Hydraulics,
+) -> Outcome<Option<Panel>> {
+    let valve = place.valve_of(hydraulics);
+    let Some(pack) = place.pack(hydraulics)? else {
+        return Ok(None);
+    };
+    let colours = ramp(report.pressures.len());
+    let curves = report.pressures.iter().zip(colours).map(|(row, colour)| {
+        let points = radii(valve, 120)
+            .map(|r| (r * 1e3, pack.compliance_m_per_pa(r) * row.pressure_pa * 1e3));
+        Curve::new(format!("{:.0} MPa", row.pressure_pa * 1e-6), colour, points)
+    });
+    Ok(Some(Panel {
+        title: format!("{} valve, disc theory", capital(place.name)),
+        x_label: "radius, mm".into(),
+        y_label: "deflection under uniform pressure, mm".into(),
+        legend: Some(SeriesLabelPosition::UpperLeft),
+        sides: false,
+        scale: Scale::Linear,
+        curves: curves.collect(),
+    }))
+}
+
+/// Flow over pressure with the lift the damper works with.
+fn flow(place: &Place, report: &ValveReport, characteristic: &Characteristic) -> Panel {
+    let points = pressures_mpa(report.preload_pa).map(|mpa| {
+        let flow = characteristic.valve_flow_m3_per_s(place.valve, mpa * 1e6);
+        (mpa, flow.unwrap_or(0.0) * 1e6)
+    });
+    let name = format!("with the lift used ({} × Ce)", report.source());
+    Panel {
+        title: format!("{} valve", capital(place.name)),
+        x_label: "pressure, MPa".into(),
+        y_label: "flow through the pack, cm³/s".into(),
+        legend: Some(SeriesLabelPosition::UpperLeft),
+        sides: false,
+        scale: Scale::Linear,
+        curves: vec![Curve::new(name, GREEN_LINE, points).wide(11)],
+    }
 }
 
 /// `name` with a capital first letter.

@@ -7,14 +7,9 @@ use dashpot_core::parameters::{Hydraulics, Valve};
 use dashpot_core::shim::{Pack, edge_compliance_m_per_pa};
 use serde::Serialize;
 
-use super::place::{Place, radii};
 use crate::failure::Outcome;
-use crate::published::deflections;
-
-/// The first erratum of the source paper, as docs/validation.md states it.
-const ERRATUM: &str = "Tables 2-4 of the paper do not follow from its Table 1: the disc theory gives 33, 41 and 30 times \
-     the tabulated deflections, and no bonded stack fits either. A damper file may give the edge \
-     compliance instead of the pack; the preset `paper` gives the tabulated ones.";
+use crate::published::Deflection;
+use crate::shim_valves::{Place, theory_over_published};
 
 #[derive(Serialize)]
 struct Coefficient {
@@ -51,31 +46,68 @@ pub(super) struct ValveReport {
     pack: Option<PackReport>,
     given_edge_compliance_m_per_pa: Option<f64>,
     equivalent_pressure_factor: f64,
-    effective_edge_compliance_m_per_pa: f64,
-    preload_pa: f64,
+    pub(super) effective_edge_compliance_m_per_pa: f64,
+    pub(super) preload_pa: f64,
     /// Theory over published deflection, for a pack of the paper.
     theory_over_published: Option<f64>,
     pub(super) pressures: Vec<Row>,
+    /// The published table, for a pack of the paper.
+    #[serde(skip)]
+    published: Option<Vec<Deflection>>,
+}
+
+impl ValveReport {
+    /// Edge compliance by disc theory under uniform pressure (m/Pa).
+    pub(super) fn theory_m_per_pa(&self) -> Option<f64> {
+        self.pack.as_ref().map(|pack| pack.edge_compliance_m_per_pa)
+    }
+
+    /// The published table, for a pack of the paper.
+    pub(super) fn published(&self) -> Option<&[Deflection]> {
+        self.published.as_deref()
+    }
+
+    /// Where the lift that the damper works with comes from.
+    pub(super) fn source(&self) -> &'static str {
+        match self.given_edge_compliance_m_per_pa {
+            Some(_) => "given compliance",
+            None => "disc theory",
+        }
+    }
 }
 
 #[derive(Serialize)]
 pub(super) struct Report<'a> {
     damper: &'a str,
     valves: Vec<ValveReport>,
-    erratum: &'static str,
+    erratum: String,
     plots: Vec<String>,
 }
 
 impl<'a> Report<'a> {
-    /// Of the damper called `damper`, its valves and the files drawn.
-    pub(super) fn new(damper: &'a str, valves: Vec<ValveReport>, plots: Vec<String>) -> Self {
+    /// Of the damper called `damper`, its valves, the published damper's erratum and the files drawn.
+    pub(super) fn new(
+        damper: &'a str,
+        valves: Vec<ValveReport>,
+        erratum: &str,
+        plots: Vec<String>,
+    ) -> Self {
         Self {
             damper,
             valves,
-            erratum: ERRATUM,
+            erratum: format!(
+                "{erratum} A damper file may give the edge compliance instead of the pack; the preset \
+                 `paper` gives the tabulated ones."
+            ),
             plots,
         }
     }
+}
+
+/// Radii from clamp to edge, `parts` equal parts.
+pub(super) fn radii(valve: &Valve, parts: u32) -> impl Iterator<Item = f64> + use<> {
+    let (clamp, free) = (valve.clamp_radius_m, valve.free_radius_m);
+    (0..=parts).map(move |i| clamp + (free - clamp) * f64::from(i) / f64::from(parts))
 }
 
 /// Cw from clamp to edge, four equal parts; a clamp's rounding counts as the zero it is.
@@ -99,24 +131,22 @@ pub(super) fn valve_report(
     paper: &Hydraulics,
     characteristic: &Characteristic,
 ) -> Outcome<ValveReport> {
-    let valve = (place.of)(hydraulics);
+    let valve = place.valve_of(hydraulics);
     let pack = place.pack(hydraulics)?;
-    let table = deflections(place.table)?;
+    let theory = place.theory_m_per_pa(hydraulics)?;
+    let table = place.published()?;
     // The published deflections stand beside the pack they were published for only.
     let published = pack.is_some() && pack == place.pack(paper)?;
-    let edge = pack
-        .as_ref()
-        .map(|pack| pack.compliance_m_per_pa(valve.free_radius_m));
     let effective = edge_compliance_m_per_pa(place.section, valve)?;
     let pressures: Vec<Row> = table
         .iter()
         .map(|row| {
-            let pressure_pa = row.pressure_mpa * 1e6;
+            let pressure_pa = row.pressure_pa();
             Row {
                 pressure_pa,
-                theory_uniform_m: edge.map(|edge| edge * pressure_pa),
-                published_uniform_m: published.then_some(row.theory_uniform_mm * 1e-3),
-                published_real_m: published.then_some(row.fea_real_mm * 1e-3),
+                theory_uniform_m: theory.map(|edge| edge * pressure_pa),
+                published_uniform_m: published.then(|| row.theory_uniform_m()),
+                published_real_m: published.then(|| row.fea_real_m()),
                 lift_m: effective * (pressure_pa - valve.preload_pa).max(0.0),
                 flow_m3_per_s: characteristic
                     .valve_flow_m3_per_s(place.valve, pressure_pa)
@@ -124,25 +154,26 @@ pub(super) fn valve_report(
             }
         })
         .collect();
-    let theory_over_published = pressures
-        .last()
-        .and_then(|row| Some(row.theory_uniform_m? / row.published_uniform_m?));
+    let published = published.then_some(table);
     Ok(ValveReport {
         valve: place.name,
         clamp_radius_m: valve.clamp_radius_m,
         free_radius_m: valve.free_radius_m,
         shims_m: valve.shims_m.to_vec(),
-        pack: pack.as_ref().map(|pack| PackReport {
+        pack: pack.zip(theory).map(|(pack, theory)| PackReport {
             equivalent_thickness_m: pack.equivalent_thickness_m(),
-            cw: coefficients(pack, valve),
-            edge_compliance_m_per_pa: pack.compliance_m_per_pa(valve.free_radius_m),
+            cw: coefficients(&pack, valve),
+            edge_compliance_m_per_pa: theory,
         }),
         given_edge_compliance_m_per_pa: valve.edge_compliance_m_per_pa,
         equivalent_pressure_factor: valve.equivalent_pressure_factor,
         effective_edge_compliance_m_per_pa: effective,
         preload_pa: valve.preload_pa,
-        theory_over_published,
+        theory_over_published: theory
+            .zip(published.as_deref())
+            .and_then(|(theory, table)| theory_over_published(theory, table)),
         pressures,
+        published,
     })
 }
 
@@ -191,15 +222,11 @@ fn print_valve(out: &mut dyn Write, valve: &ValveReport) -> io::Result<()> {
         }
         writeln!(out)?;
     }
-    let source = if valve.given_edge_compliance_m_per_pa.is_some() {
-        "given"
-    } else {
-        "theory"
-    };
     writeln!(
         out,
-        "  the damper works with {:.4e} m/Pa: {source} x Ce {}, preload {:.2} MPa",
+        "  the damper works with {:.4e} m/Pa: {} x Ce {}, preload {:.2} MPa",
         valve.effective_edge_compliance_m_per_pa,
+        valve.source(),
         valve.equivalent_pressure_factor,
         valve.preload_pa * 1e-6
     )?;

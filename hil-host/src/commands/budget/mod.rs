@@ -1,0 +1,119 @@
+//! `dashpot budget`: time per step on this host, free running or in real ticks.
+
+mod report;
+
+use std::path::Path;
+use std::time::SystemTime;
+
+use dashpot_core::{Damper, Real};
+
+use super::{DamperArguments, Format, RealtimeArguments, Scalar, print_report};
+use crate::budget::{Bench, Length, free, paced};
+use crate::failure::Outcome;
+use crate::pacing::{MonotonicClock, Pacer, overhead_ns};
+use crate::timing::Machine;
+use report::{Report, Setting, print};
+
+/// Time per step on this host: histogram, percentiles, worst case, missed deadlines.
+///
+/// The dampers follow a made motion: a random ride, a decay, then rest, over and over.
+#[derive(Debug, Clone, clap::Args)]
+#[command(after_help = "Examples:
+  dashpot budget --damper paper --steps 1000000
+  dashpot budget --rate-hz 10000 --duration-s 60 --fifo 80 --lock-memory --core 1 --fail-on-miss
+  dashpot budget --rate-hz 1000 --stop-above-ns 100000 --format json
+
+Histograms have the same bins in every run: borders at 1, 1.25, 1.6, 2, 2.5, 3.15, 4, 5, 6.3 and 8 times the powers of
+ten from 1 ns to 10 s (R10 of ISO 3), a span on a border in the bin above; bins without spans are left out.
+A percentile is told when at least ten spans are expected beyond it: p50 takes 20 spans, p90 100, p99 1000, p99.9 10000,
+p99.99 100000; else it is - in text and null in JSON.")]
+pub struct BudgetArguments {
+    #[command(flatten)]
+    damper: DamperArguments,
+    /// Floating-point type.
+    #[arg(long, value_enum, default_value_t = Scalar::F32)]
+    scalar: Scalar,
+    /// Ticks to run; 1000000 free running, five seconds paced when not given.
+    #[arg(long, value_parser = clap::value_parser!(u64).range(1..=10_000_000_000))]
+    steps: Option<u64>,
+    /// Time to run in place of --steps, s; free running, half of it ticks timed alone, half in batches.
+    #[arg(long, conflicts_with = "steps", value_name = "S",
+        value_parser = clap::value_parser!(u64).range(1..=604_800))]
+    duration_s: Option<u64>,
+    /// Dampers stepped each tick.
+    #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=10_000))]
+    dampers: u32,
+    /// Run in real ticks at this rate, Hz; free running, built for 1000 Hz, when not given.
+    #[arg(long, value_parser = clap::value_parser!(u32).range(1000..=10_000))]
+    rate_hz: Option<u32>,
+    /// Stop at the first tick whose work takes longer, ns; report it and exit with 1.
+    #[arg(long, value_name = "NS", value_parser = clap::value_parser!(u64).range(1..))]
+    stop_above_ns: Option<u64>,
+    /// Exit with 1 when a deadline was missed.
+    #[arg(long, requires = "rate_hz")]
+    fail_on_miss: bool,
+    #[command(flatten)]
+    realtime: RealtimeArguments,
+    /// How results are printed.
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    format: Format,
+}
+
+impl BudgetArguments {
+    /// How long the run lasts, `ticks` when not told.
+    fn length(&self, ticks: u64) -> Length {
+        match (self.steps, self.duration_s) {
+            (_, Some(duration_s)) => Length::Nanoseconds(duration_s * 1_000_000_000),
+            (Some(steps), _) => Length::Ticks(steps),
+            (None, None) => Length::Ticks(ticks),
+        }
+    }
+}
+
+/// Runs the budget and prints it.
+///
+/// # Errors
+/// The damper is refused, the system refuses a real-time option, a tick took longer than
+/// `--stop-above-ns`, or a deadline was missed under `--fail-on-miss`.
+pub fn run(arguments: &BudgetArguments) -> Outcome<()> {
+    match arguments.scalar {
+        Scalar::F32 => measure::<f32>(arguments, "f32"),
+        Scalar::F64 => measure::<f64>(arguments, "f64"),
+    }
+}
+
+fn measure<T: Real>(arguments: &BudgetArguments, scalar: &'static str) -> Outcome<()> {
+    let step_s = 1.0 / f64::from(arguments.rate_hz.unwrap_or(1000));
+    let damper: Damper<T> = arguments.damper.load()?.build(step_s)?;
+    let mut bench = Bench::new(damper, arguments.dampers, step_s);
+    let options = arguments.realtime.options();
+    // Before the run, so that its own load does not count.
+    let machine = Machine::read(Path::new("/"), options.core, SystemTime::now());
+    let clock = MonotonicClock::default();
+    let clock_overhead_ns = overhead_ns(&clock);
+    let limit_ns = arguments.stop_above_ns;
+    let (mode, run) = if let Some(rate) = arguments.rate_hz {
+        let length = arguments.length(5 * u64::from(rate));
+        let pacer = Pacer::new(step_s, &options)?;
+        ("paced", paced(pacer, length, limit_ns, || bench.tick()))
+    } else {
+        options.apply()?;
+        let length = arguments.length(1_000_000);
+        let run = free(&clock, clock_overhead_ns, step_s, length, limit_ns, || {
+            bench.tick();
+        });
+        ("free", run)
+    };
+    let setting = Setting {
+        mode,
+        damper: arguments.damper.damper.clone(),
+        scalar,
+        dampers: arguments.dampers,
+        step_s,
+        clock_overhead_ns,
+        realtime: options,
+        machine,
+    };
+    print_report(arguments.format, &Report::new(setting, &run), print)?;
+    run.verdict(arguments.fail_on_miss)
+}

@@ -1,0 +1,241 @@
+//! Runs of the budget on a clock that tells what it is told, and `dashpot budget` from outside.
+
+use std::cell::Cell;
+use std::process::{Command, Output};
+
+use dashpot_hil::budget::{Length, Run, free, paced};
+use dashpot_hil::pacing::{Clock, Pacer};
+
+/// Time moves by the work of the ticks and by sleeping.
+struct Told<'a>(&'a Cell<u64>);
+
+impl Clock for Told<'_> {
+    fn now_ns(&self) -> u64 {
+        self.0.get()
+    }
+    fn sleep_until_ns(&self, deadline_ns: u64) {
+        self.0.set(deadline_ns);
+    }
+}
+
+/// Work of tick `number` (ns): 100 ns, but 50 us at tick 7 and 3 ms at tick 12.
+fn work_ns(number: u64) -> u64 {
+    match number {
+        7 => 50_000,
+        12 => 3_000_000,
+        _ => 100,
+    }
+}
+
+/// Runs a budget whose ticks take [`work_ns`], the first tick number 0 of all passes together.
+fn on_told_clock(run: impl FnOnce(Told<'_>, &mut dyn FnMut()) -> Run) -> Run {
+    let now_ns = Cell::new(0);
+    let mut number = 0;
+    let mut tick = || {
+        now_ns.set(now_ns.get() + work_ns(number));
+        number += 1;
+    };
+    run(Told(&now_ns), &mut tick)
+}
+
+fn free_run(length: Length, stop_above_ns: Option<u64>) -> Run {
+    on_told_clock(|clock, tick| free(&clock, 30, 1e-3, length, stop_above_ns, tick))
+}
+
+fn paced_run(length: Length, stop_above_ns: Option<u64>) -> Run {
+    on_told_clock(|clock, tick| {
+        let pacer = Pacer::with_clock(1e-3, clock).unwrap();
+        paced(pacer, length, stop_above_ns, tick)
+    })
+}
+
+/// Name, spans, longest span (ns) and its place of each series.
+fn spans(run: &Run) -> Vec<(&str, u64, f64, u64)> {
+    let series = run.series.iter();
+    series
+        .map(|series| {
+            let figures = series.spans.figures();
+            let place = figures.worst_index * series.ticks_per_span;
+            (series.name, figures.count, figures.worst_ns, place)
+        })
+        .collect()
+}
+
+#[test]
+fn a_free_run_knows_the_tick_of_its_worst_case() {
+    let run = free_run(Length::Ticks(250), None);
+    assert_eq!(run.ticks, 250);
+    assert_eq!(run.missed_deadlines, None);
+    // Less the 30 ns of the clock; three batches of a hundred follow.
+    assert_eq!(
+        spans(&run),
+        [("batched", 3, 99.7, 0), ("single", 250, 2_999_970.0, 12)]
+    );
+    assert_eq!(
+        run.first_ticks_ns[..],
+        [100, 100, 100, 100, 100, 100, 100, 50_000]
+    );
+    assert!(run.verdict(true).is_ok());
+}
+
+#[test]
+fn a_free_run_lasts_as_long_as_it_is_told() {
+    // Half of 3.1 ms for ticks alone: tick 12 ends it. Then half for batches of 10 us.
+    let run = free_run(Length::Nanoseconds(3_100_000), None);
+    let counts: Vec<u64> = run.series.iter().map(|s| s.spans.count()).collect();
+    assert_eq!(run.ticks, 13);
+    assert_eq!(counts, [155, 13]);
+}
+
+#[test]
+fn a_free_run_stops_at_the_first_tick_above_the_limit() {
+    let run = free_run(Length::Ticks(250), Some(40_000));
+    let stop = run.stopped.unwrap();
+    assert_eq!(
+        (stop.tick, stop.work_ns, stop.limit_ns),
+        (7, 49_970.0, 40_000)
+    );
+    assert_eq!(run.ticks, 8);
+    assert_eq!(spans(&run), [("single", 8, 49_970.0, 7)]);
+    let message = run.verdict(false).unwrap_err().to_string();
+    assert_eq!(
+        message,
+        "stopped: tick 7, 0.007000 s along the motion, took 50.0 us, allowed by --stop-above-ns: 40.0 us"
+    );
+    // At the limit is within it.
+    assert_eq!(free_run(Length::Ticks(9), Some(49_970)).stopped, None);
+}
+
+#[test]
+fn a_paced_run_counts_misses_and_fails_on_them_when_asked() {
+    let run = paced_run(Length::Ticks(20), None);
+    // Tick 12 works for 3 ms: it, 13 and 14 end after the next tick is due.
+    assert_eq!(run.missed_deadlines, Some(3));
+    assert_eq!(
+        spans(&run),
+        [
+            ("work", 20, 3e6, 12),
+            ("lateness", 20, 2e6, 13),
+            ("response", 20, 3e6, 12)
+        ]
+    );
+    assert!(run.verdict(false).is_ok());
+    let message = run.verdict(true).unwrap_err().to_string();
+    assert_eq!(
+        message,
+        "3 of 20 deadlines missed, allowed by --fail-on-miss: none"
+    );
+    assert!(paced_run(Length::Ticks(12), None).verdict(true).is_ok());
+}
+
+#[test]
+fn a_paced_run_lasts_as_many_ticks_as_its_time_holds_and_stops_at_a_limit() {
+    let run = paced_run(Length::Nanoseconds(30_000_000), None);
+    assert_eq!((run.ticks, run.stopped), (30, None));
+    let run = paced_run(Length::Nanoseconds(30_000_000), Some(1_000_000));
+    assert_eq!(run.ticks, 13);
+    let stop = run.stopped.unwrap();
+    assert_eq!((stop.tick, stop.work_ns), (12, 3e6));
+    assert!((stop.time_s - 0.012).abs() < 1e-12);
+}
+
+fn dashpot(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_dashpot"))
+        .arg("budget")
+        .args(arguments)
+        .output()
+        .unwrap()
+}
+
+fn json(arguments: &[&str]) -> serde_json::Value {
+    let output = dashpot(&[arguments, &["--format", "json"]].concat());
+    serde_json::from_slice(&output.stdout).unwrap()
+}
+
+#[test]
+fn the_report_has_its_keys() {
+    let report = json(&["--steps", "2000"]);
+    assert_eq!(report["ticks"], 2000);
+    assert!(report["stopped"].is_null() && report["missed_deadlines"].is_null());
+    let machine = report["machine"].as_object().unwrap();
+    for key in ["processor", "kernel", "governor", "load_average", "date"] {
+        assert!(machine.contains_key(key), "{key}");
+    }
+    for (spread, count) in report["spreads"].as_array().unwrap().iter().zip([20, 2000]) {
+        assert_eq!(spread["figures"]["count"], count);
+        assert!(spread["figures"]["p99_99_ns"].is_null());
+        let worst_tick = spread["worst_tick"].as_u64().unwrap();
+        assert!(worst_tick < 2000);
+        assert_eq!(spread["worst_time_s"], worst_tick as f64 * 1e-3);
+        let bins = spread["histogram"].as_array().unwrap();
+        let held: u64 = bins.iter().map(|bin| bin["count"].as_u64().unwrap()).sum();
+        assert_eq!(held, count);
+    }
+    let report = json(&["--rate-hz", "10000", "--steps", "8"]);
+    assert_eq!(report["mode"], "paced");
+    assert!(report["missed_deadlines"].is_u64());
+    assert_eq!(report["first_ticks_ns"].as_array().unwrap().len(), 8);
+}
+
+#[test]
+fn text_scales_its_units_and_says_what_is_not_told() {
+    let text = String::from_utf8(dashpot(&["--steps", "50"]).stdout).unwrap();
+    assert!(text.contains("tick 1.00 ms"), "{text}");
+    assert!(text.contains("p99 -, p99.9 -, p99.99 -"), "{text}");
+    assert!(
+        text.contains("-: too few spans for this percentile"),
+        "{text}"
+    );
+    assert!(
+        text.contains("processor ") && text.contains("governor "),
+        "{text}"
+    );
+}
+
+/// Ten thousand dampers take longer than a nanosecond, and than a tick of 100 us.
+#[test]
+fn a_run_that_is_not_as_asked_is_reported_and_fails() {
+    let crowd = ["--dampers", "10000", "--steps", "2"];
+    for (arguments, part, key) in [
+        (&["--stop-above-ns", "1"][..], "stopped: tick 0,", "stopped"),
+        (
+            &["--rate-hz", "10000", "--fail-on-miss"],
+            "2 of 2 deadlines missed",
+            "missed_deadlines",
+        ),
+    ] {
+        let output = dashpot(&[&crowd[..], arguments, &["--format", "json"]].concat());
+        let message = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(1), "{message}");
+        assert!(message.contains(part), "{message}");
+        let report: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+        assert!(!report[key].is_null(), "{report}");
+    }
+}
+
+#[test]
+fn wrong_options_say_what_is_allowed() {
+    for (arguments, code, part) in [
+        (&["--rate-hz", "999"][..], 2, "1000..=10000"),
+        (&["--steps", "0"], 2, "1..="),
+        (&["--duration-s", "0"], 2, "1..="),
+        (
+            &["--duration-s", "1", "--steps", "1"],
+            2,
+            "cannot be used with",
+        ),
+        (&["--stop-above-ns", "0"], 2, "1.."),
+        (&["--fail-on-miss"], 2, "--rate-hz"),
+        (&["--fifo", "100"], 2, "1..=99"),
+        (
+            &["--core", "1000000"],
+            1,
+            "no core this process may use, allowed: ",
+        ),
+    ] {
+        let output = dashpot(arguments);
+        let message = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(code), "{arguments:?}: {message}");
+        assert!(message.contains(part), "{arguments:?}: {message}");
+    }
+}

@@ -1,0 +1,164 @@
+//! Distributions of time spans beside sorted samples, their bins, and the machine they are told with.
+
+use std::fs;
+use std::path::Path;
+use std::time::{Duration, SystemTime};
+
+use dashpot_hil::timing::{Distribution, Machine};
+
+fn of(spans_ns: impl IntoIterator<Item = f64>) -> Distribution {
+    let mut distribution = Distribution::new();
+    spans_ns
+        .into_iter()
+        .for_each(|span| distribution.record_ns(span));
+    distribution
+}
+
+#[test]
+fn percentiles_are_those_of_the_sorted_samples() {
+    let mut samples = Vec::new();
+    let mut seed = 1_u64;
+    for _ in 0..200_000 {
+        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+        samples.push(10.0 + ((seed >> 40) as f64).sqrt());
+    }
+    let figures = of(samples.iter().copied()).figures();
+    let longest = samples.iter().copied().fold(0.0, f64::max);
+    let place = samples.iter().position(|span| *span == longest).unwrap();
+    assert_eq!(
+        (figures.worst_ns, figures.worst_index),
+        (longest, place as u64)
+    );
+    samples.sort_by(f64::total_cmp);
+    for (share, found) in [
+        (0.5, figures.p50_ns),
+        (0.9, figures.p90_ns),
+        (0.99, figures.p99_ns),
+        (0.999, figures.p99_9_ns),
+        (0.9999, figures.p99_99_ns),
+    ] {
+        let (found, expected) = (
+            found.unwrap(),
+            samples[(share * 200_000.0_f64).ceil() as usize - 1],
+        );
+        // Three significant digits.
+        assert!(
+            (found / expected - 1.0).abs() < 1e-3,
+            "{share}: {found} {expected}"
+        );
+    }
+}
+
+/// Ten spans are expected beyond p50 of 20, p90 of 100 and so on.
+#[test]
+fn a_percentile_is_told_only_when_ten_spans_lie_beyond_it() {
+    let carried = |count: usize| {
+        let figures = of((0..count).map(|i| i as f64)).figures();
+        [
+            figures.p50_ns,
+            figures.p90_ns,
+            figures.p99_ns,
+            figures.p99_9_ns,
+            figures.p99_99_ns,
+        ]
+        .iter()
+        .filter(|percentile| percentile.is_some())
+        .count()
+    };
+    for (number, count) in [20, 100, 1_000, 10_000, 100_000].into_iter().enumerate() {
+        assert_eq!(carried(count - 1), number, "{count} spans less one");
+        assert_eq!(carried(count), number + 1, "{count} spans");
+    }
+    let json = serde_json::to_value(of([1.0]).figures()).unwrap();
+    assert!(json["p50_ns"].is_null() && json["worst_ns"] == 1.0);
+}
+
+#[test]
+fn the_worst_of_equal_spans_is_the_first() {
+    let figures = of([3.0, 7.0, 5.0, 7.0]).figures();
+    assert_eq!((figures.worst_ns, figures.worst_index), (7.0, 1));
+}
+
+#[test]
+fn bins_are_the_same_whatever_the_spans_are() {
+    let r10 = [1.0, 1.25, 1.6, 2.0, 2.5, 3.15, 4.0, 5.0, 6.3, 8.0, 10.0];
+    // A span in the middle of each bin of two decades, alone and beside others.
+    for decade in [10.0, 1e6] {
+        for pair in r10.windows(2) {
+            let middle = 0.5 * (pair[0] + pair[1]) * decade;
+            let alone = of([middle]).bins();
+            let beside = of([middle, 0.3, 2e10]).bins();
+            assert_eq!((alone.len(), beside.len()), (1, 3));
+            assert_eq!(alone[0], beside[1]);
+            let border = alone[0].to_ns.unwrap();
+            assert!((alone[0].from_ns / (pair[0] * decade) - 1.0).abs() < 1e-12);
+            assert!((border / (pair[1] * decade) - 1.0).abs() < 1e-12);
+            // A span on a border is in the bin above.
+            assert_eq!(of([border]).bins()[0].from_ns, border);
+        }
+    }
+    let ends = of([0.0, 1e11]).bins();
+    assert_eq!((ends[0].from_ns, ends[0].to_ns), (0.0, Some(1.0)));
+    assert_eq!((ends[1].from_ns, ends[1].to_ns), (1e10, None));
+}
+
+/// A machine as Linux tells it, at noon of the first day of 2026.
+fn machine(root: &Path, core: Option<usize>) -> Machine {
+    let noon = SystemTime::UNIX_EPOCH + Duration::from_secs(1_767_268_800);
+    Machine::read(root, core, noon)
+}
+
+#[test]
+fn a_machine_is_told_by_its_files() {
+    let root = tempfile::tempdir().unwrap();
+    let write = |path: &str, text: &str| {
+        let path = root.path().join(path);
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        fs::write(path, text).unwrap();
+    };
+    write(
+        "proc/cpuinfo",
+        "processor\t: 0\nmodel name\t: Six Core 3000\n",
+    );
+    write("proc/sys/kernel/osrelease", "6.12.1-rt5\n");
+    write("proc/loadavg", "0.50 1.25 2.00 1/100 4711\n");
+    for (core, governor) in [(0, "performance\n"), (1, "powersave\n"), (2, "powersave\n")] {
+        let path = format!("sys/devices/system/cpu/cpu{core}/cpufreq/scaling_governor");
+        write(&path, governor);
+    }
+    let told = machine(root.path(), None).to_string();
+    for part in [
+        "processor Six Core 3000",
+        "kernel 6.12.1-rt5",
+        "governor performance, powersave",
+        "load average 0.50 1.25 2.00",
+        "2026-01-01T12:00:00Z",
+    ] {
+        assert!(told.contains(part), "{part}: {told}");
+    }
+    let pinned = machine(root.path(), Some(1)).governor;
+    assert_eq!(pinned.as_deref(), Some("powersave"));
+}
+
+#[test]
+fn what_a_machine_does_not_tell_is_unknown() {
+    let root = tempfile::tempdir().unwrap();
+    let empty = machine(root.path(), None);
+    let told = empty.to_string();
+    for part in [
+        "processor unknown",
+        "kernel unknown",
+        "governor unknown",
+        "load average unknown",
+    ] {
+        assert!(told.contains(part), "{part}: {told}");
+    }
+    let json = serde_json::to_value(empty).unwrap();
+    for key in ["processor", "kernel", "governor", "load_average"] {
+        assert!(json[key].is_null(), "{key}: {json}");
+    }
+    // Half a load average is none.
+    fs::create_dir(root.path().join("proc")).unwrap();
+    fs::write(root.path().join("proc/loadavg"), "0.50 1.25").unwrap();
+    assert_eq!(machine(root.path(), None).load_average, None);
+}
