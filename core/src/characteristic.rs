@@ -1,5 +1,7 @@
 //! Static laws of a damper, for curves and checks outside the step.
 
+use heapless::Vec;
+
 use crate::build::ElementLaws;
 use crate::build::root::bracketed_root;
 use crate::error::BuildError;
@@ -15,6 +17,22 @@ pub enum ShimPackValve {
     PistonCompression,
     /// In the foot, working in compression against the reservoir.
     FootCompression,
+}
+
+/// Where the law of a damper has a corner: the slope of velocity over force changes at once.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Corner {
+    /// The preloaded shim-pack valve of the piston opens.
+    PistonValveOpens,
+    /// The relief valve opens.
+    ReliefOpens,
+    /// The foot valve opens, against its preload or the reservoir.
+    FootValveOpens,
+    /// The rod side reaches the vapour pressure, or leaves it, in compression.
+    Vapour,
+    /// The element yields: saturation velocity or force limit.
+    Yields,
 }
 
 /// Laws of a damper at constant velocity: springs settled, clearance taken up.
@@ -62,6 +80,43 @@ impl Characteristic {
         } else {
             force
         }
+    }
+
+    /// The corners of the law and the forces (N) at which they lie, extension positive, compression
+    /// negative; in order of kind, not of force. Seal friction and clearance are not among them.
+    ///
+    /// ```
+    /// use dashpot_core::characteristic::{Characteristic, Corner};
+    /// use dashpot_core::parameters::{DamperParameters, Element, Limits, Mount, Reduced};
+    ///
+    /// let characteristic = Characteristic::new(&DamperParameters {
+    ///     element: Element::Reduced(Reduced {
+    ///         damping_n_s_per_m: 120e3,
+    ///         saturation_velocity_m_per_s: 0.03,
+    ///     }),
+    ///     mount: Mount { stiffness_n_per_m: 8e6, seat_stiffness_n_per_m: None, clearance_m: 1e-3 },
+    ///     limits: Limits::default(),
+    /// })?;
+    /// assert_eq!(characteristic.corners()[..], [(Corner::Yields, 3600.0), (Corner::Yields, -3600.0)]);
+    /// # Ok::<(), dashpot_core::BuildError>(())
+    /// ```
+    pub fn corners(&self) -> Vec<(Corner, f64), 18> {
+        let mut corners = Vec::new();
+        for (compression, sign) in [(false, 1.0), (true, -1.0)] {
+            let (opens, yields) = match &self.laws {
+                ElementLaws::Physical(laws) => {
+                    let side = HydraulicSide { laws, compression };
+                    (side.corners(self.force_limit_n), self.force_limit_n)
+                }
+                ElementLaws::Reduced(reduced) => {
+                    let yields = reduced.damping_n_s_per_m * reduced.saturation_velocity_m_per_s;
+                    (Vec::new(), yields.min(self.force_limit_n))
+                }
+            };
+            let all = opens.into_iter().chain([(Corner::Yields, yields)]);
+            corners.extend(all.map(|(corner, force)| (corner, sign * force)));
+        }
+        corners
     }
 
     /// Flow (m^3/s) through a shim-pack valve under its pressure (Pa), the foot valve against the

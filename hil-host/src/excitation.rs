@@ -17,11 +17,23 @@ pub enum Excitation {
     Saw,
     /// 1.4 Hz from 10 mm, decaying to nothing.
     Decay,
+    /// 26 mm at 2 Hz: at the force limit of the published damper for half of the time.
+    Stroke,
+    /// Velocity rising and falling evenly in strokes out and back, to 0.1, 0.4 and 1.6 m/s: through every corner
+    /// of every law.
+    Ramp,
 }
 
 impl Excitation {
     /// All of them.
-    pub const ALL: [Self; 4] = [Self::Ride, Self::Sweep, Self::Saw, Self::Decay];
+    pub const ALL: [Self; 6] = [
+        Self::Ride,
+        Self::Sweep,
+        Self::Saw,
+        Self::Decay,
+        Self::Stroke,
+        Self::Ramp,
+    ];
 
     /// Name in tables and file names.
     pub fn name(self) -> &'static str {
@@ -30,6 +42,8 @@ impl Excitation {
             Self::Sweep => "sweep",
             Self::Saw => "saw",
             Self::Decay => "decay",
+            Self::Stroke => "stroke",
+            Self::Ramp => "ramp",
         }
     }
 
@@ -37,6 +51,8 @@ impl Excitation {
     pub fn duration_s(self) -> f64 {
         match self {
             Self::Sweep => 10.0,
+            Self::Stroke => 2.0,
+            Self::Ramp => 4.0,
             _ => 5.0,
         }
     }
@@ -61,6 +77,8 @@ impl Excitation {
             Self::Decay => time
                 .map(|t| 0.01 * exp(-t / 0.5) * sin(TAU * 1.4 * t))
                 .collect(),
+            Self::Stroke => time.map(|t| 0.026 * sin(TAU * 2.0 * t)).collect(),
+            Self::Ramp => time.map(ramp).collect(),
         }
     }
 }
@@ -131,4 +149,30 @@ fn saw(time_s: f64) -> f64 {
     } else {
         quarter(phase - 1.0)
     }
+}
+
+fn ramp(time_s: f64) -> f64 {
+    /// Largest velocity (m/s) of strokes and their duration (s), each out and back.
+    const STROKES: [(f64, f64); 3] = [(0.1, 0.8), (0.4, 0.4), (1.6, 0.16)];
+    let mut start = 0.0;
+    for (velocity, duration) in STROKES {
+        let length = 0.5 * velocity * duration;
+        // Displacement over the share of a stroke that has gone, 0 to 1.
+        let along = |share: f64| {
+            if share < 0.5 {
+                length * 2.0 * share * share
+            } else {
+                length * (1.0 - 2.0 * (1.0 - share) * (1.0 - share))
+            }
+        };
+        let share = (time_s - start) / duration;
+        if share < 1.0 {
+            return along(share);
+        }
+        if share < 2.0 {
+            return length - along(share - 1.0);
+        }
+        start += 2.0 * duration;
+    }
+    0.0
 }

@@ -2,6 +2,7 @@
 
 use heapless::Vec;
 
+use crate::characteristic::Corner;
 use crate::hydraulics::HydraulicSide;
 use crate::parameters::{OilColumn, Reduced};
 
@@ -79,8 +80,8 @@ impl Branch<'_> {
         }
     }
 
-    /// Forces (N) at which `v_h` has a corner.
-    pub(crate) fn corners(&self) -> Vec<f64, 8> {
+    /// Corners of `v_h`, with their forces (N) below the limit.
+    pub(crate) fn corners(&self) -> Vec<(Corner, f64), 8> {
         match &self.law {
             Law::Physical(side) => side.corners(self.force_limit),
             Law::Reduced(_) => Vec::new(),

@@ -87,7 +87,7 @@ fn spans<T: Real>(stage: &Stage<'_>) -> Spans {
 fn corners<T: Real>(stage: &Stage<'_>) -> Vec<f64, 10> {
     let (start, end) = (stage.branch.friction(), end(stage));
     let mut forces = Vec::from_array([start, end]);
-    for corner in stage.branch.corners() {
+    for (_, corner) in stage.branch.corners() {
         let knots = forces.iter().map(|force| stage.sample(*force).reach);
         if start < corner && corner < end && has_room::<T>(knots, stage.sample(corner).reach) {
             // Its capacity exceeds the number of a branch's corners by the two ends.

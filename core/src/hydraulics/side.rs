@@ -5,6 +5,7 @@ use heapless::Vec;
 use super::flow::Laws;
 use super::two_chamber::{above_vapour_pa, compression_velocity, force_at_difference};
 use crate::build::root::bracketed_root;
+use crate::characteristic::Corner;
 use crate::math::elementary::sqrt;
 
 /// Panels, equal in the root of the force, in which vapour may begin or end to form.
@@ -48,15 +49,15 @@ impl HydraulicSide<'_> {
         (laws.through_piston(true, pressure, pressure) + laws.through_foot(pressure)) / self.area()
     }
 
-    /// Forces (N) below `limit_n` at which the law has a corner: valves that open, vapour that forms.
-    pub(crate) fn corners(&self, limit_n: f64) -> Vec<f64, 8> {
+    /// Corners of the law at forces (N) below `limit_n`: valves that open, vapour that forms or ceases to.
+    pub(crate) fn corners(&self, limit_n: f64) -> Vec<(Corner, f64), 8> {
         let laws = self.laws;
         let friction = laws.friction_n;
         let mut corners = Vec::new();
-        let mut add = |force: f64| {
+        let mut add = |corner: Corner, force: f64| {
             if force > 0.0 && force < limit_n - friction {
                 // Capacity 8 exceeds the number of corners.
-                let _ = corners.push(friction + force);
+                let _ = corners.push((corner, friction + force));
             }
         };
         let foot = laws.foot_opening_pa();
@@ -65,28 +66,30 @@ impl HydraulicSide<'_> {
         } else {
             &laws.extension
         };
-        let openings = [Some(valve.preload_pa), laws.relief_opening_pa];
-        let openings = openings
-            .into_iter()
-            .flatten()
-            .filter(|opening| *opening > 0.0);
+        let openings = [
+            (Corner::PistonValveOpens, valve.preload_pa),
+            (Corner::ReliefOpens, laws.relief_opening_pa.unwrap_or(0.0)),
+        ];
+        let openings = openings.into_iter().filter(|(_, opening)| *opening > 0.0);
         let Some(vapour) = laws.vapour_pressure_pa.filter(|_| self.compression) else {
-            openings.for_each(|opening| add(opening * self.area()));
+            openings.for_each(|(corner, opening)| add(corner, opening * self.area()));
             if self.compression {
-                add(foot * self.area());
+                add(Corner::FootValveOpens, foot * self.area());
             }
             return corners;
         };
         // The rod side adds pressure only with flow, so the foot valve opens on the rod area.
-        add(foot * laws.rod_area());
-        openings.for_each(|opening| add(force_at_difference(laws, vapour, opening)));
+        add(Corner::FootValveOpens, foot * laws.rod_area());
+        openings.for_each(|(corner, opening)| {
+            add(corner, force_at_difference(laws, vapour, opening));
+        });
         let above = |root: f64| above_vapour_pa(laws, vapour, root * root);
         let width = sqrt(limit_n - friction) / f64::from(VAPOUR_PANELS);
         for panel in 0..VAPOUR_PANELS {
             let (from, to) = (width * f64::from(panel), width * f64::from(panel + 1));
             if above(from) * above(to) < 0.0 {
                 let root = bracketed_root(from, to, above);
-                add(root * root);
+                add(Corner::Vapour, root * root);
             }
         }
         corners
