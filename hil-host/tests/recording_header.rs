@@ -70,6 +70,7 @@ fn another_kind_of_file_is_told_by_name() {
         let accepted = "accepted is UTF-8 text with a header that names time_s and displacement_m, \
                         cells separated by commas, numbers with a decimal point";
         assert!(error.ends_with(accepted), "{error}");
+        assert!(error.chars().all(|c| !c.is_control() && c != '\u{fffd}'));
     }
 }
 
@@ -117,6 +118,7 @@ fn lines_are_counted_as_an_editor_does() {
 /// A separator or a zero byte here and there does not make another kind of file.
 #[test]
 fn a_column_that_is_missing_is_told_as_such() {
+    assert!(error_of(b"\"\"\n0\n").contains("column time_s is missing"));
     for header in ["time_s,force_n", "time_s,x;m,y;m", "time_s,a\0b"] {
         let error = error_of(format!("{header}\n0,0\n").as_bytes());
         let expected = "run7.csv: column displacement_m is missing from the header (found `time_s,";

@@ -43,14 +43,13 @@ pub(super) fn columns<R: Read>(path: &Path, reader: &mut Reader<R>) -> Outcome<[
     match [places[0].first(), places[1].first()] {
         [Some(&time), Some(&displacement)] => Ok([time, displacement]),
         [time, _] => {
-            let what = other_kind(&header, reader).unwrap_or_else(|| {
+            let found = binary_kind(&header).map(str::to_owned).unwrap_or_else(|| {
                 let missing = COLUMNS[usize::from(time.is_some())];
-                format!("column {missing} is missing from the header")
+                let what = separators(&header, reader)
+                    .unwrap_or_else(|| format!("column {missing} is missing from the header"));
+                format!("{what} (found `{}`)", shown(&header))
             });
-            Err(Failure::in_file(
-                path,
-                format!("{what} (found `{}`); {ACCEPTED}", shown(&header)),
-            ))
+            Err(Failure::in_file(path, format!("{found}; {ACCEPTED}")))
         }
     }
 }
@@ -61,32 +60,38 @@ fn places(header: &ByteRecord, name: &str) -> Vec<usize> {
         .collect()
 }
 
-/// The kind of file that has this header, where it is a known one that is not accepted.
-fn other_kind<R: Read>(header: &ByteRecord, reader: &mut Reader<R>) -> Option<String> {
+/// The kind of file that begins so, where it is a known one that does not show as a line of text.
+fn binary_kind(header: &ByteRecord) -> Option<&'static str> {
     let bytes = header.as_slice();
-    if bytes.starts_with(b"\x1f\x8b") {
-        return Some("the file is compressed with gzip (it starts with 1f 8b)".into());
-    }
     let zeros = count(bytes, 0);
-    if bytes.starts_with(b"\xff\xfe") || bytes.starts_with(b"\xfe\xff") {
-        return Some("the file is UTF-16 text (it starts with that byte order mark)".into());
+    if bytes.starts_with(b"\x1f\x8b") {
+        Some("the file is compressed with gzip (it starts with 1f 8b)")
+    } else if bytes.starts_with(b"\xff\xfe") || bytes.starts_with(b"\xfe\xff") {
+        Some("the file is UTF-16 text (it starts with that byte order mark)")
+    } else if zeros > 0 && 3 * zeros >= bytes.len() {
+        // Of Latin letters every second byte.
+        Some("the file is UTF-16 text (between the letters are zero bytes)")
+    } else {
+        None
     }
-    // Every second byte of Latin letters.
-    if 3 * zeros >= bytes.len() {
-        return Some("the file is UTF-16 text (between the letters are zero bytes)".into());
-    }
+}
+
+/// What separates the cells of this header, where it is not a comma, and whether the numbers of the row
+/// after it have a decimal comma.
+fn separators<R: Read>(header: &ByteRecord, reader: &mut Reader<R>) -> Option<String> {
+    let bytes = header.as_slice();
     let commas = header.len() - 1;
     let (_, separator) = SEPARATORS
         .into_iter()
         .find(|(byte, _)| count(bytes, *byte) > commas)?;
-    let mut kind = format!("the cells are separated by {separator}");
+    let mut found = format!("the cells are separated by {separator}");
     let mut row = ByteRecord::new();
     // A row that has more commas than the header is an error of the reader, and read all the same.
     let _ = reader.read_byte_record(&mut row);
     if row.len() > header.len() {
-        kind.push_str(" and the numbers have a decimal comma");
+        found.push_str(" and the numbers have a decimal comma");
     }
-    Some(kind)
+    Some(found)
 }
 
 fn count(bytes: &[u8], wanted: u8) -> usize {
