@@ -50,7 +50,7 @@ fn export(folder: &Path) -> Vec<PathBuf> {
             let built: Damper<f32> = damper(name, &[]).build(1e-3).expect("a preset");
             let provenance = Provenance {
                 damper: name,
-                step_us: 1000,
+                step_us: 1000.0,
                 command: "a test",
             };
             let constant = name.to_uppercase().replace('-', "_");

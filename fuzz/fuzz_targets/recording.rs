@@ -12,7 +12,7 @@ fuzz_target!(|bytes: &[u8]| {
     let headed = [b"time_s,displacement_m\n", bytes].concat();
     for text in [bytes.to_vec(), headed] {
         let recording = Recording::read(Path::new("fuzz.csv"), Box::new(Cursor::new(text)));
-        let Ok(samples) = recording.and_then(Recording::read_all) else {
+        let Ok(samples) = recording.and_then(|mut recording| recording.read_all()) else {
             continue;
         };
         assert!(!samples.is_empty());

@@ -1,5 +1,7 @@
 //! Damper files and presets: TOML in SI units, unknown keys refused with the nearest one.
 
+use std::path::Path;
+
 use dashpot_core::parameters::{
     DamperParameters, Element, Geometry, Hydraulics, Leakage, Limits, Mount, Oil, Orifice, Reduced,
     Relief, Reservoir, Seal, TwoChamber, Valves,
@@ -7,6 +9,7 @@ use dashpot_core::parameters::{
 use serde::{Deserialize, Serialize};
 
 use crate::failure::{Failure, Outcome};
+use crate::input;
 
 /// Presets that ship with the program: name and file.
 pub const PRESETS: [(&str, &str); 4] = [
@@ -45,12 +48,13 @@ struct DamperFile {
     limits: Limits,
 }
 
-/// The damper called `name`: a preset, or the TOML file at that path; then each
-/// `table.key=value` of `overrides` in order.
+/// The damper called `name`: a preset, or the TOML file at that path, `-` being standard input; then
+/// each `table.key=value` of `overrides` in order.
 ///
 /// # Errors
 /// Neither preset nor readable file; text that is no TOML; unknown, missing or misplaced keys; a value
-/// outside its range.
+/// outside its range. A preset that there is not, and an override without which the damper is good, are
+/// wrong use.
 ///
 /// ```
 /// let damper = dashpot_hil::damper_file::load("paper", &["mount.clearance_m=1e-3".into()])?;
@@ -58,22 +62,28 @@ struct DamperFile {
 /// # Ok::<(), dashpot_hil::failure::Failure>(())
 /// ```
 pub fn load(name: &str, overrides: &[String]) -> Outcome<DamperParameters> {
-    let text = match PRESETS.iter().find(|(preset, _)| *preset == name) {
-        Some((_, text)) => (*text).to_owned(),
-        None => read(name)?,
-    };
-    parse(name, &text, overrides)
+    let path = Path::new(name);
+    match PRESETS.iter().find(|(preset, _)| *preset == name) {
+        Some((_, text)) => parse(name, text, overrides),
+        None => parse(
+            &input::name(path).to_string_lossy(),
+            &read(path)?,
+            overrides,
+        ),
+    }
 }
 
-fn read(name: &str) -> Outcome<String> {
+fn read(path: &Path) -> Outcome<String> {
     let names: Vec<&str> = PRESETS.iter().map(|(preset, _)| *preset).collect();
-    std::fs::read_to_string(name).map_err(|error| {
-        let near = nearest(name, names.iter().copied());
-        Failure::new(format!(
-            "damper `{name}`: {error}; give a TOML file or a preset: {}{near}",
+    if !input::is_file_name(path) && !path.exists() {
+        let near = nearest(&path.to_string_lossy(), names.iter().copied());
+        return Err(Failure::wrong_use(format!(
+            "damper `{}`: no such preset or file; give a TOML file or a preset: {}{near}",
+            path.display(),
             names.join(", ")
-        ))
-    })
+        )));
+    }
+    input::read_text(path)
 }
 
 /// The damper written in `text`; `name` stands for it in errors.
@@ -84,23 +94,30 @@ pub fn parse(name: &str, text: &str, overrides: &[String]) -> Outcome<DamperPara
     let in_file = |message: String| Failure::new(format!("{name}: {message}"));
     // Once as typed data for errors that name line and column, once as a tree to override.
     let mut tree: toml::Table = toml::from_str(text).map_err(|error| in_file(explain(&error)))?;
+    let plain = toml::from_str(text)
+        .map_err(|error| in_file(explain(&error)))
+        .and_then(|file| from_file(file).map_err(|error| in_file(error.to_string())));
     if overrides.is_empty() {
-        let file = toml::from_str(text).map_err(|error| in_file(explain(&error)))?;
-        return from_file(file).map_err(|error| in_file(error.to_string()));
+        return plain;
     }
     for assignment in overrides {
         set(&mut tree, assignment)?;
     }
-    let file = tree
+    let changed = tree
         .try_into()
-        .map_err(|error: toml::de::Error| in_file(format!("after --set: {}", explain(&error))))?;
-    from_file(file).map_err(|error| in_file(error.to_string()))
+        .map_err(|error: toml::de::Error| in_file(format!("after --set: {}", explain(&error))))
+        .and_then(|file| from_file(file).map_err(|error| in_file(error.to_string())));
+    match plain {
+        Ok(_) => changed.map_err(Failure::into_wrong_use),
+        // The overrides may complete a file; they are not to blame for what it lacks.
+        Err(_) => changed,
+    }
 }
 
 /// Applies `table.key=value`, the value written as in TOML.
 fn set(tree: &mut toml::Table, assignment: &str) -> Outcome<()> {
     let wrong = |why: String| {
-        Failure::new(format!(
+        Failure::wrong_use(format!(
             "--set {assignment}: {why}; the form is table.key=value with a TOML value, such as \
              mount.clearance_m=1e-3"
         ))

@@ -13,6 +13,8 @@ use dashpot_hil::commands::replay::{self, ReplayArguments};
 use dashpot_hil::commands::rig::{self, RigArguments};
 use dashpot_hil::commands::shims::{self, ShimsArguments};
 use dashpot_hil::commands::verify::{self, VerifyArguments};
+use dashpot_hil::failure::{Kind, Outcome};
+use dashpot_hil::interruption;
 
 /// Desk host of the Dashpot damper. Without a command: the demonstration on a made ride.
 #[derive(Parser)]
@@ -23,7 +25,10 @@ use dashpot_hil::commands::verify::{self, VerifyArguments};
     after_help = "Examples:
   dashpot
   dashpot --output damper.html
-  dashpot rig --damper paper --amplitude-m 24.875e-3 --frequency-hz 0.64"
+  dashpot rig --damper paper --amplitude-m 24.875e-3 --frequency-hz 0.64
+
+A file called `-` is standard input or standard output; reports then go to standard error.
+Exit code: 0 done, 1 failed, 2 wrong use."
 )]
 struct Cli {
     #[command(flatten)]
@@ -46,7 +51,23 @@ enum Command {
 
 fn main() -> ExitCode {
     let cli = Cli::parse();
-    let outcome = match &cli.command {
+    let outcome = interruption::delete_temporary_files().and_then(|()| run(&cli));
+    let Err(failure) = outcome else {
+        return ExitCode::SUCCESS;
+    };
+    let code = match failure.kind() {
+        Kind::ReaderGone => return ExitCode::SUCCESS,
+        Kind::Failed => 1,
+        // As clap's own for an option it refuses.
+        Kind::WrongUse => 2,
+    };
+    // Nobody to tell when standard error is closed.
+    let _ = writeln!(std::io::stderr(), "error: {failure}");
+    ExitCode::from(code)
+}
+
+fn run(cli: &Cli) -> Outcome<()> {
+    match &cli.command {
         None => demonstrate::run(&cli.demonstration),
         Some(Command::Replay(arguments)) => replay::run(arguments),
         Some(Command::Rig(arguments)) => rig::run(arguments),
@@ -56,13 +77,5 @@ fn main() -> ExitCode {
         Some(Command::Export(arguments)) => export::run(arguments),
         Some(Command::Contact(arguments)) => contact::run(arguments),
         Some(Command::Pil(arguments)) => pil::run(arguments),
-    };
-    match outcome {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(failure) => {
-            // Nobody to tell when standard error is closed.
-            let _ = writeln!(std::io::stderr(), "error: {failure}");
-            ExitCode::from(1)
-        }
     }
 }

@@ -1,30 +1,43 @@
-//! Files written whole or not at all.
+//! What a command writes: files whole or not at all, or standard output for `-`.
 
-use std::io::{BufWriter, Write};
+use std::borrow::Cow;
+use std::fs::File;
+use std::io::{self, BufWriter, Write};
 use std::path::Path;
 
 use crate::failure::{Failure, Outcome};
+use crate::input::is_standard_stream;
+use crate::temporary::Temporary;
+
+/// `path` as messages call it.
+pub fn name(path: &Path) -> Cow<'_, Path> {
+    if is_standard_stream(path) {
+        Cow::Borrowed(Path::new("standard output"))
+    } else {
+        Cow::Borrowed(path)
+    }
+}
+
+/// A failure to write `path`.
+pub fn cannot_write(path: &Path, error: impl Into<io::Error>) -> Failure {
+    Failure::in_writing(&name(path), error)
+}
 
 /// Writes `path` through `write`; the file appears under its name only when `write` succeeded,
-/// and a file already there stays untouched otherwise. A link is followed; a device or a pipe, which
-/// cannot be replaced, is written to as it stands.
+/// and a file already there stays untouched otherwise. A link is followed; standard output (`-`), a
+/// device or a pipe, which cannot be replaced, is written to as it stands.
 ///
 /// # Errors
 /// What `write` returns, or the folder cannot be written.
-pub fn write_whole(
-    path: &Path,
-    write: impl FnOnce(&mut BufWriter<&std::fs::File>) -> Outcome<()>,
-) -> Outcome<()> {
-    let failed = |error: std::io::Error| Failure::in_file(path, format!("cannot write: {error}"));
+pub fn write_whole(path: &Path, write: impl FnOnce(&mut dyn Write) -> Outcome<()>) -> Outcome<()> {
+    if is_standard_stream(path) {
+        return write_through(path, io::stdout().lock(), write);
+    }
+    let failed = |error: io::Error| cannot_write(path, error);
     let old = std::fs::metadata(path).ok();
     if old.as_ref().is_some_and(|old| !old.is_file()) {
-        let file = std::fs::File::options()
-            .write(true)
-            .open(path)
-            .map_err(failed)?;
-        let mut writer = BufWriter::new(&file);
-        write(&mut writer)?;
-        return writer.flush().map_err(failed);
+        let file = File::options().write(true).open(path).map_err(failed)?;
+        return write_through(path, file, write);
     }
     let target = std::fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
     let folder = match target.parent() {
@@ -35,20 +48,25 @@ pub fn write_whole(
         let message = format!("cannot write: there is no folder {}", folder.display());
         return Err(Failure::in_file(path, message));
     }
-    let file = tempfile::Builder::new()
-        .prefix(".dashpot-")
-        .tempfile_in(folder)
-        .map_err(failed)?;
-    let mut writer = BufWriter::new(file.as_file());
-    write(&mut writer)?;
-    writer.flush().map_err(failed)?;
-    drop(writer);
-    file.persist(&target).map_err(|error| failed(error.error))?;
+    let temporary = Temporary::new(folder).map_err(failed)?;
+    let file = temporary.file().map_err(failed)?;
+    write_through(path, file, write)?;
     match old {
-        Some(old) => std::fs::set_permissions(&target, old.permissions()),
-        None => make_readable(&target),
+        Some(old) => file.set_permissions(old.permissions()),
+        None => make_readable(file),
     }
-    .map_err(failed)
+    .map_err(failed)?;
+    temporary.rename(&target).map_err(failed)
+}
+
+fn write_through(
+    path: &Path,
+    writer: impl Write,
+    write: impl FnOnce(&mut dyn Write) -> Outcome<()>,
+) -> Outcome<()> {
+    let mut writer = BufWriter::new(writer);
+    write(&mut writer)?;
+    writer.flush().map_err(|error| cannot_write(path, error))
 }
 
 /// Writes `bytes` to `path`, whole or not at all.
@@ -58,7 +76,7 @@ pub fn write_whole(
 pub fn write_bytes(path: &Path, bytes: &[u8]) -> Outcome<()> {
     write_whole(path, |file| {
         file.write_all(bytes)
-            .map_err(|error| Failure::in_file(path, format!("cannot write: {error}")))
+            .map_err(|error| cannot_write(path, error))
     })
 }
 
@@ -82,12 +100,12 @@ pub fn write_folder(folder: &Path, files: &[(&str, String)]) -> Outcome<Vec<Stri
 
 /// A temporary file is private to its owner; a result is for everyone who may read the folder.
 #[cfg(unix)]
-fn make_readable(path: &Path) -> std::io::Result<()> {
+fn make_readable(file: &File) -> io::Result<()> {
     use std::os::unix::fs::PermissionsExt;
-    std::fs::set_permissions(path, std::fs::Permissions::from_mode(0o644))
+    file.set_permissions(std::fs::Permissions::from_mode(0o644))
 }
 
 #[cfg(not(unix))]
-fn make_readable(_: &Path) -> std::io::Result<()> {
+fn make_readable(_: &File) -> io::Result<()> {
     Ok(())
 }

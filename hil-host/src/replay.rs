@@ -28,6 +28,12 @@ pub struct Ticks {
 /// Ticks a recording may span: 24 hours at 10 kHz, so that one mistyped time does not fill a disk.
 const MOST_TICKS: f64 = 864e6;
 
+/// How far a sample meant for the tick at `time_s` (s) of steps of `step_s` (s) may lie from it by
+/// rounding (s).
+pub(crate) fn rounding_s(time_s: f64, step_s: f64) -> f64 {
+    1e-9 * step_s + 4.0 * f64::EPSILON * time_s.abs()
+}
+
 impl Ticks {
     /// The grid of `step_s` (s) over `recording`.
     ///
@@ -55,8 +61,8 @@ impl Ticks {
         let offset_s = self.number as f64 * self.step_s;
         let time_s = self.start_s + offset_s;
         // A sample meant for a tick may lie a rounding before it.
-        let slack = 1e-9 * self.step_s + 4.0 * f64::EPSILON * time_s.abs();
-        while self.after.time_s + slack < time_s {
+        let slack_s = rounding_s(time_s, self.step_s);
+        while self.after.time_s + slack_s < time_s {
             let Some(next) = self.recording.next_sample()? else {
                 return Ok(None);
             };
@@ -71,39 +77,49 @@ impl Ticks {
             self.after = next;
         }
         self.number += 1;
-        let span = self.after.time_s - self.before.time_s;
-        let share = if span > 0.0 {
-            ((time_s - self.before.time_s) / span).clamp(0.0, 1.0)
+        let (before, after) = (self.before, self.after);
+        let displacement_m = if time_s + slack_s >= after.time_s {
+            after.displacement_m
         } else {
-            0.0
+            let share = (time_s - before.time_s) / (after.time_s - before.time_s);
+            before.displacement_m + share * (after.displacement_m - before.displacement_m)
         };
-        let (from, to) = (self.before.displacement_m, self.after.displacement_m);
         Ok(Some(Tick {
             time_s,
-            displacement_m: from + share * (to - from),
+            displacement_m,
         }))
+    }
+
+    /// All ticks left.
+    ///
+    /// # Errors
+    /// As [`Ticks::next_tick`].
+    pub fn read_all(mut self) -> Outcome<Vec<Tick>> {
+        let mut ticks = Vec::new();
+        while let Some(tick) = self.next_tick()? {
+            ticks.push(tick);
+        }
+        Ok(ticks)
     }
 
     /// Displacements (m) at all ticks left.
     ///
     /// # Errors
     /// As [`Ticks::next_tick`].
-    pub fn displacements_m(mut self) -> Outcome<Vec<f64>> {
-        let mut displacements_m = Vec::new();
-        while let Some(tick) = self.next_tick()? {
-            displacements_m.push(tick.displacement_m);
-        }
-        Ok(displacements_m)
+    pub fn displacements_m(self) -> Outcome<Vec<f64>> {
+        let ticks = self.read_all()?;
+        Ok(ticks.iter().map(|tick| tick.displacement_m).collect())
     }
 
-    /// Bytes of the recording read so far.
-    pub fn position(&self) -> u64 {
-        self.recording.position()
+    /// The recording, read up to the last tick.
+    pub fn recording(&self) -> &Recording {
+        &self.recording
     }
 }
 
-/// What a replay did.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// What a replay did. Force and energy are of the motion that the damper followed: where the recorded
+/// displacement was held or limited, not the recorded one.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Summary {
     /// Ticks stepped.
     pub ticks: u64,
@@ -115,10 +131,28 @@ pub struct Summary {
     pub max_compression_force_n: f64,
     /// Energy taken from the motion, `integral F dx` by the trapezoidal rule (J).
     pub energy_j: f64,
-    /// Latched status bits.
-    pub status: Status,
-    /// Ticks whose displacement was held or limited, up to 65535.
-    pub rejected_inputs: u16,
+    /// Ticks whose displacement was not finite in the step's precision, so that the one before was held.
+    pub held_inputs: u64,
+    /// Ticks whose displacement moved faster than the damper's limit and was followed at that rate.
+    pub limited_inputs: u64,
+    /// Time of the first tick held or limited (s).
+    pub first_rejected_s: Option<f64>,
+    /// Ticks at the saturation force or force limit.
+    pub saturated_ticks: u64,
+}
+
+impl Summary {
+    /// Books the status of the tick at `time_s` (s) alone.
+    fn book(&mut self, time_s: f64, status: Status) {
+        let held = status.contains(Status::INPUT_HELD);
+        let limited = status.contains(Status::INPUT_LIMITED);
+        self.held_inputs += u64::from(held);
+        self.limited_inputs += u64::from(limited);
+        self.saturated_ticks += u64::from(status.contains(Status::SATURATED));
+        if held || limited {
+            self.first_rejected_s.get_or_insert(time_s);
+        }
+    }
 }
 
 /// Steps `damper` over `ticks`, in real ticks where there is a pacer, and hands each tick with its force
@@ -134,34 +168,31 @@ pub fn replay<T: Real>(
 ) -> Outcome<Summary> {
     let mut state: Option<DamperState<T>> = None;
     let mut last: Option<(f64, f64)> = None;
-    let (mut count, mut square, mut energy) = (0_u64, 0.0, 0.0);
-    let (mut highest, mut lowest) = (0.0_f64, 0.0_f64);
+    let mut summary = Summary::default();
+    let (mut square, mut lowest) = (0.0, 0.0_f64);
     while let Some(tick) = ticks.next_tick()? {
         let displacement = T::from_f64(tick.displacement_m);
         let state = state.get_or_insert_with(|| damper.at_rest(displacement));
-        let timing = pacer.as_mut().map(|pacer| pacer.wait(count));
+        let timing = pacer.as_mut().map(|pacer| pacer.wait(summary.ticks));
         let force = damper.step(state, displacement);
         if let (Some(pacer), Some(timing)) = (pacer.as_mut(), timing) {
             pacer.finish(timing);
         }
         sink(tick, force, ticks)?;
-        let force = force.to_f64();
+        summary.book(tick.time_s, state.status());
+        state.clear_status();
+        let (followed, force) = (state.displacement().to_f64(), force.to_f64());
         if let Some((x, f)) = last {
-            energy += 0.5 * (force + f) * (tick.displacement_m - x);
+            summary.energy_j += 0.5 * (force + f) * (followed - x);
         }
-        last = Some((tick.displacement_m, force));
-        count += 1;
+        last = Some((followed, force));
+        summary.ticks += 1;
         square += force * force;
-        highest = highest.max(force);
+        summary.max_extension_force_n = summary.max_extension_force_n.max(force);
         lowest = lowest.min(force);
     }
-    Ok(Summary {
-        ticks: count,
-        force_rms_n: (square / count.max(1) as f64).sqrt(),
-        max_extension_force_n: highest,
-        max_compression_force_n: 0.0 - lowest,
-        energy_j: energy,
-        status: state.as_ref().map_or(Status::empty(), DamperState::status),
-        rejected_inputs: state.as_ref().map_or(0, DamperState::rejected_inputs),
-    })
+    summary.force_rms_n = (square / summary.ticks.max(1) as f64).sqrt();
+    // A sum, so that no compression is 0 and not -0.
+    summary.max_compression_force_n = 0.0 - lowest;
+    Ok(summary)
 }

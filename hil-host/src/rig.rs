@@ -40,7 +40,7 @@ impl Harmonic {
             ("--frequency-hz", self.frequency_hz, 1000.0, "Hz"),
         ] {
             if !(value > 0.0 && value <= high) {
-                return Err(Failure::new(format!(
+                return Err(Failure::wrong_use(format!(
                     "{name}: {value}, allowed: above 0 and at most {high} {unit}"
                 )));
             }
@@ -98,14 +98,14 @@ pub struct Cycle {
 pub fn settle(parameters: &DamperParameters, motion: Harmonic, step_s: f64) -> Outcome<Cycle> {
     motion.check()?;
     if !(1e-6..=2e-2).contains(&step_s) {
-        return Err(Failure::new(format!(
+        return Err(Failure::wrong_use(format!(
             "step: {step_s} s, allowed: 1e-6 to 2e-2 s"
         )));
     }
     let period = 1.0 / motion.frequency_hz;
     let ticks = (period / step_s - 1e-9).ceil();
     if !(20.0..=2e7).contains(&ticks) {
-        return Err(Failure::new(format!(
+        return Err(Failure::wrong_use(format!(
             "{ticks} steps of {step_s} s a cycle, allowed: 20 to 2e7; choose another step or frequency"
         )));
     }
@@ -126,7 +126,7 @@ pub fn settle(parameters: &DamperParameters, motion: Harmonic, step_s: f64) -> O
             change = change.max((*force - before).abs());
         }
         if state.status().contains(Status::INPUT_LIMITED) {
-            return Err(Failure::new(format!(
+            return Err(Failure::wrong_use(format!(
                 "the motion reaches {:.3} m/s, allowed: limits.rate_m_per_s = {} m/s",
                 motion.peak_velocity_m_per_s(),
                 parameters.limits.rate_m_per_s

@@ -4,7 +4,9 @@ use dashpot_core::{DamperParameters, Real};
 use serde::Serialize;
 
 use crate::failure::{Failure, Outcome};
+use crate::recording::Sample;
 use crate::reference::Reference;
+use crate::replay::{Tick, rounding_s};
 
 /// Deviation of one fixed step from the reference on one motion.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -33,7 +35,17 @@ pub fn nrmse_limit(step_s: f64, single: bool) -> f64 {
     }
 }
 
-/// Force (N) of the fixed step at each displacement (m), the first one being where it starts at rest.
+/// What the fixed step did with a motion.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FixedStep {
+    /// Force at each tick (N).
+    pub forces_n: Vec<f64>,
+    /// Ticks whose displacement was held or limited, up to 65535: there the damper followed another
+    /// motion than the reference.
+    pub rejected_inputs: u16,
+}
+
+/// The fixed step at each displacement (m), the first one being where it starts at rest.
 ///
 /// # Errors
 /// Parameters that cannot be built.
@@ -41,14 +53,18 @@ pub fn fixed_step_forces<T: Real>(
     parameters: &DamperParameters,
     step_s: f64,
     displacements_m: &[f64],
-) -> Outcome<Vec<f64>> {
+) -> Outcome<FixedStep> {
     let damper = parameters.build::<T>(step_s)?;
     let start = displacements_m.first().copied().unwrap_or(0.0);
     let mut state = damper.at_rest(T::from_f64(start));
-    Ok(displacements_m
+    let forces_n = displacements_m
         .iter()
         .map(|&x| damper.step(&mut state, T::from_f64(x)).to_f64())
-        .collect())
+        .collect();
+    Ok(FixedStep {
+        forces_n,
+        rejected_inputs: state.rejected_inputs(),
+    })
 }
 
 /// Reference force (N) at each displacement (m), linear between ticks of `step_s` (s).
@@ -64,6 +80,42 @@ pub fn reference_forces(
         .map(|tick| tick as f64 * step_s)
         .collect();
     Reference::new(parameters)?.forces(&times, displacements_m)
+}
+
+/// Reference force (N) at each of `ticks` for the motion of the recording itself: linear between its
+/// samples, whichever of them lie between ticks.
+///
+/// `ticks` of `step_s` (s) are of the same recording: a tick at a sample has the sample's displacement.
+///
+/// # Errors
+/// What the reference solver reports.
+pub fn reference_forces_on_recording(
+    parameters: &DamperParameters,
+    step_s: f64,
+    samples: &[Sample],
+    ticks: &[Tick],
+) -> Outcome<Vec<f64>> {
+    let Some(start_s) = ticks.first().map(|tick| tick.time_s) else {
+        return Ok(Vec::new());
+    };
+    let (mut times_s, mut displacements_m) = (Vec::new(), Vec::new());
+    let mut places = Vec::with_capacity(ticks.len());
+    let mut samples = samples.iter().peekable();
+    for tick in ticks {
+        // A sample that only rounding parts from the tick is the tick.
+        let slack_s = rounding_s(tick.time_s, step_s);
+        while let Some(sample) = samples.next_if(|sample| sample.time_s <= tick.time_s + slack_s) {
+            if sample.time_s < tick.time_s - slack_s {
+                times_s.push(sample.time_s - start_s);
+                displacements_m.push(sample.displacement_m);
+            }
+        }
+        places.push(times_s.len());
+        times_s.push(tick.time_s - start_s);
+        displacements_m.push(tick.displacement_m);
+    }
+    let forces = Reference::new(parameters)?.forces(&times_s, &displacements_m)?;
+    Ok(places.into_iter().map(|place| forces[place]).collect())
 }
 
 /// Deviation of `forces` from `reference` (N).

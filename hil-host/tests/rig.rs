@@ -125,38 +125,3 @@ fn text_stands_beside_the_paper_for_its_motion_only() {
         "{text}"
     );
 }
-
-#[test]
-fn failures_say_what_and_what_is_allowed() {
-    for (arguments, code, part) in [
-        (
-            &["--amplitude-m", "0"][..],
-            1,
-            "--amplitude-m: 0, allowed: above 0",
-        ),
-        (
-            &["--frequency-hz", "nan"][..],
-            1,
-            "--frequency-hz: NaN, allowed",
-        ),
-        (
-            &["--step-us", "0.1"][..],
-            1,
-            "--step-us: 0.1, allowed: 1 to 20000 us",
-        ),
-        (&["--frequency-hz", "900"][..], 1, "allowed: 20 to 2e7"),
-        (
-            &["--amplitude-m", "0.5", "--frequency-hz", "10"][..],
-            1,
-            "limits.rate_m_per_s",
-        ),
-        (&["--damper", "papr"][..], 1, "did you mean `paper`"),
-        (&["--amplitude"][..], 2, "--amplitude"),
-    ] {
-        let output = dashpot(arguments);
-        let message = String::from_utf8(output.stderr).unwrap();
-        assert_eq!(output.status.code(), Some(code), "{arguments:?}: {message}");
-        assert!(message.contains(part), "{arguments:?}: {message}");
-        assert!(output.stdout.is_empty());
-    }
-}

@@ -5,15 +5,15 @@ use std::path::PathBuf;
 
 use serde::Serialize;
 
-use super::{Format, print_report, progress};
+use super::{Format, print_report_beside, progress};
 use crate::demonstration::{self, Accuracy};
 use crate::failure::Outcome;
-use crate::output::write_bytes;
+use crate::output::{self, write_bytes};
 
 /// The demonstration: two presets on a made ride, accuracy, cost, and a page that shows them.
 #[derive(Debug, Clone, clap::Args)]
 pub struct DemonstrateArguments {
-    /// The page, one self-contained HTML file.
+    /// The page, one self-contained HTML file, `-` for standard output.
     #[arg(long, default_value = "dashpot-report.html", value_name = "FILE")]
     pub output: PathBuf,
     /// How results are printed.
@@ -43,9 +43,9 @@ pub fn run(arguments: &DemonstrateArguments) -> Outcome<()> {
     bar.finish_and_clear();
     let report = Report {
         accuracy: shown.accuracy,
-        page: path.display().to_string(),
+        page: output::name(path).display().to_string(),
     };
-    print_report(arguments.format, &report, print)
+    print_report_beside(path, arguments.format, &report, print)
 }
 
 fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {

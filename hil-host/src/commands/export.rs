@@ -5,10 +5,12 @@ use std::path::{Path, PathBuf};
 use dashpot_core::Damper;
 use serde::Serialize;
 
-use super::{DamperArguments, Format, Scalar, print_report, step_s};
+use super::step_size::StepSize;
+use super::{DamperArguments, Format, Scalar, print_report_beside};
 use crate::export::{Provenance, Word, c_source, rust_source};
 use crate::failure::{Failure, Outcome};
-use crate::output::write_bytes;
+use crate::input::is_standard_stream;
+use crate::output::{self, write_bytes};
 
 /// Language of the exported source.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
@@ -46,16 +48,21 @@ pub struct ExportArguments {
     /// Language of the source.
     #[arg(long, value_enum)]
     lang: Language,
-    /// Step the damper is built for, us.
-    #[arg(long, default_value_t = 1000, value_parser = clap::value_parser!(u32).range(1..=20_000), value_name = "US")]
-    step_us: u32,
+    /// Step the damper is built for, us; 1 to 20000, fractions allowed.
+    #[arg(
+        long,
+        default_value = "1000",
+        value_name = "US",
+        allow_negative_numbers = true
+    )]
+    step_us: StepSize,
     /// Floating-point type.
     #[arg(long, value_enum, default_value_t = Scalar::F32)]
     scalar: Scalar,
     /// Name of the constant; the damper's name in capitals when not given. Bytes alone have none.
     #[arg(long)]
     name: Option<String>,
-    /// File to write.
+    /// File to write, `-` for standard output.
     #[arg(long, value_name = "FILE")]
     output: PathBuf,
     /// How results are printed.
@@ -89,44 +96,49 @@ pub fn run(arguments: &ExportArguments) -> Outcome<()> {
         Scalar::F32 => export::<f32>(arguments),
         Scalar::F64 => export::<f64>(arguments),
     }?;
-    print_report(arguments.format, &report, |out, report| {
-        if let Some(name) = &report.name {
-            write!(out, "{name} in ")?;
-        }
-        writeln!(
-            out,
-            "{}: {} for {} us, {}, revision {:#010x}: {}{} bytes in memory, a state {} bytes",
-            report.output,
-            report.damper,
-            arguments.step_us,
-            report.scalar,
-            report.revision,
-            report
-                .image_bytes
-                .map_or_else(String::new, |bytes| format!("image {bytes} bytes, ")),
-            report.damper_bytes,
-            report.state_bytes
-        )
-    })
+    print_report_beside(
+        &arguments.output,
+        arguments.format,
+        &report,
+        |out, report| {
+            if let Some(name) = &report.name {
+                write!(out, "{name} in ")?;
+            }
+            writeln!(
+                out,
+                "{}: {} for {} us, {}, revision {:#010x}: {}{} bytes in memory, a state {} bytes",
+                report.output,
+                report.damper,
+                arguments.step_us,
+                report.scalar,
+                report.revision,
+                report
+                    .image_bytes
+                    .map_or_else(String::new, |bytes| format!("image {bytes} bytes, ")),
+                report.damper_bytes,
+                report.state_bytes
+            )
+        },
+    )
 }
 
 fn export<T: Word>(arguments: &ExportArguments) -> Outcome<Report> {
     let name = match (&arguments.name, arguments.lang) {
         (None, Language::Bin) => None,
         (Some(name), Language::Bin) => {
-            return Err(Failure::new(format!(
+            return Err(Failure::wrong_use(format!(
                 "--name {name}: bytes have no name, allowed: --lang rust or c"
             )));
         }
         (Some(name), _) => Some(name.clone()),
         (None, _) => Some(constant_name(&arguments.damper.damper)),
     };
-    let step_s = step_s(arguments.step_us);
+    let step_s = arguments.step_us.seconds();
     let damper: Damper<T> = arguments.damper.load()?.build(step_s)?;
     let constant = name.as_deref().unwrap_or_default();
     let provenance = Provenance {
         damper: &arguments.damper.damper,
-        step_us: arguments.step_us,
+        step_us: arguments.step_us.us(),
         command: &command_line(arguments, T::NAME, constant),
     };
     let bytes = match arguments.lang {
@@ -139,7 +151,7 @@ fn export<T: Word>(arguments: &ExportArguments) -> Outcome<Report> {
     Ok(Report {
         damper: arguments.damper.damper.clone(),
         name,
-        output: path.display().to_string(),
+        output: output::name(path).display().to_string(),
         scalar: T::NAME,
         step_s,
         revision: damper.revision(),
@@ -164,8 +176,11 @@ fn command_line(arguments: &ExportArguments, scalar: &str, name: &str) -> String
     line
 }
 
-/// `data/my-damper.toml` is MY_DAMPER.
+/// `data/my-damper.toml` is MY_DAMPER, standard input DAMPER.
 fn constant_name(damper: &str) -> String {
+    if is_standard_stream(Path::new(damper)) {
+        return "DAMPER".into();
+    }
     let stem = Path::new(damper)
         .file_stem()
         .map_or_else(|| damper.into(), |stem| stem.to_string_lossy());

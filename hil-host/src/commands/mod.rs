@@ -4,20 +4,24 @@ pub mod budget;
 pub mod contact;
 pub mod demonstrate;
 pub mod export;
+mod gap_report;
 pub mod pil;
 pub mod progress;
 pub mod replay;
 pub mod rig;
 pub mod shims;
+pub mod step_size;
 pub mod verify;
 
 use std::io::{self, BufWriter, Write};
+use std::path::Path;
 
 use dashpot_core::DamperParameters;
 use serde::Serialize;
 
 use crate::damper_file;
 use crate::failure::{Failure, Outcome};
+use crate::input;
 use crate::pacing::RealtimeOptions;
 
 /// How a command prints its results.
@@ -43,7 +47,8 @@ pub enum Scalar {
 /// Which damper a command works on.
 #[derive(Debug, Clone, clap::Args)]
 pub struct DamperArguments {
-    /// Preset (`paper`, `in-service`, `reduced-vertical`, `reduced-lateral`) or TOML file.
+    /// Preset (`paper`, `in-service`, `reduced-vertical`, `reduced-lateral`) or TOML file, `-` for standard
+    /// input.
     #[arg(long, default_value = "paper", value_name = "NAME|FILE")]
     pub damper: String,
     /// Overrides a key of the damper: table.key=value, such as mount.clearance_m=1e-3.
@@ -58,6 +63,17 @@ impl DamperArguments {
     /// As [`damper_file::load`].
     pub fn load(&self) -> Outcome<DamperParameters> {
         damper_file::load(&self.damper, &self.overrides)
+    }
+
+    /// Refuses standard input for both the damper and the motion at `input`.
+    ///
+    /// # Errors
+    /// Both are `-`.
+    pub fn refuse_same_input(&self, input: &Path) -> Outcome<()> {
+        input::refuse_second_standard_input(&[
+            ("--damper", Path::new(&self.damper)),
+            ("--input", input),
+        ])
     }
 }
 
@@ -86,13 +102,13 @@ impl RealtimeArguments {
     }
 }
 
-/// Step in seconds of one in microseconds.
-pub fn step_s(step_us: u32) -> f64 {
-    f64::from(step_us) * 1e-6
+/// `1 tick`, `2 ticks`.
+fn counted(count: u64, what: &str) -> String {
+    format!("{count} {what}{}", if count == 1 { "" } else { "s" })
 }
 
-/// Prints `report` in the format asked for: what `text` writes, or one JSON object. A reader that has
-/// left, such as `head`, is no failure.
+/// Prints `report` on standard output in the format asked for: what `text` writes, or one JSON object.
+/// A reader that has left, such as `head`, is no failure.
 ///
 /// # Errors
 /// Standard output cannot be written.
@@ -101,7 +117,34 @@ pub fn print_report<R: Serialize>(
     report: &R,
     text: impl FnOnce(&mut dyn Write, &R) -> io::Result<()>,
 ) -> Outcome<()> {
-    let mut out = BufWriter::new(io::stdout().lock());
+    print_to(io::stdout().lock(), "standard output", format, report, text)
+}
+
+/// As [`print_report`], on standard error when the data itself went to standard output as `data`.
+///
+/// # Errors
+/// The stream cannot be written.
+pub fn print_report_beside<R: Serialize>(
+    data: &Path,
+    format: Format,
+    report: &R,
+    text: impl FnOnce(&mut dyn Write, &R) -> io::Result<()>,
+) -> Outcome<()> {
+    if input::is_standard_stream(data) {
+        print_to(io::stderr().lock(), "standard error", format, report, text)
+    } else {
+        print_report(format, report, text)
+    }
+}
+
+fn print_to<R: Serialize>(
+    stream: impl Write,
+    name: &str,
+    format: Format,
+    report: &R,
+    text: impl FnOnce(&mut dyn Write, &R) -> io::Result<()>,
+) -> Outcome<()> {
+    let mut out = BufWriter::new(stream);
     let printed = match format {
         Format::Text => text(&mut out, report),
         Format::Json => serde_json::to_writer_pretty(&mut out, report)
@@ -110,7 +153,7 @@ pub fn print_report<R: Serialize>(
     };
     match printed.and_then(|()| out.flush()) {
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
-            Err(Failure::new(format!("standard output: {error}")))
+            Err(Failure::new(format!("{name}: {error}")))
         }
         _ => Ok(()),
     }

@@ -7,12 +7,15 @@ use std::time::Duration;
 use dashpot_core::Damper;
 use serde::Serialize;
 
+use super::gap_report::write_gaps;
+use super::step_size::StepSize;
 use super::{DamperArguments, Format, print_report, progress};
 use crate::failure::{Failure, Outcome};
+use crate::input;
 use crate::pil::{
     Client, FaultCounts, FaultRates, FaultyLink, LinkChoice, Patience, Report, Session,
 };
-use crate::recording::Recording;
+use crate::recording::{Gaps, Recording};
 use crate::replay::Ticks;
 use crate::timing::{optional_span, span};
 
@@ -31,7 +34,7 @@ pub struct PilArguments {
     /// The target: tcp:HOST:PORT, serial:DEVICE, qemu (an emulator of our own) or qemu:IMAGE.
     #[arg(long, value_name = "LINK")]
     link: LinkChoice,
-    /// Recorded motion, CSV with columns time_s,displacement_m.
+    /// Recorded motion, CSV with columns time_s,displacement_m; `-` for standard input.
     #[arg(long, value_name = "FILE")]
     input: PathBuf,
     /// Ticks at most; the whole recording when not given.
@@ -50,7 +53,7 @@ pub struct PilArguments {
     #[arg(long, default_value_t = 8, value_parser = clap::value_parser!(u32).range(1..=1000))]
     tries: u32,
     /// Rate of a serial device, bit/s.
-    #[arg(long, default_value_t = 1_000_000)]
+    #[arg(long, default_value_t = 1_000_000, value_parser = clap::value_parser!(u32).range(1..))]
     baud: u32,
     /// How results are printed.
     #[arg(long, value_enum, default_value_t = Format::Text)]
@@ -61,6 +64,7 @@ pub struct PilArguments {
 struct Result {
     #[serde(flatten)]
     report: Report,
+    gaps: Gaps,
     #[serde(skip_serializing_if = "Option::is_none")]
     injected_faults: Option<FaultCounts>,
 }
@@ -70,6 +74,7 @@ struct Result {
 /// # Errors
 /// A damper, recording or target that cannot be used, a target lost for good, or a force that differs.
 pub fn run(arguments: &PilArguments) -> Outcome<()> {
+    arguments.damper.refuse_same_input(&arguments.input)?;
     let parameters = arguments.damper.load()?;
     let recording = Recording::open(&arguments.input)?;
     let rates = arguments.faults.unwrap_or_default();
@@ -80,10 +85,15 @@ pub fn run(arguments: &PilArguments) -> Outcome<()> {
     };
     let mut session = Session::open(Client::new(link, patience, fastrand::u16(..)))?;
 
-    let step_s = whole_us(session.target().step_s)?;
+    let step_s = session.target().step_s;
+    let step = StepSize::from_target(step_s).ok_or_else(|| {
+        Failure::new(format!(
+            "the target steps {step_s} s; allowed: 1 us to 20 ms"
+        ))
+    })?;
+    let step_s = step.seconds();
     let damper: Damper<f32> = parameters.build(step_s)?;
-    let length = std::fs::metadata(&arguments.input).map_or(0, |data| data.len());
-    let bar = progress::bar(length, "pil");
+    let bar = progress::bar(input::length(&arguments.input), "pil");
     let mut ticks = Ticks::new(recording, step_s)?;
     let mut left = arguments.ticks.unwrap_or(u32::MAX);
     let motion = || {
@@ -92,7 +102,7 @@ pub fn run(arguments: &PilArguments) -> Outcome<()> {
         }
         left -= 1;
         if left.is_multiple_of(256) {
-            bar.set_position(ticks.position());
+            bar.set_position(ticks.recording().position());
         }
         Ok(ticks.next_tick()?.map(|tick| tick.displacement_m as f32))
     };
@@ -100,10 +110,11 @@ pub fn run(arguments: &PilArguments) -> Outcome<()> {
     bar.finish_and_clear();
     let result = Result {
         report,
+        gaps: ticks.recording().gaps(),
         injected_faults: arguments.faults.map(|_| session.link().counts()),
     };
     print_report(arguments.format, &result, |out, result| {
-        print(out, result, arguments)
+        print(out, result, arguments, step)
     })?;
     let report = &result.report;
     if report.mismatches > 0 || report.state_mismatches > 0 {
@@ -115,31 +126,21 @@ pub fn run(arguments: &PilArguments) -> Outcome<()> {
     Ok(())
 }
 
-/// A step in whole microseconds, as dampers are built for (s).
-fn whole_us(step_s: f32) -> Outcome<f64> {
-    let step_us = (f64::from(step_s) * 1e6).round();
-    if (1.0..=20_000.0).contains(&step_us) {
-        Ok(step_us * 1e-6)
-    } else {
-        Err(Failure::new(format!(
-            "the target steps {step_s} s; allowed: 1 us to 20 ms"
-        )))
-    }
-}
-
-fn print(out: &mut dyn Write, result: &Result, arguments: &PilArguments) -> io::Result<()> {
+fn print(
+    out: &mut dyn Write,
+    result: &Result,
+    arguments: &PilArguments,
+    step: StepSize,
+) -> io::Result<()> {
     let report = &result.report;
     let target = &report.target;
     let dampers = target.dampers as f64;
     writeln!(
         out,
-        "{} ticks of {:.0} us through {} x {} on the target (dashpot-core {})",
-        report.ticks,
-        target.step_s * 1e6,
-        target.dampers,
-        arguments.damper.damper,
-        target.core_version
+        "{} ticks of {step} us through {} x {} on the target (dashpot-core {})",
+        report.ticks, target.dampers, arguments.damper.damper, target.core_version
     )?;
+    write_gaps(out, &result.gaps)?;
     match report.mismatches + report.state_mismatches as u64 {
         0 => writeln!(
             out,

@@ -1,16 +1,21 @@
 //! `dashpot replay`: force over a recorded motion.
 
 use std::io::{self, Write};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
-use dashpot_core::{DamperParameters, Real, Status};
+use dashpot_core::{DamperParameters, Real};
 use serde::Serialize;
 
-use super::{DamperArguments, Format, RealtimeArguments, Scalar, print_report, progress, step_s};
+use super::gap_report::write_gaps;
+use super::step_size::StepSize;
+use super::{
+    DamperArguments, Format, RealtimeArguments, Scalar, counted, print_report_beside, progress,
+};
 use crate::failure::{Failure, Outcome};
-use crate::output::write_whole;
+use crate::input;
+use crate::output::{self, cannot_write, write_whole};
 use crate::pacing::Pacer;
-use crate::recording::Recording;
+use crate::recording::{Gaps, Recording};
 use crate::replay::{Summary, Ticks, replay};
 use crate::timing::{Figures, optional_span, span};
 
@@ -20,21 +25,27 @@ use crate::timing::{Figures, optional_span, span};
   dashpot replay --damper paper --input data/excitations/ride_made.csv --output force.csv
   dashpot replay --damper my.toml --set mount.clearance_m=1e-3 --input run7.csv --output f.csv
   dashpot replay --input run7.csv --output f.csv --realtime --fifo 80 --lock-memory --core 1
+  zcat run7.csv.gz | dashpot replay --input - --output - | head
 
 Input columns: time_s,displacement_m in any order; uneven times are allowed, other columns passed over.
 Output columns: time_s,displacement_m,force_n at ticks from the first sample on, the displacement linear between samples.")]
 pub struct ReplayArguments {
     #[command(flatten)]
     damper: DamperArguments,
-    /// Recorded motion, CSV.
+    /// Recorded motion, CSV; `-` for standard input.
     #[arg(long, value_name = "FILE")]
     input: PathBuf,
-    /// Force over time, CSV; written whole or not at all.
+    /// Force over time, CSV; a file is written whole or not at all, `-` is standard output.
     #[arg(long, value_name = "FILE")]
     output: PathBuf,
-    /// Step, us.
-    #[arg(long, default_value_t = 1000, value_parser = clap::value_parser!(u32).range(1..=20_000), value_name = "US")]
-    step_us: u32,
+    /// Step, us; 1 to 20000, fractions allowed.
+    #[arg(
+        long,
+        default_value = "1000",
+        value_name = "US",
+        allow_negative_numbers = true
+    )]
+    step_us: StepSize,
     /// Floating-point type of the step.
     #[arg(long, value_enum, default_value_t = Scalar::F32)]
     scalar: Scalar,
@@ -56,10 +67,15 @@ struct Report {
     max_extension_force_n: f64,
     max_compression_force_n: f64,
     energy_j: f64,
-    rejected_inputs: u16,
+    rejected_inputs: u64,
+    held_inputs: u64,
+    limited_inputs: u64,
+    first_rejected_s: Option<f64>,
+    saturated_ticks: u64,
     input_held: bool,
     input_limited: bool,
     saturated: bool,
+    gaps: Gaps,
     #[serde(skip_serializing_if = "Option::is_none")]
     realtime: Option<Realtime>,
 }
@@ -76,51 +92,63 @@ struct Realtime {
 /// # Errors
 /// A damper, recording or output file that cannot be used.
 pub fn run(arguments: &ReplayArguments) -> Outcome<()> {
+    arguments.damper.refuse_same_input(&arguments.input)?;
     let parameters = arguments.damper.load()?;
     if same_file(&arguments.input, &arguments.output) {
-        return Err(Failure::in_file(
-            &arguments.output,
-            "is the input too; give another output file",
-        ));
+        return Err(Failure::wrong_use(format!(
+            "--output {}: is the input too; give another output file",
+            arguments.output.display()
+        )));
     }
     let options = arguments.options.options();
     if !arguments.realtime && options != Default::default() {
-        return Err(Failure::new(
+        return Err(Failure::wrong_use(
             "--fifo, --lock-memory and --core go with --realtime",
         ));
     }
     let mut pacer = if arguments.realtime {
-        Some(Pacer::new(step_s(arguments.step_us), &options)?)
+        Some(Pacer::new(arguments.step_us.seconds(), &options)?)
     } else {
         None
     };
-    let summary = match arguments.scalar {
+    let (summary, gaps) = match arguments.scalar {
         Scalar::F32 => write::<f32>(&parameters, arguments, pacer.as_mut())?,
         Scalar::F64 => write::<f64>(&parameters, arguments, pacer.as_mut())?,
     };
     let report = Report {
         ticks: summary.ticks,
-        step_s: step_s(arguments.step_us),
+        step_s: arguments.step_us.seconds(),
         force_rms_n: summary.force_rms_n,
         max_extension_force_n: summary.max_extension_force_n,
         max_compression_force_n: summary.max_compression_force_n,
         energy_j: summary.energy_j,
-        rejected_inputs: summary.rejected_inputs,
-        input_held: summary.status.contains(Status::INPUT_HELD),
-        input_limited: summary.status.contains(Status::INPUT_LIMITED),
-        saturated: summary.status.contains(Status::SATURATED),
+        rejected_inputs: summary.held_inputs + summary.limited_inputs,
+        held_inputs: summary.held_inputs,
+        limited_inputs: summary.limited_inputs,
+        first_rejected_s: summary.first_rejected_s,
+        saturated_ticks: summary.saturated_ticks,
+        input_held: summary.held_inputs > 0,
+        input_limited: summary.limited_inputs > 0,
+        saturated: summary.saturated_ticks > 0,
+        gaps,
         realtime: pacer.as_ref().map(|pacer| Realtime {
             missed_deadlines: pacer.report().missed_deadlines,
             lateness: pacer.report().lateness.figures(),
             work: pacer.report().work.figures(),
         }),
     };
-    print_report(arguments.format, &report, |out, report| {
-        print(out, report, arguments)
-    })
+    print_report_beside(
+        &arguments.output,
+        arguments.format,
+        &report,
+        |out, report| print(out, report, arguments, parameters.limits.rate_m_per_s),
+    )
 }
 
-fn same_file(a: &std::path::Path, b: &std::path::Path) -> bool {
+fn same_file(a: &Path, b: &Path) -> bool {
+    if input::is_standard_stream(a) || input::is_standard_stream(b) {
+        return false;
+    }
     matches!((a.canonicalize(), b.canonicalize()), (Ok(a), Ok(b)) if a == b)
 }
 
@@ -128,18 +156,16 @@ fn write<T: Real + Serialize>(
     parameters: &DamperParameters,
     arguments: &ReplayArguments,
     pacer: Option<&mut Pacer>,
-) -> Outcome<Summary> {
-    let damper = parameters.build::<T>(step_s(arguments.step_us))?;
-    let length = std::fs::metadata(&arguments.input).map_or(0, |data| data.len());
-    let bar = progress::bar(length, "replay");
-    let mut ticks = Ticks::new(
-        Recording::open(&arguments.input)?,
-        step_s(arguments.step_us),
-    )?;
+) -> Outcome<(Summary, Gaps)> {
+    let step_s = arguments.step_us.seconds();
+    let damper = parameters.build::<T>(step_s)?;
+    let bar = progress::bar(input::length(&arguments.input), "replay");
+    let mut ticks = Ticks::new(Recording::open(&arguments.input)?, step_s)?;
     let mut summary = None;
     write_whole(&arguments.output, |file| {
-        let failed = |error: csv::Error| {
-            Failure::in_file(&arguments.output, format!("cannot write: {error}"))
+        let failed = |error: csv::Error| match error.into_kind() {
+            csv::ErrorKind::Io(error) => cannot_write(&arguments.output, error),
+            other => cannot_write(&arguments.output, io::Error::other(format!("{other:?}"))),
         };
         let mut rows = csv::Writer::from_writer(file);
         rows.write_record(["time_s", "displacement_m", "force_n"])
@@ -148,23 +174,31 @@ fn write<T: Real + Serialize>(
         summary = Some(replay(&damper, &mut ticks, pacer, |tick, force, ticks| {
             number = number.wrapping_add(1);
             if number.is_multiple_of(65_536) {
-                bar.set_position(ticks.position());
+                bar.set_position(ticks.recording().position());
             }
-            rows.serialize((whole_us(tick.time_s), tick.displacement_m, force))
+            rows.serialize((nearest_nanosecond(tick.time_s), tick.displacement_m, force))
                 .map_err(failed)
         })?);
         rows.flush().map_err(|error| failed(error.into()))
     })?;
     bar.finish_and_clear();
-    summary.ok_or_else(|| Failure::new("nothing was replayed"))
+    let summary = summary.ok_or_else(|| Failure::new("nothing was replayed"))?;
+    Ok((summary, ticks.recording().gaps()))
 }
 
-/// The nearest whole microsecond (s), free of the rounding of sums.
-fn whole_us(time_s: f64) -> f64 {
-    (time_s * 1e6).round() / 1e6
+/// The nearest nanosecond (s), free of the rounding of sums; the nearest microsecond from 100 days on,
+/// where a clock's time in `f64` has no nanoseconds.
+fn nearest_nanosecond(time_s: f64) -> f64 {
+    let per_s = if time_s.abs() < 8.64e6 { 1e9 } else { 1e6 };
+    (time_s * per_s).round() / per_s
 }
 
-fn print(out: &mut dyn Write, report: &Report, arguments: &ReplayArguments) -> io::Result<()> {
+fn print(
+    out: &mut dyn Write,
+    report: &Report,
+    arguments: &ReplayArguments,
+    rate_m_per_s: f64,
+) -> io::Result<()> {
     writeln!(
         out,
         "{} ticks of {} us through damper {}",
@@ -182,17 +216,34 @@ fn print(out: &mut dyn Write, report: &Report, arguments: &ReplayArguments) -> i
     ] {
         writeln!(out, "{name:<22} {value:>12.1} {unit}")?;
     }
+    if report.input_held {
+        writeln!(
+            out,
+            "warning: input held at {}: not a finite number in single precision",
+            counted(report.held_inputs, "tick")
+        )?;
+    }
     if report.input_limited {
         writeln!(
             out,
-            "warning: {} ticks moved faster than limits.rate_m_per_s and were followed at that rate",
-            report.rejected_inputs
+            "warning: input limited at {}: faster than limits.rate_m_per_s = {rate_m_per_s}, followed at \
+             that rate",
+            counted(report.limited_inputs, "tick")
         )?;
     }
+    if let Some(first_s) = report.first_rejected_s {
+        writeln!(
+            out,
+            "  the first at {} s; forces and energy are of the motion followed",
+            nearest_nanosecond(first_s)
+        )?;
+    }
+    write_gaps(out, &report.gaps)?;
     if report.saturated {
         writeln!(
             out,
-            "note: the damper reached its saturation force or force limit"
+            "note: the damper was at its saturation force or force limit at {}",
+            counted(report.saturated_ticks, "tick")
         )?;
     }
     if let Some(realtime) = &report.realtime {
@@ -205,5 +256,5 @@ fn print(out: &mut dyn Write, report: &Report, arguments: &ReplayArguments) -> i
             span(realtime.work.worst_ns)
         )?;
     }
-    writeln!(out, "wrote {}", arguments.output.display())
+    writeln!(out, "wrote {}", output::name(&arguments.output).display())
 }

@@ -6,8 +6,9 @@ use std::path::{Path, PathBuf};
 use plotters::prelude::SeriesLabelPosition;
 use serde::Serialize;
 
+use super::step_size::StepSize;
 use super::{DamperArguments, Format, print_report};
-use crate::failure::{Failure, Outcome};
+use crate::failure::Outcome;
 use crate::output::write_folder;
 use crate::plot::curves::Curve;
 use crate::plot::loops;
@@ -36,9 +37,9 @@ pub struct RigArguments {
     /// Frequency of the motion, Hz.
     #[arg(long, default_value_t = Harmonic::TABLE_5.frequency_hz, value_name = "HZ")]
     pub frequency_hz: f64,
-    /// Step, microseconds; shortened to a whole number of steps a cycle.
-    #[arg(long, default_value_t = 100.0, value_name = "US")]
-    pub step_us: f64,
+    /// Step, us; 1 to 20000, fractions allowed; shortened to a whole number of steps a cycle.
+    #[arg(long, default_value = "100", value_name = "US")]
+    pub step_us: StepSize,
     /// Folder the loops of force over displacement and velocity are written to, as force-loops.svg; none
     /// when not given.
     #[arg(long, value_name = "FOLDER")]
@@ -76,13 +77,7 @@ pub fn run(arguments: &RigArguments) -> Outcome<()> {
         amplitude_m: arguments.amplitude_m,
         frequency_hz: arguments.frequency_hz,
     };
-    if !(1.0..=2e4).contains(&arguments.step_us) {
-        return Err(Failure::new(format!(
-            "--step-us: {}, allowed: 1 to 20000 us",
-            arguments.step_us
-        )));
-    }
-    let cycle = rig::settle(&damper, motion, arguments.step_us * 1e-6)?;
+    let cycle = rig::settle(&damper, motion, arguments.step_us.seconds())?;
     let indices = cycle.indices();
     let published = is_nominal(&motion)
         .then(nominal_characteristic)

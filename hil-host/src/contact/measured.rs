@@ -4,6 +4,7 @@ use std::path::Path;
 
 use super::profile::{Body, Profile};
 use crate::failure::{Failure, Outcome};
+use crate::input;
 
 /// Fewest points of a usable profile: one each 2 mm over a rail head.
 pub const FEWEST: usize = 30;
@@ -22,8 +23,8 @@ pub const DEFAULT_SMOOTHING: f64 = 0.004;
 /// The file cannot be read; a cell is not a finite number; fewer than [`FEWEST`] points; the curve
 /// folds back; neighbours further apart than [`WIDEST_GAP_MM`]; the wrong side is up.
 pub fn read(path: &Path, body: Body, smoothing: f64) -> Outcome<Profile> {
-    let text = std::fs::read_to_string(path)
-        .map_err(|error| Failure::in_file(path, format!("cannot read: {error}")))?;
+    let text = input::read_text(path)?;
+    let path = &*input::name(path);
     let name = path
         .file_stem()
         .map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());

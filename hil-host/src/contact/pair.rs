@@ -54,14 +54,14 @@ impl Installation {
         ];
         for (name, value, low, high) in allowed {
             if !(low..=high).contains(&value) {
-                return Err(Failure::new(format!(
+                return Err(Failure::wrong_use(format!(
                     "{name}: {value}, allowed: {low} to {high}"
                 )));
             }
         }
         let play = self.gauge - self.back_to_back;
         if !(0.03..=0.12).contains(&play) {
-            return Err(Failure::new(format!(
+            return Err(Failure::wrong_use(format!(
                 "gauge less back-to-back distance: {play:.4} m, allowed: 0.03 to 0.12 m"
             )));
         }

@@ -123,17 +123,16 @@ impl Demonstration {
     fn ride(&mut self, name: &'static str, damper: &DamperParameters, step_s: f64) -> Outcome<()> {
         let displacements_m = recording::at_ticks(step_s)?;
         let reference_n = reference_forces(damper, step_s, &displacements_m)?;
-        let single_n = fixed_step_forces::<f32>(damper, step_s, &displacements_m)?;
-        let double_n = fixed_step_forces::<f64>(damper, step_s, &displacements_m)?;
+        let single = fixed_step_forces::<f32>(damper, step_s, &displacements_m)?;
+        let double = fixed_step_forces::<f64>(damper, step_s, &displacements_m)?;
         let costs = [
             median_ns_per_step::<f32>(damper, step_s, &displacements_m)?,
             median_ns_per_step::<f64>(damper, step_s, &displacements_m)?,
         ];
-        for ((scalar, forces), median_ns_per_step) in [("f32", &single_n), ("f64", &double_n)]
-            .into_iter()
-            .zip(costs)
+        for ((scalar, fixed), median_ns_per_step) in
+            [("f32", &single), ("f64", &double)].into_iter().zip(costs)
         {
-            let deviation = deviation(step_s, forces, &reference_n)?;
+            let deviation = deviation(step_s, &fixed.forces_n, &reference_n)?;
             self.accuracy.push(Accuracy {
                 damper: name,
                 scalar,
@@ -150,7 +149,7 @@ impl Demonstration {
                 step_s,
                 displacements_m,
                 reference_n,
-                fixed_step_n: single_n,
+                fixed_step_n: single.forces_n,
             });
         }
         Ok(())

@@ -20,7 +20,7 @@ pub fn c_source<T: Word>(
 ) -> Outcome<String> {
     name::check_c(constant)?;
     if T::NAME != f32::NAME {
-        return Err(Failure::new(format!(
+        return Err(Failure::wrong_use(format!(
             "--scalar {}: the C library is of single precision, allowed with --lang c: f32",
             T::NAME
         )));

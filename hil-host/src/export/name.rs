@@ -11,7 +11,7 @@ pub(super) fn check(name: &str) -> Outcome<()> {
     if valid {
         Ok(())
     } else {
-        Err(Failure::new(format!(
+        Err(Failure::wrong_use(format!(
             "--name {name}: no name of a constant, allowed: A to Z first, then A to Z, 0 to 9 and _"
         )))
     }
@@ -22,7 +22,7 @@ pub(super) fn check_c(name: &str) -> Outcome<()> {
     check(name)?;
     let taken = ["_MAX", "_MIN", "_C", "_WIDTH"];
     if name == "NULL" || taken.iter().any(|end| name.ends_with(end)) {
-        return Err(Failure::new(format!(
+        return Err(Failure::wrong_use(format!(
             "--name {name}: the C headers may define it, allowed: not NULL, no end in {}",
             taken.join(", ")
         )));

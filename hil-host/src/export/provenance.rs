@@ -9,7 +9,7 @@ pub struct Provenance<'a> {
     /// Preset or file the damper came from.
     pub damper: &'a str,
     /// Step as asked for (us).
-    pub step_us: u32,
+    pub step_us: f64,
     /// Command line that makes the file again.
     pub command: &'a str,
 }
@@ -34,7 +34,7 @@ impl Provenance<'_> {
              // Needs {needs}; do not edit.\n",
             one_line(self.damper),
             self.step_us,
-            1e3 / f64::from(self.step_us),
+            1e3 / self.step_us,
             T::NAME,
             damper.revision(),
             size_of::<DamperState<T>>(),

@@ -95,7 +95,7 @@ impl<C: Clock> Pacer<C> {
     pub fn with_clock(step_s: f64, clock: C) -> Outcome<Self> {
         // Half a nanosecond of room: a step of 1/10000 s may be written either way.
         if !(100e-6 - 5e-10..=1e-3 + 5e-10).contains(&step_s) {
-            return Err(Failure::new(format!(
+            return Err(Failure::wrong_use(format!(
                 "a paced step of {} us: allowed are 100 to 1000 us (10 to 1 kHz)",
                 step_s * 1e6
             )));

@@ -70,8 +70,8 @@ fn pin(core: usize) -> Outcome<()> {
         .collect();
     if !cores.contains(&core) {
         let names: Vec<String> = cores.iter().map(usize::to_string).collect();
-        return Err(refused(format!(
-            "no core this process may use, allowed: {}",
+        return Err(Failure::wrong_use(format!(
+            "--core {core}: no core this process may use, allowed: {}",
             names.join(", ")
         )));
     }

@@ -107,7 +107,7 @@ impl<L: Link> FaultyLink<L> {
     /// Resets are asked of a link that cannot reset its target.
     pub fn new(link: L, rates: FaultRates, seed: u64) -> Outcome<Self> {
         if rates.reset > 0.0 && !link.can_reset() {
-            return Err(Failure::new(
+            return Err(Failure::wrong_use(
                 "fault `reset`: this link cannot reset its target; `--link qemu` can",
             ));
         }

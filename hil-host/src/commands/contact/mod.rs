@@ -12,6 +12,7 @@ use crate::contact::pair::{Installation, Pair};
 use crate::contact::profile::{Body, Profile};
 use crate::contact::{plot, s1002, uic60};
 use crate::failure::{Failure, Outcome};
+use crate::input;
 use crate::output::write_folder;
 use report::{print, report};
 
@@ -24,10 +25,12 @@ use report::{print, report};
   dashpot contact --rail worn.csv --gauge-m 1.432 --plots worn-plots --format json"
 )]
 pub struct ContactArguments {
-    /// Wheel profile: `s1002` or a file of y_mm, z_mm from the tread datum, field side and down positive.
+    /// Wheel profile: `s1002` or a file of y_mm, z_mm from the tread datum, field side and down positive;
+    /// `-` for standard input.
     #[arg(long, default_value = "s1002", value_name = "NAME|FILE")]
     pub wheel: String,
-    /// Rail profile: `uic60` or a file of y_mm, z_mm from the head's top, field side and down positive.
+    /// Rail profile: `uic60` or a file of y_mm, z_mm from the head's top, field side and down positive;
+    /// `-` for standard input.
     #[arg(long, default_value = "uic60", value_name = "NAME|FILE")]
     pub rail: String,
     /// Track gauge, m.
@@ -74,10 +77,14 @@ const CELLS: usize = 960;
 pub fn run(arguments: &ContactArguments) -> Outcome<()> {
     let smoothing = arguments.smoothing_m;
     if !(0.0..=0.05).contains(&smoothing) {
-        return Err(Failure::new(format!(
+        return Err(Failure::wrong_use(format!(
             "--smoothing-m: {smoothing}, allowed: 0 to 0.05 m"
         )));
     }
+    input::refuse_second_standard_input(&[
+        ("--wheel", Path::new(&arguments.wheel)),
+        ("--rail", Path::new(&arguments.rail)),
+    ])?;
     let wheel = profile(
         &arguments.wheel,
         "s1002",
@@ -134,14 +141,12 @@ fn profile(
         return Ok(built_in());
     }
     let path = Path::new(name);
-    if path.exists() {
-        measured::read(path, body, smoothing)
-    } else {
-        Err(Failure::in_file(
-            path,
-            format!("no such profile, allowed: {known} or a file of two columns y_mm, z_mm"),
-        ))
+    if input::is_file_name(path) || path.exists() {
+        return measured::read(path, body, smoothing);
     }
+    Err(Failure::wrong_use(format!(
+        "{name}: no such profile, allowed: {known} or a file of two columns y_mm, z_mm"
+    )))
 }
 
 /// Writes the plots into `folder` and tells their paths.

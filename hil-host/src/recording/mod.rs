@@ -1,15 +1,20 @@
 //! Recorded motion as a logger writes it: time and displacement, uneven, with gaps.
 
-use std::fs::File;
+mod gaps;
+mod header;
+mod line_ends;
+
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use csv::{ByteRecord, Reader, ReaderBuilder};
 
 use crate::failure::{Failure, Outcome};
-
-/// The columns a recording must have; others are passed over.
-const COLUMNS: [&str; 2] = ["time_s", "displacement_m"];
+use crate::input;
+use gaps::Intervals;
+pub use gaps::{GAP_IN_MEDIANS, Gap, Gaps};
+use header::COLUMNS;
+use line_ends::LineEnds;
 
 /// One row of a recording.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,25 +29,20 @@ pub struct Sample {
 /// or without byte order mark, columns in any order.
 pub struct Recording {
     path: PathBuf,
-    reader: Reader<Box<dyn Read>>,
+    reader: Reader<LineEnds<Box<dyn Read>>>,
     columns: [usize; 2],
     record: ByteRecord,
     last_time_s: Option<f64>,
+    intervals: Intervals,
 }
 
 impl Recording {
-    /// Opens the recording at `path` and reads its header.
+    /// Opens the recording at `path`, `-` being standard input, and reads its header.
     ///
     /// # Errors
     /// No readable file, an empty one, or a column that is missing or doubled.
     pub fn open(path: &Path) -> Outcome<Self> {
-        let cannot =
-            |error: &dyn std::fmt::Display| Failure::in_file(path, format!("cannot read: {error}"));
-        let file = File::open(path).map_err(|error| cannot(&error))?;
-        if file.metadata().map_err(|error| cannot(&error))?.is_dir() {
-            return Err(cannot(&"it is a folder"));
-        }
-        Self::read(path, Box::new(file))
+        Self::read(&input::name(path), input::open(path)?)
     }
 
     /// A recording from `source`, called `path` in errors.
@@ -53,27 +53,15 @@ impl Recording {
         let mut reader = ReaderBuilder::new()
             .comment(Some(b'#'))
             .trim(csv::Trim::Headers)
-            .from_reader(source);
-        let header = reader
-            .byte_headers()
-            .map_err(|error| explain(path, &error))?
-            .clone();
-        if header.is_empty() {
-            return Err(Failure::in_file(
-                path,
-                "empty; a header `time_s,displacement_m` and at least one row are needed",
-            ));
-        }
-        let columns = [
-            column(path, &header, COLUMNS[0])?,
-            column(path, &header, COLUMNS[1])?,
-        ];
+            .from_reader(LineEnds::new(source));
+        let columns = header::columns(path, &mut reader)?;
         Ok(Self {
             path: path.to_owned(),
             reader,
             columns,
             record: ByteRecord::new(),
             last_time_s: None,
+            intervals: Intervals::new(),
         })
     }
 
@@ -86,7 +74,7 @@ impl Recording {
         let more = self
             .reader
             .read_byte_record(&mut self.record)
-            .map_err(|error| explain(&self.path, &error))?;
+            .map_err(|error| self.explain(&error))?;
         if !more {
             if self.last_time_s.is_none() {
                 return Err(Failure::in_file(&self.path, "no row after the header"));
@@ -95,12 +83,13 @@ impl Recording {
         }
         let time_s = self.number(0)?;
         let displacement_m = self.number(1)?;
-        if let Some(last) = self.last_time_s
-            && time_s <= last
-        {
-            return Err(self.in_time(format!(
-                "time {time_s} s does not grow; the row before has {last} s"
-            )));
+        if let Some(last) = self.last_time_s {
+            if time_s <= last {
+                return Err(self.in_time(format!(
+                    "time {time_s} s does not grow; the row before has {last} s"
+                )));
+            }
+            self.intervals.add(last, time_s, self.line());
         }
         self.last_time_s = Some(time_s);
         Ok(Some(Sample {
@@ -113,7 +102,7 @@ impl Recording {
     ///
     /// # Errors
     /// As [`Recording::next_sample`].
-    pub fn read_all(mut self) -> Outcome<Vec<Sample>> {
+    pub fn read_all(&mut self) -> Outcome<Vec<Sample>> {
         let mut samples = Vec::new();
         while let Some(sample) = self.next_sample()? {
             samples.push(sample);
@@ -124,6 +113,11 @@ impl Recording {
     /// Bytes read so far, for a progress bar.
     pub fn position(&self) -> u64 {
         self.reader.position().byte()
+    }
+
+    /// The gaps among the rows read so far.
+    pub fn gaps(&self) -> Gaps {
+        self.intervals.gaps()
     }
 
     /// A failure of the time in the row read last.
@@ -138,60 +132,48 @@ impl Recording {
         let text = std::str::from_utf8(cell).ok();
         match text.and_then(|text| text.parse::<f64>().ok()) {
             Some(number) if number.is_finite() => Ok(number),
-            _ => Err(self.in_cell(
-                column,
-                format!(
-                    "`{}` is not a finite number",
-                    String::from_utf8_lossy(&cell[..cell.len().min(40)])
-                ),
-            )),
+            _ => {
+                let hint = match text.map(|text| text.replacen(',', ".", 1).parse::<f64>()) {
+                    Some(Ok(_)) if cell.contains(&b',') => {
+                        "; it has a decimal comma, accepted is a decimal point"
+                    }
+                    _ => "",
+                };
+                let shown = String::from_utf8_lossy(&cell[..cell.len().min(40)]);
+                Err(self.in_cell(column, format!("`{shown}` is not a finite number{hint}")))
+            }
         }
     }
 
     fn in_cell(&self, column: usize, message: String) -> Failure {
-        let line = self.record.position().map_or(0, csv::Position::line);
-        Failure::in_cell(&self.path, line, COLUMNS[column], message)
+        Failure::in_cell(&self.path, self.line(), COLUMNS[column], message)
     }
-}
 
-fn column(path: &Path, header: &ByteRecord, name: &str) -> Outcome<usize> {
-    let found: Vec<usize> = (0..header.len())
-        .filter(|&index| &header[index] == name.as_bytes())
-        .collect();
-    let listed = || {
-        let header = String::from_utf8_lossy(header.as_slice()).into_owned();
-        header.chars().take(80).collect::<String>()
-    };
-    match found[..] {
-        [index] => Ok(index),
-        [] => Err(Failure::in_file(
-            path,
-            format!(
-                "column {name} is missing from the header (found `{}`); the header names \
-                 time_s and displacement_m",
-                listed().escape_debug()
-            ),
-        )),
-        _ => Err(Failure::in_file(
-            path,
-            format!("column {name} is in the header {} times", found.len()),
-        )),
+    /// Line of the row read last.
+    fn line(&self) -> u64 {
+        let (position, source) = (self.reader.position(), self.reader.get_ref());
+        position.line() - u64::from(source.has_passed_line_feed(position.byte()))
     }
-}
 
-fn explain(path: &Path, error: &csv::Error) -> Failure {
-    match error.kind() {
-        csv::ErrorKind::UnequalLengths {
-            pos,
-            expected_len,
-            len,
-        } => Failure::in_file(
-            path,
+    /// A failure of the reader at the row read last.
+    fn explain(&self, error: &csv::Error) -> Failure {
+        let csv::ErrorKind::UnequalLengths {
+            expected_len, len, ..
+        } = error.kind()
+        else {
+            return Failure::in_file(&self.path, format!("cannot read: {error}"));
+        };
+        let hint = if *len == 2 * expected_len {
+            "; numbers with a decimal comma have twice the cells, accepted is a decimal point"
+        } else {
+            ""
+        };
+        Failure::in_file(
+            &self.path,
             format!(
-                "line {}: {len} cells where the header has {expected_len}",
-                pos.as_ref().map_or(0, csv::Position::line)
+                "line {}: {len} cells where the header has {expected_len}{hint}",
+                self.line()
             ),
-        ),
-        _ => Failure::in_file(path, format!("cannot read: {error}")),
+        )
     }
 }

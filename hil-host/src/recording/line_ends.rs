@@ -1,0 +1,50 @@
+//! Line ends of a file: what the number of a row's line depends on.
+
+use std::io::{self, Read};
+
+/// A source that notes how its lines end.
+pub(super) struct LineEnds<R> {
+    source: R,
+    length: u64,
+    last: u8,
+    /// Whether lines end in CR and LF; `None` before the first end.
+    two_bytes: Option<bool>,
+}
+
+impl<R: Read> LineEnds<R> {
+    pub(super) fn new(source: R) -> Self {
+        Self {
+            source,
+            length: 0,
+            last: 0,
+            two_bytes: None,
+        }
+    }
+
+    /// Whether a reader that ends rows at the first CR or LF has passed the LF of a row, `position` bytes
+    /// into the file.
+    pub(super) fn has_passed_line_feed(&self, position: u64) -> bool {
+        if position == self.length {
+            // The last row may have none.
+            self.last == b'\n'
+        } else {
+            self.two_bytes == Some(false)
+        }
+    }
+}
+
+impl<R: Read> Read for LineEnds<R> {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        let length = self.source.read(buffer)?;
+        let bytes = &buffer[..length];
+        if self.two_bytes.is_none()
+            && let Some(end) = bytes.iter().position(|&byte| byte == b'\n')
+        {
+            let before = if end > 0 { bytes[end - 1] } else { self.last };
+            self.two_bytes = Some(before == b'\r');
+        }
+        self.length += length as u64;
+        self.last = bytes.last().copied().unwrap_or(self.last);
+        Ok(length)
+    }
+}
