@@ -60,6 +60,31 @@ fn bank(criterion: &mut Criterion) {
     group.finish();
 }
 
+/// Parameters to constants.
+fn build(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("build");
+    for (name, preset, overrides) in [
+        ("reduced-vertical", "reduced-vertical", &[][..]),
+        ("paper", "paper", &[]),
+        ("in-service", "in-service", &[]),
+        (
+            "in-service, two chambers",
+            "in-service",
+            &["two_chamber.vapour_pressure_pa=-9e4"],
+        ),
+    ] {
+        let parameters = damper(preset, overrides);
+        group.bench_function(format!("{name} f32"), |bencher| {
+            bencher.iter(|| -> Damper<f32> {
+                black_box(&parameters)
+                    .build(STEP_S)
+                    .expect("a preset builds")
+            });
+        });
+    }
+    group.finish();
+}
+
 fn rivals(criterion: &mut Criterion) {
     let motion = ride::<f32>();
     let paper = damper("paper", &[]);
@@ -103,6 +128,7 @@ fn all(criterion: &mut Criterion) {
     single::<f32>(criterion, "f32");
     single::<f64>(criterion, "f64");
     bank(criterion);
+    build(criterion);
     rivals(criterion);
     reference(criterion);
 }

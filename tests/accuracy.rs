@@ -5,8 +5,9 @@ use std::collections::HashMap;
 use std::fmt::Write;
 
 use dashpot::accuracy::{DAMPERS, Errors, STEPS_S, measure_all};
-use dashpot::document;
 use dashpot::tolerance::{FILE, LEAST_USE, SLACK, Tolerance, required, rows, to_text};
+use dashpot::{damper, document};
+use dashpot_core::characteristic::{Characteristic, Corner};
 use dashpot_hil::excitation::Excitation;
 
 type Found = HashMap<(&'static str, &'static str), Errors>;
@@ -67,23 +68,73 @@ fn complaints(found: &Found) -> Vec<String> {
             }
         }
     }
+    for (damper, ..) in DAMPERS {
+        for (corner, force) in corners(damper) {
+            let mut runs = cases().filter(|case| case.0 == damper);
+            if !runs.any(|case| found[&case].reached(force)) {
+                complaints.push(format!(
+                    "{damper}: no excitation reaches {corner}, {force:.0} N"
+                ));
+            }
+        }
+    }
     if rows.len() != cases().count() {
         complaints.push(format!("{FILE} has {} rows, not one a case", rows.len()));
     }
     complaints
 }
 
+/// The corners of a damper of [`DAMPERS`]: a letter each for what and where, and the force (N).
+fn corners(name: &str) -> Vec<(String, f64)> {
+    let (_, preset, overrides) = DAMPERS
+        .into_iter()
+        .find(|(row, ..)| *row == name)
+        .expect("a row of the table");
+    let law = Characteristic::new(&damper(preset, overrides)).expect("a valid damper");
+    law.corners()
+        .iter()
+        .map(|(corner, force)| {
+            let what = match corner {
+                Corner::PistonValveOpens => "P",
+                Corner::ReliefOpens => "R",
+                Corner::FootValveOpens => "F",
+                Corner::Vapour => "V",
+                Corner::Yields => "Y",
+                other => panic!("{other:?} has no letter"),
+            };
+            let side = if *force < 0.0 { "c" } else { "e" };
+            (format!("{what}{side}"), *force)
+        })
+        .collect()
+}
+
+/// `Pe Re of Pe Re Ye`: the corners a run went through, and all of them when these are fewer.
+fn reached(found: &Errors, corners: &[(String, f64)]) -> String {
+    let names = |wanted: &dyn Fn(f64) -> bool| -> Vec<&str> {
+        let wanted = corners.iter().filter(|(_, force)| wanted(*force));
+        wanted.map(|(name, _)| name.as_str()).collect()
+    };
+    let (reached, all) = (names(&|force| found.reached(force)), names(&|_| true));
+    match reached.len() {
+        0 => format!("none of {}", all.join(" ")),
+        some if some == all.len() => all.join(" "),
+        _ => format!("{} of {}", reached.join(" "), all.join(" ")),
+    }
+}
+
 /// The measured table of docs/numerics.md.
 fn document_part(found: &Found) -> String {
     let mut text = String::from(
-        "| damper | excitation | 1 kHz f64 | 1 kHz f32 | 10 kHz f64 | 10 kHz f32 |\n|---|---|---|---|---|---|\n",
+        "| damper | excitation | 1 kHz f64 | 1 kHz f32 | 10 kHz f64 | 10 kHz f32 | corners |\n|---|---|---|---|---|---|---|\n",
     );
     for case in cases() {
         let [[slow, slow_single], [fast, fast_single]] = found[&case].nrmse;
         writeln!(
             text,
-            "| {} | {} | {slow:.1e} | {slow_single:.1e} | {fast:.1e} | {fast_single:.1e} |",
-            case.0, case.1
+            "| {} | {} | {slow:.1e} | {slow_single:.1e} | {fast:.1e} | {fast_single:.1e} | {} |",
+            case.0,
+            case.1,
+            reached(&found[&case], &corners(case.0)),
         )
         .expect("text grows");
     }

@@ -4,6 +4,7 @@ use std::f64::consts::PI;
 
 use dashpot::bench_test::settled_force;
 use dashpot::damper;
+use dashpot_core::characteristic::{Characteristic, ShimPackValve};
 use dashpot_hil::reference::Reference;
 
 /// Areas of the paper's damper [m^2].
@@ -268,5 +269,42 @@ fn a_seal_releases_where_its_friction_ends() {
                 "{velocity} m/s: {found} N, {law} N"
             );
         }
+    }
+}
+
+/// The gas of the reservoir is below the atmosphere in the cold: `P_b = p_a (T/T_fill) - p_a`.
+#[test]
+fn a_cold_reservoir_draws_at_the_foot_valve() {
+    let cold = damper(
+        "in-service",
+        &["oil.temperature_c=-20", "oil.column.air_fraction=0"],
+    );
+    let back: f64 = 101_325.0 * (253.15 / 293.15 - 1.0);
+    assert!((back + 13_826.0).abs() < 1.0);
+    let law = Characteristic::new(&cold).expect("a preset");
+    for pressure in [1e3, 1e5] {
+        let density = 870.0 / (1.0 - 35.0 * 7e-4) / (1.0 - pressure / 1.5e9);
+        let by_hand = 0.61
+            * 2.0
+            * PI
+            * 0.011
+            * 1.446e-12
+            * 0.8265
+            * pressure
+            * (2.0 * (pressure - back) / density).sqrt();
+        let flow = law
+            .valve_flow_m3_per_s(ShimPackValve::FootCompression, pressure)
+            .expect("a physical damper");
+        assert!((flow / by_hand - 1.0).abs() < 1e-12, "{flow} for {by_hand}");
+    }
+    for velocity in [-0.01, -0.1, -0.3] {
+        let reference = Reference::new(&cold)
+            .expect("a preset")
+            .static_force(velocity);
+        let ours = law.force_n(velocity);
+        assert!(
+            (ours / reference - 1.0).abs() < 1e-6,
+            "{ours} for {reference}"
+        );
     }
 }

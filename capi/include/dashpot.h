@@ -26,7 +26,7 @@
 /**
  * Bytes of a dashpot_damper.
  */
-#define DASHPOT_DAMPER_SIZE 8248
+#define DASHPOT_DAMPER_SIZE 9260
 
 /**
  * Alignment of a dashpot_damper (bytes).
@@ -36,7 +36,7 @@
 /**
  * Words of a dashpot_damper.
  */
-#define DASHPOT_DAMPER_WORDS 2062
+#define DASHPOT_DAMPER_WORDS 2315
 
 /**
  * Bytes of a dashpot_state.
@@ -56,7 +56,7 @@
 /**
  * Bytes of an image, from which a damper is made.
  */
-#define DASHPOT_IMAGE_SIZE 6732
+#define DASHPOT_IMAGE_SIZE 6720
 
 /**
  * Bytes of a saved state.

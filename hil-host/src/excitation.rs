@@ -17,7 +17,7 @@ pub enum Excitation {
     Saw,
     /// 1.4 Hz from 10 mm, decaying to nothing.
     Decay,
-    /// 26 mm at 2 Hz: at the force limit of the published damper for half of the time.
+    /// 26 mm at 2 Hz: in compression to 0.5 % below the force limit of the published damper.
     Stroke,
     /// Velocity rising and falling evenly in strokes out and back, to 0.1, 0.4 and 1.6 m/s: through every corner
     /// of every law.

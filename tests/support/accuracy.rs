@@ -41,10 +41,20 @@ pub const DAMPERS: [(&str, &str, &[&str]); 7] = [
 pub const STEPS_S: [f64; 2] = [1e-3, 1e-4];
 
 /// Errors of one damper under one excitation.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub struct Errors {
     /// For each step size of [`STEPS_S`] the NRMSE in `f64` and in `f32`.
     pub nrmse: [[f64; 2]; 2],
+    /// Largest force of the reference in extension and in compression (N).
+    pub largest_force_n: [f64; 2],
+}
+
+impl Errors {
+    /// Whether the force went to where a corner lies, to the rounding of the reference.
+    pub fn reached(&self, corner_n: f64) -> bool {
+        let largest = self.largest_force_n[usize::from(corner_n < 0.0)];
+        largest >= (1.0 - 1e-9) * corner_n.abs()
+    }
 }
 
 /// Root of the mean square difference over the root mean square of `expected`, the first sample
@@ -80,8 +90,12 @@ pub fn stepped<T: Real>(
         .collect()
 }
 
-/// NRMSE in `f64` and `f32` of one case; one reference solution.
-pub fn errors(parameters: &DamperParameters, excitation: Excitation, step_s: f64) -> [f64; 2] {
+/// NRMSE in `f64` and `f32` of one case, and the reference's forces (N).
+pub fn errors(
+    parameters: &DamperParameters,
+    excitation: Excitation,
+    step_s: f64,
+) -> ([f64; 2], Vec<f64>) {
     let displacements = displacements_m(excitation, step_s);
     let times: Vec<f64> = (0..displacements.len())
         .map(|tick| tick as f64 * step_s)
@@ -89,16 +103,11 @@ pub fn errors(parameters: &DamperParameters, excitation: Excitation, step_s: f64
     let reference = Reference::new(parameters)
         .and_then(|mut reference| reference.forces(&times, &displacements))
         .expect("the reference solves every damper of the table");
-    [
-        nrmse(
-            &stepped::<f64>(parameters, step_s, &displacements),
-            &reference,
-        ),
-        nrmse(
-            &stepped::<f32>(parameters, step_s, &displacements),
-            &reference,
-        ),
-    ]
+    let found = [
+        stepped::<f64>(parameters, step_s, &displacements),
+        stepped::<f32>(parameters, step_s, &displacements),
+    ];
+    (found.map(|forces| nrmse(&forces, &reference)), reference)
 }
 
 /// Errors of every damper under every excitation, by the damper's and the excitation's name.
@@ -119,10 +128,14 @@ pub fn measure_all() -> HashMap<(&'static str, &'static str), Errors> {
                 while let Some(case) = cases.get(next.fetch_add(1, Ordering::Relaxed)) {
                     let &(row, preset, overrides, excitation, step) = case;
                     let parameters = damper(preset, overrides);
-                    let nrmse = errors(&parameters, excitation, STEPS_S[step]);
+                    let (nrmse, forces) = errors(&parameters, excitation, STEPS_S[step]);
                     let mut found = found.lock().expect("no case panicked before");
                     let entry: &mut Errors = found.entry((row, excitation.name())).or_default();
                     entry.nrmse[step] = nrmse;
+                    for force in forces {
+                        let largest = &mut entry.largest_force_n[usize::from(force < 0.0)];
+                        *largest = largest.max(force.abs());
+                    }
                 }
             });
         }

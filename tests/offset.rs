@@ -1,0 +1,39 @@
+//! A displacement far from zero: what `f32` cannot resolve of it stays within the promise up to 0.25 m.
+
+use dashpot::accuracy::{displacements_m, nrmse, stepped};
+use dashpot::damper;
+use dashpot_hil::excitation::Excitation;
+use dashpot_hil::reference::Reference;
+
+/// NRMSE of the step in `f32` at 10 kHz about an offset (m), against the motion before it was rounded.
+fn error_about(preset: &str, offset_m: f64) -> f64 {
+    const STEP_S: f64 = 1e-4;
+    let parameters = damper(preset, &[]);
+    let displacements: Vec<f64> = displacements_m(Excitation::Ride, STEP_S)
+        .iter()
+        .map(|x| x + offset_m)
+        .collect();
+    let times: Vec<f64> = (0..displacements.len())
+        .map(|tick| tick as f64 * STEP_S)
+        .collect();
+    let reference = Reference::new(&parameters)
+        .and_then(|mut reference| reference.forces(&times, &displacements))
+        .expect("the reference solves every preset");
+    nrmse(
+        &stepped::<f32>(&parameters, STEP_S, &displacements),
+        &reference,
+    )
+}
+
+#[test]
+fn the_promise_holds_up_to_a_quarter_of_a_metre() {
+    for preset in ["paper", "in-service", "reduced-vertical", "reduced-lateral"] {
+        for offset_m in [-0.25, 0.2] {
+            let error = error_about(preset, offset_m);
+            assert!(error < 6e-5, "{preset} about {offset_m} m: {error:.1e}");
+        }
+    }
+    // Rounding is what limits it: farther out the error grows with the unit in the last place.
+    let (near, far) = (error_about("paper", 0.25), error_about("paper", 2.5));
+    assert!(far > 4.0 * near, "{near:.1e}, {far:.1e}");
+}
