@@ -1,6 +1,8 @@
 //! Correctly rounded square roots: the one file with `unsafe`, for the processor's instruction.
 //!
-//! Every path rounds as IEEE 754 asks, so all of them return the same bits.
+//! Every path rounds as IEEE 754 asks, so all of them return the same bits. No path is chosen by a
+//! feature that stable compilers hide, as they do those of Arm: `build.rs` finds out, and warns where the
+//! root is software on a processor that may have the instruction.
 #![allow(unsafe_code)]
 
 /// Square root of `value`, correctly rounded.
@@ -12,19 +14,43 @@ pub(crate) fn f32(value: f32) -> f32 {
         // SAFETY: the intrinsics need SSE2 only, which the surrounding cfg guarantees.
         unsafe { _mm_cvtss_f32(_mm_sqrt_ss(_mm_set_ss(value))) }
     }
-    #[cfg(all(target_arch = "arm", target_feature = "vfp2"))]
+    #[cfg(all(target_arch = "aarch64", target_feature = "neon"))]
     {
         let root: f32;
-        // SAFETY: VSQRT.F32 reads and writes only the two registers named; the cfg guarantees it.
+        // SAFETY: FSQRT reads and writes only the two registers named; every AArch64 FPU has it.
+        unsafe {
+            core::arch::asm!("fsqrt {root:s}, {value:s}", root = lateout(vreg) root,
+                value = in(vreg) value, options(pure, nomem, nostack, preserves_flags));
+        }
+        root
+    }
+    #[cfg(double_registers)]
+    {
+        let root: f32;
+        // SAFETY: VSQRT.F32 reads and writes only the two registers named; the build found the FPU.
         unsafe {
             core::arch::asm!("vsqrt.f32 {root}, {value}", root = lateout(sreg) root,
                 value = in(sreg) value, options(pure, nomem, nostack, preserves_flags));
         }
         root
     }
+    // Of an FPU without double precision the compiler takes no register as an operand, only as clobbered.
+    #[cfg(all(target_arch = "arm", target_abi = "eabihf", not(double_registers)))]
+    {
+        let root: u32;
+        // SAFETY: every FPU has VSQRT.F32, and hard-float calls need an FPU; s0 and the operand are named.
+        unsafe {
+            core::arch::asm!("vmov s0, {bits}", "vsqrt.f32 s0, s0", "vmov {bits}, s0",
+                bits = inlateout(reg) value.to_bits() => root, lateout("s0") _,
+                options(pure, nomem, nostack, preserves_flags));
+        }
+        f32::from_bits(root)
+    }
     #[cfg(not(any(
         all(target_arch = "x86_64", target_feature = "sse2"),
-        all(target_arch = "arm", target_feature = "vfp2")
+        all(target_arch = "aarch64", target_feature = "neon"),
+        double_registers,
+        all(target_arch = "arm", target_abi = "eabihf")
     )))]
     {
         libm::sqrtf(value)
@@ -40,7 +66,31 @@ pub(crate) fn f64(value: f64) -> f64 {
         // SAFETY: the intrinsics need SSE2 only, which the surrounding cfg guarantees.
         unsafe { _mm_cvtsd_f64(_mm_sqrt_sd(_mm_set_sd(0.0), _mm_set_sd(value))) }
     }
-    #[cfg(not(all(target_arch = "x86_64", target_feature = "sse2")))]
+    #[cfg(all(target_arch = "aarch64", target_feature = "neon"))]
+    {
+        let root: f64;
+        // SAFETY: as for single precision.
+        unsafe {
+            core::arch::asm!("fsqrt {root:d}, {value:d}", root = lateout(vreg) root,
+                value = in(vreg) value, options(pure, nomem, nostack, preserves_flags));
+        }
+        root
+    }
+    #[cfg(double_registers)]
+    {
+        let root: f64;
+        // SAFETY: as for single precision; the build found the double registers.
+        unsafe {
+            core::arch::asm!("vsqrt.f64 {root}, {value}", root = lateout(dreg_low16) root,
+                value = in(dreg_low16) value, options(pure, nomem, nostack, preserves_flags));
+        }
+        root
+    }
+    #[cfg(not(any(
+        all(target_arch = "x86_64", target_feature = "sse2"),
+        all(target_arch = "aarch64", target_feature = "neon"),
+        double_registers
+    )))]
     {
         libm::sqrt(value)
     }
