@@ -224,6 +224,7 @@ fn the_target_keeps_its_budget_and_has_the_digests() {
         assert!(known, "{row} in {BUDGET} is no figure");
     }
     for (element, excitation, run) in &found {
+        assert_eq!(run.known, 101.0, "the count of a known function");
         assert_eq!(run.least, run.most, "{element}, {excitation}: one cost");
         if *element != "bank" {
             assert_eq!(run.first, run.most, "{element}, {excitation}: first step");

@@ -3,11 +3,12 @@
 //!
 //! The host loads an [`Experiment`] at [`EXPERIMENT`] before the start and reads one JSON object from
 //! the link's UART. The motion is walked to its end and back until the steps are done. Counts are in
-//! ticks of the clock and take in the call (`call`, of a function that only returns); under QEMU's
-//! `-icount shift=10` an instruction takes 25.6 of them.
+//! ticks of the clock and take in the call (`call`, of a function of one instruction, its return); under
+//! QEMU's `-icount shift=10` an instruction takes 25.6 of them.
 #![no_std]
 #![no_main]
 
+use core::arch::naked_asm;
 use core::fmt::Write;
 use core::hint::black_box;
 use core::ptr::with_exposed_provenance;
@@ -62,17 +63,16 @@ impl Cost {
     }
 }
 
-type Step = fn(&Damper<f32>, &mut DamperState<f32>, f32) -> f32;
-type Bank = fn(&Dampers<'_>, &mut [DamperState<f32>; BANK], &[f32; BANK], &mut [f32; BANK]);
+type Step = extern "C" fn(&Damper<f32>, &mut DamperState<f32>, f32) -> f32;
+type Bank =
+    extern "C" fn(&Dampers<'_>, &mut [DamperState<f32>; BANK], &[f32; BANK], &mut [f32; BANK]);
 type Dampers<'a> = [&'a Damper<f32>; BANK];
 
-#[inline(never)]
-fn step(damper: &Damper<f32>, state: &mut DamperState<f32>, displacement: f32) -> f32 {
+extern "C" fn step(damper: &Damper<f32>, state: &mut DamperState<f32>, displacement: f32) -> f32 {
     damper.step(state, displacement)
 }
 
-#[inline(never)]
-fn bank(
+extern "C" fn bank(
     dampers: &Dampers<'_>,
     states: &mut [DamperState<f32>; BANK],
     displacements: &[f32; BANK],
@@ -81,19 +81,27 @@ fn bank(
     step_bank(dampers, states, displacements, forces);
 }
 
-/// Nothing but a return: what a call costs beyond it is the step's own.
-#[inline(never)]
-fn no_step(_: &Damper<f32>, _: &mut DamperState<f32>, displacement: f32) -> f32 {
-    displacement
+/// One instruction, the return.
+#[unsafe(naked)]
+extern "C" fn no_step(_: &Damper<f32>, _: &mut DamperState<f32>, displacement: f32) -> f32 {
+    naked_asm!("bx lr")
 }
 
-#[inline(never)]
-fn no_bank(
+/// A hundred and one instructions: what is found for it proves the count.
+#[unsafe(naked)]
+extern "C" fn known_step(_: &Damper<f32>, _: &mut DamperState<f32>, displacement: f32) -> f32 {
+    naked_asm!(".rept 100", "nop", ".endr", "bx lr")
+}
+
+/// As [`no_step`].
+#[unsafe(naked)]
+extern "C" fn no_bank(
     _: &Dampers<'_>,
     _: &mut [DamperState<f32>; BANK],
     _: &[f32; BANK],
     _: &mut [f32; BANK],
 ) {
+    naked_asm!("bx lr")
 }
 
 /// Force (N) and clock ticks of a call.
@@ -202,12 +210,13 @@ fn main() -> ! {
     let swapped = timed_with_stack(&other, state, 2.5e-3);
     let stack = first.1.max(held.1).max(swapped.1);
     let single = timed(no_step, &damper, state, 0.0).1;
+    let known = timed(known_step, &damper, state, 0.0).1;
 
     let mut printer = Printer(Uart::start(Port::Link, 1_000_000));
     let _ = writeln!(
         printer,
         "{{\"call\": {call}, \"least\": {}, \"most\": {}, \"sum\": {}, \"digest\": \"{hash:016x}\", \
-         \"single_call\": {single}, \"first\": {}, \"held\": {}, \"swapped\": {}, \
+         \"single_call\": {single}, \"known\": {known}, \"first\": {}, \"held\": {}, \"swapped\": {}, \
          \"stack_bytes\": {stack}, \"damper_bytes\": {}, \"state_bytes\": {}}}",
         usual.least,
         usual.most,
