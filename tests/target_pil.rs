@@ -12,6 +12,7 @@ use dashpot_hil::failure::Outcome;
 use dashpot_hil::pil::{
     Client, FaultRates, FaultyLink, Link, LinkError, Patience, Qemu, Report, Session,
 };
+use xtask::processor::CORTEX_M7;
 use xtask::tools::{ARM_GCC, QEMU, have, have_target};
 
 /// Instructions of a 400 MHz core at one a cycle that a tick may take: 3 % at 1 kHz.
@@ -27,8 +28,8 @@ fn images() -> Option<PathBuf> {
         if !have(&[QEMU, ARM_GCC], what) {
             return None;
         }
-        let toolchain = have_target(what)?;
-        Some(xtask::firmware::build(&toolchain).unwrap())
+        let toolchain = have_target(CORTEX_M7.target, what)?;
+        Some(xtask::firmware::build(&toolchain, &CORTEX_M7).unwrap())
     };
     IMAGES.get_or_init(build).clone()
 }
@@ -173,7 +174,7 @@ fn a_tick_with_everything_the_link_takes_keeps_the_budget() {
     let Some(images) = images() else {
         return;
     };
-    let printed = first_line(&images.join("link-cost"), 0, &[]);
+    let printed = first_line(&images.join("link-cost"), &CORTEX_M7, 0, &[]);
     let printed: serde_json::Value = serde_json::from_str(&printed).unwrap();
     let number = |key: &str| printed[key].as_f64().unwrap();
     let requests = number("requests");
