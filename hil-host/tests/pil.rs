@@ -16,9 +16,9 @@ use dashpot_hil::pil::{
 #[cfg(all(unix, feature = "serial"))]
 use {dashpot_hil::pil::Serial, std::path::Path};
 
-/// The desk's waits are not real.
+/// The desk's waits are not real; a line's end with an answer, which always comes.
 const PATIENCE: Patience = Patience {
-    timeout: Duration::from_secs(1),
+    timeout: Duration::from_secs(300),
     tries: 30,
 };
 

@@ -233,7 +233,8 @@ impl Printed {
         let exact = |ticks: f64| (ticks - self.call) / ticks_per_instruction + 1.0;
         let whole = |ticks: f64| exact(ticks).round();
         Found {
-            mean: exact(self.sum / f64::from(steps)),
+            // Two readings of the clock leave some hundredths of an instruction.
+            mean: (10.0 * exact(self.sum / f64::from(steps))).round() / 10.0,
             least: whole(self.least),
             most: whole(self.most),
             first: whole(self.first),
