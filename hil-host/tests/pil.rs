@@ -222,7 +222,7 @@ fn a_target_that_falls_silent_stops_the_run_with_the_reason() {
         left > 0 && frame.write(&(header, response))
     }));
     let message = silent.unwrap_err().to_string();
-    let reason = format!("after tick {last}: no answer from the target to 30 tries of 1000 ms");
+    let reason = format!("after tick {last}: no answer from the target to 30 tries of 300000 ms");
     assert_eq!(message, reason);
 }
 

@@ -78,12 +78,13 @@ impl TargetToolchain {
         Ok(words.join(" "))
     }
 
-    /// Where the builds of a package (its folder) for a processor go: each compiler and processor has a
-    /// folder of its own, the default compiler's for a Cortex-M7 is cargo's usual one.
+    /// Where the builds of a package (its folder) for a processor go: a folder for each compiler and
+    /// processor, for a Cortex-M7 by the compiler found first cargo's usual one.
     pub fn output_folder(&self, package: &Path, processor: &Processor) -> PathBuf {
         let folder = package.join("target");
+        let first = Self::find(processor.target).is_ok_and(|first| first == *self);
         match self {
-            Self::Installed if *processor == CORTEX_M7 => folder,
+            _ if first && *processor == CORTEX_M7 => folder,
             Self::Installed => folder.join(processor.name),
             Self::FromSource { .. } => folder.join("from_source").join(processor.name),
         }

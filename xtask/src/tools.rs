@@ -1,5 +1,6 @@
 //! Programs of others that tests run: installed, or named with the tests that were skipped for them.
 
+use std::ffi::OsString;
 use std::io::Write;
 use std::path::Path;
 use std::process::{Command, Stdio};
@@ -127,8 +128,7 @@ fn skip(skipped: &str, remedy: &str) {
         "{} ({skipped}); to run it: {remedy}\n",
         thread.name().unwrap_or("a test")
     );
-    let ci = std::env::var_os("CI").is_some_and(|value| !value.is_empty());
-    assert!(!ci, "in CI no test is skipped: {line}");
+    refuse_in_ci(std::env::var_os("CI"), &line);
     // Past the test harness, which keeps what a passing test prints to itself.
     let _ = std::io::stderr()
         .lock()
@@ -140,6 +140,12 @@ fn skip(skipped: &str, remedy: &str) {
             .open(path);
         let _ = list.and_then(|mut list| list.write_all(line.as_bytes()));
     }
+}
+
+/// Ends the test where the variable `CI` has a value.
+fn refuse_in_ci(ci: Option<OsString>, line: &str) {
+    let ci = ci.is_some_and(|value| !value.is_empty());
+    assert!(!ci, "in CI no test is skipped: {line}");
 }
 
 /// Installs through rustup and apt-get what is missing, as root; otherwise, or when that fails, prints the
@@ -195,7 +201,7 @@ fn is_root() -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::{header, missing, program};
+    use super::{header, missing, program, refuse_in_ci};
 
     #[test]
     fn what_is_missing_is_named_by_its_package() {
@@ -204,6 +210,14 @@ mod tests {
         assert_eq!(missing(&[there]), [""; 0]);
         let tools = [there, program("no-such-program", "its-package")];
         assert_eq!(missing(&tools), ["its-package"]);
+    }
+
+    #[test]
+    #[should_panic(expected = "in CI no test is skipped: a (QEMU)")]
+    fn in_ci_nothing_is_skipped() {
+        refuse_in_ci(None, "a (QEMU)");
+        refuse_in_ci(Some("".into()), "a (QEMU)");
+        refuse_in_ci(Some("true".into()), "a (QEMU)");
     }
 
     #[test]
