@@ -31,7 +31,9 @@ fi
 # What is not committed may be missing on another machine.
 mkdir -p "$folder/dashpot"
 git -C "$repository" archive HEAD | tar --extract --directory "$folder/dashpot"
+# The network's name servers, and its certificate authorities if it has its own.
 cp /etc/resolv.conf "$folder/etc/resolv.conf"
+cp /etc/ssl/certs/ca-certificates.crt "$folder/etc/ssl/certs/ca-certificates.crt"
 
 # In a mount namespace of its own: nothing stays mounted.
 in_folder() {

@@ -29,13 +29,14 @@ pub enum TargetToolchain {
 }
 
 impl TargetToolchain {
-    /// The first toolchain of this machine for a target.
+    /// The first toolchain of this machine for a target; a distribution's only for those without an
+    /// operating system, for it builds nothing but `core`.
     ///
     /// # Errors
     /// There is none; the message has the command that installs one.
     pub fn find(target: &str) -> Outcome<Self> {
         Self::installed(target)
-            .or_else(Self::distribution)
+            .or_else(|| Self::distribution().filter(|_| target.contains("-none-")))
             .ok_or_else(|| {
                 format!("nothing here compiles for {target}: run `rustup target add {target}`")
             })

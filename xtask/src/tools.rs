@@ -122,6 +122,18 @@ pub fn have_target(target: &str, skipped: &str) -> Option<TargetToolchain> {
         .ok()
 }
 
+/// Whether the default compiler has the library of a target; else as [`have`].
+///
+/// # Panics
+/// As [`have`].
+pub fn have_library(target: &str, skipped: &str) -> bool {
+    let there = TargetToolchain::installed(target).is_some();
+    if !there {
+        skip(skipped, &format!("rustup target add {target}"));
+    }
+    there
+}
+
 fn skip(skipped: &str, remedy: &str) {
     let thread = std::thread::current();
     let line = format!(
