@@ -1,8 +1,16 @@
-//! Links with the memory map at the top of the repository and the start-up code of cortex-m-rt.
+//! Links with the board's memory map and the start-up code of cortex-m-rt.
 
 fn main() {
     let here = std::env::var("CARGO_MANIFEST_DIR").expect("cargo sets it");
-    println!("cargo:rustc-link-search={here}/..");
-    println!("cargo:rustc-link-arg-bins=-Tlink.x");
-    println!("cargo:rerun-if-changed=../memory.x");
+    let target = std::env::var("TARGET").expect("cargo sets it");
+    println!("cargo::rustc-check-cfg=cfg(mps2_an505)");
+    let folder = if target.starts_with("thumbv8m.main") {
+        println!("cargo::rustc-cfg=mps2_an505");
+        "mps2-an505"
+    } else {
+        ".."
+    };
+    println!("cargo::rustc-link-search={here}/{folder}");
+    println!("cargo::rustc-link-arg-bins=-Tlink.x");
+    println!("cargo::rerun-if-changed={folder}/memory.x");
 }

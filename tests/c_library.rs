@@ -8,8 +8,9 @@ use std::process::{Command, Output};
 use dashpot::damper;
 use dashpot_core::Damper;
 use dashpot_hil::export::{Provenance, c_source};
-use xtask::c_library::{self, build_for_host, build_for_target};
-use xtask::tools::{ARM_GCC, GCC, GXX, QEMU, VALGRIND, have, have_target};
+use xtask::c_library::{self, build_for, build_for_host};
+use xtask::processor::CORTEX_M7;
+use xtask::tools::{ARM_GCC, ARM_LIBC, GCC, GXX, QEMU, VALGRIND, have, have_target};
 
 const WARNINGS: [&str; 8] = [
     "-std=c11",
@@ -21,7 +22,7 @@ const WARNINGS: [&str; 8] = [
     "-Wundef",
     "-Werror",
 ];
-const CORTEX_M7: [&str; 5] = [
+const COMPILE_FOR_CORTEX_M7: [&str; 5] = [
     "-mcpu=cortex-m7",
     "-mthumb",
     "-mfpu=fpv5-sp-d16",
@@ -82,14 +83,17 @@ fn compile(compiler: &str, platform: &str, dampers: &[PathBuf], library: &Path) 
 /// The image for the Cortex-M7, or nothing when a tool is missing, which has been said.
 fn cortex_m7(output: &Path) -> Option<PathBuf> {
     let what = "the C library on a Cortex-M7";
-    let toolchain = have_target(what).filter(|_| have(&[ARM_GCC, QEMU], what))?;
-    let library = build_for_target(&toolchain).unwrap_or_else(|error| panic!("{error}"));
+    let toolchain =
+        have_target(CORTEX_M7.target, what).filter(|_| have(&[ARM_GCC, ARM_LIBC, QEMU], what))?;
+    let library = build_for(&toolchain, &CORTEX_M7).unwrap_or_else(|error| panic!("{error}"));
     let image = output.join("controller.elf");
     let script = c_library::folder().join("examples/cortex-m7/link.ld");
     let mut compiler = compile(ARM_GCC.program, "cortex-m7", &export(output), &library);
-    compiler
-        .args(CORTEX_M7)
-        .args(["-ffunction-sections", "-fdata-sections", "-nostdlib"]);
+    compiler.args(COMPILE_FOR_CORTEX_M7).args([
+        "-ffunction-sections",
+        "-fdata-sections",
+        "-nostdlib",
+    ]);
     compiler.args([
         "-Wl,--gc-sections",
         "-Wl,--fatal-warnings",

@@ -6,8 +6,10 @@ use std::f64::consts::TAU;
 use std::fmt::Write;
 
 use dashpot::digest::Digest;
+use dashpot::target::{BANK_STEPS, STEPS, experiments};
 use dashpot::{damper, document};
 use dashpot_core::{Damper, DamperParameters, Real};
+use dashpot_experiment::BANK;
 
 const STEP_S: f64 = 1e-3;
 const TICKS: u32 = 4000;
@@ -74,6 +76,20 @@ fn forces_are_the_golden_bits() {
         }
     }
     document::compare("tests/golden/forces.txt", &text);
+}
+
+/// The digests that `tests/target.rs` has of the Cortex-M7.
+#[test]
+fn a_million_steps_have_the_golden_bits() {
+    let mut text = format!(
+        "# element, excitation, digest of the force bits: {STEPS} steps, of a bank of {BANK} {BANK_STEPS}\n"
+    );
+    for experiment in experiments(1.0) {
+        let (element, excitation) = (experiment.element, experiment.excitation.name());
+        let digest = experiment.digest_here();
+        writeln!(text, "{element}; {excitation}; {digest}").expect("text grows");
+    }
+    document::compare("tests/golden/target.txt", &text);
 }
 
 #[test]

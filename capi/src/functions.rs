@@ -30,7 +30,7 @@ unsafe fn made<'a>(damper: *const DashpotDamper) -> Result<&'a Damper<f32>, Dash
 /// Makes a damper from an image: the bytes that `dashpot export --lang c` or `--lang bin` wrote.
 ///
 /// The image is checked whole first and not needed afterwards. A state that this damper stepped before
-/// is carried over at its next step, its force kept. Some 700 000 instructions on a Cortex-M7: not for a tick.
+/// is carried over at its next step, its force kept. Some 740 000 instructions on a Cortex-M7: not for a tick.
 ///
 /// @param damper  storage, its content does not matter
 /// @param image   the bytes, at any alignment
@@ -83,7 +83,7 @@ pub unsafe extern "C" fn dashpot_damper_describe(
 }
 
 /// Sets the clearance of a damper that is in use: its states are carried over at their next step, the
-/// force kept. On a Cortex-M7 some 200 instructions here, some 1500 more in the next step of each state.
+/// force kept. On a Cortex-M7 some 320 instructions here, some 1500 more in the next step of each state.
 ///
 /// @param damper       made by `dashpot_damper_init`; no step may run on it meanwhile
 /// @param clearance_m  clearance 2a, the whole play (m), 0 to 0.1

@@ -1,13 +1,26 @@
 //! The board's UART and timer: CMSDK peripherals of the MPS2 (Arm DUI 0479, chapters 4.2 and 4.4).
 //!
-//! For another board this file changes, and `memory.x`.
+//! The board is the MPS2 with AN500 (Cortex-M7) or AN386 (Cortex-M4), or with AN505 where the build is for
+//! a Cortex-M33 (Arm DAI 0505, chapter 3; secure addresses). For another board this file changes, and
+//! `memory.x`.
 
 use core::ptr::{with_exposed_provenance, with_exposed_provenance_mut};
 
 use dashpot_core::link::Clock;
 
 /// Clock of processor, timer and SysTick (Hz).
-pub const CLOCK_HZ: u32 = 25_000_000;
+pub const CLOCK_HZ: u32 = if cfg!(mps2_an505) {
+    20_000_000
+} else {
+    25_000_000
+};
+
+/// Registers of the first UART; the second one's follow.
+const UARTS: usize = if cfg!(mps2_an505) {
+    0x5020_0000
+} else {
+    0x4000_4000
+};
 
 const UART_DATA: usize = 0x00;
 /// Bit 0: the transmitter is full; bit 1: a received byte waits.
@@ -17,11 +30,15 @@ const UART_CONTROL: usize = 0x08;
 /// Clocks a bit, 16 at least.
 const UART_BAUD_DIVISOR: usize = 0x10;
 
-const TIMER0: usize = 0x4000_0000;
+const TIMER0: usize = if cfg!(mps2_an505) {
+    0x5000_0000
+} else {
+    0x4000_0000
+};
 /// Bit 0: count.
 const TIMER_CONTROL: usize = TIMER0;
 /// Counts down.
-const TIMER_VALUE: usize = TIMER0 + 0x04;
+pub(crate) const TIMER_VALUE: usize = TIMER0 + 0x04;
 const TIMER_RELOAD: usize = TIMER0 + 0x08;
 
 fn read(register: usize) -> u32 {
@@ -38,9 +55,9 @@ fn write(register: usize, value: u32) {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Port {
     /// UART0: the link.
-    Link = 0x4000_4000,
+    Link = UARTS as isize,
     /// UART1.
-    Spare = 0x4000_5000,
+    Spare = UARTS as isize + 0x1000,
 }
 
 /// A serial line, 8 data bits, no parity.

@@ -3,6 +3,7 @@
 
 pub mod bank;
 pub mod board;
+pub mod counted_call;
 pub mod outputs;
 pub mod printer;
 mod safe_state;

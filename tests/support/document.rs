@@ -39,16 +39,30 @@ pub fn compare(path: &str, text: &str) {
     }
 }
 
-/// Asserts that the part of the file between the lines `<!-- name -->` and `<!-- end -->` is
-/// `text`, or writes it when blessing.
+/// The part of a file between the lines `<!-- name -->` and `<!-- end -->`.
+pub fn part(path: &str, name: &str) -> String {
+    split(path, name).1
+}
+
+/// Asserts that the part of the file is `text`, or writes it when blessing.
 pub fn compare_part(path: &str, name: &str, text: &str) {
+    let (before, _, after) = split(path, name);
+    compare(path, &format!("{before}{text}{after}"));
+}
+
+/// What is before the part, the part, what is after it.
+fn split(path: &str, name: &str) -> (String, String, String) {
     let whole = read(path);
     let start = format!("<!-- {name} -->\n");
     let (before, rest) = whole
         .split_once(&start)
         .unwrap_or_else(|| panic!("{path}: no line `<!-- {name} -->`"));
-    let (_, after) = rest
+    let (part, after) = rest
         .split_once("<!-- end -->")
         .unwrap_or_else(|| panic!("{path}: no `<!-- end -->` after `<!-- {name} -->`"));
-    compare(path, &format!("{before}{start}{text}<!-- end -->{after}"));
+    (
+        format!("{before}{start}"),
+        part.to_owned(),
+        format!("<!-- end -->{after}"),
+    )
 }

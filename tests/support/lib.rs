@@ -2,7 +2,7 @@
 
 pub mod accuracy;
 pub mod bench_test;
-pub mod digest;
+pub mod budget;
 pub mod document;
 pub mod look_up;
 pub mod newton;
@@ -10,6 +10,7 @@ pub mod target;
 pub mod tolerance;
 
 use dashpot_core::DamperParameters;
+pub use dashpot_experiment::digest;
 use dashpot_hil::damper_file;
 
 /// A preset of the product with overrides, which must be valid.

@@ -1,64 +1,82 @@
-//! Experiments on the emulated Cortex-M7: what `firmware/src/bin/step_cost.rs` measures, and the same
-//! motion on this machine.
+//! Experiments on emulated processors: what `firmware/src/bin/step_cost.rs` measures, and the same motion
+//! on this machine.
 
 use std::io::{BufRead, BufReader, Write};
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
 
 use dashpot_core::{Damper, step_bank};
+use dashpot_experiment::Experiment as Bytes;
 use dashpot_hil::excitation::Excitation;
+use object::{Object, ObjectSymbol};
 use serde::Deserialize;
+use tempfile::NamedTempFile;
+use xtask::processor::Processor;
 
-use crate::digest::Digest;
+use crate::damper;
 
 /// Step of every experiment (s).
-pub const STEP_S: f64 = 1e-3;
+const STEP_S: f64 = 1e-3;
 
-/// Dampers in a bank.
-pub const BANK: usize = 12;
+/// Steps of one damper for a digest, and of a bank.
+pub const STEPS: u32 = 1_000_000;
+/// Steps of a bank for a digest.
+pub const BANK_STEPS: u32 = 100_000;
 
-/// Lanes of a bank run this many ticks apart.
-const LAG: usize = 9;
+/// Name of an element in tables, preset, whether a bank of it.
+pub const ELEMENTS: [(&str, &str, bool); 3] = [
+    ("physical", "in-service", false),
+    ("reduced", "reduced-vertical", false),
+    ("bank", "in-service", true),
+];
 
-/// Clock ticks of an instruction: 1024 ns each (`-icount shift=10`), 25 ticks a microsecond.
-const TICKS_PER_INSTRUCTION: f64 = 25.6;
+/// Time of an instruction under `-icount shift=10` (s).
+const INSTRUCTION_S: f64 = 1024e-9;
+
+type Image = [u8; Damper::<f32>::IMAGE_BYTES];
 
 /// A damper driven over an excitation, to its end and back until the steps are done.
-pub struct Experiment<'a> {
-    /// The damper.
-    pub damper: &'a Damper<f32>,
-    /// Another one, swapped in at the end.
-    pub other: &'a Damper<f32>,
+pub struct Experiment {
+    /// Name of the element.
+    pub element: &'static str,
     /// The motion.
     pub excitation: Excitation,
-    /// Whether a bank of [`BANK`] or one damper.
+    /// Whether a bank or one damper.
     pub bank: bool,
     /// Steps.
     pub steps: u32,
+    damper: Damper<f32>,
+    other: Damper<f32>,
+    motion_m: Vec<[u8; 4]>,
 }
 
 /// What the target printed, in clock ticks and bytes.
 #[derive(Deserialize)]
 struct Printed {
-    call: u64,
-    least: u64,
-    most: u64,
-    sum: u64,
+    clock_hz: f64,
+    call: f64,
+    known: f64,
+    least: f64,
+    most: f64,
+    sum: f64,
     digest: String,
-    single_call: u64,
-    known: u64,
-    first: u64,
-    held: u64,
-    swapped: u64,
-    stack_bytes: u32,
-    damper_bytes: u32,
-    state_bytes: u32,
+    first: f64,
+    held: f64,
+    limited: f64,
+    swapped: f64,
+    stack_bytes: f64,
+    damper_bytes: f64,
+    state_bytes: f64,
+    c_damper_init: f64,
+    c_step: f64,
+    c_step_bank: f64,
+    c_set_clearance: f64,
 }
 
-/// What an experiment found on the target.
+/// What an experiment found on the target: instructions of a call, bytes.
 #[derive(Clone, Debug)]
 pub struct Found {
-    /// Instructions of a call: mean, fewest, most.
+    /// Mean of all steps.
     pub mean: f64,
     /// Fewest.
     pub least: f64,
@@ -68,16 +86,20 @@ pub struct Found {
     pub first: f64,
     /// Input held.
     pub held: f64,
+    /// Input limited to the largest rate.
+    pub limited: f64,
     /// Damper swapped.
     pub swapped: f64,
     /// Of a function of 101 instructions, its return included.
     pub known: f64,
-    /// Most stack of these three (bytes).
-    pub stack_bytes: u32,
+    /// Most stack of the first step and the unusual ones (bytes).
+    pub stack_bytes: f64,
     /// Size of a damper (bytes).
-    pub damper_bytes: u32,
+    pub damper_bytes: f64,
     /// Size of a state (bytes).
-    pub state_bytes: u32,
+    pub state_bytes: f64,
+    /// Of the C library: name without prefix, instructions.
+    pub library: [(&'static str, f64); 4],
     /// FNV-1a (64 bit) of the force bits.
     pub digest: String,
 }
@@ -94,10 +116,11 @@ impl Drop for Emulator {
 
 /// The first line that an image prints on its UART, in an emulator where an instruction takes
 /// 2^`shift` ns.
-pub fn first_line(image: &Path, shift: u32, arguments: &[&str]) -> String {
+pub fn first_line(image: &Path, processor: &Processor, shift: u32, arguments: &[&str]) -> String {
     let mut command = Command::new("qemu-system-arm");
     command
-        .args(["-M", "mps2-an500", "-cpu", "cortex-m7", "-nographic"])
+        .args(["-M", processor.board, "-cpu", processor.emulated_cpu])
+        .arg("-nographic")
         .args(["-monitor", "none", "-serial", "stdio"])
         .args(["-icount", &format!("shift={shift}")])
         .args(arguments)
@@ -117,81 +140,117 @@ pub fn first_line(image: &Path, shift: u32, arguments: &[&str]) -> String {
     line
 }
 
-impl Experiment<'_> {
-    /// Samples of the excitation (m).
-    fn motion(&self) -> Vec<f32> {
-        let exact = self.excitation.displacements_m(STEP_S);
-        assert!(exact.len() <= 100_000, "the target has room for no more");
-        exact.iter().map(|x| *x as f32).collect()
+/// Every experiment, with a share of the steps.
+pub fn experiments(share: f64) -> Vec<Experiment> {
+    let build = |preset| damper(preset, &[]).build(STEP_S).expect("a preset");
+    let mut all = Vec::new();
+    for (element, preset, bank) in ELEMENTS {
+        for excitation in Excitation::ALL {
+            let motion_m = excitation.displacements_m(STEP_S);
+            let steps = f64::from(if bank { BANK_STEPS } else { STEPS });
+            all.push(Experiment {
+                element,
+                excitation,
+                bank,
+                steps: (steps * share) as u32,
+                damper: build(preset),
+                other: build("reduced-lateral"),
+                motion_m: motion_m.iter().map(|x| (*x as f32).to_le_bytes()).collect(),
+            });
+        }
+    }
+    all
+}
+
+impl Experiment {
+    fn bytes<'a>(&'a self, [damper, other]: &'a [Image; 2]) -> Bytes<'a> {
+        Bytes {
+            bank: self.bank,
+            steps: self.steps,
+            damper,
+            other,
+            motion_m: &self.motion_m,
+        }
     }
 
-    /// Runs on the target: the image `step-cost` in the emulator.
-    pub fn on_target(&self, image: &Path) -> Found {
-        let mut data = tempfile::NamedTempFile::new().expect("a writable folder");
-        let motion = self.motion();
-        let words = self
-            .other
-            .to_words()
-            .into_iter()
-            .chain(self.damper.to_words());
-        let counts = [u32::from(self.bank), self.steps, motion.len() as u32];
-        let words = words
-            .chain(counts)
-            .chain(motion.iter().map(|x| x.to_bits()));
-        let bytes: Vec<u8> = words.flat_map(u32::to_le_bytes).collect();
-        data.write_all(&bytes).expect("room on the disk");
+    /// A file of it, as processors take it.
+    fn file(&self) -> NamedTempFile {
+        let images = [&self.damper, &self.other].map(Damper::<f32>::to_image);
+        let bytes: Vec<u8> = self.bytes(&images).to_bytes().collect();
+        assert!(Bytes::parse(&bytes).is_some(), "the processors take it");
+        let mut file = NamedTempFile::new().expect("a writable folder");
+        file.write_all(&bytes).expect("room on the disk");
+        file
+    }
 
-        let loader = format!(
-            "loader,file={},addr=0x20200000,force-raw=on",
-            data.path().display()
-        );
-        let line = first_line(image, 10, &["-device", &loader]);
+    /// Runs on an emulated processor: the image `step-cost`.
+    pub fn on(&self, processor: &Processor, image: &Path) -> Found {
+        let file = self.file();
+        let address = symbol_address(image, "__sheap");
+        let path = file.path().display();
+        let loader = format!("loader,file={path},addr={address:#x},force-raw=on");
+        let line = first_line(image, processor, 10, &["-device", &loader]);
         let printed: Printed = serde_json::from_str(&line)
             .unwrap_or_else(|error| panic!("the target printed `{line}`: {error}"));
         printed.found(self.steps)
     }
 
+    /// Digest by the program `dashpot-experiment`, to be given the file.
+    pub fn digest_by(&self, program: &mut Command) -> String {
+        let file = self.file();
+        let output = program.arg(file.path()).output().expect("it starts");
+        let printed = String::from_utf8_lossy(&output.stdout);
+        assert!(output.status.success(), "{program:?}: {output:?}");
+        printed.trim().to_owned()
+    }
+
     /// Digest of the same steps on this machine.
     pub fn digest_here(&self) -> String {
-        let motion = self.motion();
-        let last = motion.len() - 1;
-        let at = |step: usize| {
-            let place = step % (2 * last);
-            motion[place.min(2 * last - place)]
-        };
-        let mut digest = Digest::default();
-        let mut add = |force: f32| digest.add(force.to_bits().to_le_bytes());
-        let mut states = std::array::from_fn(|lane| self.damper.at_rest(at(LAG * lane)));
-        let mut forces = [0.0; BANK];
-        for step in 0..self.steps as usize {
-            if self.bank {
-                let motion = std::array::from_fn(|lane| at(step + LAG * lane));
-                step_bank(&[self.damper; BANK], &mut states, &motion, &mut forces);
-                forces.into_iter().for_each(&mut add);
-            } else {
-                add(self.damper.step(&mut states[0], at(step)));
-            }
-        }
+        let images = [&self.damper, &self.other].map(Damper::<f32>::to_image);
+        let digest = self.bytes(&images).run(
+            &self.damper,
+            |damper, state, displacement| damper.step(state, displacement),
+            step_bank,
+        );
         format!("{:016x}", digest.value())
     }
 }
 
+/// Address of a symbol of an image.
+fn symbol_address(image: &Path, name: &str) -> u64 {
+    let bytes = std::fs::read(image).expect("an image");
+    let file = object::File::parse(&*bytes).expect("an ELF file");
+    let symbol = file.symbols().find(|symbol| symbol.name() == Ok(name));
+    symbol
+        .unwrap_or_else(|| panic!("{image:?} has no {name}"))
+        .address()
+}
+
 impl Printed {
     fn found(self, steps: u32) -> Found {
+        let ticks_per_instruction = INSTRUCTION_S * self.clock_hz;
         // The call subtracted is of a function of one instruction.
-        let beyond = |ticks: f64, call: u64| (ticks - call as f64) / TICKS_PER_INSTRUCTION + 1.0;
-        let whole = |ticks: u64, call| beyond(ticks as f64, call).round();
+        let exact = |ticks: f64| (ticks - self.call) / ticks_per_instruction + 1.0;
+        let whole = |ticks: f64| exact(ticks).round();
         Found {
-            mean: beyond(self.sum as f64 / f64::from(steps), self.call),
-            least: whole(self.least, self.call),
-            most: whole(self.most, self.call),
-            first: whole(self.first, self.single_call),
-            held: whole(self.held, self.single_call),
-            swapped: whole(self.swapped, self.single_call),
-            known: whole(self.known, self.single_call),
+            // Two readings of the clock leave some hundredths of an instruction.
+            mean: (10.0 * exact(self.sum / f64::from(steps))).round() / 10.0,
+            least: whole(self.least),
+            most: whole(self.most),
+            first: whole(self.first),
+            held: whole(self.held),
+            limited: whole(self.limited),
+            swapped: whole(self.swapped),
+            known: whole(self.known),
             stack_bytes: self.stack_bytes,
             damper_bytes: self.damper_bytes,
             state_bytes: self.state_bytes,
+            library: [
+                ("step", whole(self.c_step)),
+                ("step_bank", whole(self.c_step_bank)),
+                ("set_clearance", whole(self.c_set_clearance)),
+                ("damper_init", whole(self.c_damper_init)),
+            ],
             digest: self.digest,
         }
     }

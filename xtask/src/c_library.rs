@@ -1,15 +1,15 @@
-//! Builds the C library, for this machine or the target.
+//! Builds the C library, for this machine or a processor.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::run::{Outcome, output_of};
-use crate::target_toolchain::{TARGET, TargetToolchain};
+use crate::processor::Processor;
+use crate::run::{Outcome, output_of, repository};
+use crate::target_toolchain::TargetToolchain;
 
 /// Folder of the C library's package.
 pub fn folder() -> PathBuf {
-    let here = Path::new(env!("CARGO_MANIFEST_DIR"));
-    here.parent().unwrap_or(here).join("capi")
+    repository().join("capi")
 }
 
 /// Builds `libdashpot.a` for this machine; returns where it is.
@@ -22,20 +22,20 @@ pub fn build_for_host() -> Outcome<PathBuf> {
     command
         .args(["rustc", "--release", "--manifest-path"])
         .arg(folder().join("Cargo.toml"));
-    build(command, "release")
+    build(command, &folder().join("target"), "release")
 }
 
-/// Builds `libdashpot.a` for the target; returns where it is.
+/// Builds `libdashpot.a` for a processor; returns where it is.
 ///
 /// # Errors
 /// As [`build_for_host`].
-pub fn build_for_target(toolchain: &TargetToolchain) -> Outcome<PathBuf> {
-    let command = toolchain.cargo("rustc", &folder().join("Cargo.toml"), "release");
-    build(command, &format!("{TARGET}/release"))
+pub fn build_for(toolchain: &TargetToolchain, processor: &Processor) -> Outcome<PathBuf> {
+    let command = toolchain.cargo("rustc", &folder().join("Cargo.toml"), processor);
+    let target = toolchain.output_folder(&folder(), processor);
+    build(command, &target, &format!("{}/release", processor.target))
 }
 
-fn build(mut cargo: Command, output: &str) -> Outcome<PathBuf> {
-    let target = folder().join("target");
+fn build(mut cargo: Command, target: &Path, output: &str) -> Outcome<PathBuf> {
     cargo.args([
         "--crate-type",
         "staticlib",
@@ -43,7 +43,7 @@ fn build(mut cargo: Command, output: &str) -> Outcome<PathBuf> {
         "panic-handler",
         "--target-dir",
     ]);
-    cargo.arg(&target);
+    cargo.arg(target);
     let line = format!("{cargo:?}");
     output_of(cargo, &line)?;
     Ok(target.join(output).join("libdashpot.a"))

@@ -1,36 +1,45 @@
 //! Builds the firmware's images.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-use crate::run::Outcome;
-use crate::target_toolchain::{TARGET, TargetToolchain};
+use crate::processor::{CORTEX_M7, Processor};
+use crate::run::{Outcome, repository};
+use crate::target_toolchain::TargetToolchain;
 
-/// A distribution's compiler comes without a linker for the target.
-const LINKER: (&str, &str) = (
-    "CARGO_TARGET_THUMBV7EM_NONE_EABIHF_LINKER",
-    "arm-none-eabi-ld",
-);
-
-/// Builds every image; the folder they are in.
+/// Builds every image for a processor; the folder they are in.
 ///
 /// # Errors
 /// The build fails.
-pub fn build(toolchain: &TargetToolchain) -> Outcome<PathBuf> {
-    let repository = Path::new(env!("CARGO_MANIFEST_DIR"))
-        .parent()
-        .ok_or("xtask has no folder above it")?;
-    let firmware = repository.join("firmware");
-    let mut command = toolchain.cargo("build", &firmware.join("Cargo.toml"), "release");
-    command.arg("--locked").env_remove("CARGO_TARGET_DIR");
+pub fn build(toolchain: &TargetToolchain, processor: &Processor) -> Outcome<PathBuf> {
+    let firmware = repository().join("firmware");
+    let target = toolchain.output_folder(&firmware, processor);
+    let mut command = toolchain.cargo("build", &firmware.join("Cargo.toml"), processor);
+    command.arg("--locked").arg("--target-dir").arg(&target);
     if matches!(toolchain, TargetToolchain::FromSource { .. }) {
-        command.env(LINKER.0, LINKER.1);
+        // A distribution's compiler comes without a linker for the target.
+        let variable = processor.target.to_uppercase().replace(['-', '.'], "_");
+        command.env(
+            format!("CARGO_TARGET_{variable}_LINKER"),
+            "arm-none-eabi-ld",
+        );
     }
     let status = command
         .status()
         .map_err(|error| format!("cannot run the build of the firmware: {error}"))?;
     if status.success() {
-        Ok(firmware.join("target").join(TARGET).join("release"))
+        Ok(target.join(processor.target).join("release"))
     } else {
-        Err(format!("the build of the firmware failed: {status}"))
+        Err(format!(
+            "the build of the firmware for {} failed: {status}",
+            processor.name
+        ))
     }
+}
+
+/// Builds the firmware's images for the processor it is for.
+///
+/// # Errors
+/// As [`build`], or nothing compiles for the target.
+pub fn build_default() -> Outcome<PathBuf> {
+    build(&TargetToolchain::find(CORTEX_M7.target)?, &CORTEX_M7)
 }

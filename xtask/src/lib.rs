@@ -1,7 +1,10 @@
 //! What the developer commands and the tests of other packages share.
 
+pub mod aarch64;
 pub mod c_library;
 pub mod firmware;
+pub mod processor;
 pub mod run;
 pub mod target_toolchain;
+pub mod test_run;
 pub mod tools;

@@ -1,12 +1,13 @@
 //! Developer commands of Dashpot: `cargo xtask <command>`.
 
-use std::path::Path;
 use std::process::ExitCode;
 
-use xtask::c_library::{build_for_host, build_for_target};
+use xtask::c_library::{build_for, build_for_host};
 use xtask::firmware;
-use xtask::run::{Outcome, cargo, cargo_aside, cargo_output, cargo_with, version_of};
+use xtask::processor::CORTEX_M7;
+use xtask::run::{Outcome, cargo, cargo_aside, cargo_output, cargo_with, repository, version_of};
 use xtask::target_toolchain::TargetToolchain;
+use xtask::test_run::test;
 use xtask::tools::install_missing;
 
 const HELP: &str = "\
@@ -17,7 +18,7 @@ Usage: cargo xtask <command>
 Commands:
   test                   install the tools that tests need, then run every test
   firmware               build the images for the target
-  target [--format json] measure the core on an emulated Cortex-M7 against its budget
+  target [--format json] measure the core on emulated processors against its budget
   bench                  measure time per step, side by side with yardstick and floor
   bench --instructions   count instructions per step (needs Valgrind and gungraun-runner)
   c-library              build libdashpot.a for this machine and for a Cortex-M7
@@ -68,29 +69,8 @@ fn main() -> ExitCode {
 }
 
 fn build_firmware() -> Outcome {
-    let images = firmware::build(&TargetToolchain::find()?)?;
-    println!("images are in {}", images.display());
+    println!("images are in {}", firmware::build_default()?.display());
     Ok(())
-}
-
-fn test() -> Outcome {
-    install_missing();
-    cargo(&["test", "--workspace", "--no-fail-fast"])?;
-    cargo(&["test", "--manifest-path", C_LIBRARY])?;
-    // The same force bits from the optimised core.
-    cargo(&[
-        "test",
-        "--release",
-        "--package",
-        "dashpot",
-        "--test",
-        "determinism",
-        "--test",
-        "target",
-        "--",
-        "--skip",
-        "the_target_keeps",
-    ])
 }
 
 fn ci() -> Outcome {
@@ -126,8 +106,11 @@ fn c_library() -> Outcome {
     let header = xtask::c_library::folder().join("include/dashpot.h");
     println!("header     {}", header.display());
     println!("this host  {}", build_for_host()?.display());
-    let toolchain = TargetToolchain::find()?;
-    println!("Cortex-M7  {}", build_for_target(&toolchain)?.display());
+    let toolchain = TargetToolchain::find(CORTEX_M7.target)?;
+    println!(
+        "Cortex-M7  {}",
+        build_for(&toolchain, &CORTEX_M7)?.display()
+    );
     Ok(())
 }
 
@@ -157,7 +140,7 @@ fn check_rust_version() -> Outcome {
 /// Runs the test that holds the budget and prints what it measured.
 fn measure_target(json: bool) -> Outcome {
     install_missing();
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../target/target_figures.json");
+    let path = repository().join("target/target_figures.json");
     let _ = std::fs::remove_file(&path);
     let held = cargo_aside(
         &["test", "--package", "dashpot", "--test", "target"],
@@ -170,12 +153,9 @@ fn measure_target(json: bool) -> Outcome {
     if json {
         print!("{report}");
     } else {
-        for line in report.lines().filter_map(|line| line.split_once(": ")) {
-            let (name, value) = (
-                line.0.trim().trim_matches('"'),
-                line.1.trim_end_matches(','),
-            );
-            println!("{name:40} {value:>10}");
+        // The objects, without what only separates.
+        for line in report.lines().filter(|line| line.contains("\": ")) {
+            println!("{}", line.replace(['"', '{', ','], "").trim_end());
         }
     }
     held

@@ -78,9 +78,12 @@ pub fn output_of(mut command: Command, line: &str) -> Outcome<String> {
 fn cargo_command(arguments: &[&str]) -> Command {
     // The cargo that runs this one; `cargo` when started by hand.
     let mut command = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
+    command.args(arguments).current_dir(repository());
+    command
+}
+
+/// The repository's folder.
+pub fn repository() -> &'static Path {
     let here = Path::new(env!("CARGO_MANIFEST_DIR"));
-    command
-        .args(arguments)
-        .current_dir(here.parent().unwrap_or(here));
-    command
+    here.parent().unwrap_or(here)
 }

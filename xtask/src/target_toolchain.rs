@@ -1,28 +1,20 @@
-//! Finds what can compile for the target and prepares cargo for it.
+//! Finds what can compile for a processor and prepares cargo for it.
 //!
-//! With rustup, the default compiler once its target library is installed. Without, a distribution's
-//! compiler with library source (Debian: rustc-web and rust-web-src), which builds `core` itself.
+//! First comes the default compiler where it has the target's library, as rustup installs it; then a
+//! distribution's compiler with library source (Debian: rustc-web and rust-web-src), which builds `core`
+//! itself.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use crate::processor::{CORTEX_M7, Processor};
 use crate::run::{Outcome, output_of};
-
-/// Cortex-M7 with hardware floating point, hard-float calls.
-pub const TARGET: &str = "thumbv7em-none-eabihf";
-
-/// Takes the processor's own instructions: without it `core` has no hardware square root. As a setting
-/// it adds to the flags a package's own `.cargo/config.toml` asks for.
-const PROCESSOR: &str = "target.thumbv7em-none-eabihf.rustflags=['-Ctarget-cpu=cortex-m7']";
-
-/// What to do where nothing compiles for the target.
-pub const INSTALL: &str = "rustup target add thumbv7em-none-eabihf";
 
 /// Where a distribution puts its compiler.
 const SYSTEM_BIN: &str = "/usr/bin";
 const SYSTEM_SYSROOT: &str = "/usr";
 
-/// Something that compiles for [`TARGET`].
+/// Something that compiles for a target.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum TargetToolchain {
     /// The default compiler, the target's library installed.
@@ -37,37 +29,71 @@ pub enum TargetToolchain {
 }
 
 impl TargetToolchain {
-    /// The toolchain of this machine.
+    /// The first toolchain of this machine for a target; a distribution's only for those without an
+    /// operating system, for it builds nothing but `core`.
     ///
     /// # Errors
     /// There is none; the message has the command that installs one.
-    pub fn find() -> Outcome<Self> {
-        let default = sysroot(Path::new("rustc"));
-        Self::among(
-            default.as_deref(),
-            Path::new(SYSTEM_BIN),
-            Path::new(SYSTEM_SYSROOT),
-        )
+    pub fn find(target: &str) -> Outcome<Self> {
+        Self::installed(target)
+            .or_else(|| Self::distribution().filter(|_| target.contains("-none-")))
+            .ok_or_else(|| {
+                format!("nothing here compiles for {target}: run `rustup target add {target}`")
+            })
     }
 
-    /// The toolchain, given the default compiler's sysroot and where a distribution's are.
-    fn among(default: Option<&Path>, bin: &Path, system: &Path) -> Outcome<Self> {
-        if default.is_some_and(|sysroot| sysroot.join("lib/rustlib").join(TARGET).is_dir()) {
-            return Ok(Self::Installed);
-        }
+    /// The default compiler, where it has the target's library.
+    pub fn installed(target: &str) -> Option<Self> {
+        Self::installed_in(&sysroot(Path::new("rustc"))?, target)
+    }
+
+    /// A distribution's compiler, where it has the library's source.
+    pub fn distribution() -> Option<Self> {
+        Self::from_source_in(Path::new(SYSTEM_BIN), Path::new(SYSTEM_SYSROOT))
+    }
+
+    fn installed_in(sysroot: &Path, target: &str) -> Option<Self> {
+        let library = sysroot.join("lib/rustlib").join(target);
+        library.is_dir().then_some(Self::Installed)
+    }
+
+    fn from_source_in(bin: &Path, sysroot: &Path) -> Option<Self> {
         let (cargo, rustc) = (bin.join("cargo"), bin.join("rustc"));
-        let source = system.join("lib/rustlib/src/rust/library/core/Cargo.toml");
-        if cargo.exists() && rustc.exists() && source.exists() {
-            return Ok(Self::FromSource { cargo, rustc });
-        }
-        Err(format!(
-            "nothing here compiles for {TARGET}: run `{INSTALL}`"
-        ))
+        let source = sysroot.join("lib/rustlib/src/rust/library/core/Cargo.toml");
+        let all = cargo.exists() && rustc.exists() && source.exists();
+        all.then_some(Self::FromSource { cargo, rustc })
     }
 
-    /// `cargo <command> --target thumbv7em-none-eabihf --profile <profile>` in the folder of the
-    /// manifest (a whole path), to be given further arguments.
-    pub fn cargo(&self, command: &str, manifest: &Path, profile: &str) -> Command {
+    /// The compiler's name and version, as it prints them.
+    ///
+    /// # Errors
+    /// It does not run.
+    pub fn version(&self) -> Outcome<String> {
+        let mut command = match self {
+            Self::Installed => Command::new("rustc"),
+            Self::FromSource { rustc, .. } => Command::new(rustc),
+        };
+        command.arg("--version");
+        let printed = output_of(command, "rustc --version")?;
+        let words: Vec<&str> = printed.split_whitespace().take(2).collect();
+        Ok(words.join(" "))
+    }
+
+    /// Where the builds of a package (its folder) for a processor go: a folder for each compiler and
+    /// processor, for a Cortex-M7 by the compiler found first cargo's usual one.
+    pub fn output_folder(&self, package: &Path, processor: &Processor) -> PathBuf {
+        let folder = package.join("target");
+        let first = Self::find(processor.target).is_ok_and(|first| first == *self);
+        match self {
+            _ if first && *processor == CORTEX_M7 => folder,
+            Self::Installed => folder.join(processor.name),
+            Self::FromSource { .. } => folder.join("from_source").join(processor.name),
+        }
+    }
+
+    /// `cargo <command>` for a processor by the profile `release`, in the folder of the manifest (a whole
+    /// path), to be given further arguments.
+    pub fn cargo(&self, command: &str, manifest: &Path, processor: &Processor) -> Command {
         let mut cargo = match self {
             // The default one, not the one that runs this program: that may be another's.
             Self::Installed => Command::new("cargo"),
@@ -79,20 +105,15 @@ impl TargetToolchain {
                 command
             }
         };
-        // Flags in the environment would replace those of the settings.
-        cargo
-            .env_remove("RUSTFLAGS")
-            .env_remove("CARGO_ENCODED_RUSTFLAGS");
+        // These flags take the place of all others, those of the package's settings too.
+        let flags = processor
+            .target_cpu
+            .map(|name| format!("-Ctarget-cpu={name}"));
+        cargo.env("CARGO_ENCODED_RUSTFLAGS", flags.unwrap_or_default());
+        cargo.env_remove("RUSTFLAGS").env_remove("CARGO_TARGET_DIR");
         cargo.current_dir(manifest.parent().unwrap_or(manifest));
         cargo.arg(command).arg("--manifest-path").arg(manifest);
-        cargo.args([
-            "--target",
-            TARGET,
-            "--profile",
-            profile,
-            "--config",
-            PROCESSOR,
-        ]);
+        cargo.args(["--target", processor.target, "--profile", "release"]);
         if matches!(self, Self::FromSource { .. }) {
             cargo.arg("-Zbuild-std=core");
         }
@@ -110,55 +131,73 @@ fn sysroot(rustc: &Path) -> Option<PathBuf> {
 
 #[cfg(test)]
 mod tests {
-    use super::{TARGET, TargetToolchain};
+    use super::TargetToolchain;
+    use crate::processor::{CORTEX_M4F, CORTEX_M7, CORTEX_M33};
     use std::fs;
 
     #[test]
-    fn the_default_compiler_comes_first_then_a_distributions_then_advice() {
+    fn a_compiler_is_found_with_the_library_of_the_target_or_with_its_source() {
         let folder = tempfile::tempdir().unwrap();
         let (default, system) = (folder.path().join("default"), folder.path().join("usr"));
         let bin = system.join("bin");
-        let find = || TargetToolchain::among(Some(&default), &bin, &system);
-        let refusal = find().unwrap_err();
-        assert!(
-            refusal.contains("rustup target add thumbv7em-none-eabihf"),
-            "{refusal}"
+        let installed = |target| TargetToolchain::installed_in(&default, target);
+        let from_source = || TargetToolchain::from_source_in(&bin, &system);
+
+        assert_eq!(installed(CORTEX_M7.target), None);
+        fs::create_dir_all(default.join("lib/rustlib").join(CORTEX_M7.target)).unwrap();
+        assert_eq!(
+            installed(CORTEX_M7.target),
+            Some(TargetToolchain::Installed)
+        );
+        assert_eq!(
+            installed(CORTEX_M33.target),
+            None,
+            "another target's library"
         );
 
         fs::create_dir_all(&bin).unwrap();
         for program in ["cargo", "rustc"] {
             fs::write(bin.join(program), "").unwrap();
         }
-        assert!(
-            find().is_err(),
-            "a compiler without library source builds nothing"
-        );
+        assert_eq!(from_source(), None, "no source of the library");
         let core = system.join("lib/rustlib/src/rust/library/core");
         fs::create_dir_all(&core).unwrap();
         fs::write(core.join("Cargo.toml"), "").unwrap();
         let (cargo, rustc) = (bin.join("cargo"), bin.join("rustc"));
-        assert_eq!(find(), Ok(TargetToolchain::FromSource { cargo, rustc }));
+        assert_eq!(
+            from_source(),
+            Some(TargetToolchain::FromSource { cargo, rustc })
+        );
+    }
 
-        fs::create_dir_all(default.join("lib/rustlib").join(TARGET)).unwrap();
-        assert_eq!(find(), Ok(TargetToolchain::Installed));
+    #[test]
+    fn what_nothing_compiles_for_is_refused_with_the_command_that_helps() {
+        let refusal = TargetToolchain::find("no-such-target").unwrap_err();
+        assert!(
+            refusal.contains("rustup target add no-such-target"),
+            "{refusal}"
+        );
     }
 
     #[test]
     fn only_a_build_from_source_asks_for_unstable_options() {
-        let line = |toolchain: TargetToolchain| {
-            format!(
-                "{:?}",
-                toolchain.cargo("build", "some/Cargo.toml".as_ref(), "release")
-            )
+        let line = |toolchain: &TargetToolchain, processor| {
+            let command = toolchain.cargo("build", "some/Cargo.toml".as_ref(), processor);
+            format!("{command:?}")
         };
-        let installed = line(TargetToolchain::Installed);
+        let installed = line(&TargetToolchain::Installed, &CORTEX_M7);
         assert!(!installed.contains("-Zbuild-std"), "{installed}");
         assert!(!installed.contains("RUSTC_BOOTSTRAP"), "{installed}");
-        let from_source = line(TargetToolchain::FromSource {
-            cargo: "/usr/bin/cargo".into(),
-            rustc: "/usr/bin/rustc".into(),
-        });
+        assert!(installed.contains("target-cpu=cortex-m7"), "{installed}");
+        let from_source = line(
+            &TargetToolchain::FromSource {
+                cargo: "/usr/bin/cargo".into(),
+                rustc: "/usr/bin/rustc".into(),
+            },
+            &CORTEX_M4F,
+        );
         assert!(from_source.contains("-Zbuild-std=core"), "{from_source}");
         assert!(from_source.contains("RUSTC_BOOTSTRAP"), "{from_source}");
+        assert!(!from_source.contains("target-cpu"), "{from_source}");
     }
 }

@@ -1,103 +1,175 @@
-//! Programs of others that tests run: installed, or named loudly.
+//! Programs of others that tests run: installed, or named with the tests that were skipped for them.
 
+use std::ffi::OsString;
+use std::io::Write;
 use std::path::Path;
-use std::process::Command;
+use std::process::{Command, Stdio};
 
+use crate::processor::{CORTEX_M7, TARGETS};
 use crate::target_toolchain::TargetToolchain;
 
-/// A program and the Debian package that has it.
+/// A program, or a header that a C compiler must find, and the Debian package that has it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Tool {
-    /// The program, or a whole path for what is no program.
+    /// The program.
     pub program: &'static str,
+    /// The header, where the program is a compiler that comes without.
+    pub header: Option<&'static str>,
     /// Its package.
     pub package: &'static str,
 }
 
 /// C compiler of the host.
-pub const GCC: Tool = tool("gcc", "gcc");
+pub const GCC: Tool = program("gcc", "gcc");
 /// C++ compiler of the host.
-pub const GXX: Tool = tool("g++", "g++");
+pub const GXX: Tool = program("g++", "g++");
 /// Memory checker.
-pub const VALGRIND: Tool = tool("valgrind", "valgrind");
-/// C compiler and linker of the target.
-pub const ARM_GCC: Tool = tool("arm-none-eabi-gcc", "gcc-arm-none-eabi");
-/// Emulator of the target.
-pub const QEMU: Tool = tool("qemu-system-arm", "qemu-system-arm");
+pub const VALGRIND: Tool = program("valgrind", "valgrind");
+/// C compiler and linker of the Cortex-M processors.
+pub const ARM_GCC: Tool = program("arm-none-eabi-gcc", "gcc-arm-none-eabi");
+/// Its C library: the compiler's package only recommends it.
+pub const ARM_LIBC: Tool = header("arm-none-eabi-gcc", "string.h", "libnewlib-arm-none-eabi");
+/// Emulator of the Cortex-M processors.
+pub const QEMU: Tool = program("qemu-system-arm", "qemu-system-arm");
+/// Linker of the 64-bit Arm processor.
+pub const AARCH64_GCC: Tool = program("aarch64-linux-gnu-gcc", "gcc-aarch64-linux-gnu");
+/// Its C library.
+pub const AARCH64_LIBC: Tool = header("aarch64-linux-gnu-gcc", "stdio.h", "libc6-dev-arm64-cross");
+/// Emulator of programs for the 64-bit Arm processor.
+pub const QEMU_AARCH64: Tool = program("qemu-aarch64", "qemu-user");
 
 /// Browser, for what a page looks like.
-pub const CHROMIUM: Tool = tool("chromium", "chromium");
+pub const CHROMIUM: Tool = program("chromium", "chromium");
 
 /// All of them.
-pub const TOOLS: [Tool; 6] = [GCC, GXX, VALGRIND, ARM_GCC, QEMU, CHROMIUM];
+pub const TOOLS: [Tool; 10] = [
+    GCC,
+    GXX,
+    VALGRIND,
+    ARM_GCC,
+    ARM_LIBC,
+    QEMU,
+    AARCH64_GCC,
+    AARCH64_LIBC,
+    QEMU_AARCH64,
+    CHROMIUM,
+];
 
-/// A compiler for the target where rustup has none: packages of Debian.
+/// A compiler for the Cortex-M processors where there is no rustup: packages of Debian.
 const TOOLCHAIN_PACKAGES: [&str; 3] = ["rustc-web", "cargo-web", "rust-web-src"];
 
-const fn tool(program: &'static str, package: &'static str) -> Tool {
-    Tool { program, package }
+/// Names the file that skipped tests are listed in.
+pub const SKIPPED: &str = "DASHPOT_SKIPPED";
+
+const fn program(program: &'static str, package: &'static str) -> Tool {
+    Tool {
+        program,
+        header: None,
+        package,
+    }
+}
+
+const fn header(program: &'static str, header: &'static str, package: &'static str) -> Tool {
+    Tool {
+        program,
+        header: Some(header),
+        package,
+    }
 }
 
 impl Tool {
-    /// Whether the program is on the path.
+    /// Whether the program is on the path and finds the header.
     pub fn is_there(self) -> bool {
-        std::env::var_os("PATH").is_some_and(|path| {
+        let on_path = std::env::var_os("PATH").is_some_and(|path| {
             std::env::split_paths(&path).any(|folder| folder.join(self.program).is_file())
-        })
+        });
+        on_path && self.header.is_none_or(|header| self.finds(header))
+    }
+
+    fn finds(self, header: &str) -> bool {
+        let mut compiler = Command::new(self.program);
+        compiler.args(["-E", "-include", header, "-x", "c", "-"]);
+        let compiler = compiler.stdin(Stdio::null()).output();
+        compiler.is_ok_and(|output| output.status.success())
     }
 }
 
-/// The command that installs what is missing of `tools`, for someone who is not root; none when all
-/// are there.
-pub fn command_for(tools: &[Tool]) -> Option<String> {
-    let missing: Vec<&str> = tools
-        .iter()
-        .filter(|tool| !tool.is_there())
-        .map(|tool| tool.package)
-        .collect();
-    (!missing.is_empty()).then(|| format!("sudo apt-get install {}", missing.join(" ")))
+/// Packages of those of `tools` that are missing.
+fn missing(tools: &[Tool]) -> Vec<&'static str> {
+    let missing = tools.iter().filter(|tool| !tool.is_there());
+    missing.map(|tool| tool.package).collect()
 }
 
-/// Whether all of `tools` are there; if not, says on standard error what is skipped and the command
-/// that helps. A test that gets `false` returns.
+/// Whether all of `tools` are there. A test that gets `false` returns: what it leaves out is said at once
+/// and in the summary of `cargo xtask test`.
+///
+/// # Panics
+/// Something is missing and the variable `CI` is set: there nothing may be left out.
 pub fn have(tools: &[Tool], skipped: &str) -> bool {
-    match command_for(tools) {
-        None => true,
-        Some(command) => {
-            say_skipped(skipped, &command);
-            false
-        }
+    let missing = missing(tools);
+    if !missing.is_empty() {
+        skip(
+            skipped,
+            &format!("sudo apt-get install {}", missing.join(" ")),
+        );
     }
+    missing.is_empty()
 }
 
-/// The toolchain of the target; if there is none, says so like [`have`].
-pub fn have_target(skipped: &str) -> Option<TargetToolchain> {
-    TargetToolchain::find()
-        .inspect_err(|message| say_skipped(skipped, message))
+/// The toolchain of a target; `None` as [`have`] says `false`.
+///
+/// # Panics
+/// As [`have`].
+pub fn have_target(target: &str, skipped: &str) -> Option<TargetToolchain> {
+    TargetToolchain::find(target)
+        .inspect_err(|message| skip(skipped, message))
         .ok()
 }
 
-/// Past the test harness, which keeps what a passing test prints to itself.
-fn say_skipped(skipped: &str, remedy: &str) {
-    use std::io::Write;
-    let line = format!("\n!!!! SKIPPED: {skipped}\n!!!! to run it: {remedy}\n");
-    // A closed standard error must not fail a test.
-    let _ = std::io::stderr().lock().write_all(line.as_bytes());
+/// Whether the default compiler has the library of a target; else as [`have`].
+///
+/// # Panics
+/// As [`have`].
+pub fn have_library(target: &str, skipped: &str) -> bool {
+    let there = TargetToolchain::installed(target).is_some();
+    if !there {
+        skip(skipped, &format!("rustup target add {target}"));
+    }
+    there
 }
 
-/// Installs through apt-get what is missing, as root; otherwise, or when that fails, prints the command
-/// and goes on: what needs the tools says that it was skipped.
+fn skip(skipped: &str, remedy: &str) {
+    let thread = std::thread::current();
+    let line = format!(
+        "{} ({skipped}); to run it: {remedy}\n",
+        thread.name().unwrap_or("a test")
+    );
+    refuse_in_ci(std::env::var_os("CI"), &line);
+    // Past the test harness, which keeps what a passing test prints to itself.
+    let _ = std::io::stderr()
+        .lock()
+        .write_all(format!("\n!!!! SKIPPED: {line}").as_bytes());
+    if let Some(path) = std::env::var_os(SKIPPED) {
+        let list = std::fs::File::options()
+            .create(true)
+            .append(true)
+            .open(path);
+        let _ = list.and_then(|mut list| list.write_all(line.as_bytes()));
+    }
+}
+
+/// Ends the test where the variable `CI` has a value.
+fn refuse_in_ci(ci: Option<OsString>, line: &str) {
+    let ci = ci.is_some_and(|value| !value.is_empty());
+    assert!(!ci, "in CI no test is skipped: {line}");
+}
+
+/// Installs through rustup and apt-get what is missing, as root; otherwise, or when that fails, prints the
+/// commands and goes on: what needs the tools says that it was skipped.
 pub fn install_missing() {
-    let mut packages: Vec<&str> = TOOLS
-        .iter()
-        .filter(|tool| !tool.is_there())
-        .map(|tool| tool.package)
-        .collect();
-    let no_target = TargetToolchain::find().is_err();
-    let rustup = Command::new("rustup").arg("--version").output().is_ok();
-    if no_target && rustup && add_target() {
-        println!("installed the target's library through rustup");
-    } else if no_target {
+    install_targets();
+    let mut packages = missing(&TOOLS);
+    if TargetToolchain::find(CORTEX_M7.target).is_err() {
         packages.extend(TOOLCHAIN_PACKAGES);
     }
     if packages.is_empty() {
@@ -121,13 +193,21 @@ pub fn install_missing() {
     }
 }
 
-fn add_target() -> bool {
-    let mut words = crate::target_toolchain::INSTALL.split(' ');
-    let program = words.next().unwrap_or_default();
-    Command::new(program)
-        .args(words)
-        .status()
-        .is_ok_and(|status| status.success())
+/// The libraries of the targets, where rustup is.
+fn install_targets() {
+    let lacks = |target: &&str| TargetToolchain::installed(target).is_none();
+    let missing: Vec<&str> = TARGETS.into_iter().filter(lacks).collect();
+    if missing.is_empty() || Command::new("rustup").arg("--version").output().is_err() {
+        return;
+    }
+    let added = Command::new("rustup")
+        .args(["target", "add"])
+        .args(&missing)
+        .status();
+    if !added.is_ok_and(|status| status.success()) {
+        let line = missing.join(" ");
+        eprintln!("\n!!!! `rustup target add {line}` failed; their tests will be skipped\n");
+    }
 }
 
 fn is_root() -> bool {
@@ -137,17 +217,31 @@ fn is_root() -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::{command_for, tool};
+    use super::{header, missing, program, refuse_in_ci};
 
     #[test]
-    fn what_is_missing_is_named_with_its_package() {
+    fn what_is_missing_is_named_by_its_package() {
         // Cargo runs this test, so its folder is on the path of every developer's shell.
-        let (there, missing) = (
-            tool("cargo", "cargo"),
-            tool("no-such-program", "its-package"),
-        );
-        assert_eq!(command_for(&[there]), None);
-        let command = command_for(&[there, missing]);
-        assert_eq!(command.as_deref(), Some("sudo apt-get install its-package"));
+        let there = program("cargo", "cargo");
+        assert_eq!(missing(&[there]), [""; 0]);
+        let tools = [there, program("no-such-program", "its-package")];
+        assert_eq!(missing(&tools), ["its-package"]);
+    }
+
+    #[test]
+    #[should_panic(expected = "in CI no test is skipped: a (QEMU)")]
+    fn in_ci_nothing_is_skipped() {
+        refuse_in_ci(None, "a (QEMU)");
+        refuse_in_ci(Some("".into()), "a (QEMU)");
+        refuse_in_ci(Some("true".into()), "a (QEMU)");
+    }
+
+    #[test]
+    fn a_compiler_without_the_header_lacks_the_headers_package() {
+        let compiler = program("gcc", "gcc");
+        let without = header("gcc", "no-such-header.h", "its-package");
+        if compiler.is_there() {
+            assert_eq!(missing(&[compiler, without]), ["its-package"]);
+        }
     }
 }

@@ -98,18 +98,85 @@ pub(crate) fn f64(value: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    /// The instruction and the software root of another author agree bit for bit.
+    use core::array;
+
+    /// Whether `root` is nearer to the root of `value` than the points halfway to its neighbours, for
+    /// significands and exponents: `value = v 2^e`, `root = r 2^k`. All sides are whole numbers.
+    fn is_nearest(v: u64, e: i32, r: u64, k: i32) -> bool {
+        // (2r - 1)^2 < 4 v 2^(e - 2k) < (2r + 1)^2; a root is never halfway.
+        let Ok(shift) = u32::try_from(e + 2 - 2 * k) else {
+            return false;
+        };
+        let (target, double) = (u128::from(v) << shift, 2 * u128::from(r));
+        (double - 1).pow(2) < target && target < (double + 1).pow(2)
+    }
+
+    /// Significand and exponent of a normal, positive number.
+    fn parts(bits: u64, digits: u32) -> (u64, i32) {
+        let stored = digits - 1;
+        let bias = if digits == 24 { 127 } else { 1023 };
+        let significand = bits & ((1 << stored) - 1) | 1 << stored;
+        (significand, (bits >> stored) as i32 - bias - stored as i32)
+    }
+
+    /// Positive normal numbers of every size, by a linear congruential generator.
+    fn random() -> impl Iterator<Item = u64> {
+        let mut seed = 0x9e37_79b9_7f4a_7c15_u64;
+        core::iter::from_fn(move || {
+            seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+            Some(seed)
+        })
+        .take(100_000)
+    }
+
     #[test]
-    fn agrees_with_libm() {
-        let mut seed = 0x9e37_79b9_u32;
-        for _ in 0..100_000 {
-            seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-            let single = f32::from_bits(seed & 0x7f7f_ffff);
-            assert_eq!(super::f32(single).to_bits(), libm::sqrtf(single).to_bits());
-            let double = f64::from(single) * 1.000_000_1;
-            assert_eq!(super::f64(double).to_bits(), libm::sqrt(double).to_bits());
+    fn single_precision_is_correctly_rounded() {
+        for seed in random() {
+            let value = f32::from_bits((seed >> 33) as u32);
+            if !value.is_normal() {
+                continue;
+            }
+            let bits = [value, super::f32(value)].map(|x| u64::from(x.to_bits()));
+            let [(v, e), (r, k)] = bits.map(|bits| parts(bits, f32::MANTISSA_DIGITS));
+            assert!(is_nearest(v, e, r, k), "{value}");
         }
-        assert_eq!(super::f32(-0.0).to_bits(), (-0.0_f32).to_bits());
-        assert_eq!(super::f32(1e-40).to_bits(), libm::sqrtf(1e-40).to_bits());
+        let kept = [0.0, -0.0, 1.0, f32::INFINITY];
+        assert_eq!(
+            kept.map(super::f32).map(f32::to_bits),
+            kept.map(f32::to_bits)
+        );
+        // 2^-148, the second smallest number there is.
+        assert_eq!(super::f32(f32::from_bits(2)).to_bits(), (127 - 74) << 23);
+        assert!(super::f32(-1.0).is_nan());
+    }
+
+    #[test]
+    fn double_precision_is_correctly_rounded() {
+        for seed in random() {
+            let value = f64::from_bits(seed >> 1);
+            if !value.is_normal() {
+                continue;
+            }
+            let bits = [value, super::f64(value)].map(f64::to_bits);
+            let [(v, e), (r, k)] = bits.map(|bits| parts(bits, f64::MANTISSA_DIGITS));
+            assert!(is_nearest(v, e, r, k), "{value}");
+        }
+        let kept = [0.0, -0.0, 1.0, f64::INFINITY];
+        assert_eq!(
+            kept.map(super::f64).map(f64::to_bits),
+            kept.map(f64::to_bits)
+        );
+        assert_eq!(super::f64(f64::from_bits(1)).to_bits(), (1023 - 537) << 52);
+        assert!(super::f64(-1.0).is_nan());
+    }
+
+    #[test]
+    fn the_check_sees_the_last_bit() {
+        let (value, root) = (parts(2.0_f64.to_bits(), 53), super::f64(2.0).to_bits());
+        let nearest: [bool; 3] = array::from_fn(|place| {
+            let (r, k) = parts(root - 1 + place as u64, 53);
+            is_nearest(value.0, value.1, r, k)
+        });
+        assert_eq!(nearest, [false, true, false]);
     }
 }

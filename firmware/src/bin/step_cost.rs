@@ -1,46 +1,40 @@
 //! Counts instructions of the step, one damper or a bank of twelve, over a motion that the host puts
-//! into memory, and digests the forces.
+//! into memory, and digests the forces; then those of what is not usual and of the C library's functions.
 //!
-//! The host loads an [`Experiment`] at [`EXPERIMENT`] before the start and reads one JSON object from
-//! the link's UART. The motion is walked to its end and back until the steps are done. Counts are in
-//! ticks of the clock and take in the call (`call`, of a function of one instruction, its return); under
-//! QEMU's `-icount shift=10` an instruction takes 25.6 of them.
+//! The host loads an [`Experiment`] at [`__sheap`] before the start and reads one JSON object from
+//! the link's UART. Counts are in ticks of the clock and take in the call: `call` is the count of a
+//! function of one instruction, its return. Under QEMU's `-icount shift=10` an instruction takes 1024 ns.
 #![no_std]
 #![no_main]
 
 use core::arch::naked_asm;
+use core::cell::Cell;
 use core::fmt::Write;
 use core::hint::black_box;
-use core::ptr::with_exposed_provenance;
 
 use cortex_m_rt::entry;
+use dashpot::{
+    DASHPOT_DAMPER_WORDS, DASHPOT_STATE_WORDS, DashpotDamper, DashpotState, dashpot_damper_init,
+    dashpot_damper_set_clearance, dashpot_state_init, dashpot_step, dashpot_step_bank,
+};
 use dashpot_core::{Damper, DamperState, step_bank};
-use dashpot_firmware::board::{self, Port, Uart};
+use dashpot_experiment::{BANK, BYTES, Experiment};
+use dashpot_firmware::board::{self, CLOCK_HZ, Port, Uart};
+use dashpot_firmware::counted_call::{Arguments, Returned, counted_call};
 use dashpot_firmware::printer::Printer;
 
-/// Where the host loads the experiment: the upper half of RAM.
-const EXPERIMENT: usize = 0x2020_0000;
-const BANK: usize = 12;
-const LAG: u32 = 9;
 /// Stack looked at below the measured call (bytes).
 const PAINTED: usize = 2048;
 const PAINT: u32 = 0xa5a5_a5a5;
 
-/// What the host asks for; little-endian words, no padding.
-#[repr(C)]
-struct Experiment {
-    /// Another damper, swapped in for one step.
-    other: [u32; Damper::<f32>::WORDS],
-    damper: [u32; Damper::<f32>::WORDS],
-    /// 0: one damper; else the bank.
-    bank: u32,
-    steps: u32,
-    samples: u32,
-    /// Displacements (m).
-    motion: [f32; 100_000],
+unsafe extern "C" {
+    /// Where the host loads the experiment: RAM that start-up code, data and stack leave alone. The symbol
+    /// is of cortex-m-rt's linker script.
+    static __sheap: [u8; BYTES];
 }
 
 /// Fewest, most and sum of clock ticks.
+#[derive(Clone, Copy)]
 struct Cost {
     least: u32,
     most: u32,
@@ -48,32 +42,27 @@ struct Cost {
 }
 
 impl Cost {
-    fn new() -> Self {
+    const NONE: Self = Self {
+        least: u32::MAX,
+        most: 0,
+        sum: 0,
+    };
+
+    fn with(self, ticks: u32) -> Self {
         Self {
-            least: u32::MAX,
-            most: 0,
-            sum: 0,
+            least: self.least.min(ticks),
+            most: self.most.max(ticks),
+            sum: self.sum + u64::from(ticks),
         }
     }
-
-    fn add(&mut self, ticks: u32) {
-        self.least = self.least.min(ticks);
-        self.most = self.most.max(ticks);
-        self.sum += u64::from(ticks);
-    }
 }
-
-type Step = extern "C" fn(&Damper<f32>, &mut DamperState<f32>, f32) -> f32;
-type Bank =
-    extern "C" fn(&Dampers<'_>, &mut [DamperState<f32>; BANK], &[f32; BANK], &mut [f32; BANK]);
-type Dampers<'a> = [&'a Damper<f32>; BANK];
 
 extern "C" fn step(damper: &Damper<f32>, state: &mut DamperState<f32>, displacement: f32) -> f32 {
     damper.step(state, displacement)
 }
 
 extern "C" fn bank(
-    dampers: &Dampers<'_>,
+    dampers: &[&Damper<f32>; BANK],
     states: &mut [DamperState<f32>; BANK],
     displacements: &[f32; BANK],
     forces: &mut [f32; BANK],
@@ -83,151 +72,197 @@ extern "C" fn bank(
 
 /// One instruction, the return.
 #[unsafe(naked)]
-extern "C" fn no_step(_: &Damper<f32>, _: &mut DamperState<f32>, displacement: f32) -> f32 {
+extern "C" fn nothing() {
     naked_asm!("bx lr")
 }
 
 /// A hundred and one instructions: what is found for it proves the count.
 #[unsafe(naked)]
-extern "C" fn known_step(_: &Damper<f32>, _: &mut DamperState<f32>, displacement: f32) -> f32 {
+extern "C" fn known() {
     naked_asm!(".rept 100", "nop", ".endr", "bx lr")
 }
 
-/// As [`no_step`].
-#[unsafe(naked)]
-extern "C" fn no_bank(
-    _: &Dampers<'_>,
-    _: &mut [DamperState<f32>; BANK],
-    _: &[f32; BANK],
-    _: &mut [f32; BANK],
-) {
-    naked_asm!("bx lr")
+/// Calls a function of this file or of the C library with arguments that are right for it.
+fn timed(function: *const (), integers: [usize; 5], real: f32) -> Returned {
+    // SAFETY: every caller below gives each function what it takes, valid during the call.
+    unsafe { counted_call(function, Arguments { integers, real }) }
 }
 
-/// Force (N) and clock ticks of a call.
-#[inline(never)]
-fn timed(
-    call: Step,
-    damper: &Damper<f32>,
-    state: &mut DamperState<f32>,
-    displacement: f32,
-) -> (f32, u32) {
-    let start = board::clock_now();
-    let force = call(damper, state, displacement);
-    (force, board::clock_now().wrapping_sub(start))
+fn timed_step(damper: &Damper<f32>, state: &mut DamperState<f32>, displacement: f32) -> Returned {
+    let integers = [
+        address(damper),
+        (&raw mut *state).expose_provenance(),
+        0,
+        0,
+        0,
+    ];
+    timed(step as *const (), integers, displacement)
 }
 
-/// Clock ticks of a call.
-#[inline(never)]
-fn timed_bank(
-    call: Bank,
-    dampers: &Dampers<'_>,
-    states: &mut [DamperState<f32>; BANK],
-    displacements: &[f32; BANK],
-    forces: &mut [f32; BANK],
-) -> u32 {
-    let start = board::clock_now();
-    call(dampers, states, displacements, forces);
-    board::clock_now().wrapping_sub(start)
+fn address<T: ?Sized>(value: &T) -> usize {
+    (&raw const *value).expose_provenance()
 }
 
-/// As [`timed`] a step, and the bytes of stack the call took.
+/// Bytes of stack that `call` takes, the frames of the counting included.
 #[inline(always)]
-fn timed_with_stack(
-    damper: &Damper<f32>,
-    state: &mut DamperState<f32>,
-    displacement: f32,
-) -> (u32, usize) {
+fn stack_of(call: impl FnOnce()) -> usize {
     let top = cortex_m::register::msp::read() as usize & !3;
     let word = |offset: usize| core::ptr::with_exposed_provenance_mut::<u32>(top - offset);
     for offset in (4..=PAINTED).step_by(4) {
         // SAFETY: RAM below the stack pointer, used by nothing: no interrupt is enabled.
         unsafe { word(offset).write_volatile(PAINT) }
     }
-    let (force, ticks) = timed(step, damper, state, displacement);
-    black_box(force);
+    call();
     let mut used = PAINTED;
     // SAFETY: as above.
     while used > 0 && unsafe { word(used).read_volatile() } == PAINT {
         used -= 4;
     }
-    (ticks, used)
+    used
 }
 
-/// Continues FNV-1a (64 bit) with a force.
-fn digest(hash: u64, force: f32) -> u64 {
-    let bytes = force.to_bits().to_le_bytes();
-    bytes.iter().fold(hash, |hash, byte| {
-        (hash ^ u64::from(*byte)).wrapping_mul(0x100_0000_01b3)
-    })
+/// Clock ticks of the functions of the C library.
+struct Library {
+    damper_init: u32,
+    step: u32,
+    step_bank: u32,
+    set_clearance: u32,
+}
+
+impl Library {
+    fn timed(experiment: &Experiment<'_>) -> Self {
+        let mut damper = DashpotDamper {
+            opaque: [0; DASHPOT_DAMPER_WORDS],
+        };
+        let mut states = [DashpotState {
+            opaque: [0; DASHPOT_STATE_WORDS],
+        }; BANK];
+        let displacements = [1e-3_f32; BANK];
+        let mut forces = [0.0_f32; BANK];
+        let image = experiment.damper;
+        let damper_address = (&raw mut damper).expose_provenance();
+        let init = timed(
+            dashpot_damper_init as *const (),
+            [damper_address, address(image), image.len(), 0, 0],
+            0.0,
+        );
+        for state in &mut states {
+            // SAFETY: storage of its own and a damper that was made.
+            let _ = unsafe { dashpot_state_init(state, &damper, 0.0) };
+        }
+        let states_address = (&raw mut states).expose_provenance();
+        let forces_address = (&raw mut forces).expose_provenance();
+        let step = timed(
+            dashpot_step as *const (),
+            [damper_address, states_address, forces_address, 0, 0],
+            1e-3,
+        );
+        let dampers = [damper_address; BANK];
+        let integers = [
+            address(&dampers),
+            states_address,
+            address(&displacements),
+            forces_address,
+            BANK,
+        ];
+        let step_bank = timed(dashpot_step_bank as *const (), integers, 0.0);
+        let set_clearance = timed(
+            dashpot_damper_set_clearance as *const (),
+            [damper_address, 0, 0, 0, 0],
+            2e-3,
+        );
+        // An error would be cheaper than the work.
+        let counted = |returned: Returned| match returned.integer {
+            0 => returned.ticks,
+            _ => 0,
+        };
+        Self {
+            damper_init: counted(init),
+            step: counted(step),
+            step_bank: counted(step_bank),
+            set_clearance: counted(set_clearance),
+        }
+    }
 }
 
 #[entry]
 fn main() -> ! {
     board::start_clock();
-    // SAFETY: the host loaded an experiment there before the start; nothing else is linked there.
-    let experiment = unsafe { &*with_exposed_provenance::<Experiment>(EXPERIMENT) };
-    let damper = Damper::<f32>::from_words(&experiment.damper);
-    let other = Damper::<f32>::from_words(&experiment.other);
-    let samples = experiment.samples.clamp(2, experiment.motion.len() as u32);
-    // To the end of the motion and back.
-    let displacement = |step: u32| {
-        let place = step % (2 * (samples - 1));
-        let place = place.min(2 * (samples - 1) - place);
-        experiment.motion[place as usize]
-    };
-
-    let mut usual = Cost::new();
-    let mut hash = 0xcbf2_9ce4_8422_2325;
-    // The lanes of a bank run apart.
-    let lane_displacement = |step: u32, lane: usize| displacement(step + LAG * lane as u32);
-    let mut states = core::array::from_fn(|lane| damper.at_rest(lane_displacement(0, lane)));
-    let mut forces = [0.0; BANK];
-    let dampers = [&damper; BANK];
-    let call;
-    if experiment.bank == 0 {
-        call = timed(no_step, &damper, &mut states[0], 0.0).1;
-        for count in 0..experiment.steps {
-            let (force, ticks) = timed(step, &damper, &mut states[0], displacement(count));
-            usual.add(ticks);
-            hash = digest(hash, force);
-        }
-    } else {
-        call = timed_bank(no_bank, &dampers, &mut states, &[0.0; BANK], &mut forces);
-        for count in 0..experiment.steps {
-            let displacements = core::array::from_fn(|lane| lane_displacement(count, lane));
-            let ticks = timed_bank(bank, &dampers, &mut states, &displacements, &mut forces);
-            usual.add(ticks);
-            hash = forces.iter().fold(hash, |hash, force| digest(hash, *force));
-        }
-    }
-
-    // After the digest: the first step after a reset, and what is not usual, under force.
-    let state = &mut states[0];
-    *state = damper.at_rest(0.0);
-    let first = timed_with_stack(&damper, state, 1.5e-3);
-    let held = timed_with_stack(&damper, state, f32::NAN);
-    let swapped = timed_with_stack(&other, state, 2.5e-3);
-    let stack = first.1.max(held.1).max(swapped.1);
-    let single = timed(no_step, &damper, state, 0.0).1;
-    let known = timed(known_step, &damper, state, 0.0).1;
-
     let mut printer = Printer(Uart::start(Port::Link, 1_000_000));
-    let _ = writeln!(
-        printer,
-        "{{\"call\": {call}, \"least\": {}, \"most\": {}, \"sum\": {}, \"digest\": \"{hash:016x}\", \
-         \"single_call\": {single}, \"known\": {known}, \"first\": {}, \"held\": {}, \"swapped\": {}, \
-         \"stack_bytes\": {stack}, \"damper_bytes\": {}, \"state_bytes\": {}}}",
-        usual.least,
-        usual.most,
-        usual.sum,
-        first.0,
-        held.0,
-        swapped.0,
-        size_of::<Damper<f32>>(),
-        size_of::<DamperState<f32>>(),
-    );
+    // SAFETY: the host wrote it before the start, nothing writes it now.
+    let bytes = unsafe { &*black_box(&raw const __sheap) };
+    match Experiment::parse(bytes) {
+        Some(experiment) => measure(&experiment, &mut printer),
+        None => drop(writeln!(printer, "no experiment was loaded")),
+    }
     loop {
         cortex_m::asm::wfi();
     }
+}
+
+fn measure(experiment: &Experiment<'_>, printer: &mut Printer) {
+    let read = |image| Damper::<f32>::from_image(image);
+    let (Ok(damper), Ok(other)) = (read(experiment.damper), read(experiment.other)) else {
+        let _ = writeln!(printer, "the experiment has no damper of this core");
+        return;
+    };
+    let call = timed(nothing as *const (), [0; 5], 0.0).ticks;
+    let cost = Cell::new(Cost::NONE);
+    let digest = experiment.run(
+        &damper,
+        |damper, state, displacement| {
+            let returned = timed_step(damper, state, displacement);
+            cost.set(cost.get().with(returned.ticks));
+            returned.real
+        },
+        |dampers, states, displacements, forces| {
+            let integers = [
+                address(dampers),
+                (&raw mut *states).expose_provenance(),
+                address(displacements),
+                (&raw mut *forces).expose_provenance(),
+                0,
+            ];
+            let returned = timed(bank as *const (), integers, 0.0);
+            cost.set(cost.get().with(returned.ticks));
+        },
+    );
+    let cost = cost.get();
+
+    // The first step after a reset, and what is not usual, under force.
+    let state = &mut damper.at_rest(0.0);
+    let mut stack = 0;
+    let mut unusual = |damper: &Damper<f32>, displacement: f32| {
+        let mut ticks = 0;
+        let used = stack_of(|| ticks = timed_step(damper, state, displacement).ticks);
+        stack = used.max(stack);
+        ticks
+    };
+    let first = unusual(&damper, 1.5e-3);
+    let held = unusual(&damper, f32::NAN);
+    let limited = unusual(&damper, 1.0);
+    let swapped = unusual(&other, 2.5e-3);
+    let unused = stack_of(|| _ = timed(nothing as *const (), [0; 5], 0.0));
+    let known = timed(known as *const (), [0; 5], 0.0).ticks;
+    let library = Library::timed(experiment);
+
+    let _ = writeln!(
+        printer,
+        "{{\"clock_hz\": {CLOCK_HZ}, \"call\": {call}, \"known\": {known}, \"least\": {}, \"most\": {}, \
+         \"sum\": {}, \"digest\": \"{:016x}\", \"first\": {first}, \"held\": {held}, \
+         \"limited\": {limited}, \"swapped\": {swapped}, \"stack_bytes\": {}, \"damper_bytes\": {}, \
+         \"state_bytes\": {}, \"c_damper_init\": {}, \"c_step\": {}, \"c_step_bank\": {}, \
+         \"c_set_clearance\": {}}}",
+        cost.least,
+        cost.most,
+        cost.sum,
+        digest.value(),
+        stack - unused,
+        size_of::<Damper<f32>>(),
+        size_of::<DamperState<f32>>(),
+        library.damper_init,
+        library.step,
+        library.step_bank,
+        library.set_clearance,
+    );
 }

@@ -1,0 +1,165 @@
+//! Limits of measured figures, a column for each way to measure them.
+
+use std::fmt::Write;
+
+use crate::document;
+
+/// A limit is at most the measured figure over this share, so one looser than needed fails.
+const LEAST_USE: f64 = 0.8;
+
+/// A table of limits: `figure; column; ...`, a row a figure.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Budget {
+    path: &'static str,
+    columns: Vec<String>,
+    rows: Vec<(String, Vec<f64>)>,
+}
+
+impl Budget {
+    /// The budget in a file of the repository.
+    pub fn read(path: &'static str) -> Self {
+        Self::parse(path, &document::read(path))
+    }
+
+    /// The budget of a file's text.
+    pub fn parse(path: &'static str, text: &str) -> Self {
+        let mut lines = text.lines().map(|line| line.split(';').map(str::trim));
+        let header = lines.next().into_iter().flatten().skip(1);
+        let columns: Vec<String> = header.map(str::to_owned).collect();
+        let rows = lines.map(|mut cells| {
+            let name = cells.next().unwrap_or_default().to_owned();
+            let numbers = cells.map(|cell| {
+                cell.parse()
+                    .unwrap_or_else(|error| panic!("{path}: {name}: `{cell}`: {error}"))
+            });
+            let numbers: Vec<f64> = numbers.collect();
+            assert_eq!(
+                numbers.len(),
+                columns.len(),
+                "{path}: {name}: a limit a column"
+            );
+            (name, numbers)
+        });
+        let rows = rows.collect();
+        Self {
+            path,
+            columns,
+            rows,
+        }
+    }
+
+    /// What is wrong with the figures of a column: above the limit, far below it, without a row; or a row
+    /// without a figure.
+    pub fn complaints(&self, column: &str, figures: &[(String, f64)]) -> Vec<String> {
+        let Some(place) = self.columns.iter().position(|name| name == column) else {
+            return vec![format!("{}: no column {column}", self.path)];
+        };
+        let mut found = Vec::new();
+        for (name, value) in figures {
+            let path = self.path;
+            match self.rows.iter().find(|(row, _)| row == name) {
+                None => found.push(format!("{name}: {value} has no row in {path}")),
+                Some((_, limits)) => {
+                    let limit = limits[place];
+                    if *value > limit {
+                        found.push(format!(
+                            "{column}: {name}: {value} is above the {limit} allowed"
+                        ));
+                    } else if *value < LEAST_USE * limit {
+                        found.push(format!(
+                            "{column}: {name}: {value} is far below the {limit} allowed; tighten {path}"
+                        ));
+                    }
+                }
+            }
+        }
+        for (row, _) in &self.rows {
+            if !figures.iter().any(|(name, _)| name == row) {
+                found.push(format!("{row} in {} is no figure", self.path));
+            }
+        }
+        found
+    }
+
+    /// Gives every figure of a column that breaks its limit, or is far below it, a new one: itself, rounded
+    /// up to two digits.
+    pub fn adapt(&mut self, column: &str, figures: &[(String, f64)]) {
+        let Some(place) = self.columns.iter().position(|name| name == column) else {
+            return;
+        };
+        self.rows
+            .retain(|(row, _)| figures.iter().any(|(name, _)| name == row));
+        for (name, value) in figures {
+            let limit = rounded_up(*value);
+            match self.rows.iter_mut().find(|(row, _)| row == name) {
+                None => self
+                    .rows
+                    .push((name.clone(), vec![limit; self.columns.len()])),
+                Some((_, limits))
+                    if *value > limits[place] || *value < LEAST_USE * limits[place] =>
+                {
+                    limits[place] = limit;
+                }
+                Some(_) => {}
+            }
+        }
+    }
+
+    /// The text of the file.
+    pub fn text(&self) -> String {
+        let mut text = format!("figure; {}\n", self.columns.join("; "));
+        for (name, limits) in &self.rows {
+            let limits: Vec<String> = limits.iter().map(f64::to_string).collect();
+            writeln!(text, "{name}; {}", limits.join("; ")).expect("text grows");
+        }
+        text
+    }
+}
+
+/// To two digits.
+fn rounded_up(value: f64) -> f64 {
+    let unit = 10_f64.powi((value.max(1.0).log10().floor() as i32 - 1).max(0));
+    (value / unit).ceil() * unit
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Budget;
+
+    const TEXT: &str = "figure; m7; m4\nstep; 150; 180\nstack; 120; 120\n";
+
+    fn figures(step: f64) -> [(String, f64); 2] {
+        [("step".into(), step), ("stack".into(), 100.0)]
+    }
+
+    #[test]
+    fn a_budget_is_neither_exceeded_nor_far_too_large() {
+        let budget = Budget::parse("budget.csv", TEXT);
+        assert_eq!(budget.complaints("m7", &figures(146.0)), [""; 0]);
+        let complaint = |step| budget.complaints("m7", &figures(step)).join("\n");
+        assert!(
+            complaint(151.0).contains("above the 150"),
+            "{}",
+            complaint(151.0)
+        );
+        assert!(
+            complaint(119.0).contains("far below"),
+            "{}",
+            complaint(119.0)
+        );
+        assert_eq!(budget.complaints("m4", &figures(151.0)), [""; 0]);
+        let other = budget.complaints("m7", &[("other".into(), 1.0)]).join("\n");
+        assert!(other.contains("has no row") && other.contains("step in budget.csv is no figure"));
+    }
+
+    #[test]
+    fn an_adapted_budget_holds_and_keeps_what_held() {
+        let mut budget = Budget::parse("budget.csv", TEXT);
+        budget.adapt("m7", &figures(1578.0));
+        assert_eq!(budget.complaints("m7", &figures(1578.0)), [""; 0]);
+        assert_eq!(
+            budget.text(),
+            "figure; m7; m4\nstep; 1600; 180\nstack; 120; 120\n"
+        );
+    }
+}

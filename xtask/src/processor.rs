@@ -1,0 +1,66 @@
+//! Processors that the core is proved on, and the boards of the emulator that have them.
+
+/// A processor: how to compile for it, how to emulate it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Processor {
+    /// Name of columns and folders.
+    pub name: &'static str,
+    /// Name for people.
+    pub title: &'static str,
+    /// Target of rustc.
+    pub target: &'static str,
+    /// Name for rustc's `target-cpu`; `None` for code of every processor of the target.
+    pub target_cpu: Option<&'static str>,
+    /// Board for `qemu-system-arm -M`.
+    pub board: &'static str,
+    /// Processor for `qemu-system-arm -cpu`.
+    pub emulated_cpu: &'static str,
+}
+
+/// The one the firmware is for.
+pub const CORTEX_M7: Processor = Processor {
+    name: "cortex_m7",
+    title: "Cortex-M7",
+    target: "thumbv7em-none-eabihf",
+    target_cpu: Some("cortex-m7"),
+    board: "mps2-an500",
+    emulated_cpu: "cortex-m7",
+};
+
+/// With code that names no processor, so it also runs on a Cortex-M7.
+pub const CORTEX_M4F: Processor = Processor {
+    name: "cortex_m4f",
+    title: "Cortex-M4F",
+    target: "thumbv7em-none-eabihf",
+    target_cpu: None,
+    board: "mps2-an386",
+    emulated_cpu: "cortex-m4",
+};
+
+/// Armv8-M, as built for every processor of its target.
+pub const CORTEX_M33: Processor = Processor {
+    name: "cortex_m33",
+    title: "Cortex-M33",
+    target: "thumbv8m.main-none-eabihf",
+    target_cpu: None,
+    board: "mps2-an505",
+    emulated_cpu: "cortex-m33",
+};
+
+/// Target of the 64-bit Arm processor, whose user programs are emulated.
+pub const AARCH64: &str = "aarch64-unknown-linux-gnu";
+
+/// A target of the Cortex-M4 and M7 that leaves a floating-point unit unused.
+pub const SOFT_FLOAT: &str = "thumbv7em-none-eabi";
+
+/// The target of the Cortex-M3, which has no floating-point unit.
+pub const CORTEX_M3: &str = "thumbv7m-none-eabi";
+
+/// Every target that rustup installs for the tests.
+pub const TARGETS: [&str; 5] = [
+    CORTEX_M7.target,
+    CORTEX_M33.target,
+    AARCH64,
+    SOFT_FLOAT,
+    CORTEX_M3,
+];

@@ -1,0 +1,70 @@
+//! Runs every test of the repository, then names those that were skipped.
+
+use crate::run::{Outcome, cargo_with, repository};
+use crate::tools::{SKIPPED, install_missing};
+
+/// Calls of cargo: all tests; those of the C library, which is a workspace of its own; the force bits of the
+/// optimised core.
+const RUNS: [&[&str]; 3] = [
+    &["test", "--workspace", "--no-fail-fast"],
+    &["test", "--manifest-path", "capi/Cargo.toml"],
+    &[
+        "test",
+        "--release",
+        "--package",
+        "dashpot",
+        "--test",
+        "determinism",
+    ],
+];
+
+/// Installs the tools, runs every test, and names those that were skipped and why.
+///
+/// # Errors
+/// Tests failed; the others were run.
+pub fn test() -> Outcome {
+    install_missing();
+    let path = repository().join("target/skipped_tests.txt");
+    let _ = std::fs::remove_file(&path);
+    let variables = [(SKIPPED, &*path.to_string_lossy())];
+    let failures: Vec<String> = RUNS
+        .iter()
+        .filter_map(|arguments| cargo_with(arguments, &variables).err())
+        .collect();
+    println!(
+        "\n{}",
+        summary(&std::fs::read_to_string(&path).unwrap_or_default())
+    );
+    if failures.is_empty() {
+        Ok(())
+    } else {
+        Err(failures.join("\n"))
+    }
+}
+
+/// What is said at the end, by the lines that skipped tests left.
+fn summary(skipped: &str) -> String {
+    let mut lines: Vec<&str> = skipped.lines().collect();
+    lines.sort_unstable();
+    lines.dedup();
+    match lines.len() {
+        0 => "no test was skipped".into(),
+        count => format!("skipped, {count}:\n  {}", lines.join("\n  ")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::summary;
+
+    #[test]
+    fn every_skipped_test_is_named_once() {
+        assert_eq!(summary(""), "no test was skipped");
+        let text =
+            summary("b (QEMU); to run it: x\na (gcc); to run it: y\nb (QEMU); to run it: x\n");
+        assert_eq!(
+            text,
+            "skipped, 2:\n  a (gcc); to run it: y\n  b (QEMU); to run it: x"
+        );
+    }
+}
