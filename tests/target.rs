@@ -122,11 +122,11 @@ fn step_figures(runs: &[(&str, Found)]) -> Figures {
 }
 
 /// Code and constants (bytes) of the C library for the target, which has the core and its border, and
-/// how many of its symbols panic, use a heap, compute in double precision or take roots in software.
+/// how many of its symbols panic, use a heap or compute in double precision.
 fn library_figures(library: &Path) -> Figures {
     let bytes = std::fs::read(library).expect("a library");
     let archive = object::read::archive::ArchiveFile::parse(&*bytes).expect("an archive");
-    let (mut code, mut panics, mut heap, mut doubles, mut roots) = (0, 0, 0, 0, 0);
+    let (mut code, mut panics, mut heap, mut doubles) = (0, 0, 0, 0);
     for member in archive.members() {
         let member = member.expect("an archive's member");
         if !member.name().starts_with(b"dashpot") {
@@ -147,7 +147,6 @@ fn library_figures(library: &Path) -> Figures {
             panics += u32::from(name.contains("panicking"));
             heap += u32::from(name.contains("alloc") || name.contains("free"));
             doubles += u32::from(is_soft_double(name));
-            roots += u32::from(name.contains("sqrt"));
         }
     }
     vec![
@@ -155,7 +154,6 @@ fn library_figures(library: &Path) -> Figures {
         ("panic_symbols".into(), f64::from(panics)),
         ("heap_symbols".into(), f64::from(heap)),
         ("soft_double_symbols".into(), f64::from(doubles)),
-        ("soft_root_symbols".into(), f64::from(roots)),
     ]
 }
 
@@ -262,13 +260,8 @@ const ROWS: [(&str, &[&str]); 16] = [
     ("damper, bytes", &["damper_bytes"]),
     ("state, bytes", &["state_bytes"]),
     (
-        "symbols of panic, heap, double precision, square root in software",
-        &[
-            "panic_symbols",
-            "heap_symbols",
-            "soft_double_symbols",
-            "soft_root_symbols",
-        ],
+        "symbols of panic, heap, double precision in software",
+        &["panic_symbols", "heap_symbols", "soft_double_symbols"],
     ),
 ];
 

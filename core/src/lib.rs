@@ -3,13 +3,13 @@
 //! Parameters in SI units are built, once and with every error there is, into a [`Damper`]: constants
 //! for one step size. A [`DamperState`] holds what changes. [`Damper::step`] turns the displacement of
 //! a tick into the force of that tick in a fixed number of operations; it cannot fail, allocates
-//! nothing and uses + - * / and square root only, so every IEEE 754 machine computes the same bits.
+//! nothing and uses + - * / only, so every IEEE 754 machine computes the same bits.
 //!
 //! Features: `builder` (default) has the parameters-to-constants part; without it the crate is the step
 //! alone. `serde` reads and writes parameters, `log` reports builds through the `log` facade,
 //! `link` serves a bank of dampers over a serial line.
 #![no_std]
-#![deny(unsafe_code)]
+#![forbid(unsafe_code)]
 #![warn(missing_docs)]
 
 pub mod bank;

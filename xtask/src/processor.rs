@@ -50,17 +50,5 @@ pub const CORTEX_M33: Processor = Processor {
 /// Target of the 64-bit Arm processor, whose user programs are emulated.
 pub const AARCH64: &str = "aarch64-unknown-linux-gnu";
 
-/// A target of the Cortex-M4 and M7 that leaves a floating-point unit unused.
-pub const SOFT_FLOAT: &str = "thumbv7em-none-eabi";
-
-/// The target of the Cortex-M3, which has no floating-point unit.
-pub const CORTEX_M3: &str = "thumbv7m-none-eabi";
-
 /// Every target that rustup installs for the tests.
-pub const TARGETS: [&str; 5] = [
-    CORTEX_M7.target,
-    CORTEX_M33.target,
-    AARCH64,
-    SOFT_FLOAT,
-    CORTEX_M3,
-];
+pub const TARGETS: [&str; 3] = [CORTEX_M7.target, CORTEX_M33.target, AARCH64];

@@ -92,10 +92,6 @@ macro_rules! group {
                 self.map($vector::abs)
             }
             #[inline(always)]
-            fn square_roots(self) -> Self {
-                self.map($vector::sqrt)
-            }
-            #[inline(always)]
             fn at_least(self, other: Self) -> Self {
                 // One instruction there; elsewhere it would pass NaN on.
                 if cfg!(target_arch = "x86_64") {

@@ -29,8 +29,6 @@ pub trait Lanes<T: Real, const L: usize>:
     fn columns(rows: [[T; 4]; L]) -> [Self; 4];
     /// See [`Real::magnitude`].
     fn magnitudes(self) -> Self;
-    /// See [`Real::square_root`].
-    fn square_roots(self) -> Self;
     /// The larger; of NaN `other`, which is none.
     fn at_least(self, other: Self) -> Self;
     /// The smaller; of NaN `other`, which is none.
@@ -63,10 +61,6 @@ impl<T: Real> Lanes<T, 1> for T {
     #[inline(always)]
     fn magnitudes(self) -> Self {
         self.magnitude()
-    }
-    #[inline(always)]
-    fn square_roots(self) -> Self {
-        self.square_root()
     }
     #[inline(always)]
     fn at_least(self, other: Self) -> Self {

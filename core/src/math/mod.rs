@@ -1,4 +1,4 @@
-//! Arithmetic the step is allowed to use: + - * / and square root, exact in IEEE 754.
+//! Arithmetic the step is allowed to use: + - * /, exact in IEEE 754.
 
 pub(crate) mod approximate;
 #[cfg_attr(
@@ -8,7 +8,6 @@ pub(crate) mod approximate;
 pub(crate) mod group;
 mod lanes;
 mod real;
-mod square_root;
 
 #[cfg(feature = "builder")]
 pub(crate) mod elementary;

@@ -3,8 +3,8 @@
 use core::fmt::Debug;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
+use super::Lanes;
 use super::group::{self, GROUP};
-use super::{Lanes, square_root};
 use crate::table::{BINS, Table, bin_shift};
 
 /// `f32` or `f64` with the operations whose results are the same bits on every machine.
@@ -42,8 +42,6 @@ pub trait Real:
     fn from_f64(value: f64) -> Self;
     /// The same number in double precision.
     fn to_f64(self) -> f64;
-    /// Correctly rounded square root.
-    fn square_root(self) -> Self;
     /// Magnitude.
     fn magnitude(self) -> Self;
     /// The larger of two numbers that are not zeros of opposite sign; of NaN `other`, which is none.
@@ -84,10 +82,6 @@ macro_rules! real {
             #[inline(always)]
             fn to_f64(self) -> f64 {
                 f64::from(self)
-            }
-            #[inline(always)]
-            fn square_root(self) -> Self {
-                square_root::$float(self)
             }
             #[inline(always)]
             fn magnitude(self) -> Self {
