@@ -162,16 +162,15 @@ fn constants_out_of_range_are_refused_though_their_revision_is_right() {
         .position(|word| *word == revision)
         .expect("the revision is among the words");
     assert_eq!(read(&forged(words.clone(), revision_at)), Ok(damper));
-    // Step, lead, first knot, half the clearance; words in the order of the scalars.
+    // Step, offset, first knot, half the clearance; words in the order of the scalars.
     let mut cases = vec![(3, 0.0_f32), (4, 1e-3), (5, 0.0), (6, 1e-3)];
     for scalar in 0..revision_at {
         cases.extend([f32::NAN, f32::INFINITY, -1.0].map(|value| (scalar, value)));
     }
-    // Beyond the largest clearance, the lead that goes with it right.
+    // Beyond the largest clearance, the sum that goes with it right.
     let mut loose = words.clone();
     loose[6] = 0.051_f32.to_bits();
-    let lead = 0.051 + f32::from_bits(words[8]) - f32::from_bits(words[5]);
-    loose[4] = (lead + lead * f32::EPSILON).to_bits();
+    loose[4] = (0.051 + f32::from_bits(words[8])).to_bits();
     let refused = read(&forged(loose, revision_at));
     assert_eq!(refused, Err(ImageError::Constants));
     let last = words.len() - 1;

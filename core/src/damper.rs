@@ -33,15 +33,15 @@ pub struct Scalars<T> {
     pub(crate) rest_rounder: T,
     /// Step (s).
     pub(crate) step_s: T,
-    /// Stretch (m) up to which nothing flows, half the clearance and the stretch held, less the first
-    /// knot: see [`lead`].
-    pub(crate) lead: T,
+    /// Stretch up to which nothing flows (m): half the clearance and the stretch held.
+    pub(crate) offset: T,
     /// Where the first piece of either side begins, a power of two (m).
     pub(crate) first_knot: T,
     /// Half the clearance, a (m).
     pub(crate) half_clearance: T,
-    /// Force at which the element yields (N).
-    pub(crate) force_limit: T,
+    /// Half the force at which the element yields (N). A sum is not a signalling NaN, so compilers take the
+    /// lesser of it and the force in one instruction.
+    pub(crate) half_force_limit: T,
     /// Stretch of the mount under seal friction (m).
     pub(crate) held: T,
 }
@@ -71,19 +71,12 @@ array_of_scalars!(
     position_rounder,
     rest_rounder,
     step_s,
-    lead,
+    offset,
     first_knot,
     half_clearance,
-    force_limit,
+    half_force_limit,
     held,
 );
-
-/// What a reach has to lose to be looked up (m): rounded up, so that a stretch at which nothing flows never
-/// comes to lie beyond the first knot.
-pub(crate) fn lead<T: Real>(half_clearance: T, held: T, first_knot: T) -> T {
-    let exact = half_clearance + held - first_knot;
-    exact + exact.magnitude() * T::from_f64(T::EPSILON)
-}
 
 /// A built damper: constants for one step size, shared by any number of states.
 ///
@@ -116,6 +109,8 @@ pub struct Damper<T> {
     pub(crate) scalars: Scalars<T>,
     pub(crate) revision: u32,
     pub(crate) table_revision: u32,
+    /// In `f32` the table lies 64 bytes on, where each part of it is reached by one instruction.
+    pub(crate) padding: [u32; 5],
     /// What an implicit stage finds, over its reach beyond the offset.
     pub(crate) table: Table<T>,
 }
@@ -128,6 +123,7 @@ impl<T: Real> Damper<T> {
             scalars,
             revision: revision::of_damper(table_revision, &scalars),
             table_revision,
+            padding: [0; 5],
             table,
         }
     }
@@ -163,7 +159,7 @@ impl<T: Real> Damper<T> {
 
     /// Force at which the element yields (N); no step returns more.
     pub fn force_limit_n(&self) -> T {
-        self.scalars.force_limit
+        self.scalars.half_force_limit + self.scalars.half_force_limit
     }
 
     /// Sets the clearance 2a (m): a live change for firmware, a few dozen operations, no table touched.
@@ -178,7 +174,7 @@ impl<T: Real> Damper<T> {
         };
         let k = &mut self.scalars;
         k.half_clearance = half;
-        k.lead = lead(half, k.held, k.first_knot);
+        k.offset = half + k.held;
         self.revision = revision::of_damper(self.table_revision, k);
     }
 
@@ -199,7 +195,7 @@ impl<T: Real> Damper<T> {
     pub(crate) fn largest_reach(&self) -> T {
         let k = &self.scalars;
         let end = T::from_f64(f64::from(1_u32 << DOUBLINGS));
-        end * k.first_knot + k.half_clearance + k.held
+        end * k.first_knot + k.offset
     }
 
     /// Carries a state over from another damper: displacement and force stay, the stretch becomes
@@ -209,7 +205,7 @@ impl<T: Real> Damper<T> {
     /// ticks to keep that tick at its usual cost. Fixed work: 26 stages in `f32`, 55 in `f64`.
     pub fn adopt(&self, state: &mut DamperState<T>) {
         let a = self.scalars.half_clearance;
-        let limit = self.scalars.force_limit;
+        let limit = self.force_limit_n();
         let force = state.force.larger(-limit).smaller(limit);
         (state.stretch, state.potential) = if force == T::ZERO {
             (state.stretch.larger(-a).smaller(a), T::ZERO)

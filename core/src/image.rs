@@ -15,7 +15,7 @@
 use core::fmt;
 
 use crate::checksum::crc_32;
-use crate::damper::{Damper, SCALARS, Scalars, lead};
+use crate::damper::{Damper, SCALARS, Scalars};
 use crate::parameters::LARGEST_CLEARANCE_M;
 use crate::revision;
 use crate::table::Piece;
@@ -218,13 +218,12 @@ macro_rules! image {
                 let widened = coefficients.iter().map(|word| number(word).to_bits().into());
                 let table_revision = revision::of_words(revision::START, widened);
                 let revision = revision::of_damper(table_revision, &scalars);
-                let positive = Scalars { lead: 0.0, ..scalars };
-                let credible = positive.as_array().iter().all(|scalar| *scalar >= 0.0)
+                let credible = scalars.as_array().iter().all(|scalar| *scalar >= 0.0)
                     && scalars.step_s > 0.0
                     && scalars.largest_move > 0.0
                     && scalars.half_clearance <= (0.5 * LARGEST_CLEARANCE_M) as $float
                     && scalars.first_knot > 0.0
-                    && scalars.lead == lead(scalars.half_clearance, scalars.held, scalars.first_knot);
+                    && scalars.offset == scalars.half_clearance + scalars.held;
                 if revisions.map($word::from_le_bytes) == [revision, table_revision].map($word::from)
                     && finite
                     && credible

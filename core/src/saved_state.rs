@@ -110,7 +110,7 @@ macro_rules! saved_state {
                 let credible = state.displacement.is_finite()
                     && state.potential.is_finite()
                     && state.stretch.abs() <= self.largest_reach()
-                    && state.force.abs() <= self.scalars.force_limit;
+                    && state.force.abs() <= self.force_limit_n();
                 if credible { Ok(state) } else { Err(SavedStateError::Values) }
             }
         }

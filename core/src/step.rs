@@ -40,7 +40,8 @@ pub(crate) fn step<T: Real, V: Lanes<T, L>, const L: usize>(
     let potential = end_potential - last.flow * correction;
     let magnitude = stages.force(stretch, last.stiffness());
     let yields = magnitude.reaches(stages.force_limit);
-    let forces = magnitude.at_most(stages.force_limit).along(stretch).array();
+    let limited = magnitude.at_most(stages.force_limit);
+    let forces = limited.with_sign_of(stretch).array();
     let (stretches, potentials) = (stretch.array(), potential.array());
     for (lane, state) in states.iter_mut().enumerate() {
         state.stretch = stretches[lane];
@@ -109,7 +110,7 @@ fn admit<T: Real>(damper: &Damper<T>, state: &mut DamperState<T>, travel: T) -> 
 /// The constants of implicit stages.
 struct Stages<'a, T, V, const L: usize> {
     tables: [&'a Table<T>; L],
-    lead: V,
+    offset: V,
     first_knot: V,
     half_clearance: V,
     force_limit: V,
@@ -126,24 +127,25 @@ struct Stage<'a, T, V, const L: usize> {
 impl<'a, T: Real, V: Lanes<T, L>, const L: usize> Stages<'a, T, V, L> {
     #[inline(always)]
     fn new(dampers: [&'a Damper<T>; L]) -> Self {
-        let [lead, first_knot, half_clearance, force_limit] = V::columns(dampers.map(|damper| {
+        let [offset, first_knot, half_clearance, half_limit] = V::columns(dampers.map(|damper| {
             let k = &damper.scalars;
-            [k.lead, k.first_knot, k.half_clearance, k.force_limit]
+            [k.offset, k.first_knot, k.half_clearance, k.half_force_limit]
         }));
         Self {
             tables: dampers.map(|damper| &damper.table),
-            lead,
+            offset,
             first_knot,
             half_clearance,
-            force_limit,
+            force_limit: half_limit + half_limit,
         }
     }
 
     /// The stage whose stretch and flow sum to `reach` (m).
     #[inline(always)]
     fn solve(&self, reach: V) -> Stage<'a, T, V, L> {
-        let beyond = (reach.magnitudes() - self.lead).at_least(self.first_knot);
-        let (pieces, z) = locate(self.tables, beyond, reach);
+        // Comparing with a constant takes one instruction by every compiler, with a variable it may take eight.
+        let beyond = (reach.magnitudes() - self.offset).at_least(V::all(0.0));
+        let (pieces, z) = locate(self.tables, beyond + self.first_knot, reach);
         let flow = cubic(pieces.map(|piece| piece.flow), z);
         Stage { flow, pieces, z }
     }

@@ -2,7 +2,7 @@
 //!
 //! Knots lie where the law has its corners and as close between them as its curvature asks, so they are
 //! not equally spaced. A reach finds its piece through bins: its exponent and the leading bits of its
-//! fraction, 16 bins to each doubling, name a bin, and a bin names the piece around its lower border.
+//! fraction, 128 bins to each doubling, name a bin, and a bin names the piece around its lower border.
 //! At most [`KNOTS_PER_BIN`] knots lie within a bin, so as many comparisons end at the right piece.
 
 use crate::math::{Lanes, Real};
@@ -12,10 +12,10 @@ pub(crate) const PIECES: usize = 64;
 
 /// Bins a side: 16 doublings of the reach.
 pub(crate) const BINS: usize = 1 << BIN_BITS;
-pub(crate) const BIN_BITS: u32 = 9;
+pub(crate) const BIN_BITS: u32 = 11;
 
 /// Leading bits of the fraction that take part in the number of a bin.
-pub(crate) const BIN_FRACTION_BITS: u32 = 5;
+pub(crate) const BIN_FRACTION_BITS: u32 = 7;
 
 /// Knots within a bin.
 pub(crate) const KNOTS_PER_BIN: usize = 2;
@@ -68,7 +68,7 @@ impl<T> Piece<T> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C)]
 pub struct Table<T> {
-    pub(crate) bins: [u8; 2 * BINS],
+    pub(crate) bins: [[u8; BINS]; 2],
     pub(crate) pieces: [Piece<T>; 2 * PIECES],
 }
 
@@ -85,7 +85,7 @@ macro_rules! table {
                     next_knots: [0.0; KNOTS_PER_BIN],
                     padding: 0.0,
                 }; 2 * PIECES],
-                bins: [0; 2 * BINS],
+                bins: [[0; BINS]; 2],
             };
 
             /// Sets bins and next knots by the knots. Knots rise on either side, the first a power of two.
@@ -116,7 +116,7 @@ macro_rules! table {
                             piece += 1;
                         }
                         let place = (border / WIDTH) as usize % BINS;
-                        self.bins[side * BINS + place] = piece as u8;
+                        self.bins[side][place] = piece as u8;
                         border = border.wrapping_add(WIDTH);
                         bin += 1;
                     }
@@ -143,11 +143,11 @@ pub(crate) fn locate<T: Real, V: Lanes<T, L>, const L: usize>(
     reach: V,
     direction: V,
 ) -> ([&Piece<T>; L], V) {
-    let bins = reach.bins(direction);
+    let (bins, sides) = (reach.bins(), direction.sign_bits());
     let reaches = reach.array();
     let pieces = core::array::from_fn(|lane| {
         let table = tables[lane];
-        let first = usize::from(table.bins[bins[lane] % (2 * BINS)]) % (2 * PIECES);
+        let first = usize::from(table.bins[sides[lane]][bins[lane]]) % (2 * PIECES);
         let beyond = |knot: T| reaches[lane].is_beyond(knot);
         let [next, second] = table.pieces[first].next_knots;
         &table.pieces[(first + beyond(next) + beyond(second)) % (2 * PIECES)]

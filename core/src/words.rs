@@ -59,6 +59,7 @@ macro_rules! words {
                     scalars: Scalars::from_array(scalars),
                     revision: words[SCALARS] as u32,
                     table_revision: words[SCALARS + 1] as u32,
+                    padding: [0; 5],
                     table,
                 }
             }
@@ -100,7 +101,7 @@ mod tests {
             }
             assert_eq!(damper.to_words(), expected);
             assert_eq!(damper.step_s().to_bits(), words[3]);
-            assert_eq!(damper.force_limit_n().to_bits(), words[7]);
+            assert_eq!((0.5 * damper.force_limit_n()).to_bits(), words[7]);
             assert_eq!(damper.revision(), words[9] as u32);
             assert_eq!(damper.table.pieces[127].knot.to_bits(), words[WORDS - 1]);
         };

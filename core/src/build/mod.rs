@@ -9,7 +9,7 @@ mod span;
 use branch::{Branch, Law};
 use span::Stage;
 
-use crate::damper::{Damper, Scalars, lead};
+use crate::damper::{Damper, Scalars};
 use crate::error::{BuildError, require, require_ranges};
 use crate::hydraulics::{HydraulicSide, Laws};
 use crate::math::Real;
@@ -139,14 +139,15 @@ impl DamperParameters {
         let half_clearance = T::from_f64(0.5 * self.mount.clearance_m);
         // Friction holds the piston until the mount, alike on both sides, has this stretch.
         let held = T::from_f64(branches[0].held());
-        let first_knot = T::from_f64(first_knot);
         let scalars = Scalars {
             step_s: T::from_f64(step_s),
             half_clearance,
             held,
-            lead: lead(half_clearance, held, first_knot),
-            first_knot,
-            force_limit: T::from_f64(branches[0].force_limit.max(branches[1].force_limit)),
+            offset: half_clearance + held,
+            first_knot: T::from_f64(first_knot),
+            half_force_limit: T::from_f64(
+                0.5 * branches[0].force_limit.max(branches[1].force_limit),
+            ),
             largest_move: T::from_f64(largest_move),
             position_rounder: T::from_f64(1.5 * span),
             // Twice the grid of positions.

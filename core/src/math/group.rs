@@ -6,7 +6,7 @@ use wide::bytemuck::cast;
 use wide::{f32x4, f64x4, u32x4, u64x4};
 
 use super::Lanes;
-use crate::table::{BIN_BITS, BINS, bin_shift};
+use crate::table::{BINS, bin_shift};
 
 /// Lanes of a group.
 pub(crate) const GROUP: usize = 8;
@@ -126,21 +126,24 @@ macro_rules! group {
                 })
             }
             #[inline(always)]
-            fn along(self, direction: Self) -> Self {
+            fn with_sign_of(self, direction: Self) -> Self {
                 self.zip(direction, |v, direction| {
                     direction.simd_ge($vector::ZERO).select(v, -v)
                 })
             }
             #[inline(always)]
-            fn bins(self, direction: Self) -> [usize; GROUP] {
-                let bins = |reach: $vector, direction: $vector| {
-                    let [reach, direction]: [$bits; 2] = [cast(reach), cast(direction)];
-                    let bin = (reach >> bin_shift($float::MANTISSA_DIGITS))
-                        & $bits::splat((BINS - 1) as _);
-                    let side = (direction >> (8 * size_of::<$float>() as u32 - 1)) << BIN_BITS;
-                    (bin | side).to_array().map(|index| index as usize)
+            fn bins(self) -> [usize; GROUP] {
+                let bins = |reach: $vector| {
+                    let bits: $bits = cast(reach);
+                    let bins = bits >> bin_shift($float::MANTISSA_DIGITS);
+                    (bins & $bits::splat((BINS - 1) as _)).to_array()
                 };
-                whole([bins(self.0, direction.0), bins(self.1, direction.1)])
+                whole([bins(self.0), bins(self.1)]).map(|bin| bin as usize)
+            }
+            #[inline(always)]
+            fn sign_bits(self) -> [usize; GROUP] {
+                let bits = self.0.to_bitmask() | self.1.to_bitmask() << 4;
+                core::array::from_fn(|lane| (bits >> lane & 1) as usize)
             }
         }
     };

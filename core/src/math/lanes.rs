@@ -5,7 +5,6 @@
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
 use super::Real;
-use crate::table::BIN_BITS;
 
 /// `L` numbers computed side by side.
 pub trait Lanes<T: Real, const L: usize>:
@@ -40,9 +39,11 @@ pub trait Lanes<T: Real, const L: usize>:
     /// 0 where `gate` is positive.
     fn unless_positive(self, gate: Self) -> Self;
     /// Negated where `direction` is below zero.
-    fn along(self, direction: Self) -> Self;
-    /// [`Real::bin`], and [`BINS`] more where `direction` has its sign bit set.
-    fn bins(self, direction: Self) -> [usize; L];
+    fn with_sign_of(self, direction: Self) -> Self;
+    /// See [`Real::bin`].
+    fn bins(self) -> [usize; L];
+    /// See [`Real::sign_bit`].
+    fn sign_bits(self) -> [usize; L];
 }
 
 impl<T: Real> Lanes<T, 1> for T {
@@ -84,11 +85,15 @@ impl<T: Real> Lanes<T, 1> for T {
         if gate > T::ZERO { T::ZERO } else { self }
     }
     #[inline(always)]
-    fn along(self, direction: Self) -> Self {
+    fn with_sign_of(self, direction: Self) -> Self {
         if direction >= T::ZERO { self } else { -self }
     }
     #[inline(always)]
-    fn bins(self, direction: Self) -> [usize; 1] {
-        [self.bin() | direction.sign_bit() << BIN_BITS]
+    fn bins(self) -> [usize; 1] {
+        [self.bin()]
+    }
+    #[inline(always)]
+    fn sign_bits(self) -> [usize; 1] {
+        [self.sign_bit()]
     }
 }

@@ -145,13 +145,13 @@ mod tests {
     use crate::table::BINS;
 
     #[test]
-    fn a_doubling_has_sixteen_bins() {
-        let bins = [1.0, 1.0624, 1.0625, 1.999, 2.0, 4.0].map(|x: f64| (x.bin(), (x as f32).bin()));
+    fn a_doubling_has_128_bins() {
+        let bins = [1.0, 1.0078, 1.0079, 1.999, 2.0, 4.0].map(|x: f64| (x.bin(), (x as f32).bin()));
         let from_one = |(double, single): (usize, usize)| {
             [(double, 1.0_f64.bin()), (single, 1.0_f32.bin())]
                 .map(|(bin, one)| (bin + BINS - one) % BINS)
         };
-        let expected = [0, 0, 1, 15, 16, 32].map(|bin| [bin; 2]);
+        let expected = [0, 0, 1, 127, 128, 256].map(|bin| [bin; 2]);
         assert_eq!(bins.map(from_one), expected);
         assert!(
             [f32::NAN, -1.0, 1e30]

@@ -1,5 +1,5 @@
-// Damper `in-service` for a step of 1000 us (1.000000 kHz), f32, revision 0xd64ac192.
-// 1675 words, 9260 bytes in flash; a state takes 24 bytes.
+// Damper `in-service` for a step of 1000 us (1.000000 kHz), f32, revision 0x9c7484c7.
+// 1675 words, 12352 bytes in flash; a state takes 24 bytes.
 // Made by dashpot 0.1.0 with
 //     dashpot export --damper 'in-service' --lang rust --step-us 1000 --scalar f32 --name IN_SERVICE --output 'firmware/src/bank/in_service.rs'
 // Needs dashpot-core 0.1.0 with or without its features; do not edit.
@@ -8,8 +8,8 @@
 #[rustfmt::skip]
 #[allow(clippy::unreadable_literal)]
 pub static IN_SERVICE: dashpot_core::Damper<f32> = dashpot_core::Damper::<f32>::from_words(&[
-    0x3b03126f, 0x3c400000, 0x31000000, 0x3a83126f, 0x3a07f8b1, 0x35000000, 0x3a03126f, 0x47435000,
-    0x37a0c81a, 0xd64ac192, 0x5a3d4194, 0x00000000, 0x3f39bdec, 0xc91e9a8a, 0x53588c51, 0x00000000,
+    0x3b03126f, 0x3c400000, 0x31000000, 0x3a83126f, 0x3a0818b0, 0x35000000, 0x3a03126f, 0x46c35000,
+    0x37a0c81a, 0x9c7484c7, 0x5a3d4194, 0x00000000, 0x3f39bdec, 0xc91e9a8a, 0x53588c51, 0x00000000,
     0x29d7f3b4, 0x3e924552, 0xc79b4199, 0x4a9f38df, 0xd20a8c28, 0xdad2c385, 0x65360994, 0x35000000,
     0x3360453b, 0x3f245088, 0xc8d9f6ef, 0x52e0bcbf, 0x26ecbef6, 0x33361ecf, 0x3e88da63, 0xc789cd74,
     0x4a9ede9c, 0xd20ded6c, 0xda7e9981, 0x64bd870f, 0x3514937b, 0x33e90f8b, 0x3f122a3c, 0xc898b808,

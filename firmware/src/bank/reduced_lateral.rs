@@ -1,5 +1,5 @@
-// Damper `reduced-lateral` for a step of 1000 us (1.000000 kHz), f32, revision 0x9a903f21.
-// 1675 words, 9260 bytes in flash; a state takes 24 bytes.
+// Damper `reduced-lateral` for a step of 1000 us (1.000000 kHz), f32, revision 0x85e7d5c6.
+// 1675 words, 12352 bytes in flash; a state takes 24 bytes.
 // Made by dashpot 0.1.0 with
 //     dashpot export --damper 'reduced-lateral' --lang rust --step-us 1000 --scalar f32 --name REDUCED_LATERAL --output 'firmware/src/bank/reduced_lateral.rs'
 // Needs dashpot-core 0.1.0 with or without its features; do not edit.
@@ -8,8 +8,8 @@
 #[rustfmt::skip]
 #[allow(clippy::unreadable_literal)]
 pub static REDUCED_LATERAL: dashpot_core::Damper<f32> = dashpot_core::Damper::<f32>::from_words(&[
-    0x3b03126f, 0x3c400000, 0x31000000, 0x3a83126f, 0x3a030a70, 0x34000000, 0x3a03126f, 0x45c4e000,
-    0x00000000, 0x9a903f21, 0xb5f29539, 0x00000000, 0x3d9bbdb3, 0xa94334b4, 0x2da212e0, 0x00000000,
+    0x3b03126f, 0x3c400000, 0x31000000, 0x3a83126f, 0x3a03126f, 0x34000000, 0x3a03126f, 0x4544e000,
+    0x00000000, 0x85e7d5c6, 0xb5f29539, 0x00000000, 0x3d9bbdb3, 0xa94334b4, 0x2da212e0, 0x00000000,
     0x9e000000, 0x3d1845ad, 0xa96da456, 0x4ad59f80, 0xb3d945cb, 0x3aa212e0, 0xc01abff5, 0x34000000,
     0x3892ccf8, 0x405a827a, 0x00000000, 0x00000000, 0x33074a9e, 0x00000000, 0x00000000, 0x00000000,
     0x4ad5a00c, 0x00000000, 0x00000000, 0x00000000, 0x3a7155e1, 0x3892ccf8, 0x405a827a, 0x00000000,

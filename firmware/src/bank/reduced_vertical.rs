@@ -1,5 +1,5 @@
-// Damper `reduced-vertical` for a step of 1000 us (1.000000 kHz), f32, revision 0xf6f62ad5.
-// 1675 words, 9260 bytes in flash; a state takes 24 bytes.
+// Damper `reduced-vertical` for a step of 1000 us (1.000000 kHz), f32, revision 0x530c599d.
+// 1675 words, 12352 bytes in flash; a state takes 24 bytes.
 // Made by dashpot 0.1.0 with
 //     dashpot export --damper 'reduced-vertical' --lang rust --step-us 1000 --scalar f32 --name REDUCED_VERTICAL --output 'firmware/src/bank/reduced_vertical.rs'
 // Needs dashpot-core 0.1.0 with or without its features; do not edit.
@@ -8,8 +8,8 @@
 #[rustfmt::skip]
 #[allow(clippy::unreadable_literal)]
 pub static REDUCED_VERTICAL: dashpot_core::Damper<f32> = dashpot_core::Damper::<f32>::from_words(&[
-    0x3b03126f, 0x3c400000, 0x31000000, 0x3a83126f, 0x3a030e70, 0x33800000, 0x3a03126f, 0x45610000,
-    0x00000000, 0xf6f62ad5, 0x6bb5298d, 0x00000000, 0x3d85eb1d, 0x28aa493c, 0xaea31c2d, 0x00000000,
+    0x3b03126f, 0x3c400000, 0x31000000, 0x3a83126f, 0x3a03126f, 0x33800000, 0x3a03126f, 0x44e10000,
+    0x00000000, 0x530c599d, 0x6bb5298d, 0x00000000, 0x3d85eb1d, 0x28aa493c, 0xaea31c2d, 0x00000000,
     0x9d400000, 0x3d035a84, 0xa9cc57e1, 0x4af42400, 0x37cee5c7, 0xbe099fc6, 0x432fc41a, 0x33800000,
     0x37fba872, 0x405a827a, 0x00000000, 0x00000000, 0x31e7eda1, 0x00000000, 0x00000000, 0x00000000,
     0x4af424a0, 0x00000000, 0x00000000, 0x00000000, 0x39f09152, 0x37fba872, 0x405a827a, 0x00000000,
