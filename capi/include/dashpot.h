@@ -26,7 +26,7 @@
 /**
  * Bytes of a dashpot_damper.
  */
-#define DASHPOT_DAMPER_SIZE 9260
+#define DASHPOT_DAMPER_SIZE 12352
 
 /**
  * Alignment of a dashpot_damper (bytes).
@@ -36,7 +36,7 @@
 /**
  * Words of a dashpot_damper.
  */
-#define DASHPOT_DAMPER_WORDS 2315
+#define DASHPOT_DAMPER_WORDS 3088
 
 /**
  * Bytes of a dashpot_state.
