@@ -5,12 +5,11 @@
 //! `DASHPOT_BLESS=1` limits and the tables of the documents follow what was measured.
 
 use std::fmt::Write;
-use std::path::Path;
 
-use dashpot::budget::Budget;
+use dashpot::budget::{Budget, Figures};
 use dashpot::document;
+use dashpot::library::library_figures;
 use dashpot::target::{ELEMENTS, Found, experiments};
-use object::{Object, ObjectSection, ObjectSymbol, SectionKind};
 use serde_json::{Map, Value, json};
 use xtask::processor::{CORTEX_M4F, CORTEX_M7, CORTEX_M33, Processor};
 use xtask::target_toolchain::TargetToolchain;
@@ -58,8 +57,6 @@ fn columns() -> Vec<Column> {
     }));
     columns
 }
-
-type Figures = Vec<(String, f64)>;
 
 fn measure(column: &Column) -> Figures {
     let images = firmware::build(&column.toolchain, &column.processor);
@@ -119,51 +116,6 @@ fn step_figures(runs: &[(&str, Found)]) -> Figures {
     figures.push(("damper_bytes".into(), most(&all, &|run| run.damper_bytes)));
     figures.push(("state_bytes".into(), most(&all, &|run| run.state_bytes)));
     figures
-}
-
-/// Code and constants (bytes) of the C library for the target, which has the core and its border, and
-/// how many of its symbols panic, use a heap or compute in double precision.
-fn library_figures(library: &Path) -> Figures {
-    let bytes = std::fs::read(library).expect("a library");
-    let archive = object::read::archive::ArchiveFile::parse(&*bytes).expect("an archive");
-    let (mut code, mut panics, mut heap, mut doubles) = (0, 0, 0, 0);
-    for member in archive.members() {
-        let member = member.expect("an archive's member");
-        if !member.name().starts_with(b"dashpot") {
-            continue;
-        }
-        let object = member.data(&*bytes).expect("a member's bytes");
-        let object = object::File::parse(object).expect("an object file");
-        for section in object.sections() {
-            if matches!(
-                section.kind(),
-                SectionKind::Text | SectionKind::ReadOnlyData | SectionKind::ReadOnlyString
-            ) {
-                code += section.size();
-            }
-        }
-        for symbol in object.symbols() {
-            let name = symbol.name().unwrap_or_default();
-            panics += u32::from(name.contains("panicking"));
-            heap += u32::from(name.contains("alloc") || name.contains("free"));
-            doubles += u32::from(is_soft_double(name));
-        }
-    }
-    vec![
-        ("code_and_constant_bytes".into(), code as f64),
-        ("panic_symbols".into(), f64::from(panics)),
-        ("heap_symbols".into(), f64::from(heap)),
-        ("soft_double_symbols".into(), f64::from(doubles)),
-    ]
-}
-
-/// Whether a function of the Arm run-time ABI or of GCC's computes with doubles.
-fn is_soft_double(name: &str) -> bool {
-    let abi = name.strip_prefix("__aeabi_");
-    abi.is_some_and(|rest| rest.starts_with('d') || rest.contains("2d") || rest.contains("cdcmp"))
-        || ["df2", "df3", "dfsf2"]
-            .iter()
-            .any(|end| name.ends_with(end))
 }
 
 #[test]

@@ -7,6 +7,9 @@ use crate::document;
 /// A limit is at most the measured figure over this share, so one looser than needed fails.
 const LEAST_USE: f64 = 0.8;
 
+/// Measured figures by name.
+pub type Figures = Vec<(String, f64)>;
+
 /// A table of limits: `figure; column; ...`, a row a figure.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Budget {

@@ -4,6 +4,7 @@ pub mod accuracy;
 pub mod bench_test;
 pub mod budget;
 pub mod document;
+pub mod library;
 pub mod look_up;
 pub mod newton;
 pub mod target;
