@@ -229,7 +229,7 @@ fn wrong_options_say_what_is_allowed() {
         (&["--fifo", "100"], 2, "1..=99"),
         (
             &["--core", "1000000"],
-            1,
+            2,
             "no core this process may use, allowed: ",
         ),
     ] {

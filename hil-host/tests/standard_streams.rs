@@ -3,7 +3,6 @@
 mod common;
 
 use std::path::Path;
-use std::process::Stdio;
 
 use common::{command, dashpot, dashpot_reading, error_of, files_in, json_of, text_of};
 
@@ -187,13 +186,10 @@ fn data_whose_reader_has_left_is_no_failure() {
         ],
         &["--output", "-"],
     ] {
-        let mut child = command(arguments, &root)
-            .stdout(Stdio::piped())
-            .stderr(Stdio::piped())
-            .spawn()
-            .unwrap();
-        drop(child.stdout.take());
-        let output = child.wait_with_output().unwrap();
+        // Gone before the command starts, so that whatever it writes finds no reader.
+        let (reader, writer) = std::io::pipe().unwrap();
+        drop(reader);
+        let output = command(arguments, &root).stdout(writer).output().unwrap();
         assert!(output.status.success(), "{arguments:?}: {output:?}");
         assert!(output.stderr.is_empty(), "{arguments:?}: {output:?}");
     }
