@@ -147,7 +147,7 @@ pub(crate) fn locate<T: Real, V: Lanes<T, L>, const L: usize>(
     let reaches = reach.array();
     let pieces = core::array::from_fn(|lane| {
         let table = tables[lane];
-        let first = usize::from(table.bins[sides[lane]][bins[lane]]) % (2 * PIECES);
+        let first = usize::from(table.bins[sides[lane] % 2][bins[lane] % BINS]) % (2 * PIECES);
         let beyond = |knot: T| reaches[lane].is_beyond(knot);
         let [next, second] = table.pieces[first].next_knots;
         &table.pieces[(first + beyond(next) + beyond(second)) % (2 * PIECES)]
