@@ -144,13 +144,16 @@ pub(crate) fn locate<T: Real, V: Lanes<T, L>, const L: usize>(
     direction: V,
 ) -> ([&Piece<T>; L], V) {
     let (bins, sides) = (reach.bins(), direction.sign_bits());
-    let reaches = reach.array();
+    let first: [usize; L] = core::array::from_fn(|lane| {
+        usize::from(tables[lane].bins[sides[lane] % 2][bins[lane] % BINS])
+    });
+    let beyond = reach.beyond(core::array::from_fn(|lane| {
+        let piece = &tables[lane].pieces[first[lane] % (2 * PIECES)];
+        let [next, second] = piece.next_knots;
+        [piece.knot, next, second, piece.padding]
+    }));
     let pieces = core::array::from_fn(|lane| {
-        let table = tables[lane];
-        let first = usize::from(table.bins[sides[lane] % 2][bins[lane] % BINS]) % (2 * PIECES);
-        let beyond = |knot: T| reaches[lane].is_beyond(knot);
-        let [next, second] = table.pieces[first].next_knots;
-        &table.pieces[(first + beyond(next) + beyond(second)) % (2 * PIECES)]
+        &tables[lane].pieces[(first[lane] + beyond[lane]) % (2 * PIECES)]
     });
     let knot = V::new(pieces.map(|piece: &Piece<T>| piece.knot));
     (pieces, reach - knot)

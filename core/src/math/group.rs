@@ -141,6 +141,17 @@ macro_rules! group {
                 whole([bins(self.0), bins(self.1)]).map(|bin| bin as usize)
             }
             #[inline(always)]
+            fn beyond(self, knots: [[$float; 4]; GROUP]) -> [usize; GROUP] {
+                let [_, next, second, _] = Self::columns(knots);
+                let [next, second] = [next, second].map(|knot| {
+                    let beyond = self.zip(knot, $vector::simd_gt);
+                    beyond.0.to_bitmask() | beyond.1.to_bitmask() << 4
+                });
+                core::array::from_fn(|lane| {
+                    (next >> lane & 1) as usize + (second >> lane & 1) as usize
+                })
+            }
+            #[inline(always)]
             fn sign_bits(self) -> [usize; GROUP] {
                 let bits = self.0.to_bitmask() | self.1.to_bitmask() << 4;
                 core::array::from_fn(|lane| (bits >> lane & 1) as usize)

@@ -42,6 +42,8 @@ pub trait Lanes<T: Real, const L: usize>:
     fn with_sign_of(self, direction: Self) -> Self;
     /// See [`Real::bin`].
     fn bins(self) -> [usize; L];
+    /// How many of the second and third of its knots each positive number is beyond.
+    fn beyond(self, knots: [[T; 4]; L]) -> [usize; L];
     /// See [`Real::sign_bit`].
     fn sign_bits(self) -> [usize; L];
 }
@@ -91,6 +93,10 @@ impl<T: Real> Lanes<T, 1> for T {
     #[inline(always)]
     fn bins(self) -> [usize; 1] {
         [self.bin()]
+    }
+    #[inline(always)]
+    fn beyond(self, [[_, next, second, _]]: [[T; 4]; 1]) -> [usize; 1] {
+        [self.is_beyond(next) + self.is_beyond(second)]
     }
     #[inline(always)]
     fn sign_bits(self) -> [usize; 1] {
