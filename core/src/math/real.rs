@@ -50,7 +50,7 @@ pub trait Real:
     fn smaller(self, other: Self) -> Self;
     /// 1 when the sign bit is set, else 0.
     fn sign_bit(self) -> usize;
-    /// Number of the bin of a table that a positive number lies in, below [`BINS`]; of any other number
+    /// Number of the bin of a table that a positive number lies in, below `BINS`; of any other number
     /// one below it too.
     fn bin(self) -> usize;
     /// 1 when this number is larger than the other, else 0; both positive.
