@@ -10,7 +10,7 @@
 //! takes away their leading error. See docs/numerics.md.
 
 use crate::math::Real;
-use crate::parameters::LARGEST_CLEARANCE_M;
+use crate::parameters::{LARGEST_CLEARANCE_M, LARGEST_FORCE_N};
 use crate::revision;
 use crate::state::DamperState;
 use crate::status::Status;
@@ -109,8 +109,10 @@ pub struct Damper<T> {
     pub(crate) scalars: Scalars<T>,
     pub(crate) revision: u32,
     pub(crate) table_revision: u32,
+    /// CRC-32 of the table as it lies in memory.
+    pub(crate) table_check: u32,
     /// In `f32` the table lies 64 bytes on, where each part of it is reached by one instruction.
-    pub(crate) padding: [u32; 5],
+    pub(crate) padding: [u32; 4],
     /// What an implicit stage finds, over its reach beyond the offset.
     pub(crate) table: Table<T>,
 }
@@ -123,7 +125,8 @@ impl<T: Real> Damper<T> {
             scalars,
             revision: revision::of_damper(table_revision, &scalars),
             table_revision,
-            padding: [0; 5],
+            table_check: T::table_check(&table),
+            padding: [0; 4],
             table,
         }
     }
@@ -131,15 +134,13 @@ impl<T: Real> Damper<T> {
     /// A state at rest at `displacement` (m), centred in the clearance, no force. A displacement that is
     /// not finite counts as 0.
     pub fn at_rest(&self, displacement: T) -> DamperState<T> {
-        DamperState {
-            displacement: if displacement.is_finite() {
-                displacement
-            } else {
-                T::ZERO
-            },
-            revision: self.revision,
-            ..DamperState::default()
-        }
+        let displacement = if displacement.is_finite() {
+            displacement
+        } else {
+            T::ZERO
+        };
+        let numbers = [displacement, T::ZERO, T::ZERO, T::ZERO];
+        DamperState::new(numbers, self.revision, Status::empty(), 0)
     }
 
     /// Step size (s).
@@ -157,9 +158,16 @@ impl<T: Real> Damper<T> {
         self.scalars.half_clearance + self.scalars.half_clearance
     }
 
-    /// Force at which the element yields (N); no step returns more.
+    /// Force at which the element yields (N); no step returns more. At most
+    /// [`LARGEST_FORCE_N`], of damaged constants too.
     pub fn force_limit_n(&self) -> T {
-        self.scalars.half_force_limit + self.scalars.half_force_limit
+        let limit = self.scalars.half_force_limit + self.scalars.half_force_limit;
+        let most = T::from_f64(LARGEST_FORCE_N);
+        if limit <= most {
+            limit.larger(T::ZERO)
+        } else {
+            most
+        }
     }
 
     /// Sets the clearance 2a (m): a live change for firmware, a few dozen operations, no table touched.
@@ -182,7 +190,8 @@ impl<T: Real> Damper<T> {
     /// extension. The displacement is taken as linear since the last tick: no added delay.
     ///
     /// Never fails: bad input is held or limited and latched in the state's status. The force is
-    /// finite and at most [`Damper::force_limit_n`] in magnitude, always.
+    /// finite and at most [`Damper::force_limit_n`] in magnitude, whatever bits the damper and the state
+    /// have.
     ///
     /// A state that another damper stepped before is carried over first, its force kept.
     #[inline]
@@ -196,6 +205,14 @@ impl<T: Real> Damper<T> {
         let k = &self.scalars;
         let end = T::from_f64(f64::from(1_u32 << DOUBLINGS));
         end * k.first_knot + k.offset
+    }
+
+    /// Whether a step of this damper could leave the numbers of a state behind.
+    pub(crate) fn could_leave(&self, state: &DamperState<T>) -> bool {
+        state.displacement.is_finite()
+            && state.potential.is_finite()
+            && state.stretch.magnitude() <= self.largest_reach()
+            && state.force.magnitude() <= self.force_limit_n()
     }
 
     /// Carries a state over from another damper: displacement and force stay, the stretch becomes
@@ -213,7 +230,7 @@ impl<T: Real> Damper<T> {
             step::settle(self, force)
         };
         if state.revision != 0 {
-            state.status.insert(Status::DAMPER_SWAPPED);
+            state.latch(Status::DAMPER_SWAPPED);
         }
         state.revision = self.revision;
     }

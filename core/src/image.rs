@@ -189,6 +189,7 @@ macro_rules! image {
                     *place = $float::from_le_bytes(*word);
                 }
                 self.table.index();
+                self.table_check = self.table.check();
                 Ok(())
             }
 

@@ -25,6 +25,7 @@ mod example;
 #[cfg(feature = "builder")]
 mod hydraulics;
 mod image;
+pub mod integrity;
 #[cfg(feature = "link")]
 pub mod link;
 mod math;

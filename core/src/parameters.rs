@@ -14,6 +14,9 @@ pub const MAX_SHIMS: usize = 16;
 /// Largest clearance 2a (m).
 pub const LARGEST_CLEARANCE_M: f64 = 0.1;
 
+/// Largest force limit (N). No step returns more, whatever bits its damper and state have.
+pub const LARGEST_FORCE_N: f64 = 1e7;
+
 /// Everything that defines one damper.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DamperParameters {

@@ -46,7 +46,7 @@ macro_rules! saved_state {
                 let reals = reals.into_iter().flat_map($float::to_le_bytes);
                 let bytes = reals
                     .chain(self.revision.to_le_bytes())
-                    .chain(self.status.bits().to_le_bytes())
+                    .chain(self.status().bits().to_le_bytes())
                     .chain(self.rejected_inputs.to_le_bytes());
                 let mut saved = [0; $bytes];
                 for (place, byte) in saved.iter_mut().zip(bytes) {
@@ -92,26 +92,19 @@ macro_rules! saved_state {
                     return Err(SavedStateError::Values);
                 };
                 let [.., r0, r1, r2, r3, s0, s1, n0, n1] = *bytes;
-                let state = DamperState {
-                    displacement: $float::from_le_bytes(displacement),
-                    stretch: $float::from_le_bytes(stretch),
-                    potential: $float::from_le_bytes(potential),
-                    force: $float::from_le_bytes(force),
-                    revision: u32::from_le_bytes([r0, r1, r2, r3]),
-                    status: Status::from_bits(u16::from_le_bytes([s0, s1])),
-                    rejected_inputs: u16::from_le_bytes([n0, n1]),
-                };
+                let state = DamperState::new(
+                    [displacement, stretch, potential, force].map($float::from_le_bytes),
+                    u32::from_le_bytes([r0, r1, r2, r3]),
+                    Status::from_bits(u16::from_le_bytes([s0, s1])),
+                    u16::from_le_bytes([n0, n1]),
+                );
                 if state.revision != self.revision {
                     return Err(SavedStateError::Revision {
                         expected: self.revision,
                         found: state.revision,
                     });
                 }
-                let credible = state.displacement.is_finite()
-                    && state.potential.is_finite()
-                    && state.stretch.abs() <= self.largest_reach()
-                    && state.force.abs() <= self.force_limit_n();
-                if credible { Ok(state) } else { Err(SavedStateError::Values) }
+                if self.could_leave(&state) { Ok(state) } else { Err(SavedStateError::Values) }
             }
         }
     };

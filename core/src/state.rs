@@ -3,10 +3,14 @@
 use crate::math::Real;
 use crate::status::Status;
 
+/// Upper bits of the status word: they tell a state from memory that was never written.
+const MARK: u16 = 0x3960;
+const MARK_BITS: u16 = 0xffe0;
+
 /// State of one damper: plain data, saved and restored by copying. 24 bytes in `f32`.
 ///
 /// [`Damper::at_rest`](crate::Damper::at_rest) makes one.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C)]
 pub struct DamperState<T> {
     /// Displacement used last (m).
@@ -19,11 +23,42 @@ pub struct DamperState<T> {
     pub(crate) force: T,
     /// Revision of the damper that stepped last.
     pub(crate) revision: u32,
-    pub(crate) status: Status,
+    /// The mark and the status.
+    status_word: u16,
     pub(crate) rejected_inputs: u16,
 }
 
+impl<T: Real> Default for DamperState<T> {
+    /// At rest at 0, of no damper yet: the first that steps it takes it over.
+    fn default() -> Self {
+        Self::new([T::ZERO; 4], 0, Status::empty(), 0)
+    }
+}
+
 impl<T: Real> DamperState<T> {
+    /// A state of these numbers, in the order of its fields.
+    pub(crate) fn new(
+        [displacement, stretch, potential, force]: [T; 4],
+        revision: u32,
+        status: Status,
+        rejected_inputs: u16,
+    ) -> Self {
+        Self {
+            displacement,
+            stretch,
+            potential,
+            force,
+            revision,
+            status_word: MARK | status.bits(),
+            rejected_inputs,
+        }
+    }
+
+    /// Whether this is a state, and not memory that was never written.
+    pub(crate) fn is_marked(&self) -> bool {
+        self.status_word & MARK_BITS == MARK
+    }
+
     /// Displacement used last (m), positive in extension.
     pub fn displacement(&self) -> T {
         self.displacement
@@ -41,7 +76,7 @@ impl<T: Real> DamperState<T> {
 
     /// Bits latched since they were last cleared.
     pub fn status(&self) -> Status {
-        self.status
+        Status::from_bits(self.status_word)
     }
 
     /// Ticks whose displacement was held or limited, up to 65535.
@@ -55,9 +90,43 @@ impl<T: Real> DamperState<T> {
         [self.displacement, self.stretch, self.potential, self.force]
     }
 
+    /// Sets status bits.
+    #[inline(always)]
+    pub(crate) fn latch(&mut self, status: Status) {
+        self.status_word |= status.bits();
+    }
+
     /// Clears the status bits and the counter.
     pub fn clear_status(&mut self) {
-        self.status = Status::empty();
+        self.status_word &= MARK_BITS;
         self.rejected_inputs = 0;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{DamperState, MARK, MARK_BITS};
+    use crate::status::Status;
+
+    #[test]
+    fn the_mark_and_the_status_share_no_bit() {
+        assert_eq!(Status::from_bits(!MARK_BITS).bits(), !MARK_BITS);
+        assert_eq!(MARK & !MARK_BITS, 0);
+    }
+
+    #[test]
+    fn memory_that_was_never_written_has_no_mark() {
+        let patterns = [
+            0x0000, 0xffff, 0xa5a5, 0x5a5a, 0xaaaa, 0x5555, 0xcccc, 0xcdcd, 0xdead, 0xbeef, 0xfdfd,
+            0xbaad, 0xf00d, 0xfeed, 0x0badu16,
+        ];
+        for pattern in patterns {
+            let state = DamperState::<f32> {
+                status_word: pattern,
+                ..DamperState::default()
+            };
+            assert!(!state.is_marked(), "{pattern:#x}");
+        }
+        assert!(DamperState::<f32>::default().is_marked());
     }
 }

@@ -13,6 +13,9 @@ impl Status {
     pub const SATURATED: Self = Self(1 << 2);
     /// Another damper than before stepped this state; the force was carried over.
     pub const DAMPER_SWAPPED: Self = Self(1 << 3);
+    /// Memory was damaged: a state that no damper made was met and started over at rest, or a slow check
+    /// ([`integrity`](crate::integrity)) found constants or a state that no build and no step leaves behind.
+    pub const CORRUPTED: Self = Self(1 << 4);
 
     /// No bit set.
     pub const fn empty() -> Self {
@@ -26,7 +29,7 @@ impl Status {
 
     /// The status of `bits`, unknown ones dropped.
     pub const fn from_bits(bits: u16) -> Self {
-        Self(bits & 0xf)
+        Self(bits & 0x1f)
     }
 
     /// Whether every bit of `other` is set.
@@ -34,13 +37,8 @@ impl Status {
         self.0 & other.0 == other.0
     }
 
-    /// Sets the bits of `other`.
-    pub(crate) fn insert(&mut self, other: Self) {
-        self.0 |= other.0;
-    }
-
-    /// Sets the bits of `other` when `condition` holds, without a branch.
-    pub(crate) fn insert_if(&mut self, condition: bool, other: Self) {
-        self.0 |= other.0 * u16::from(condition);
+    /// These bits where `condition` holds, without a branch.
+    pub(crate) fn only_if(self, condition: bool) -> Self {
+        Self(self.0 * u16::from(condition))
     }
 }

@@ -1,7 +1,8 @@
 //! The step of one damper or of several side by side. The method is described in `damper`.
 
-use crate::damper::{Damper, IMPLICIT_SHARE};
+use crate::damper::{Damper, IMPLICIT_SHARE, Scalars};
 use crate::math::{Lanes, Real};
+use crate::parameters::LARGEST_FORCE_N;
 use crate::state::DamperState;
 use crate::status::Status;
 use crate::table::{Piece, Table, cubic, locate};
@@ -40,14 +41,16 @@ pub(crate) fn step<T: Real, V: Lanes<T, L>, const L: usize>(
     let potential = end_potential - last.flow * correction;
     let magnitude = stages.force(stretch, last.stiffness());
     let yields = magnitude.reaches(stages.force_limit);
-    let limited = magnitude.at_most(stages.force_limit);
+    // Damaged constants may make each of the two any number or none; the force is finite all the same.
+    let limited = magnitude.at_most(stages.force_limit).at_least(V::all(0.0));
+    let limited = limited.at_most(V::all(LARGEST_FORCE_N));
     let forces = limited.with_sign_of(stretch).array();
     let (stretches, potentials) = (stretch.array(), potential.array());
     for (lane, state) in states.iter_mut().enumerate() {
         state.stretch = stretches[lane];
         state.potential = potentials[lane];
         state.force = forces[lane];
-        state.status.insert_if(yields[lane], Status::SATURATED);
+        state.latch(Status::SATURATED.only_if(yields[lane]));
     }
     forces
 }
@@ -59,50 +62,55 @@ fn enter<T: Real, V: Lanes<T, L>, const L: usize>(
     states: &mut [DamperState<T>; L],
     displacement: V,
 ) -> (V, V) {
-    let [largest_move, position_rounder, rest_rounder, _] = V::columns(dampers.map(|damper| {
-        let k = &damper.scalars;
-        [k.largest_move, k.position_rounder, k.rest_rounder, k.step_s]
-    }));
-    let [last, ..] = V::columns(states.each_ref().map(DamperState::numbers));
-    let mut travel = displacement - last;
+    let number = |of: fn(&Scalars<T>) -> T| V::new(dampers.map(|damper| of(&damper.scalars)));
+    let last = |states: &[DamperState<T>; L]| V::new(states.each_ref().map(|s| s.displacement));
+    let mut travel = displacement - last(states);
     let known = dampers
         .iter()
         .zip(&*states)
         .all(|(damper, state)| damper.revision == state.revision);
-    if !(known && travel.magnitudes().all_within(largest_move)) {
-        let mut travels = travel.array();
+    if !(known && travel.magnitudes().all_within(number(|k| k.largest_move))) {
+        let mut travels = displacement.array();
         for ((damper, state), travel) in dampers.iter().zip(&mut *states).zip(&mut travels) {
             *travel = admit(damper, state, *travel);
         }
         travel = V::new(travels);
     }
+    // Read only now: numbers that live across the call above would be saved on the stack at every step.
+    let position_rounder = number(|k| k.position_rounder);
     let travel = (travel + position_rounder) - position_rounder;
-    for (state, displacement) in states.iter_mut().zip((last + travel).array()) {
+    let displacements = (last(states) + travel).array();
+    for (state, displacement) in states.iter_mut().zip(displacements) {
         state.displacement = displacement;
     }
-    (travel, rest_rounder)
+    (travel, number(|k| k.rest_rounder))
 }
 
-/// The travel (m) to use for the one asked for: a state that another damper stepped is adopted, a travel
-/// that is not credible limited; both latched, the latter counted.
+/// The travel (m) to a displacement (m): a state that no damper made starts over, one that another damper
+/// stepped is adopted, a travel that is not credible limited; each latched, the last counted.
 #[cold]
 #[inline(never)]
-fn admit<T: Real>(damper: &Damper<T>, state: &mut DamperState<T>, travel: T) -> T {
+fn admit<T: Real>(damper: &Damper<T>, state: &mut DamperState<T>, displacement: T) -> T {
+    if !state.is_marked() || !state.displacement.is_finite() {
+        *state = damper.at_rest(displacement);
+        state.latch(Status::CORRUPTED);
+    }
     if state.revision != damper.revision {
         damper.adopt(state);
     }
+    let travel = displacement - state.displacement;
     let largest_move = damper.scalars.largest_move;
     if travel.magnitude() <= largest_move {
         return travel;
     }
     state.rejected_inputs = state.rejected_inputs.saturating_add(1);
     if travel.is_finite() {
-        state.status.insert(Status::INPUT_LIMITED);
+        state.latch(Status::INPUT_LIMITED);
         let limited = travel.larger(-largest_move).smaller(largest_move);
         // What the displacement can move by: far out, less than the limit.
         (state.displacement + limited) - state.displacement
     } else {
-        state.status.insert(Status::INPUT_HELD);
+        state.latch(Status::INPUT_HELD);
         T::ZERO
     }
 }

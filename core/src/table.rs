@@ -5,6 +5,7 @@
 //! fraction, 128 bins to each doubling, name a bin, and a bin names the piece around its lower border.
 //! At most [`KNOTS_PER_BIN`] knots lie within a bin, so as many comparisons end at the right piece.
 
+use crate::checksum;
 use crate::math::{Lanes, Real};
 
 /// Pieces a side.
@@ -25,6 +26,11 @@ pub(crate) const DOUBLINGS: u32 = 1 << (BIN_BITS - BIN_FRACTION_BITS);
 
 /// A power of two, so that masked indices are within bounds.
 const _: () = assert!((2 * PIECES).is_power_of_two() && 2 * PIECES <= 256);
+
+/// Rows of four numbers of a table: bins by fours of their bytes, then the rows of each piece.
+pub(crate) const ROWS: usize = BIN_ROWS + 4 * 2 * PIECES;
+const BIN_ROWS: usize = BINS / BINS_PER_ROW;
+const BINS_PER_ROW: usize = 8;
 
 /// Cubics of one piece in z, the reach beyond its knot: coefficients of 1, z, z^2, z^3. Sixteen numbers,
 /// so that its address takes one shift.
@@ -68,7 +74,8 @@ impl<T> Piece<T> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C)]
 pub struct Table<T> {
-    pub(crate) bins: [[u8; BINS]; 2],
+    /// Of either side by turns, so that a bin takes one address.
+    pub(crate) bins: [[u8; 2]; BINS],
     pub(crate) pieces: [Piece<T>; 2 * PIECES],
 }
 
@@ -85,7 +92,7 @@ macro_rules! table {
                     next_knots: [0.0; KNOTS_PER_BIN],
                     padding: 0.0,
                 }; 2 * PIECES],
-                bins: [[0; BINS]; 2],
+                bins: [[0; 2]; BINS],
             };
 
             /// Sets bins and next knots by the knots. Knots rise on either side, the first a power of two.
@@ -116,12 +123,49 @@ macro_rules! table {
                             piece += 1;
                         }
                         let place = (border / WIDTH) as usize % BINS;
-                        self.bins[side][place] = piece as u8;
+                        self.bins[place][side] = piece as u8;
                         border = border.wrapping_add(WIDTH);
                         bin += 1;
                     }
                     side += 1;
                 }
+            }
+
+            /// CRC-32 of the table as it lies in memory.
+            pub(crate) const fn check(&self) -> u32 {
+                let (mut crc, mut row) = (0, 0);
+                while row < ROWS {
+                    crc = self.check_row(row, crc);
+                    row += 1;
+                }
+                crc
+            }
+
+            /// CRC-32 of the rows before and this one.
+            pub(crate) const fn check_row(&self, row: usize, crc: u32) -> u32 {
+                if row < BIN_ROWS {
+                    let mut crc = crc;
+                    let mut bin = 0;
+                    while bin < BINS_PER_ROW {
+                        let sides = &self.bins[(BINS_PER_ROW * row + bin) % BINS];
+                        crc = checksum::continued(crc, sides);
+                        bin += 1;
+                    }
+                    return crc;
+                }
+                let row = row - BIN_ROWS;
+                let piece = &self.pieces[row / 4 % (2 * PIECES)];
+                let [next, second] = piece.next_knots;
+                let [a, b, c, d] = match row % 4 {
+                    0 => piece.flow,
+                    1 => piece.potential,
+                    2 => piece.stiffness,
+                    _ => [piece.knot, next, second, piece.padding],
+                };
+                let crc = checksum::continued(crc, &a.to_bits().to_le_bytes());
+                let crc = checksum::continued(crc, &b.to_bits().to_le_bytes());
+                let crc = checksum::continued(crc, &c.to_bits().to_le_bytes());
+                checksum::continued(crc, &d.to_bits().to_le_bytes())
             }
         }
     };
@@ -145,7 +189,7 @@ pub(crate) fn locate<T: Real, V: Lanes<T, L>, const L: usize>(
 ) -> ([&Piece<T>; L], V) {
     let (bins, sides) = (reach.bins(), direction.sign_bits());
     let first: [usize; L] = core::array::from_fn(|lane| {
-        usize::from(tables[lane].bins[sides[lane] % 2][bins[lane] % BINS])
+        usize::from(tables[lane].bins[bins[lane] % BINS][sides[lane] % 2])
     });
     let beyond = reach.beyond(core::array::from_fn(|lane| {
         let piece = &tables[lane].pieces[first[lane] % (2 * PIECES)];

@@ -55,11 +55,13 @@ macro_rules! words {
                     index += 1;
                 }
                 table.index();
+                let table_check = table.check();
                 Self {
                     scalars: Scalars::from_array(scalars),
                     revision: words[SCALARS] as u32,
                     table_revision: words[SCALARS + 1] as u32,
-                    padding: [0; 5],
+                    table_check,
+                    padding: [0; 4],
                     table,
                 }
             }

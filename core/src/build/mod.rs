@@ -14,7 +14,8 @@ use crate::error::{BuildError, require, require_ranges};
 use crate::hydraulics::{HydraulicSide, Laws};
 use crate::math::Real;
 use crate::parameters::{
-    DamperParameters, Element, LARGEST_CLEARANCE_M, Limits, Mount, OilColumn, Reduced,
+    DamperParameters, Element, LARGEST_CLEARANCE_M, LARGEST_FORCE_N, Limits, Mount, OilColumn,
+    Reduced,
 };
 use crate::table::{DOUBLINGS, PIECES};
 
@@ -195,7 +196,7 @@ fn validate_mount(mount: &Mount) -> Result<(), BuildError> {
 
 fn validate_limits(limits: &Limits) -> Result<(), BuildError> {
     require_ranges!("limits", limits;
-        force_n in 1.0..=1e7, "1 to 1e7 N";
+        force_n in 1.0..=LARGEST_FORCE_N, "1 to 1e7 N";
         rate_m_per_s in 1e-3..=100.0, "1e-3 to 100 m/s";
     )
 }

@@ -58,6 +58,12 @@ pub trait Real:
     /// See [`Table::index`].
     #[doc(hidden)]
     fn index(table: &mut Table<Self>);
+    /// See [`Table::check`].
+    #[doc(hidden)]
+    fn table_check(table: &Table<Self>) -> u32;
+    /// See [`Table::check_row`].
+    #[doc(hidden)]
+    fn check_row(table: &Table<Self>, row: usize, crc: u32) -> u32;
     /// Bits, zero-extended.
     fn to_bits_u64(self) -> u64;
     /// Whether the number is neither NaN nor infinite.
@@ -123,6 +129,12 @@ macro_rules! real {
             }
             fn index(table: &mut Table<Self>) {
                 table.index();
+            }
+            fn table_check(table: &Table<Self>) -> u32 {
+                table.check()
+            }
+            fn check_row(table: &Table<Self>, row: usize, crc: u32) -> u32 {
+                table.check_row(row, crc)
             }
             #[inline(always)]
             fn to_bits_u64(self) -> u64 {
