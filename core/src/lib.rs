@@ -47,7 +47,7 @@ pub use bank::step_bank;
 pub use checksum::crc_32;
 pub use damper::Damper;
 pub use error::BuildError;
-pub use image::ImageError;
+pub use image::{ImageError, Loading};
 pub use math::Real;
 pub use parameters::DamperParameters;
 pub use saved_state::SavedStateError;

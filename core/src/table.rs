@@ -27,6 +27,10 @@ pub(crate) const DOUBLINGS: u32 = 1 << (BIN_BITS - BIN_FRACTION_BITS);
 /// A power of two, so that masked indices are within bounds.
 const _: () = assert!((2 * PIECES).is_power_of_two() && 2 * PIECES <= 256);
 
+/// Parts in which bins are set.
+pub(crate) const INDEX_SLICES: usize = 2 * BINS / BINS_PER_SLICE;
+const BINS_PER_SLICE: usize = 64;
+
 /// Rows of four numbers of a table: bins by fours of their bytes, then the rows of each piece.
 pub(crate) const ROWS: usize = BIN_ROWS + 4 * 2 * PIECES;
 const BIN_ROWS: usize = BINS / BINS_PER_ROW;
@@ -97,38 +101,55 @@ macro_rules! table {
 
             /// Sets bins and next knots by the knots. Knots rise on either side, the first a power of two.
             pub(crate) const fn index(&mut self) {
+                let (mut slice, mut piece) = (0, 0);
+                while slice < INDEX_SLICES {
+                    piece = self.index_slice(slice, piece);
+                    slice += 1;
+                }
+            }
+
+            /// A part of [`Self::index`], the parts in order; `piece` is what the part before returned.
+            pub(crate) const fn index_slice(&mut self, slice: usize, piece: usize) -> usize {
                 const WIDTH: $word = 1 << bin_shift($float::MANTISSA_DIGITS);
-                let mut side = 0;
-                while side < 2 {
-                    let (start, end) = (side * PIECES, (side + 1) * PIECES);
-                    let mut piece = start;
-                    while piece < end {
-                        let mut next = 0;
-                        while next < KNOTS_PER_BIN {
-                            let after = piece + next + 1;
-                            self.pieces[piece].next_knots[next] = if after < end {
-                                self.pieces[after].knot
-                            } else {
-                                $float::MAX
-                            };
-                            next += 1;
-                        }
+                let side = slice / (INDEX_SLICES / 2) % 2;
+                let (start, end) = (side * PIECES, (side + 1) * PIECES);
+                let mut bin = slice * BINS_PER_SLICE % BINS;
+                let mut piece = if bin == 0 {
+                    self.link_knots(start, end)
+                } else {
+                    piece
+                };
+                let first = self.pieces[start].knot.to_bits();
+                let last = bin + BINS_PER_SLICE;
+                while bin < last {
+                    let border = first.wrapping_add(WIDTH * bin as $word);
+                    while piece + 1 < end && self.pieces[piece + 1].knot.to_bits() <= border {
                         piece += 1;
                     }
-                    piece = start;
-                    let mut border = self.pieces[start].knot.to_bits();
-                    let mut bin = 0;
-                    while bin < BINS {
-                        while piece + 1 < end && self.pieces[piece + 1].knot.to_bits() <= border {
-                            piece += 1;
-                        }
-                        let place = (border / WIDTH) as usize % BINS;
-                        self.bins[place][side] = piece as u8;
-                        border = border.wrapping_add(WIDTH);
-                        bin += 1;
-                    }
-                    side += 1;
+                    let place = (border / WIDTH) as usize % BINS;
+                    self.bins[place][side] = piece as u8;
+                    bin += 1;
                 }
+                piece
+            }
+
+            /// Tells the pieces from `start` to `end` where the next ones begin; returns the first.
+            const fn link_knots(&mut self, start: usize, end: usize) -> usize {
+                let mut piece = start;
+                while piece < end {
+                    let mut next = 0;
+                    while next < KNOTS_PER_BIN {
+                        let after = piece + next + 1;
+                        self.pieces[piece].next_knots[next] = if after < end {
+                            self.pieces[after].knot
+                        } else {
+                            $float::MAX
+                        };
+                        next += 1;
+                    }
+                    piece += 1;
+                }
+                start
             }
 
             /// CRC-32 of the table as it lies in memory.

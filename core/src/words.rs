@@ -5,8 +5,10 @@ use crate::table::{PIECES, Piece, Table};
 
 /// Scalars, the two revisions, thirteen numbers of each piece.
 const WORDS: usize = TABLE + 2 * PIECES * PIECE;
-const TABLE: usize = SCALARS + 2;
-const PIECE: usize = 13;
+/// Words before the table.
+pub(crate) const TABLE: usize = SCALARS + 2;
+/// Words of a piece.
+pub(crate) const PIECE: usize = 13;
 
 macro_rules! words {
     ($float:ident, $word:ident) => {
