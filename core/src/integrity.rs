@@ -59,6 +59,18 @@ pub struct Check {
 pub const SLICES: u32 = ROWS as u32 + 1;
 
 impl Check {
+    /// Before the first slice.
+    pub const START: Self = Self {
+        row: 0,
+        crc: 0,
+        expected: 0,
+    };
+
+    /// Whether the next slice is the first of a round.
+    pub fn is_at_start(&self) -> bool {
+        self.row == 0
+    }
+
     /// Checks the next slice, four numbers of the table or the scalars; after the last begins again.
     ///
     /// Call it from one place at a time, with the same damper every time. One that is loaded or whose clearance
@@ -70,9 +82,8 @@ impl Check {
     pub fn slice<T: Real>(&mut self, damper: &Damper<T>) -> Result<(), Corrupted> {
         if self.row == 0 || self.expected != damper.table_check {
             *self = Self {
-                row: 0,
-                crc: 0,
                 expected: damper.table_check,
+                ..Self::START
             };
         }
         if (self.row as usize) < ROWS {
@@ -81,7 +92,7 @@ impl Check {
             return Ok(());
         }
         let crc = self.crc;
-        *self = Self::default();
+        *self = Self::START;
         let revision = revision::of_damper(damper.table_revision, &damper.scalars);
         if crc == damper.table_check && revision == damper.revision {
             Ok(())

@@ -28,6 +28,20 @@ pub struct DamperState<T> {
     pub(crate) rejected_inputs: u16,
 }
 
+#[cfg(feature = "link")]
+impl DamperState<f32> {
+    /// All bits zero, so that a static of it takes no flash; no state yet.
+    pub(crate) const UNWRITTEN: Self = Self {
+        displacement: 0.0,
+        stretch: 0.0,
+        potential: 0.0,
+        force: 0.0,
+        revision: 0,
+        status_word: 0,
+        rejected_inputs: 0,
+    };
+}
+
 impl<T: Real> Default for DamperState<T> {
     /// At rest at 0, of no damper yet: the first that steps it takes it over.
     fn default() -> Self {

@@ -87,6 +87,19 @@ macro_rules! words {
 words!(f32, u32);
 words!(f64, u64);
 
+#[cfg(feature = "link")]
+impl Damper<f32> {
+    /// All bits zero, so that a static of it takes no flash; to be loaded.
+    pub(crate) const EMPTY: Self = Self {
+        scalars: Scalars::from_array([0.0; SCALARS]),
+        revision: 0,
+        table_revision: 0,
+        table_check: 0,
+        padding: [0; 4],
+        table: Table::<f32>::ZERO,
+    };
+}
+
 #[cfg(test)]
 mod tests {
     use super::WORDS;

@@ -6,7 +6,7 @@
 
 use core::ptr::{with_exposed_provenance, with_exposed_provenance_mut};
 
-use dashpot_core::link::Clock;
+use dashpot_core::link::{Clock, Line};
 
 /// Clock of processor, timer and SysTick (Hz).
 pub const CLOCK_HZ: u32 = if cfg!(mps2_an505) {
@@ -15,7 +15,7 @@ pub const CLOCK_HZ: u32 = if cfg!(mps2_an505) {
     25_000_000
 };
 
-/// Registers of the first UART; the second one's follow.
+/// Registers of the first UART; those of the others follow.
 const UARTS: usize = if cfg!(mps2_an505) {
     0x5020_0000
 } else {
@@ -56,8 +56,10 @@ fn write(register: usize, value: u32) {
 pub enum Port {
     /// UART0: the link.
     Link = UARTS as isize,
-    /// UART1.
-    Spare = UARTS as isize + 0x1000,
+    /// UART1: the outputs.
+    Outputs = UARTS as isize + 0x1000,
+    /// UART2: nothing.
+    Spare = UARTS as isize + 0x2000,
 }
 
 /// A serial line, 8 data bits, no parity.
@@ -73,16 +75,17 @@ impl Uart {
         Self(base)
     }
 
-    /// A received byte, if one waits.
+}
+
+impl Line for Uart {
     #[inline]
-    pub fn receive(&mut self) -> Option<u8> {
+    fn receive(&mut self) -> Option<u8> {
         let waits = read(self.0 + UART_STATE) & 0b10 != 0;
         waits.then(|| read(self.0 + UART_DATA) as u8)
     }
 
-    /// Sends a byte; false when the transmitter is full.
     #[inline]
-    pub fn send(&mut self, byte: u8) -> bool {
+    fn send(&mut self, byte: u8) -> bool {
         let ready = read(self.0 + UART_STATE) & 0b01 == 0;
         if ready {
             write(self.0 + UART_DATA, u32::from(byte));

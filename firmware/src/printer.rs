@@ -2,6 +2,8 @@
 
 use core::fmt::{Result, Write};
 
+use dashpot_core::link::Line;
+
 use crate::board::Uart;
 
 /// Writes to a UART, waiting for room.

@@ -4,7 +4,6 @@ use core::panic::PanicInfo;
 
 use cortex_m_rt::exception;
 
-use crate::bank::DAMPERS;
 use crate::outputs;
 
 #[panic_handler]
@@ -12,7 +11,7 @@ fn panic(_: &PanicInfo<'_>) -> ! {
     halt()
 }
 
-// SAFETY: the handler touches nothing but the outputs, which are atomic.
+// SAFETY: the handler touches nothing but the registers of the outputs, and nothing runs after it.
 #[exception]
 unsafe fn HardFault(_: &cortex_m_rt::ExceptionFrame) -> ! {
     halt()
@@ -26,7 +25,7 @@ unsafe fn DefaultHandler(_: i16) -> ! {
 
 fn halt() -> ! {
     cortex_m::interrupt::disable();
-    outputs::drive(&[0.0; DAMPERS]);
+    outputs::zero();
     loop {
         cortex_m::asm::wfi();
     }

@@ -1,80 +1,267 @@
 //! The device's end of the link: bytes in, responses out, ticks.
 
-use super::frame::{Frame, FrameReader, Message};
+use core::ops::Range;
+
+use super::board::{Line, Outputs};
+use super::frame::{FrameReader, Message, REQUEST_BYTES, ResponseFrame};
 use super::message::{Counters, Header, Refusal, Request, Response};
 use super::service::{Clock, Service, count};
 use super::session::{Session, Verdict};
 use crate::damper::Damper;
+use crate::image::Loading;
+
+/// Bytes taken of the line before ticks are looked at again.
+const BYTES_PER_PASS: usize = 32;
 
 /// A bank of `N` dampers behind a serial link.
 ///
-/// Feed every byte of the link to [`Device::receive`]; when it returns true, send
-/// [`Device::response`] before the next byte is fed. Call [`Device::tick`] at the dampers' step. While the host steps
-/// (after power on, and after [`Request::Stop`]) time is the tick of its step requests and
-/// [`Device::tick`] does nothing; after [`Request::Run`] each call is one tick.
+/// Of zeros until [`Device::start`], so it lies in static storage that takes no flash and is never moved: 13 KB a
+/// damper. A firmware calls [`Device::poll`] in a loop. While the host steps (after power on, and after
+/// [`Request::Stop`]) time is the tick of its step requests; after [`Request::Run`] it is that of the ticks due.
 ///
 /// ```
 /// use dashpot_core::Damper;
-/// use dashpot_core::link::{Clock, Device, Frame, Header, PROTOCOL, Request};
+/// use dashpot_core::link::{Clock, Device, Header, Line, Outputs, PROTOCOL, Request, request_frame};
+///
+/// /// A host that says hello, and counts the bytes it gets back.
+/// struct Host(std::vec::IntoIter<u8>, usize);
+/// impl Line for Host {
+///     fn receive(&mut self) -> Option<u8> {
+///         self.0.next()
+///     }
+///     fn send(&mut self, _: u8) -> bool {
+///         self.1 += 1;
+///         true
+///     }
+/// }
+/// struct Actuators([f32; 2]);
+/// impl Outputs<2> for Actuators {
+///     fn drive(&mut self, forces_n: &[f32; 2]) {
+///         self.0 = *forces_n;
+///     }
+/// }
 ///
 /// static DAMPER: Damper<f32> = Damper::<f32>::from_words(&[0; Damper::<f32>::WORDS]);
-/// let clock = Clock { now: || 0, hz: 1_000_000 };
-/// let mut device = Device::new(&[&DAMPER; 2], clock);
+/// let mut device = Box::new(Device::<2>::new()); // in firmware a static
+/// device.start(&[&DAMPER; 2], Clock { now: || 0, hz: 1_000_000 });
 ///
-/// let mut hello = Frame::new();
-/// hello.write(&(Header { session: 1, sequence: 1 }, Request::Hello { protocol: PROTOCOL }));
-/// let answered = hello.bytes().iter().filter(|byte| device.receive(**byte)).count();
-/// assert_eq!(answered, 1);
-/// assert_eq!(device.response().last(), Some(&0)); // a frame
+/// let hello = Request::Hello { protocol: PROTOCOL };
+/// let hello = request_frame(Header { session: 1, sequence: 1 }, &hello);
+/// let mut host = Host(hello.bytes().to_vec().into_iter(), 0);
+/// let mut actuators = Actuators([f32::NAN; 2]);
+/// for _ in 0..100 {
+///     device.poll(0, &mut host, &mut actuators);
+/// }
 /// assert_eq!(device.counters().accepted, 1);
+/// assert_eq!((host.1, actuators.0), (device.response().len(), [0.0; 2]));
 /// ```
-#[derive(Clone, Debug)]
+#[derive(Debug)]
+#[repr(C)] // what every byte needs first, where an instruction reaches it
 pub struct Device<const N: usize> {
-    reader: FrameReader,
-    session: Session,
-    service: Service<N>,
-    /// Response to the last request of the session, kept to be given again.
-    stored: Frame,
-    /// Response to anything else.
-    notice: Frame,
+    /// Bytes of the response still to send, from the end.
+    unsent: usize,
     answers_with_notice: bool,
+    intake: Intake,
+    reader: FrameReader<REQUEST_BYTES>,
+    /// The load that is under way while loading: as an option it would not be of zeros.
+    load: Load,
+    session: Session,
+    /// Response to the last request of the session, kept to be given again.
+    stored: ResponseFrame,
+    /// Response to anything else.
+    notice: ResponseFrame,
+    service: Service<N>,
+}
+
+/// What becomes of a byte.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Intake {
+    /// It belongs to a frame.
+    Frames,
+    /// It is dropped, for an image is being loaded from the room for frames.
+    Loading,
+    /// As [`Intake::Loading`], within a frame.
+    LoadingWithinFrame,
+    /// It is dropped until its frame ends.
+    Dropping,
+}
+
+/// A load that is under way, in slices.
+#[derive(Clone, Debug)]
+struct Load {
+    header: Header,
+    damper: u8,
+    /// Where the image is in the reader's message.
+    image: Range<usize>,
+    progress: Loading,
+}
+
+impl Load {
+    const NONE: Self = Self {
+        header: Header {
+            session: 0,
+            sequence: 0,
+        },
+        damper: 0,
+        image: 0..0,
+        progress: Loading::START,
+    };
+}
+
+impl<const N: usize> Default for Device<N> {
+    fn default() -> Self {
+        Self::new()
+    }
 }
 
 impl<const N: usize> Device<N> {
-    /// A device that holds copies of `dampers`, at rest at 0, the host stepping; the step is that of the
-    /// first damper. Steps are measured by `clock`.
-    pub fn new(dampers: &[&Damper<f32>; N], clock: Clock) -> Self {
+    /// All bits zero: without dampers until it is started.
+    pub const fn new() -> Self {
         Self {
-            reader: FrameReader::new(),
-            session: Session::default(),
-            service: Service::new(dampers, clock),
-            stored: Frame::new(),
-            notice: Frame::new(),
+            unsent: 0,
             answers_with_notice: false,
+            intake: Intake::Frames,
+            reader: FrameReader::new(),
+            load: Load::NONE,
+            session: Session::NONE,
+            stored: ResponseFrame::new(),
+            notice: ResponseFrame::new(),
+            service: Service::new(),
         }
     }
 
-    /// Takes a byte of the link; true when there is a response to send.
+    /// Takes copies of `dampers`, at rest at 0, the host stepping; the step is that of the first damper. Steps
+    /// are measured by `clock`.
+    pub fn start(&mut self, dampers: &[&Damper<f32>; N], clock: Clock) {
+        self.service.start(dampers, clock);
+    }
+
+    /// One pass of a firmware's loop: runs the `due` ticks that the timer counted since the last pass, then does
+    /// one thing for the link: sends what the line takes, loads a slice of a damper, or takes what the line has.
+    /// Drives the outputs when they may have changed. Never waits.
+    pub fn poll(&mut self, due: u32, line: &mut impl Line, outputs: &mut impl Outputs<N>) {
+        if due > 0 {
+            self.tick(due);
+            outputs.drive(self.outputs_n());
+        }
+        if self.unsent > 0 {
+            let response = self.response();
+            let unsent = response.get(response.len().wrapping_sub(self.unsent)..);
+            let unsent = unsent.unwrap_or_default();
+            let sent = unsent.iter().take_while(|byte| line.send(**byte)).count();
+            self.unsent = unsent.len() - sent;
+            return;
+        }
+        let answered = if self.is_busy() {
+            self.advance()
+        } else {
+            self.receive_waiting(line)
+        };
+        if answered {
+            self.unsent = self.response().len();
+            outputs.drive(self.outputs_n());
+        }
+    }
+
+    /// Takes bytes of the line until there is a response to send, or none waits, or it took its share of a pass.
     #[inline]
-    pub fn receive(&mut self, byte: u8) -> bool {
-        match self.reader.push(byte) {
-            None => return false,
-            Some(Err(_)) => {
-                count(&mut self.service.counters.corrupt);
-                self.answers_with_notice = true;
-                answer(self.session.last(), Err(Refusal::Corrupt), &mut self.notice);
-            }
-            Some(Ok(message)) => {
-                let (session, service) = (&mut self.session, &mut self.service);
-                self.answers_with_notice = serve(
-                    message,
-                    session,
-                    service,
-                    &mut self.stored,
-                    &mut self.notice,
-                );
+    fn receive_waiting(&mut self, line: &mut impl Line) -> bool {
+        for _ in 0..BYTES_PER_PASS {
+            match line.receive() {
+                Some(byte) if self.receive(byte) => return true,
+                Some(_) => {}
+                None => return false,
             }
         }
+        false
+    }
+
+    /// Takes a byte of the link; true when there is a response to send, before the next byte is taken.
+    #[inline]
+    pub fn receive(&mut self, byte: u8) -> bool {
+        if self.intake != Intake::Frames {
+            return self.drop_byte(byte);
+        }
+        self.reader.take(byte) && self.end_frame()
+    }
+
+    #[inline(never)]
+    fn end_frame(&mut self) -> bool {
+        let Ok(message) = self.reader.message() else {
+            return self.corrupt();
+        };
+        let exchange = Exchange {
+            session: &mut self.session,
+            service: &mut self.service,
+            stored: &mut self.stored,
+            notice: &mut self.notice,
+        };
+        match exchange.serve(message) {
+            Served::Stored => self.answers_with_notice = false,
+            Served::Notice => self.answers_with_notice = true,
+            Served::Loads(load) => {
+                (self.load, self.intake) = (load, Intake::Loading);
+                return false;
+            }
+        }
+        true
+    }
+
+    /// Drops a byte that came while an image was being loaded, and what belongs to its frame.
+    #[cold]
+    fn drop_byte(&mut self, byte: u8) -> bool {
+        self.intake = match (self.intake, byte) {
+            (Intake::Loading | Intake::LoadingWithinFrame, 0) => Intake::Loading,
+            (Intake::Loading | Intake::LoadingWithinFrame, _) => Intake::LoadingWithinFrame,
+            (_, 0) => {
+                self.intake = Intake::Frames;
+                return self.corrupt();
+            }
+            (other, _) => other,
+        };
+        false
+    }
+
+    /// Whether an image is being loaded: bytes that come meanwhile are dropped.
+    pub fn is_busy(&self) -> bool {
+        matches!(self.intake, Intake::Loading | Intake::LoadingWithinFrame)
+    }
+
+    /// Whether bytes of the response are still to be sent by [`Device::poll`].
+    pub fn is_sending(&self) -> bool {
+        self.unsent > 0
+    }
+
+    /// Loads the next slice of an image; true when there is a response to send.
+    pub fn advance(&mut self) -> bool {
+        if !self.is_busy() {
+            return false;
+        }
+        let load = &mut self.load;
+        let image = self.reader.last_message(load.image.clone());
+        let loaded = self
+            .service
+            .load_slice(load.damper, image, &mut load.progress);
+        if loaded == Ok(false) {
+            return false;
+        }
+        let header = load.header;
+        self.intake = match self.intake {
+            Intake::LoadingWithinFrame => Intake::Dropping,
+            _ => Intake::Frames,
+        };
+        self.service.count_done(loaded.is_ok());
+        answer(header, loaded.map(|_| Response::Done), &mut self.stored);
+        self.answers_with_notice = false;
+        true
+    }
+
+    /// A frame was broken on the way.
+    #[inline(never)]
+    fn corrupt(&mut self) -> bool {
+        count(&mut self.service.counters.corrupt);
+        self.answers_with_notice = true;
+        answer(self.session.last(), Err(Refusal::Corrupt), &mut self.notice);
         true
     }
 
@@ -98,7 +285,7 @@ impl<const N: usize> Device<N> {
         self.service.outputs_n()
     }
 
-    /// Step of the dampers (s): the period of [`Device::tick`].
+    /// Step of the dampers (s): the period of the ticks.
     pub fn step_s(&self) -> f32 {
         self.service.step_s()
     }
@@ -109,65 +296,99 @@ impl<const N: usize> Device<N> {
     }
 }
 
-/// Judges and carries out a message; whether the answer is the notice.
-#[inline(never)]
-fn serve<const N: usize>(
-    message: Message<'_>,
-    session: &mut Session,
-    service: &mut Service<N>,
-    stored: &mut Frame,
-    notice: &mut Frame,
-) -> bool {
-    let Ok((header, body)) = postcard::take_from_bytes::<Header>(message.bytes) else {
-        count(&mut service.counters.unreadable);
-        answer(session.last(), Err(Refusal::Unreadable), notice);
-        return true;
-    };
-    let request = match postcard::take_from_bytes::<Request<'_>>(body) {
-        Ok((request, [])) => Some(request),
-        _ => None,
-    };
-    let verdict = session.judge(header, message.check);
-    let opens = matches!(request, Some(Request::Hello { .. })) && verdict == Verdict::NoSession;
-    match verdict {
-        Verdict::Repeated => {
-            count(&mut service.counters.repeated);
-            return false;
-        }
-        Verdict::NoSession if !opens => count(&mut service.counters.no_session),
-        Verdict::OutOfOrder(_) => count(&mut service.counters.out_of_order),
-        _ => {
-            let Some(request) = request else {
-                count(&mut service.counters.unreadable);
-                session.advance(header, message.check);
-                answer(header, Err(Refusal::Unreadable), stored);
-                return false;
-            };
-            let done = service.execute(&request);
-            let refused = done.is_err();
-            if opens && refused {
-                // Another protocol: no session is opened.
-                answer(header, done, notice);
-                count(&mut service.counters.refused);
-                return true;
+/// What a message came to.
+enum Served {
+    /// The stored response is to be sent.
+    Stored,
+    /// The notice is to be sent.
+    Notice,
+    /// An image is to be loaded first.
+    Loads(Load),
+}
+
+/// A message, and what it is judged by and answered with.
+struct Exchange<'a, const N: usize> {
+    session: &'a mut Session,
+    service: &'a mut Service<N>,
+    stored: &'a mut ResponseFrame,
+    notice: &'a mut ResponseFrame,
+}
+
+impl<const N: usize> Exchange<'_, N> {
+    /// Judges a message and carries it out.
+    #[inline(never)]
+    fn serve(self, message: Message<'_>) -> Served {
+        let counters = &mut self.service.counters;
+        let Ok((header, body)) = postcard::take_from_bytes::<Header>(message.bytes) else {
+            count(&mut counters.unreadable);
+            answer(self.session.last(), Err(Refusal::Unreadable), self.notice);
+            return Served::Notice;
+        };
+        let request = match postcard::take_from_bytes::<Request<'_>>(body) {
+            Ok((request, [])) => Some(request),
+            _ => None,
+        };
+        let verdict = self.session.judge(header, message.check);
+        let opens = matches!(request, Some(Request::Hello { .. })) && verdict == Verdict::NoSession;
+        let counter = match verdict {
+            Verdict::Repeated => {
+                count(&mut counters.repeated);
+                return Served::Stored;
             }
-            session.advance(header, message.check);
-            answer(header, done, stored);
-            count(if refused {
-                &mut service.counters.refused
-            } else {
-                &mut service.counters.accepted
-            });
-            return false;
+            Verdict::OutOfOrder(_) => &mut counters.out_of_order,
+            Verdict::NoSession if !opens => &mut counters.no_session,
+            _ => return self.carry_out(header, message, request, opens),
+        };
+        count(counter);
+        answer(header, Err(verdict.refusal()), self.notice);
+        Served::Notice
+    }
+
+    fn carry_out(
+        self,
+        header: Header,
+        message: Message<'_>,
+        request: Option<Request<'_>>,
+        opens: bool,
+    ) -> Served {
+        let Some(request) = request else {
+            count(&mut self.service.counters.unreadable);
+            self.session.advance(header, message.check);
+            answer(header, Err(Refusal::Unreadable), self.stored);
+            return Served::Stored;
+        };
+        let done = self.service.execute(&request);
+        let carried_out = done.is_ok();
+        let frame = if opens && !carried_out {
+            // Another protocol: no session is opened.
+            self.notice
+        } else {
+            self.session.advance(header, message.check);
+            if let (Request::Load { damper, image }, true) = (&request, carried_out) {
+                // The image is the end of the message.
+                let end = message.bytes.len();
+                return Served::Loads(Load {
+                    header,
+                    damper: *damper,
+                    image: end.saturating_sub(image.len())..end,
+                    progress: Loading::START,
+                });
+            }
+            self.stored
+        };
+        answer(header, done, frame);
+        self.service.count_done(carried_out);
+        if opens && !carried_out {
+            Served::Notice
+        } else {
+            Served::Stored
         }
     }
-    answer(header, Err(verdict.refusal()), notice);
-    true
 }
 
 /// Writes a response as a frame.
 #[inline(never)]
-fn answer(header: Header, done: Result<Response<'_>, Refusal>, frame: &mut Frame) {
+fn answer(header: Header, done: Result<Response<'_>, Refusal>, frame: &mut ResponseFrame) {
     let refused;
     let response = match &done {
         Ok(response) => response,

@@ -1,24 +1,37 @@
 //! Frames on the wire: COBS of message and CRC-32 (ISO-HDLC, little-endian), ended by a zero byte.
 
-use crc::{CRC_32_ISO_HDLC, Crc, Table};
+use cobs::{DecodeResult, DecoderState};
 use heapless::Vec;
 use postcard::ser_flavors::Flavor;
 use serde::Serialize;
 
-/// Bytes of a message with its CRC-32 at most.
-pub const MESSAGE_BYTES: usize = 512;
-/// Bytes of a frame on the wire at most: one more for every 254, one first, the zero.
-pub const FRAME_BYTES: usize = MESSAGE_BYTES + MESSAGE_BYTES / 254 + 2;
+use super::message::{Header, Request};
+use crate::checksum;
+use crate::damper::Damper;
+
+/// Bytes of a request with header and CRC-32 at most: a whole image and what stands before it.
+pub const REQUEST_BYTES: usize = Damper::<f32>::IMAGE_BYTES + 32;
+/// Bytes of a response with header and CRC-32 at most.
+pub const RESPONSE_BYTES: usize = 512;
+/// Bytes of the frame of a request at most: one more for every 254, one first, the zero.
+pub const REQUEST_FRAME_BYTES: usize = frame_bytes(REQUEST_BYTES);
+/// As [`REQUEST_FRAME_BYTES`], of a response.
+pub const RESPONSE_FRAME_BYTES: usize = frame_bytes(RESPONSE_BYTES);
 const CHECK_BYTES: usize = 4;
 
-static CHECK: Crc<u32, Table<1>> = Crc::<u32, Table<1>>::new(&CRC_32_ISO_HDLC);
+/// CRC-32 of any bytes followed by their own CRC-32.
+const RESIDUE: u32 = 0x2144_df1c;
+
+const fn frame_bytes(message_bytes: usize) -> usize {
+    message_bytes + message_bytes / 254 + 2
+}
 
 /// Why bytes between two zeros are no message.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FrameError {
     /// A zero came where COBS has none.
     Framing,
-    /// Longer than [`MESSAGE_BYTES`].
+    /// Longer than the reader's room.
     TooLong,
     /// The CRC-32 is missing or not that of the message.
     Check,
@@ -33,59 +46,58 @@ pub struct Message<'a> {
     pub check: u32,
 }
 
-/// A frame to send.
+/// A frame to send, of `BYTES` at most.
 ///
 /// ```
 /// use dashpot_core::link::Frame;
 ///
-/// let mut frame = Frame::new();
+/// let mut frame = Frame::<16>::new();
 /// assert!(frame.write(&(7_u8, 0_u8)));
 /// // COBS: 7, then a zero two bytes on; the CRC-32 of 07 00 is 0x0e988438; the end.
 /// assert_eq!(frame.bytes(), [2, 7, 5, 0x38, 0x84, 0x98, 0x0e, 0]);
 /// ```
 #[derive(Clone, Debug)]
-pub struct Frame {
-    plain: Vec<u8, MESSAGE_BYTES>,
-    encoded: [u8; FRAME_BYTES],
+pub struct Frame<const BYTES: usize> {
+    plain: Vec<u8, BYTES>,
+    encoded: [u8; BYTES],
     length: usize,
 }
 
-impl Default for Frame {
+/// A frame with room for every request.
+pub type RequestFrame = Frame<REQUEST_FRAME_BYTES>;
+/// A frame with room for every response.
+pub type ResponseFrame = Frame<RESPONSE_FRAME_BYTES>;
+
+impl<const BYTES: usize> Default for Frame<BYTES> {
     fn default() -> Self {
         Self::new()
     }
 }
 
-impl Frame {
+impl<const BYTES: usize> Frame<BYTES> {
     /// An empty one.
     pub const fn new() -> Self {
         Self {
             plain: Vec::new(),
-            encoded: [0; FRAME_BYTES],
+            encoded: [0; BYTES],
             length: 0,
         }
     }
 
-    /// Becomes the frame of `message`; false, and empty, when it is longer than [`MESSAGE_BYTES`].
+    /// Becomes the frame of `message`; false, and empty, when there is no room for it.
     pub fn write(&mut self, message: &impl Serialize) -> bool {
+        self.length = self.encode(message).unwrap_or(0);
+        self.length > 0
+    }
+
+    fn encode(&mut self, message: &impl Serialize) -> Option<usize> {
         self.plain.clear();
-        self.length = 0;
-        if postcard::serialize_with_flavor(message, Plain(&mut self.plain)).is_err() {
-            return false;
-        }
-        let check = CHECK.checksum(&self.plain).to_le_bytes();
-        if self.plain.extend_from_slice(&check).is_err() {
-            return false;
-        }
-        let Ok(encoded) = cobs::try_encode(&self.plain, &mut self.encoded) else {
-            return false;
-        };
-        let Some(end) = self.encoded.get_mut(encoded) else {
-            return false;
-        };
-        *end = 0;
-        self.length = encoded + 1;
-        true
+        postcard::serialize_with_flavor(message, Plain(&mut self.plain)).ok()?;
+        let check = checksum::crc_32(&self.plain).to_le_bytes();
+        self.plain.extend_from_slice(&check).ok()?;
+        let end = cobs::try_encode(&self.plain, &mut self.encoded).ok()?;
+        *self.encoded.get_mut(end)? = 0;
+        Some(end + 1)
     }
 
     /// The bytes to send, the zero at the end included.
@@ -94,11 +106,25 @@ impl Frame {
     }
 }
 
-/// Where postcard writes: a vector that need not be cleared first, a byte at a time, for most numbers
-/// are short.
-struct Plain<'a>(&'a mut Vec<u8, MESSAGE_BYTES>);
+/// A request as a frame, for a host; empty when the request is longer than a device takes.
+///
+/// ```
+/// use dashpot_core::link::{Header, PROTOCOL, Request, request_frame};
+///
+/// let header = Header { session: 7, sequence: 1 };
+/// let hello = request_frame(header, &Request::Hello { protocol: PROTOCOL });
+/// assert_eq!(hello.bytes().len(), 10);
+/// ```
+pub fn request_frame(header: Header, request: &Request<'_>) -> RequestFrame {
+    let mut frame = Frame::new();
+    frame.write(&(header, request));
+    frame
+}
 
-impl Flavor for Plain<'_> {
+/// Where postcard writes: a vector that need not be cleared first.
+struct Plain<'a, const BYTES: usize>(&'a mut Vec<u8, BYTES>);
+
+impl<const BYTES: usize> Flavor for Plain<'_, BYTES> {
     type Output = ();
 
     #[inline(always)]
@@ -108,19 +134,27 @@ impl Flavor for Plain<'_> {
             .map_err(|_| postcard::Error::SerializeBufferFull)
     }
 
+    #[inline(always)]
+    fn try_extend(&mut self, bytes: &[u8]) -> postcard::Result<()> {
+        self.0
+            .extend_from_slice(bytes)
+            .map_err(|_| postcard::Error::SerializeBufferFull)
+    }
+
     fn finalize(self) -> postcard::Result<()> {
         Ok(())
     }
 }
 
-/// Takes frames out of a stream of bytes. Whatever the bytes, the next zero ends the trouble.
+/// Takes frames out of a stream of bytes, each byte at one cost. Whatever the bytes, the next zero ends the
+/// trouble.
 ///
 /// ```
 /// use dashpot_core::link::{Frame, FrameReader};
 ///
-/// let mut frame = Frame::new();
+/// let mut frame = Frame::<32>::new();
 /// assert!(frame.write(&(7_u8, 1.5_f32)));
-/// let mut reader = FrameReader::new();
+/// let mut reader = FrameReader::<32>::new();
 /// let mut messages = 0;
 /// for byte in [3, 0].iter().chain(frame.bytes()) { // a broken frame first
 ///     if let Some(Ok(message)) = reader.push(*byte) {
@@ -130,67 +164,91 @@ impl Flavor for Plain<'_> {
 /// }
 /// assert_eq!(messages, 1);
 /// ```
-#[derive(Clone, Debug)]
-pub struct FrameReader {
-    bytes: [u8; FRAME_BYTES],
-    /// Bytes since the last zero, those that found no room too.
+#[derive(Debug)]
+#[repr(C)] // what every byte needs first, where an instruction reaches it
+pub struct FrameReader<const BYTES: usize> {
+    /// Bytes of the message so far.
     length: usize,
+    /// Its CRC-32, as it is before the last step of the algorithm inverts it.
+    inverted_check: u32,
+    cobs: DecoderState,
+    error: Option<FrameError>,
+    message: [u8; BYTES],
 }
 
-impl Default for FrameReader {
+impl<const BYTES: usize> Default for FrameReader<BYTES> {
     fn default() -> Self {
         Self::new()
     }
 }
 
-impl FrameReader {
+impl<const BYTES: usize> FrameReader<BYTES> {
     /// At the start of a frame.
     pub const fn new() -> Self {
         Self {
-            bytes: [0; FRAME_BYTES],
             length: 0,
+            inverted_check: 0,
+            cobs: DecoderState::Idle,
+            // Of zero bits, and replaced at the first byte.
+            error: Some(FrameError::Framing),
+            message: [0; BYTES],
         }
     }
 
     /// Takes a byte; with the last one of a frame returns its message or what is wrong with it. Two
     /// zeros in a row hold nothing.
-    #[inline]
     pub fn push(&mut self, byte: u8) -> Option<Result<Message<'_>, FrameError>> {
-        if byte == 0 {
-            return self.end();
-        }
-        if let Some(place) = self.bytes.get_mut(self.length) {
-            *place = byte;
-        }
-        self.length = self.length.saturating_add(1);
-        None
+        self.take(byte).then(|| self.message())
     }
 
-    #[inline(never)]
-    fn end(&mut self) -> Option<Result<Message<'_>, FrameError>> {
-        match core::mem::take(&mut self.length) {
-            0 => None,
-            length => Some(message(self.bytes.get_mut(..length))),
+    /// Takes a byte; true when it ends a frame.
+    #[inline(always)]
+    pub(crate) fn take(&mut self, byte: u8) -> bool {
+        let starts = matches!(self.cobs, DecoderState::Idle);
+        match self.cobs.feed(byte) {
+            Ok(DecodeResult::DataContinue(decoded)) => {
+                if let Some(place) = self.message.get_mut(self.length) {
+                    *place = decoded;
+                    self.length += 1;
+                } else {
+                    self.error = Some(FrameError::TooLong);
+                }
+                self.inverted_check = !checksum::continued(!self.inverted_check, &[decoded]);
+                false
+            }
+            Ok(DecodeResult::NoData) => {
+                if starts {
+                    (self.length, self.inverted_check, self.error) = (0, !0, None);
+                }
+                false
+            }
+            Ok(DecodeResult::DataComplete) => true,
+            Err(_) => {
+                self.error = Some(FrameError::Framing);
+                true
+            }
         }
     }
-}
 
-/// The message of a frame's bytes without the zero; of a frame that had no room there are none.
-fn message(frame: Option<&mut [u8]>) -> Result<Message<'_>, FrameError> {
-    let frame = frame.ok_or(FrameError::TooLong)?;
-    let length = cobs::decode_in_place(frame).map_err(|_| FrameError::Framing)?;
-    checked(frame.get(..length).unwrap_or_default())
-}
+    /// The message of the frame that ended last, or what is wrong with it.
+    pub(crate) fn message(&self) -> Result<Message<'_>, FrameError> {
+        if let Some(error) = self.error {
+            return Err(error);
+        }
+        let message = self.message.get(..self.length).unwrap_or_default();
+        let (bytes, stated) = message
+            .split_last_chunk::<CHECK_BYTES>()
+            .ok_or(FrameError::Check)?;
+        if !self.inverted_check == RESIDUE {
+            let check = u32::from_le_bytes(*stated);
+            Ok(Message { bytes, check })
+        } else {
+            Err(FrameError::Check)
+        }
+    }
 
-/// The message before a right CRC-32.
-fn checked(bytes: &[u8]) -> Result<Message<'_>, FrameError> {
-    let (bytes, stated) = bytes
-        .split_last_chunk::<CHECK_BYTES>()
-        .ok_or(FrameError::Check)?;
-    let check = CHECK.checksum(bytes);
-    if check.to_le_bytes() == *stated {
-        Ok(Message { bytes, check })
-    } else {
-        Err(FrameError::Check)
+    /// Bytes of the last message, which stay until the next byte comes.
+    pub(crate) fn last_message(&self, bytes: core::ops::Range<usize>) -> &[u8] {
+        self.message.get(bytes).unwrap_or_default()
     }
 }

@@ -1,23 +1,25 @@
 //! The dampers a device steps, with their states and the tick count.
 
-use super::message::{Forces, MOST_DAMPERS, Reals, Refusal};
+use heapless::Vec;
+
+use super::message::{Forces, MOST_DAMPERS, Reals, Refusal, Response};
+use super::slots::Slots;
 use crate::bank::step_bank;
 use crate::damper::Damper;
+use crate::integrity::Check;
 use crate::parameters::LARGEST_CLEARANCE_M;
-use crate::revision;
 use crate::state::DamperState;
+use crate::status::Status;
 
 const STATE_BYTES: usize = DamperState::<f32>::BYTES;
 
-/// One number that tells banks of dampers apart: hash of their revisions in order.
-pub fn bank_revision(revisions: impl IntoIterator<Item = u32>) -> u32 {
-    revision::of_words(revision::START, revisions.into_iter().map(u64::from))
-}
+/// Room for the states of a bank as bytes.
+pub(crate) type SavedStates = [u8; MOST_DAMPERS * STATE_BYTES];
 
 /// Dampers, states, last displacements and forces, tick.
 #[derive(Clone, Debug)]
 pub(crate) struct Loaded<const N: usize> {
-    dampers: [Damper<f32>; N],
+    dampers: Slots<N>,
     states: [DamperState<f32>; N],
     displacements_m: [f32; N],
     forces_n: [f32; N],
@@ -25,14 +27,21 @@ pub(crate) struct Loaded<const N: usize> {
 }
 
 impl<const N: usize> Loaded<N> {
-    pub(crate) fn new(dampers: &[&Damper<f32>; N]) -> Self {
+    /// No dampers yet.
+    pub(crate) const fn new() -> Self {
         Self {
-            dampers: dampers.map(|damper| *damper),
-            states: dampers.map(|damper| damper.at_rest(0.0)),
+            dampers: Slots::new(),
+            states: [DamperState::<f32>::UNWRITTEN; N],
             displacements_m: [0.0; N],
             forces_n: [0.0; N],
             tick: 0,
         }
+    }
+
+    /// Copies of these dampers, at rest at 0.
+    pub(crate) fn start(&mut self, dampers: &[&Damper<f32>; N]) {
+        self.dampers.fill(dampers);
+        self.rest_at([0.0; N]);
     }
 
     pub(crate) fn tick(&self) -> u32 {
@@ -43,17 +52,18 @@ impl<const N: usize> Loaded<N> {
         &self.forces_n
     }
 
-    pub(crate) fn state(&self, damper: u8) -> Option<&DamperState<f32>> {
-        self.states.get(usize::from(damper))
+    pub(crate) fn states(&self) -> &[DamperState<f32>; N] {
+        &self.states
     }
 
     /// Step of the bank (s), that of its first damper.
     pub(crate) fn step_s(&self) -> f32 {
-        self.dampers.first().map_or(0.0, Damper::step_s)
+        self.dampers.get(0).map_or(0.0, Damper::step_s)
     }
 
-    pub(crate) fn revision(&self) -> u32 {
-        bank_revision(self.dampers.iter().map(Damper::revision))
+    pub(crate) fn revisions(&self) -> Vec<u32, MOST_DAMPERS> {
+        let revisions = self.dampers.all().map(Damper::revision);
+        revisions.into_iter().collect()
     }
 
     /// Displacements (m) of the ticks from now on.
@@ -65,8 +75,7 @@ impl<const N: usize> Loaded<N> {
     /// One tick at the displacements given last.
     #[inline]
     pub(crate) fn step(&mut self) {
-        let dampers = self.dampers.each_ref();
-        let states = &mut self.states;
+        let (dampers, states) = (self.dampers.all(), &mut self.states);
         step_bank(&dampers, states, &self.displacements_m, &mut self.forces_n);
         self.tick = self.tick.wrapping_add(1);
     }
@@ -76,59 +85,94 @@ impl<const N: usize> Loaded<N> {
         if !displacements_m.iter().all(|x| x.is_finite()) {
             return Err(Refusal::Range);
         }
-        self.displace(displacements_m)?;
-        let places = self.states.iter_mut().zip(&self.dampers);
-        for ((state, damper), displacement_m) in places.zip(&self.displacements_m) {
-            *state = damper.at_rest(*displacement_m);
-        }
-        self.forces_n = [0.0; N];
-        self.tick = 0;
+        self.rest_at(all(displacements_m)?);
         Ok(())
     }
 
-    /// Puts a damper in a place; its state keeps the force.
-    pub(crate) fn replace(&mut self, place: u8, damper: &Damper<f32>) -> Result<(), Refusal> {
-        *self.damper(place)? = *damper;
-        self.carry_over(place);
+    fn rest_at(&mut self, displacements_m: [f32; N]) {
+        let dampers = self.dampers.all();
+        let places = self.states.iter_mut().zip(dampers).zip(&displacements_m);
+        for ((state, damper), displacement_m) in places {
+            *state = damper.at_rest(*displacement_m);
+        }
+        self.displacements_m = displacements_m;
+        self.forces_n = [0.0; N];
+        self.tick = 0;
+    }
+
+    /// Room to load a damper into, for [`Self::replace`].
+    pub(crate) fn spare(&mut self) -> &mut Damper<f32> {
+        self.dampers.spare_mut()
+    }
+
+    /// Puts the damper loaded into the spare room in the place of another, whose state keeps the force.
+    pub(crate) fn replace(&mut self, damper: u8) -> Result<(), Refusal> {
+        let step_s = self.step_s();
+        if self.spare().step_s() != step_s {
+            return Err(Refusal::StepSize);
+        }
+        self.dampers.swap_spare(damper);
+        self.carry_over(damper);
         Ok(())
     }
 
     /// Changes the clearance 2a (m) of a damper; its state keeps the force.
-    pub(crate) fn set_clearance(&mut self, place: u8, clearance_m: f32) -> Result<(), Refusal> {
-        let damper = self.damper(place)?;
+    pub(crate) fn set_clearance(&mut self, damper: u8, clearance_m: f32) -> Result<(), Refusal> {
         if !(0.0..=LARGEST_CLEARANCE_M as f32).contains(&clearance_m) {
             return Err(Refusal::Range);
         }
-        damper.set_clearance_m(clearance_m);
-        self.carry_over(place);
+        if let Some(damper) = self.dampers.get_mut(damper) {
+            damper.set_clearance_m(clearance_m);
+        }
+        self.carry_over(damper);
         Ok(())
     }
 
     /// Between ticks, so that the next tick costs what every tick costs.
-    fn carry_over(&mut self, place: u8) {
-        let place = usize::from(place);
-        if let (Some(damper), Some(state)) = (self.dampers.get(place), self.states.get_mut(place)) {
+    fn carry_over(&mut self, damper: u8) {
+        let state = self.states.get_mut(usize::from(damper));
+        if let Some((damper, state)) = self.dampers.get(damper).zip(state) {
             damper.adopt(state);
         }
     }
 
-    pub(crate) fn has(&self, place: u8) -> Result<(), Refusal> {
-        let known = usize::from(place) < N;
+    /// Refuses a damper that is not there.
+    pub(crate) fn has(&self, damper: u8) -> Result<(), Refusal> {
+        let known = usize::from(damper) < N;
         known.then_some(()).ok_or(Refusal::Damper(N as u8))
     }
 
-    fn damper(&mut self, place: u8) -> Result<&mut Damper<f32>, Refusal> {
-        let damper = self.dampers.get_mut(usize::from(place));
-        damper.ok_or(Refusal::Damper(N as u8))
+    /// Whether a slice of a damper's constants is undamaged; latched when it is not.
+    pub(crate) fn check_constants(&mut self, damper: u8, check: &mut Check) -> bool {
+        let found = self.dampers.get(damper);
+        let good = found.is_none_or(|damper| check.slice(damper).is_ok());
+        self.latch_unless(good, damper);
+        good
+    }
+
+    /// Whether a damper's state is undamaged; latched when it is not.
+    pub(crate) fn check_state(&mut self, damper: u8) -> bool {
+        let pair = self.dampers.get(damper);
+        let pair = pair.zip(self.states.get(usize::from(damper)));
+        let good = pair.is_none_or(|(damper, state)| Check::state(damper, state).is_ok());
+        self.latch_unless(good, damper);
+        good
+    }
+
+    fn latch_unless(&mut self, good: bool, damper: u8) {
+        let state = self.states.get_mut(usize::from(damper));
+        if let Some(state) = state.filter(|_| !good) {
+            state.latch(Status::CORRUPTED);
+        }
     }
 
     /// The states as bytes, in order.
-    pub(crate) fn save<'a>(&self, place: &'a mut [u8; MOST_DAMPERS * STATE_BYTES]) -> &'a [u8] {
-        let (places, _) = place.as_chunks_mut::<STATE_BYTES>();
+    pub(crate) fn save<'a>(&self, room: &'a mut SavedStates) -> &'a [u8] {
+        let (places, _) = room.as_chunks_mut::<STATE_BYTES>();
         for (place, state) in places.iter_mut().zip(&self.states) {
             *place = state.to_bytes();
         }
-        place.get(..N * STATE_BYTES).unwrap_or_default()
+        room.get(..N * STATE_BYTES).unwrap_or_default()
     }
 
     /// All states and the tick from bytes; nothing changes unless every state is right.
@@ -138,7 +182,7 @@ impl<const N: usize> Loaded<N> {
             return Err(Refusal::Count(N as u8));
         }
         let mut states = self.states;
-        for ((state, damper), saved) in states.iter_mut().zip(&self.dampers).zip(saved) {
+        for ((state, damper), saved) in states.iter_mut().zip(self.dampers.all()).zip(saved) {
             *state = damper.restore(saved).map_err(|_| Refusal::State)?;
         }
         self.states = states;
@@ -153,9 +197,26 @@ impl<const N: usize> Loaded<N> {
         Forces {
             tick: self.tick,
             forces_n: outputs_n.iter().copied().collect(),
-            status: self.states.iter().map(|s| s.status().bits()).collect(),
+            status: self.status_bits(),
             clock_ticks,
         }
+    }
+
+    /// Status bits and rejected inputs.
+    pub(crate) fn status(&self) -> Response<'static> {
+        Response::Status {
+            status: self.status_bits(),
+            rejected_inputs: self.states.iter().map(|s| s.rejected_inputs()).collect(),
+        }
+    }
+
+    /// Clears what [`Self::status`] tells.
+    pub(crate) fn clear_status(&mut self) {
+        self.states.iter_mut().for_each(DamperState::clear_status);
+    }
+
+    fn status_bits(&self) -> Vec<u16, MOST_DAMPERS> {
+        self.states.iter().map(|s| s.status().bits()).collect()
     }
 }
 

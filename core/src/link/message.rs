@@ -6,11 +6,9 @@ use serde::{Deserialize, Serialize};
 use super::safe_output::LossOfLink;
 
 /// Version of the messages; changes whenever their bytes do.
-pub const PROTOCOL: u16 = 1;
+pub const PROTOCOL: u16 = 2;
 /// Dampers a device may hold.
 pub const MOST_DAMPERS: usize = 16;
-/// Bytes of a damper's image in one [`Request::Chunk`] at most.
-pub const CHUNK_BYTES: usize = 256;
 /// Telemetry samples in one response at most.
 pub const MOST_SAMPLES: usize = 8;
 
@@ -34,22 +32,13 @@ pub enum Request<'a> {
         /// [`PROTOCOL`] of the host.
         protocol: u16,
     },
-    /// Makes room for the image of a damper; what was sent before without a commit is dropped.
-    BeginLoad {
+    /// Checks an image and puts its damper in the place of another; the state's force is kept.
+    Load {
         /// Which damper, from 0.
         damper: u8,
-        /// Bytes of the whole image.
-        bytes: u32,
+        /// [`Damper::to_image`](crate::Damper), whole.
+        image: &'a [u8],
     },
-    /// The next bytes of the image.
-    Chunk {
-        /// Bytes sent before this chunk.
-        offset: u32,
-        /// At most [`CHUNK_BYTES`].
-        bytes: &'a [u8],
-    },
-    /// Checks the image and puts the damper in the place of the old one; the state's force is kept.
-    CommitLoad,
     /// Changes one parameter of one damper at once.
     Set {
         /// Which damper, from 0.
@@ -95,13 +84,19 @@ pub enum Request<'a> {
         /// [`DamperState::to_bytes`](crate::DamperState) of each damper, in order.
         states: &'a [u8],
     },
-    /// Takes the oldest telemetry samples.
+    /// Takes the oldest samples of a damper not yet taken; those of others stay.
     Telemetry {
-        /// The damper to record from now on; a change of it drops what was recorded.
+        /// Which damper, from 0.
         damper: u8,
     },
     /// Asks for the counters.
     Counters,
+    /// Asks what the outputs are now.
+    Outputs,
+    /// Asks for status bits and rejected inputs.
+    Status,
+    /// Clears status bits and rejected inputs of every damper; the answer has what was cleared.
+    ClearStatus,
 }
 
 /// Parameters by their key in a damper file. Only the clearance can change without a rebuild.
@@ -138,28 +133,38 @@ pub enum Response<'a> {
     },
     /// To telemetry.
     Telemetry {
-        /// Samples lost to newer ones since the damper was chosen.
+        /// Samples of the damper lost to newer ones before they were taken.
         overwritten: u32,
         /// Oldest first.
         samples: Vec<Sample, MOST_SAMPLES>,
     },
     /// To counters.
     Counters(Counters),
+    /// To outputs.
+    Outputs {
+        /// What the outputs were set to last (N).
+        outputs_n: Reals,
+    },
+    /// To status and clear status.
+    Status {
+        /// Latched [`Status`](crate::Status) bits of each damper.
+        status: Vec<u16, MOST_DAMPERS>,
+        /// Ticks of each damper whose displacement was held or limited, up to 65535.
+        rejected_inputs: Vec<u16, MOST_DAMPERS>,
+    },
     /// Not done; nothing changed.
     Refused(Refusal),
 }
 
 /// Who answers, and what it holds.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Welcome<'a> {
     /// [`PROTOCOL`] of the device.
     pub protocol: u16,
     /// Version of dashpot-core in the device.
     pub core_version: &'a str,
-    /// Dampers it holds.
-    pub dampers: u8,
-    /// [`bank_revision`](super::bank_revision) of the dampers loaded now.
-    pub bank_revision: u32,
+    /// [`Damper::revision`](crate::Damper) of each damper loaded now.
+    pub revisions: Vec<u32, MOST_DAMPERS>,
     /// Type of displacement, force and state.
     pub scalar: Scalar,
     /// Step of every damper (s).
@@ -230,6 +235,24 @@ pub struct Counters {
     pub overruns: u32,
     /// Losses of the link.
     pub link_losses: u32,
+    /// Dampers and states found damaged in memory.
+    pub corruptions: u32,
+}
+
+impl Counters {
+    /// Nothing happened.
+    pub(crate) const NONE: Self = Self {
+        accepted: 0,
+        corrupt: 0,
+        unreadable: 0,
+        no_session: 0,
+        repeated: 0,
+        out_of_order: 0,
+        refused: 0,
+        overruns: 0,
+        link_losses: 0,
+        corruptions: 0,
+    };
 }
 
 /// Why a request was not carried out.
@@ -257,10 +280,6 @@ pub enum Refusal {
     Range,
     /// Expected an image of this many bytes.
     ImageBytes(u32),
-    /// No load was begun.
-    NoLoad,
-    /// Expected this offset of the image.
-    Offset(u32),
     /// The image is no damper.
     Image,
     /// The image is of a damper built for another step.
@@ -273,4 +292,7 @@ pub enum Refusal {
     NotRunning,
     /// The link was lost: the safe output stays until run.
     LinkLost,
+    /// The constants of this damper were damaged in memory: the safe output stays until it is loaded again and
+    /// run.
+    Corrupted(u8),
 }

@@ -6,21 +6,27 @@
 //! A state moves only by a whole, readable request of the open session, in sequence, with the next tick.
 //! Anything else is counted and answered.
 
+mod board;
 mod device;
 mod frame;
+mod guard;
 mod loaded;
-mod loading;
 mod message;
+mod recorder;
 mod safe_output;
 mod service;
 mod session;
+mod slots;
 
+pub use board::{Line, Outputs};
 pub use device::Device;
-pub use frame::{FRAME_BYTES, Frame, FrameError, FrameReader, MESSAGE_BYTES, Message};
-pub use loaded::bank_revision;
+pub use frame::{
+    Frame, FrameError, FrameReader, Message, REQUEST_BYTES, REQUEST_FRAME_BYTES, RESPONSE_BYTES,
+    RESPONSE_FRAME_BYTES, RequestFrame, ResponseFrame, request_frame,
+};
 pub use message::{
-    CHUNK_BYTES, Counters, Forces, Header, MOST_DAMPERS, MOST_SAMPLES, PROTOCOL, Parameter, Reals,
-    Refusal, Request, Response, Sample, Scalar, Welcome,
+    Counters, Forces, Header, MOST_DAMPERS, MOST_SAMPLES, PROTOCOL, Parameter, Reals, Refusal,
+    Request, Response, Sample, Scalar, Welcome,
 };
 pub use safe_output::{LossOfLink, SafeOutput};
 pub use service::Clock;

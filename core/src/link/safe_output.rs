@@ -1,4 +1,4 @@
-//! What the outputs do when the link is lost while the tick runs free.
+//! What the outputs do when the link is lost or memory was damaged while the tick runs free.
 
 use serde::{Deserialize, Serialize};
 
@@ -40,15 +40,22 @@ pub enum SafeOutput {
 pub(crate) struct Watch<const N: usize> {
     configuration: LossOfLink,
     silent_ticks: u32,
-    /// Output of the last tick before the loss (N).
+    /// Ticks of the safe output so far.
+    safe_ticks: u32,
+    /// Output of the last tick before the safe output (N).
     last_good: [f32; N],
 }
 
 impl<const N: usize> Watch<N> {
-    pub(crate) fn new() -> Self {
+    /// All bits zero, to be configured.
+    pub(crate) const fn new() -> Self {
         Self {
-            configuration: LossOfLink::default(),
+            configuration: LossOfLink {
+                after_ticks: 0,
+                output: SafeOutput::Hold,
+            },
             silent_ticks: 0,
+            safe_ticks: 0,
             last_good: [0.0; N],
         }
     }
@@ -64,19 +71,28 @@ impl<const N: usize> Watch<N> {
         self.silent_ticks = 0;
     }
 
+    /// The tick starts to run free, or stops.
+    pub(crate) fn restart(&mut self) {
+        self.alive();
+        self.safe_ticks = 0;
+    }
+
     pub(crate) fn lost(&self) -> bool {
         self.silent_ticks > self.configuration.after_ticks
     }
 
-    /// The outputs of a tick whose dampers give `forces` (N), and whether the link was lost in it.
-    pub(crate) fn output(&mut self, forces: &[f32; N]) -> ([f32; N], bool) {
+    /// The outputs of a tick whose dampers give `forces` (N), and whether the link was lost in it. Where
+    /// memory is `damaged` the output is the safe one too.
+    pub(crate) fn output(&mut self, forces: &[f32; N], damaged: bool) -> ([f32; N], bool) {
         let was_lost = self.lost();
         self.silent_ticks = self.silent_ticks.saturating_add(1);
-        if !self.lost() {
+        let lost = self.lost() && !was_lost;
+        if !self.lost() && !damaged {
             self.last_good = *forces;
             return (*forces, false);
         }
-        let since = self.silent_ticks - self.configuration.after_ticks;
+        self.safe_ticks = self.safe_ticks.saturating_add(1);
+        let since = self.safe_ticks;
         let share = match self.configuration.output {
             SafeOutput::Hold => 1.0,
             SafeOutput::Zero => 0.0,
@@ -85,7 +101,7 @@ impl<const N: usize> Watch<N> {
             }
             SafeOutput::RampToZero { .. } => 0.0,
         };
-        (self.last_good.map(|force| force * share), !was_lost)
+        (self.last_good.map(|force| force * share), lost)
     }
 }
 
@@ -100,7 +116,7 @@ mod tests {
             output,
         });
         core::array::from_fn(|tick| {
-            let ([force], lost) = watch.output(&[100.0 + tick as f32]);
+            let ([force], lost) = watch.output(&[100.0 + tick as f32], false);
             assert_eq!(lost, tick == 3);
             force
         })
@@ -128,26 +144,43 @@ mod tests {
     #[test]
     fn a_stricter_configuration_loses_the_link_at_the_next_silent_tick() {
         let mut watch = Watch::<1>::new();
+        watch.configure(LossOfLink::default());
         for _ in 0..50 {
-            assert_eq!(watch.output(&[7.0]), ([7.0], false));
+            assert_eq!(watch.output(&[7.0], false), ([7.0], false));
         }
         watch.configure(LossOfLink {
             after_ticks: 1,
             output: SafeOutput::RampToZero { ticks: 100 },
         });
         assert!(!watch.lost());
-        assert_eq!(watch.output(&[7.0]), ([7.0 * 0.99], true));
+        assert_eq!(watch.output(&[7.0], false), ([7.0 * 0.99], true));
     }
 
     #[test]
     fn a_displacement_in_time_keeps_the_link() {
         let mut watch = Watch::<1>::new();
+        watch.configure(LossOfLink::default());
         for _ in 0..10_000 {
             watch.alive();
             for _ in 0..100 {
-                assert_eq!(watch.output(&[7.0]), ([7.0], false));
+                assert_eq!(watch.output(&[7.0], false), ([7.0], false));
             }
         }
-        assert_eq!(watch.output(&[7.0]), ([7.0 * 0.99], true));
+        assert_eq!(watch.output(&[7.0], false), ([7.0 * 0.99], true));
+    }
+    #[test]
+    fn damage_takes_the_safe_output_at_once_and_a_lost_link_goes_on_with_it() {
+        let mut watch = Watch::<1>::new();
+        watch.configure(LossOfLink {
+            after_ticks: 2,
+            output: SafeOutput::RampToZero { ticks: 4 },
+        });
+        assert_eq!(watch.output(&[8.0], false), ([8.0], false));
+        assert_eq!(watch.output(&[9.0], true), ([6.0], false));
+        assert_eq!(watch.output(&[9.0], true), ([4.0], true));
+        assert_eq!(watch.output(&[9.0], true), ([2.0], false));
+        assert_eq!(watch.output(&[9.0], true), ([0.0], false));
+        watch.restart();
+        assert_eq!(watch.output(&[9.0], false), ([9.0], false));
     }
 }

@@ -1,18 +1,15 @@
 //! Carries requests out on the loaded dampers.
 
-use super::loaded::Loaded;
-use super::loading::Loading;
+use super::guard::Guard;
+use super::loaded::{Loaded, SavedStates};
 use super::message::{
-    Counters, MOST_DAMPERS, MOST_SAMPLES, PROTOCOL, Parameter, Refusal, Request, Response, Sample,
-    Scalar, Welcome,
+    Counters, MOST_DAMPERS, PROTOCOL, Parameter, Reals, Refusal, Request, Response, Scalar, Welcome,
 };
-use super::safe_output::Watch;
+use super::recorder::Recorder;
+use super::safe_output::{LossOfLink, Watch};
 use crate::damper::Damper;
+use crate::image::{ImageError, Loading};
 use crate::state::DamperState;
-use crate::telemetry::{self, Telemetry};
-
-/// Samples kept for a link to read.
-const RECORDED: usize = 64;
 
 /// A free-running clock to measure steps with.
 #[derive(Clone, Copy, Debug)]
@@ -24,37 +21,42 @@ pub struct Clock {
 }
 
 /// Dampers, and everything a request can ask of them.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub(crate) struct Service<const N: usize> {
     loaded: Loaded<N>,
-    loading: Loading,
+    guard: Guard,
     watch: Watch<N>,
     running: bool,
     outputs_n: [f32; N],
-    clock: Clock,
+    clock: Option<Clock>,
     clock_ticks: u32,
-    telemetry: Telemetry<RECORDED>,
-    recorded: u8,
-    saved: [u8; MOST_DAMPERS * DamperState::<f32>::BYTES],
+    recorder: Recorder<N>,
+    saved: SavedStates,
     pub(crate) counters: Counters,
 }
 
 impl<const N: usize> Service<N> {
-    pub(crate) fn new(dampers: &[&Damper<f32>; N], clock: Clock) -> Self {
+    /// All bits zero, to be started.
+    pub(crate) const fn new() -> Self {
         const { assert!(N > 0 && N <= MOST_DAMPERS, "1 to MOST_DAMPERS dampers") };
         Self {
-            loaded: Loaded::new(dampers),
-            loading: Loading::new(),
+            loaded: Loaded::new(),
+            guard: Guard::new(),
             watch: Watch::new(),
             running: false,
             outputs_n: [0.0; N],
-            clock,
+            clock: None,
             clock_ticks: 0,
-            telemetry: Telemetry::new(),
-            recorded: 0,
+            recorder: Recorder::new(),
             saved: [0; MOST_DAMPERS * DamperState::<f32>::BYTES],
-            counters: Counters::default(),
+            counters: Counters::NONE,
         }
+    }
+
+    pub(crate) fn start(&mut self, dampers: &[&Damper<f32>; N], clock: Clock) {
+        self.loaded.start(dampers);
+        self.watch.configure(LossOfLink::default());
+        self.clock = Some(clock);
     }
 
     pub(crate) fn outputs_n(&self) -> &[f32; N] {
@@ -74,7 +76,8 @@ impl<const N: usize> Service<N> {
         *overruns = overruns.saturating_add(due.saturating_sub(1));
         for _ in 0..due {
             self.step();
-            let (outputs_n, lost) = self.watch.output(self.loaded.forces_n());
+            let damaged = self.guard.damaged().is_some();
+            let (outputs_n, lost) = self.watch.output(self.loaded.forces_n(), damaged);
             self.outputs_n = outputs_n;
             if lost {
                 count(&mut self.counters.link_losses);
@@ -83,17 +86,43 @@ impl<const N: usize> Service<N> {
     }
 
     fn step(&mut self) {
-        let start = (self.clock.now)();
+        let now = |clock: Option<Clock>| clock.map_or(0, |clock| (clock.now)());
+        let start = now(self.clock);
         self.loaded.step();
-        self.clock_ticks = (self.clock.now)().wrapping_sub(start);
-        if let Some(state) = self.loaded.state(self.recorded) {
-            self.telemetry.record(telemetry::Sample {
-                tick: self.loaded.tick(),
-                displacement_m: state.displacement(),
-                force_n: state.force(),
-                status: state.status(),
-            });
+        self.clock_ticks = now(self.clock).wrapping_sub(start);
+        let found = self.guard.check(&mut self.loaded);
+        self.counters.corruptions = self.counters.corruptions.saturating_add(found);
+        self.recorder
+            .record(self.loaded.tick(), self.loaded.states());
+    }
+
+    /// Counts a request in sequence that was carried out or refused.
+    pub(crate) fn count_done(&mut self, carried_out: bool) {
+        let counters = &mut self.counters;
+        count(if carried_out {
+            &mut counters.accepted
+        } else {
+            &mut counters.refused
+        });
+    }
+
+    /// A slice of loading an image for a place; true when the damper is in it.
+    pub(crate) fn load_slice(
+        &mut self,
+        damper: u8,
+        image: &[u8],
+        loading: &mut Loading,
+    ) -> Result<bool, Refusal> {
+        let done = self.loaded.spare().load_slice(image, loading);
+        let done = done.map_err(|error| match error {
+            ImageError::Length { expected, .. } => Refusal::ImageBytes(expected as u32),
+            _ => Refusal::Image,
+        })?;
+        if done {
+            self.loaded.replace(damper)?;
+            self.guard.loaded(damper);
         }
+        Ok(done)
     }
 
     /// Carries out a request or says why not; then nothing has changed.
@@ -103,15 +132,8 @@ impl<const N: usize> Service<N> {
                 return Ok(Response::Welcome(self.welcome()));
             }
             Request::Hello { .. } => return Err(Refusal::Protocol(PROTOCOL)),
-            Request::BeginLoad { damper, bytes } => {
-                self.loaded.has(*damper)?;
-                self.loading.begin(*damper, *bytes)?;
-            }
-            Request::Chunk { offset, bytes } => self.loading.chunk(*offset, bytes)?,
-            Request::CommitLoad => {
-                let (place, damper) = self.loading.commit(self.loaded.step_s())?;
-                self.loaded.replace(place, damper)?;
-            }
+            // The rest is done in slices: see `load_slice`.
+            Request::Load { damper, .. } => self.loaded.has(*damper)?,
             Request::Set {
                 damper,
                 parameter,
@@ -127,13 +149,12 @@ impl<const N: usize> Service<N> {
                 if configuration.after_ticks == 0 {
                     return Err(Refusal::Range);
                 }
-                self.link_good()?;
+                self.good()?;
                 self.watch.configure(*configuration);
             }
             Request::Reset { displacements_m } => {
                 self.stepped()?;
-                self.loaded.reset(displacements_m)?;
-                self.outputs_n = [0.0; N];
+                self.rest(displacements_m)?;
             }
             Request::Step {
                 tick,
@@ -151,12 +172,14 @@ impl<const N: usize> Service<N> {
                 return Ok(Response::Forces(forces));
             }
             Request::Run { displacements_m } => {
-                if self.running && !self.watch.lost() {
+                if self.running && self.good().is_ok() {
                     return Err(Refusal::Running);
                 }
-                self.loaded.reset(displacements_m)?;
-                self.outputs_n = [0.0; N];
-                self.watch.alive();
+                if let Some(damper) = self.guard.damaged_constants() {
+                    return Err(Refusal::Corrupted(damper));
+                }
+                self.rest(displacements_m)?;
+                self.watch.restart();
                 self.running = true;
                 return Ok(self.forces());
             }
@@ -164,7 +187,7 @@ impl<const N: usize> Service<N> {
                 if !self.running {
                     return Err(Refusal::NotRunning);
                 }
-                self.link_good()?;
+                self.good()?;
                 self.loaded.displace(displacements_m)?;
                 self.watch.alive();
                 return Ok(self.forces());
@@ -175,7 +198,7 @@ impl<const N: usize> Service<N> {
                 }
                 self.running = false;
                 self.outputs_n = [0.0; N];
-                self.watch.alive();
+                self.watch.restart();
             }
             Request::Save => {
                 return Ok(Response::Saved {
@@ -186,9 +209,20 @@ impl<const N: usize> Service<N> {
             Request::Restore { tick, states } => {
                 self.stepped()?;
                 self.loaded.restore(*tick, states)?;
+                self.guard.new_states();
             }
-            Request::Telemetry { damper } => return self.telemetry(*damper),
+            Request::Telemetry { damper } => return self.recorder.take(*damper),
             Request::Counters => return Ok(Response::Counters(self.counters)),
+            Request::Outputs => {
+                let outputs_n = self.outputs_n.iter().copied().collect();
+                return Ok(Response::Outputs { outputs_n });
+            }
+            Request::Status => return Ok(self.loaded.status()),
+            Request::ClearStatus => {
+                let cleared = self.loaded.status();
+                self.loaded.clear_status();
+                return Ok(cleared);
+            }
         }
         Ok(Response::Done)
     }
@@ -197,13 +231,12 @@ impl<const N: usize> Service<N> {
         Welcome {
             protocol: PROTOCOL,
             core_version: env!("CARGO_PKG_VERSION"),
-            dampers: N as u8,
-            bank_revision: self.loaded.revision(),
+            revisions: self.loaded.revisions(),
             scalar: Scalar::F32,
             step_s: self.loaded.step_s(),
             image_bytes: Damper::<f32>::IMAGE_BYTES as u32,
             tick: self.loaded.tick(),
-            clock_hz: self.clock.hz,
+            clock_hz: self.clock.map_or(0, |clock| clock.hz),
             running: self.running,
         }
     }
@@ -212,26 +245,12 @@ impl<const N: usize> Service<N> {
         Response::Forces(self.loaded.forces(&self.outputs_n, self.clock_ticks))
     }
 
-    fn telemetry(&mut self, damper: u8) -> Result<Response<'static>, Refusal> {
-        self.loaded.has(damper)?;
-        if damper != self.recorded {
-            self.recorded = damper;
-            self.telemetry = Telemetry::new();
-        }
-        let ring = &mut self.telemetry;
-        let samples = core::iter::from_fn(|| ring.take()).take(MOST_SAMPLES);
-        let samples = samples
-            .map(|sample| Sample {
-                tick: sample.tick,
-                displacement_m: sample.displacement_m,
-                force_n: sample.force_n,
-                status: sample.status.bits(),
-            })
-            .collect();
-        Ok(Response::Telemetry {
-            overwritten: ring.overwritten(),
-            samples,
-        })
+    /// Every damper at rest, outputs 0.
+    fn rest(&mut self, displacements_m: &Reals) -> Result<(), Refusal> {
+        self.loaded.reset(displacements_m)?;
+        self.guard.new_states();
+        self.outputs_n = [0.0; N];
+        Ok(())
     }
 
     /// Only while the host steps.
@@ -243,11 +262,12 @@ impl<const N: usize> Service<N> {
         }
     }
 
-    fn link_good(&self) -> Result<(), Refusal> {
-        if self.watch.lost() {
-            Err(Refusal::LinkLost)
-        } else {
-            Ok(())
+    /// Only while the outputs are not the safe ones.
+    fn good(&self) -> Result<(), Refusal> {
+        match self.guard.damaged() {
+            _ if self.watch.lost() => Err(Refusal::LinkLost),
+            Some(damper) => Err(Refusal::Corrupted(damper)),
+            None => Ok(()),
         }
     }
 }

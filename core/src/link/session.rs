@@ -3,7 +3,7 @@
 use super::message::{Header, Refusal};
 
 /// The open session and its last request.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct Session {
     last: Option<(Header, u32)>,
 }
@@ -22,6 +22,9 @@ pub(crate) enum Verdict {
 }
 
 impl Session {
+    /// None is open.
+    pub(crate) const NONE: Self = Self { last: None };
+
     /// Judges a request by its header and the CRC-32 of its message: a repeated one is the last one to
     /// the bit.
     pub(crate) fn judge(&self, header: Header, check: u32) -> Verdict {

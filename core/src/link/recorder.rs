@@ -1,0 +1,89 @@
+//! The last ticks of the bank, kept for a host to take damper by damper.
+
+use heapless::Vec;
+
+use super::message::{MOST_SAMPLES, Refusal, Response, Sample};
+use crate::state::DamperState;
+use crate::status::Status;
+
+/// Ticks kept: a power of two, so that a count that wraps goes on in the ring.
+const KEPT: usize = 64;
+
+/// One tick of the bank.
+#[derive(Clone, Copy, Debug)]
+struct Tick<const N: usize> {
+    tick: u32,
+    displacements_m: [f32; N],
+    forces_n: [f32; N],
+    status: [Status; N],
+}
+
+/// A ring of ticks that every damper is read from on its own.
+#[derive(Debug)]
+pub(crate) struct Recorder<const N: usize> {
+    ticks: [Tick<N>; KEPT],
+    /// Ticks ever recorded, wrapping; the next goes to this place in the ring.
+    recorded: u32,
+    kept: u32,
+    /// Of those, how many each damper's reader has taken or missed.
+    taken: [u32; N],
+    overwritten: [u32; N],
+}
+
+impl<const N: usize> Recorder<N> {
+    pub(crate) const fn new() -> Self {
+        Self {
+            ticks: [Tick {
+                tick: 0,
+                displacements_m: [0.0; N],
+                forces_n: [0.0; N],
+                status: [Status::empty(); N],
+            }; KEPT],
+            recorded: 0,
+            kept: 0,
+            taken: [0; N],
+            overwritten: [0; N],
+        }
+    }
+
+    pub(crate) fn record(&mut self, tick: u32, states: &[DamperState<f32>; N]) {
+        self.ticks[self.recorded as usize % KEPT] = Tick {
+            tick,
+            displacements_m: states.each_ref().map(DamperState::displacement),
+            forces_n: states.each_ref().map(DamperState::force),
+            status: states.each_ref().map(DamperState::status),
+        };
+        self.recorded = self.recorded.wrapping_add(1);
+        self.kept = (self.kept + 1).min(KEPT as u32);
+    }
+
+    /// The oldest samples of a damper that were not taken yet.
+    pub(crate) fn take(&mut self, damper: u8) -> Result<Response<'static>, Refusal> {
+        let place = usize::from(damper);
+        let reader = self
+            .taken
+            .get_mut(place)
+            .zip(self.overwritten.get_mut(place));
+        let (taken, overwritten) = reader.ok_or(Refusal::Damper(N as u8))?;
+        let missed = self.recorded.wrapping_sub(*taken).saturating_sub(self.kept);
+        *overwritten = overwritten.saturating_add(missed);
+        *taken = taken.wrapping_add(missed);
+        let waiting = self.recorded.wrapping_sub(*taken);
+        let count = waiting.min(MOST_SAMPLES as u32);
+        let samples = (0..count).filter_map(|sample| {
+            let of = &self.ticks[taken.wrapping_add(sample) as usize % KEPT];
+            Some(Sample {
+                tick: of.tick,
+                displacement_m: *of.displacements_m.get(place)?,
+                force_n: *of.forces_n.get(place)?,
+                status: of.status.get(place)?.bits(),
+            })
+        });
+        let samples: Vec<Sample, MOST_SAMPLES> = samples.collect();
+        *taken = taken.wrapping_add(count);
+        Ok(Response::Telemetry {
+            overwritten: *overwritten,
+            samples,
+        })
+    }
+}

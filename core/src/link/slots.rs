@@ -1,0 +1,72 @@
+//! Room for the dampers of a bank and one more, which is loaded while the others step.
+
+use crate::damper::Damper;
+
+/// Dampers in order of their slots; a damper of the bank is where `slots` says.
+#[derive(Clone, Debug)]
+pub(crate) struct Slots<const N: usize> {
+    dampers: [Damper<f32>; N],
+    /// The slot after those.
+    last: Damper<f32>,
+    /// Slot of each damper of the bank.
+    slots: [u8; N],
+    /// Slot of none.
+    spare: u8,
+}
+
+impl<const N: usize> Slots<N> {
+    /// No dampers yet.
+    pub(crate) const fn new() -> Self {
+        Self {
+            dampers: [Damper::<f32>::EMPTY; N],
+            last: Damper::<f32>::EMPTY,
+            slots: [0; N],
+            spare: 0,
+        }
+    }
+
+    /// Copies of these dampers.
+    pub(crate) fn fill(&mut self, dampers: &[&Damper<f32>; N]) {
+        for (slot, damper) in self.dampers.iter_mut().zip(dampers) {
+            *slot = **damper;
+        }
+        self.slots = core::array::from_fn(|slot| slot as u8);
+        self.spare = N as u8;
+    }
+
+    /// The bank.
+    #[inline]
+    pub(crate) fn all(&self) -> [&Damper<f32>; N] {
+        let slot = |slot| self.dampers.get(usize::from(slot)).unwrap_or(&self.last);
+        self.slots.map(slot)
+    }
+
+    /// A damper of the bank.
+    pub(crate) fn get(&self, damper: u8) -> Option<&Damper<f32>> {
+        let slot = self.slots.get(usize::from(damper))?;
+        Some(self.dampers.get(usize::from(*slot)).unwrap_or(&self.last))
+    }
+
+    /// As [`Self::get`], to change it.
+    pub(crate) fn get_mut(&mut self, damper: u8) -> Option<&mut Damper<f32>> {
+        let slot = *self.slots.get(usize::from(damper))?;
+        Some(self.slot_mut(slot))
+    }
+
+    /// The damper of no place.
+    pub(crate) fn spare_mut(&mut self) -> &mut Damper<f32> {
+        self.slot_mut(self.spare)
+    }
+
+    /// Makes the spare damper one of the bank and that one the spare.
+    pub(crate) fn swap_spare(&mut self, damper: u8) {
+        if let Some(slot) = self.slots.get_mut(usize::from(damper)) {
+            core::mem::swap(slot, &mut self.spare);
+        }
+    }
+
+    fn slot_mut(&mut self, slot: u8) -> &mut Damper<f32> {
+        let slot = self.dampers.get_mut(usize::from(slot));
+        slot.unwrap_or(&mut self.last)
+    }
+}
