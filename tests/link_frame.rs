@@ -1,14 +1,14 @@
 //! Frames: what comes back, what is refused, and that a zero byte ends any trouble.
 
 use dashpot_core::link::{
-    FRAME_BYTES, Frame, FrameError, FrameReader, Header, MESSAGE_BYTES, MOST_DAMPERS, Request,
-    Response,
+    Forces, FrameError, FrameReader, Header, MOST_DAMPERS, MOST_SAMPLES, REQUEST_BYTES,
+    RESPONSE_BYTES, Request, RequestFrame, Response, ResponseFrame, Sample, Scalar, Welcome,
 };
 use proptest::prelude::*;
 
 /// Messages of a stream, each `None` where the reader found a fault.
 fn read(bytes: &[u8]) -> Vec<Option<Vec<u8>>> {
-    let mut reader = FrameReader::new();
+    let mut reader = FrameReader::<REQUEST_BYTES>::new();
     let mut messages = Vec::new();
     for byte in bytes {
         if let Some(result) = reader.push(*byte) {
@@ -58,7 +58,7 @@ fn cobs_decoded(bytes: &[u8]) -> Vec<u8> {
 
 #[test]
 fn a_frame_is_cobs_of_message_and_crc() {
-    let mut frame = Frame::new();
+    let mut frame = RequestFrame::new();
     assert!(frame.write(&step(7)));
     let (end, encoded) = frame.bytes().split_last().unwrap();
     assert_eq!(*end, 0);
@@ -73,7 +73,7 @@ fn a_frame_is_cobs_of_message_and_crc() {
 
 #[test]
 fn every_wrong_bit_of_a_frame_is_refused() {
-    let mut frame = Frame::new();
+    let mut frame = RequestFrame::new();
     for tick in [1, 0x0100_0000, u32::MAX] {
         assert!(frame.write(&step(tick)));
         for bit in 0..8 * frame.bytes().len() {
@@ -89,7 +89,7 @@ fn every_wrong_bit_of_a_frame_is_refused() {
 
 #[test]
 fn every_cut_frame_is_refused_and_the_next_is_read() {
-    let mut frame = Frame::new();
+    let mut frame = RequestFrame::new();
     assert!(frame.write(&step(3)));
     let whole = frame.bytes();
     let message = read(whole).remove(0);
@@ -106,33 +106,68 @@ fn the_longest_messages_fit() {
         sequence: u32::MAX,
     };
     let states = [0xff; MOST_DAMPERS * 24];
-    let mut frame = Frame::new();
     let tick = u32::MAX;
-    assert!(frame.write(&(
-        header,
-        Request::Restore {
-            tick,
-            states: &states
-        }
-    )));
+    let mut request = RequestFrame::new();
+    let restore = Request::Restore {
+        tick,
+        states: &states,
+    };
+    assert!(request.write(&(header, restore)));
+    let image = [0xff; dashpot_core::Damper::<f32>::IMAGE_BYTES];
+    let load = Request::Load {
+        damper: u8::MAX,
+        image: &image,
+    };
+    assert!(request.write(&(header, load)));
+
+    let mut response = ResponseFrame::new();
     let saved = Response::Saved {
         tick,
         states: &states,
     };
-    assert!(frame.write(&(header, saved)));
-    assert!(frame.bytes().len() <= FRAME_BYTES);
+    assert!(response.write(&(header, saved)));
+    let welcome = Response::Welcome(Welcome {
+        protocol: u16::MAX,
+        core_version: "1000.1000.1000",
+        revisions: [u32::MAX; MOST_DAMPERS].into_iter().collect(),
+        scalar: Scalar::F64,
+        step_s: f32::MAX,
+        image_bytes: tick,
+        tick,
+        clock_hz: tick,
+        running: true,
+    });
+    assert!(response.write(&(header, welcome)));
+    let sample = Sample {
+        tick,
+        displacement_m: f32::MAX,
+        force_n: f32::MAX,
+        status: u16::MAX,
+    };
+    let telemetry = Response::Telemetry {
+        overwritten: tick,
+        samples: [sample; MOST_SAMPLES].into_iter().collect(),
+    };
+    assert!(response.write(&(header, telemetry)));
+    let forces = Response::Forces(Forces {
+        tick,
+        forces_n: [f32::MAX; MOST_DAMPERS].into_iter().collect(),
+        status: [u16::MAX; MOST_DAMPERS].into_iter().collect(),
+        clock_ticks: tick,
+    });
+    assert!(response.write(&(header, forces)));
 }
 
 #[test]
 fn what_is_too_long_is_not_written_and_not_read() {
-    let mut frame = Frame::new();
+    let mut frame = ResponseFrame::new();
     assert!(frame.write(&[7_u8; 32]));
-    let long = "x".repeat(MESSAGE_BYTES);
+    let long = "x".repeat(RESPONSE_BYTES);
     assert!(!frame.write(&long.as_str()));
     assert_eq!(frame.bytes(), []);
 
-    let mut reader = FrameReader::new();
-    for _ in 0..10 * FRAME_BYTES {
+    let mut reader = FrameReader::<RESPONSE_BYTES>::new();
+    for _ in 0..10 * RESPONSE_BYTES {
         assert_eq!(reader.push(1), None);
     }
     assert_eq!(reader.push(0), Some(Err(FrameError::TooLong)));
@@ -147,7 +182,7 @@ fn what_is_too_long_is_not_written_and_not_read() {
 proptest! {
     #[test]
     fn any_bytes_then_a_zero_then_a_frame(noise in prop::collection::vec(any::<u8>(), 0..2000), tick in any::<u32>()) {
-        let mut frame = Frame::new();
+        let mut frame = RequestFrame::new();
         prop_assert!(frame.write(&step(tick)));
         let stream = [&noise[..], &[0], frame.bytes()].concat();
         let messages = read(&stream);

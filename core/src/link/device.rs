@@ -9,6 +9,7 @@ use super::service::{Clock, Service, count};
 use super::session::{Session, Verdict};
 use crate::damper::Damper;
 use crate::image::Loading;
+use crate::state::DamperState;
 
 /// Bytes taken of the line before ticks are looked at again.
 const BYTES_PER_PASS: usize = 32;
@@ -285,9 +286,19 @@ impl<const N: usize> Device<N> {
         self.service.outputs_n()
     }
 
+    /// Ticks since the dampers were put at rest.
+    pub fn tick_number(&self) -> u32 {
+        self.service.loaded().tick()
+    }
+
+    /// State of each damper.
+    pub fn states(&self) -> &[DamperState<f32>; N] {
+        self.service.loaded().states()
+    }
+
     /// Step of the dampers (s): the period of the ticks.
     pub fn step_s(&self) -> f32 {
-        self.service.step_s()
+        self.service.loaded().step_s()
     }
 
     /// What happened so far.

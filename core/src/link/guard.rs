@@ -32,7 +32,9 @@ impl Guard {
     /// to be.
     pub(crate) fn check<const N: usize>(&mut self, loaded: &mut Loaded<N>) -> u32 {
         let constants = loaded.check_constants(self.constants_place, &mut self.check);
-        let states = loaded.check_state(self.state_place);
+        // A state latches what it met of damaged constants too.
+        let told = self.constants & bit(self.state_place) != 0;
+        let states = loaded.check_state(self.state_place) || told;
         let found = u32::from(!constants && mark(&mut self.constants, self.constants_place))
             + u32::from(!states && mark(&mut self.states, self.state_place));
         let next = |place: u8| {
@@ -49,8 +51,9 @@ impl Guard {
         found
     }
 
-    /// A damper was loaded in a place.
+    /// A damper was loaded in a place. If that was damaged, so is what its state came to.
     pub(crate) fn loaded(&mut self, place: u8) {
+        self.states |= self.constants & bit(place);
         self.constants &= !bit(place);
     }
 

@@ -150,11 +150,14 @@ impl<const N: usize> Loaded<N> {
         good
     }
 
-    /// Whether a damper's state is undamaged; latched when it is not.
+    /// Whether a damper's state is undamaged, and was when it was last stepped; latched when it is not.
     pub(crate) fn check_state(&mut self, damper: u8) -> bool {
         let pair = self.dampers.get(damper);
         let pair = pair.zip(self.states.get(usize::from(damper)));
-        let good = pair.is_none_or(|(damper, state)| Check::state(damper, state).is_ok());
+        let good = pair.is_none_or(|(damper, state)| {
+            let latched = state.status().contains(Status::CORRUPTED);
+            !latched && Check::state(damper, state).is_ok()
+        });
         self.latch_unless(good, damper);
         good
     }

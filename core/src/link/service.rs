@@ -63,8 +63,8 @@ impl<const N: usize> Service<N> {
         &self.outputs_n
     }
 
-    pub(crate) fn step_s(&self) -> f32 {
-        self.loaded.step_s()
+    pub(crate) fn loaded(&self) -> &Loaded<N> {
+        &self.loaded
     }
 
     /// The free-running ticks that are due; nothing while the host steps.

@@ -4,7 +4,8 @@ use std::fmt;
 use std::time::{Duration, Instant};
 
 use dashpot_core::link::{
-    Frame, FrameReader, Header, PROTOCOL, Refusal, Request, Response, Welcome,
+    FrameReader, Header, PROTOCOL, RESPONSE_BYTES, Refusal, Request, Response, Welcome,
+    request_frame,
 };
 use serde::Serialize;
 
@@ -104,7 +105,7 @@ pub struct Client<L> {
     patience: Patience,
     header: Header,
     faults: LinkFaults,
-    reader: FrameReader,
+    reader: FrameReader<RESPONSE_BYTES>,
     received: Vec<u8>,
     answer: Vec<u8>,
 }
@@ -155,8 +156,8 @@ impl<L: Link> Client<L> {
     /// No answer, or a refusal.
     pub fn request(&mut self, request: &Request<'_>) -> Result<Response<'_>, LinkError> {
         self.header.sequence = self.header.sequence.wrapping_add(1);
-        let mut frame = Frame::new();
-        if !frame.write(&(self.header, request)) {
+        let frame = request_frame(self.header, request);
+        if frame.bytes().is_empty() {
             return Err(LinkError::Broken(Failure::new(
                 "a request is too long for a frame",
             )));

@@ -22,7 +22,7 @@ impl<const N: usize> Desk<N> {
     /// A device with these dampers after power on.
     pub fn new(bank: [Damper<f32>; N]) -> Self {
         Self {
-            device: Box::new(power_on(&bank)),
+            device: power_on(&bank),
             bank,
             answers: VecDeque::new(),
         }
@@ -34,18 +34,24 @@ impl<const N: usize> Desk<N> {
     }
 }
 
-fn power_on<const N: usize>(bank: &[Damper<f32>; N]) -> Device<N> {
+fn power_on<const N: usize>(bank: &[Damper<f32>; N]) -> Box<Device<N>> {
     let clock = Clock {
         now: || 0,
         hz: 1_000_000,
     };
-    Device::new(&bank.each_ref(), clock)
+    let mut device = Box::new(Device::new());
+    device.start(&bank.each_ref(), clock);
+    device
 }
 
 impl<const N: usize> Link for Desk<N> {
     fn send(&mut self, bytes: &[u8]) -> Outcome<()> {
         for byte in bytes {
-            if self.device.receive(*byte) {
+            let mut answered = self.device.receive(*byte);
+            while self.device.is_busy() {
+                answered = self.device.advance();
+            }
+            if answered {
                 self.answers.extend(self.device.response());
             }
         }
@@ -61,7 +67,7 @@ impl<const N: usize> Link for Desk<N> {
     }
 
     fn reset_target(&mut self) -> Outcome<()> {
-        *self.device = power_on(&self.bank);
+        self.device = power_on(&self.bank);
         Ok(())
     }
 

@@ -3,9 +3,7 @@
 use std::collections::VecDeque;
 use std::time::Instant;
 
-use dashpot_core::link::{
-    CHUNK_BYTES, Counters, Forces, Refusal, Request, Response, Scalar, bank_revision,
-};
+use dashpot_core::link::{Counters, Forces, Refusal, Request, Response, Scalar};
 use dashpot_core::{Damper, DamperState};
 use serde::Serialize;
 
@@ -23,8 +21,8 @@ pub struct Target {
     pub core_version: String,
     /// Dampers it holds.
     pub dampers: usize,
-    /// Hash of those loaded.
-    pub bank_revision: u32,
+    /// Revision of each.
+    pub revisions: Vec<u32>,
     /// Step of every damper (s).
     pub step_s: f32,
     /// Rate of the clock that measures its steps (Hz).
@@ -375,8 +373,8 @@ fn target<L: Link>(client: &mut Client<L>) -> Result<Target, LinkError> {
     }
     Ok(Target {
         core_version: welcome.core_version.into(),
-        dampers: usize::from(welcome.dampers),
-        bank_revision: welcome.bank_revision,
+        dampers: welcome.revisions.len(),
+        revisions: welcome.revisions.to_vec(),
         step_s: welcome.step_s,
         clock_hz: welcome.clock_hz,
     })
@@ -394,11 +392,11 @@ fn give<L: Link>(
             "another target answers than at the start",
         )));
     }
-    let revisions = (0..found.dampers).map(|_| host.damper.revision());
-    if found.bank_revision != bank_revision(revisions) {
-        let image = host.damper.to_image();
-        for place in 0..found.dampers {
-            load(client, place as u8, &image)?;
+    let image = host.damper.to_image();
+    for (damper, revision) in (0..).zip(&found.revisions) {
+        if *revision != host.damper.revision() {
+            let image = &image;
+            client.request(&Request::Load { damper, image })?;
         }
     }
     let states = host.saved();
@@ -407,16 +405,5 @@ fn give<L: Link>(
         tick,
         states: &states,
     })?;
-    Ok(())
-}
-
-fn load<L: Link>(client: &mut Client<L>, damper: u8, image: &[u8]) -> Result<(), LinkError> {
-    let bytes = image.len() as u32;
-    client.request(&Request::BeginLoad { damper, bytes })?;
-    for (index, bytes) in image.chunks(CHUNK_BYTES).enumerate() {
-        let offset = (index * CHUNK_BYTES) as u32;
-        client.request(&Request::Chunk { offset, bytes })?;
-    }
-    client.request(&Request::CommitLoad)?;
     Ok(())
 }
