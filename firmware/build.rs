@@ -4,12 +4,14 @@ fn main() {
     let here = std::env::var("CARGO_MANIFEST_DIR").expect("cargo sets it");
     let target = std::env::var("TARGET").expect("cargo sets it");
     println!("cargo::rustc-check-cfg=cfg(mps2_an505)");
-    let folder = if target.starts_with("thumbv8m.main") {
+    let (folder, end_of_memory) = if target.starts_with("thumbv8m.main") {
         println!("cargo::rustc-cfg=mps2_an505");
-        "mps2-an505"
+        ("mps2-an505", "0x81000000")
     } else {
-        ".."
+        ("..", "0x20400000")
     };
+    // The image that measures holds dampers on its stack, and a motion behind its data.
+    println!("cargo::rustc-link-arg-bin=step-cost=--defsym=_stack_start={end_of_memory}");
     println!("cargo::rustc-link-search={here}/{folder}");
     println!("cargo::rustc-link-arg-bins=-Tlink.x");
     println!("cargo::rerun-if-changed={folder}/memory.x");

@@ -6,4 +6,4 @@ pub mod board;
 pub mod counted_call;
 pub mod outputs;
 pub mod printer;
-mod safe_state;
+pub mod safe_state;

@@ -13,6 +13,7 @@ use dashpot_core::link::Device;
 use dashpot_firmware::bank::{BANK, DAMPERS};
 use dashpot_firmware::board::{self, CLOCK_HZ, Port, Uart};
 use dashpot_firmware::outputs::SerialOutputs;
+use dashpot_firmware::safe_state;
 use static_cell::ConstStaticCell;
 
 const BAUD: u32 = 1_000_000;
@@ -30,8 +31,11 @@ fn SysTick() {
 
 #[entry]
 fn main() -> ! {
+    let Some(device) = DEVICE.try_take() else {
+        safe_state::halt();
+    };
     // Behind a pointer fields are reached by their offsets; of a known address each takes two more instructions.
-    let device = core::hint::black_box(DEVICE.take());
+    let device = core::hint::black_box(device);
     device.start(&BANK, board::start_clock());
     if let Some(mut core) = cortex_m::Peripherals::take() {
         let period = device.step_s() * CLOCK_HZ as f32 + 0.5;

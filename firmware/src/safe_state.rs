@@ -23,7 +23,8 @@ unsafe fn DefaultHandler(_: i16) -> ! {
     halt()
 }
 
-fn halt() -> ! {
+/// Outputs zero, then nothing.
+pub fn halt() -> ! {
     cortex_m::interrupt::disable();
     outputs::zero();
     loop {

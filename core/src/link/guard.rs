@@ -31,12 +31,16 @@ impl Guard {
     /// Checks the next slice of constants and the next state. How many were found damaged that were not known
     /// to be.
     pub(crate) fn check<const N: usize>(&mut self, loaded: &mut Loaded<N>) -> u32 {
-        let constants = loaded.check_constants(self.constants_place, &mut self.check);
+        let mut found = 0;
+        let place = self.constants_place;
+        if !loaded.check_constants(place, &mut self.check) {
+            found += u32::from(mark(&mut self.constants, place));
+        }
         // A state latches what it met of damaged constants too.
-        let told = self.constants & bit(self.state_place) != 0;
-        let states = loaded.check_state(self.state_place) || told;
-        let found = u32::from(!constants && mark(&mut self.constants, self.constants_place))
-            + u32::from(!states && mark(&mut self.states, self.state_place));
+        let place = self.state_place;
+        if !loaded.check_state(place) && self.constants & bit(place) == 0 {
+            found += u32::from(mark(&mut self.states, place));
+        }
         let next = |place: u8| {
             if usize::from(place) + 1 < N {
                 place + 1

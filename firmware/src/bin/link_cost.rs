@@ -15,6 +15,7 @@ use dashpot_firmware::bank::{BANK, DAMPERS};
 use dashpot_firmware::board::{self, CLOCK_HZ, Port, Uart};
 use dashpot_firmware::outputs::SerialOutputs;
 use dashpot_firmware::printer::Printer;
+use dashpot_firmware::safe_state;
 use static_cell::ConstStaticCell;
 
 const REQUESTS: usize = 1000;
@@ -49,8 +50,11 @@ impl Line for Replayed<'_> {
 
 #[entry]
 fn main() -> ! {
+    let Some(device) = DEVICE.try_take() else {
+        safe_state::halt();
+    };
     // Behind a pointer fields are reached by their offsets; of a known address each takes two more instructions.
-    let device = core::hint::black_box(DEVICE.take());
+    let device = core::hint::black_box(device);
     device.start(&BANK, board::start_clock());
     let mut outputs = SerialOutputs::start();
     let mut frame = Frame::<128>::new();
