@@ -1,0 +1,134 @@
+#!/usr/bin/env python3
+"""A host for the link of docs/link.md: steps a bank of dampers and prints its forces.
+
+    python3 link_client.py HOST PORT
+"""
+
+import random
+import socket
+import struct
+import sys
+import zlib
+
+PROTOCOL = 2
+HELLO, SET, STEP, STATUS = 0, 2, 5, 14
+WELCOME, DONE, FORCES, STATUS_ANSWER, REFUSED = 0, 1, 2, 7, 8
+CORRUPT = 0
+
+
+def varint(value):
+    out = bytearray()
+    while value > 0x7F:
+        out.append(value & 0x7F | 0x80)
+        value >>= 7
+    return bytes(out + bytes([value]))
+
+
+def reals(values):
+    return varint(len(values)) + struct.pack(f"<{len(values)}f", *values)
+
+
+def cobs(data):
+    """Each code byte is the distance to the next; 255 stands for no zero after its 254 bytes."""
+    out = bytearray()
+    for part in data.split(b"\0"):
+        while len(part) >= 254:
+            out += b"\xff" + part[:254]
+            part = part[254:]
+        out += bytes([len(part) + 1]) + part
+    return bytes(out)
+
+
+def uncobs(frame):
+    out = bytearray()
+    while frame:
+        code, part, frame = frame[0], frame[1 : frame[0]], frame[frame[0] :]
+        out += part + (b"\0" if code < 255 and frame else b"")
+    return bytes(out)
+
+
+class Reader:
+    """Takes the fields of a message one after the other."""
+
+    def __init__(self, data):
+        self.data = data
+
+    def take(self, count):
+        taken, self.data = self.data[:count], self.data[count:]
+        return taken
+
+    def varint(self):
+        value, shift = 0, 0
+        while True:
+            byte = self.take(1)[0]
+            value |= (byte & 0x7F) << shift
+            shift += 7
+            if byte < 0x80:
+                return value
+
+    def f32(self):
+        return struct.unpack("<f", self.take(4))[0]
+
+    def list(self, element):
+        return [element() for _ in range(self.varint())]
+
+
+class Client:
+    def __init__(self, host, port):
+        self.line = socket.create_connection((host, port), timeout=5)
+        self.line.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+        self.received = b""
+        self.session, self.sequence = random.randrange(1 << 16), 0
+
+    def frame(self):
+        while b"\0" not in self.received:
+            self.received += self.line.recv(4096) or sys.exit("the target is gone")
+        frame, self.received = self.received.split(b"\0", 1)
+        return uncobs(frame)
+
+    def ask(self, request):
+        """The answer's number and fields; asks again where the frame was broken on either way."""
+        self.sequence = (self.sequence + 1) % (1 << 32)
+        header = varint(self.session) + varint(self.sequence)
+        message = header + request
+        for _ in range(8):
+            self.line.sendall(cobs(message + struct.pack("<I", zlib.crc32(message))) + b"\0")
+            plain = self.frame()
+            answer, check = plain[:-4], plain[-4:]
+            if struct.pack("<I", zlib.crc32(answer)) != check:
+                continue
+            fields = Reader(answer[len(header) :])
+            number = fields.varint()
+            if answer.startswith(header) and number != REFUSED:
+                return number, fields
+            if number == REFUSED and (refusal := fields.varint()) != CORRUPT:
+                sys.exit(f"refused: {refusal}")
+        sys.exit("no answer")
+
+    def hello(self):
+        number, fields = self.ask(varint(HELLO) + varint(PROTOCOL))
+        assert number == WELCOME
+        fields.varint()  # protocol
+        version = fields.take(fields.varint()).decode()
+        revisions = fields.list(fields.varint)
+        fields.varint()  # scalar
+        return version, revisions, fields.f32(), (fields.varint(), fields.varint())[1]
+
+    def step(self, tick, displacements_m):
+        number, fields = self.ask(varint(STEP) + varint(tick) + reals(displacements_m))
+        assert number == FORCES and fields.varint() == tick
+        return fields.list(fields.f32), fields.list(fields.varint)
+
+
+def main():
+    client = Client(sys.argv[1], int(sys.argv[2]))
+    version, revisions, step_s, tick = client.hello()
+    print(f"core {version}, {len(revisions)} dampers, step {step_s * 1e3:.3g} ms, tick {tick}")
+    for step in range(1, 101):
+        displacement_m = 0.02 * step_s * step  # 0.02 m/s
+        forces_n, status = client.step(tick + step, [displacement_m] * len(revisions))
+    print("forces", " ".join(f"{force:.1f}" for force in forces_n), "N, status", status)
+
+
+if __name__ == "__main__":
+    main()
