@@ -1,4 +1,4 @@
-//! What C hands in: checked for null and alignment, then a reference.
+//! What C hands in: checked for null, alignment and overlap, then a reference.
 
 use core::slice;
 
@@ -55,5 +55,42 @@ pub(crate) fn check_count<T>(count: usize) -> Result<(), DashpotError> {
         Ok(())
     } else {
         Err(DashpotError::Length)
+    }
+}
+
+/// Memory that one call was given.
+#[derive(Clone, Copy)]
+pub(crate) struct Memory {
+    address: usize,
+    bytes: usize,
+}
+
+impl Memory {
+    /// That of one `T`.
+    pub(crate) fn of<T>(pointer: *const T) -> Self {
+        Self::array(pointer, 1)
+    }
+
+    /// That of `count` of them, as [`check_count`] allows.
+    pub(crate) fn array<T>(first: *const T, count: usize) -> Self {
+        Self {
+            address: first.addr(),
+            bytes: count * size_of::<T>(),
+        }
+    }
+
+    /// That of bytes.
+    pub(crate) fn of_bytes(bytes: &[u8]) -> Self {
+        Self::array(bytes.as_ptr(), bytes.len())
+    }
+
+    /// No byte belongs to both.
+    pub(crate) fn check_apart(self, other: Self) -> Result<(), DashpotError> {
+        let within = |from: Self, to: Self| to.address.wrapping_sub(from.address) < from.bytes;
+        if within(self, other) || within(other, self) {
+            Err(DashpotError::Overlap)
+        } else {
+            Ok(())
+        }
     }
 }
