@@ -351,7 +351,7 @@ dashpot_error dashpot_state_restore(dashpot_state *state,
  * Steps one damper: the force at this tick for the displacement of this tick.
  *
  * A displacement that is NaN, infinite or faster than the damper allows is no error: it is held or
- * limited, latched in the status and counted. The force is finite and within the force limit. Some 169
+ * limited, latched in the status and counted. The force is finite and within the force limit. Some 187
  * instructions on a Cortex-M7.
  *
  * @param damper          made by `dashpot_damper_init`

@@ -86,8 +86,10 @@ impl Memory {
 
     /// No byte belongs to both.
     pub(crate) fn check_apart(self, other: Self) -> Result<(), DashpotError> {
-        let within = |from: Self, to: Self| to.address.wrapping_sub(from.address) < from.bytes;
-        if within(self, other) || within(other, self) {
+        // From the last byte of `other` before `self` on: one comparison for both sides.
+        let ahead = other.address.wrapping_sub(self.address);
+        let place = ahead.wrapping_add(other.bytes).wrapping_sub(1);
+        if place < (self.bytes + other.bytes).saturating_sub(1) {
             Err(DashpotError::Overlap)
         } else {
             Ok(())
