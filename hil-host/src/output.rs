@@ -109,7 +109,7 @@ pub fn write_bytes(path: &Path, bytes: &[u8]) -> Outcome<()> {
 /// Writes files that belong together: no one gets its name before all are written.
 ///
 /// # Errors
-/// One cannot be written, or is there and no file.
+/// One cannot be written, or is there and not a file.
 pub fn write_together(files: &[(&Path, &[u8])]) -> Outcome<()> {
     let written: Vec<Written<'_>> = files
         .iter()
@@ -117,10 +117,7 @@ pub fn write_together(files: &[(&Path, &[u8])]) -> Outcome<()> {
             if is_replaceable(path) {
                 Written::new(path, |file| write_all(file, path, bytes))
             } else {
-                Err(Failure::in_file(
-                    path,
-                    "cannot write: it is there and is no file",
-                ))
+                Err(Failure::in_file(path, "cannot write: it is not a file"))
             }
         })
         .collect::<Outcome<_>>()?;

@@ -105,7 +105,7 @@ fn source_and_header_are_both_written_or_none() {
     let output = export(&["--output", "x.c"], folder);
     assert_eq!(output.status.code(), Some(1));
     assert!(
-        error_of(&output).contains("x.h: cannot write: it is there and is no file"),
+        error_of(&output).contains("x.h: cannot write: it is not a file"),
         "{output:?}"
     );
     assert_eq!(std::fs::read_to_string(folder.join("x.c")).unwrap(), "kept");
