@@ -10,10 +10,9 @@
 #include <string.h>
 
 #include "dashpot.h"
-
-/* From: dashpot export --lang c --damper in-service (and reduced-vertical). */
-extern const uint8_t IN_SERVICE[DASHPOT_IMAGE_SIZE];
-extern const uint8_t REDUCED_VERTICAL[DASHPOT_IMAGE_SIZE];
+/* From: dashpot export --lang c --damper in-service --output in_service.c (and reduced-vertical). */
+#include "in_service.h"
+#include "reduced_vertical.h"
 
 enum { DAMPERS = 4, TICKS = 10000, REPORT_EVERY = 2000, REPORTS = TICKS / REPORT_EVERY };
 
@@ -152,8 +151,12 @@ bool controller_start(void)
 {
     dashpot_damper_info info;
     uint8_t damaged[DASHPOT_IMAGE_SIZE];
-    dashpot_error error = dashpot_damper_init(&in_service, IN_SERVICE, sizeof IN_SERVICE);
+    dashpot_error error = DASHPOT_CHECK_HEADER();
 
+    if (error != DASHPOT_ERROR_NONE) {
+        return fail("C library", error);
+    }
+    error = dashpot_damper_init(&in_service, IN_SERVICE, sizeof IN_SERVICE);
     if (error != DASHPOT_ERROR_NONE) {
         return fail("in-service damper", error);
     }

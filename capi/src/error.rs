@@ -34,12 +34,16 @@ pub enum DashpotError {
     WrongDamper = 11,
     /// A number is not in the range allowed.
     Range = 12,
+    /// What the call changes shares memory with something else that it was given.
+    Overlap = 15,
+    /// The header is of another version than the library, or gives its storage another size.
+    Header = 16,
 }
 
 /// cbindgen:ignore
 impl DashpotError {
-    /// Every code, at the place of its number.
-    pub const ALL: [Self; 13] = [
+    /// Every code, in the order of their numbers.
+    pub const ALL: [Self; 15] = [
         Self::None,
         Self::NullPointer,
         Self::Misaligned,
@@ -53,6 +57,8 @@ impl DashpotError {
         Self::Values,
         Self::WrongDamper,
         Self::Range,
+        Self::Overlap,
+        Self::Header,
     ];
 
     const fn text(self) -> &'static CStr {
@@ -70,6 +76,8 @@ impl DashpotError {
             Self::Values => c"values that no build and no step leaves behind",
             Self::WrongDamper => c"the saved state is of another damper",
             Self::Range => c"a number is not in the range allowed",
+            Self::Overlap => c"what the call changes overlaps something else it was given",
+            Self::Header => c"dashpot.h is of another version than the library",
         }
     }
 }

@@ -1,19 +1,34 @@
-//! C library of the Dashpot damper; `include/dashpot.h` is generated from the functions here.
+//! C library of the Dashpot damper; `include/dashpot.h` is generated from the sources here.
 //!
-//! `functions` is all that C sees, `pointer` checks what C hands in, `saved` is a state as bytes. Single
-//! precision only: that is what the library is for; on a desk use dashpot-core.
+//! Each function checks all it was given, then does its work, or nothing. `pointer` checks what C hands in,
+//! `saved` is a state as bytes. Single precision only: that is what the library is for; on a desk use
+//! dashpot-core.
+//!
+//! What a caller promises in every function: a pointer that is neither null nor misaligned points to
+//! storage of its type, or to as many bytes or elements as the length or count says; nobody else
+//! changes that storage during the call, or uses it where the call changes it.
 #![no_std]
 #![warn(missing_docs)]
+#![allow(clippy::missing_safety_doc)] // stated once, above, and in the header
 
+mod damper;
 mod error;
-mod functions;
 mod pointer;
 mod saved;
+mod state;
+mod step;
 mod types;
+mod version;
 
+pub use damper::{dashpot_damper_describe, dashpot_damper_init, dashpot_damper_set_clearance};
 pub use error::{DashpotError, dashpot_error_text};
-pub use functions::*;
+pub use state::{
+    dashpot_state_clear_status, dashpot_state_init, dashpot_state_read, dashpot_state_restore,
+    dashpot_state_save,
+};
+pub use step::{dashpot_step, dashpot_step_bank};
 pub use types::*;
+pub use version::{dashpot_check_header, dashpot_version};
 
 #[cfg(feature = "panic-handler")]
 #[panic_handler]

@@ -1,4 +1,4 @@
-//! What C hands in: checked for null and alignment, then a reference.
+//! What C hands in: checked for null, alignment and overlap, then a reference.
 
 use core::slice;
 
@@ -55,5 +55,44 @@ pub(crate) fn check_count<T>(count: usize) -> Result<(), DashpotError> {
         Ok(())
     } else {
         Err(DashpotError::Length)
+    }
+}
+
+/// Memory that one call was given.
+#[derive(Clone, Copy)]
+pub(crate) struct Memory {
+    address: usize,
+    bytes: usize,
+}
+
+impl Memory {
+    /// That of one `T`.
+    pub(crate) fn of<T>(pointer: *const T) -> Self {
+        Self::array(pointer, 1)
+    }
+
+    /// That of `count` of them, as [`check_count`] allows.
+    pub(crate) fn array<T>(first: *const T, count: usize) -> Self {
+        Self {
+            address: first.addr(),
+            bytes: count * size_of::<T>(),
+        }
+    }
+
+    /// That of bytes.
+    pub(crate) fn of_bytes(bytes: &[u8]) -> Self {
+        Self::array(bytes.as_ptr(), bytes.len())
+    }
+
+    /// No byte belongs to both.
+    pub(crate) fn check_apart(self, other: Self) -> Result<(), DashpotError> {
+        // From the last byte of `other` before `self` on: one comparison for both sides.
+        let ahead = other.address.wrapping_sub(self.address);
+        let place = ahead.wrapping_add(other.bytes).wrapping_sub(1);
+        if place < (self.bytes + other.bytes).saturating_sub(1) {
+            Err(DashpotError::Overlap)
+        } else {
+            Ok(())
+        }
     }
 }

@@ -1,13 +1,39 @@
-//! The header checked in is the one cbindgen makes of the sources, with the sizes of this library.
+//! The header checked in is the one cbindgen makes of the sources, with the version and sizes of this library.
 //!
 //! `DASHPOT_BLESS=1 cargo test --test header` writes it.
 
-use std::fmt::Write;
+use std::fmt::{Display, Write};
 use std::path::Path;
 
-/// Sizes are the compiler's to know, not cbindgen's.
-fn sizes() -> String {
+/// What cbindgen cannot know: the version is cargo's, the sizes are the compiler's.
+fn version_and_sizes() -> String {
     let mut text = String::new();
+    let mut define = |holds: &str, name: &str, value: &dyn Display| {
+        write!(
+            text,
+            "\n/**\n * {holds}\n */\n#define DASHPOT_{name} {value}\n"
+        )
+        .unwrap();
+    };
+    for (name, value) in [
+        ("MAJOR", env!("CARGO_PKG_VERSION_MAJOR")),
+        ("MINOR", env!("CARGO_PKG_VERSION_MINOR")),
+        ("PATCH", env!("CARGO_PKG_VERSION_PATCH")),
+    ] {
+        let part = name.to_lowercase();
+        let holds = format!("Version of this header, {part} number.");
+        define(&holds, &format!("VERSION_{name}"), &value);
+    }
+    define(
+        "Version of this header as one number: 10000 major + 100 minor + patch.",
+        "VERSION",
+        &"\\\n    (10000 * DASHPOT_VERSION_MAJOR + 100 * DASHPOT_VERSION_MINOR + DASHPOT_VERSION_PATCH)",
+    );
+    define(
+        "Whether the library linked is of this header: DASHPOT_ERROR_NONE or DASHPOT_ERROR_HEADER.",
+        "CHECK_HEADER()",
+        &"\\\n    dashpot_check_header(DASHPOT_VERSION, sizeof(dashpot_damper), sizeof(dashpot_state))",
+    );
     for (name, value, holds) in [
         (
             "DAMPER_SIZE",
@@ -50,11 +76,7 @@ fn sizes() -> String {
             "Bytes of a saved state.",
         ),
     ] {
-        write!(
-            text,
-            "\n/**\n * {holds}\n */\n#define DASHPOT_{name} {value}\n"
-        )
-        .unwrap();
+        define(holds, name, &value);
     }
     text
 }
@@ -63,7 +85,7 @@ fn sizes() -> String {
 fn the_header_is_that_of_the_sources() {
     let here = Path::new(env!("CARGO_MANIFEST_DIR"));
     let mut config = cbindgen::Config::from_file(here.join("cbindgen.toml")).unwrap();
-    config.after_includes = Some(sizes());
+    config.after_includes = Some(version_and_sizes());
     let bindings = cbindgen::Builder::new()
         .with_crate(here)
         .with_config(config)

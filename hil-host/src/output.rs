@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use crate::failure::{Failure, Outcome};
 use crate::input::is_standard_stream;
@@ -33,30 +33,59 @@ pub fn write_whole(path: &Path, write: impl FnOnce(&mut dyn Write) -> Outcome<()
     if is_standard_stream(path) {
         return write_through(path, io::stdout().lock(), write);
     }
-    let failed = |error: io::Error| cannot_write(path, error);
-    let old = std::fs::metadata(path).ok();
-    if old.as_ref().is_some_and(|old| !old.is_file()) {
-        let file = File::options().write(true).open(path).map_err(failed)?;
+    if !is_replaceable(path) {
+        let file = File::options().write(true).open(path);
+        let file = file.map_err(|error| cannot_write(path, error))?;
         return write_through(path, file, write);
     }
-    let target = std::fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
-    let folder = match target.parent() {
-        Some(parent) if !parent.as_os_str().is_empty() => parent,
-        _ => Path::new("."),
-    };
-    if !folder.is_dir() {
-        let message = format!("cannot write: there is no folder {}", folder.display());
-        return Err(Failure::in_file(path, message));
+    Written::new(path, write)?.rename()
+}
+
+/// Whether `path` names a file that is or may be there, not standard output, a device or a pipe.
+pub fn is_replaceable(path: &Path) -> bool {
+    !is_standard_stream(path) && std::fs::metadata(path).map_or(true, |old| old.is_file())
+}
+
+/// A file written whole that has not got its name yet; without [`Self::rename`] it goes.
+struct Written<'a> {
+    path: &'a Path,
+    target: PathBuf,
+    temporary: Temporary,
+}
+
+impl<'a> Written<'a> {
+    fn new(path: &'a Path, write: impl FnOnce(&mut dyn Write) -> Outcome<()>) -> Outcome<Self> {
+        let failed = |error: io::Error| cannot_write(path, error);
+        let old = std::fs::metadata(path).ok();
+        let target = std::fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+        let folder = match target.parent() {
+            Some(parent) if !parent.as_os_str().is_empty() => parent,
+            _ => Path::new("."),
+        };
+        if !folder.is_dir() {
+            let message = format!("cannot write: there is no folder {}", folder.display());
+            return Err(Failure::in_file(path, message));
+        }
+        let temporary = Temporary::new(folder).map_err(failed)?;
+        let file = temporary.file().map_err(failed)?;
+        write_through(path, file, write)?;
+        match old {
+            Some(old) => file.set_permissions(old.permissions()),
+            None => make_readable(file),
+        }
+        .map_err(failed)?;
+        Ok(Self {
+            path,
+            target,
+            temporary,
+        })
     }
-    let temporary = Temporary::new(folder).map_err(failed)?;
-    let file = temporary.file().map_err(failed)?;
-    write_through(path, file, write)?;
-    match old {
-        Some(old) => file.set_permissions(old.permissions()),
-        None => make_readable(file),
+
+    fn rename(self) -> Outcome<()> {
+        self.temporary
+            .rename(&self.target)
+            .map_err(|error| cannot_write(self.path, error))
     }
-    .map_err(failed)?;
-    temporary.rename(&target).map_err(failed)
 }
 
 fn write_through(
@@ -74,10 +103,30 @@ fn write_through(
 /// # Errors
 /// The file cannot be written.
 pub fn write_bytes(path: &Path, bytes: &[u8]) -> Outcome<()> {
-    write_whole(path, |file| {
-        file.write_all(bytes)
-            .map_err(|error| cannot_write(path, error))
-    })
+    write_whole(path, |file| write_all(file, path, bytes))
+}
+
+/// Writes files that belong together: no one gets its name before all are written.
+///
+/// # Errors
+/// One cannot be written, or is there and not a file.
+pub fn write_together(files: &[(&Path, &[u8])]) -> Outcome<()> {
+    let written: Vec<Written<'_>> = files
+        .iter()
+        .map(|&(path, bytes)| {
+            if is_replaceable(path) {
+                Written::new(path, |file| write_all(file, path, bytes))
+            } else {
+                Err(Failure::in_file(path, "cannot write: it is not a file"))
+            }
+        })
+        .collect::<Outcome<_>>()?;
+    written.into_iter().try_for_each(Written::rename)
+}
+
+fn write_all(file: &mut dyn Write, path: &Path, bytes: &[u8]) -> Outcome<()> {
+    file.write_all(bytes)
+        .map_err(|error| cannot_write(path, error))
 }
 
 /// Writes each file, a name and its text, into `folder`, made where it is missing, and tells their

@@ -91,7 +91,7 @@ fn export_writes_a_stream() {
             assert!(written.contains(" DAMPER"), "the constant's name");
         }
     }
-    assert_eq!(files_in(folder.path()), ["file"]);
+    assert_eq!(files_in(folder.path()), ["file", "file.h"]);
 }
 
 #[test]

@@ -3,6 +3,7 @@
 pub mod accuracy;
 pub mod bench_test;
 pub mod budget;
+pub mod controller;
 pub mod document;
 pub mod library;
 pub mod look_up;

@@ -2,11 +2,9 @@
 
 use std::process::ExitCode;
 
-use xtask::c_library::{build_for, build_for_host};
+use xtask::c_library::{self, Options, Platform};
 use xtask::firmware;
-use xtask::processor::CORTEX_M7;
 use xtask::run::{Outcome, cargo, cargo_aside, cargo_output, cargo_with, repository, version_of};
-use xtask::target_toolchain::TargetToolchain;
 use xtask::test_run::test;
 use xtask::tools::install_missing;
 
@@ -21,7 +19,10 @@ Commands:
   target [--format json] measure the core on emulated processors against its budget
   bench                  measure time per step, side by side with yardstick and floor
   bench --instructions   count instructions per step (needs Valgrind and gungraun-runner)
-  c-library              build libdashpot.a for this machine and for a Cortex-M7
+  c-library [--target NAME]... [--output FOLDER]
+                         build the C library into an install tree for each target: cortex-m4f,
+                         cortex-m7, cortex-m33, x86-64, aarch64; all that this machine can build
+                         when none is named; into target/c-library
   ci                     formatting, lints, documentation, Rust version, then test
   help                   this text
 
@@ -52,7 +53,13 @@ fn main() -> ExitCode {
         ["target", "--format", "text"] => measure_target(false),
         ["bench"] => cargo(&["bench", "--package", "dashpot", "--bench", "step"]),
         ["bench", "--instructions"] => count_instructions(),
-        ["c-library"] => c_library(),
+        ["c-library", ref options @ ..] => match Options::parse(options) {
+            Ok(options) => c_library(&options),
+            Err(message) => {
+                eprintln!("wrong use: {message}");
+                return ExitCode::from(2);
+            }
+        },
         ["ci"] => ci(),
         _ => {
             eprintln!("wrong use: `{}`\n\n{HELP}", words.join(" "));
@@ -102,15 +109,21 @@ fn ci() -> Outcome {
     test()
 }
 
-fn c_library() -> Outcome {
-    let header = xtask::c_library::folder().join("include/dashpot.h");
-    println!("header     {}", header.display());
-    println!("this host  {}", build_for_host()?.display());
-    let toolchain = TargetToolchain::find(CORTEX_M7.target)?;
-    println!(
-        "Cortex-M7  {}",
-        build_for(&toolchain, &CORTEX_M7)?.display()
-    );
+/// Installs for the platforms named; where none is, for all but those that lack a tool, which is said.
+fn c_library(options: &Options) -> Outcome {
+    let named = !options.platforms.is_empty();
+    let all = &Platform::ALL[..];
+    for platform in if named { &options.platforms } else { all } {
+        let name = platform.name();
+        match platform.check_tools() {
+            Err(lack) if named => return Err(format!("--target {name}: {lack}")),
+            Err(lack) => println!("{name:10}  left out: {lack}"),
+            Ok(()) => {
+                let tree = c_library::install(platform, &options.output)?;
+                println!("{name:10}  {}", tree.display());
+            }
+        }
+    }
     Ok(())
 }
 

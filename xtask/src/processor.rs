@@ -11,6 +11,8 @@ pub struct Processor {
     pub target: &'static str,
     /// Name for rustc's `target-cpu`; `None` for code of every processor of the target.
     pub target_cpu: Option<&'static str>,
+    /// Options of GCC for code that runs there.
+    pub gcc: [&'static str; 4],
     /// Board for `qemu-system-arm -M`.
     pub board: &'static str,
     /// Processor for `qemu-system-arm -cpu`.
@@ -23,6 +25,12 @@ pub const CORTEX_M7: Processor = Processor {
     title: "Cortex-M7",
     target: "thumbv7em-none-eabihf",
     target_cpu: Some("cortex-m7"),
+    gcc: [
+        "-mcpu=cortex-m7",
+        "-mthumb",
+        "-mfpu=fpv5-sp-d16",
+        "-mfloat-abi=hard",
+    ],
     board: "mps2-an500",
     emulated_cpu: "cortex-m7",
 };
@@ -33,6 +41,12 @@ pub const CORTEX_M4F: Processor = Processor {
     title: "Cortex-M4F",
     target: "thumbv7em-none-eabihf",
     target_cpu: None,
+    gcc: [
+        "-mcpu=cortex-m4",
+        "-mthumb",
+        "-mfpu=fpv4-sp-d16",
+        "-mfloat-abi=hard",
+    ],
     board: "mps2-an386",
     emulated_cpu: "cortex-m4",
 };
@@ -43,6 +57,12 @@ pub const CORTEX_M33: Processor = Processor {
     title: "Cortex-M33",
     target: "thumbv8m.main-none-eabihf",
     target_cpu: None,
+    gcc: [
+        "-mcpu=cortex-m33",
+        "-mthumb",
+        "-mfpu=fpv5-sp-d16",
+        "-mfloat-abi=hard",
+    ],
     board: "mps2-an505",
     emulated_cpu: "cortex-m33",
 };

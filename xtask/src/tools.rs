@@ -38,11 +38,17 @@ pub const AARCH64_LIBC: Tool = header("aarch64-linux-gnu-gcc", "stdio.h", "libc6
 /// Emulator of programs for the 64-bit Arm processor.
 pub const QEMU_AARCH64: Tool = program("qemu-aarch64", "qemu-user");
 
+/// Finds installed libraries for a compiler.
+pub const PKG_CONFIG: Tool = program("pkg-config", "pkg-config");
+/// Builds C programs, installed libraries found.
+pub const CMAKE: Tool = program("cmake", "cmake");
+/// What it runs, which its package only recommends.
+pub const MAKE: Tool = program("make", "make");
 /// Browser, for what a page looks like.
 pub const CHROMIUM: Tool = program("chromium", "chromium");
 
 /// All of them.
-pub const TOOLS: [Tool; 10] = [
+pub const TOOLS: [Tool; 13] = [
     GCC,
     GXX,
     VALGRIND,
@@ -52,6 +58,9 @@ pub const TOOLS: [Tool; 10] = [
     AARCH64_GCC,
     AARCH64_LIBC,
     QEMU_AARCH64,
+    PKG_CONFIG,
+    CMAKE,
+    MAKE,
     CHROMIUM,
 ];
 
@@ -95,7 +104,7 @@ impl Tool {
 }
 
 /// Packages of those of `tools` that are missing.
-fn missing(tools: &[Tool]) -> Vec<&'static str> {
+pub fn missing(tools: &[Tool]) -> Vec<&'static str> {
     let missing = tools.iter().filter(|tool| !tool.is_there());
     missing.map(|tool| tool.package).collect()
 }

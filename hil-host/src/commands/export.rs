@@ -7,17 +7,17 @@ use serde::Serialize;
 
 use super::step_size::StepSize;
 use super::{DamperArguments, Format, Scalar, print_report_beside};
-use crate::export::{Provenance, Word, c_source, rust_source};
+use crate::export::{Provenance, Word, c_header, c_source, rust_source};
 use crate::failure::{Failure, Outcome};
 use crate::input::is_standard_stream;
-use crate::output::{self, write_bytes};
+use crate::output::{self, is_replaceable, write_bytes, write_together};
 
 /// Language of the exported source.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 pub enum Language {
     /// A Rust source with a `static` of dashpot-core.
     Rust,
-    /// A C source with the bytes that the C library takes; C++ too.
+    /// A C source with the bytes that the C library takes, and beside it its header (x.c and x.h); C++ too.
     C,
     /// The bytes alone: for a link, a file system or another linker.
     Bin,
@@ -41,7 +41,7 @@ impl Language {
   dashpot export --damper in-service --lang bin --output in_service.bin
 
 Then in Rust: mod vertical; ... vertical::REDUCED_VERTICAL.step(&mut state, x)
-and in C: dashpot_damper_init(&damper, IN_SERVICE, sizeof IN_SERVICE)")]
+and in C: #include \"in_service.h\" ... dashpot_damper_init(&damper, IN_SERVICE, sizeof IN_SERVICE)")]
 pub struct ExportArguments {
     #[command(flatten)]
     damper: DamperArguments,
@@ -77,6 +77,9 @@ struct Report {
     #[serde(skip_serializing_if = "Option::is_none")]
     name: Option<String>,
     output: String,
+    /// Beside a C source that is a file.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    header: Option<String>,
     scalar: &'static str,
     step_s: f64,
     revision: u32,
@@ -104,10 +107,13 @@ pub fn run(arguments: &ExportArguments) -> Outcome<()> {
             if let Some(name) = &report.name {
                 write!(out, "{name} in ")?;
             }
+            write!(out, "{}", report.output)?;
+            if let Some(header) = &report.header {
+                write!(out, ", declared in {header}")?;
+            }
             writeln!(
                 out,
-                "{}: {} for {} us, {}, revision {:#010x}: {}{} bytes in memory, a state {} bytes",
-                report.output,
+                ": {} for {} us, {}, revision {:#010x}: {}{} bytes in memory, a state {} bytes",
                 report.damper,
                 arguments.step_us,
                 report.scalar,
@@ -141,17 +147,27 @@ fn export<T: Word>(arguments: &ExportArguments) -> Outcome<Report> {
         step_us: arguments.step_us.us(),
         command: &command_line(arguments, T::NAME, constant),
     };
+    let path = &arguments.output;
+    let header = (arguments.lang == Language::C && is_replaceable(path))
+        .then(|| header_beside(path))
+        .transpose()?;
     let bytes = match arguments.lang {
         Language::Rust => rust_source(constant, &damper, &provenance)?.into_bytes(),
         Language::C => c_source(constant, &damper, &provenance)?.into_bytes(),
         Language::Bin => T::image(&damper),
     };
-    let path = &arguments.output;
-    write_bytes(path, &bytes)?;
+    match &header {
+        Some(header) => {
+            let text = c_header(constant, &damper, &provenance)?;
+            write_together(&[(path, &bytes), (header, text.as_bytes())])?;
+        }
+        None => write_bytes(path, &bytes)?,
+    }
     Ok(Report {
         damper: arguments.damper.damper.clone(),
         name,
         output: output::name(path).display().to_string(),
+        header: header.map(|header| header.display().to_string()),
         scalar: T::NAME,
         step_s,
         revision: damper.revision(),
@@ -159,6 +175,18 @@ fn export<T: Word>(arguments: &ExportArguments) -> Outcome<Report> {
         state_bytes: size_of::<dashpot_core::DamperState<T>>(),
         image_bytes: (arguments.lang != Language::Rust).then(|| T::image(&damper).len()),
     })
+}
+
+/// `folder/x.h` for `folder/x.c`.
+fn header_beside(source: &Path) -> Outcome<PathBuf> {
+    let header = source.with_extension("h");
+    if header == source {
+        return Err(Failure::wrong_use(format!(
+            "--output {}: the header of the source takes this name, allowed with --lang c: another end, such as .c",
+            source.display()
+        )));
+    }
+    Ok(header)
 }
 
 /// The command line with every default written out.

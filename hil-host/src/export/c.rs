@@ -1,4 +1,4 @@
-//! C source with the bytes of a damper as a constant in flash.
+//! C source with the bytes of a damper as a constant in flash, and the header that declares it.
 
 use std::fmt::Write;
 
@@ -7,13 +7,51 @@ use dashpot_core::Damper;
 use super::{Provenance, Word, name};
 use crate::failure::{Failure, Outcome};
 
-/// C source of `const uint8_t NAME[]`, to compile on its own or to include in one file; C++ too.
+/// C source of `const uint8_t NAME[]`, to compile on its own or to include in one file; C99 and C++11.
 ///
-/// The array is what `dashpot_damper_init` of the C library takes, and aligned as a word.
+/// The array is what `dashpot_damper_init` of the C library takes.
 ///
 /// # Errors
-/// The scalar is not `f32`; `constant` is no name of a constant, or one the headers included may define.
+/// The scalar is not `f32`; `constant` is no name of a constant, or one that headers may define.
 pub fn c_source<T: Word>(
+    constant: &str,
+    damper: &Damper<T>,
+    provenance: &Provenance<'_>,
+) -> Outcome<String> {
+    let mut text = declaration(constant, damper, provenance)?;
+    let image = T::image(damper);
+    text.push_str(&format!(
+        "\nconst uint8_t {constant}[{}] = {{\n",
+        image.len()
+    ));
+    for row in image.chunks(16) {
+        let bytes: Vec<String> = row.iter().map(|byte| format!("0x{byte:02x}")).collect();
+        // Writing to a String does not fail.
+        let _ = writeln!(text, "    {},", bytes.join(", "));
+    }
+    text.push_str("};\n");
+    Ok(text)
+}
+
+/// C header that declares the array of [`c_source`] with its size; C++ too.
+///
+/// # Errors
+/// Those of [`c_source`].
+pub fn c_header<T: Word>(
+    constant: &str,
+    damper: &Damper<T>,
+    provenance: &Provenance<'_>,
+) -> Outcome<String> {
+    let declaration = declaration(constant, damper, provenance)?;
+    let guard = format!("{}{constant}_H", name::C_LIBRARY_PREFIX);
+    Ok(format!(
+        "#ifndef {guard}\n#define {guard}\n\n{declaration}\n#endif\n"
+    ))
+}
+
+/// Where the damper is from, and its array declared: without a declaration before it a constant of C++
+/// would be of its own file only.
+fn declaration<T: Word>(
     constant: &str,
     damper: &Damper<T>,
     provenance: &Provenance<'_>,
@@ -25,32 +63,21 @@ pub fn c_source<T: Word>(
             T::NAME
         )));
     }
-    let image = T::image(damper);
-    let length = image.len();
+    let length = T::image(damper).len();
     let stored = format!("{length} bytes");
     let needs = format!("the C library of dashpot {}", env!("CARGO_PKG_VERSION"));
-    let comment = provenance.comment(damper, &stored, &needs);
-    let title = provenance.title();
-    let mut text = format!(
-        "{comment}\n\
+    Ok(format!(
+        "{}\n\
          #include <stdint.h>\n\n\
          #ifdef __cplusplus\n\
-         #define {constant}_ALIGN alignas(4)\n\
          extern \"C\" {{\n\
-         #else\n\
-         #define {constant}_ALIGN _Alignas(4)\n\
          #endif\n\n\
-         // {title}\n\
+         // {}\n\
          extern const uint8_t {constant}[{length}];\n\n\
-         {constant}_ALIGN const uint8_t {constant}[{length}] = {{\n"
-    );
-    for row in image.chunks(16) {
-        let bytes: Vec<String> = row.iter().map(|byte| format!("0x{byte:02x}")).collect();
-        // Writing to a String does not fail.
-        let _ = writeln!(text, "    {},", bytes.join(", "));
-    }
-    text.push_str(&format!(
-        "}};\n\n#undef {constant}_ALIGN\n#ifdef __cplusplus\n}}\n#endif\n"
-    ));
-    Ok(text)
+         #ifdef __cplusplus\n\
+         }}\n\
+         #endif\n",
+        provenance.comment(damper, &stored, &needs),
+        provenance.title(),
+    ))
 }

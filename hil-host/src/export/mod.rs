@@ -6,7 +6,7 @@ mod provenance;
 mod rust;
 mod word;
 
-pub use c::c_source;
+pub use c::{c_header, c_source};
 pub use provenance::Provenance;
 pub use rust::rust_source;
 pub use word::Word;

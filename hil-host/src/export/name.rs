@@ -17,13 +17,20 @@ pub(super) fn check(name: &str) -> Outcome<()> {
     }
 }
 
-/// As [`check`], and no macro that the headers an exported C source includes may define.
+/// What the macros of `dashpot.h` and the guards of exported headers start with.
+pub(super) const C_LIBRARY_PREFIX: &str = "DASHPOT_";
+
+/// As [`check`], and no macro of `dashpot.h` or of the headers an exported C source includes.
 pub(super) fn check_c(name: &str) -> Outcome<()> {
     check(name)?;
     let taken = ["_MAX", "_MIN", "_C", "_WIDTH"];
-    if name == "NULL" || taken.iter().any(|end| name.ends_with(end)) {
+    if name == "NULL"
+        || name.starts_with(C_LIBRARY_PREFIX)
+        || taken.iter().any(|end| name.ends_with(end))
+    {
         return Err(Failure::wrong_use(format!(
-            "--name {name}: the C headers may define it, allowed: not NULL, no end in {}",
+            "--name {name}: the C headers may define it, allowed: not NULL, no start with {C_LIBRARY_PREFIX}, \
+             no end in {}",
             taken.join(", ")
         )));
     }

@@ -1,11 +1,11 @@
-/* The controller on a Cortex-M7 (QEMU mps2-an500, 25 MHz): the tick is the SysTick interrupt, text goes
- * to the debugger through semihosting. No C library. */
+/* The controller on a Cortex-M4F, M7 or M33: the tick is the SysTick interrupt, text goes to the debugger
+ * through semihosting. Memory and clock are those of the board's linker script. No C library. */
 #include <stdbool.h>
 #include <stdint.h>
 
 #include "controller.h"
 
-enum { CLOCK_HZ = 25000000, TICK_HZ = 1000 };
+enum { TICK_HZ = 1000 };
 
 #define SYST_CSR (*(volatile uint32_t *)0xE000E010U)
 #define SYST_RVR (*(volatile uint32_t *)0xE000E014U)
@@ -18,6 +18,7 @@ enum { SYS_WRITE0 = 0x04, SYS_EXIT = 0x18 };
 #define STOPPED_BY_EXIT 0x20026U
 #define STOPPED_BY_ERROR 0x20023U
 
+extern const char clock_hz[]; /* its address is the number */
 extern uint32_t stack_top[], data_start[], data_end[], data_image[], bss_start[], bss_end[];
 
 static volatile bool finished;
@@ -75,7 +76,7 @@ void start(void)
     if (!controller_start()) {
         stop(false);
     }
-    SYST_RVR = CLOCK_HZ / TICK_HZ - 1;
+    SYST_RVR = (uint32_t)(uintptr_t)clock_hz / TICK_HZ - 1;
     SYST_CVR = 0;
     SYST_CSR = SYST_RUN;
     while (!finished) {

@@ -1,0 +1,107 @@
+//! Functions on a damper.
+
+use dashpot_core::Damper;
+use dashpot_core::parameters::LARGEST_CLEARANCE_M;
+
+use crate::error::DashpotError;
+use crate::pointer::{Memory, bytes, check, exclusive, shared};
+use crate::types::{DashpotDamper, DashpotDamperInfo};
+
+/// A damper that was made from an image.
+///
+/// # Safety
+/// The caller's promise is kept.
+pub(crate) unsafe fn made<'a>(
+    damper: *const DashpotDamper,
+) -> Result<&'a Damper<f32>, DashpotError> {
+    // SAFETY: the caller's promise; the storage is a Damper's to the byte and any bytes are one.
+    let damper: &Damper<f32> = unsafe { shared(damper.cast()) }?;
+    if damper.revision() == 0 {
+        Err(DashpotError::NoDamper)
+    } else {
+        Ok(damper)
+    }
+}
+
+/// Makes a damper from an image: the bytes that `dashpot export --lang c` or `--lang bin` wrote.
+///
+/// The image is checked whole first and not needed afterwards. A state that this damper stepped before
+/// is carried over at its next step, its force kept. Not for a tick: some 830 000 instructions on a
+/// Cortex-M7.
+///
+/// @param damper  storage, its content does not matter
+/// @param image   the bytes, at any alignment, not in the storage of the damper
+/// @param length  number of bytes, `DASHPOT_IMAGE_SIZE`
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn dashpot_damper_init(
+    damper: *mut DashpotDamper,
+    image: *const u8,
+    length: usize,
+) -> DashpotError {
+    let done = || {
+        check(damper)?;
+        // SAFETY: the caller's promise.
+        let image = unsafe { bytes(image, length) }?;
+        Memory::of(damper).check_apart(Memory::of_bytes(image))?;
+        Damper::<f32>::check_image(image)?;
+        // SAFETY: checked, and the caller's promise; zeros are a Damper, so it may be referred to.
+        let damper: &mut Damper<f32> = unsafe {
+            damper.write_bytes(0, 1);
+            exclusive(damper.cast())
+        }?;
+        Ok(damper.load_image(image)?)
+    };
+    DashpotError::from(done())
+}
+
+/// Reads what a damper was built for: compare `step_s` with your tick.
+///
+/// @param damper  made by `dashpot_damper_init`
+/// @param info    written
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn dashpot_damper_describe(
+    damper: *const DashpotDamper,
+    info: *mut DashpotDamperInfo,
+) -> DashpotError {
+    let done = || {
+        // SAFETY: the caller's promise.
+        let damper = unsafe { made(damper) }?;
+        check(info)?;
+        Memory::of(info).check_apart(Memory::of(damper))?;
+        let read = DashpotDamperInfo {
+            step_s: damper.step_s(),
+            clearance_m: damper.clearance_m(),
+            force_limit_n: damper.force_limit_n(),
+            revision: damper.revision(),
+        };
+        // SAFETY: checked, and the caller's promise.
+        unsafe { info.write(read) };
+        Ok(())
+    };
+    DashpotError::from(done())
+}
+
+/// Sets the clearance of a damper that is in use: its states are carried over at their next step, the
+/// force kept. On a Cortex-M7 some 254 instructions, and in the next step of each state some 1605
+/// instructions instead of the usual ones.
+///
+/// @param damper       made by `dashpot_damper_init`; no step may run on it meanwhile
+/// @param clearance_m  clearance 2a, the whole play (m), 0 to 0.1
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn dashpot_damper_set_clearance(
+    damper: *mut DashpotDamper,
+    clearance_m: f32,
+) -> DashpotError {
+    let done = || {
+        // SAFETY: the caller's promise; the reference ends here.
+        unsafe { made(damper) }?;
+        if !(0.0..=LARGEST_CLEARANCE_M as f32).contains(&clearance_m) {
+            return Err(DashpotError::Range);
+        }
+        // SAFETY: the caller's promise; the storage is a Damper's to the byte.
+        let damper: &mut Damper<f32> = unsafe { exclusive(damper.cast()) }?;
+        damper.set_clearance_m(clearance_m);
+        Ok(())
+    };
+    DashpotError::from(done())
+}

@@ -1,0 +1,133 @@
+//! Functions on a state.
+
+use dashpot_core::DamperState;
+
+use crate::damper::made;
+use crate::error::DashpotError;
+use crate::pointer::{Memory, bytes, check, exclusive, shared};
+use crate::saved;
+use crate::types::{DashpotDamper, DashpotReading, DashpotState};
+
+/// Makes a state at rest, centred in the clearance, without force or status.
+///
+/// @param state           storage, its content does not matter
+/// @param damper          made by `dashpot_damper_init`
+/// @param displacement_m  displacement (m), finite
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn dashpot_state_init(
+    state: *mut DashpotState,
+    damper: *const DashpotDamper,
+    displacement_m: f32,
+) -> DashpotError {
+    let done = || {
+        check(state)?;
+        // SAFETY: the caller's promise.
+        let damper = unsafe { made(damper) }?;
+        Memory::of(state).check_apart(Memory::of(damper))?;
+        if !displacement_m.is_finite() {
+            return Err(DashpotError::Range);
+        }
+        // SAFETY: checked, and the caller's promise; the storage is a DamperState's to the byte.
+        unsafe {
+            state
+                .cast::<DamperState<f32>>()
+                .write(damper.at_rest(displacement_m))
+        };
+        Ok(())
+    };
+    DashpotError::from(done())
+}
+
+/// Reads displacement, force, status bits and the count of rejected inputs.
+///
+/// @param state    made by `dashpot_state_init` or `dashpot_state_restore`
+/// @param reading  written
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn dashpot_state_read(
+    state: *const DashpotState,
+    reading: *mut DashpotReading,
+) -> DashpotError {
+    let done = || {
+        // SAFETY: the caller's promise; the storage is a DamperState's to the byte.
+        let state: &DamperState<f32> = unsafe { shared(state.cast()) }?;
+        check(reading)?;
+        Memory::of(reading).check_apart(Memory::of(state))?;
+        let read = DashpotReading {
+            displacement_m: state.displacement(),
+            force_n: state.force(),
+            status: state.status().bits(),
+            rejected_inputs: state.rejected_inputs(),
+        };
+        // SAFETY: checked, and the caller's promise.
+        unsafe { reading.write(read) };
+        Ok(())
+    };
+    DashpotError::from(done())
+}
+
+/// Clears the status bits and the count of rejected inputs.
+///
+/// @param state  made by `dashpot_state_init` or `dashpot_state_restore`, changed
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn dashpot_state_clear_status(state: *mut DashpotState) -> DashpotError {
+    let done = || {
+        // SAFETY: the caller's promise; the storage is a DamperState's to the byte.
+        let state: &mut DamperState<f32> = unsafe { exclusive(state.cast()) }?;
+        state.clear_status();
+        Ok(())
+    };
+    DashpotError::from(done())
+}
+
+/// Saves a state as bytes, for a file or a link; to keep it in memory, copy the structure.
+///
+/// @param state   made by `dashpot_state_init` or `dashpot_state_restore`
+/// @param saved   written, at any alignment
+/// @param length  bytes at `saved`, `DASHPOT_SAVED_STATE_SIZE`
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn dashpot_state_save(
+    state: *const DashpotState,
+    saved: *mut u8,
+    length: usize,
+) -> DashpotError {
+    let done = || {
+        // SAFETY: the caller's promise; the storage is a DamperState's to the byte.
+        let state: &DamperState<f32> = unsafe { shared(state.cast()) }?;
+        check(saved)?;
+        if length != saved::BYTES {
+            return Err(DashpotError::Length);
+        }
+        Memory::array(saved, length).check_apart(Memory::of(state))?;
+        // SAFETY: checked, and the caller's promise; an array of bytes has no alignment.
+        unsafe { saved.cast::<[u8; saved::BYTES]>().write(saved::save(state)) };
+        Ok(())
+    };
+    DashpotError::from(done())
+}
+
+/// Restores a saved state: its next steps have the bits they would have had.
+///
+/// @param state   storage, its content does not matter
+/// @param damper  the one that stepped the state last
+/// @param saved   what `dashpot_state_save` wrote, at any alignment
+/// @param length  number of bytes, `DASHPOT_SAVED_STATE_SIZE`
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn dashpot_state_restore(
+    state: *mut DashpotState,
+    damper: *const DashpotDamper,
+    saved: *const u8,
+    length: usize,
+) -> DashpotError {
+    let done = || {
+        check(state)?;
+        // SAFETY: the caller's promise.
+        let (damper, saved) = unsafe { (made(damper)?, bytes(saved, length)?) };
+        Memory::of(state).check_apart(Memory::of(damper))?;
+        Memory::of(state).check_apart(Memory::of_bytes(saved))?;
+        let restored = saved::restore(damper, saved)?;
+        // SAFETY: checked, and the caller's promise; the storage is a DamperState's to the byte.
+        unsafe { state.cast::<DamperState<f32>>().write(restored) };
+        Ok(())
+    };
+    DashpotError::from(done())
+}

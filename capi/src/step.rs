@@ -1,0 +1,97 @@
+//! The step, of one damper and of several.
+
+use core::ptr;
+
+use dashpot_core::DamperState;
+
+use crate::damper::made;
+use crate::error::DashpotError;
+use crate::pointer::{Memory, check, check_count, exclusive};
+use crate::types::{DashpotDamper, DashpotState};
+
+/// Steps one damper: the force at this tick for the displacement of this tick.
+///
+/// A displacement that is NaN, infinite or faster than the damper allows is no error: it is held or
+/// limited, latched in the status and counted. The force is finite and within the force limit. Some 187
+/// instructions on a Cortex-M7.
+///
+/// @param damper          made by `dashpot_damper_init`
+/// @param state           made by `dashpot_state_init` or `dashpot_state_restore`, changed
+/// @param displacement_m  displacement (m), positive in extension
+/// @param force_n         written: force (N), positive when it resists extension
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn dashpot_step(
+    damper: *const DashpotDamper,
+    state: *mut DashpotState,
+    displacement_m: f32,
+    force_n: *mut f32,
+) -> DashpotError {
+    let done = || {
+        // SAFETY: the caller's promise.
+        let damper = unsafe { made(damper) }?;
+        check(state)?;
+        check(force_n)?;
+        Memory::of(state).check_apart(Memory::of(damper))?;
+        Memory::of(force_n).check_apart(Memory::of(damper))?;
+        Memory::of(force_n).check_apart(Memory::of(state))?;
+        // SAFETY: the caller's promise; the storage is a DamperState's to the byte.
+        let state: &mut DamperState<f32> = unsafe { exclusive(state.cast()) }?;
+        let force = damper.step(state, displacement_m);
+        // SAFETY: checked, and the caller's promise.
+        unsafe { force_n.write(force) };
+        Ok(())
+    };
+    DashpotError::from(done())
+}
+
+/// Steps several dampers: the same bits as `dashpot_step` for each, or an error and no step at all.
+///
+/// @param dampers          `count` pointers to dampers; one damper may serve several states
+/// @param states           `count` states, changed
+/// @param displacements_m  `count` displacements (m)
+/// @param forces_n         written: `count` forces (N); may be the array of displacements, from its start
+/// @param count            number of dampers, may be 0
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn dashpot_step_bank(
+    dampers: *const *const DashpotDamper,
+    states: *mut DashpotState,
+    displacements_m: *const f32,
+    forces_n: *mut f32,
+    count: usize,
+) -> DashpotError {
+    let done = || {
+        check(dampers)?;
+        check(states)?;
+        check(displacements_m)?;
+        check(forces_n)?;
+        check_count::<DashpotState>(count)?;
+        let forces = Memory::array(forces_n, count);
+        let moving = Memory::array(states, count);
+        moving.check_apart(forces)?;
+        for changed in [moving, forces] {
+            changed.check_apart(Memory::array(dampers, count))?;
+        }
+        moving.check_apart(Memory::array(displacements_m, count))?;
+        if !ptr::eq(forces_n, displacements_m) {
+            forces.check_apart(Memory::array(displacements_m, count))?;
+        }
+        for index in 0..count {
+            // SAFETY: within the caller's array; the caller's promise.
+            let damper = Memory::of(unsafe { made(*dampers.add(index)) }?);
+            moving.check_apart(damper)?;
+            forces.check_apart(damper)?;
+        }
+        for index in 0..count {
+            // SAFETY: within the caller's arrays, checked, and the caller's promise. Each element is
+            // read before its force is written, so displacements and forces may be one array.
+            unsafe {
+                let damper = made(*dampers.add(index))?;
+                let state: &mut DamperState<f32> = exclusive(states.add(index).cast())?;
+                let force = damper.step(state, displacements_m.add(index).read());
+                forces_n.add(index).write(force);
+            }
+        }
+        Ok(())
+    };
+    DashpotError::from(done())
+}

@@ -1,0 +1,163 @@
+//! dashpot.h: compiled in every language it is for, its costs those measured, wrong calls from C.
+
+use std::process::Command;
+
+use dashpot::document;
+use xtask::c_library::{self, Platform};
+use xtask::tools::{GCC, GXX, Tool, have};
+
+const WARNINGS: [&str; 7] = [
+    "-Wall",
+    "-Wextra",
+    "-Wpedantic",
+    "-Wconversion",
+    "-Wshadow",
+    "-Wundef",
+    "-Werror",
+];
+
+fn compiler(tool: Tool, language: &[&str]) -> Command {
+    let mut command = Command::new(tool.program);
+    command.args(language).args(WARNINGS);
+    command.arg("-I").arg(c_library::folder().join("include"));
+    command
+}
+
+fn run(command: &mut Command) {
+    let output = command.output().expect("it starts");
+    let text = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{command:?}: {text}");
+}
+
+#[test]
+fn the_header_compiles_as_c_and_as_cpp() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let source = folder.path().join("use.c");
+    // An array of negative size is an error in every version of either language.
+    let lines = "#include \"dashpot.h\"\n#include \"dashpot.h\"\n\
+         typedef char damper_size[sizeof(dashpot_damper) == DASHPOT_DAMPER_SIZE ? 1 : -1];\n\
+         typedef char state_size[sizeof(dashpot_state) == DASHPOT_STATE_SIZE ? 1 : -1];\n\
+         struct damper_behind { char first; dashpot_damper damper; };\n\
+         struct state_behind { char first; dashpot_state state; };\n\
+         typedef char damper_align[offsetof(struct damper_behind, damper) == DASHPOT_DAMPER_ALIGN ? 1 : -1];\n\
+         typedef char state_align[offsetof(struct state_behind, state) == DASHPOT_STATE_ALIGN ? 1 : -1];\n\
+         #if DASHPOT_VERSION != \
+         10000 * DASHPOT_VERSION_MAJOR + 100 * DASHPOT_VERSION_MINOR + DASHPOT_VERSION_PATCH\n\
+         #error \"the version as one number\"\n#endif\n\
+         int start(void);\nint start(void) { return DASHPOT_CHECK_HEADER() == DASHPOT_ERROR_NONE; }\n";
+    std::fs::write(&source, lines).expect("a writable folder");
+    for (tool, languages) in [
+        (
+            GCC,
+            [
+                ["-xc", "-std=c99"],
+                ["-xc", "-std=c11"],
+                ["-xc", "-std=c17"],
+            ],
+        ),
+        (
+            GXX,
+            [
+                ["-xc++", "-std=c++11"],
+                ["-xc++", "-std=c++17"],
+                ["-xc++", "-std=c++20"],
+            ],
+        ),
+    ] {
+        if !have(&[tool], "the header, compiled") {
+            continue;
+        }
+        for language in languages {
+            run(compiler(tool, &language).arg("-fsyntax-only").arg(&source));
+        }
+    }
+}
+
+/// Overlap, and a header of another version: codes in C, nothing touched that is not the caller's.
+#[test]
+fn wrong_calls_from_c_are_codes_under_sanitizers() {
+    let Some(host) = Platform::ALL.into_iter().find(Platform::is_host) else {
+        return;
+    };
+    if !have(&[GCC], "wrong calls of the C library") {
+        return;
+    }
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let tree = c_library::install(&host, folder.path()).unwrap_or_else(|error| panic!("{error}"));
+    let program = folder.path().join("wrong_calls");
+    run(compiler(GCC, &["-std=c99", "-g"])
+        .args(["-fsanitize=address,undefined", "-fno-sanitize-recover=all"])
+        .arg(c_library::folder().join("tests/wrong_calls.c"))
+        .arg(tree.join("lib/libdashpot.a"))
+        .arg("-o")
+        .arg(&program));
+    run(&mut Command::new(&program));
+}
+
+/// What the comment before a function states: the numbers before the word `instructions`.
+fn stated_instructions(header: &str, function: &str) -> Vec<f64> {
+    let prototype = format!("dashpot_error {function}(");
+    let (before, _) = header.split_once(&prototype).expect("its prototype");
+    let (_, comment) = before.rsplit_once("/**").expect("its comment");
+    let words: Vec<&str> = comment
+        .split_whitespace()
+        .filter(|word| *word != "*")
+        .collect();
+    let places = words
+        .iter()
+        .enumerate()
+        .filter(|(_, word)| word.starts_with("instructions"));
+    places
+        .map(|(place, _)| {
+            // Groups of three digits are apart.
+            let digits = words[..place]
+                .iter()
+                .rev()
+                .take_while(|word| word.parse::<u32>().is_ok());
+            let mut groups: Vec<&str> = digits.copied().collect();
+            groups.reverse();
+            groups
+                .concat()
+                .parse()
+                .expect("a number before `instructions`")
+        })
+        .collect()
+}
+
+/// The figure of the Cortex-M7 in a row of the timing contract's table.
+fn measured_instructions(row: &str) -> f64 {
+    let table = document::part("docs/timing-contract.md", "measured");
+    let line = table
+        .lines()
+        .find(|line| line.starts_with(&format!("| {row} |")));
+    let cell = line
+        .and_then(|line| line.split('|').nth(2))
+        .expect("its row");
+    cell.trim().parse().expect("one number")
+}
+
+/// Stated and measured agree to 5 %.
+#[test]
+fn the_costs_stated_are_those_measured() {
+    let header = document::read("capi/include/dashpot.h");
+    let swapped = "step that meets another damper's state";
+    for (function, rows) in [
+        ("dashpot_step", &["C: `dashpot_step`"][..]),
+        ("dashpot_damper_init", &["C: `dashpot_damper_init`"]),
+        (
+            "dashpot_damper_set_clearance",
+            &["C: `dashpot_damper_set_clearance`", swapped],
+        ),
+    ] {
+        let stated = stated_instructions(&header, function);
+        let measured: Vec<f64> = rows.iter().map(|row| measured_instructions(row)).collect();
+        assert_eq!(stated.len(), measured.len(), "{function}: {stated:?}");
+        for (stated, measured) in stated.iter().zip(measured) {
+            let error = (stated / measured - 1.0).abs();
+            assert!(
+                error <= 0.05,
+                "{function}: {stated} is stated, {measured} measured"
+            );
+        }
+    }
+}

@@ -1,0 +1,146 @@
+//! The example controller of the C library: compiled, and the same run in Rust.
+
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use dashpot_core::Damper;
+use dashpot_hil::export::{Provenance, c_header, c_source};
+use xtask::c_library::{self, Platform, install};
+
+use crate::damper;
+
+const WARNINGS: [&str; 8] = [
+    "-std=c11",
+    "-Wall",
+    "-Wextra",
+    "-Wpedantic",
+    "-Wconversion",
+    "-Wshadow",
+    "-Wundef",
+    "-Werror",
+];
+
+/// What a command wrote, which must succeed.
+pub fn succeed(command: &mut Command) -> Output {
+    let output = command
+        .output()
+        .unwrap_or_else(|error| panic!("{command:?}: {error}"));
+    assert!(
+        output.status.success(),
+        "{command:?}: {}\n{}{}",
+        output.status,
+        String::from_utf8_lossy(&output.stdout),
+        String::from_utf8_lossy(&output.stderr)
+    );
+    output
+}
+
+/// The install tree for a platform, in `folder` under another name than it was made with.
+pub fn tree_of(platform: &Platform, folder: &Path) -> PathBuf {
+    let made = install(platform, folder).unwrap_or_else(|error| panic!("{error}"));
+    let moved = folder.join("moved tree");
+    std::fs::rename(made, &moved).expect("a tree that may be moved");
+    moved
+}
+
+/// The two exported dampers as C sources in `folder`, their headers beside them.
+pub fn export(folder: &Path) -> [PathBuf; 2] {
+    ["in-service", "reduced-vertical"].map(|name| {
+        let built: Damper<f32> = damper(name, &[]).build(1e-3).expect("a preset");
+        let provenance = Provenance {
+            damper: name,
+            step_us: 1000.0,
+            command: "a test",
+        };
+        let name = name.replace('-', "_");
+        let constant = name.to_uppercase();
+        let source = c_source(&constant, &built, &provenance).expect("a name");
+        let header = c_header(&constant, &built, &provenance).expect("a name");
+        let file = folder.join(name).with_extension("c");
+        std::fs::write(&file, source).expect("a writable folder");
+        std::fs::write(file.with_extension("h"), header).expect("a writable folder");
+        file
+    })
+}
+
+/// `compiler` for the example on `platform`, made in `folder`; libraries and result not named yet.
+pub fn compile(compiler: &str, platform: &str, folder: &Path) -> Command {
+    let examples = c_library::folder().join("examples");
+    let mut command = Command::new(compiler);
+    command.args(WARNINGS).args(["-O2", "-g"]);
+    command.arg("-I").arg(folder).arg("-I").arg(&examples);
+    command
+        .arg(examples.join("controller.c"))
+        .arg(examples.join(platform).join("main.c"))
+        .args(export(folder));
+    command
+}
+
+/// As [`compile`], with the static library of a tree.
+pub fn compile_with_archive(
+    compiler: &str,
+    platform: &str,
+    folder: &Path,
+    tree: &Path,
+    library: &str,
+) -> Command {
+    let mut command = compile(compiler, platform, folder);
+    command.arg("-I").arg(tree.join("include"));
+    command.arg(tree.join("lib").join(library));
+    command
+}
+
+/// Displacement of damper `number` at `tick` (m), as the sensor in controller.c.
+fn sensor(number: u32, tick: u32) -> f32 {
+    let half = 200 + 35 * number;
+    let in_arc = tick % half;
+    let arc = (in_arc * (half - in_arc)) as f32 * (0.012 / (half * half) as f32);
+    match (number, tick) {
+        (1, 2500..2520) => f32::NAN,
+        (2, 4500) => 1.0,
+        _ if (tick / half).is_multiple_of(2) => arc,
+        _ => -arc,
+    }
+}
+
+/// What the controller prints, from the core in Rust. Nothing is saved and restored here: that must not
+/// show.
+pub fn expected() -> String {
+    let build = |name| -> Damper<f32> { damper(name, &[]).build(1e-3).expect("a preset") };
+    let mut dampers = [build("in-service"), build("reduced-vertical")];
+    let mut states: [_; 4] = std::array::from_fn(|i| dampers[i % 2].at_rest(sensor(i as u32, 0)));
+    let mut text = String::new();
+    let mut digest = 0x811c_9dc5_u32;
+    for tick in 0..10_000 {
+        if tick == 6000 {
+            dampers[1].set_clearance_m(2.5e-3);
+        }
+        for (number, state) in states.iter_mut().enumerate() {
+            let force = dampers[number % 2].step(state, sensor(number as u32, tick));
+            for byte in force.to_le_bytes() {
+                digest = (digest ^ u32::from(byte)).wrapping_mul(0x0100_0193);
+            }
+        }
+        if (tick + 1) % 2000 == 0 {
+            for (number, state) in states.iter_mut().enumerate() {
+                let (status, rejected) = (state.status().bits(), state.rejected_inputs());
+                writeln!(
+                    text,
+                    "tick {:08x} damper {number:08x} status {status:08x} rejected {rejected:08x}",
+                    tick + 1
+                )
+                .expect("a String takes all");
+                state.clear_status();
+            }
+        }
+    }
+    writeln!(text, "forces {digest:08x}").expect("a String takes all");
+    text
+}
+
+/// Asserts that a run of the controller printed [`expected`].
+pub fn assert_same_run(output: &Output, where_run: &str) {
+    let found = String::from_utf8_lossy(&output.stdout).replace("\r\n", "\n");
+    assert_eq!(found, expected(), "{where_run} differs from Rust");
+}

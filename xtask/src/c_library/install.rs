@@ -1,0 +1,84 @@
+//! The install tree of the C library: header, libraries, and what pkg-config and CMake find them by.
+
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use super::{INTERFACE, Platform, folder};
+use crate::run::Outcome;
+
+const VERSION: &str = env!("CARGO_PKG_VERSION");
+
+/// Texts with `@NAME@` in place of what differs between the trees.
+const PKG_CONFIG: &str = include_str!("../../../capi/install/dashpot.pc.in");
+const CMAKE: &str = include_str!("../../../capi/install/DashpotConfig.cmake.in");
+const CMAKE_VERSION: &str = include_str!("../../../capi/install/DashpotConfigVersion.cmake.in");
+
+/// Builds the library for a platform and installs it in a folder of its own in `output`, which is returned.
+/// The tree may be moved as a whole.
+///
+/// # Errors
+/// The build fails, or a file cannot be written.
+pub fn install(platform: &Platform, output: &Path) -> Outcome<PathBuf> {
+    let built = platform.build()?;
+    let library = platform.library();
+    let tree = output.join(platform.name());
+    let (include, lib) = (tree.join("include"), tree.join("lib"));
+    copy(
+        &folder().join("include/dashpot.h"),
+        &include.join("dashpot.h"),
+    )?;
+    copy(&built.archive, &lib.join(format!("lib{library}.a")))?;
+    if let Some(shared) = built.shared {
+        let name = format!("lib{library}.so");
+        let (whole, interface) = (format!("{name}.{VERSION}"), format!("{name}.{INTERFACE}"));
+        copy(&shared, &lib.join(&whole))?;
+        link(&whole, &lib.join(&interface))?;
+        link(&interface, &lib.join(&name))?;
+    }
+    let fill = |text: &str| {
+        text.replace("@LIBRARY@", &library)
+            .replace("@PLATFORM@", &platform.name())
+            .replace("@VERSION@", VERSION)
+            .replace("@INTERFACE@", INTERFACE)
+            .replace("@POINTER_BYTES@", &platform.pointer_bytes().to_string())
+    };
+    let cmake = lib.join("cmake/Dashpot");
+    for (path, text) in [
+        (lib.join(format!("pkgconfig/{library}.pc")), PKG_CONFIG),
+        (cmake.join("DashpotConfig.cmake"), CMAKE),
+        (cmake.join("DashpotConfigVersion.cmake"), CMAKE_VERSION),
+    ] {
+        put(&path, |new| fs::write(new, fill(text)))?;
+    }
+    Ok(tree)
+}
+
+fn copy(from: &Path, to: &Path) -> Outcome {
+    put(to, |new| fs::copy(from, new).map(drop))
+}
+
+/// A link to a file of the same folder.
+fn link(name: &str, to: &Path) -> Outcome {
+    #[cfg(unix)]
+    use std::os::unix::fs::symlink;
+    #[cfg(not(unix))]
+    fn symlink(_: &str, _: &Path) -> io::Result<()> {
+        Err(io::ErrorKind::Unsupported.into())
+    }
+    put(to, |new| symlink(name, new))
+}
+
+/// Makes a file under another name first: it is whole when it appears, in place of one already there.
+fn put(path: &Path, make: impl FnOnce(&Path) -> io::Result<()>) -> Outcome {
+    let parent = path.parent().unwrap_or(path);
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    let new = parent.join(format!(".{name}-{}", std::process::id()));
+    fs::create_dir_all(parent)
+        .and_then(|()| make(&new))
+        .and_then(|()| fs::rename(&new, path))
+        .map_err(|error| {
+            let _ = fs::remove_file(&new);
+            format!("{}: cannot write: {error}", path.display())
+        })
+}

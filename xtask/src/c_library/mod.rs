@@ -1,0 +1,59 @@
+//! Builds and installs the C library.
+
+mod install;
+mod options;
+mod platform;
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+pub use install::install;
+pub use options::Options;
+pub use platform::Platform;
+
+use crate::processor::Processor;
+use crate::run::{Outcome, output_of, repository};
+use crate::target_toolchain::TargetToolchain;
+
+/// Major and minor version: with another one the interface may be another.
+pub const INTERFACE: &str = concat!(
+    env!("CARGO_PKG_VERSION_MAJOR"),
+    ".",
+    env!("CARGO_PKG_VERSION_MINOR")
+);
+
+/// Folder of the C library's package.
+pub fn folder() -> PathBuf {
+    repository().join("capi")
+}
+
+/// Builds `libdashpot.a` for a processor; returns where it is.
+///
+/// # Errors
+/// It does not build; the message has what cargo said.
+pub fn build_for(toolchain: &TargetToolchain, processor: &Processor) -> Outcome<PathBuf> {
+    let mut cargo = toolchain.cargo("rustc", &manifest(), processor);
+    let target = toolchain.output_folder(&folder(), processor);
+    cargo.arg("--target-dir").arg(&target);
+    build(cargo, "staticlib", &[])?;
+    Ok(archive_in(&target.join(processor.target).join("release")))
+}
+
+fn manifest() -> PathBuf {
+    folder().join("Cargo.toml")
+}
+
+fn archive_in(release: &Path) -> PathBuf {
+    release.join("libdashpot.a")
+}
+
+/// Runs `cargo rustc` to its end, with arguments for the linker of a shared library.
+fn build(mut cargo: Command, crate_types: &str, link_arguments: &[String]) -> Outcome {
+    cargo.args(["--crate-type", crate_types, "--features", "panic-handler"]);
+    cargo.arg("--");
+    for argument in link_arguments {
+        cargo.arg(format!("-Clink-arg={argument}"));
+    }
+    let line = format!("{cargo:?}");
+    output_of(cargo, &line).map(drop)
+}

@@ -1,0 +1,130 @@
+//! What the C library is built for.
+
+use std::env::consts::{ARCH, OS};
+use std::path::PathBuf;
+use std::process::Command;
+
+use super::{INTERFACE, archive_in, build, build_for, folder, manifest};
+use crate::aarch64;
+use crate::processor::{AARCH64, CORTEX_M4F, CORTEX_M7, CORTEX_M33, Processor};
+use crate::run::Outcome;
+use crate::target_toolchain::TargetToolchain;
+use crate::tools::{AARCH64_GCC, AARCH64_LIBC, missing};
+
+/// A processor without an operating system, or one with Linux.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Platform {
+    /// Static library.
+    Bare(Processor),
+    /// Static and shared library for Linux on the processor that Rust calls so.
+    Linux(&'static str),
+}
+
+/// What a build made.
+pub struct Built {
+    /// The static library.
+    pub archive: PathBuf,
+    /// The shared library; bare processors have none.
+    pub shared: Option<PathBuf>,
+}
+
+impl Platform {
+    /// All of them.
+    pub const ALL: [Self; 5] = [
+        Self::Bare(CORTEX_M4F),
+        Self::Bare(CORTEX_M7),
+        Self::Bare(CORTEX_M33),
+        Self::Linux("x86_64"),
+        Self::Linux("aarch64"),
+    ];
+
+    /// Name of options, folders and files.
+    pub fn name(&self) -> String {
+        match self {
+            Self::Bare(processor) => processor.name.replace('_', "-"),
+            Self::Linux(processor) => processor.replace('_', "-"),
+        }
+    }
+
+    /// Whether this machine is one.
+    pub fn is_host(&self) -> bool {
+        matches!(self, Self::Linux(processor) if OS == "linux" && *processor == ARCH)
+    }
+
+    /// Name of the library: with that of the platform, so that none is linked by mistake, but for this
+    /// machine.
+    pub fn library(&self) -> String {
+        if self.is_host() {
+            "dashpot".into()
+        } else {
+            format!("dashpot-{}", self.name())
+        }
+    }
+
+    /// Bytes of a pointer.
+    pub fn pointer_bytes(&self) -> usize {
+        match self {
+            Self::Bare(_) => 4,
+            Self::Linux(_) => 8,
+        }
+    }
+
+    /// Whether this machine can build it.
+    ///
+    /// # Errors
+    /// It cannot; the message has what helps.
+    pub fn check_tools(&self) -> Outcome {
+        match self {
+            Self::Bare(processor) => TargetToolchain::find(processor.target).map(drop),
+            _ if self.is_host() => Ok(()),
+            Self::Linux("aarch64") => {
+                TargetToolchain::find(AARCH64)?;
+                match missing(&[AARCH64_GCC, AARCH64_LIBC])[..] {
+                    [] => Ok(()),
+                    ref packages => Err(format!("run `apt-get install {}`", packages.join(" "))),
+                }
+            }
+            Self::Linux(processor) => {
+                Err(format!("only a {processor} machine with Linux builds it"))
+            }
+        }
+    }
+
+    /// Builds the libraries.
+    ///
+    /// # Errors
+    /// A tool is missing, or the build fails; the message has what cargo said.
+    pub fn build(&self) -> Outcome<Built> {
+        self.check_tools()?;
+        let (cargo, release) = match self {
+            Self::Bare(processor) => {
+                let toolchain = TargetToolchain::find(processor.target)?;
+                let archive = build_for(&toolchain, processor)?;
+                return Ok(Built {
+                    archive,
+                    shared: None,
+                });
+            }
+            _ if self.is_host() => {
+                let target = folder().join("target");
+                let name = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+                let mut cargo = Command::new(name);
+                cargo.args(["rustc", "--target-dir"]).arg(&target);
+                (cargo, target.join("release"))
+            }
+            Self::Linux(_) => (aarch64::cargo("rustc"), aarch64::release("")),
+        };
+        let mut cargo = cargo;
+        cargo
+            .arg("--release")
+            .arg("--manifest-path")
+            .arg(manifest());
+        let soname = format!("-Wl,-soname,lib{}.so.{INTERFACE}", self.library());
+        // The compiler's own functions call the C library's memset; without std nothing names it.
+        build(cargo, "staticlib,cdylib", &[soname, "-lc".into()])?;
+        Ok(Built {
+            archive: archive_in(&release),
+            shared: Some(release.join("libdashpot.so")),
+        })
+    }
+}
