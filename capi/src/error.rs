@@ -34,6 +34,10 @@ pub enum DashpotError {
     WrongDamper = 11,
     /// A number is not in the range allowed.
     Range = 12,
+    /// The storage holds no state: call `dashpot_state_init` or `dashpot_state_restore` first.
+    NoState = 13,
+    /// Constants or a state were damaged in memory: take your safe output, then make both anew.
+    Corrupted = 14,
     /// What the call changes shares memory with something else that it was given.
     Overlap = 15,
     /// The header is of another version than the library, or gives its storage another size.
@@ -43,7 +47,7 @@ pub enum DashpotError {
 /// cbindgen:ignore
 impl DashpotError {
     /// Every code, in the order of their numbers.
-    pub const ALL: [Self; 15] = [
+    pub const ALL: [Self; 17] = [
         Self::None,
         Self::NullPointer,
         Self::Misaligned,
@@ -57,6 +61,8 @@ impl DashpotError {
         Self::Values,
         Self::WrongDamper,
         Self::Range,
+        Self::NoState,
+        Self::Corrupted,
         Self::Overlap,
         Self::Header,
     ];
@@ -76,6 +82,8 @@ impl DashpotError {
             Self::Values => c"values that no build and no step leaves behind",
             Self::WrongDamper => c"the saved state is of another damper",
             Self::Range => c"a number is not in the range allowed",
+            Self::NoState => c"the storage holds no state: call dashpot_state_init first",
+            Self::Corrupted => c"constants or a state were damaged in memory",
             Self::Overlap => c"what the call changes overlaps something else it was given",
             Self::Header => c"dashpot.h is of another version than the library",
         }

@@ -11,6 +11,7 @@
 #![warn(missing_docs)]
 #![allow(clippy::missing_safety_doc)] // stated once, above, and in the header
 
+mod check;
 mod damper;
 mod error;
 mod pointer;
@@ -20,6 +21,7 @@ mod step;
 mod types;
 mod version;
 
+pub use check::dashpot_check_slice;
 pub use damper::{dashpot_damper_describe, dashpot_damper_init, dashpot_damper_set_clearance};
 pub use error::{DashpotError, dashpot_error_text};
 pub use state::{

@@ -8,6 +8,22 @@ use crate::pointer::{Memory, bytes, check, exclusive, shared};
 use crate::saved;
 use crate::types::{DashpotDamper, DashpotReading, DashpotState};
 
+/// A state that was made, to read.
+///
+/// # Safety
+/// The caller's promise is kept.
+pub(crate) unsafe fn made_state<'a>(
+    state: *const DashpotState,
+) -> Result<&'a DamperState<f32>, DashpotError> {
+    // SAFETY: the caller's promise; the storage is a DamperState's to the byte and any bytes are one.
+    let state: &DamperState<f32> = unsafe { shared(state.cast()) }?;
+    if state.is_marked() {
+        Ok(state)
+    } else {
+        Err(DashpotError::NoState)
+    }
+}
+
 /// Makes a state at rest, centred in the clearance, without force or status.
 ///
 /// @param state           storage, its content does not matter
@@ -48,8 +64,8 @@ pub unsafe extern "C" fn dashpot_state_read(
     reading: *mut DashpotReading,
 ) -> DashpotError {
     let done = || {
-        // SAFETY: the caller's promise; the storage is a DamperState's to the byte.
-        let state: &DamperState<f32> = unsafe { shared(state.cast()) }?;
+        // SAFETY: the caller's promise.
+        let state = unsafe { made_state(state) }?;
         check(reading)?;
         Memory::of(reading).check_apart(Memory::of(state))?;
         let read = DashpotReading {
@@ -71,6 +87,8 @@ pub unsafe extern "C" fn dashpot_state_read(
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn dashpot_state_clear_status(state: *mut DashpotState) -> DashpotError {
     let done = || {
+        // SAFETY: the caller's promise; the reference ends here.
+        unsafe { made_state(state) }?;
         // SAFETY: the caller's promise; the storage is a DamperState's to the byte.
         let state: &mut DamperState<f32> = unsafe { exclusive(state.cast()) }?;
         state.clear_status();
@@ -91,8 +109,8 @@ pub unsafe extern "C" fn dashpot_state_save(
     length: usize,
 ) -> DashpotError {
     let done = || {
-        // SAFETY: the caller's promise; the storage is a DamperState's to the byte.
-        let state: &DamperState<f32> = unsafe { shared(state.cast()) }?;
+        // SAFETY: the caller's promise.
+        let state = unsafe { made_state(state) }?;
         check(saved)?;
         if length != saved::BYTES {
             return Err(DashpotError::Length);

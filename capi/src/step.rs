@@ -2,17 +2,28 @@
 
 use core::ptr;
 
-use dashpot_core::DamperState;
+use dashpot_core::{Damper, DamperState};
 
 use crate::damper::made;
 use crate::error::DashpotError;
-use crate::pointer::{Memory, check, check_count, exclusive};
+use crate::pointer::{Memory, check, check_count, exclusive, shared};
 use crate::types::{DashpotDamper, DashpotState};
+
+/// Refuses memory that was never made a state. One that this damper stepped last has its revision, which is
+/// mark enough.
+fn check_state(damper: &Damper<f32>, state: &DamperState<f32>) -> Result<(), DashpotError> {
+    if state.revision() == damper.revision() || state.is_marked() {
+        Ok(())
+    } else {
+        Err(DashpotError::NoState)
+    }
+}
 
 /// Steps one damper: the force at this tick for the displacement of this tick.
 ///
 /// A displacement that is NaN, infinite or faster than the damper allows is no error: it is held or
-/// limited, latched in the status and counted. The force is finite and within the force limit. Some 187
+/// limited, latched in the status and counted. The force is finite and within the force limit, whatever bits
+/// damper and state have. Some 187
 /// instructions on a Cortex-M7.
 ///
 /// @param damper          made by `dashpot_damper_init`
@@ -36,6 +47,7 @@ pub unsafe extern "C" fn dashpot_step(
         Memory::of(force_n).check_apart(Memory::of(state))?;
         // SAFETY: the caller's promise; the storage is a DamperState's to the byte.
         let state: &mut DamperState<f32> = unsafe { exclusive(state.cast()) }?;
+        check_state(damper, state)?;
         let force = damper.step(state, displacement_m);
         // SAFETY: checked, and the caller's promise.
         unsafe { force_n.write(force) };
@@ -77,9 +89,11 @@ pub unsafe extern "C" fn dashpot_step_bank(
         }
         for index in 0..count {
             // SAFETY: within the caller's array; the caller's promise.
-            let damper = Memory::of(unsafe { made(*dampers.add(index)) }?);
-            moving.check_apart(damper)?;
-            forces.check_apart(damper)?;
+            let damper = unsafe { made(*dampers.add(index)) }?;
+            moving.check_apart(Memory::of(damper))?;
+            forces.check_apart(Memory::of(damper))?;
+            // SAFETY: as above; the reference ends here.
+            check_state(damper, unsafe { shared(states.add(index).cast()) }?)?;
         }
         for index in 0..count {
             // SAFETY: within the caller's arrays, checked, and the caller's promise. Each element is

@@ -1,5 +1,6 @@
 //! What C declares: storage of known size, and the structures that are read.
 
+use dashpot_core::integrity::Check;
 use dashpot_core::{Damper, DamperState};
 
 use crate::saved;
@@ -33,12 +34,25 @@ pub struct DashpotState {
     pub opaque: [u32; DASHPOT_STATE_WORDS],
 }
 
+/// How far the check of a damper has come: zeros before the first call.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct DashpotCheck {
+    /// Not for use.
+    pub opaque: [u32; 3],
+}
+
+/// Calls of `dashpot_check_slice` that check a damper whole.
+pub const DASHPOT_CHECK_SLICES: u32 = 769;
+
 // The storage C declares is the core's own, to the byte.
 const _: () = {
     assert!(size_of::<DashpotDamper>() == size_of::<Damper<f32>>());
     assert!(align_of::<DashpotDamper>() == align_of::<Damper<f32>>());
     assert!(size_of::<DashpotState>() == size_of::<DamperState<f32>>());
     assert!(align_of::<DashpotState>() == align_of::<DamperState<f32>>());
+    assert!(size_of::<DashpotCheck>() == size_of::<Check>());
+    assert!(align_of::<DashpotCheck>() == align_of::<Check>());
 };
 
 /// What a damper was built for.
@@ -77,6 +91,8 @@ pub const DASHPOT_STATUS_INPUT_LIMITED: u16 = 2;
 pub const DASHPOT_STATUS_SATURATED: u16 = 4;
 /// Another damper than before stepped this state; the force was carried over.
 pub const DASHPOT_STATUS_DAMPER_SWAPPED: u16 = 8;
+/// The state was damaged in memory and started over at rest.
+pub const DASHPOT_STATUS_CORRUPTED: u16 = 16;
 
 const _: () = {
     use dashpot_core::Status;
@@ -84,4 +100,5 @@ const _: () = {
     assert!(DASHPOT_STATUS_INPUT_LIMITED == Status::INPUT_LIMITED.bits());
     assert!(DASHPOT_STATUS_SATURATED == Status::SATURATED.bits());
     assert!(DASHPOT_STATUS_DAMPER_SWAPPED == Status::DAMPER_SWAPPED.bits());
+    assert!(DASHPOT_STATUS_CORRUPTED == Status::CORRUPTED.bits());
 };

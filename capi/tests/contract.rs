@@ -452,6 +452,7 @@ fn the_status_bits_are_all_the_core_has() {
     let all = DASHPOT_STATUS_INPUT_HELD
         | DASHPOT_STATUS_INPUT_LIMITED
         | DASHPOT_STATUS_SATURATED
-        | DASHPOT_STATUS_DAMPER_SWAPPED;
+        | DASHPOT_STATUS_DAMPER_SWAPPED
+        | DASHPOT_STATUS_CORRUPTED;
     assert_eq!(Status::from_bits(u16::MAX).bits(), all);
 }

@@ -68,8 +68,14 @@ impl<T: Real> DamperState<T> {
         }
     }
 
-    /// Whether this is a state, and not memory that was never written.
-    pub(crate) fn is_marked(&self) -> bool {
+    /// Whether this is a state, and not memory that was never written: for programs that get their states from
+    /// elsewhere than [`Damper::at_rest`](crate::Damper::at_rest), as those in C do.
+    ///
+    /// ```
+    /// assert!(dashpot_core::DamperState::<f32>::default().is_marked());
+    /// ```
+    #[inline]
+    pub fn is_marked(&self) -> bool {
         self.status_word & MARK_BITS == MARK
     }
 
@@ -86,6 +92,12 @@ impl<T: Real> DamperState<T> {
     /// Force returned last (N), positive when it resists extension.
     pub fn force(&self) -> T {
         self.force
+    }
+
+    /// Revision of the damper that stepped last, 0 of none.
+    #[inline]
+    pub fn revision(&self) -> u32 {
+        self.revision
     }
 
     /// Bits latched since they were last cleared.
