@@ -3,6 +3,7 @@
 #![warn(missing_docs)]
 
 pub mod budget;
+mod child;
 pub mod commands;
 pub mod contact;
 pub mod damper_file;
