@@ -11,7 +11,7 @@ use dashpot_hil::damper_file;
 use dashpot_hil::excitation::Excitation;
 use dashpot_hil::failure::{Failure, Outcome};
 use dashpot_hil::pil::{
-    Client, Desk, FaultCounts, FaultRates, FaultyLink, Link, Patience, Report, Session, Tcp,
+    Client, Desk, FaultCounts, FaultRates, FaultyLink, Link, Pace, Patience, Report, Session, Tcp,
 };
 #[cfg(all(unix, feature = "serial"))]
 use {dashpot_hil::pil::Serial, std::path::Path};
@@ -47,9 +47,14 @@ fn drive(rates: &str, seed: u64) -> (Report, FaultCounts) {
     let link = FaultyLink::new(desk(), rates, seed).unwrap();
     let mut session = Session::open(Client::new(link, PATIENCE, 40)).unwrap();
     let report = session
-        .run(&built("paper"), motion(1000), |_| ())
+        .run(
+            &[built("paper")],
+            motion(1000),
+            &mut Pace::default(),
+            |_| Ok(()),
+        )
         .unwrap_or_else(|failure| panic!("{rates:?}: {failure}"));
-    (report, session.link().counts())
+    (report, session.link().faults_made())
 }
 
 #[test]
@@ -156,7 +161,8 @@ impl<F: FnMut(Header, Response<'_>, &mut Frame) -> bool> Link for Altered<F> {
 
 fn report_of(link: impl Link) -> Outcome<Report> {
     let mut session = Session::open(Client::new(link, PATIENCE, 40))?;
-    session.run(&built("paper"), motion(100), |_| ())
+    let dampers = [built("paper")];
+    session.run(&dampers, motion(100), &mut Pace::default(), |_| Ok(()))
 }
 
 #[test]

@@ -13,7 +13,7 @@ use super::{DamperArguments, Format, print_report, progress};
 use crate::failure::{Failure, Outcome};
 use crate::input;
 use crate::pil::{
-    Client, FaultCounts, FaultRates, FaultyLink, LinkChoice, Patience, Report, Session,
+    Client, FaultCounts, FaultRates, FaultyLink, Link as _, LinkChoice, Patience, Report, Session,
 };
 use crate::recording::{Gaps, Recording};
 use crate::replay::Ticks;
@@ -106,12 +106,14 @@ pub fn run(arguments: &PilArguments) -> Outcome<()> {
         }
         Ok(ticks.next_tick()?.map(|tick| tick.displacement_m as f32))
     };
-    let report = session.run(&damper, motion, |_| ())?;
+    let report = session.run(&[damper], motion, &mut crate::pil::Pace::default(), |_| {
+        Ok(())
+    })?;
     bar.finish_and_clear();
     let result = Result {
         report,
         gaps: ticks.recording().gaps(),
-        injected_faults: arguments.faults.map(|_| session.link().counts()),
+        injected_faults: arguments.faults.map(|_| session.link().faults_made()),
     };
     print_report(arguments.format, &result, |out, result| {
         print(out, result, arguments, step)
