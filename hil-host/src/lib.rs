@@ -15,6 +15,7 @@ pub mod input;
 pub mod interruption;
 pub mod output;
 pub mod pacing;
+mod page;
 pub mod pil;
 mod plot;
 pub mod published;
