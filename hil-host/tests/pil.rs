@@ -1,46 +1,19 @@
 //! The host's end of the link against the firmware's device on the desk, through every kind of fault.
 
+mod pil_common;
+
 use std::collections::VecDeque;
-use std::io::{ErrorKind, Read, Write};
-use std::net::{Ipv4Addr, TcpListener};
 use std::time::Duration;
 
 use dashpot_core::link::{Frame, FrameReader, Header, Refusal, Request, Response};
 use dashpot_core::{Damper, Status};
-use dashpot_hil::damper_file;
-use dashpot_hil::excitation::Excitation;
 use dashpot_hil::failure::{Failure, Outcome};
 use dashpot_hil::pil::{
-    Client, Desk, FaultCounts, FaultRates, FaultyLink, Link, Pace, Patience, Report, Session, Tcp,
+    Client, Desk, Event, FaultCounts, FaultRates, FaultyLink, Link, Pace, Report, Session, Tcp,
 };
+use pil_common::{PATIENCE, built, desk, motion, serve_tcp};
 #[cfg(all(unix, feature = "serial"))]
-use {dashpot_hil::pil::Serial, std::path::Path};
-
-/// The desk's waits are not real; a line's end with an answer, which always comes.
-const PATIENCE: Patience = Patience {
-    timeout: Duration::from_secs(300),
-    tries: 30,
-};
-
-fn built(name: &str) -> Damper<f32> {
-    let parameters = damper_file::load(name, &[]).unwrap();
-    parameters.build(1e-3).unwrap()
-}
-
-/// A bank of three other dampers than the one that is driven.
-fn desk() -> Desk<3> {
-    Desk::new([
-        built("reduced-vertical"),
-        built("in-service"),
-        built("reduced-lateral"),
-    ])
-}
-
-fn motion(ticks: usize) -> impl FnMut() -> Outcome<Option<f32>> {
-    let ride = Excitation::Ride.displacements_m(1e-3);
-    let mut ride = ride.into_iter().take(ticks);
-    move || Ok(ride.next().map(|x| x as f32))
-}
+use {dashpot_hil::pil::Serial, pil_common::serve, std::path::Path};
 
 fn drive(rates: &str, seed: u64) -> (Report, FaultCounts) {
     let rates: FaultRates = rates.parse().unwrap();
@@ -96,6 +69,45 @@ fn after_any_fault_the_run_goes_on_to_the_bit() {
             assert!(report.target_counters.accepted >= 1000);
         }
     }
+}
+
+#[test]
+fn every_tick_tells_what_happened_in_it() {
+    let rates: FaultRates =
+        "drop=0.02,corrupt=0.02,delay=0.02,duplicate=0.02,reorder=0.02,reset=0.002"
+            .parse()
+            .unwrap();
+    let link = FaultyLink::new(desk(), rates, 2).unwrap();
+    let mut session = Session::open(Client::new(link, PATIENCE, 40)).unwrap();
+    let mut told: Vec<Vec<Event>> = Vec::new();
+    let report = session
+        .run(
+            &[built("paper")],
+            motion(1000),
+            &mut Pace::default(),
+            |record| {
+                told.push(record.events.to_vec());
+                Ok(())
+            },
+        )
+        .unwrap();
+    let made = session.link().faults_made();
+    let ticks_with = |event| told.iter().filter(|events| events.contains(&event)).count() as u64;
+    for (event, most) in [
+        (Event::Drop, made.dropped),
+        (Event::Corrupt, made.corrupted),
+        (Event::Delay, made.delayed),
+        (Event::Duplicate, made.duplicated),
+        (Event::Reorder, made.reordered),
+        (Event::Reset, made.resets),
+        (Event::Repeat, report.link_faults.repeated_requests),
+        (Event::Recovery, report.recoveries),
+    ] {
+        let ticks = ticks_with(event);
+        assert!(ticks > 0 && ticks <= most, "{event}: {ticks} of {most}");
+    }
+    assert_eq!(ticks_with(Event::Late) + ticks_with(Event::Mismatch), 0);
+    assert!(told.iter().any(Vec::is_empty));
 }
 
 #[test]
@@ -263,32 +275,10 @@ fn a_target_reset_again_and_again_stops_the_run_with_the_reason() {
     );
 }
 
-/// Serves a desk over a line until the host leaves.
-fn serve(mut line: impl Read + Write + Send + 'static) {
-    std::thread::spawn(move || {
-        let mut desk = desk();
-        let mut buffer = [0; 1024];
-        loop {
-            let received = match line.read(&mut buffer) {
-                Ok(count) if count > 0 => count,
-                Err(error) if error.kind() == ErrorKind::TimedOut => continue,
-                _ => return,
-            };
-            desk.send(&buffer[..received]).unwrap();
-            let count = desk.receive(&mut buffer, Duration::ZERO).unwrap();
-            if line.write_all(&buffer[..count]).is_err() {
-                return;
-            }
-        }
-    });
-}
-
 #[test]
 fn a_tcp_port_is_a_link() {
-    let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, 0)).unwrap();
-    let address = listener.local_addr().unwrap();
-    std::thread::spawn(move || serve(listener.accept().unwrap().0));
-    let report = report_of(Tcp::connect(&address.to_string()).unwrap()).unwrap();
+    let address = serve_tcp(|| Box::new(desk()));
+    let report = report_of(Tcp::connect(&address).unwrap()).unwrap();
     assert_eq!((report.ticks, report.mismatches), (100, 0));
 }
 
@@ -300,7 +290,7 @@ fn a_serial_device_is_a_link() {
     target.set_timeout(Duration::from_millis(100)).unwrap();
     let device = host.name().unwrap();
     let line = Serial::open(Path::new(&device), 115_200).unwrap();
-    serve(target);
+    serve(target, || Box::new(desk()));
     let report = report_of(line).unwrap();
     assert_eq!((report.ticks, report.mismatches), (100, 0));
     drop(host);
