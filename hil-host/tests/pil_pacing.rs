@@ -91,7 +91,7 @@ fn run(pace: impl FnOnce(Told) -> Pace<Told>) -> Ran {
 
 #[test]
 fn a_tick_is_sent_when_due_and_late_when_answered_after_the_next_was_due() {
-    let ran = run(|clock| Pace::Paced(Pacer::with_clock(1e-3, clock).unwrap()));
+    let ran = run(|clock| Pace::Paced(Box::new(Pacer::with_clock(1e-3, clock).unwrap())));
     // Step 5 is sent at 5 ms and answered at 6.9 ms: step 6, due at 6 ms, follows at once and is answered
     // at 7.2 ms, after step 7 was due, which is answered at 7.5 ms, in time.
     let sent_us: Vec<u64> = ran.sent_ns.iter().map(|ns| ns / 1000).collect();

@@ -7,7 +7,7 @@ pub enum Pace<C: Clock = MonotonicClock> {
     /// As soon as the one before is answered; the clock measures round trips.
     Free(C),
     /// Each a step after the one before, as a rig does.
-    Paced(Pacer<C>),
+    Paced(Box<Pacer<C>>),
 }
 
 impl Default for Pace {

@@ -30,19 +30,19 @@ use rows::Rows;
 #[derive(Debug, Clone, clap::Args)]
 #[command(after_help = "Examples:
   dashpot pil --link qemu --damper in-service --input data/excitations/ride_made.csv --page pil.html
-  dashpot pil --link serial:/dev/ttyACM0 --damper my.toml --input run7.csv --paced --fifo 80 --output forces.csv
-  dashpot pil --link tcp:localhost:5555 --damper left.toml --damper right.toml --input run7.csv --format json
+  dashpot pil --link serial:/dev/ttyACM0 --damper my.toml --input run7.csv --paced --output f.csv
+  dashpot pil --link tcp:localhost:5555 --damper a.toml --damper b.toml --input run7.csv
   dashpot pil --link qemu --input run7.csv --faults drop=0.01,corrupt=0.01,reset=0.001 --seed 7
 
-A damper given once is loaded into every place of the target's bank; given once for each place, the first goes into
+A damper given once is loaded into every place of the target's bank; given once for each place, the first goes into \
 place 0, the second into place 1 and so on. Place i runs i ticks behind place 0.
 
---paced sends each tick when it is due, one step after the last; a tick answered after the next was due has missed its
+--paced sends each tick when it is due, one step after the last; a tick answered after the next was due has missed its \
 deadline. Without it a tick is sent as soon as the last is answered.
 
---output writes a row for each tick: tick, time_s; for each place i displacement_m_i, target_force_n_i, host_force_n_i
-and status_i (the target's status bits); clock_ticks of the target for the whole bank, round_trip_ns, and event: empty
-or words separated by spaces: repeat (a request sent again), recovery (dampers and states given again), late (deadline
+--output writes a row for each tick: tick, time_s; for each place i displacement_m_i, target_force_n_i, host_force_n_i \
+and status_i (the target's status bits); clock_ticks of the target for the whole bank, round_trip_ns, and event: empty \
+or words separated by spaces: repeat (a request sent again), recovery (dampers and states given again), late (deadline \
 missed), mismatch, and the faults made: drop, corrupt, delay, duplicate, reorder, reset.
 
 Faults are probabilities per frame: drop, corrupt, delay, duplicate, reorder, reset.
@@ -213,7 +213,7 @@ fn drive(
         .map(|(path, file)| Rows::new(path, file, target.dampers, start_s, step_s))
         .transpose()?;
     let mut pace = if arguments.paced {
-        Pace::Paced(Pacer::new(step_s, &arguments.realtime.options())?)
+        Pace::Paced(Box::new(Pacer::new(step_s, &arguments.realtime.options())?))
     } else {
         Pace::default()
     };

@@ -123,7 +123,7 @@ impl Found {
         let mut lines = vec![("step of the bank", told)];
         if let Some(instructions) = &report.instructions {
             let told = format!(
-                "{:.0} instructions ({:.0} to {:.0}), {:.1} a damper",
+                "{:.0} ({:.0} to {:.0}), {:.1} a damper",
                 instructions.mean,
                 instructions.min,
                 instructions.max,
