@@ -11,7 +11,7 @@ use dashpot_core::link::{Counters, LossOfLink, Reals, Refusal, Request, Response
 use dashpot_hil::excitation::Excitation;
 use dashpot_hil::failure::Outcome;
 use dashpot_hil::pil::{
-    Client, FaultRates, FaultyLink, Link, LinkError, Patience, Qemu, Report, Session,
+    Client, FaultRates, FaultyLink, Link, LinkError, Pace, Patience, Qemu, Report, Session,
 };
 use xtask::processor::CORTEX_M7;
 use xtask::tools::{ARM_GCC, QEMU, have, have_target};
@@ -121,7 +121,8 @@ fn run(rates: &str, resets: &'static [u32], ticks: usize) -> Option<Report> {
     let mut ride = ride.into_iter().take(ticks);
     let damper = damper("in-service", &["mount.clearance_m=1e-3"]);
     let motion = || Ok(ride.next().map(|x| x as f32));
-    let report = session.run(&damper.build(1e-3).unwrap(), motion, |_| ());
+    let dampers = [damper.build(1e-3).unwrap()];
+    let report = session.run(&dampers, motion, &mut Pace::default(), |_| Ok(()));
     Some(report.unwrap())
 }
 

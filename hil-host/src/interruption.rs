@@ -1,21 +1,21 @@
-//! SIGINT, SIGTERM and SIGHUP: temporary files are deleted, then the process ends by the signal as it
-//! would have without this.
+//! SIGINT, SIGTERM and SIGHUP: temporary files are deleted and child processes ended, then the process ends
+//! by the signal as it would have without this.
 
 use crate::failure::{Failure, Outcome};
 
-/// Lets interruptions delete this process's temporary files from now on. A signal that the process was
-/// started to ignore, as `nohup` has it for SIGHUP, stays ignored.
+/// Lets interruptions delete this process's temporary files and end its children from now on. A signal that
+/// the process was started to ignore, as `nohup` has it for SIGHUP, stays ignored.
 ///
 /// # Errors
 /// The system refuses the handlers or the thread that waits for them.
 #[cfg(unix)]
-pub fn delete_temporary_files() -> Outcome<()> {
-    use crate::temporary;
+pub fn clean_up() -> Outcome<()> {
+    use crate::{child, temporary};
     use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
     use signal_hook::iterator::Signals;
     use signal_hook::low_level::emulate_default_handler;
 
-    /// Deleting files takes little of it (bytes).
+    /// Cleaning up takes little of it (bytes).
     const STACK: usize = 64 * 1024;
 
     let failed = |error: std::io::Error| Failure::new(format!("cannot wait for signals: {error}"));
@@ -29,7 +29,8 @@ pub fn delete_temporary_files() -> Outcome<()> {
         .stack_size(STACK)
         .spawn(move || {
             for signal in signals.forever() {
-                let _no_new_ones = temporary::delete_all();
+                let _no_new_files = temporary::delete_all();
+                let _no_new_children = child::end_all();
                 // Ends the process, by the signal.
                 let _ = emulate_default_handler(signal);
             }
@@ -55,6 +56,6 @@ fn ignored_signals() -> u64 {
 /// # Errors
 /// None.
 #[cfg(not(unix))]
-pub fn delete_temporary_files() -> Outcome<()> {
+pub fn clean_up() -> Outcome<()> {
     Ok(())
 }

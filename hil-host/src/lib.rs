@@ -3,6 +3,7 @@
 #![warn(missing_docs)]
 
 pub mod budget;
+mod child;
 pub mod commands;
 pub mod contact;
 pub mod damper_file;
@@ -14,6 +15,7 @@ pub mod input;
 pub mod interruption;
 pub mod output;
 pub mod pacing;
+mod page;
 pub mod pil;
 mod plot;
 pub mod published;

@@ -51,7 +51,7 @@ enum Command {
 
 fn main() -> ExitCode {
     let cli = Cli::parse();
-    let outcome = interruption::delete_temporary_files().and_then(|()| run(&cli));
+    let outcome = interruption::clean_up().and_then(|()| run(&cli));
     let Err(failure) = outcome else {
         return ExitCode::SUCCESS;
     };

@@ -23,6 +23,46 @@ pub fn cannot_write(path: &Path, error: impl Into<io::Error>) -> Failure {
     Failure::in_writing(&name(path), error)
 }
 
+/// A failure to write rows of CSV to `path`.
+pub fn cannot_write_rows(path: &Path, error: csv::Error) -> Failure {
+    match error.into_kind() {
+        csv::ErrorKind::Io(error) => cannot_write(path, error),
+        other => cannot_write(path, io::Error::other(format!("{other:?}"))),
+    }
+}
+
+/// Refuses to write the file at `path`, as `option` asks, over the one at `input`.
+///
+/// # Errors
+/// Both are the same file.
+pub fn refuse_input(option: &str, path: &Path, input: &Path) -> Outcome<()> {
+    if is_standard_stream(path) || is_standard_stream(input) {
+        return Ok(());
+    }
+    match (path.canonicalize(), input.canonicalize()) {
+        (Ok(same), Ok(input)) if same == input => Err(Failure::wrong_use(format!(
+            "{option} {}: is the input too; give another output file",
+            path.display()
+        ))),
+        _ => Ok(()),
+    }
+}
+
+/// As [`write_whole`] where there is a path, which `write` is given with the file; without one `write` is
+/// called all the same.
+///
+/// # Errors
+/// As [`write_whole`].
+pub fn write_whole_if(
+    path: Option<&Path>,
+    write: impl FnOnce(Option<(&Path, &mut dyn Write)>) -> Outcome<()>,
+) -> Outcome<()> {
+    match path {
+        Some(path) => write_whole(path, |file| write(Some((path, file)))),
+        None => write(None),
+    }
+}
+
 /// Writes `path` through `write`; the file appears under its name only when `write` succeeded,
 /// and a file already there stays untouched otherwise. A link is followed; standard output (`-`), a
 /// device or a pipe, which cannot be replaced, is written to as it stands.

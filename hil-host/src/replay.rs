@@ -111,6 +111,11 @@ impl Ticks {
         Ok(ticks.iter().map(|tick| tick.displacement_m).collect())
     }
 
+    /// Time of the first tick (s).
+    pub fn start_s(&self) -> f64 {
+        self.start_s
+    }
+
     /// The recording, read up to the last tick.
     pub fn recording(&self) -> &Recording {
         &self.recording

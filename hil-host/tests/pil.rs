@@ -1,55 +1,35 @@
 //! The host's end of the link against the firmware's device on the desk, through every kind of fault.
 
+mod pil_common;
+
 use std::collections::VecDeque;
-use std::io::{ErrorKind, Read, Write};
-use std::net::{Ipv4Addr, TcpListener};
 use std::time::Duration;
 
-use dashpot_core::link::{Frame, FrameReader, Header, Refusal, Request, Response};
+use dashpot_core::link::{
+    FrameReader, Header, REQUEST_BYTES, RESPONSE_BYTES, Refusal, Request, Response, ResponseFrame,
+};
 use dashpot_core::{Damper, Status};
-use dashpot_hil::damper_file;
-use dashpot_hil::excitation::Excitation;
 use dashpot_hil::failure::{Failure, Outcome};
 use dashpot_hil::pil::{
-    Client, Desk, FaultCounts, FaultRates, FaultyLink, Link, Patience, Report, Session, Tcp,
+    Client, Desk, Event, FaultCounts, FaultRates, FaultyLink, Link, Pace, Report, Session, Tcp,
 };
+use pil_common::{PATIENCE, built, desk, motion, serve_tcp};
 #[cfg(all(unix, feature = "serial"))]
-use {dashpot_hil::pil::Serial, std::path::Path};
-
-/// The desk's waits are not real; a line's end with an answer, which always comes.
-const PATIENCE: Patience = Patience {
-    timeout: Duration::from_secs(300),
-    tries: 30,
-};
-
-fn built(name: &str) -> Damper<f32> {
-    let parameters = damper_file::load(name, &[]).unwrap();
-    parameters.build(1e-3).unwrap()
-}
-
-/// A bank of three other dampers than the one that is driven.
-fn desk() -> Desk<3> {
-    Desk::new([
-        built("reduced-vertical"),
-        built("in-service"),
-        built("reduced-lateral"),
-    ])
-}
-
-fn motion(ticks: usize) -> impl FnMut() -> Outcome<Option<f32>> {
-    let ride = Excitation::Ride.displacements_m(1e-3);
-    let mut ride = ride.into_iter().take(ticks);
-    move || Ok(ride.next().map(|x| x as f32))
-}
+use {dashpot_hil::pil::Serial, pil_common::serve, std::path::Path};
 
 fn drive(rates: &str, seed: u64) -> (Report, FaultCounts) {
     let rates: FaultRates = rates.parse().unwrap();
     let link = FaultyLink::new(desk(), rates, seed).unwrap();
     let mut session = Session::open(Client::new(link, PATIENCE, 40)).unwrap();
     let report = session
-        .run(&built("paper"), motion(1000), |_| ())
+        .run(
+            &[built("paper")],
+            motion(1000),
+            &mut Pace::default(),
+            |_| Ok(()),
+        )
         .unwrap_or_else(|failure| panic!("{rates:?}: {failure}"));
-    (report, session.link().counts())
+    (report, session.link().faults_made())
 }
 
 #[test]
@@ -94,6 +74,45 @@ fn after_any_fault_the_run_goes_on_to_the_bit() {
 }
 
 #[test]
+fn every_tick_tells_what_happened_in_it() {
+    let rates: FaultRates =
+        "drop=0.02,corrupt=0.02,delay=0.02,duplicate=0.02,reorder=0.02,reset=0.002"
+            .parse()
+            .unwrap();
+    let link = FaultyLink::new(desk(), rates, 2).unwrap();
+    let mut session = Session::open(Client::new(link, PATIENCE, 40)).unwrap();
+    let mut told: Vec<Vec<Event>> = Vec::new();
+    let report = session
+        .run(
+            &[built("paper")],
+            motion(1000),
+            &mut Pace::default(),
+            |record| {
+                told.push(record.events.to_vec());
+                Ok(())
+            },
+        )
+        .unwrap();
+    let made = session.link().faults_made();
+    let ticks_with = |event| told.iter().filter(|events| events.contains(&event)).count() as u64;
+    for (event, most) in [
+        (Event::Drop, made.dropped),
+        (Event::Corrupt, made.corrupted),
+        (Event::Delay, made.delayed),
+        (Event::Duplicate, made.duplicated),
+        (Event::Reorder, made.reordered),
+        (Event::Reset, made.resets),
+        (Event::Repeat, report.link_faults.repeated_requests),
+        (Event::Recovery, report.recoveries),
+    ] {
+        let ticks = ticks_with(event);
+        assert!(ticks > 0 && ticks <= most, "{event}: {ticks} of {most}");
+    }
+    assert_eq!(ticks_with(Event::Late) + ticks_with(Event::Mismatch), 0);
+    assert!(told.iter().any(Vec::is_empty));
+}
+
+#[test]
 fn all_faults_together_and_the_same_for_the_same_seed() {
     let all = "drop=0.03,corrupt=0.03,delay=0.03,duplicate=0.03,reorder=0.03,reset=0.001";
     for seed in 1..6 {
@@ -113,12 +132,12 @@ struct Altered<F> {
     desk: Desk<3>,
     change: F,
     answers: VecDeque<u8>,
-    reader: FrameReader,
+    reader: FrameReader<RESPONSE_BYTES>,
 }
 
 fn altered<F>(change: F) -> Altered<F>
 where
-    F: FnMut(Header, Response<'_>, &mut Frame) -> bool,
+    F: FnMut(Header, Response<'_>, &mut ResponseFrame) -> bool,
 {
     Altered {
         desk: desk(),
@@ -128,7 +147,7 @@ where
     }
 }
 
-impl<F: FnMut(Header, Response<'_>, &mut Frame) -> bool> Link for Altered<F> {
+impl<F: FnMut(Header, Response<'_>, &mut ResponseFrame) -> bool> Link for Altered<F> {
     fn send(&mut self, bytes: &[u8]) -> Outcome<()> {
         self.desk.send(bytes)?;
         let mut buffer = [0; 1024];
@@ -136,7 +155,7 @@ impl<F: FnMut(Header, Response<'_>, &mut Frame) -> bool> Link for Altered<F> {
         for byte in &buffer[..count] {
             if let Some(message) = self.reader.push(*byte) {
                 let (header, response) = postcard::from_bytes(message.unwrap().bytes).unwrap();
-                let mut frame = Frame::new();
+                let mut frame = ResponseFrame::new();
                 if (self.change)(header, response, &mut frame) {
                     self.answers.extend(frame.bytes());
                 }
@@ -156,19 +175,22 @@ impl<F: FnMut(Header, Response<'_>, &mut Frame) -> bool> Link for Altered<F> {
 
 fn report_of(link: impl Link) -> Outcome<Report> {
     let mut session = Session::open(Client::new(link, PATIENCE, 40))?;
-    session.run(&built("paper"), motion(100), |_| ())
+    let dampers = [built("paper")];
+    session.run(&dampers, motion(100), &mut Pace::default(), |_| Ok(()))
 }
 
 #[test]
 fn one_wrong_bit_of_one_force_is_a_mismatch() {
-    let report = report_of(altered(|header, mut response, frame: &mut Frame| {
-        if let Response::Forces(forces) = &mut response
-            && forces.tick == 42
-        {
-            forces.forces_n[2] = f32::from_bits(forces.forces_n[2].to_bits() ^ 1);
-        }
-        frame.write(&(header, response))
-    }))
+    let report = report_of(altered(
+        |header, mut response, frame: &mut ResponseFrame| {
+            if let Response::Forces(forces) = &mut response
+                && forces.tick == 42
+            {
+                forces.forces_n[2] = f32::from_bits(forces.forces_n[2].to_bits() ^ 1);
+            }
+            frame.write(&(header, response))
+        },
+    ))
     .unwrap();
     assert_eq!(report.mismatches, 1);
     let first = report.first_mismatch.unwrap();
@@ -178,19 +200,21 @@ fn one_wrong_bit_of_one_force_is_a_mismatch() {
 
 #[test]
 fn a_target_that_cannot_be_compared_is_refused() {
-    let version = report_of(altered(|header, mut response, frame: &mut Frame| {
-        if let Response::Welcome(welcome) = &mut response {
-            welcome.core_version = "9.9.9";
-        }
-        frame.write(&(header, response))
-    }));
+    let version = report_of(altered(
+        |header, mut response, frame: &mut ResponseFrame| {
+            if let Response::Welcome(welcome) = &mut response {
+                welcome.core_version = "9.9.9";
+            }
+            frame.write(&(header, response))
+        },
+    ));
     assert!(
         version
             .unwrap_err()
             .to_string()
             .contains("dashpot-core 9.9.9")
     );
-    let protocol = report_of(altered(|header, _, frame: &mut Frame| {
+    let protocol = report_of(altered(|header, _, frame: &mut ResponseFrame| {
         frame.write(&(header, Response::Refused(Refusal::Protocol(2))))
     }));
     let message = protocol.unwrap_err().to_string();
@@ -198,12 +222,14 @@ fn a_target_that_cannot_be_compared_is_refused() {
         message.contains("version 2 of the link protocol, this host 1"),
         "{message}"
     );
-    let step = report_of(altered(|header, mut response, frame: &mut Frame| {
-        if let Response::Welcome(welcome) = &mut response {
-            welcome.step_s = 5e-4;
-        }
-        frame.write(&(header, response))
-    }));
+    let step = report_of(altered(
+        |header, mut response, frame: &mut ResponseFrame| {
+            if let Response::Welcome(welcome) = &mut response {
+                welcome.step_s = 5e-4;
+            }
+            frame.write(&(header, response))
+        },
+    ));
     let message = step.unwrap_err().to_string();
     assert!(
         message.contains("0.001 s, the target steps 0.0005 s"),
@@ -217,10 +243,12 @@ fn a_target_that_falls_silent_stops_the_run_with_the_reason() {
     let load = Damper::<f32>::IMAGE_BYTES.div_ceil(256) + 2;
     let last = 149 - 2 - 3 * load - 1;
     let mut left = 150;
-    let silent = report_of(altered(move |header, response, frame: &mut Frame| {
-        left -= 1;
-        left > 0 && frame.write(&(header, response))
-    }));
+    let silent = report_of(altered(
+        move |header, response, frame: &mut ResponseFrame| {
+            left -= 1;
+            left > 0 && frame.write(&(header, response))
+        },
+    ));
     let message = silent.unwrap_err().to_string();
     let reason = format!("after tick {last}: no answer from the target to 30 tries of 300000 ms");
     assert_eq!(message, reason);
@@ -231,7 +259,7 @@ fn a_target_reset_again_and_again_stops_the_run_with_the_reason() {
     struct Forgetful(Desk<3>);
     impl Link for Forgetful {
         fn send(&mut self, bytes: &[u8]) -> Outcome<()> {
-            let mut reader = FrameReader::new();
+            let mut reader = FrameReader::<REQUEST_BYTES>::new();
             let mut step = false;
             for byte in bytes {
                 if let Some(Ok(message)) = reader.push(*byte) {
@@ -257,32 +285,10 @@ fn a_target_reset_again_and_again_stops_the_run_with_the_reason() {
     );
 }
 
-/// Serves a desk over a line until the host leaves.
-fn serve(mut line: impl Read + Write + Send + 'static) {
-    std::thread::spawn(move || {
-        let mut desk = desk();
-        let mut buffer = [0; 1024];
-        loop {
-            let received = match line.read(&mut buffer) {
-                Ok(count) if count > 0 => count,
-                Err(error) if error.kind() == ErrorKind::TimedOut => continue,
-                _ => return,
-            };
-            desk.send(&buffer[..received]).unwrap();
-            let count = desk.receive(&mut buffer, Duration::ZERO).unwrap();
-            if line.write_all(&buffer[..count]).is_err() {
-                return;
-            }
-        }
-    });
-}
-
 #[test]
 fn a_tcp_port_is_a_link() {
-    let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, 0)).unwrap();
-    let address = listener.local_addr().unwrap();
-    std::thread::spawn(move || serve(listener.accept().unwrap().0));
-    let report = report_of(Tcp::connect(&address.to_string()).unwrap()).unwrap();
+    let address = serve_tcp(|| Box::new(desk()));
+    let report = report_of(Tcp::connect(&address).unwrap()).unwrap();
     assert_eq!((report.ticks, report.mismatches), (100, 0));
 }
 
@@ -294,7 +300,7 @@ fn a_serial_device_is_a_link() {
     target.set_timeout(Duration::from_millis(100)).unwrap();
     let device = host.name().unwrap();
     let line = Serial::open(Path::new(&device), 115_200).unwrap();
-    serve(target);
+    serve(target, || Box::new(desk()));
     let report = report_of(line).unwrap();
     assert_eq!((report.ticks, report.mismatches), (100, 0));
     drop(host);
@@ -318,7 +324,7 @@ fn faults_are_checked() {
         assert_eq!(text.parse::<FaultRates>().unwrap_err(), reason);
     }
     let rates = "reset=0.1".parse().unwrap();
-    let refused = FaultyLink::new(altered(|_, _, _: &mut Frame| true), rates, 1);
+    let refused = FaultyLink::new(altered(|_, _, _: &mut ResponseFrame| true), rates, 1);
     assert!(
         refused
             .err()

@@ -100,6 +100,27 @@ impl RealtimeArguments {
             core: self.core,
         }
     }
+
+    /// The options, which only go with `option`.
+    ///
+    /// # Errors
+    /// There are some though `option` was not `given`.
+    pub fn options_under(&self, option: &str, given: bool) -> Outcome<RealtimeOptions> {
+        let options = self.options();
+        if !given && options != RealtimeOptions::default() {
+            return Err(Failure::wrong_use(format!(
+                "--fifo, --lock-memory and --core go with {option}"
+            )));
+        }
+        Ok(options)
+    }
+}
+
+/// The nearest nanosecond (s), free of the rounding of sums; the nearest microsecond from 100 days on,
+/// where a clock's time in `f64` has no nanoseconds.
+fn nearest_nanosecond(time_s: f64) -> f64 {
+    let per_s = if time_s.abs() < 8.64e6 { 1e9 } else { 1e6 };
+    (time_s * per_s).round() / per_s
 }
 
 /// `1 tick`, `2 ticks`.

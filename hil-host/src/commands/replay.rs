@@ -1,7 +1,7 @@
 //! `dashpot replay`: force over a recorded motion.
 
 use std::io::{self, Write};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use dashpot_core::{DamperParameters, Real};
 use serde::Serialize;
@@ -9,11 +9,12 @@ use serde::Serialize;
 use super::gap_report::write_gaps;
 use super::step_size::StepSize;
 use super::{
-    DamperArguments, Format, RealtimeArguments, Scalar, counted, print_report_beside, progress,
+    DamperArguments, Format, RealtimeArguments, Scalar, counted, nearest_nanosecond,
+    print_report_beside, progress,
 };
 use crate::failure::{Failure, Outcome};
 use crate::input;
-use crate::output::{self, cannot_write, write_whole};
+use crate::output::{self, cannot_write_rows, write_whole};
 use crate::pacing::Pacer;
 use crate::recording::{Gaps, Recording};
 use crate::replay::{Summary, Ticks, replay};
@@ -94,18 +95,10 @@ struct Realtime {
 pub fn run(arguments: &ReplayArguments) -> Outcome<()> {
     arguments.damper.refuse_same_input(&arguments.input)?;
     let parameters = arguments.damper.load()?;
-    if same_file(&arguments.input, &arguments.output) {
-        return Err(Failure::wrong_use(format!(
-            "--output {}: is the input too; give another output file",
-            arguments.output.display()
-        )));
-    }
-    let options = arguments.options.options();
-    if !arguments.realtime && options != Default::default() {
-        return Err(Failure::wrong_use(
-            "--fifo, --lock-memory and --core go with --realtime",
-        ));
-    }
+    output::refuse_input("--output", &arguments.output, &arguments.input)?;
+    let options = arguments
+        .options
+        .options_under("--realtime", arguments.realtime)?;
     let mut pacer = if arguments.realtime {
         Some(Pacer::new(arguments.step_us.seconds(), &options)?)
     } else {
@@ -145,13 +138,6 @@ pub fn run(arguments: &ReplayArguments) -> Outcome<()> {
     )
 }
 
-fn same_file(a: &Path, b: &Path) -> bool {
-    if input::is_standard_stream(a) || input::is_standard_stream(b) {
-        return false;
-    }
-    matches!((a.canonicalize(), b.canonicalize()), (Ok(a), Ok(b)) if a == b)
-}
-
 fn write<T: Real + Serialize>(
     parameters: &DamperParameters,
     arguments: &ReplayArguments,
@@ -163,10 +149,7 @@ fn write<T: Real + Serialize>(
     let mut ticks = Ticks::new(Recording::open(&arguments.input)?, step_s)?;
     let mut summary = None;
     write_whole(&arguments.output, |file| {
-        let failed = |error: csv::Error| match error.into_kind() {
-            csv::ErrorKind::Io(error) => cannot_write(&arguments.output, error),
-            other => cannot_write(&arguments.output, io::Error::other(format!("{other:?}"))),
-        };
+        let failed = |error: csv::Error| cannot_write_rows(&arguments.output, error);
         let mut rows = csv::Writer::from_writer(file);
         rows.write_record(["time_s", "displacement_m", "force_n"])
             .map_err(failed)?;
@@ -184,13 +167,6 @@ fn write<T: Real + Serialize>(
     bar.finish_and_clear();
     let summary = summary.ok_or_else(|| Failure::new("nothing was replayed"))?;
     Ok((summary, ticks.recording().gaps()))
-}
-
-/// The nearest nanosecond (s), free of the rounding of sums; the nearest microsecond from 100 days on,
-/// where a clock's time in `f64` has no nanoseconds.
-fn nearest_nanosecond(time_s: f64) -> f64 {
-    let per_s = if time_s.abs() < 8.64e6 { 1e9 } else { 1e6 };
-    (time_s * per_s).round() / per_s
 }
 
 fn print(

@@ -3,68 +3,24 @@
 use plotters::prelude::SeriesLabelPosition;
 
 use super::{Bench, LOOP_AMPLITUDES_M, Ride};
-use crate::failure::Outcome;
+use crate::page::{Figure, panel};
 use crate::plot::curves::{Curve, ramp};
 use crate::plot::loops;
-use crate::plot::sheet::{Layout, Panel, Scale, sheet};
 use crate::plot::style::{BLUE_LINE, PALE, RED_LINE};
-
-/// Width of a figure on a desk (pixels).
-const DESK_WIDTH: u32 = 1040;
-/// Width of a figure on a phone (pixels), where panels stand one below the other.
-const PHONE_WIDTH: u32 = 360;
-/// Height of a panel on a phone (pixels).
-const PHONE_HEIGHT: u32 = 280;
 
 /// The window of the ride shown large (s).
 pub(super) const WINDOW_S: (f64, f64) = (1.0, 2.0);
 
-/// A figure of the page.
-pub(super) struct Figure {
-    panels: Vec<Panel>,
-    /// Height on a desk (pixels).
-    height: u32,
-}
-
-impl Figure {
-    /// Panels in one row, for a desk.
-    ///
-    /// # Errors
-    /// The drawing fails.
-    pub(super) fn desk(&self) -> Outcome<String> {
-        let columns = self.panels.len();
-        let layout = Layout::row(columns, DESK_WIDTH / columns as u32, self.height);
-        sheet(layout, &self.panels)
-    }
-
-    /// Panels in one column, for a phone.
-    ///
-    /// # Errors
-    /// The drawing fails.
-    pub(super) fn phone(&self) -> Outcome<String> {
-        sheet(Layout::column(PHONE_WIDTH, PHONE_HEIGHT), &self.panels)
-    }
-}
-
 /// A figure of one panel whose curves fill the width.
-fn panel(
+fn single(
     x: &str,
     y: &str,
     height: u32,
     legend: Option<SeriesLabelPosition>,
     curves: Vec<Curve>,
 ) -> Figure {
-    let panel = Panel {
-        title: String::new(),
-        x_label: x.into(),
-        y_label: y.into(),
-        legend,
-        sides: false,
-        scale: Scale::Linear,
-        curves,
-    };
     Figure {
-        panels: vec![panel],
+        panels: vec![panel(x, y, legend, curves)],
         height,
     }
 }
@@ -102,7 +58,7 @@ pub(super) fn force(ride: &Ride) -> Figure {
         Curve::new("fixed step", BLUE_LINE, shown(&ride.fixed_step_n)).wide(6),
     ];
     let legend = Some(SeriesLabelPosition::LowerRight);
-    panel("time, s", "computed force, kN", 360, legend, curves)
+    single("time, s", "computed force, kN", 360, legend, curves)
 }
 
 /// Error of the fixed step over the whole ride.
@@ -111,7 +67,7 @@ pub(super) fn error(ride: &Ride) -> Figure {
         .zip(&ride.reference_n)
         .map(|((time, force), reference)| (time, force - reference));
     let curve = Curve::new("error", RED_LINE, errors).wide(4);
-    panel("time, s", "error, N", 260, None, vec![curve])
+    single("time, s", "error, N", 260, None, vec![curve])
 }
 
 /// Force over displacement and velocity along the whole ride.
@@ -152,7 +108,7 @@ pub(super) fn characteristics(benches: &[Bench]) -> Figure {
             Curve::new(bench.damper, colour, points).wide(10)
         });
     let legend = Some(SeriesLabelPosition::UpperLeft);
-    panel(
+    single(
         "velocity, m/s",
         "computed force, kN",
         400,

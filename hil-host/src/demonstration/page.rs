@@ -2,32 +2,23 @@
 
 use std::fmt::Write as _;
 
-use super::figures::{self, Figure};
+use super::figures;
 use super::{Accuracy, Bench, Demonstration, LOOP_FREQUENCY_HZ, description};
 use crate::failure::Outcome;
+use crate::page::{built, document, figure, footer, tiles};
 use crate::published::nominal_indices;
 use crate::rig::Harmonic;
-
-const STYLE: &str = include_str!("page.css");
 
 /// The demonstration as HTML.
 ///
 /// # Errors
 /// A figure cannot be drawn.
 pub fn write(shown: &Demonstration) -> Outcome<String> {
-    let mut page = String::new();
-    let mut add = |text: &str| {
-        page.push_str(text);
-        page.push('\n');
-    };
-    add("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">");
-    add("<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">");
-    add("<title>Dashpot: a rail damper in real time</title>\n<style>");
-    add(STYLE);
-    add("</style>\n</head>\n<body>\n<main>");
+    let mut parts = Vec::new();
+    let mut add = |part: &str| parts.push(part.to_owned());
     add("<h1>A rail damper in real time</h1>");
     add(&lead(shown));
-    add(&tiles(shown));
+    add(&headline(shown));
     add("<h2>What the damper is</h2>");
     add(&description::damper(&shown.benches));
     add(&figure(
@@ -85,9 +76,10 @@ pub fn write(shown: &Demonstration) -> Outcome<String> {
          the difference in the table above. Both are told with their numbers in docs/validation.md.</p>\n</div>",
         description::erratum(&shown.benches)?
     ));
-    add(&footer());
-    add("</main>\n</body>\n</html>");
-    Ok(page)
+    add(&footer(
+        "Ride: data/excitations/ride_made.csv, made. Other motions and dampers: <code>dashpot --help</code>.",
+    ));
+    Ok(document("Dashpot: a rail damper in real time", &parts))
 }
 
 fn lead(shown: &Demonstration) -> String {
@@ -100,7 +92,7 @@ fn lead(shown: &Demonstration) -> String {
 }
 
 /// The headline: accuracy and cost on the target's precision.
-fn tiles(shown: &Demonstration) -> String {
+fn headline(shown: &Demonstration) -> String {
     let worst = |step_s: f64, scalar: &str| {
         shown
             .accuracy
@@ -112,28 +104,27 @@ fn tiles(shown: &Demonstration) -> String {
     };
     let (slow, fast) = (worst(1e-3, "f32"), worst(1e-4, "f32"));
     let fast_double = worst(1e-4, "f64");
-    let tile = |value: String, told: &str| {
-        format!("<div class=\"tile\"><b>{value}</b><span>{told}</span></div>")
-    };
-    format!(
-        "<div class=\"tiles\">\n{}\n{}\n{}\n{}\n</div>",
-        tile(
+    tiles(&[
+        (
             power_of_ten(slow.0),
-            "rms error over rms force at 1 kHz, single precision, the worse of both dampers"
+            "rms error over rms force at 1 kHz, single precision, the worse of both dampers".into(),
         ),
-        tile(power_of_ten(fast.0), "the same at 10 kHz, single precision"),
-        tile(
+        (
+            power_of_ten(fast.0),
+            "the same at 10 kHz, single precision".into(),
+        ),
+        (
             power_of_ten(fast_double.0),
-            "the same at 10 kHz, double precision"
+            "the same at 10 kHz, double precision".into(),
         ),
-        tile(
+        (
             format!("{:.0} ns", slow.1.max(fast.1)),
-            &format!(
+            format!(
                 "a step, measured on this machine: single precision, median{}",
                 built()
-            )
+            ),
         ),
-    )
+    ])
 }
 
 /// `1.2 × 10⁻⁴` in HTML.
@@ -144,14 +135,6 @@ fn power_of_ten(value: f64) -> String {
             format!("{digits} × 10<sup>{}</sup>", power.replace('-', "−"))
         }
         None => text,
-    }
-}
-
-fn built() -> &'static str {
-    if cfg!(debug_assertions) {
-        "; development build, a release build is faster"
-    } else {
-        ""
     }
 }
 
@@ -212,31 +195,4 @@ fn bench_table(benches: &[Bench]) -> Outcome<String> {
     }
     table.push_str("</table></div>");
     Ok(table)
-}
-
-/// A figure drawn twice, for a desk and for a phone; the style shows the one that fits.
-fn figure(figure: &Figure, caption: &str) -> Outcome<String> {
-    // Sized by the page; inline SVG has its namespace from HTML.
-    let inline = |svg: String, class: &str| {
-        svg.replacen(" xmlns=\"http://www.w3.org/2000/svg\"", "", 1)
-            .replacen("<svg", &format!("<svg class=\"{class}\""), 1)
-    };
-    let (desk, phone) = (
-        inline(figure.desk()?, "desk"),
-        inline(figure.phone()?, "phone"),
-    );
-    Ok(format!(
-        "<figure>\n{desk}\n{phone}\n<figcaption>{caption}</figcaption>\n</figure>"
-    ))
-}
-
-fn footer() -> String {
-    format!(
-        "<footer>dashpot {} on {} {}{}. Ride: data/excitations/ride_made.csv, made. Other motions and \
-         dampers: <code>dashpot --help</code>.</footer>",
-        env!("CARGO_PKG_VERSION"),
-        std::env::consts::ARCH,
-        std::env::consts::OS,
-        built()
-    )
 }

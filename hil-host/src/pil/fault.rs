@@ -123,11 +123,6 @@ impl<L: Link> FaultyLink<L> {
         })
     }
 
-    /// Faults made so far.
-    pub fn counts(&self) -> FaultCounts {
-        self.counts
-    }
-
     /// The link inside.
     pub fn inner(&mut self) -> &mut L {
         &mut self.link
@@ -243,5 +238,9 @@ impl<L: Link> Link for FaultyLink<L> {
 
     fn instructions_per_s(&self) -> Option<f64> {
         self.link.instructions_per_s()
+    }
+
+    fn faults_made(&self) -> FaultCounts {
+        self.counts
     }
 }

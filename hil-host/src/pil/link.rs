@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::str::FromStr;
 use std::time::Duration;
 
-use super::{DEFAULT_IMAGE, Qemu, Tcp};
+use super::{DEFAULT_IMAGE, FaultCounts, Qemu, Tcp};
 use crate::failure::{Failure, Outcome};
 
 /// A line of bytes to a target and back.
@@ -40,6 +40,11 @@ pub trait Link {
     fn instructions_per_s(&self) -> Option<f64> {
         None
     }
+
+    /// Faults made on purpose so far.
+    fn faults_made(&self) -> FaultCounts {
+        FaultCounts::default()
+    }
 }
 
 impl<L: Link + ?Sized> Link for Box<L> {
@@ -57,6 +62,9 @@ impl<L: Link + ?Sized> Link for Box<L> {
     }
     fn instructions_per_s(&self) -> Option<f64> {
         (**self).instructions_per_s()
+    }
+    fn faults_made(&self) -> FaultCounts {
+        (**self).faults_made()
     }
 }
 

@@ -5,7 +5,11 @@ mod client;
 mod desk;
 mod fault;
 mod link;
+mod mirror;
+mod pace;
 mod qemu;
+mod record;
+mod report;
 #[cfg(feature = "serial")]
 mod serial;
 mod session;
@@ -15,8 +19,11 @@ pub use client::{Client, LinkError, LinkFaults, Patience};
 pub use desk::Desk;
 pub use fault::{FaultCounts, FaultRates, FaultyLink};
 pub use link::{Link, LinkChoice};
+pub use pace::Pace;
 pub use qemu::{DEFAULT_IMAGE, Qemu};
+pub use record::{Event, TickRecord};
+pub use report::{Cost, Mismatch, Pacing, Report, Target};
 #[cfg(feature = "serial")]
 pub use serial::Serial;
-pub use session::{Cost, Mismatch, Report, Session, Target};
+pub use session::Session;
 pub use tcp::Tcp;

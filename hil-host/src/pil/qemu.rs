@@ -3,10 +3,11 @@
 use std::io::{ErrorKind, Read};
 use std::net::{Ipv4Addr, TcpListener, TcpStream};
 use std::path::{Path, PathBuf};
-use std::process::{Child, Command, Stdio};
+use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
 use super::{Link, Tcp};
+use crate::child::ChildProcess;
 use crate::failure::{Failure, Outcome};
 
 /// The firmware as `cargo build --release` in `firmware/` leaves it.
@@ -25,16 +26,8 @@ pub struct Qemu {
     image: PathBuf,
 }
 
-/// A child process that does not outlive its owner.
 #[derive(Debug)]
-struct Emulator(Child);
-
-impl Drop for Emulator {
-    fn drop(&mut self) {
-        let _ = self.0.kill();
-        let _ = self.0.wait();
-    }
-}
+struct Emulator(ChildProcess);
 
 impl Qemu {
     /// Starts the emulator with `image`, an ELF file for Arm.
@@ -86,11 +79,11 @@ impl Link for Qemu {
 
 impl Emulator {
     /// How the emulator ended, when that is why the link broke.
-    fn explain(&mut self, failure: Failure) -> Failure {
+    fn explain(&self, failure: Failure) -> Failure {
         // It may need a moment to end after its socket did.
         let deadline = Instant::now() + Duration::from_millis(200);
         while Instant::now() < deadline {
-            if let Ok(Some(status)) = self.0.try_wait() {
+            if let Some(status) = self.0.ended() {
                 return Failure::new(format!("{EMULATOR} ended: {status}{}", self.complaint()));
             }
             std::thread::sleep(Duration::from_millis(5));
@@ -99,12 +92,8 @@ impl Emulator {
     }
 
     /// What it wrote to its standard error.
-    fn complaint(&mut self) -> String {
-        let mut text = String::new();
-        if let Some(errors) = self.0.stderr.as_mut() {
-            let _ = errors.take(2000).read_to_string(&mut text);
-        }
-        match text.trim() {
+    fn complaint(&self) -> String {
+        match self.0.errors(2000).trim() {
             "" => String::new(),
             text => format!("; it said: {text}"),
         }
@@ -138,7 +127,8 @@ fn launch(image: &Path) -> Outcome<(Emulator, Tcp)> {
     let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, 0)).map_err(failed)?;
     listener.set_nonblocking(true).map_err(failed)?;
     let port = listener.local_addr().map_err(failed)?.port();
-    let child = Command::new(EMULATOR)
+    let mut command = Command::new(EMULATOR);
+    command
         .args(["-M", "mps2-an500", "-cpu", "cortex-m7", "-nographic"])
         .args(["-monitor", "none", "-icount", "shift=0"])
         .arg("-serial")
@@ -147,21 +137,20 @@ fn launch(image: &Path) -> Outcome<(Emulator, Tcp)> {
         .arg(image)
         .stdin(Stdio::null())
         .stdout(Stdio::null())
-        .stderr(Stdio::piped())
-        .spawn()
-        .map_err(|error| match error.kind() {
-            ErrorKind::NotFound => Failure::new(format!(
-                "{EMULATOR} is not installed; on Debian and Ubuntu: apt-get install qemu-system-arm"
-            )),
-            _ => Failure::new(format!("cannot start {EMULATOR}: {error}")),
-        })?;
-    let mut emulator = Emulator(child);
-    let stream = accept(&listener, &mut emulator)?;
+        .stderr(Stdio::piped());
+    let child = ChildProcess::start(&mut command).map_err(|error| match error.kind() {
+        ErrorKind::NotFound => Failure::new(format!(
+            "{EMULATOR} is not installed; on Debian and Ubuntu: apt-get install qemu-system-arm"
+        )),
+        _ => Failure::new(format!("cannot start {EMULATOR}: {error}")),
+    })?;
+    let emulator = Emulator(child);
+    let stream = accept(&listener, &emulator)?;
     let link = Tcp::over(stream, EMULATOR.into())?;
     Ok((emulator, link))
 }
 
-fn accept(listener: &TcpListener, emulator: &mut Emulator) -> Outcome<TcpStream> {
+fn accept(listener: &TcpListener, emulator: &Emulator) -> Outcome<TcpStream> {
     let deadline = Instant::now() + START_TIMEOUT;
     loop {
         match listener.accept() {
@@ -174,7 +163,7 @@ fn accept(listener: &TcpListener, emulator: &mut Emulator) -> Outcome<TcpStream>
             Err(error) if error.kind() == ErrorKind::WouldBlock => {}
             Err(error) => return Err(Failure::new(format!("{EMULATOR}: {error}"))),
         }
-        if let Ok(Some(status)) = emulator.0.try_wait() {
+        if let Some(status) = emulator.0.ended() {
             let complaint = emulator.complaint();
             return Err(Failure::new(format!(
                 "{EMULATOR} ended: {status}{complaint}"

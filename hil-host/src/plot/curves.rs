@@ -12,6 +12,10 @@ enum Stroke {
     Line,
     Dashes,
     Points,
+    /// Short strokes on the horizontal axis.
+    Marks,
+    /// A line over its filled area, down to zero.
+    Filled,
 }
 
 /// One curve: its name in the legend, its colour and its points.
@@ -67,9 +71,34 @@ impl Curve {
         }
     }
 
-    /// Its points.
-    pub(crate) fn points(&self) -> &[(f64, f64)] {
-        &self.points
+    /// Marks on the horizontal axis at `abscissas`.
+    pub(crate) fn marks(colour: RGBColor, abscissas: impl IntoIterator<Item = f64>) -> Self {
+        Self {
+            stroke: Stroke::Marks,
+            ..Self::new("", colour, abscissas.into_iter().map(|x| (x, 0.0)))
+        }
+    }
+
+    /// The same curve with the area under it filled.
+    pub(crate) fn filled(self) -> Self {
+        Self {
+            stroke: Stroke::Filled,
+            ..self
+        }
+    }
+
+    /// Where its points lie along the horizontal axis.
+    pub(crate) fn abscissas(&self) -> impl Iterator<Item = f64> {
+        self.points.iter().map(|(x, _)| *x)
+    }
+
+    /// How high its points lie; marks lie on the axis wherever that is.
+    pub(crate) fn ordinates(&self) -> impl Iterator<Item = f64> {
+        let points = match self.stroke {
+            Stroke::Marks => &[],
+            _ => &self.points[..],
+        };
+        points.iter().map(|(_, y)| *y)
     }
 
     /// Draws it and enters its key into the legend.
@@ -83,14 +112,23 @@ impl Curve {
     {
         const DASH: i32 = 6 * FINE as i32;
         const KEY: i32 = 22 * FINE as i32;
+        const MARK: i32 = 10 * FINE as i32;
         let style = self.colour.stroke_width(self.width);
         let mark = self.colour.filled();
         let radius = 4 * FINE;
         let points = self.points.iter().copied();
+        let bottom = chart.y_range().start;
         let drawn = match self.stroke {
             Stroke::Line => chart.draw_series(LineSeries::new(points, style)),
             Stroke::Dashes => chart.draw_series(DashedLineSeries::new(points, DASH, DASH, style)),
             Stroke::Points => chart.draw_series(points.map(|at| Circle::new(at, radius, mark))),
+            Stroke::Marks => chart.draw_series(points.map(|(x, _)| {
+                EmptyElement::at((x, bottom)) + PathElement::new([(0, 0), (0, -MARK)], style)
+            })),
+            Stroke::Filled => {
+                let area = AreaSeries::new(points, 0.0, self.colour.mix(0.25));
+                chart.draw_series(area.border_style(style))
+            }
         }
         .map_err(failed)?;
         if self.name.is_empty() {
@@ -98,7 +136,7 @@ impl Curve {
         }
         drawn.label(&self.name);
         match self.stroke {
-            Stroke::Line => {
+            Stroke::Line | Stroke::Filled | Stroke::Marks => {
                 drawn.legend(move |(x, y)| PathElement::new([(x, y), (x + KEY, y)], style))
             }
             Stroke::Dashes => drawn.legend(move |at| {

@@ -108,26 +108,27 @@ macro_rules! draw_on {
 }
 
 fn draw_panel(area: &Area<'_>, panel: &Panel) -> Outcome<()> {
-    let points = || panel.curves.iter().flat_map(Curve::points);
+    let abscissas = panel.curves.iter().flat_map(Curve::abscissas);
+    let ordinates = || panel.curves.iter().flat_map(Curve::ordinates);
     let x = if panel.sides {
-        extent(points().map(|p| p.0))
+        extent(abscissas)
     } else {
-        from_zero(span(points().map(|p| p.0)))
+        from_zero(span(abscissas))
     };
     let x_digits = digits(&x);
     match panel.scale {
         Scale::Linear => {
-            let mut y = extent(points().map(|p| p.1));
+            let mut y = extent(ordinates());
             // A curve that starts at zero, but for rounding, keeps zero at the edge.
             let rounding = 1e-9 * y.end;
-            if points().all(|p| p.1 >= -rounding) {
+            if ordinates().all(|y| y >= -rounding) {
                 y.start = 0.0;
             }
             let y_digits = digits(&y);
             draw_on!(area, panel, x, y, (x_digits, y_digits));
         }
         Scale::Decades => {
-            let y = span(points().map(|p| p.1));
+            let y = span(ordinates());
             let y = y.start / DECADE_ROOM..y.end * DECADE_ROOM;
             draw_on!(area, panel, x, y.log_scale(), (x_digits, Digits::OfDecade));
         }

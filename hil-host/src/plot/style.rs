@@ -14,6 +14,7 @@ pub(crate) const INK: RGBColor = RGBColor(38, 50, 56);
 pub(crate) const BLUE_LINE: RGBColor = RGBColor(21, 101, 192);
 pub(crate) const RED_LINE: RGBColor = RGBColor(198, 40, 40);
 pub(crate) const GREEN_LINE: RGBColor = RGBColor(46, 125, 50);
+pub(crate) const AMBER_LINE: RGBColor = RGBColor(239, 138, 0);
 pub(crate) const PALE: RGBColor = RGBColor(160, 168, 176);
 pub(crate) const LINE: u32 = 2 * FINE;
 

@@ -1,0 +1,83 @@
+//! What the page shows of a run's ticks, of bounded size however long the run is.
+
+use hdrhistogram::Histogram;
+
+use crate::pil::{Event, TickRecord};
+use crate::plot::envelope::Envelope;
+
+/// Forces at one place (N).
+#[derive(Default)]
+pub(super) struct Forces {
+    pub(super) target_n: Envelope,
+    pub(super) host_n: Envelope,
+    /// Target less host.
+    pub(super) difference_n: Envelope,
+    /// Whether any two differ.
+    pub(super) differ: bool,
+}
+
+/// A run over its ticks.
+pub(super) struct History {
+    start_s: f64,
+    step_s: f64,
+    pub(super) places: Vec<Forces>,
+    pub(super) clock_ticks: Envelope,
+    /// How often a tick of the bank took how many clock ticks.
+    pub(super) clock_spread: Histogram<u64>,
+    pub(super) round_trip_ns: Envelope,
+    pub(super) faults_made: Envelope,
+    pub(super) recoveries: Envelope,
+}
+
+impl History {
+    /// Of a run that has yet to begin.
+    pub(super) fn new(places: usize, start_s: f64, step_s: f64) -> Self {
+        Self {
+            start_s,
+            step_s,
+            places: (0..places).map(|_| Forces::default()).collect(),
+            clock_ticks: Envelope::default(),
+            // All 32 bits of a count in three digits: within the bounds allowed.
+            clock_spread: Histogram::new_with_bounds(1, u64::from(u32::MAX), 3)
+                .expect("constant bounds are valid"),
+            round_trip_ns: Envelope::default(),
+            faults_made: Envelope::default(),
+            recoveries: Envelope::default(),
+        }
+    }
+
+    /// Takes a tick.
+    pub(super) fn record(&mut self, record: &TickRecord<'_>) {
+        let tick = record.tick;
+        let forces = record.target_forces_n.iter().zip(record.host_forces_n);
+        for (place, (target_n, host_n)) in self.places.iter_mut().zip(forces) {
+            let (target, host) = (f64::from(*target_n), f64::from(*host_n));
+            place.target_n.record(tick, target);
+            place.host_n.record(tick, host);
+            place.difference_n.record(tick, target - host);
+            place.differ |= target_n.to_bits() != host_n.to_bits();
+        }
+        self.clock_ticks.record(tick, f64::from(record.clock_ticks));
+        self.clock_spread
+            .saturating_record(record.clock_ticks.into());
+        // Drawn in decades, which have no zero.
+        let round_trip_ns = record.round_trip_ns.max(1);
+        self.round_trip_ns.record(tick, round_trip_ns as f64);
+        if record.events.iter().any(|event| event.is_made()) {
+            self.faults_made.record(tick, 1.0);
+        }
+        if record.events.contains(&Event::Recovery) {
+            self.recoveries.record(tick, 1.0);
+        }
+    }
+
+    /// Time of a tick along the recording (s).
+    pub(super) fn time_s(&self, tick: u32) -> f64 {
+        self.start_s + (f64::from(tick) - 1.0) * self.step_s
+    }
+
+    /// Step (s).
+    pub(super) fn step_s(&self) -> f64 {
+        self.step_s
+    }
+}

@@ -1,0 +1,250 @@
+//! `dashpot pil`: processor in the loop.
+
+mod figures;
+mod history;
+mod page;
+mod report;
+mod rows;
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+use dashpot_core::{Damper, DamperParameters};
+
+use super::step_size::StepSize;
+use super::{Format, RealtimeArguments, print_report_beside, progress};
+use crate::damper_file;
+use crate::failure::{Failure, Outcome};
+use crate::input;
+use crate::output::{self, cannot_write, write_whole_if};
+use crate::pacing::Pacer;
+use crate::pil::{Client, FaultRates, FaultyLink, Link, LinkChoice, Pace, Patience, Session};
+use crate::recording::Recording;
+use crate::replay::Ticks;
+use history::History;
+use report::{Found, print};
+use rows::Rows;
+
+/// Drive dampers on a target and compare every force with this host's, bit for bit.
+#[derive(Debug, Clone, clap::Args)]
+#[command(after_help = "Examples:
+  dashpot pil --link qemu --damper in-service --input data/excitations/ride_made.csv --page pil.html
+  dashpot pil --link serial:/dev/ttyACM0 --damper my.toml --input run7.csv --paced --output f.csv
+  dashpot pil --link tcp:localhost:5555 --damper a.toml --damper b.toml --input run7.csv
+  dashpot pil --link qemu --input run7.csv --faults drop=0.01,corrupt=0.01,reset=0.001 --seed 7
+
+A damper given once is loaded into every place of the target's bank; given once for each place, the first goes into \
+place 0, the second into place 1 and so on. Place i runs i ticks behind place 0.
+
+--paced sends each tick when it is due, one step after the last; a tick answered after the next was due has missed its \
+deadline. Without it a tick is sent as soon as the last is answered.
+
+--output writes a row for each tick: tick, time_s; for each place i displacement_m_i, target_force_n_i, host_force_n_i \
+and status_i (the target's status bits); clock_ticks of the target for the whole bank, round_trip_ns, and event: empty \
+or words separated by spaces: repeat (a request sent again), recovery (dampers and states given again), late (deadline \
+missed), mismatch, and the faults made: drop, corrupt, delay, duplicate, reorder, reset.
+
+Faults are probabilities per frame: drop, corrupt, delay, duplicate, reorder, reset.
+
+An emulator of your own for --link tcp:localhost:5555, without Nagle's delay:
+  qemu-system-arm -M mps2-an500 -cpu cortex-m7 -nographic -monitor none -icount shift=0 \\
+    -serial tcp:127.0.0.1:5555,server=on,nodelay=on -kernel IMAGE
+
+Exit code 1 when a force differs; the files are written all the same.")]
+pub struct PilArguments {
+    /// Preset (`paper`, `in-service`, `reduced-vertical`, `reduced-lateral`) or TOML file, `-` for standard
+    /// input; once for all places of the target, or once for each.
+    #[arg(long = "damper", default_value = "paper", value_name = "NAME|FILE")]
+    dampers: Vec<String>,
+    /// Overrides a key of every damper: table.key=value, such as mount.clearance_m=1e-3.
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    overrides: Vec<String>,
+    /// The target: tcp:HOST:PORT, serial:DEVICE, qemu (an emulator of our own) or qemu:IMAGE.
+    #[arg(long, value_name = "LINK")]
+    link: LinkChoice,
+    /// Recorded motion, CSV with columns time_s,displacement_m; `-` for standard input.
+    #[arg(long, value_name = "FILE")]
+    input: PathBuf,
+    /// Displacements, forces and events of every tick, CSV; `-` for standard output.
+    #[arg(long, value_name = "FILE")]
+    output: Option<PathBuf>,
+    /// A page that shows the run, one self-contained HTML file; `-` for standard output.
+    #[arg(long, value_name = "FILE")]
+    page: Option<PathBuf>,
+    /// Ticks at most; the whole recording when not given.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    ticks: Option<u32>,
+    /// Send each tick when it is due and report missed deadlines.
+    #[arg(long)]
+    paced: bool,
+    #[command(flatten)]
+    realtime: RealtimeArguments,
+    /// Faults to make on the link: kind=probability, separated by commas.
+    #[arg(long, value_name = "FAULTS")]
+    faults: Option<FaultRates>,
+    /// Seed of the faults.
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// Wait for an answer, ms.
+    #[arg(long, default_value_t = 200, value_parser = clap::value_parser!(u64).range(1..=60_000), value_name = "MS")]
+    timeout_ms: u64,
+    /// Tries of a request before the target counts as silent.
+    #[arg(long, default_value_t = 8, value_parser = clap::value_parser!(u32).range(1..=1000))]
+    tries: u32,
+    /// Rate of a serial device, bit/s.
+    #[arg(long, default_value_t = 1_000_000, value_parser = clap::value_parser!(u32).range(1..))]
+    baud: u32,
+    /// How results are printed.
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    format: Format,
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// A damper, recording, target or file that cannot be used, a target lost for good, or a force that
+/// differs.
+pub fn run(arguments: &PilArguments) -> Outcome<()> {
+    arguments.check_files()?;
+    arguments
+        .realtime
+        .options_under("--paced", arguments.paced)?;
+    let load = |name: &String| damper_file::load(name, &arguments.overrides);
+    let parameters: Vec<_> = arguments.dampers.iter().map(load).collect::<Outcome<_>>()?;
+    let recording = Recording::open(&arguments.input)?;
+    let mut found = None;
+    // Both files are begun before the run, so that one that cannot be written costs no run.
+    write_whole_if(arguments.page.as_deref(), |page| {
+        let mut history = None;
+        write_whole_if(arguments.output.as_deref(), |file| {
+            let (ran, kept) = drive(arguments, &parameters, recording, file)?;
+            found = Some(ran);
+            history = Some(kept);
+            Ok(())
+        })?;
+        if let (Some((path, page)), Some(found), Some(history)) = (page, &found, &history) {
+            page.write_all(page::write(found, history)?.as_bytes())
+                .map_err(|error| cannot_write(path, error))?;
+        }
+        Ok(())
+    })?;
+    let found = found.ok_or_else(|| Failure::new("nothing was run"))?;
+    let data = arguments
+        .files()
+        .find(|path| input::is_standard_stream(path));
+    print_report_beside(
+        data.unwrap_or(Path::new("")),
+        arguments.format,
+        &found,
+        print,
+    )?;
+    let report = &found.report;
+    if report.mismatches > 0 || report.state_mismatches > 0 {
+        return Err(Failure::new(format!(
+            "{} forces or status words and {} states differ from the host's",
+            report.mismatches, report.state_mismatches
+        )));
+    }
+    Ok(())
+}
+
+impl PilArguments {
+    /// The files to write.
+    fn files(&self) -> impl Iterator<Item = &Path> {
+        [&self.output, &self.page]
+            .into_iter()
+            .flatten()
+            .map(PathBuf::as_path)
+    }
+
+    /// Refuses one file for two purposes.
+    fn check_files(&self) -> Outcome<()> {
+        let dampers = self
+            .dampers
+            .iter()
+            .map(|name| ("--damper", Path::new(name)));
+        let inputs: Vec<_> = dampers.chain([("--input", self.input.as_path())]).collect();
+        input::refuse_second_standard_input(&inputs)?;
+        for (option, path) in [("--output", &self.output), ("--page", &self.page)] {
+            if let Some(path) = path {
+                output::refuse_input(option, path, &self.input)?;
+            }
+        }
+        match &self.output {
+            Some(path) if self.page.as_ref() == Some(path) => Err(Failure::wrong_use(format!(
+                "--output and --page: both are {}; give each a file of its own",
+                path.display()
+            ))),
+            _ => Ok(()),
+        }
+    }
+}
+
+/// Runs the recording through the target; each tick goes to `file`, where there is one.
+fn drive(
+    arguments: &PilArguments,
+    parameters: &[DamperParameters],
+    recording: Recording,
+    file: Option<(&Path, &mut dyn Write)>,
+) -> Outcome<(Found, History)> {
+    let rates = arguments.faults.unwrap_or_default();
+    let link = FaultyLink::new(arguments.link.open(arguments.baud)?, rates, arguments.seed)?;
+    let patience = Patience {
+        timeout: Duration::from_millis(arguments.timeout_ms),
+        tries: arguments.tries,
+    };
+    let mut session = Session::open(Client::new(link, patience, fastrand::u16(..)))?;
+    let target = session.target();
+    let step = StepSize::from_target(target.step_s).ok_or_else(|| {
+        Failure::new(format!(
+            "the target steps {} s; allowed: 1 us to 20 ms",
+            target.step_s
+        ))
+    })?;
+    let step_s = step.seconds();
+    let build = |parameters: &DamperParameters| Ok(parameters.build(step_s)?);
+    let dampers: Vec<Damper<f32>> = parameters.iter().map(build).collect::<Outcome<_>>()?;
+    let bar = progress::bar(input::length(&arguments.input), "pil");
+    let mut ticks = Ticks::new(recording, step_s)?;
+    let start_s = ticks.start_s();
+    let mut history = History::new(target.dampers, start_s, step_s);
+    let mut rows = file
+        .map(|(path, file)| Rows::new(path, file, target.dampers, start_s, step_s))
+        .transpose()?;
+    let mut pace = if arguments.paced {
+        Pace::Paced(Box::new(Pacer::new(step_s, &arguments.realtime.options())?))
+    } else {
+        Pace::default()
+    };
+    let mut left = arguments.ticks.unwrap_or(u32::MAX);
+    let motion = || {
+        if left == 0 {
+            return Ok(None);
+        }
+        left -= 1;
+        if left.is_multiple_of(256) {
+            bar.set_position(ticks.recording().position());
+        }
+        Ok(ticks.next_tick()?.map(|tick| tick.displacement_m as f32))
+    };
+    let report = session.run(&dampers, motion, &mut pace, |record| {
+        history.record(record);
+        rows.as_mut().map_or(Ok(()), |rows| rows.write(record))
+    })?;
+    rows.map_or(Ok(()), Rows::finish)?;
+    bar.finish_and_clear();
+    let found = Found {
+        dampers: arguments.dampers.clone(),
+        step_us: step.us(),
+        report,
+        gaps: ticks.recording().gaps(),
+        injected_faults: arguments.faults.map(|_| session.link().faults_made()),
+        seed: arguments.faults.map(|_| arguments.seed),
+        files: arguments
+            .files()
+            .map(|path| output::name(path).display().to_string())
+            .collect(),
+    };
+    Ok((found, history))
+}

@@ -1,0 +1,76 @@
+//! A run as CSV, a row for each tick.
+
+use std::io::Write;
+use std::path::Path;
+
+use crate::commands::nearest_nanosecond;
+use crate::failure::Outcome;
+use crate::output::cannot_write_rows;
+use crate::pil::{Event, TickRecord};
+
+/// Rows of a run, being written.
+pub(super) struct Rows<'a> {
+    path: &'a Path,
+    rows: csv::Writer<&'a mut dyn Write>,
+    start_s: f64,
+    step_s: f64,
+}
+
+impl<'a> Rows<'a> {
+    /// The header for `places`, to `file` at `path`; tick 1 is at `start_s` (s).
+    pub(super) fn new(
+        path: &'a Path,
+        file: &'a mut dyn Write,
+        places: usize,
+        start_s: f64,
+        step_s: f64,
+    ) -> Outcome<Self> {
+        let mut rows = csv::Writer::from_writer(file);
+        let of_place = (0..places).flat_map(|place| {
+            ["displacement_m", "target_force_n", "host_force_n", "status"]
+                .map(|name| format!("{name}_{place}"))
+        });
+        let before = ["tick", "time_s"].map(String::from);
+        let after = ["clock_ticks", "round_trip_ns", "event"].map(String::from);
+        rows.write_record(before.into_iter().chain(of_place).chain(after))
+            .map_err(|error| cannot_write_rows(path, error))?;
+        Ok(Self {
+            path,
+            rows,
+            start_s,
+            step_s,
+        })
+    }
+
+    pub(super) fn write(&mut self, record: &TickRecord<'_>) -> Outcome<()> {
+        let time_s = self.start_s + f64::from(record.tick - 1) * self.step_s;
+        let places: Vec<(f32, f32, f32, u16)> = (0..record.displacements_m.len())
+            .map(|place| {
+                (
+                    record.displacements_m[place],
+                    record.target_forces_n[place],
+                    record.host_forces_n[place],
+                    record.target_status[place],
+                )
+            })
+            .collect();
+        let events: Vec<String> = record.events.iter().map(Event::to_string).collect();
+        self.rows
+            .serialize((
+                record.tick,
+                nearest_nanosecond(time_s),
+                places,
+                record.clock_ticks,
+                record.round_trip_ns,
+                events.join(" "),
+            ))
+            .map_err(|error| cannot_write_rows(self.path, error))
+    }
+
+    /// All rows are handed over.
+    pub(super) fn finish(mut self) -> Outcome<()> {
+        self.rows
+            .flush()
+            .map_err(|error| cannot_write_rows(self.path, error.into()))
+    }
+}

@@ -1,0 +1,76 @@
+//! A target on the desk, and the motion that drives it.
+
+// Each test binary uses its own share of these.
+#![allow(dead_code)]
+
+use std::io::{ErrorKind, Read, Write};
+use std::net::{Ipv4Addr, TcpListener};
+use std::time::Duration;
+
+use dashpot_core::Damper;
+use dashpot_hil::damper_file;
+use dashpot_hil::excitation::Excitation;
+use dashpot_hil::failure::Outcome;
+use dashpot_hil::pil::{Desk, Link, Patience};
+
+/// The desk's waits are not real; a line's end with an answer, which always comes.
+pub const PATIENCE: Patience = Patience {
+    timeout: Duration::from_secs(300),
+    tries: 30,
+};
+
+pub fn built(name: &str) -> Damper<f32> {
+    let parameters = damper_file::load(name, &[]).unwrap();
+    parameters.build(1e-3).unwrap()
+}
+
+/// A bank of three other dampers than those that are driven.
+pub fn desk() -> Desk<3> {
+    Desk::new([
+        built("reduced-vertical"),
+        built("in-service"),
+        built("reduced-lateral"),
+    ])
+}
+
+/// The first `ticks` displacements of the made ride (m).
+pub fn ride(ticks: usize) -> Vec<f32> {
+    let ride = Excitation::Ride.displacements_m(1e-3);
+    ride.into_iter().take(ticks).map(|x| x as f32).collect()
+}
+
+pub fn motion(ticks: usize) -> impl FnMut() -> Outcome<Option<f32>> {
+    let mut ride = ride(ticks).into_iter();
+    move || Ok(ride.next())
+}
+
+/// Serves a target over a line until the host leaves.
+pub fn serve(
+    mut line: impl Read + Write + Send + 'static,
+    target: impl FnOnce() -> Box<dyn Link> + Send + 'static,
+) {
+    std::thread::spawn(move || {
+        let mut target = target();
+        let mut buffer = [0; 1024];
+        loop {
+            let received = match line.read(&mut buffer) {
+                Ok(count) if count > 0 => count,
+                Err(error) if error.kind() == ErrorKind::TimedOut => continue,
+                _ => return,
+            };
+            target.send(&buffer[..received]).unwrap();
+            let count = target.receive(&mut buffer, Duration::ZERO).unwrap();
+            if line.write_all(&buffer[..count]).is_err() {
+                return;
+            }
+        }
+    });
+}
+
+/// Serves a target to whoever connects first; HOST:PORT.
+pub fn serve_tcp(target: impl FnOnce() -> Box<dyn Link> + Send + 'static) -> String {
+    let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, 0)).unwrap();
+    let address = listener.local_addr().unwrap();
+    std::thread::spawn(move || serve(listener.accept().unwrap().0, target));
+    address.to_string()
+}
