@@ -74,7 +74,6 @@ impl Uart {
         write(base + UART_CONTROL, 0b11);
         Self(base)
     }
-
 }
 
 impl Line for Uart {

@@ -57,7 +57,11 @@ impl SerialOutputs {
         }
         let unsent = self.packet.get(BYTES.wrapping_sub(self.unsent)..);
         let mut unsent = unsent.unwrap_or_default().iter();
-        while unsent.as_slice().first().is_some_and(|byte| self.uart.send(*byte)) {
+        while unsent
+            .as_slice()
+            .first()
+            .is_some_and(|byte| self.uart.send(*byte))
+        {
             unsent.next();
         }
         self.unsent = unsent.len();

@@ -5,10 +5,11 @@ mod pil_common;
 use std::collections::VecDeque;
 use std::time::Duration;
 
+use dashpot_core::Status;
 use dashpot_core::link::{
-    FrameReader, Header, REQUEST_BYTES, RESPONSE_BYTES, Refusal, Request, Response, ResponseFrame,
+    FrameReader, Header, PROTOCOL, REQUEST_BYTES, RESPONSE_BYTES, Refusal, Request, Response,
+    ResponseFrame,
 };
-use dashpot_core::{Damper, Status};
 use dashpot_hil::failure::{Failure, Outcome};
 use dashpot_hil::pil::{
     Client, Desk, Event, FaultCounts, FaultRates, FaultyLink, Link, Pace, Report, Session, Tcp,
@@ -42,9 +43,8 @@ fn without_faults_every_force_has_the_hosts_bits() {
     assert_eq!((report.recoveries, made), (0, FaultCounts::default()));
     assert_eq!(report.link_faults, Default::default());
     assert_eq!(report.target_counters.corrupt, 0);
-    // Hello twice, reset's restore, three dampers of 25 chunks with begin and commit, the steps, save.
-    let loads = 3 * (Damper::<f32>::IMAGE_BYTES.div_ceil(256) as u32 + 2);
-    assert_eq!(report.target_counters.accepted, 3 + loads + 1000 + 1);
+    // Hello twice, restore, a load for each damper, the steps, save.
+    assert_eq!(report.target_counters.accepted, 3 + 3 + 1000 + 1);
     assert_eq!(report.round_trip.count, 1000);
 }
 
@@ -215,11 +215,11 @@ fn a_target_that_cannot_be_compared_is_refused() {
             .contains("dashpot-core 9.9.9")
     );
     let protocol = report_of(altered(|header, _, frame: &mut ResponseFrame| {
-        frame.write(&(header, Response::Refused(Refusal::Protocol(2))))
+        frame.write(&(header, Response::Refused(Refusal::Protocol(PROTOCOL + 1))))
     }));
     let message = protocol.unwrap_err().to_string();
     assert!(
-        message.contains("version 2 of the link protocol, this host 1"),
+        message.contains("version 3 of the link protocol, this host 2"),
         "{message}"
     );
     let step = report_of(altered(
@@ -239,10 +239,9 @@ fn a_target_that_cannot_be_compared_is_refused() {
 
 #[test]
 fn a_target_that_falls_silent_stops_the_run_with_the_reason() {
-    // 149 answers: two to hello, three dampers in chunks with begin and commit, restore, the rest steps.
-    let load = Damper::<f32>::IMAGE_BYTES.div_ceil(256) + 2;
-    let last = 149 - 2 - 3 * load - 1;
-    let mut left = 150;
+    // 49 answers: two to hello, three to load, restore, the rest steps.
+    let last = 49 - 2 - 3 - 1;
+    let mut left = 50;
     let silent = report_of(altered(
         move |header, response, frame: &mut ResponseFrame| {
             left -= 1;

@@ -5,6 +5,7 @@ pub mod bench_test;
 pub mod budget;
 pub mod controller;
 pub mod document;
+pub mod in_turn;
 pub mod library;
 pub mod look_up;
 pub mod newton;

@@ -24,6 +24,7 @@ pub struct Qemu {
     emulator: Emulator,
     link: Tcp,
     image: PathBuf,
+    outputs: Option<PathBuf>,
 }
 
 #[derive(Debug)]
@@ -35,12 +36,21 @@ impl Qemu {
     /// # Errors
     /// The image is none, the emulator is not installed or ends at once.
     pub fn start(image: &Path) -> Outcome<Self> {
+        Self::start_with_outputs(image, None)
+    }
+
+    /// As [`Qemu::start`]; what the target's second UART sends, its outputs, goes to the file.
+    ///
+    /// # Errors
+    /// As [`Qemu::start`].
+    pub fn start_with_outputs(image: &Path, outputs: Option<&Path>) -> Outcome<Self> {
         check_image(image)?;
-        let (emulator, link) = launch(image)?;
+        let (emulator, link) = launch(image, outputs)?;
         Ok(Self {
             emulator,
             link,
             image: image.to_owned(),
+            outputs: outputs.map(Path::to_owned),
         })
     }
 
@@ -64,7 +74,7 @@ impl Link for Qemu {
     }
 
     fn reset_target(&mut self) -> Outcome<()> {
-        (self.emulator, self.link) = launch(&self.image)?;
+        (self.emulator, self.link) = launch(&self.image, self.outputs.as_deref())?;
         Ok(())
     }
 
@@ -122,7 +132,7 @@ fn check_image(image: &Path) -> Outcome<()> {
     }
 }
 
-fn launch(image: &Path) -> Outcome<(Emulator, Tcp)> {
+fn launch(image: &Path, outputs: Option<&Path>) -> Outcome<(Emulator, Tcp)> {
     let failed = |error: std::io::Error| Failure::new(format!("cannot open a local port: {error}"));
     let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, 0)).map_err(failed)?;
     listener.set_nonblocking(true).map_err(failed)?;
@@ -133,6 +143,8 @@ fn launch(image: &Path) -> Outcome<(Emulator, Tcp)> {
         .args(["-monitor", "none", "-icount", "shift=0"])
         .arg("-serial")
         .arg(format!("tcp:127.0.0.1:{port},nodelay=on"))
+        .arg("-serial")
+        .arg(outputs.map_or("null".into(), |file| format!("file:{}", file.display())))
         .arg("-kernel")
         .arg(image)
         .stdin(Stdio::null())

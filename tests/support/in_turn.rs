@@ -1,0 +1,104 @@
+//! The firmware under QEMU, asked and answered in turn.
+
+use std::collections::VecDeque;
+use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
+use std::time::Duration;
+
+use dashpot_hil::failure::Outcome;
+use dashpot_hil::pil::{Link, Patience, Qemu};
+use xtask::processor::CORTEX_M7;
+use xtask::tools::{ARM_GCC, QEMU, have, have_target};
+
+/// The link under the client never lets it wait.
+pub const PATIENCE: Patience = Patience {
+    timeout: Duration::ZERO,
+    tries: 50,
+};
+/// Of a target that will never answer; one that does ends the wait.
+const STUCK: Duration = Duration::from_secs(300);
+/// Of a target that counts its own ticks: a tick has time for a hundred.
+pub const MOST_ANSWERS: u32 = 1_000_000;
+
+/// The folder of the images; none, said loudly, where they cannot be built.
+pub fn images() -> Option<PathBuf> {
+    static IMAGES: OnceLock<Option<PathBuf>> = OnceLock::new();
+    let build = || {
+        let what = "the firmware under QEMU";
+        if !have(&[QEMU, ARM_GCC], what) {
+            return None;
+        }
+        let toolchain = have_target(CORTEX_M7.target, what)?;
+        let built = xtask::firmware::build(&toolchain, &CORTEX_M7);
+        Some(built.unwrap_or_else(|error| panic!("{error}")))
+    };
+    IMAGES.get_or_init(build).clone()
+}
+
+/// An emulator that is asked and answers in turn, so that a run is the same on a fast machine and a slow
+/// one: every whole frame has one answer, and sending waits for all of them.
+pub struct InTurn {
+    emulator: Qemu,
+    /// Within a frame to the target.
+    partial: bool,
+    answers: VecDeque<u8>,
+    sent: u32,
+    /// Resets the target before the frames of these numbers.
+    resets: &'static [u32],
+}
+
+impl InTurn {
+    /// Starts it; what it sends as its outputs goes to the file.
+    pub fn start(image: &Path, resets: &'static [u32], outputs: Option<&Path>) -> Self {
+        Self {
+            emulator: Qemu::start_with_outputs(image, outputs).expect("the emulator starts"),
+            partial: false,
+            answers: VecDeque::new(),
+            sent: 0,
+            resets,
+        }
+    }
+
+    /// Frames that end within `bytes`; two zeros in a row hold none.
+    fn frames(&mut self, bytes: &[u8]) -> usize {
+        let ends = bytes.iter().filter(|byte| {
+            let ends = **byte == 0 && self.partial;
+            self.partial = **byte != 0;
+            ends
+        });
+        ends.count()
+    }
+}
+
+impl Link for InTurn {
+    fn send(&mut self, bytes: &[u8]) -> Outcome<()> {
+        self.sent += 1;
+        if self.resets.contains(&self.sent) {
+            self.emulator.reset_target()?;
+            self.partial = false;
+        }
+        self.emulator.send(bytes)?;
+        let mut expected = self.frames(bytes);
+        while expected > 0 {
+            let mut buffer = [0; 1024];
+            let count = self.emulator.receive(&mut buffer, STUCK)?;
+            assert!(count > 0, "no answer in {STUCK:?}: the target is stuck");
+            let received = &buffer[..count];
+            expected -= received.iter().filter(|byte| **byte == 0).count();
+            self.answers.extend(received);
+        }
+        Ok(())
+    }
+
+    fn receive(&mut self, buffer: &mut [u8], _: Duration) -> Outcome<usize> {
+        let count = buffer.len().min(self.answers.len());
+        for (place, byte) in buffer.iter_mut().zip(self.answers.drain(..count)) {
+            *place = byte;
+        }
+        Ok(count)
+    }
+
+    fn instructions_per_s(&self) -> Option<f64> {
+        self.emulator.instructions_per_s()
+    }
+}

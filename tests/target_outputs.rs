@@ -1,0 +1,145 @@
+//! What the firmware's second UART sends to the actuators, read there: forces while the tick runs free, the safe
+//! output after a loss of the link, zeros after a fault.
+
+use std::path::Path;
+
+use dashpot::in_turn::{InTurn, MOST_ANSWERS, PATIENCE, images};
+use dashpot_core::link::{LossOfLink, Reals, Request, Response, SafeOutput};
+use dashpot_hil::pil::{Client, Qemu};
+
+const DAMPERS: usize = 12;
+
+type Forces = [f32; DAMPERS];
+
+/// The packets in a file, each one once however often it came: `ff ff ff ff`, then the forces, as docs/link.md
+/// says. The last may be incomplete.
+fn packets(file: &Path) -> Vec<Forces> {
+    let bytes = std::fs::read(file).expect("the outputs");
+    let mut packets: Vec<Forces> = Vec::new();
+    let mut rest = &bytes[..];
+    while let Some((packet, left)) = rest.split_first_chunk::<{ 4 + 4 * DAMPERS }>() {
+        if packet[..4] != [0xff; 4] {
+            rest = &rest[1..];
+            continue;
+        }
+        rest = left;
+        let (words, _) = packet.as_chunks::<4>();
+        let forces = std::array::from_fn(|damper| f32::from_le_bytes(words[damper + 1]));
+        if packets.last() != Some(&forces) {
+            packets.push(forces);
+        }
+    }
+    packets
+}
+
+/// Runs free under force, then says nothing more but questions until the link is lost and the safe output long
+/// over; what came out, and what the target says of it.
+fn lose_the_link(output: SafeOutput) -> Option<(Vec<Forces>, Reals)> {
+    let images = images()?;
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let file = folder.path().join("outputs.bin");
+    let link = InTurn::start(&images.join("dashpot-firmware"), &[], Some(&file));
+    let mut client = Client::new(link, PATIENCE, 3);
+    client.hello().expect("a target");
+    let mut ask = |request: Request<'static>| {
+        let answer = client.request(&request);
+        match answer.unwrap_or_else(|error| panic!("{request:?}: {error}")) {
+            Response::Forces(forces) => (forces.tick, forces.forces_n.to_vec()),
+            Response::Counters(counters) => (counters.link_losses, Vec::new()),
+            Response::Outputs { outputs_n } => (0, outputs_n.to_vec()),
+            Response::Telemetry { samples, .. } => {
+                (samples.last().map_or(0, |sample| sample.tick), Vec::new())
+            }
+            _ => (0, Vec::new()),
+        }
+    };
+    // However slow this host is, the link holds for now.
+    let lose_after = |after_ticks, output| {
+        Request::LossOfLink(LossOfLink {
+            after_ticks,
+            output,
+        })
+    };
+    ask(lose_after(u32::MAX, output));
+    let all = |x: f32| -> Reals { (0..DAMPERS).map(|_| x).collect() };
+    let displacements_m = all(0.0);
+    ask(Request::Run { displacements_m });
+    let mut x = 0.0;
+    let moved = (0..MOST_ANSWERS).any(|_| {
+        x = if x > 0.02 { 0.0 } else { x + 1e-4 };
+        let displacements_m = all(x);
+        let (_, forces) = ask(Request::Displace { displacements_m });
+        forces.iter().all(|force| force.abs() > 100.0)
+    });
+    assert!(moved, "no force in {MOST_ANSWERS} answers");
+    ask(lose_after(50, output));
+    let lost = (0..MOST_ANSWERS).any(|_| ask(Request::Counters).0 > 0);
+    assert!(lost, "the link was not lost");
+    let tick_now = |ask: &mut dyn FnMut(Request<'static>) -> (u32, Vec<f32>)| {
+        // The newest sample comes when all older ones were taken.
+        (0..10)
+            .map(|_| ask(Request::Telemetry { damper: 0 }).0)
+            .max()
+    };
+    let at_loss = tick_now(&mut ask).unwrap_or(0);
+    let over = (0..MOST_ANSWERS).any(|_| tick_now(&mut ask) >= Some(at_loss + 30));
+    assert!(over, "time stood still");
+    let (_, outputs_n) = ask(Request::Outputs);
+    drop(client);
+    Some((packets(&file), outputs_n.into_iter().collect()))
+}
+
+fn end<const N: usize>(packets: &[Forces]) -> [Forces; N] {
+    *packets.last_chunk().expect("enough packets")
+}
+
+#[test]
+fn hold_keeps_the_last_good_forces_on_the_line() {
+    let Some((packets, told)) = lose_the_link(SafeOutput::Hold) else {
+        return;
+    };
+    let [last] = end(&packets);
+    assert_eq!(last[..], told[..]);
+    assert!(last.iter().any(|force| *force != 0.0));
+}
+
+#[test]
+fn zero_comes_out_at_once() {
+    let Some((packets, told)) = lose_the_link(SafeOutput::Zero) else {
+        return;
+    };
+    let [before, last] = end(&packets);
+    assert_eq!((last, &told[..]), ([0.0; DAMPERS], &[0.0; DAMPERS][..]));
+    assert!(before.iter().any(|force| *force != 0.0));
+}
+
+#[test]
+fn a_ramp_comes_out_in_equal_parts() {
+    let Some((packets, told)) = lose_the_link(SafeOutput::RampToZero { ticks: 4 }) else {
+        return;
+    };
+    let [good, ramp @ ..]: [Forces; 5] = end(&packets);
+    let expected = [0.75, 0.5, 0.25, 0.0].map(|share| good.map(|force| force * share));
+    assert_eq!((ramp, &told[..]), (expected, &[0.0; DAMPERS][..]));
+}
+
+#[test]
+fn zeros_come_out_after_a_fault() {
+    let Some(images) = images() else {
+        return;
+    };
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let file = folder.path().join("outputs.bin");
+    let emulator = Qemu::start_with_outputs(&images.join("fault"), Some(&file));
+    let emulator = emulator.expect("the emulator starts");
+    // The image ends in a loop; what it sends before takes it some thousand instructions.
+    let zero = |packets: &[Forces]| packets.last() == Some(&[0.0; DAMPERS]);
+    let came = (0..MOST_ANSWERS).any(|_| {
+        std::thread::yield_now();
+        zero(&packets(&file))
+    });
+    assert!(came, "{:?}", packets(&file));
+    drop(emulator);
+    let packets = packets(&file);
+    assert!(packets.contains(&[1000.0; DAMPERS]), "{packets:?}");
+}
