@@ -47,8 +47,11 @@ pub const MAKE: Tool = program("make", "make");
 /// Browser, for what a page looks like.
 pub const CHROMIUM: Tool = program("chromium", "chromium");
 
+/// What the example client of the link is written for.
+pub const PYTHON: Tool = program("python3", "python3");
+
 /// All of them.
-pub const TOOLS: [Tool; 13] = [
+pub const TOOLS: [Tool; 14] = [
     GCC,
     GXX,
     VALGRIND,
@@ -62,6 +65,7 @@ pub const TOOLS: [Tool; 13] = [
     CMAKE,
     MAKE,
     CHROMIUM,
+    PYTHON,
 ];
 
 /// A compiler for the Cortex-M processors where there is no rustup: packages of Debian.

@@ -16,8 +16,8 @@ const BYTES_PER_PASS: usize = 32;
 
 /// A bank of `N` dampers behind a serial link.
 ///
-/// Of zeros until [`Device::start`], so it lies in static storage that takes no flash and is never moved: 13 KB a
-/// damper. A firmware calls [`Device::poll`] in a loop. While the host steps (after power on, and after
+/// Of zeros until [`Device::start`], so it lies in static storage that takes no flash and is never moved: 22 KB
+/// and 13 KB a damper. A firmware calls [`Device::poll`] in a loop. While the host steps (after power on, and after
 /// [`Request::Stop`]) time is the tick of its step requests; after [`Request::Run`] it is that of the ticks due.
 ///
 /// ```

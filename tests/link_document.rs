@@ -1,0 +1,319 @@
+//! docs/link.md is enough for a host in another language: its numbers and names are those of the code, its frames
+//! are what a device sends, and the client written from it drives one.
+
+use std::fmt::Write as _;
+use std::io::{Read, Write as _};
+use std::net::{Ipv4Addr, TcpListener};
+use std::process::Command;
+use std::time::Duration;
+
+use dashpot::{damper, document};
+use dashpot_core::link::{
+    Counters, FrameReader, Header, LossOfLink, PROTOCOL, Parameter, RESPONSE_BYTES, Refusal,
+    Request, Response, SafeOutput, Sample, Scalar, request_frame,
+};
+use dashpot_core::{Damper, Status};
+use dashpot_hil::pil::{Desk, Link};
+use serde::Serialize;
+use xtask::tools::{PYTHON, have};
+
+const LINK: &str = "docs/link.md";
+
+fn desk<const N: usize>(names: [&str; N]) -> Desk<N> {
+    Desk::new(names.map(|name| damper(name, &[]).build(1e-3).expect("a preset")))
+}
+
+/// Number of a choice on the wire.
+fn number(choice: &impl Serialize) -> u8 {
+    let mut bytes = [0; 64];
+    postcard::to_slice(choice, &mut bytes).expect("a short message")[0]
+}
+
+/// Names in the rows `| number | name | ...` of the table under a heading of the document whose header row
+/// names `kind`.
+fn rows(kind: &str) -> Vec<(u8, String)> {
+    let text = document::read(LINK);
+    let header = format!("| # | {kind} |");
+    let table = text.lines().skip_while(|line| !line.starts_with(&header));
+    let rows = table.skip(2).take_while(|line| line.starts_with('|'));
+    rows.map(|row| {
+        let mut cells = row.split('|').map(str::trim).skip(1);
+        let number = cells.next().and_then(|cell| cell.parse().ok());
+        let name = cells.next().map(str::to_owned);
+        number.zip(name).unwrap_or_else(|| panic!("{row}"))
+    })
+    .collect()
+}
+
+/// `Step { .. }` is Step.
+fn name(choice: &impl std::fmt::Debug) -> String {
+    let text = format!("{choice:?}");
+    let end = text.find(|letter: char| !letter.is_alphanumeric());
+    text[..end.unwrap_or(text.len())].to_owned()
+}
+
+fn numbered<T: Serialize + std::fmt::Debug>(choices: &[T]) -> Vec<(u8, String)> {
+    choices
+        .iter()
+        .map(|choice| (number(choice), name(choice)))
+        .collect()
+}
+
+#[test]
+fn the_numbers_are_those_of_the_code() {
+    let reals = dashpot_core::link::Reals::new;
+    let requests = [
+        Request::Hello { protocol: 0 },
+        Request::Load {
+            damper: 0,
+            image: &[],
+        },
+        Request::Set {
+            damper: 0,
+            parameter: Parameter::ClearanceM,
+            value: 0.0,
+        },
+        Request::LossOfLink(LossOfLink::default()),
+        Request::Reset {
+            displacements_m: reals(),
+        },
+        Request::Step {
+            tick: 0,
+            displacements_m: reals(),
+        },
+        Request::Run {
+            displacements_m: reals(),
+        },
+        Request::Displace {
+            displacements_m: reals(),
+        },
+        Request::Stop,
+        Request::Save,
+        Request::Restore {
+            tick: 0,
+            states: &[],
+        },
+        Request::Telemetry { damper: 0 },
+        Request::Counters,
+        Request::Outputs,
+        Request::Status,
+        Request::ClearStatus,
+    ];
+    assert_eq!(rows("request"), numbered(&requests));
+    let outputs = [
+        SafeOutput::Hold,
+        SafeOutput::RampToZero { ticks: 0 },
+        SafeOutput::Zero,
+    ];
+    assert_eq!(rows("output"), numbered(&outputs));
+    let refusals = [
+        Refusal::Corrupt,
+        Refusal::Unreadable,
+        Refusal::Protocol(0),
+        Refusal::NoSession,
+        Refusal::OutOfOrder(0),
+        Refusal::Tick(0),
+        Refusal::Count(0),
+        Refusal::Damper(0),
+        Refusal::NeedsRebuild,
+        Refusal::Range,
+        Refusal::ImageBytes(0),
+        Refusal::Image,
+        Refusal::StepSize,
+        Refusal::State,
+        Refusal::Running,
+        Refusal::NotRunning,
+        Refusal::LinkLost,
+        Refusal::Corrupted(0),
+    ];
+    assert_eq!(rows("refusal"), numbered(&refusals));
+    let text = document::read(LINK);
+    assert!(text.contains(&format!("This is protocol **{PROTOCOL}**.")));
+    let parameters = [
+        (Parameter::ClearanceM, "0 `mount.clearance_m`"),
+        (Parameter::StiffnessNPerM, "1 `mount.stiffness_n_per_m`"),
+        (Parameter::DampingNSPerM, "2 `reduced.damping_n_s_per_m`"),
+        (
+            Parameter::SaturationVelocityMPerS,
+            "3 `reduced.saturation_velocity_m_per_s`",
+        ),
+        (Parameter::ForceLimitN, "4 `limits.force_n`"),
+    ];
+    for (parameter, stated) in parameters {
+        assert!(stated.starts_with(&number(&parameter).to_string()));
+        assert!(text.contains(stated), "{stated}");
+    }
+    assert_eq!((number(&Scalar::F32), number(&Scalar::F64)), (0, 1));
+    for (bit, stated) in [
+        (Status::INPUT_HELD, "1 the displacement was NaN"),
+        (Status::INPUT_LIMITED, "2 it moved faster"),
+        (Status::SATURATED, "4 the element yielded"),
+        (Status::DAMPER_SWAPPED, "8 another damper"),
+        (Status::CORRUPTED, "16 memory of"),
+    ] {
+        assert!(stated.starts_with(&format!("{} ", bit.bits())) && text.contains(stated));
+    }
+    // In order, for they have no numbers.
+    let in_order = |fields: String| {
+        let mut rest = &text[..];
+        for field in fields
+            .split(['{', ','])
+            .filter_map(|field| field.split_once(':'))
+        {
+            let name = field.0.trim();
+            let place = rest.find(name);
+            let place = place.unwrap_or_else(|| panic!("{name} is not told, or not in order"));
+            rest = &rest[place + name.len()..];
+        }
+    };
+    in_order(format!("{:?}", Counters::default()));
+    let sample = Sample {
+        tick: 0,
+        displacement_m: 0.0,
+        force_n: 0.0,
+        status: 0,
+    };
+    in_order(format!("{sample:?}"));
+}
+
+#[test]
+fn the_worked_frames_are_what_a_device_takes_and_sends() {
+    let mut desk = desk(["reduced-vertical"]);
+    let x = |x: f32| [x].into_iter().collect();
+    let requests = [
+        Request::Hello { protocol: PROTOCOL },
+        Request::Step {
+            tick: 1,
+            displacements_m: x(2e-5),
+        },
+        Request::Set {
+            damper: 0,
+            parameter: Parameter::ClearanceM,
+            value: 1e-3,
+        },
+        Request::Status,
+        Request::Stop,
+    ];
+    let mut table = String::new();
+    let hex = |bytes: &[u8]| {
+        bytes
+            .iter()
+            .map(|byte| format!("{byte:02x}"))
+            .collect::<Vec<_>>()
+            .join(" ")
+    };
+    for (sequence, request) in (1..).zip(&requests) {
+        let header = Header {
+            session: 4660,
+            sequence,
+        };
+        let frame = request_frame(header, request);
+        desk.send(frame.bytes()).expect("a device");
+        let mut answer = [0; 1024];
+        let count = desk
+            .receive(&mut answer, Duration::ZERO)
+            .expect("an answer");
+        let mut reader = FrameReader::<RESPONSE_BYTES>::new();
+        let message = answer[..count].iter().find_map(|byte| {
+            let message = reader.push(*byte)?;
+            Some(message.expect("a whole frame").bytes.to_vec())
+        });
+        let message = message.expect("a frame");
+        let (found, response): (Header, Response<'_>) =
+            postcard::from_bytes(&message).expect("an answer");
+        assert_eq!(found, header);
+        writeln!(
+            table,
+            "    session {}, sequence {sequence}: {request:?}",
+            header.session
+        )
+        .expect("text");
+        writeln!(table, "    {}", hex(frame.bytes())).expect("text");
+        writeln!(table, "    -> {response:?}").expect("text");
+        writeln!(table, "    {}\n", hex(&answer[..count])).expect("text");
+    }
+    document::compare_part(LINK, "worked frames", &format!("\n{table}"));
+}
+
+#[test]
+fn the_revision_is_computed_as_the_document_says() {
+    let mut built: Damper<f32> = damper("in-service", &[]).build(1e-3).expect("a preset");
+    let first = built.revision();
+    for clearance_m in [None, Some(2e-3)] {
+        if let Some(clearance_m) = clearance_m {
+            built.set_clearance_m(clearance_m);
+            assert_ne!(built.revision(), first);
+        }
+        let image = built.to_image();
+        assert_eq!(image.len(), 6720);
+        let words = image[60..image.len() - 4]
+            .chunks(4)
+            .chain(image[16..52].chunks(4));
+        let hash = words.fold(0x811c_9dc5_u32, |hash, word| {
+            word.iter().chain(&[0; 4]).fold(hash, |hash, byte| {
+                (hash ^ u32::from(*byte)).wrapping_mul(16_777_619)
+            })
+        });
+        assert_eq!(image[52..56], hash.max(1).to_le_bytes());
+        assert_eq!(built.revision(), hash.max(1));
+    }
+}
+
+/// The client in Python against a device behind a TCP port: the forces are the core's.
+#[test]
+fn the_client_in_python_drives_a_device() {
+    if !have(&[PYTHON], "the client in Python") {
+        return;
+    }
+    let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, 0)).expect("a port");
+    let port = listener.local_addr().expect("its address").port();
+    let target = std::thread::spawn(move || {
+        let (mut line, _) = listener.accept().expect("a host");
+        let mut desk = desk(["reduced-vertical", "in-service"]);
+        let mut buffer = [0; 1024];
+        // A broken answer first: the client asks again.
+        let mut broken = false;
+        while let Ok(count @ 1..) = line.read(&mut buffer) {
+            desk.send(&buffer[..count]).expect("a device");
+            let count = desk
+                .receive(&mut buffer, Duration::ZERO)
+                .expect("an answer");
+            if !std::mem::replace(&mut broken, true) {
+                buffer[1] ^= 1;
+            }
+            if line.write_all(&buffer[..count]).is_err() {
+                break;
+            }
+        }
+        desk.device().counters()
+    });
+    let output = Command::new(PYTHON.program)
+        .arg(document::in_repository("docs/link_client.py"))
+        .args(["127.0.0.1", &port.to_string()])
+        .output()
+        .expect("python starts");
+    let printed = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert!(
+        output.status.success(),
+        "{printed}{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
+    let forces = ["reduced-vertical", "in-service"].map(|name| {
+        let damper: Damper<f32> = damper(name, &[]).build(1e-3).expect("a preset");
+        let mut state = damper.at_rest(0.0);
+        (1..=100).fold(0.0, |_, step| {
+            damper.step(
+                &mut state,
+                (0.02 * f64::from(1e-3_f32) * f64::from(step)) as f32,
+            )
+        })
+    });
+    let [vertical, in_service] = forces;
+    let expected = format!("forces {vertical:.1} {in_service:.1} N, status [0, 0]");
+    assert_eq!(printed.lines().last(), Some(&*expected), "{printed}");
+    let counters = target.join().expect("the target");
+    assert_eq!(
+        (counters.accepted, counters.repeated, counters.corrupt),
+        (101, 1, 0)
+    );
+}
