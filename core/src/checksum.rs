@@ -11,16 +11,21 @@ static CHECK: Crc<u32, Table<1>> = Crc::<u32, Table<1>>::new(&CRC_32_ISO_HDLC);
 /// // The check value of the catalogue of parametrised CRC algorithms.
 /// assert_eq!(dashpot_core::crc_32(b"123456789"), 0xcbf4_3926);
 /// ```
-#[inline(never)] // one copy in flash
 pub fn crc_32(bytes: &[u8]) -> u32 {
-    CHECK.checksum(bytes)
+    continued(0, bytes)
 }
 
 /// CRC-32 of the bytes of `crc` and these after them.
-#[inline]
+#[inline(never)] // one copy in flash
 pub(crate) const fn continued(crc: u32, bytes: &[u8]) -> u32 {
-    // The library takes a register as it is before bits are reversed and inverted.
-    let mut digest = CHECK.digest_with_initial((!crc).reverse_bits());
+    !with(!crc, bytes)
+}
+
+/// The register of the algorithm, all ones before the first byte, after these bytes. For a byte at a time.
+#[inline(always)]
+pub(crate) const fn with(register: u32, bytes: &[u8]) -> u32 {
+    // The library takes a register before bits are reversed, and gives it inverted.
+    let mut digest = CHECK.digest_with_initial(register.reverse_bits());
     digest.update(bytes);
-    digest.finalize()
+    !digest.finalize()
 }

@@ -165,28 +165,32 @@ macro_rules! table {
             /// CRC-32 of the rows before and this one.
             pub(crate) const fn check_row(&self, row: usize, crc: u32) -> u32 {
                 if row < BIN_ROWS {
-                    let mut crc = crc;
+                    let mut bytes = [0; 2 * BINS_PER_ROW];
                     let mut bin = 0;
                     while bin < BINS_PER_ROW {
-                        let sides = &self.bins[(BINS_PER_ROW * row + bin) % BINS];
-                        crc = checksum::continued(crc, sides);
+                        [bytes[2 * bin], bytes[2 * bin + 1]] =
+                            self.bins[(BINS_PER_ROW * row + bin) % BINS];
                         bin += 1;
                     }
-                    return crc;
+                    return checksum::continued(crc, &bytes);
                 }
                 let row = row - BIN_ROWS;
                 let piece = &self.pieces[row / 4 % (2 * PIECES)];
                 let [next, second] = piece.next_knots;
-                let [a, b, c, d] = match row % 4 {
+                let numbers = match row % 4 {
                     0 => piece.flow,
                     1 => piece.potential,
                     2 => piece.stiffness,
                     _ => [piece.knot, next, second, piece.padding],
                 };
-                let crc = checksum::continued(crc, &a.to_bits().to_le_bytes());
-                let crc = checksum::continued(crc, &b.to_bits().to_le_bytes());
-                let crc = checksum::continued(crc, &c.to_bits().to_le_bytes());
-                checksum::continued(crc, &d.to_bits().to_le_bytes())
+                const BYTES: usize = size_of::<$word>();
+                let mut bytes = [0; 4 * BYTES];
+                let mut byte = 0;
+                while byte < 4 * BYTES {
+                    bytes[byte] = (numbers[byte / BYTES].to_bits() >> (byte % BYTES * 8)) as u8;
+                    byte += 1;
+                }
+                checksum::continued(crc, &bytes)
             }
         }
     };

@@ -169,8 +169,8 @@ impl<const BYTES: usize> Flavor for Plain<'_, BYTES> {
 pub struct FrameReader<const BYTES: usize> {
     /// Bytes of the message so far.
     length: usize,
-    /// Its CRC-32, as it is before the last step of the algorithm inverts it.
-    inverted_check: u32,
+    /// Register of its CRC-32, which is the inverse.
+    register: u32,
     cobs: DecoderState,
     error: Option<FrameError>,
     message: [u8; BYTES],
@@ -187,7 +187,7 @@ impl<const BYTES: usize> FrameReader<BYTES> {
     pub const fn new() -> Self {
         Self {
             length: 0,
-            inverted_check: 0,
+            register: 0,
             cobs: DecoderState::Idle,
             // Of zero bits, and replaced at the first byte.
             error: Some(FrameError::Framing),
@@ -213,12 +213,12 @@ impl<const BYTES: usize> FrameReader<BYTES> {
                 } else {
                     self.error = Some(FrameError::TooLong);
                 }
-                self.inverted_check = !checksum::continued(!self.inverted_check, &[decoded]);
+                self.register = checksum::with(self.register, &[decoded]);
                 false
             }
             Ok(DecodeResult::NoData) => {
                 if starts {
-                    (self.length, self.inverted_check, self.error) = (0, !0, None);
+                    (self.length, self.register, self.error) = (0, !0, None);
                 }
                 false
             }
@@ -239,7 +239,7 @@ impl<const BYTES: usize> FrameReader<BYTES> {
         let (bytes, stated) = message
             .split_last_chunk::<CHECK_BYTES>()
             .ok_or(FrameError::Check)?;
-        if !self.inverted_check == RESIDUE {
+        if !self.register == RESIDUE {
             let check = u32::from_le_bytes(*stated);
             Ok(Message { bytes, check })
         } else {
