@@ -145,6 +145,10 @@ fn the_costs_stated_are_those_measured() {
         ("dashpot_step", &["C: `dashpot_step`"][..]),
         ("dashpot_damper_init", &["C: `dashpot_damper_init`"]),
         (
+            "dashpot_check_slice",
+            &["C: `dashpot_check_slice`, the most of a round"],
+        ),
+        (
             "dashpot_damper_set_clearance",
             &["C: `dashpot_damper_set_clearance`", swapped],
         ),

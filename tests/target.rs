@@ -161,7 +161,7 @@ fn every_processor_keeps_its_budget_and_has_the_hosts_bits() {
 }
 
 /// Rows of the documents' tables: what, and the figures that it has.
-const ROWS: [(&str, &[&str]); 16] = [
+const ROWS: [(&str, &[&str]); 17] = [
     (
         "instructions of a step: least, mean, most over four excitations",
         &[
@@ -201,6 +201,10 @@ const ROWS: [(&str, &[&str]); 16] = [
         &["c_set_clearance_instructions"],
     ),
     ("C: `dashpot_damper_init`", &["c_damper_init_instructions"]),
+    (
+        "C: `dashpot_check_slice`, the most of a round",
+        &["c_check_slice_instructions"],
+    ),
     (
         "stack of a step, the unusual ones included, bytes",
         &["stack_bytes"],

@@ -95,6 +95,15 @@ static dashpot_error note(dashpot_reading noted[DAMPERS])
     return DASHPOT_ERROR_NONE;
 }
 
+/* A slice a tick of the two dampers' constants, each with a state of its own: what was damaged in memory. */
+static dashpot_error check_memory(void)
+{
+    static dashpot_check checks[2];
+    const size_t i = tick % 2U;
+
+    return dashpot_check_slice(dampers[i], &states[i], &checks[i]);
+}
+
 static dashpot_error control(float forces_n[DAMPERS])
 {
     float displacements_m[DAMPERS];
@@ -112,6 +121,9 @@ static dashpot_error control(float forces_n[DAMPERS])
         displacements_m[i] = sensor(i, tick);
     }
     error = dashpot_step_bank(dampers, states, displacements_m, forces_n, DAMPERS);
+    if (error == DASHPOT_ERROR_NONE) {
+        error = check_memory();
+    }
     if (error == DASHPOT_ERROR_NONE && (tick + 1U) % REPORT_EVERY == 0U) {
         error = note(readings[tick / REPORT_EVERY]);
     }

@@ -293,7 +293,7 @@ extern "C" {
  *
  * `DASHPOT_CHECK_SLICES` calls check the constants whole, then it begins again. A flipped bit is found within
  * the round that begins after it. Loading the damper or setting its clearance between calls is no damage.
- * Some 150 instructions on a Cortex-M7.
+ * Some 325 instructions at most on a Cortex-M7.
  *
  * @param damper  made by `dashpot_damper_init`
  * @param state   made for it
@@ -307,7 +307,7 @@ dashpot_error dashpot_check_slice(const dashpot_damper *damper,
  * Makes a damper from an image: the bytes that `dashpot export --lang c` or `--lang bin` wrote.
  *
  * The image is checked whole first and not needed afterwards. A state that this damper stepped before
- * is carried over at its next step, its force kept. Not for a tick: some 830 000 instructions on a
+ * is carried over at its next step, its force kept. Not for a tick: some 480 000 instructions on a
  * Cortex-M7.
  *
  * @param damper  storage, its content does not matter
@@ -328,7 +328,7 @@ dashpot_error dashpot_damper_describe(const dashpot_damper *damper, dashpot_damp
 
 /**
  * Sets the clearance of a damper that is in use: its states are carried over at their next step, the
- * force kept. On a Cortex-M7 some 254 instructions, and in the next step of each state some 1605
+ * force kept. On a Cortex-M7 some 256 instructions, and in the next step of each state some 1630
  * instructions instead of the usual ones.
  *
  * @param damper       made by `dashpot_damper_init`; no step may run on it meanwhile

@@ -20,7 +20,7 @@ impl From<Corrupted> for DashpotError {
 ///
 /// `DASHPOT_CHECK_SLICES` calls check the constants whole, then it begins again. A flipped bit is found within
 /// the round that begins after it. Loading the damper or setting its clearance between calls is no damage.
-/// Some 150 instructions on a Cortex-M7.
+/// Some 325 instructions at most on a Cortex-M7.
 ///
 /// @param damper  made by `dashpot_damper_init`
 /// @param state   made for it

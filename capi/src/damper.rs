@@ -26,7 +26,7 @@ pub(crate) unsafe fn made<'a>(
 /// Makes a damper from an image: the bytes that `dashpot export --lang c` or `--lang bin` wrote.
 ///
 /// The image is checked whole first and not needed afterwards. A state that this damper stepped before
-/// is carried over at its next step, its force kept. Not for a tick: some 830 000 instructions on a
+/// is carried over at its next step, its force kept. Not for a tick: some 480 000 instructions on a
 /// Cortex-M7.
 ///
 /// @param damper  storage, its content does not matter
@@ -82,7 +82,7 @@ pub unsafe extern "C" fn dashpot_damper_describe(
 }
 
 /// Sets the clearance of a damper that is in use: its states are carried over at their next step, the
-/// force kept. On a Cortex-M7 some 254 instructions, and in the next step of each state some 1605
+/// force kept. On a Cortex-M7 some 256 instructions, and in the next step of each state some 1630
 /// instructions instead of the usual ones.
 ///
 /// @param damper       made by `dashpot_damper_init`; no step may run on it meanwhile

@@ -71,6 +71,7 @@ struct Printed {
     c_step: f64,
     c_step_bank: f64,
     c_set_clearance: f64,
+    c_check_slice: f64,
 }
 
 /// What an experiment found on the target: instructions of a call, bytes.
@@ -99,7 +100,7 @@ pub struct Found {
     /// Size of a state (bytes).
     pub state_bytes: f64,
     /// Of the C library: name without prefix, instructions.
-    pub library: [(&'static str, f64); 4],
+    pub library: [(&'static str, f64); 5],
     /// FNV-1a (64 bit) of the force bits.
     pub digest: String,
 }
@@ -250,6 +251,7 @@ impl Printed {
                 ("step_bank", whole(self.c_step_bank)),
                 ("set_clearance", whole(self.c_set_clearance)),
                 ("damper_init", whole(self.c_damper_init)),
+                ("check_slice", whole(self.c_check_slice)),
             ],
             digest: self.digest,
         }

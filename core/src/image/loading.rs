@@ -109,7 +109,8 @@ macro_rules! loading {
                     }
                     Stage::Check { crc, .. } => {
                         let words = Words::<BYTES>::of(image);
-                        let (scalars, revisions) = words.scalars().ok_or(ImageError::Constants)?;
+                        let both = words.scalars().zip(words.revisions());
+                        let (scalars, revisions) = both.ok_or(ImageError::Constants)?;
                         let number = |word: &[u8; BYTES]| $float::from_le_bytes(*word);
                         self.scalars = Scalars::from_array(scalars.each_ref().map(number));
                         [self.revision, self.table_revision] =
@@ -161,7 +162,8 @@ macro_rules! loading {
                             let hash = revision::of_words(hash, widened);
                             return Ok(Stage::Verify { piece: piece + 1, hash });
                         }
-                        let (scalars, revisions) = words.scalars().ok_or(ImageError::Constants)?;
+                        let both = words.scalars().zip(words.revisions());
+                        let (scalars, revisions) = both.ok_or(ImageError::Constants)?;
                         let scalars = Scalars::from_array(scalars.each_ref().map(number));
                         let revision = revision::of_damper(hash, &scalars);
                         let credible = scalars.as_array().iter().all(|scalar| scalar.is_finite() && *scalar >= 0.0)
@@ -251,10 +253,14 @@ impl<'a, const BYTES: usize> Words<'a, BYTES> {
         Self(words.as_chunks().0)
     }
 
-    /// Scalars and the two revisions.
-    fn scalars(&self) -> Option<(&'a [[u8; BYTES]; SCALARS], [[u8; BYTES]; 2])> {
-        let (scalars, rest) = self.0.split_first_chunk()?;
-        Some((scalars, *rest.first_chunk()?))
+    /// The scalars.
+    fn scalars(&self) -> Option<&'a [[u8; BYTES]; SCALARS]> {
+        self.0.first_chunk()
+    }
+
+    /// The damper's revision and its table's.
+    fn revisions(&self) -> Option<&'a [[u8; BYTES]; 2]> {
+        self.0.get(SCALARS..)?.first_chunk()
     }
 
     /// The numbers of a piece.

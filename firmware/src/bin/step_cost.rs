@@ -14,8 +14,9 @@ use core::hint::black_box;
 
 use cortex_m_rt::entry;
 use dashpot::{
-    DASHPOT_DAMPER_WORDS, DASHPOT_STATE_WORDS, DashpotDamper, DashpotState, dashpot_damper_init,
-    dashpot_damper_set_clearance, dashpot_state_init, dashpot_step, dashpot_step_bank,
+    DASHPOT_CHECK_SLICES, DASHPOT_DAMPER_WORDS, DASHPOT_STATE_WORDS, DashpotCheck, DashpotDamper,
+    DashpotState, dashpot_check_slice, dashpot_damper_init, dashpot_damper_set_clearance,
+    dashpot_state_init, dashpot_step, dashpot_step_bank,
 };
 use dashpot_core::{Damper, DamperState, step_bank};
 use dashpot_experiment::{BANK, BYTES, Experiment};
@@ -127,6 +128,8 @@ struct Library {
     step: u32,
     step_bank: u32,
     set_clearance: u32,
+    /// Most of a round.
+    check_slice: u32,
 }
 
 impl Library {
@@ -166,6 +169,26 @@ impl Library {
             BANK,
         ];
         let step_bank = timed(dashpot_step_bank as *const (), integers, 0.0);
+        let mut check = DashpotCheck { opaque: [0; 3] };
+        let check_address = (&raw mut check).expose_provenance();
+        let slices = (0..DASHPOT_CHECK_SLICES).map(|_| {
+            timed(
+                dashpot_check_slice as *const (),
+                [damper_address, states_address, check_address, 0, 0],
+                0.0,
+            )
+        });
+        let most =
+            |worst: Returned, slice: Returned| match (worst.integer, slice.ticks > worst.ticks) {
+                (0, true) => slice,
+                _ => worst,
+            };
+        let none = Returned {
+            integer: 0,
+            real: 0.0,
+            ticks: 0,
+        };
+        let check_slice = slices.fold(none, most);
         let set_clearance = timed(
             dashpot_damper_set_clearance as *const (),
             [damper_address, 0, 0, 0, 0],
@@ -181,6 +204,7 @@ impl Library {
             step: counted(step),
             step_bank: counted(step_bank),
             set_clearance: counted(set_clearance),
+            check_slice: counted(check_slice),
         }
     }
 }
@@ -252,7 +276,7 @@ fn measure(experiment: &Experiment<'_>, printer: &mut Printer) {
          \"sum\": {}, \"digest\": \"{:016x}\", \"first\": {first}, \"held\": {held}, \
          \"limited\": {limited}, \"swapped\": {swapped}, \"stack_bytes\": {}, \"damper_bytes\": {}, \
          \"state_bytes\": {}, \"c_damper_init\": {}, \"c_step\": {}, \"c_step_bank\": {}, \
-         \"c_set_clearance\": {}}}",
+         \"c_set_clearance\": {}, \"c_check_slice\": {}}}",
         cost.least,
         cost.most,
         cost.sum,
@@ -264,5 +288,6 @@ fn measure(experiment: &Experiment<'_>, printer: &mut Printer) {
         library.step,
         library.step_bank,
         library.set_clearance,
+        library.check_slice,
     );
 }
