@@ -96,6 +96,20 @@ fn damaged_constants_take_the_safe_output_until_the_damper_is_loaded_again() {
     assert_eq!(bench.counters().corruptions, 1, "undamaged again");
 }
 
+/// Even the step of the first damper, which is that of the bank.
+#[test]
+fn a_damper_with_a_damaged_step_can_be_loaded_again() {
+    let mut bench = running();
+    let scalars = bench.dampers[0].to_words()[..9].to_vec();
+    let scalars: Vec<u8> = scalars.iter().flat_map(|word| word.to_le_bytes()).collect();
+    // From the step on, so that the bit flipped is one of it.
+    flip_a_bit_of(&mut bench.device, &scalars[12..]);
+    falls_to_zero(&mut bench);
+    let image = bench.dampers[0].to_image();
+    assert_eq!(bench.load(0, &image).response().1, Response::Done);
+    assert_eq!(bench.ask(&run()).forces().tick, 0);
+}
+
 #[test]
 fn a_damaged_state_takes_the_safe_output_until_run() {
     let mut bench = running();

@@ -24,6 +24,8 @@ pub(crate) struct Loaded<const N: usize> {
     displacements_m: [f32; N],
     forces_n: [f32; N],
     tick: u32,
+    /// Step of the bank (s), that of its first damper at the start: a damaged one must not decide it.
+    step_s: f32,
 }
 
 impl<const N: usize> Loaded<N> {
@@ -35,12 +37,14 @@ impl<const N: usize> Loaded<N> {
             displacements_m: [0.0; N],
             forces_n: [0.0; N],
             tick: 0,
+            step_s: 0.0,
         }
     }
 
     /// Copies of these dampers, at rest at 0.
     pub(crate) fn start(&mut self, dampers: &[&Damper<f32>; N]) {
         self.dampers.fill(dampers);
+        self.step_s = self.dampers.get(0).map_or(0.0, Damper::step_s);
         self.rest_at([0.0; N]);
     }
 
@@ -56,9 +60,8 @@ impl<const N: usize> Loaded<N> {
         &self.states
     }
 
-    /// Step of the bank (s), that of its first damper.
     pub(crate) fn step_s(&self) -> f32 {
-        self.dampers.get(0).map_or(0.0, Damper::step_s)
+        self.step_s
     }
 
     pub(crate) fn revisions(&self) -> Vec<u32, MOST_DAMPERS> {
@@ -107,8 +110,8 @@ impl<const N: usize> Loaded<N> {
 
     /// Puts the damper loaded into the spare room in the place of another, whose state keeps the force.
     pub(crate) fn replace(&mut self, damper: u8) -> Result<(), Refusal> {
-        let step_s = self.step_s();
-        if self.spare().step_s() != step_s {
+        let step_s = self.spare().step_s();
+        if step_s != self.step_s {
             return Err(Refusal::StepSize);
         }
         self.dampers.swap_spare(damper);

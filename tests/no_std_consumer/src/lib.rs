@@ -1,8 +1,9 @@
 //! Every call firmware makes in a tick, without `std`, heap and builder.
 #![no_std]
 
+use dashpot_core::integrity::Check;
 use dashpot_core::telemetry::{Sample, Telemetry};
-use dashpot_core::{Damper, DamperState, step_bank};
+use dashpot_core::{Damper, DamperState, Loading, step_bank};
 
 #[panic_handler]
 fn panic(_: &core::panic::PanicInfo<'_>) -> ! {
@@ -62,6 +63,20 @@ pub extern "C" fn checked_image(
     image
         .get(..length)
         .is_some_and(|image| damper.load_image(image).is_ok())
+}
+
+/// A slice of a load and of the check, as a tick has room for; whether both are good.
+#[unsafe(no_mangle)]
+pub extern "C" fn checked_slices(
+    damper: &mut Damper<f32>,
+    image: &[u8; 8192],
+    length: usize,
+    loading: &mut Loading,
+    check: &mut Check,
+) -> bool {
+    let image = image.get(..length).unwrap_or_default();
+    let loaded = damper.load_slice(image, loading).is_ok();
+    loaded && check.slice(damper).is_ok() && Check::state(damper, &damper.at_rest(0.0)).is_ok()
 }
 
 /// The telemetry ring, written and read.
