@@ -38,17 +38,17 @@ fn every_damper_has_its_own_samples_of_the_same_ticks() {
     // The ticks before the requests of `displace` and `stop`, and no more than are kept.
     let last = u64::from(4 * TICKS);
     let expected: Vec<u64> = (last - 63..=last).collect();
-    for place in ["1", "0"] {
-        let told = rig.json(&["telemetry", "--place", place]);
+    for place in [1, 0] {
+        let told = rig.json(&["telemetry", "--place", &place.to_string()]);
         let samples = told["samples"].as_array().unwrap();
         assert_eq!(ticks(samples), expected);
-        assert!(samples.iter().all(|of| of["place"].to_string() == place));
+        assert!(samples.iter().all(|of| of["place"] == place));
         let displacement_m = samples[63]["displacement_m"].as_f64().unwrap();
         assert!((displacement_m - 0.002).abs() < 1e-8, "{displacement_m}");
         let overwritten = last - 64;
         assert_eq!(
             told["places"],
-            json!([{"place": place.parse::<u8>().unwrap(), "taken": 64, "overwritten": overwritten}])
+            json!([{"place": place, "taken": 64, "overwritten": overwritten}])
         );
     }
     let text = rig.text(&["telemetry"]);

@@ -7,8 +7,7 @@ use serde::Serialize;
 
 use super::LinkArguments;
 use super::status_bits::{self, StatusBit};
-use super::target::{Greeting, Target};
-use crate::commands::step_size::StepSize;
+use super::target::{Greeting, Target, step_in_words};
 use crate::failure::Outcome;
 
 /// `hello`.
@@ -24,11 +23,7 @@ fn print_greeting(out: &mut dyn Write, greeting: &Greeting) -> io::Result<()> {
         "target    dashpot-core {version}, link protocol {}",
         greeting.protocol
     )?;
-    let step = StepSize::from_target(greeting.step_s);
-    match step {
-        Some(step) => writeln!(out, "step      {step} us"),
-        None => writeln!(out, "step      {} s", greeting.step_s),
-    }?;
+    writeln!(out, "step      {}", step_in_words(greeting.step_s))?;
     let runs = if greeting.running {
         "runs free"
     } else {

@@ -8,7 +8,7 @@ use serde::Serialize;
 
 use super::LinkArguments;
 use super::places::{Places, named};
-use super::target::Target;
+use super::target::{Target, step_in_words};
 use crate::commands::step_size::StepSize;
 use crate::damper_file;
 use crate::failure::{Failure, Outcome};
@@ -67,7 +67,6 @@ impl LoadArguments {
 
 /// The damper for a step of `step_s` (s).
 fn build(name: &str, source: &Source, step_s: f32) -> Outcome<Damper<f32>> {
-    let us = |step_s| StepSize::from_target(step_s).map_or(f64::NAN, StepSize::us);
     match source {
         Source::Parameters(parameters) => {
             let step = StepSize::from_target(step_s).ok_or_else(|| {
@@ -79,10 +78,10 @@ fn build(name: &str, source: &Source, step_s: f32) -> Outcome<Damper<f32>> {
         }
         Source::Image(damper) if damper.step_s() == step_s => Ok(**damper),
         Source::Image(damper) => Err(Failure::new(format!(
-            "{name}: built for a step of {} us, the target steps {} us; export it with \
-             `--step-us {1}`",
-            us(damper.step_s()),
-            us(step_s),
+            "{name}: built for a step of {}, the target steps {}; export it for that step \
+             (`--step-us`)",
+            step_in_words(damper.step_s()),
+            step_in_words(step_s),
         ))),
     }
 }

@@ -4,6 +4,7 @@ use dashpot_core::link::{PROTOCOL, Reals, Request, Response};
 use serde::Serialize;
 
 use crate::commands::line::LineArguments;
+use crate::commands::step_size::StepSize;
 use crate::failure::{Failure, Outcome};
 use crate::pil::{Client, Link, LinkError};
 
@@ -29,6 +30,11 @@ pub(super) struct Greeting {
     pub(super) clock_hz: u32,
     /// Of the damper in each place.
     pub(super) revisions: Vec<u32>,
+}
+
+/// A step as a target or an image has it (s), in words.
+pub(super) fn step_in_words(step_s: f32) -> String {
+    StepSize::from_target(step_s).map_or_else(|| format!("{step_s} s"), |step| format!("{step} us"))
 }
 
 impl Target {
