@@ -8,6 +8,7 @@ use dashpot_hil::commands::budget::{self, BudgetArguments};
 use dashpot_hil::commands::contact::{self, ContactArguments};
 use dashpot_hil::commands::demonstrate::{self, DemonstrateArguments};
 use dashpot_hil::commands::export::{self, ExportArguments};
+use dashpot_hil::commands::link::{self, LinkArguments};
 use dashpot_hil::commands::pil::{self, PilArguments};
 use dashpot_hil::commands::replay::{self, ReplayArguments};
 use dashpot_hil::commands::rig::{self, RigArguments};
@@ -47,6 +48,7 @@ enum Command {
     Export(ExportArguments),
     Contact(ContactArguments),
     Pil(PilArguments),
+    Link(LinkArguments),
 }
 
 fn main() -> ExitCode {
@@ -77,5 +79,6 @@ fn run(cli: &Cli) -> Outcome<()> {
         Some(Command::Export(arguments)) => export::run(arguments),
         Some(Command::Contact(arguments)) => contact::run(arguments),
         Some(Command::Pil(arguments)) => pil::run(arguments),
+        Some(Command::Link(arguments)) => link::run(arguments),
     }
 }

@@ -50,7 +50,7 @@ fn commands_and_options_that_there_are_not() {
     wrong_use(&["replay"], &[], "required arguments");
     wrong_use(&["rig", "--amplitude"], &[], "--amplitude");
     for command in [
-        "replay", "rig", "verify", "shims", "budget", "export", "contact", "pil",
+        "replay", "rig", "verify", "shims", "budget", "export", "contact", "pil", "link",
     ] {
         wrong_use(
             &[command],

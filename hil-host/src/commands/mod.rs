@@ -5,6 +5,8 @@ pub mod contact;
 pub mod demonstrate;
 pub mod export;
 mod gap_report;
+pub mod line;
+pub mod link;
 pub mod pil;
 pub mod progress;
 pub mod replay;

@@ -1,21 +1,28 @@
 //! The host's end of the link: one request at a time, repeated until it is answered.
 
-use std::fmt;
 use std::time::{Duration, Instant};
 
+use dashpot_core::Damper;
 use dashpot_core::link::{
-    FrameReader, Header, PROTOCOL, RESPONSE_BYTES, Refusal, Request, Response, Welcome,
+    FrameReader, Header, PROTOCOL, RESPONSE_BYTES, Refusal, Request, Response, Scalar, Welcome,
     request_frame,
 };
 use serde::Serialize;
 
-use super::Link;
+use super::{Link, LinkError};
 use crate::failure::Failure;
+
+/// What a byte may take on the way to a target behind a bridge, which has it from the host at once: 87 us at
+/// 115200 bit/s.
+const BYTE_TIME: Duration = Duration::from_micros(100);
+
+/// Session numbers to try: the first may be the open one, by chance or after an earlier run.
+const MOST_SESSIONS: u32 = 10;
 
 /// How long to wait for an answer, and how often to ask.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Patience {
-    /// Wait for each try.
+    /// Wait for each try, beside the time its bytes take.
     pub timeout: Duration,
     /// Tries of a request, 1 at least.
     pub tries: u32,
@@ -28,6 +35,13 @@ impl Default for Patience {
             timeout: Duration::from_millis(200),
             tries: 8,
         }
+    }
+}
+
+impl Patience {
+    /// How long to wait for the answer to a frame of so many bytes.
+    fn for_frame(&self, bytes: usize) -> Duration {
+        self.timeout + BYTE_TIME.saturating_mul(bytes as u32)
     }
 }
 
@@ -46,57 +60,6 @@ pub struct LinkFaults {
     pub stale_answers: u64,
     /// Sessions that the target no longer knew, as after a reset.
     pub lost_sessions: u64,
-}
-
-/// Why a request has no result.
-#[derive(Clone, Debug, PartialEq)]
-pub enum LinkError {
-    /// The line itself failed.
-    Broken(Failure),
-    /// No answer to any try.
-    Silent(Patience),
-    /// The target does not know the session: it was reset.
-    SessionLost,
-    /// The target said no.
-    Refused(Refusal),
-    /// An answer that is none of this protocol.
-    Unreadable,
-}
-
-impl fmt::Display for LinkError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Broken(failure) => write!(f, "{failure}"),
-            Self::Silent(patience) => write!(
-                f,
-                "no answer from the target to {} tries of {} ms",
-                patience.tries,
-                patience.timeout.as_millis()
-            ),
-            Self::SessionLost => f.write_str("the target was reset"),
-            Self::Refused(Refusal::Protocol(version)) => write!(
-                f,
-                "the target speaks version {version} of the link protocol, this host {PROTOCOL}"
-            ),
-            Self::Refused(Refusal::StepSize) => {
-                f.write_str("the target refused a damper built for another step")
-            }
-            Self::Refused(Refusal::Image) => f.write_str(
-                "the target refused the damper's image as damaged or of another version",
-            ),
-            Self::Refused(Refusal::Running) => {
-                f.write_str("the target's tick runs free; stop or reset the target first")
-            }
-            Self::Refused(refusal) => write!(f, "the target refused: {refusal:?}"),
-            Self::Unreadable => f.write_str("the target answers in another protocol"),
-        }
-    }
-}
-
-impl From<LinkError> for Failure {
-    fn from(error: LinkError) -> Self {
-        Self::new(error.to_string())
-    }
 }
 
 /// Asks a target over a link.
@@ -141,13 +104,29 @@ impl<L: Link> Client<L> {
     /// Opens a new session.
     ///
     /// # Errors
-    /// No answer, or a target of another protocol.
+    /// No answer, a target of another protocol, or one whose dampers are not this host's in single precision.
     pub fn hello(&mut self) -> Result<Welcome<'_>, LinkError> {
-        self.header.session = self.header.session.wrapping_add(1);
-        match self.request(&Request::Hello { protocol: PROTOCOL })? {
-            Response::Welcome(welcome) => Ok(welcome),
-            _ => Err(LinkError::Unreadable),
+        let hello = Request::Hello { protocol: PROTOCOL };
+        let mut tries = 1;
+        loop {
+            self.header.session = self.header.session.wrapping_add(1);
+            match self.exchange(&hello) {
+                Err(LinkError::SessionLost) if tries < MOST_SESSIONS => tries += 1,
+                done => break done?,
+            }
         }
+        let Response::Welcome(welcome) = self.response()? else {
+            return Err(LinkError::Unreadable);
+        };
+        if welcome.scalar != Scalar::F32 {
+            return Err(LinkError::Broken(Failure::new(
+                "the target steps in f64, this host in f32",
+            )));
+        }
+        if welcome.image_bytes as usize != Damper::<f32>::IMAGE_BYTES {
+            return Err(LinkError::Unreadable);
+        }
+        Ok(welcome)
     }
 
     /// Asks until there is an answer. The target carries the request out once, however often it is sent.
@@ -155,34 +134,46 @@ impl<L: Link> Client<L> {
     /// # Errors
     /// No answer, or a refusal.
     pub fn request(&mut self, request: &Request<'_>) -> Result<Response<'_>, LinkError> {
+        self.exchange(request)?;
+        self.response()
+    }
+
+    /// Asks until the answer is there and no refusal.
+    fn exchange(&mut self, request: &Request<'_>) -> Result<(), LinkError> {
         self.header.sequence = self.header.sequence.wrapping_add(1);
         let frame = request_frame(self.header, request);
-        if frame.bytes().is_empty() {
+        let frame = frame.bytes();
+        if frame.is_empty() {
             return Err(LinkError::Broken(Failure::new(
                 "a request is too long for a frame",
             )));
         }
         for again in 0..self.patience.tries.max(1) {
             self.faults.repeated_requests += u64::from(again > 0);
-            self.link.send(frame.bytes()).map_err(LinkError::Broken)?;
-            if self.wait()? {
-                return match parse(&self.answer) {
-                    Some((_, Response::Refused(Refusal::NoSession | Refusal::OutOfOrder(_)))) => {
+            self.link.send(frame).map_err(LinkError::Broken)?;
+            if self.wait(self.patience.for_frame(frame.len()))? {
+                return match self.response()? {
+                    Response::Refused(Refusal::NoSession | Refusal::OutOfOrder(_)) => {
                         self.faults.lost_sessions += 1;
                         Err(LinkError::SessionLost)
                     }
-                    Some((_, Response::Refused(refusal))) => Err(LinkError::Refused(refusal)),
-                    Some((_, response)) => Ok(response),
-                    None => Err(LinkError::Unreadable),
+                    Response::Refused(refusal) => Err(LinkError::Refused(refusal)),
+                    _ => Ok(()),
                 };
             }
         }
         Err(LinkError::Silent(self.patience))
     }
 
-    /// Waits for the answer to the last request; false when it should be sent again.
-    fn wait(&mut self) -> Result<bool, LinkError> {
-        let deadline = Instant::now() + self.patience.timeout;
+    /// The last answer.
+    fn response(&self) -> Result<Response<'_>, LinkError> {
+        let answer = parse(&self.answer).ok_or(LinkError::Unreadable)?;
+        Ok(answer.1)
+    }
+
+    /// Waits up to `time` for the answer to the last request; false when it should be sent again.
+    fn wait(&mut self, time: Duration) -> Result<bool, LinkError> {
+        let deadline = Instant::now() + time;
         loop {
             let received = std::mem::take(&mut self.received);
             for (index, byte) in received.iter().enumerate() {

@@ -37,8 +37,10 @@ impl Serial {
 
 impl Link for Serial {
     fn send(&mut self, bytes: &[u8]) -> Outcome<()> {
+        // The wait for the answer begins when the bytes have left.
         self.port
             .write_all(bytes)
+            .and_then(|()| self.port.flush())
             .map_err(|error| self.failure(format_args!("cannot send: {error}")))
     }
 

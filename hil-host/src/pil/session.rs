@@ -2,7 +2,7 @@
 
 use std::collections::VecDeque;
 
-use dashpot_core::link::{Counters, Refusal, Request, Response, Scalar};
+use dashpot_core::link::{Counters, Refusal, Request, Response};
 use dashpot_core::{Damper, DamperState};
 
 use super::mirror::Mirror;
@@ -26,14 +26,7 @@ impl<L: Link> Session<L> {
     /// # Errors
     /// No answer, or a target whose forces cannot be compared with this host's.
     pub fn open(mut client: Client<L>) -> Outcome<Self> {
-        let mut tries = 0;
-        let target = loop {
-            match target(&mut client) {
-                Ok(target) => break target,
-                Err(LinkError::SessionLost) if tries < MOST_RECOVERIES => tries += 1,
-                Err(error) => return Err(error.into()),
-            }
-        };
+        let target = target(&mut client)?;
         let version = env!("CARGO_PKG_VERSION");
         if target.core_version != version {
             return Err(Failure::new(format!(
@@ -242,14 +235,6 @@ fn after(tick: u32, error: LinkError) -> Failure {
 
 fn target<L: Link>(client: &mut Client<L>) -> Result<Target, LinkError> {
     let welcome = client.hello()?;
-    if welcome.scalar != Scalar::F32 {
-        return Err(LinkError::Broken(Failure::new(
-            "the target steps in f64; this host compares f32",
-        )));
-    }
-    if welcome.image_bytes as usize != Damper::<f32>::IMAGE_BYTES {
-        return Err(LinkError::Unreadable);
-    }
     Ok(Target {
         core_version: welcome.core_version.into(),
         dampers: welcome.revisions.len(),

@@ -49,28 +49,34 @@ pub fn serve(
     mut line: impl Read + Write + Send + 'static,
     target: impl FnOnce() -> Box<dyn Link> + Send + 'static,
 ) {
-    std::thread::spawn(move || {
-        let mut target = target();
-        let mut buffer = [0; 1024];
-        loop {
-            let received = match line.read(&mut buffer) {
-                Ok(count) if count > 0 => count,
-                Err(error) if error.kind() == ErrorKind::TimedOut => continue,
-                _ => return,
-            };
-            target.send(&buffer[..received]).unwrap();
-            let count = target.receive(&mut buffer, Duration::ZERO).unwrap();
-            if line.write_all(&buffer[..count]).is_err() {
-                return;
-            }
-        }
-    });
+    std::thread::spawn(move || answer(&mut line, &mut *target()));
 }
 
-/// Serves a target to whoever connects first; HOST:PORT.
+fn answer(line: &mut (impl Read + Write), target: &mut dyn Link) {
+    let mut buffer = [0; 1024];
+    loop {
+        let received = match line.read(&mut buffer) {
+            Ok(count) if count > 0 => count,
+            Err(error) if error.kind() == ErrorKind::TimedOut => continue,
+            _ => return,
+        };
+        target.send(&buffer[..received]).unwrap();
+        let count = target.receive(&mut buffer, Duration::ZERO).unwrap();
+        if line.write_all(&buffer[..count]).is_err() {
+            return;
+        }
+    }
+}
+
+/// Serves a target to all who connect, one after the other; HOST:PORT.
 pub fn serve_tcp(target: impl FnOnce() -> Box<dyn Link> + Send + 'static) -> String {
     let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, 0)).unwrap();
     let address = listener.local_addr().unwrap();
-    std::thread::spawn(move || serve(listener.accept().unwrap().0, target));
+    std::thread::spawn(move || {
+        let mut target = target();
+        for line in listener.incoming() {
+            answer(&mut line.unwrap(), &mut *target);
+        }
+    });
     address.to_string()
 }

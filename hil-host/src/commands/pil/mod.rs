@@ -8,10 +8,10 @@ mod rows;
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
-use std::time::Duration;
 
 use dashpot_core::{Damper, DamperParameters};
 
+use super::line::LineArguments;
 use super::step_size::StepSize;
 use super::{Format, RealtimeArguments, print_report_beside, progress};
 use crate::damper_file;
@@ -19,7 +19,7 @@ use crate::failure::{Failure, Outcome};
 use crate::input;
 use crate::output::{self, cannot_write, write_whole_if};
 use crate::pacing::Pacer;
-use crate::pil::{Client, FaultRates, FaultyLink, Link, LinkChoice, Pace, Patience, Session};
+use crate::pil::{Client, FaultRates, FaultyLink, Link, Pace, Session};
 use crate::recording::Recording;
 use crate::replay::Ticks;
 use history::History;
@@ -60,9 +60,8 @@ pub struct PilArguments {
     /// Overrides a key of every damper: table.key=value, such as mount.clearance_m=1e-3.
     #[arg(long = "set", value_name = "KEY=VALUE")]
     overrides: Vec<String>,
-    /// The target: tcp:HOST:PORT, serial:DEVICE, qemu (an emulator of our own) or qemu:IMAGE.
-    #[arg(long, value_name = "LINK")]
-    link: LinkChoice,
+    #[command(flatten)]
+    line: LineArguments,
     /// Recorded motion, CSV with columns time_s,displacement_m; `-` for standard input.
     #[arg(long, value_name = "FILE")]
     input: PathBuf,
@@ -86,15 +85,6 @@ pub struct PilArguments {
     /// Seed of the faults.
     #[arg(long, default_value_t = 1)]
     seed: u64,
-    /// Wait for an answer, ms.
-    #[arg(long, default_value_t = 200, value_parser = clap::value_parser!(u64).range(1..=60_000), value_name = "MS")]
-    timeout_ms: u64,
-    /// Tries of a request before the target counts as silent.
-    #[arg(long, default_value_t = 8, value_parser = clap::value_parser!(u32).range(1..=1000))]
-    tries: u32,
-    /// Rate of a serial device, bit/s.
-    #[arg(long, default_value_t = 1_000_000, value_parser = clap::value_parser!(u32).range(1..))]
-    baud: u32,
     /// How results are printed.
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
@@ -189,12 +179,9 @@ fn drive(
     file: Option<(&Path, &mut dyn Write)>,
 ) -> Outcome<(Found, History)> {
     let rates = arguments.faults.unwrap_or_default();
-    let link = FaultyLink::new(arguments.link.open(arguments.baud)?, rates, arguments.seed)?;
-    let patience = Patience {
-        timeout: Duration::from_millis(arguments.timeout_ms),
-        tries: arguments.tries,
-    };
-    let mut session = Session::open(Client::new(link, patience, fastrand::u16(..)))?;
+    let link = FaultyLink::new(arguments.line.open()?, rates, arguments.seed)?;
+    let client = Client::new(link, arguments.line.patience(), fastrand::u16(..));
+    let mut session = Session::open(client)?;
     let target = session.target();
     let step = StepSize::from_target(target.step_s).ok_or_else(|| {
         Failure::new(format!(

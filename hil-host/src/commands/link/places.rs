@@ -1,0 +1,55 @@
+//! Places of a bank, as options name them.
+
+use dashpot_core::link::MOST_DAMPERS;
+
+use super::target::Target;
+use crate::failure::{Failure, Outcome};
+
+/// `--place`, as often as there are places to name.
+#[derive(Debug, Clone, clap::Args)]
+pub(super) struct Places {
+    /// Place of the bank, from 0; once for each place, all places when not given.
+    #[arg(long = "place", value_name = "PLACE", value_parser = place())]
+    places: Vec<u8>,
+}
+
+/// Parses a place that a target may have.
+pub(super) fn place() -> clap::builder::RangedI64ValueParser<u8> {
+    clap::value_parser!(u8).range(..MOST_DAMPERS as i64)
+}
+
+impl Places {
+    /// The places of `target` that were named, each once, in order.
+    ///
+    /// # Errors
+    /// One that the target does not have.
+    pub(super) fn of(&self, target: &Target) -> Outcome<Vec<u8>> {
+        if self.places.is_empty() {
+            return Ok((0..).take(target.greeting.dampers).collect());
+        }
+        let mut places = self.places.clone();
+        places.sort_unstable();
+        places.dedup();
+        places.iter().try_for_each(|place| check(*place, target))?;
+        Ok(places)
+    }
+}
+
+/// Refuses a place that the target does not have.
+pub(super) fn check(place: u8, target: &Target) -> Outcome<()> {
+    let dampers = target.greeting.dampers;
+    if usize::from(place) < dampers {
+        return Ok(());
+    }
+    Err(Failure::wrong_use(format!(
+        "--place {place}: the target has {dampers} dampers; allowed: 0 to {}",
+        dampers.saturating_sub(1)
+    )))
+}
+
+/// `place 0`, `places 0, 2, 3`.
+pub(super) fn named(places: &[u8]) -> String {
+    let numbers: Vec<String> = places.iter().map(u8::to_string).collect();
+    let plural = if places.len() == 1 { "" } else { "s" };
+    format!("place{plural} {}", numbers.join(", "))
+}

@@ -1,0 +1,122 @@
+//! The states of a bank as a file that a person can read.
+
+use std::path::Path;
+
+use dashpot_core::DamperState;
+use serde::{Deserialize, Serialize};
+
+use super::status_bits::{self, StatusBit};
+use crate::failure::{Failure, Outcome};
+use crate::input;
+
+const STATE_BYTES: usize = DamperState::<f32>::BYTES;
+
+/// The states of a bank at a tick.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct BankState {
+    pub(super) tick: u32,
+    pub(super) places: Vec<PlaceState>,
+}
+
+/// The state of the damper in a place: [`DamperState::to_bytes`].
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct PlaceState {
+    /// Of the damper that made it.
+    #[serde(with = "hexadecimal")]
+    pub(super) revision: u32,
+    displacement_m: f32,
+    stretch_m: f32,
+    flow_potential_m2: f32,
+    force_n: f32,
+    status: Vec<StatusBit>,
+    rejected_inputs: u16,
+}
+
+impl PlaceState {
+    fn from_bytes(bytes: [u8; STATE_BYTES]) -> Self {
+        let [x, stretch, potential, force, revision, last] = words(bytes);
+        let [s0, s1, n0, n1] = last;
+        Self {
+            revision: u32::from_le_bytes(revision),
+            displacement_m: f32::from_le_bytes(x),
+            stretch_m: f32::from_le_bytes(stretch),
+            flow_potential_m2: f32::from_le_bytes(potential),
+            force_n: f32::from_le_bytes(force),
+            status: status_bits::of_word(u16::from_le_bytes([s0, s1])),
+            rejected_inputs: u16::from_le_bytes([n0, n1]),
+        }
+    }
+
+    fn to_bytes(&self) -> impl Iterator<Item = u8> {
+        let reals = [
+            self.displacement_m,
+            self.stretch_m,
+            self.flow_potential_m2,
+            self.force_n,
+        ];
+        reals
+            .into_iter()
+            .flat_map(f32::to_le_bytes)
+            .chain(self.revision.to_le_bytes())
+            .chain(status_bits::to_word(&self.status).to_le_bytes())
+            .chain(self.rejected_inputs.to_le_bytes())
+    }
+}
+
+/// The bytes in words of 4.
+fn words(bytes: [u8; STATE_BYTES]) -> [[u8; 4]; STATE_BYTES / 4] {
+    std::array::from_fn(|word| std::array::from_fn(|byte| bytes[4 * word + byte]))
+}
+
+impl BankState {
+    /// The states in the bytes that a target saved; `None` when one is cut short.
+    pub(super) fn from_bytes(tick: u32, states: &[u8]) -> Option<Self> {
+        let (states, rest) = states.as_chunks::<STATE_BYTES>();
+        let places = states.iter().copied().map(PlaceState::from_bytes);
+        rest.is_empty().then(|| Self {
+            tick,
+            places: places.collect(),
+        })
+    }
+
+    /// The states as a target takes them.
+    pub(super) fn to_bytes(&self) -> Vec<u8> {
+        self.places.iter().flat_map(PlaceState::to_bytes).collect()
+    }
+
+    /// The file's text.
+    pub(super) fn to_toml(&self) -> Outcome<String> {
+        let text = toml::to_string(self).map_err(|error| Failure::new(error.to_string()))?;
+        Ok(format!(
+            "# States of a bank of dampers, one [[places]] for each place from 0 on.\n\
+             # Written by `dashpot link save`, given back by `dashpot link restore`.\n{text}"
+        ))
+    }
+
+    /// Reads the file at `path`.
+    pub(super) fn read(path: &Path) -> Outcome<Self> {
+        toml::from_str(&input::read_text(path)?).map_err(|error| {
+            let message = error.to_string();
+            Failure::in_file(&input::name(path), message.trim_end())
+        })
+    }
+}
+
+/// A revision as other commands print it.
+mod hexadecimal {
+    use serde::de::Error;
+    use serde::{Deserialize, Deserializer, Serializer};
+
+    pub(super) fn serialize<S: Serializer>(revision: &u32, to: S) -> Result<S::Ok, S::Error> {
+        to.collect_str(&format_args!("{revision:#010x}"))
+    }
+
+    pub(super) fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<u32, D::Error> {
+        let text = String::deserialize(from)?;
+        text.strip_prefix("0x")
+            .and_then(|digits| u32::from_str_radix(digits, 16).ok())
+            .ok_or_else(|| D::Error::custom("a revision is 0x and 8 hexadecimal digits"))
+    }
+}

@@ -1,0 +1,56 @@
+//! Latched status bits by their names.
+
+use dashpot_core::Status;
+use serde::{Deserialize, Serialize};
+
+/// A status bit of a damper.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub(super) enum StatusBit {
+    InputHeld,
+    InputLimited,
+    Saturated,
+    DamperSwapped,
+    Corrupted,
+}
+
+/// Each bit, what the core calls it, and what a person reads.
+const ALL: [(StatusBit, Status, &str); 5] = [
+    (StatusBit::InputHeld, Status::INPUT_HELD, "input held"),
+    (
+        StatusBit::InputLimited,
+        Status::INPUT_LIMITED,
+        "input limited",
+    ),
+    (StatusBit::Saturated, Status::SATURATED, "saturated"),
+    (
+        StatusBit::DamperSwapped,
+        Status::DAMPER_SWAPPED,
+        "damper swapped",
+    ),
+    (StatusBit::Corrupted, Status::CORRUPTED, "corrupted"),
+];
+
+/// The bits that are set in a status word.
+pub(super) fn of_word(word: u16) -> Vec<StatusBit> {
+    let status = Status::from_bits(word);
+    let set = ALL.iter().filter(|(_, bit, _)| status.contains(*bit));
+    set.map(|(name, ..)| *name).collect()
+}
+
+/// The status word with these bits set.
+pub(super) fn to_word(names: &[StatusBit]) -> u16 {
+    let set = ALL.iter().filter(|(name, ..)| names.contains(name));
+    set.fold(0, |word, (_, bit, _)| word | bit.bits())
+}
+
+/// The bits in words, separated by commas; `none` without any.
+pub(super) fn in_words(names: &[StatusBit]) -> String {
+    let set = ALL.iter().filter(|(name, ..)| names.contains(name));
+    let words: Vec<&str> = set.map(|(_, _, word)| *word).collect();
+    if words.is_empty() {
+        "none".into()
+    } else {
+        words.join(", ")
+    }
+}

@@ -1,0 +1,196 @@
+//! `telemetry`: the samples that a target kept.
+
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use dashpot_core::link::{MOST_SAMPLES, Request, Response, Sample};
+use serde::Serialize;
+
+use super::LinkArguments;
+use super::places::Places;
+use super::status_bits::{self, StatusBit};
+use super::target::Target;
+use crate::commands::{counted, print_report_beside};
+use crate::failure::Outcome;
+use crate::output::{self, cannot_write_rows, write_whole_if};
+
+/// Answers that hold all the ticks a target keeps; what comes after those is newer than the question.
+const MOST_ANSWERS: usize = 64 / MOST_SAMPLES;
+
+/// Take all samples that wait: the last 64 ticks at most of each damper, each sample once.
+#[derive(Debug, Clone, clap::Args)]
+#[command(after_help = "Examples:
+  dashpot link --link serial:/dev/ttyACM0 telemetry --place 3
+  dashpot link --link serial:/dev/ttyACM0 telemetry --output samples.csv
+
+--output writes the columns place, tick, displacement_m, force_n, status: the sum of 1 input held, 2 input limited, \
+4 saturated, 8 damper swapped, 16 corrupted.")]
+pub(super) struct TelemetryArguments {
+    #[command(flatten)]
+    places: Places,
+    /// The samples as CSV, `-` for standard output; printed when not given.
+    #[arg(long, value_name = "FILE")]
+    output: Option<PathBuf>,
+}
+
+/// A sample of the damper in a place.
+#[derive(Serialize)]
+pub(super) struct PlaceSample {
+    place: u8,
+    tick: u32,
+    displacement_m: f32,
+    force_n: f32,
+    status: Vec<StatusBit>,
+}
+
+impl PlaceSample {
+    pub(super) fn new(place: u8, sample: &Sample) -> Self {
+        Self {
+            place,
+            tick: sample.tick,
+            displacement_m: sample.displacement_m,
+            force_n: sample.force_n,
+            status: status_bits::of_word(sample.status),
+        }
+    }
+
+    /// Heads the lines of [`Self::print`].
+    pub(super) fn print_header(out: &mut dyn Write) -> io::Result<()> {
+        writeln!(out, "place        tick  displacement_m     force_n  status")
+    }
+
+    /// Prints a line.
+    pub(super) fn print(&self, out: &mut dyn Write) -> io::Result<()> {
+        let status = status_bits::in_words(&self.status);
+        writeln!(
+            out,
+            "{:>5}  {:>10}  {:>14.6}  {:>10.1}  {status}",
+            self.place, self.tick, self.displacement_m, self.force_n
+        )
+    }
+}
+
+/// An answer of telemetry.
+pub(super) struct Taken {
+    /// Samples of that damper lost to newer ones, since power on.
+    pub(super) overwritten: u32,
+    pub(super) samples: Vec<Sample>,
+}
+
+/// The oldest samples of the damper in a place that were not taken yet.
+pub(super) fn take(target: &mut Target, place: u8) -> Outcome<Taken> {
+    target.ask(
+        &Request::Telemetry { damper: place },
+        |response| match response {
+            Response::Telemetry {
+                overwritten,
+                samples,
+            } => Some(Taken {
+                overwritten,
+                samples: samples.to_vec(),
+            }),
+            _ => None,
+        },
+    )
+}
+
+/// All samples of the damper in a place that wait.
+fn take_all(target: &mut Target, place: u8) -> Outcome<Taken> {
+    let mut all = Taken {
+        overwritten: 0,
+        samples: Vec::new(),
+    };
+    for _ in 0..MOST_ANSWERS {
+        let taken = take(target, place)?;
+        all.overwritten = taken.overwritten;
+        all.samples.extend(&taken.samples);
+        if taken.samples.len() < MOST_SAMPLES {
+            break;
+        }
+    }
+    Ok(all)
+}
+
+/// What was taken of a place.
+#[derive(Serialize)]
+struct PlaceReport {
+    place: u8,
+    taken: usize,
+    /// Since power on.
+    overwritten: u32,
+}
+
+#[derive(Serialize)]
+struct Report {
+    places: Vec<PlaceReport>,
+    /// Unless they went to a file.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    samples: Option<Vec<PlaceSample>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    output: Option<String>,
+}
+
+/// `telemetry`.
+pub(super) fn run(telemetry: &TelemetryArguments, link: &LinkArguments) -> Outcome<()> {
+    let path = telemetry.output.as_deref();
+    let mut report = Report {
+        places: Vec::new(),
+        samples: path.is_none().then(Vec::new),
+        output: path.map(|path| output::name(path).display().to_string()),
+    };
+    // The file is begun first: samples taken from a target cannot be taken again.
+    write_whole_if(path, |file| {
+        let mut rows = file.map(|(path, file)| (path, csv::Writer::from_writer(file)));
+        if let Some((path, rows)) = &mut rows {
+            rows.write_record(["place", "tick", "displacement_m", "force_n", "status"])
+                .map_err(|error| cannot_write_rows(path, error))?;
+        }
+        let mut target = Target::open(&link.line)?;
+        for place in telemetry.places.of(&target)? {
+            let taken = take_all(&mut target, place)?;
+            report.places.push(PlaceReport {
+                place,
+                taken: taken.samples.len(),
+                overwritten: taken.overwritten,
+            });
+            if let Some((path, rows)) = &mut rows {
+                taken
+                    .samples
+                    .iter()
+                    .try_for_each(|of| {
+                        rows.serialize((place, of.tick, of.displacement_m, of.force_n, of.status))
+                    })
+                    .map_err(|error| cannot_write_rows(path, error))?;
+            }
+            if let Some(samples) = &mut report.samples {
+                let all = taken.samples.iter();
+                samples.extend(all.map(|sample| PlaceSample::new(place, sample)));
+            }
+        }
+        rows.map_or(Ok(()), |(path, mut rows)| {
+            rows.flush()
+                .map_err(|error| cannot_write_rows(path, error.into()))
+        })
+    })?;
+    print_report_beside(path.unwrap_or(Path::new("")), link.format, &report, print)
+}
+
+fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
+    if let Some(samples) = &report.samples {
+        PlaceSample::print_header(out)?;
+        samples.iter().try_for_each(|sample| sample.print(out))?;
+    }
+    for of in &report.places {
+        writeln!(
+            out,
+            "place {}: {} taken, {} overwritten before they were taken since power on",
+            of.place,
+            counted(of.taken as u64, "sample"),
+            of.overwritten
+        )?;
+    }
+    report
+        .output
+        .iter()
+        .try_for_each(|path| writeln!(out, "wrote {path}"))
+}

@@ -1,0 +1,119 @@
+//! `watch`: the samples of a target that steps by itself, as they come.
+
+use std::io::{self, Write};
+use std::path::Path;
+use std::time::Duration;
+
+use dashpot_core::link::{MOST_SAMPLES, Sample};
+
+use super::LinkArguments;
+use super::places::Places;
+use super::target::Target;
+use super::telemetry::{PlaceSample, take};
+use crate::commands::{Format, counted};
+use crate::failure::{Failure, Outcome};
+use crate::input::STANDARD_STREAM;
+use crate::output::cannot_write;
+
+/// Longest time between questions.
+const LONGEST_PAUSE: Duration = Duration::from_millis(100);
+
+/// Print a line for each new sample of a target whose tick runs free, until interrupted.
+#[derive(Debug, Clone, clap::Args)]
+#[command(after_help = "Examples:
+  dashpot link --link serial:/dev/ttyACM0 watch --place 0 --place 3
+  dashpot link --link serial:/dev/ttyACM0 --format json watch --samples 1000 > samples.jsonl
+
+With --format json every line is an object of its own. Samples that the target overwrote because the line is too slow for \
+so many places are told on standard error.")]
+pub(super) struct WatchArguments {
+    #[command(flatten)]
+    places: Places,
+    /// End after so many samples.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    samples: Option<u64>,
+}
+
+/// A place that is watched.
+struct Watched {
+    place: u8,
+    /// Samples overwritten so far; `None` before the first answer.
+    overwritten: Option<u32>,
+}
+
+impl Watched {
+    /// Takes new samples and tells of those lost since the last time.
+    fn take(&mut self, target: &mut Target) -> Outcome<Vec<Sample>> {
+        let taken = take(target, self.place)?;
+        let before = self.overwritten.replace(taken.overwritten);
+        let lost = taken
+            .overwritten
+            .saturating_sub(before.unwrap_or(taken.overwritten));
+        if lost > 0 {
+            let lost = counted(lost.into(), "sample");
+            // Nobody to tell when standard error is closed.
+            let _ = writeln!(
+                io::stderr(),
+                "warning: place {}: {lost} overwritten before they were taken",
+                self.place
+            );
+        }
+        Ok(taken.samples)
+    }
+}
+
+/// `watch`.
+pub(super) fn run(watch: &WatchArguments, link: &LinkArguments) -> Outcome<()> {
+    let mut target = Target::open(&link.line)?;
+    let places = watch.places.of(&target)?.into_iter();
+    let mut watched: Vec<Watched> = places
+        .map(|place| Watched {
+            place,
+            overwritten: None,
+        })
+        .collect();
+    let pause = pause(target.greeting.step_s);
+    let mut out = io::stdout().lock();
+    let written = |done: io::Result<()>| {
+        done.map_err(|error| cannot_write(Path::new(STANDARD_STREAM), error))
+    };
+    if link.format == Format::Text {
+        written(PlaceSample::print_header(&mut out))?;
+    }
+    let mut left = watch.samples.unwrap_or(u64::MAX);
+    loop {
+        let mut new = false;
+        for place in &mut watched {
+            for sample in place.take(&mut target)? {
+                written(print(&mut out, link.format, place.place, &sample))?;
+                new = true;
+                left -= 1;
+                if left == 0 {
+                    return Ok(());
+                }
+            }
+        }
+        if !new && !target.greeting.running {
+            return Err(Failure::new(
+                "the target's tick does not run free, so no more samples come; `run` starts it",
+            ));
+        }
+        if !new {
+            std::thread::sleep(pause);
+        }
+    }
+}
+
+fn print(out: &mut dyn Write, format: Format, place: u8, sample: &Sample) -> io::Result<()> {
+    let sample = PlaceSample::new(place, sample);
+    match format {
+        Format::Text => sample.print(out),
+        Format::Json => writeln!(out, "{}", serde_json::to_string(&sample)?),
+    }
+}
+
+/// The time in which an answer fills with samples.
+fn pause(step_s: f32) -> Duration {
+    Duration::try_from_secs_f32(step_s * MOST_SAMPLES as f32)
+        .map_or(LONGEST_PAUSE, |pause| pause.min(LONGEST_PAUSE))
+}

@@ -1,0 +1,97 @@
+//! `dashpot link` against a target on the desk that steps by itself.
+
+// Each test binary uses its own share of these.
+#![allow(dead_code)]
+
+use std::process::{Command, Output};
+use std::time::Duration;
+
+use dashpot_hil::failure::Outcome;
+use dashpot_hil::pil::{Desk, Link};
+use serde_json::Value;
+use tempfile::TempDir;
+
+use crate::common::{command, error_of, json_of, text_of};
+use crate::pil_common::{desk, serve_tcp};
+
+/// Free-running ticks before each request; every action is a hello and its own.
+pub const TICKS: u32 = 20;
+
+/// A desk whose time passes with requests: when it runs free, [`TICKS`] before each.
+struct Ticking(Desk<3>);
+
+impl Link for Ticking {
+    fn send(&mut self, bytes: &[u8]) -> Outcome<()> {
+        // A frame ends with a zero.
+        for _ in bytes.iter().filter(|byte| **byte == 0) {
+            for _ in 0..TICKS {
+                self.0.device().tick(1);
+            }
+        }
+        self.0.send(bytes)
+    }
+
+    fn receive(&mut self, buffer: &mut [u8], timeout: Duration) -> Outcome<usize> {
+        self.0.receive(buffer, timeout)
+    }
+}
+
+/// A target of three dampers behind a TCP port, and a folder for files.
+pub struct Rig {
+    address: String,
+    pub folder: TempDir,
+}
+
+impl Rig {
+    pub fn new() -> Self {
+        Self {
+            address: serve_tcp(|| Box::new(Ticking(desk()))),
+            folder: tempfile::tempdir().unwrap(),
+        }
+    }
+
+    /// `dashpot link` with an action, not yet started.
+    pub fn command(&self, action: &[&str]) -> Command {
+        let link = format!("tcp:{}", self.address);
+        // On a busy machine an answer may take long; it always comes.
+        let line = ["link", "--link", &link, "--timeout-ms", "60000"];
+        command(&[&line[..], action].concat(), self.folder.path())
+    }
+
+    /// What an action wrote and how it ended.
+    pub fn output(&self, action: &[&str]) -> Output {
+        self.command(action).output().unwrap()
+    }
+
+    /// Text of an action that is done.
+    pub fn text(&self, action: &[&str]) -> String {
+        let output = self.output(action);
+        assert!(output.status.success(), "{action:?}: {output:?}");
+        text_of(&output)
+    }
+
+    /// JSON of an action that is done.
+    pub fn json(&self, action: &[&str]) -> Value {
+        let output = self.output(&[action, &["--format", "json"]].concat());
+        assert!(output.status.success(), "{action:?}: {output:?}");
+        json_of(&output.stdout)
+    }
+
+    /// Error of an action that ends with `code`, which wrote nothing else.
+    pub fn error(&self, action: &[&str], code: i32) -> String {
+        let output = self.output(action);
+        assert_eq!(output.status.code(), Some(code), "{action:?}: {output:?}");
+        assert!(output.stdout.is_empty(), "{action:?}: {output:?}");
+        error_of(&output)
+    }
+
+    /// Text of a file in the folder.
+    pub fn read(&self, name: &str) -> String {
+        std::fs::read_to_string(self.folder.path().join(name)).unwrap()
+    }
+
+    /// Writes a file in the folder.
+    pub fn write(&self, name: &str, bytes: impl AsRef<[u8]>) {
+        std::fs::write(self.folder.path().join(name), bytes).unwrap();
+    }
+}
