@@ -28,5 +28,6 @@ pub use message::{
     Counters, Forces, Header, MOST_DAMPERS, MOST_SAMPLES, PROTOCOL, Parameter, Reals, Refusal,
     Request, Response, Sample, Scalar, Welcome,
 };
+pub use recorder::KEPT_TICKS;
 pub use safe_output::{LossOfLink, SafeOutput};
 pub use service::Clock;

@@ -6,8 +6,9 @@ use super::message::{MOST_SAMPLES, Refusal, Response, Sample};
 use crate::state::DamperState;
 use crate::status::Status;
 
-/// Ticks kept: a power of two, so that a count that wraps goes on in the ring.
-const KEPT: usize = 64;
+/// Ticks kept of every damper for [`Request::Telemetry`](super::Request::Telemetry): a power of two, so that a count
+/// that wraps goes on in the ring.
+pub const KEPT_TICKS: usize = 64;
 
 /// One tick of the bank.
 #[derive(Clone, Copy, Debug)]
@@ -21,7 +22,7 @@ struct Tick<const N: usize> {
 /// A ring of ticks that every damper is read from on its own.
 #[derive(Debug)]
 pub(crate) struct Recorder<const N: usize> {
-    ticks: [Tick<N>; KEPT],
+    ticks: [Tick<N>; KEPT_TICKS],
     /// Ticks ever recorded, wrapping; the next goes to this place in the ring.
     recorded: u32,
     kept: u32,
@@ -38,7 +39,7 @@ impl<const N: usize> Recorder<N> {
                 displacements_m: [0.0; N],
                 forces_n: [0.0; N],
                 status: [Status::empty(); N],
-            }; KEPT],
+            }; KEPT_TICKS],
             recorded: 0,
             kept: 0,
             taken: [0; N],
@@ -47,14 +48,14 @@ impl<const N: usize> Recorder<N> {
     }
 
     pub(crate) fn record(&mut self, tick: u32, states: &[DamperState<f32>; N]) {
-        self.ticks[self.recorded as usize % KEPT] = Tick {
+        self.ticks[self.recorded as usize % KEPT_TICKS] = Tick {
             tick,
             displacements_m: states.each_ref().map(DamperState::displacement),
             forces_n: states.each_ref().map(DamperState::force),
             status: states.each_ref().map(DamperState::status),
         };
         self.recorded = self.recorded.wrapping_add(1);
-        self.kept = (self.kept + 1).min(KEPT as u32);
+        self.kept = (self.kept + 1).min(KEPT_TICKS as u32);
     }
 
     /// The oldest samples of a damper that were not taken yet.
@@ -71,7 +72,7 @@ impl<const N: usize> Recorder<N> {
         let waiting = self.recorded.wrapping_sub(*taken);
         let count = waiting.min(MOST_SAMPLES as u32);
         let samples = (0..count).filter_map(|sample| {
-            let of = &self.ticks[taken.wrapping_add(sample) as usize % KEPT];
+            let of = &self.ticks[taken.wrapping_add(sample) as usize % KEPT_TICKS];
             Some(Sample {
                 tick: of.tick,
                 displacement_m: *of.displacements_m.get(place)?,
