@@ -112,6 +112,10 @@ fn step_figures(runs: &[(&str, Found)]) -> Figures {
         let value = most(&all, &|run| run.library[place].1);
         figures.push((format!("c_{name}_instructions"), value));
     }
+    figures.push((
+        "load_slice_instructions".into(),
+        most(&all, &|run| run.load_slice),
+    ));
     figures.push(("stack_bytes".into(), most(&all, &|run| run.stack_bytes)));
     figures.push(("damper_bytes".into(), most(&all, &|run| run.damper_bytes)));
     figures.push(("state_bytes".into(), most(&all, &|run| run.state_bytes)));
@@ -161,7 +165,7 @@ fn every_processor_keeps_its_budget_and_has_the_hosts_bits() {
 }
 
 /// Rows of the documents' tables: what, and the figures that it has.
-const ROWS: [(&str, &[&str]); 17] = [
+const ROWS: [(&str, &[&str]); 18] = [
     (
         "instructions of a step: least, mean, most over four excitations",
         &[
@@ -191,6 +195,10 @@ const ROWS: [(&str, &[&str]); 17] = [
         &["reduced_most_instructions"],
     ),
     ("bank of 12 in one call", &["bank_most_instructions"]),
+    (
+        "a slice of loading a damper, the most",
+        &["load_slice_instructions"],
+    ),
     ("C: `dashpot_step`", &["c_step_instructions"]),
     (
         "C: `dashpot_step_bank` of 12",

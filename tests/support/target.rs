@@ -67,6 +67,7 @@ struct Printed {
     stack_bytes: f64,
     damper_bytes: f64,
     state_bytes: f64,
+    load_slice: f64,
     c_damper_init: f64,
     c_step: f64,
     c_step_bank: f64,
@@ -91,6 +92,8 @@ pub struct Found {
     pub limited: f64,
     /// Damper swapped.
     pub swapped: f64,
+    /// Of a slice of loading a damper, the most.
+    pub load_slice: f64,
     /// Of a function of 101 instructions, its return included.
     pub known: f64,
     /// Most stack of the first step and the unusual ones (bytes).
@@ -242,6 +245,7 @@ impl Printed {
             held: whole(self.held),
             limited: whole(self.limited),
             swapped: whole(self.swapped),
+            load_slice: whole(self.load_slice),
             known: whole(self.known),
             stack_bytes: self.stack_bytes,
             damper_bytes: self.damper_bytes,

@@ -51,7 +51,7 @@ macro_rules! loading {
                 Ok(())
             }
 
-            /// [`Self::load_image`] in slices of a few hundred operations each, for a program that has a tick to
+            /// [`Self::load_image`] in slices of some thousand operations at most, for a program that has a tick to
             /// serve between them: call it with the same image and damper until it returns true. Until then, and
             /// after an error, the damper is not to be stepped.
             ///

@@ -18,7 +18,7 @@ use dashpot::{
     DashpotState, dashpot_check_slice, dashpot_damper_init, dashpot_damper_set_clearance,
     dashpot_state_init, dashpot_step, dashpot_step_bank,
 };
-use dashpot_core::{Damper, DamperState, step_bank};
+use dashpot_core::{Damper, DamperState, Loading, step_bank};
 use dashpot_experiment::{BANK, BYTES, Experiment};
 use dashpot_firmware::board::{self, CLOCK_HZ, Port, Uart};
 use dashpot_firmware::counted_call::{Arguments, Returned, counted_call};
@@ -69,6 +69,34 @@ extern "C" fn bank(
     forces: &mut [f32; BANK],
 ) {
     step_bank(dampers, states, displacements, forces);
+}
+
+/// 0 while slices are left, then 1; 2 when the image is refused.
+extern "C" fn load_slice(damper: &mut Damper<f32>, image: &&[u8], loading: &mut Loading) -> usize {
+    damper.load_slice(image, loading).map_or(2, usize::from)
+}
+
+/// Most clock ticks of a slice of loading a damper, 0 when it is refused.
+fn timed_load(image: &[u8]) -> u32 {
+    let mut damper = Damper::<f32>::from_words(&[0; Damper::<f32>::WORDS]);
+    let mut loading = Loading::START;
+    let mut most = 0;
+    loop {
+        let integers = [
+            (&raw mut damper).expose_provenance(),
+            address(&image),
+            (&raw mut loading).expose_provenance(),
+            0,
+            0,
+        ];
+        let slice = timed(load_slice as *const (), integers, 0.0);
+        most = slice.ticks.max(most);
+        match slice.integer {
+            0 => {}
+            1 => return most,
+            _ => return 0,
+        }
+    }
 }
 
 /// One instruction, the return.
@@ -268,13 +296,14 @@ fn measure(experiment: &Experiment<'_>, printer: &mut Printer) {
     let swapped = unusual(&other, 2.5e-3);
     let unused = stack_of(|| _ = timed(nothing as *const (), [0; 5], 0.0));
     let known = timed(known as *const (), [0; 5], 0.0).ticks;
+    let load_slice = timed_load(experiment.damper);
     let library = Library::timed(experiment);
 
     let _ = writeln!(
         printer,
         "{{\"clock_hz\": {CLOCK_HZ}, \"call\": {call}, \"known\": {known}, \"least\": {}, \"most\": {}, \
          \"sum\": {}, \"digest\": \"{:016x}\", \"first\": {first}, \"held\": {held}, \
-         \"limited\": {limited}, \"swapped\": {swapped}, \"stack_bytes\": {}, \"damper_bytes\": {}, \
+         \"limited\": {limited}, \"swapped\": {swapped}, \"load_slice\": {load_slice}, \"stack_bytes\": {}, \"damper_bytes\": {}, \
          \"state_bytes\": {}, \"c_damper_init\": {}, \"c_step\": {}, \"c_step_bank\": {}, \
          \"c_set_clearance\": {}, \"c_check_slice\": {}}}",
         cost.least,
