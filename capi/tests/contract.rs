@@ -1,32 +1,18 @@
 //! The C functions, called as C does: the core's bits, and a code for every wrong call.
 
+mod common;
+
 use std::ffi::CStr;
 use std::mem::MaybeUninit;
 use std::ptr::{null, null_mut};
 
+use common::core_damper;
 use dashpot::*;
-use dashpot_core::parameters::{Element, Limits, Mount, Reduced};
-use dashpot_core::{Damper, DamperParameters, Status};
+use dashpot_core::{Damper, Status};
 
 const IMAGE: usize = DASHPOT_IMAGE_SIZE;
 const SAVED: usize = DASHPOT_SAVED_STATE_SIZE;
 const DONE: DashpotError = DashpotError::None;
-
-fn core_damper(damping_n_s_per_m: f64) -> Damper<f32> {
-    let parameters = DamperParameters {
-        element: Element::Reduced(Reduced {
-            damping_n_s_per_m,
-            saturation_velocity_m_per_s: 0.03,
-        }),
-        mount: Mount {
-            stiffness_n_per_m: 8e6,
-            seat_stiffness_n_per_m: None,
-            clearance_m: 1e-3,
-        },
-        limits: Limits::default(),
-    };
-    parameters.build(1e-3).unwrap()
-}
 
 /// A damper made from the image of `core`, in storage of arbitrary content.
 fn made(core: &Damper<f32>) -> DashpotDamper {

@@ -1,25 +1,14 @@
 //! Memory that was never made a state, and memory that was damaged.
 
+mod common;
+
+use common::core_damper;
 use dashpot::*;
-use dashpot_core::parameters::{Element, Limits, Mount, Reduced};
-use dashpot_core::{Damper, DamperParameters};
 
 const DONE: DashpotError = DashpotError::None;
 
 fn made() -> (DashpotDamper, DashpotState) {
-    let parameters = DamperParameters {
-        element: Element::Reduced(Reduced {
-            damping_n_s_per_m: 120e3,
-            saturation_velocity_m_per_s: 0.03,
-        }),
-        mount: Mount {
-            stiffness_n_per_m: 8e6,
-            seat_stiffness_n_per_m: None,
-            clearance_m: 1e-3,
-        },
-        limits: Limits::default(),
-    };
-    let core: Damper<f32> = parameters.build(1e-3).unwrap();
+    let core = core_damper(120e3);
     let image = core.to_image();
     let mut damper = DashpotDamper {
         opaque: [0; DASHPOT_DAMPER_WORDS],

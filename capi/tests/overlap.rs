@@ -1,10 +1,11 @@
 //! Memory that a call changes and that it was also given for something else: refused, nothing written.
 
+mod common;
+
 use std::ptr::null_mut;
 
+use common::core_damper;
 use dashpot::*;
-use dashpot_core::Damper;
-use dashpot_core::parameters::{DamperParameters, Element, Limits, Mount, Reduced};
 
 const OVERLAP: DashpotError = DashpotError::Overlap;
 const DONE: DashpotError = DashpotError::None;
@@ -12,19 +13,7 @@ const IMAGE: usize = DASHPOT_IMAGE_SIZE;
 const SAVED: usize = DASHPOT_SAVED_STATE_SIZE;
 
 fn image() -> [u8; IMAGE] {
-    let parameters = DamperParameters {
-        element: Element::Reduced(Reduced {
-            damping_n_s_per_m: 120e3,
-            saturation_velocity_m_per_s: 0.03,
-        }),
-        mount: Mount {
-            stiffness_n_per_m: 8e6,
-            seat_stiffness_n_per_m: None,
-            clearance_m: 1e-3,
-        },
-        limits: Limits::default(),
-    };
-    let damper: Damper<f32> = parameters.build(1e-3).unwrap();
+    let damper = core_damper(120e3);
     damper.to_image()
 }
 

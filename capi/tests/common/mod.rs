@@ -1,0 +1,21 @@
+//! The damper of these tests.
+
+use dashpot_core::Damper;
+use dashpot_core::parameters::{DamperParameters, Element, Limits, Mount, Reduced};
+
+/// A reduced damper with a clearance, built by the core for 1 ms.
+pub fn core_damper(damping_n_s_per_m: f64) -> Damper<f32> {
+    let parameters = DamperParameters {
+        element: Element::Reduced(Reduced {
+            damping_n_s_per_m,
+            saturation_velocity_m_per_s: 0.03,
+        }),
+        mount: Mount {
+            stiffness_n_per_m: 8e6,
+            seat_stiffness_n_per_m: None,
+            clearance_m: 1e-3,
+        },
+        limits: Limits::default(),
+    };
+    parameters.build(1e-3).unwrap()
+}
