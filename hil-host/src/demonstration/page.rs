@@ -30,8 +30,8 @@ pub fn write(shown: &Demonstration) -> Outcome<String> {
     )?);
     add("<h2>Fixed step against reference</h2>");
     add(
-        "<p>Fixed step: two implicit stages from tables, a fixed number of operations, + − × ÷ and square \
-         root only. Reference: the same laws written independently, with pressure and piston as \
+        "<p>Fixed step: two implicit stages from tables, a fixed number of operations, + − × ÷ \
+         only. Reference: the same laws written independently, with pressure and piston as \
          states, clearance and valve openings as events, integrated adaptively to 1e-12 a step. Both \
          follow the made motion, linear between ticks.</p>",
     );
