@@ -2,19 +2,10 @@
 
 use std::process::Command;
 
+use dashpot::controller::WARNINGS;
 use dashpot::document;
 use xtask::c_library::{self, Platform};
 use xtask::tools::{GCC, GXX, Tool, have};
-
-const WARNINGS: [&str; 7] = [
-    "-Wall",
-    "-Wextra",
-    "-Wpedantic",
-    "-Wconversion",
-    "-Wshadow",
-    "-Wundef",
-    "-Werror",
-];
 
 fn compiler(tool: Tool, language: &[&str]) -> Command {
     let mut command = Command::new(tool.program);

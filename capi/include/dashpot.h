@@ -307,7 +307,7 @@ dashpot_error dashpot_check_slice(const dashpot_damper *damper,
  * Makes a damper from an image: the bytes that `dashpot export --lang c` or `--lang bin` wrote.
  *
  * The image is checked whole first and not needed afterwards. A state that this damper stepped before
- * is carried over at its next step, its force kept. Not for a tick: some 480 000 instructions on a
+ * is carried over at its next step, its force kept. Not for a tick: some 376 000 instructions on a
  * Cortex-M7.
  *
  * @param damper  storage, its content does not matter

@@ -4,7 +4,7 @@ mod common;
 mod link_common;
 mod pil_common;
 
-use std::process::Stdio;
+use std::process::{Child, Stdio};
 
 use common::files_in;
 use link_common::{Rig, TICKS};
@@ -145,15 +145,16 @@ fn a_target_that_does_not_run_is_not_watched_for_ever() {
     assert!(error.contains("does not run free, so no more samples come; `run` starts it"));
 }
 
+fn watch(rig: &Rig) -> Child {
+    let mut watch = rig.command(&["watch"]);
+    let watch = watch.stdout(Stdio::piped()).stderr(Stdio::null());
+    watch.spawn().unwrap()
+}
+
 #[test]
 fn a_reader_that_leaves_ends_the_watch() {
     let rig = running();
-    let mut watch = rig
-        .command(&["watch"])
-        .stdout(Stdio::piped())
-        .stderr(Stdio::null())
-        .spawn()
-        .unwrap();
+    let mut watch = watch(&rig);
     drop(watch.stdout.take());
     assert!(watch.wait().unwrap().success());
 }
@@ -167,12 +168,7 @@ fn an_interruption_ends_the_watch() {
 
     const SIGINT: i32 = 2;
     let rig = running();
-    let mut watch = rig
-        .command(&["watch"])
-        .stdout(Stdio::piped())
-        .stderr(Stdio::null())
-        .spawn()
-        .unwrap();
+    let mut watch = watch(&rig);
     let mut lines = BufReader::new(watch.stdout.take().unwrap()).lines();
     // A header and samples, as they come.
     assert_eq!(lines.by_ref().take(100).map(Result::unwrap).count(), 100);

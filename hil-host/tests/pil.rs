@@ -2,19 +2,17 @@
 
 mod pil_common;
 
-use std::collections::VecDeque;
 use std::time::Duration;
 
 use dashpot_core::Status;
 use dashpot_core::link::{
-    FrameReader, Header, PROTOCOL, REQUEST_BYTES, RESPONSE_BYTES, Refusal, Request, Response,
-    ResponseFrame,
+    FrameReader, Header, PROTOCOL, REQUEST_BYTES, Refusal, Request, Response, ResponseFrame,
 };
 use dashpot_hil::failure::{Failure, Outcome};
 use dashpot_hil::pil::{
     Client, Desk, Event, FaultCounts, FaultRates, FaultyLink, Link, Pace, Report, Session, Tcp,
 };
-use pil_common::{PATIENCE, built, desk, motion, serve_tcp};
+use pil_common::{PATIENCE, altered, built, desk, motion, serve_tcp};
 #[cfg(all(unix, feature = "serial"))]
 use {dashpot_hil::pil::Serial, pil_common::serve, std::path::Path};
 
@@ -125,52 +123,6 @@ fn all_faults_together_and_the_same_for_the_same_seed() {
         assert_eq!(report.target_counters, again.target_counters);
     }
     assert_ne!(drive(all, 1).1, drive(all, 2).1);
-}
-
-/// A desk whose answers go through `change`.
-struct Altered<F> {
-    desk: Desk<3>,
-    change: F,
-    answers: VecDeque<u8>,
-    reader: FrameReader<RESPONSE_BYTES>,
-}
-
-fn altered<F>(change: F) -> Altered<F>
-where
-    F: FnMut(Header, Response<'_>, &mut ResponseFrame) -> bool,
-{
-    Altered {
-        desk: desk(),
-        change,
-        answers: VecDeque::new(),
-        reader: FrameReader::new(),
-    }
-}
-
-impl<F: FnMut(Header, Response<'_>, &mut ResponseFrame) -> bool> Link for Altered<F> {
-    fn send(&mut self, bytes: &[u8]) -> Outcome<()> {
-        self.desk.send(bytes)?;
-        let mut buffer = [0; 1024];
-        let count = self.desk.receive(&mut buffer, Duration::ZERO)?;
-        for byte in &buffer[..count] {
-            if let Some(message) = self.reader.push(*byte) {
-                let (header, response) = postcard::from_bytes(message.unwrap().bytes).unwrap();
-                let mut frame = ResponseFrame::new();
-                if (self.change)(header, response, &mut frame) {
-                    self.answers.extend(frame.bytes());
-                }
-            }
-        }
-        Ok(())
-    }
-
-    fn receive(&mut self, buffer: &mut [u8], _: Duration) -> Outcome<usize> {
-        let count = buffer.len().min(self.answers.len());
-        for (place, byte) in buffer.iter_mut().zip(self.answers.drain(..count)) {
-            *place = byte;
-        }
-        Ok(count)
-    }
 }
 
 fn report_of(link: impl Link) -> Outcome<Report> {

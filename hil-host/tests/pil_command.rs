@@ -5,13 +5,11 @@ mod pil_common;
 
 use std::path::Path;
 use std::process::Output;
-use std::time::Duration;
 
 use common::{dashpot, error_of, files_in, json_of, text_of};
-use dashpot_core::link::{FrameReader, Header, RESPONSE_BYTES, Response, ResponseFrame};
-use dashpot_hil::failure::Outcome;
-use dashpot_hil::pil::{Desk, Link};
-use pil_common::{desk, serve_tcp};
+use dashpot_core::link::Response;
+use dashpot_hil::pil::Link;
+use pil_common::{altered, desk, serve_tcp};
 
 /// Half a second to and fro with a gap at the end: 601 ticks.
 const TICKS: usize = 601;
@@ -174,52 +172,19 @@ fn a_paced_run_tells_missed_deadlines() {
     assert!(page.contains("<td>missed deadlines</td>") && page.contains("Dashed: one step."));
 }
 
-/// A desk with one wrong bit in one force of tick 42.
-struct WrongBit {
-    desk: Desk<3>,
-    reader: FrameReader<RESPONSE_BYTES>,
-    answers: Vec<u8>,
-}
-
-impl Link for WrongBit {
-    fn send(&mut self, bytes: &[u8]) -> Outcome<()> {
-        self.desk.send(bytes)?;
-        let mut buffer = [0; 1024];
-        let count = self.desk.receive(&mut buffer, Duration::ZERO)?;
-        for byte in &buffer[..count] {
-            if let Some(message) = self.reader.push(*byte) {
-                let (header, mut response): (Header, Response<'_>) =
-                    postcard::from_bytes(message.unwrap().bytes).unwrap();
-                if let Response::Forces(forces) = &mut response
-                    && forces.tick == 42
-                {
-                    forces.forces_n[1] = f32::from_bits(forces.forces_n[1].to_bits() ^ 1);
-                }
-                let mut frame = ResponseFrame::new();
-                assert!(frame.write(&(header, response)));
-                self.answers.extend(frame.bytes());
-            }
-        }
-        Ok(())
-    }
-
-    fn receive(&mut self, buffer: &mut [u8], _: Duration) -> Outcome<usize> {
-        let count = buffer.len().min(self.answers.len());
-        buffer[..count].copy_from_slice(&self.answers[..count]);
-        self.answers.drain(..count);
-        Ok(count)
-    }
-}
-
 #[test]
 fn a_force_that_differs_fails_the_command_and_is_shown() {
     let folder = tempfile::tempdir().unwrap();
     let wrong = || -> Box<dyn Link> {
-        Box::new(WrongBit {
-            desk: desk(),
-            reader: FrameReader::new(),
-            answers: Vec::new(),
-        })
+        // One wrong bit in one force of tick 42.
+        Box::new(altered(|header, mut response, frame| {
+            if let Response::Forces(forces) = &mut response
+                && forces.tick == 42
+            {
+                forces.forces_n[1] = f32::from_bits(forces.forces_n[1].to_bits() ^ 1);
+            }
+            frame.write(&(header, response))
+        }))
     };
     let files = ["--output", "out.csv", "--page", "run.html"];
     let output = pil_with(wrong, &files, folder.path());

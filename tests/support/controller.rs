@@ -10,8 +10,8 @@ use xtask::c_library::{self, Platform, install};
 
 use crate::damper;
 
-const WARNINGS: [&str; 8] = [
-    "-std=c11",
+/// Warnings of the C and C++ compilers, all errors.
+pub const WARNINGS: [&str; 7] = [
     "-Wall",
     "-Wextra",
     "-Wpedantic",
@@ -68,7 +68,7 @@ pub fn export(folder: &Path) -> [PathBuf; 2] {
 pub fn compile(compiler: &str, platform: &str, folder: &Path) -> Command {
     let examples = c_library::folder().join("examples");
     let mut command = Command::new(compiler);
-    command.args(WARNINGS).args(["-O2", "-g"]);
+    command.arg("-std=c11").args(WARNINGS).args(["-O2", "-g"]);
     command.arg("-I").arg(folder).arg("-I").arg(&examples);
     command
         .arg(examples.join("controller.c"))

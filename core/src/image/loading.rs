@@ -17,7 +17,7 @@ impl Loading {
     pub const START: Self = Self(Stage::Checksum { bytes: 0, crc: 0 });
 }
 
-/// What the next slice does. Nothing is written before everything is verified.
+/// What the next slice does.
 #[derive(Clone, Copy, Debug)]
 enum Stage {
     /// CRC-32 of the bytes so far.
@@ -108,13 +108,9 @@ macro_rules! loading {
                         Stage::Check { row: row + ROWS_PER_SLICE, crc }
                     }
                     Stage::Check { crc, .. } => {
-                        let words = Words::<BYTES>::of(image);
-                        let both = words.scalars().zip(words.revisions());
-                        let (scalars, revisions) = both.ok_or(ImageError::Constants)?;
-                        let number = |word: &[u8; BYTES]| $float::from_le_bytes(*word);
-                        self.scalars = Scalars::from_array(scalars.each_ref().map(number));
-                        [self.revision, self.table_revision] =
-                            revisions.map(|word| $word::from_le_bytes(word) as u32);
+                        let (scalars, revisions) = Self::read_scalars(image)?;
+                        self.scalars = scalars;
+                        [self.revision, self.table_revision] = revisions.map(|word| word as u32);
                         self.table_check = crc;
                         return Ok(true);
                     }
@@ -122,16 +118,25 @@ macro_rules! loading {
                 Ok(false)
             }
 
-            /// Whether an image is a damper, without taking it.
+            /// Whether an image is a damper, without taking it; where [`Self::load_slice`] goes on with it.
             ///
             /// # Errors
             /// Those of [`Self::load_image`].
-            pub fn check_image(image: &[u8]) -> Result<(), ImageError> {
+            pub fn check_image(image: &[u8]) -> Result<Loading, ImageError> {
                 let mut stage = Loading::START.0;
                 while matches!(stage, Stage::Checksum { .. } | Stage::Verify { .. }) {
                     stage = Self::verify_slice(image, stage)?;
                 }
-                Ok(())
+                Ok(Loading(stage))
+            }
+
+            /// The scalars of an image, and the revisions it states of damper and table.
+            fn read_scalars(image: &[u8]) -> Result<(Scalars<$float>, [$word; 2]), ImageError> {
+                let words = Words::<{ size_of::<$float>() }>::of(image);
+                let both = words.scalars().zip(words.revisions());
+                let (scalars, revisions) = both.ok_or(ImageError::Constants)?;
+                let scalars = Scalars::from_array(scalars.map($float::from_le_bytes));
+                Ok((scalars, revisions.map($word::from_le_bytes)))
             }
 
             /// What comes after a stage that only reads.
@@ -162,9 +167,7 @@ macro_rules! loading {
                             let hash = revision::of_words(hash, widened);
                             return Ok(Stage::Verify { piece: piece + 1, hash });
                         }
-                        let both = words.scalars().zip(words.revisions());
-                        let (scalars, revisions) = both.ok_or(ImageError::Constants)?;
-                        let scalars = Scalars::from_array(scalars.each_ref().map(number));
+                        let (scalars, revisions) = Self::read_scalars(image)?;
                         let revision = revision::of_damper(hash, &scalars);
                         let credible = scalars.as_array().iter().all(|scalar| scalar.is_finite() && *scalar >= 0.0)
                             && scalars.step_s > 0.0
@@ -173,7 +176,7 @@ macro_rules! loading {
                             && scalars.half_force_limit <= (0.5 * LARGEST_FORCE_N) as $float
                             && scalars.first_knot > 0.0
                             && scalars.offset == scalars.half_clearance + scalars.held;
-                        if revisions.map($word::from_le_bytes) == [revision, hash].map($word::from) && credible {
+                        if revisions == [revision, hash].map($word::from) && credible {
                             Ok(Stage::Write { piece: 0 })
                         } else {
                             Err(ImageError::Constants)

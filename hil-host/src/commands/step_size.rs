@@ -3,6 +3,8 @@
 use std::fmt;
 use std::str::FromStr;
 
+use crate::failure::{Failure, Outcome};
+
 /// Shortest and longest step (us), as the core builds dampers for.
 const SHORTEST_US: f64 = 1.0;
 const LONGEST_US: f64 = 20_000.0;
@@ -35,6 +37,18 @@ impl StepSize {
         let decimal: f64 = step_s.to_string().parse().ok()?;
         // Free of the rounding of the product: nobody asks for less than a picosecond.
         Self::from_us((decimal * 1e12).round() / 1e6)
+    }
+
+    /// As [`Self::from_target`], for building a target's dampers.
+    ///
+    /// # Errors
+    /// The step is outside 1 us to 20 ms.
+    pub fn of_target(step_s: f32) -> Outcome<Self> {
+        Self::from_target(step_s).ok_or_else(|| {
+            Failure::new(format!(
+                "the target steps {step_s} s; allowed: 1 us to 20 ms"
+            ))
+        })
     }
 
     /// In microseconds.

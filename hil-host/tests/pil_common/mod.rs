@@ -3,11 +3,13 @@
 // Each test binary uses its own share of these.
 #![allow(dead_code)]
 
+use std::collections::VecDeque;
 use std::io::{ErrorKind, Read, Write};
 use std::net::{Ipv4Addr, TcpListener};
 use std::time::Duration;
 
 use dashpot_core::Damper;
+use dashpot_core::link::{FrameReader, Header, RESPONSE_BYTES, Response, ResponseFrame};
 use dashpot_hil::damper_file;
 use dashpot_hil::excitation::Excitation;
 use dashpot_hil::failure::Outcome;
@@ -42,6 +44,52 @@ pub fn ride(ticks: usize) -> Vec<f32> {
 pub fn motion(ticks: usize) -> impl FnMut() -> Outcome<Option<f32>> {
     let mut ride = ride(ticks).into_iter();
     move || Ok(ride.next())
+}
+
+/// A desk whose answers go through `change`.
+pub struct Altered<F> {
+    desk: Desk<3>,
+    change: F,
+    answers: VecDeque<u8>,
+    reader: FrameReader<RESPONSE_BYTES>,
+}
+
+pub fn altered<F>(change: F) -> Altered<F>
+where
+    F: FnMut(Header, Response<'_>, &mut ResponseFrame) -> bool,
+{
+    Altered {
+        desk: desk(),
+        change,
+        answers: VecDeque::new(),
+        reader: FrameReader::new(),
+    }
+}
+
+impl<F: FnMut(Header, Response<'_>, &mut ResponseFrame) -> bool> Link for Altered<F> {
+    fn send(&mut self, bytes: &[u8]) -> Outcome<()> {
+        self.desk.send(bytes)?;
+        let mut buffer = [0; 1024];
+        let count = self.desk.receive(&mut buffer, Duration::ZERO)?;
+        for byte in &buffer[..count] {
+            if let Some(message) = self.reader.push(*byte) {
+                let (header, response) = postcard::from_bytes(message.unwrap().bytes).unwrap();
+                let mut frame = ResponseFrame::new();
+                if (self.change)(header, response, &mut frame) {
+                    self.answers.extend(frame.bytes());
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn receive(&mut self, buffer: &mut [u8], _: Duration) -> Outcome<usize> {
+        let count = buffer.len().min(self.answers.len());
+        for (place, byte) in buffer.iter_mut().zip(self.answers.drain(..count)) {
+            *place = byte;
+        }
+        Ok(count)
+    }
 }
 
 /// Serves a target over a line until the host leaves.

@@ -69,11 +69,7 @@ impl LoadArguments {
 fn build(name: &str, source: &Source, step_s: f32) -> Outcome<Damper<f32>> {
     match source {
         Source::Parameters(parameters) => {
-            let step = StepSize::from_target(step_s).ok_or_else(|| {
-                Failure::new(format!(
-                    "the target steps {step_s} s; allowed: 1 us to 20 ms"
-                ))
-            })?;
+            let step = StepSize::of_target(step_s)?;
             Ok(parameters.build(step.seconds())?)
         }
         Source::Image(damper) if damper.step_s() == step_s => Ok(**damper),

@@ -183,12 +183,7 @@ fn drive(
     let client = Client::new(link, arguments.line.patience(), fastrand::u16(..));
     let mut session = Session::open(client)?;
     let target = session.target();
-    let step = StepSize::from_target(target.step_s).ok_or_else(|| {
-        Failure::new(format!(
-            "the target steps {} s; allowed: 1 us to 20 ms",
-            target.step_s
-        ))
-    })?;
+    let step = StepSize::of_target(target.step_s)?;
     let step_s = step.seconds();
     let build = |parameters: &DamperParameters| Ok(parameters.build(step_s)?);
     let dampers: Vec<Damper<f32>> = parameters.iter().map(build).collect::<Outcome<_>>()?;
