@@ -7,7 +7,7 @@ use std::hint::black_box;
 use dashpot::damper;
 use dashpot::newton::NewtonDamper;
 use dashpot_core::{Damper, step_bank};
-use dashpot_hil::excitation::Excitation;
+use dashpot_hil::study::excitation::Excitation;
 use gungraun::prelude::*;
 
 const STEP_S: f64 = 1e-3;

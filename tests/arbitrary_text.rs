@@ -3,9 +3,9 @@
 use std::io::Write;
 use std::path::Path;
 
-use dashpot_hil::contact::measured;
-use dashpot_hil::contact::profile::Body;
-use dashpot_hil::damper_file::{self, PRESETS};
+use dashpot_hil::files::damper::{self, PRESETS};
+use dashpot_hil::files::profile;
+use dashpot_rail::profile::Body;
 use proptest::prelude::*;
 
 /// `text` with `patch` written over the bytes from `place`, as text again.
@@ -19,7 +19,7 @@ fn damaged(text: &str, place: usize, patch: &str) -> String {
 
 /// What a parser accepts must also build or name a field.
 fn parse_and_build(text: &str) {
-    if let Ok(parameters) = damper_file::parse("fuzz.toml", text, &[]) {
+    if let Ok(parameters) = damper::parse("fuzz.toml", text, &[]) {
         let _ = parameters.build::<f64>(1e-3);
     }
 }
@@ -43,7 +43,7 @@ proptest! {
 
     #[test]
     fn overrides_of_any_text(set in any::<String>()) {
-        let _ = damper_file::load("paper", &[set]);
+        let _ = damper::load("paper", &[set]);
     }
 
     #[test]
@@ -56,7 +56,7 @@ proptest! {
             let mut file = tempfile();
             file.write_all(content).unwrap();
             let path: &Path = file.path();
-            let _ = measured::read(path, Body::Wheel, 0.0);
+            let _ = profile::read(path, Body::Wheel, 0.0);
         }
     }
 }

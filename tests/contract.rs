@@ -2,7 +2,7 @@
 
 use dashpot::damper;
 use dashpot_core::{Damper, DamperParameters, DamperState, Real, Status, step_bank};
-use dashpot_hil::damper_file;
+use dashpot_hil::files::damper;
 
 const STEP_S: f64 = 1e-3;
 const PRESETS: [&str; 4] = ["paper", "reduced-vertical", "reduced-lateral", "in-service"];
@@ -314,7 +314,7 @@ fn nonsense_is_refused_with_the_field_and_its_range() {
         ),
     ];
     for (preset, set, field, allowed) in cases {
-        let message = damper_file::load(preset, &[set.to_owned()])
+        let message = damper::load(preset, &[set.to_owned()])
             .expect_err(set)
             .to_string();
         assert!(message.contains(field), "{set}: {message}");
@@ -345,7 +345,7 @@ fn an_unknown_key_is_refused_with_the_nearest_one() {
         ("oil.column.air_fractoin=0.0", "`air_fraction`"),
         ("lekage.length_m=0.03", "`leakage`"),
     ] {
-        let message = damper_file::load("in-service", &[set.to_owned()])
+        let message = damper::load("in-service", &[set.to_owned()])
             .expect_err(set)
             .to_string();
         assert!(

@@ -13,7 +13,7 @@ use dashpot_core::link::{
     Request, Response, SafeOutput, Sample, Scalar, request_frame,
 };
 use dashpot_core::{Damper, Status};
-use dashpot_hil::pil::{Desk, Link};
+use dashpot_hil::target::pil::{Desk, Link};
 use serde::Serialize;
 use xtask::tools::{PYTHON, have};
 

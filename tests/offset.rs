@@ -2,8 +2,8 @@
 
 use dashpot::accuracy::{displacements_m, nrmse, stepped};
 use dashpot::damper;
-use dashpot_hil::excitation::Excitation;
-use dashpot_hil::reference::Reference;
+use dashpot_hil::study::excitation::Excitation;
+use dashpot_reference::damper::Reference;
 
 /// NRMSE of the step in `f32` at 10 kHz about an offset (m), against the motion before it was rounded.
 fn error_about(preset: &str, offset_m: f64) -> f64 {

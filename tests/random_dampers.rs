@@ -15,7 +15,7 @@ use dashpot_core::parameters::{
     Relief, Reservoir, Seal, TwoChamber, Valve, Valves,
 };
 use dashpot_core::{Damper, DamperParameters};
-use dashpot_hil::reference::Reference;
+use dashpot_reference::damper::Reference;
 
 /// Dampers tried.
 const NUMBERS: Range<u64> = 0..48;

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use dashpot::bench_test::settled_force;
 use dashpot::damper;
 use dashpot_core::characteristic::{Characteristic, ShimPackValve};
-use dashpot_hil::reference::Reference;
+use dashpot_reference::damper::Reference;
 
 /// Areas of the paper's damper [m^2].
 const ROD_SIDE: f64 = PI / 4.0 * (0.0698 * 0.0698 - 0.028 * 0.028);

@@ -2,8 +2,8 @@
 
 use dashpot::damper;
 use dashpot::newton::NewtonDamper;
-use dashpot_hil::excitation::Excitation;
-use dashpot_hil::reference::Reference;
+use dashpot_hil::study::excitation::Excitation;
+use dashpot_reference::damper::Reference;
 
 /// NRMSE against the reference over one second of random ride at 1 kHz: a plain SDIRK2 has
 /// 3e-4 in double precision over 5 s.

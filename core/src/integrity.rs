@@ -4,8 +4,8 @@
 use core::fmt;
 
 use crate::damper::Damper;
+use crate::encoding::revision;
 use crate::math::Real;
-use crate::revision;
 use crate::state::DamperState;
 use crate::table::ROWS;
 

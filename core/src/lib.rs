@@ -17,14 +17,13 @@ pub mod bank;
 mod build;
 #[cfg(feature = "builder")]
 pub mod characteristic;
-mod checksum;
 mod damper;
+mod encoding;
 mod error;
 #[cfg(all(test, feature = "builder"))]
 mod example;
 #[cfg(feature = "builder")]
 mod hydraulics;
-mod image;
 pub mod integrity;
 #[cfg(feature = "link")]
 pub mod link;
@@ -32,8 +31,7 @@ mod math;
 #[cfg(feature = "builder")]
 mod oil;
 pub mod parameters;
-mod revision;
-mod saved_state;
+mod scalars;
 #[cfg(feature = "builder")]
 pub mod shim;
 mod state;
@@ -41,15 +39,12 @@ mod status;
 mod step;
 mod table;
 pub mod telemetry;
-mod words;
 
 pub use bank::step_bank;
-pub use checksum::crc_32;
 pub use damper::Damper;
+pub use encoding::{ImageError, Loading, SavedStateError, crc_32};
 pub use error::BuildError;
-pub use image::{ImageError, Loading};
 pub use math::Real;
 pub use parameters::DamperParameters;
-pub use saved_state::SavedStateError;
 pub use state::DamperState;
 pub use status::Status;

@@ -5,7 +5,7 @@
 //! fraction, 128 bins to each doubling, name a bin, and a bin names the piece around its lower border.
 //! At most [`KNOTS_PER_BIN`] knots lie within a bin, so as many comparisons end at the right piece.
 
-use crate::checksum;
+use crate::encoding::checksum;
 use crate::math::{Lanes, Real};
 
 /// Pieces a side.

@@ -1,11 +1,11 @@
 //! Any text as a damper file: refused, or a damper that builds or names a field.
 #![no_main]
 
-use dashpot_hil::damper_file;
+use dashpot_hil::files::damper;
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|text: &str| {
-    if let Ok(parameters) = damper_file::parse("fuzz.toml", text, &[]) {
+    if let Ok(parameters) = damper::parse("fuzz.toml", text, &[]) {
         let _ = parameters.build::<f32>(1e-3);
     }
 });

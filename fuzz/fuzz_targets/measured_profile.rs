@@ -1,15 +1,11 @@
-//! Any bytes as a measured wheel or rail profile: refused, or a profile.
+//! Any text as a measured wheel or rail profile: refused, or a profile.
 #![no_main]
 
-use std::io::Write;
-
-use dashpot_hil::contact::{measured, profile::Body};
+use dashpot_rail::profile::{Body, measured};
 use libfuzzer_sys::fuzz_target;
 
-fuzz_target!(|bytes: &[u8]| {
-    let mut file = tempfile::NamedTempFile::new().expect("a temporary file");
-    file.write_all(bytes).expect("room for the file");
+fuzz_target!(|text: &str| {
     for body in [Body::Wheel, Body::Rail] {
-        let _ = measured::read(file.path(), body, measured::DEFAULT_SMOOTHING);
+        let _ = measured::parse("fuzz", text, body, measured::DEFAULT_SMOOTHING);
     }
 });

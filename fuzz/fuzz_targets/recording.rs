@@ -4,7 +4,7 @@
 use std::io::Cursor;
 use std::path::Path;
 
-use dashpot_hil::recording::Recording;
+use dashpot_hil::files::recording::Recording;
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|bytes: &[u8]| {

@@ -6,9 +6,9 @@ use std::path::Path;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use dashpot_core::Damper;
-use dashpot_hil::damper_file;
-use dashpot_hil::recording::Recording;
-use dashpot_hil::replay::{Ticks, replay};
+use dashpot_hil::files::damper;
+use dashpot_hil::files::recording::Recording;
+use dashpot_hil::study::replay::{Ticks, replay};
 
 const ROWS: u32 = 100_000;
 const STEP_S: f64 = 1e-3;
@@ -29,7 +29,7 @@ fn replays(criterion: &mut Criterion) {
         let source = Box::new(Cursor::new(text.clone()));
         Recording::read(Path::new("bench.csv"), source).expect("a recording")
     };
-    let damper: Damper<f32> = damper_file::load("in-service", &[])
+    let damper: Damper<f32> = damper::load("in-service", &[])
         .and_then(|parameters| Ok(parameters.build(STEP_S)?))
         .expect("a preset");
     let mut group = criterion.benchmark_group("replay, a row");

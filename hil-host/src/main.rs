@@ -8,14 +8,14 @@ use dashpot_hil::commands::budget::{self, BudgetArguments};
 use dashpot_hil::commands::contact::{self, ContactArguments};
 use dashpot_hil::commands::demonstrate::{self, DemonstrateArguments};
 use dashpot_hil::commands::export::{self, ExportArguments};
+use dashpot_hil::commands::interruption;
 use dashpot_hil::commands::link::{self, LinkArguments};
 use dashpot_hil::commands::pil::{self, PilArguments};
 use dashpot_hil::commands::replay::{self, ReplayArguments};
 use dashpot_hil::commands::rig::{self, RigArguments};
 use dashpot_hil::commands::shims::{self, ShimsArguments};
 use dashpot_hil::commands::verify::{self, VerifyArguments};
-use dashpot_hil::failure::{Kind, Outcome};
-use dashpot_hil::interruption;
+use dashpot_hil::error::{Kind, Outcome};
 
 /// Desk host of the Dashpot damper. Without a command: the demonstration on a made ride.
 #[derive(Parser)]

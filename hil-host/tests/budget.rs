@@ -3,8 +3,8 @@
 use std::cell::Cell;
 use std::process::{Command, Output};
 
-use dashpot_hil::budget::{Length, Run, free, paced};
-use dashpot_hil::pacing::{Clock, Pacer};
+use dashpot_hil::realtime::budget::{Length, Run, free, paced};
+use dashpot_hil::realtime::pacing::{Clock, Pacer};
 
 /// Time moves by the work of the ticks and by sleeping.
 struct Told<'a>(&'a Cell<u64>);

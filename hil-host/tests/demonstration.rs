@@ -4,7 +4,7 @@ use std::path::Path;
 use std::process::{Command, Output};
 use std::sync::LazyLock;
 
-use dashpot_hil::excitation::Excitation;
+use dashpot_hil::study::excitation::Excitation;
 
 fn dashpot(arguments: &[&str], folder: &Path) -> Output {
     Command::new(env!("CARGO_BIN_EXE_dashpot"))

@@ -2,7 +2,7 @@
 
 use std::process::{Command, Output};
 
-use dashpot_hil::excitation::Excitation;
+use dashpot_hil::study::excitation::Excitation;
 
 fn dashpot(arguments: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_dashpot"))
@@ -67,7 +67,7 @@ fn the_exported_damper_steps_to_the_same_bits() {
         "{}",
         String::from_utf8_lossy(&output.stderr)
     );
-    let damper: dashpot_core::Damper<f32> = dashpot_hil::damper_file::load("in-service", &[])
+    let damper: dashpot_core::Damper<f32> = dashpot_hil::files::damper::load("in-service", &[])
         .unwrap()
         .build(1e-3)
         .unwrap();
@@ -102,7 +102,7 @@ fn exported(lang: &str, more: &[&str]) -> Vec<u8> {
 }
 
 fn in_service<T: dashpot_core::Real>() -> dashpot_core::Damper<T> {
-    let parameters = dashpot_hil::damper_file::load("in-service", &[]).unwrap();
+    let parameters = dashpot_hil::files::damper::load("in-service", &[]).unwrap();
     parameters.build(1e-3).unwrap()
 }
 

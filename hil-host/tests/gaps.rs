@@ -6,7 +6,7 @@ use std::io::Cursor;
 use std::path::Path;
 
 use common::{dashpot, error_of, json_of, text_of};
-use dashpot_hil::recording::{Gaps, Recording};
+use dashpot_hil::files::recording::{Gaps, Recording};
 
 fn gaps_at(times_s: &[f64]) -> Gaps {
     let mut text = String::from("time_s,displacement_m\n");

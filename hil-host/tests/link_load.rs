@@ -5,7 +5,7 @@ mod link_common;
 mod pil_common;
 
 use dashpot_core::Damper;
-use dashpot_hil::damper_file;
+use dashpot_hil::files::damper;
 use link_common::Rig;
 use pil_common::built;
 use serde_json::json;
@@ -68,7 +68,7 @@ fn an_image_is_loaded_when_it_fits() {
         json!({"damper": "paper.bin", "revision": paper.revision(), "loaded": [2], "skipped": []});
     assert_eq!(told, report);
 
-    let parameters = damper_file::load("paper", &[]).unwrap();
+    let parameters = damper::load("paper", &[]).unwrap();
     let half: Damper<f32> = parameters.build(5e-4).unwrap();
     let double: Damper<f64> = parameters.build(1e-3).unwrap();
     let mut damaged = paper.to_image();

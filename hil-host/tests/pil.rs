@@ -8,13 +8,13 @@ use dashpot_core::Status;
 use dashpot_core::link::{
     FrameReader, Header, PROTOCOL, REQUEST_BYTES, Refusal, Request, Response, ResponseFrame,
 };
-use dashpot_hil::failure::{Failure, Outcome};
-use dashpot_hil::pil::{
+use dashpot_hil::error::{Failure, Outcome};
+use dashpot_hil::target::pil::{
     Client, Desk, Event, FaultCounts, FaultRates, FaultyLink, Link, Pace, Report, Session, Tcp,
 };
 use pil_common::{PATIENCE, altered, built, desk, motion, serve_tcp};
 #[cfg(all(unix, feature = "serial"))]
-use {dashpot_hil::pil::Serial, pil_common::serve, std::path::Path};
+use {dashpot_hil::target::pil::Serial, pil_common::serve, std::path::Path};
 
 fn drive(rates: &str, seed: u64) -> (Report, FaultCounts) {
     let rates: FaultRates = rates.parse().unwrap();

@@ -3,8 +3,8 @@
 mod pil_common;
 
 use dashpot_core::Damper;
-use dashpot_hil::failure::{Kind, Outcome};
-use dashpot_hil::pil::{Client, Desk, FaultRates, FaultyLink, Link, Pace, Report, Session};
+use dashpot_hil::error::{Kind, Outcome};
+use dashpot_hil::target::pil::{Client, Desk, FaultRates, FaultyLink, Link, Pace, Report, Session};
 use pil_common::{PATIENCE, built, desk, motion, ride};
 
 /// Runs `dampers` and keeps the forces of the target (N), tick by tick.

@@ -8,8 +8,8 @@ use std::time::{Duration, Instant};
 
 use dashpot_core::Damper;
 use dashpot_core::link::{Refusal, Request};
-use dashpot_hil::failure::Outcome;
-use dashpot_hil::pil::{Client, Desk, Link, LinkError, Patience};
+use dashpot_hil::error::Outcome;
+use dashpot_hil::target::pil::{Client, Desk, Link, LinkError, Patience};
 use pil_common::{PATIENCE, desk};
 
 /// Nobody: tells how long it was to wait since it was made.

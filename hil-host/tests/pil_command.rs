@@ -8,7 +8,7 @@ use std::process::Output;
 
 use common::{dashpot, error_of, files_in, json_of, text_of};
 use dashpot_core::link::Response;
-use dashpot_hil::pil::Link;
+use dashpot_hil::target::pil::Link;
 use pil_common::{altered, desk, serve_tcp};
 
 /// Half a second to and fro with a gap at the end: 601 ticks.

@@ -7,9 +7,9 @@ use std::rc::Rc;
 use std::time::Duration;
 
 use dashpot_core::link::{FrameReader, Header, REQUEST_BYTES, Request};
-use dashpot_hil::failure::Outcome;
-use dashpot_hil::pacing::{Clock, Pacer};
-use dashpot_hil::pil::{Client, Desk, Event, Link, Pace, Report, Session};
+use dashpot_hil::error::Outcome;
+use dashpot_hil::realtime::pacing::{Clock, Pacer};
+use dashpot_hil::target::pil::{Client, Desk, Event, Link, Pace, Report, Session};
 use pil_common::{PATIENCE, built, desk, motion};
 
 /// Time moves by sleeping and by hand.

@@ -3,9 +3,9 @@
 use std::f64::consts::{PI, TAU};
 use std::process::{Command, Output};
 
-use dashpot_hil::damper_file;
-use dashpot_hil::reference::Reference;
-use dashpot_hil::rig::{Harmonic, settle};
+use dashpot_hil::files::damper;
+use dashpot_hil::study::bench_test::{Harmonic, settle};
+use dashpot_reference::damper::Reference;
 
 fn dashpot(arguments: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_dashpot"))
@@ -24,7 +24,7 @@ fn the_reduced_damper_without_clearance_is_a_maxwell_element() {
         "mount.clearance_m=0.0",
         "reduced.saturation_velocity_m_per_s=1.0",
     ];
-    let damper = damper_file::load("reduced-vertical", &overrides.map(str::to_owned)).unwrap();
+    let damper = damper::load("reduced-vertical", &overrides.map(str::to_owned)).unwrap();
     for (amplitude_m, frequency_hz) in [(5e-3, 0.2), (2e-3, 1.0), (0.5e-3, 10.0)] {
         let motion = Harmonic {
             amplitude_m,
@@ -55,7 +55,7 @@ fn the_reduced_damper_without_clearance_is_a_maxwell_element() {
 /// Within the clearance there is no force and no energy.
 #[test]
 fn within_the_clearance_nothing_is_felt() {
-    let damper = damper_file::load("reduced-vertical", &[]).unwrap();
+    let damper = damper::load("reduced-vertical", &[]).unwrap();
     let motion = Harmonic {
         amplitude_m: 0.4e-3,
         frequency_hz: 1.0,
@@ -86,7 +86,7 @@ fn the_published_damper_is_as_the_reference_has_it() {
         .iter()
         .map(|t| 24.875e-3 * (TAU * 0.64 * t).sin())
         .collect();
-    let damper = damper_file::load("paper", &[]).unwrap();
+    let damper = damper::load("paper", &[]).unwrap();
     let forces = Reference::new(&damper).unwrap().forces(&times, &x).unwrap();
     let settled = &forces[3125..];
     let most = |sign: f64| settled.iter().fold(0.0, |m: f64, f| m.max(sign * f));

@@ -5,12 +5,12 @@ mod common;
 use common::{dashpot, error_of, json_of};
 use dashpot_core::Damper;
 use dashpot_hil::commands::step_size::StepSize;
-use dashpot_hil::damper_file;
+use dashpot_hil::files::damper;
 
 const RAMP: &str = "time_s,displacement_m\n0,0\n0.001,0.001\n";
 
 fn in_service(step_s: f64) -> Damper<f32> {
-    let parameters = damper_file::load("in-service", &[]).unwrap();
+    let parameters = damper::load("in-service", &[]).unwrap();
     parameters.build(step_s).unwrap()
 }
 

@@ -6,10 +6,10 @@ use std::io::Cursor;
 use std::path::Path;
 
 use common::{dashpot, error_of, json_of, text_of};
-use dashpot_hil::damper_file;
-use dashpot_hil::recording::Recording;
-use dashpot_hil::replay::Ticks;
-use dashpot_hil::verification::{reference_forces, reference_forces_on_recording};
+use dashpot_hil::files::damper;
+use dashpot_hil::files::recording::Recording;
+use dashpot_hil::study::replay::Ticks;
+use dashpot_hil::study::verification::{reference_forces, reference_forces_on_recording};
 
 /// 5 mm at 1.4 Hz, sampled at the times (s).
 fn sine(times_s: impl Iterator<Item = f64>) -> String {
@@ -84,7 +84,7 @@ fn the_reference_on_the_recording_is_that_on_a_grid_that_holds_all_stamps() {
     )
     .and_then(|mut recording| recording.read_all())
     .unwrap();
-    let damper = damper_file::load("in-service", &[]).unwrap();
+    let damper = damper::load("in-service", &[]).unwrap();
     let (coarse, fine) = (ticks(1e-3), ticks(1e-5));
     let x: Vec<f64> = fine.iter().map(|tick| tick.displacement_m).collect();
     let expected = reference_forces(&damper, 1e-5, &x).unwrap();

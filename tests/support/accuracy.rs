@@ -5,8 +5,8 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use dashpot_core::{Damper, DamperParameters, Real};
-use dashpot_hil::excitation::Excitation;
-use dashpot_hil::reference::Reference;
+use dashpot_hil::study::excitation::Excitation;
+use dashpot_reference::damper::Reference;
 
 use crate::damper;
 

@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 use std::time::Duration;
 
-use dashpot_hil::failure::Outcome;
-use dashpot_hil::pil::{Link, Patience, Qemu};
+use dashpot_hil::error::Outcome;
+use dashpot_hil::target::pil::{Link, Patience, Qemu};
 use xtask::processor::CORTEX_M7;
 use xtask::tools::{ARM_GCC, QEMU, have, have_target};
 

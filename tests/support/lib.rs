@@ -14,10 +14,10 @@ pub mod tolerance;
 
 use dashpot_core::DamperParameters;
 pub use dashpot_experiment::digest;
-use dashpot_hil::damper_file;
+use dashpot_hil::files::damper;
 
 /// A preset of the product with overrides, which must be valid.
 pub fn damper(name: &str, overrides: &[&str]) -> DamperParameters {
     let overrides: Vec<String> = overrides.iter().map(|&text| text.to_owned()).collect();
-    damper_file::load(name, &overrides).expect("a preset with valid overrides")
+    damper::load(name, &overrides).expect("a preset with valid overrides")
 }

@@ -1,6 +1,6 @@
 //! The floor: a force-velocity table read at the difference of two displacements, no dynamics.
 
-use dashpot_hil::reference::Reference;
+use dashpot_reference::damper::Reference;
 
 /// Force over velocity at equal distances.
 pub struct LookUp {

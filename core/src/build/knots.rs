@@ -4,8 +4,8 @@ use heapless::Vec;
 
 use super::root::bracketed_root;
 use super::span::{Span, Stage};
-use crate::damper::IMPLICIT_SHARE;
 use crate::math::Real;
+use crate::step::IMPLICIT_SHARE;
 use crate::table::{DOUBLINGS, KNOTS_PER_BIN, PIECES, Piece};
 
 /// A span that is missed by no more than this share is not divided.

@@ -9,7 +9,7 @@ mod span;
 use branch::{Branch, Law};
 use span::Stage;
 
-use crate::damper::{Damper, Scalars};
+use crate::damper::Damper;
 use crate::error::{BuildError, require, require_ranges};
 use crate::hydraulics::{HydraulicSide, Laws};
 use crate::math::Real;
@@ -17,6 +17,7 @@ use crate::parameters::{
     DamperParameters, Element, LARGEST_CLEARANCE_M, LARGEST_FORCE_N, Limits, Mount, OilColumn,
     Reduced,
 };
+use crate::scalars::Scalars;
 use crate::table::{DOUBLINGS, PIECES};
 
 /// The laws of an element, checked and ready to evaluate.

@@ -2,8 +2,8 @@
 
 use super::branch::Branch;
 use super::fit;
-use crate::damper::IMPLICIT_SHARE;
 use crate::math::elementary::sqrt;
+use crate::step::IMPLICIT_SHARE;
 
 /// Share of the limit at whose force an error is a share of the flow at least; see [`Stage::floor`].
 const LOW_FORCE: f64 = 1e-3;

@@ -8,7 +8,7 @@ use super::message::{Counters, Header, Refusal, Request, Response};
 use super::service::{Clock, Service, count};
 use super::session::{Session, Verdict};
 use crate::damper::Damper;
-use crate::image::Loading;
+use crate::encoding::Loading;
 use crate::state::DamperState;
 
 /// Bytes taken of the line before ticks are looked at again.

@@ -8,7 +8,7 @@ use super::message::{
 use super::recorder::Recorder;
 use super::safe_output::{LossOfLink, Watch};
 use crate::damper::Damper;
-use crate::image::{ImageError, Loading};
+use crate::encoding::{ImageError, Loading};
 use crate::state::DamperState;
 
 /// A free-running clock to measure steps with.

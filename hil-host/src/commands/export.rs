@@ -7,10 +7,10 @@ use serde::Serialize;
 
 use super::step_size::StepSize;
 use super::{DamperArguments, Format, Scalar, print_report_beside};
-use crate::export::{Provenance, Word, c_header, c_source, rust_source};
-use crate::failure::{Failure, Outcome};
-use crate::input::is_standard_stream;
-use crate::output::{self, is_replaceable, write_bytes, write_together};
+use crate::error::{Failure, Outcome};
+use crate::files::input::is_standard_stream;
+use crate::files::output::{self, is_replaceable, write_bytes, write_together};
+use crate::target::export::{Provenance, Word, c_header, c_source, rust_source};
 
 /// Language of the exported source.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]

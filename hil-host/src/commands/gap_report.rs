@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 
 use super::counted;
-use crate::recording::{GAP_IN_MEDIANS, Gaps};
+use crate::files::recording::{GAP_IN_MEDIANS, Gaps};
 
 /// Writes how many gaps the recording has and where the longest is; nothing where there is none.
 pub(super) fn write_gaps(out: &mut dyn Write, gaps: &Gaps) -> io::Result<()> {

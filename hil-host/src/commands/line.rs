@@ -2,8 +2,8 @@
 
 use std::time::Duration;
 
-use crate::failure::Outcome;
-use crate::pil::{Link, LinkChoice, Patience};
+use crate::error::Outcome;
+use crate::target::pil::{Link, LinkChoice, Patience};
 
 /// Which line to a target, and how long to wait for answers.
 #[derive(Debug, Clone, clap::Args)]

@@ -5,6 +5,7 @@ pub mod contact;
 pub mod demonstrate;
 pub mod export;
 mod gap_report;
+pub mod interruption;
 pub mod line;
 pub mod link;
 pub mod pil;
@@ -21,10 +22,10 @@ use std::path::Path;
 use dashpot_core::DamperParameters;
 use serde::Serialize;
 
-use crate::damper_file;
-use crate::failure::{Failure, Outcome};
-use crate::input;
-use crate::pacing::RealtimeOptions;
+use crate::error::{Failure, Outcome};
+use crate::files::damper;
+use crate::files::input;
+use crate::realtime::pacing::RealtimeOptions;
 
 /// How a command prints its results.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, clap::ValueEnum)]
@@ -62,9 +63,9 @@ impl DamperArguments {
     /// The damper, read and checked.
     ///
     /// # Errors
-    /// As [`damper_file::load`].
+    /// As [`damper::load`].
     pub fn load(&self) -> Outcome<DamperParameters> {
-        damper_file::load(&self.damper, &self.overrides)
+        damper::load(&self.damper, &self.overrides)
     }
 
     /// Refuses standard input for both the damper and the motion at `input`.

@@ -12,13 +12,13 @@ use super::{
     DamperArguments, Format, RealtimeArguments, Scalar, counted, nearest_nanosecond,
     print_report_beside, progress,
 };
-use crate::failure::{Failure, Outcome};
-use crate::input;
-use crate::output::{self, cannot_write_rows, write_whole};
-use crate::pacing::Pacer;
-use crate::recording::{Gaps, Recording};
-use crate::replay::{Summary, Ticks, replay};
-use crate::timing::{Figures, optional_span, span};
+use crate::error::{Failure, Outcome};
+use crate::files::input;
+use crate::files::output::{self, cannot_write_rows, write_whole};
+use crate::files::recording::{Gaps, Recording};
+use crate::realtime::pacing::Pacer;
+use crate::realtime::timing::{Figures, optional_span, span};
+use crate::study::replay::{Summary, Ticks, replay};
 
 /// Force of a damper over a recorded motion.
 #[derive(Debug, Clone, clap::Args)]

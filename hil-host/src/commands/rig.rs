@@ -8,16 +8,16 @@ use serde::Serialize;
 
 use super::step_size::StepSize;
 use super::{DamperArguments, Format, print_report};
-use crate::failure::Outcome;
-use crate::output::write_folder;
-use crate::plot::curves::Curve;
-use crate::plot::loops;
-use crate::plot::sheet::{Layout, sheet};
-use crate::plot::style::{BLUE_LINE, RED_LINE};
-use crate::published::{
+use crate::error::Outcome;
+use crate::files::output::write_folder;
+use crate::report::plot::curves::Curve;
+use crate::report::plot::loops;
+use crate::report::plot::sheet::{Layout, sheet};
+use crate::report::plot::style::{BLUE_LINE, RED_LINE};
+use crate::study::bench_test::{self, Cycle, Harmonic, Indices};
+use crate::study::published::{
     NominalCharacteristic, NominalIndex, nominal_characteristic, nominal_indices,
 };
-use crate::rig::{self, Cycle, Harmonic, Indices};
 
 /// Bench test: a made harmonic motion until the force repeats, indices and loops of one settled cycle.
 #[derive(Debug, Clone, clap::Args)]
@@ -77,7 +77,7 @@ pub fn run(arguments: &RigArguments) -> Outcome<()> {
         amplitude_m: arguments.amplitude_m,
         frequency_hz: arguments.frequency_hz,
     };
-    let cycle = rig::settle(&damper, motion, arguments.step_us.seconds())?;
+    let cycle = bench_test::settle(&damper, motion, arguments.step_us.seconds())?;
     let indices = cycle.indices();
     let published = is_nominal(&motion)
         .then(nominal_characteristic)

@@ -3,7 +3,7 @@
 use std::fmt;
 use std::str::FromStr;
 
-use crate::failure::{Failure, Outcome};
+use crate::error::{Failure, Outcome};
 
 /// Shortest and longest step (us), as the core builds dampers for.
 const SHORTEST_US: f64 = 1.0;

@@ -9,11 +9,11 @@ use serde::Serialize;
 use super::gap_report::write_gaps;
 use super::step_size::StepSize;
 use super::{DamperArguments, Format, counted, print_report, progress};
-use crate::failure::{Failure, Outcome};
-use crate::input;
-use crate::recording::{Gaps, Recording};
-use crate::replay::Ticks;
-use crate::verification::{
+use crate::error::{Failure, Outcome};
+use crate::files::input;
+use crate::files::recording::{Gaps, Recording};
+use crate::study::replay::Ticks;
+use crate::study::verification::{
     Deviation, deviation, fixed_step_forces, reference_forces, reference_forces_on_recording,
 };
 

@@ -6,8 +6,8 @@
 use std::process::{Command, Output};
 use std::time::Duration;
 
-use dashpot_hil::failure::Outcome;
-use dashpot_hil::pil::{Desk, Link};
+use dashpot_hil::error::Outcome;
+use dashpot_hil::target::pil::{Desk, Link};
 use serde_json::Value;
 use tempfile::TempDir;
 

@@ -10,10 +10,10 @@ use std::time::Duration;
 
 use dashpot_core::Damper;
 use dashpot_core::link::{FrameReader, Header, RESPONSE_BYTES, Response, ResponseFrame};
-use dashpot_hil::damper_file;
-use dashpot_hil::excitation::Excitation;
-use dashpot_hil::failure::Outcome;
-use dashpot_hil::pil::{Desk, Link, Patience};
+use dashpot_hil::error::Outcome;
+use dashpot_hil::files::damper;
+use dashpot_hil::study::excitation::Excitation;
+use dashpot_hil::target::pil::{Desk, Link, Patience};
 
 /// The desk's waits are not real; a line's end with an answer, which always comes.
 pub const PATIENCE: Patience = Patience {
@@ -22,7 +22,7 @@ pub const PATIENCE: Patience = Patience {
 };
 
 pub fn built(name: &str) -> Damper<f32> {
-    let parameters = damper_file::load(name, &[]).unwrap();
+    let parameters = damper::load(name, &[]).unwrap();
     parameters.build(1e-3).unwrap()
 }
 

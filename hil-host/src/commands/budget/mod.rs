@@ -8,10 +8,10 @@ use std::time::SystemTime;
 use dashpot_core::{Damper, Real};
 
 use super::{DamperArguments, Format, RealtimeArguments, Scalar, print_report};
-use crate::budget::{Bench, Length, free, paced};
-use crate::failure::Outcome;
-use crate::pacing::{MonotonicClock, Pacer, overhead_ns};
-use crate::timing::Machine;
+use crate::error::Outcome;
+use crate::realtime::budget::{Bench, Length, free, paced};
+use crate::realtime::pacing::{MonotonicClock, Pacer, overhead_ns};
+use crate::realtime::timing::Machine;
 use report::{Report, Setting, print};
 
 /// Time per step on this host: histogram, percentiles, worst case, missed deadlines.

@@ -4,9 +4,9 @@ use std::io::{self, Write};
 
 use serde::Serialize;
 
-use crate::budget::{Run, Series, Stop};
-use crate::pacing::RealtimeOptions;
-use crate::timing::{Bin, Figures, Machine, optional_span, span};
+use crate::realtime::budget::{Run, Series, Stop};
+use crate::realtime::pacing::RealtimeOptions;
+use crate::realtime::timing::{Bin, Figures, Machine, optional_span, span};
 
 /// What was run, and where.
 #[derive(Serialize)]

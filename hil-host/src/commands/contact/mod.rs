@@ -1,19 +1,21 @@
 //! `dashpot contact`: the geometry of a wheel and a rail, in numbers and plots.
 
+mod plots;
 mod report;
 
 use std::path::{Path, PathBuf};
 
 use super::{Format, print_report};
-use crate::contact::conicity::RollingRadius;
-use crate::contact::geometry::RigidContact;
-use crate::contact::measured;
-use crate::contact::pair::{Installation, Pair};
-use crate::contact::profile::{Body, Profile};
-use crate::contact::{plot, s1002, uic60};
-use crate::failure::{Failure, Outcome};
-use crate::input;
-use crate::output::write_folder;
+use crate::error::{Failure, Outcome};
+use crate::files::input;
+use crate::files::output::write_folder;
+use crate::files::profile;
+use dashpot_rail::contact::geometry::RigidContact;
+use dashpot_rail::contact::pair::{Installation, Pair};
+use dashpot_rail::indices::conicity::RollingRadius;
+use dashpot_rail::profile::measured;
+use dashpot_rail::profile::{Body, Profile};
+use dashpot_rail::profile::{s1002, uic60};
 use report::{print, report};
 
 /// Contact geometry of a wheelset on a track: contact points, rolling radius, equivalent conicity.
@@ -142,7 +144,7 @@ fn profile(
     }
     let path = Path::new(name);
     if input::is_file_name(path) || path.exists() {
-        return measured::read(path, body, smoothing);
+        return profile::read(path, body, smoothing);
     }
     Err(Failure::wrong_use(format!(
         "{name}: no such profile, allowed: {known} or a file of two columns y_mm, z_mm"
@@ -166,9 +168,9 @@ fn draw(
     write_folder(
         folder,
         &[
-            ("contact-points.svg", plot::contact_points(pair, &lines)?),
-            ("rolling-radius.svg", plot::rolling_radius(pair, contacts)?),
-            ("conicity.svg", plot::conicity(pair, rolling, 8e-3)?),
+            ("contact-points.svg", plots::contact_points(pair, &lines)?),
+            ("rolling-radius.svg", plots::rolling_radius(pair, contacts)?),
+            ("conicity.svg", plots::conicity(pair, rolling, 8e-3)?),
         ],
     )
 }

@@ -4,9 +4,9 @@ use std::io::{self, Write};
 
 use serde::Serialize;
 
-use crate::contact::conicity::RollingRadius;
-use crate::contact::geometry::RigidContact;
-use crate::contact::pair::Pair;
+use dashpot_rail::contact::geometry::RigidContact;
+use dashpot_rail::contact::pair::Pair;
+use dashpot_rail::indices::conicity::RollingRadius;
 
 #[derive(Serialize)]
 struct Conicity {

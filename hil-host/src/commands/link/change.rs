@@ -11,7 +11,7 @@ use super::LinkArguments;
 use super::places;
 use super::target::Target;
 use crate::commands::counted;
-use crate::failure::Outcome;
+use crate::error::Outcome;
 
 /// Change the clearance of the damper in a place at once; its state keeps the force.
 #[derive(Debug, Clone, clap::Args)]

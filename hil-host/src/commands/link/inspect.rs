@@ -8,7 +8,7 @@ use serde::Serialize;
 use super::LinkArguments;
 use super::status_bits::{self, StatusBit};
 use super::target::{Greeting, Target, step_in_words};
-use crate::failure::Outcome;
+use crate::error::Outcome;
 
 /// `hello`.
 pub(super) fn hello(link: &LinkArguments) -> Outcome<()> {

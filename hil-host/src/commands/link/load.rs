@@ -10,9 +10,9 @@ use super::LinkArguments;
 use super::places::{Places, named};
 use super::target::{Target, step_in_words};
 use crate::commands::step_size::StepSize;
-use crate::damper_file;
-use crate::failure::{Failure, Outcome};
-use crate::input;
+use crate::error::{Failure, Outcome};
+use crate::files::damper;
+use crate::files::input;
 
 /// Put a damper in places of the bank; their states keep the force. A place that has it already is skipped.
 #[derive(Debug, Clone, clap::Args)]
@@ -59,7 +59,7 @@ impl LoadArguments {
             return Ok((name.display().to_string(), Source::Image(Box::new(damper))));
         }
         let name = self.damper.as_deref().unwrap_or_default();
-        let parameters = Box::new(damper_file::load(name, &self.overrides)?);
+        let parameters = Box::new(damper::load(name, &self.overrides)?);
         let name = input::name(Path::new(name)).display().to_string();
         Ok((name, Source::Parameters(parameters)))
     }

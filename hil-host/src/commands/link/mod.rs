@@ -18,7 +18,7 @@ use serde::Serialize;
 
 use super::line::LineArguments;
 use super::{Format, print_report};
-use crate::failure::Outcome;
+use crate::error::Outcome;
 use change::{LossOfLinkArguments, SetArguments};
 use drive::DisplacementArguments;
 use load::LoadArguments;

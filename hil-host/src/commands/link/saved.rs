@@ -9,9 +9,9 @@ use super::LinkArguments;
 use super::state_file::BankState;
 use super::target::Target;
 use crate::commands::{counted, print_report_beside};
-use crate::failure::{Failure, Outcome};
-use crate::input;
-use crate::output::{self, cannot_write, write_whole};
+use crate::error::{Failure, Outcome};
+use crate::files::input;
+use crate::files::output::{self, cannot_write, write_whole};
 
 /// Write the states of all dampers and the tick to a file.
 #[derive(Debug, Clone, clap::Args)]

@@ -6,8 +6,8 @@ use dashpot_core::DamperState;
 use serde::{Deserialize, Serialize};
 
 use super::status_bits::{self, StatusBit};
-use crate::failure::{Failure, Outcome};
-use crate::input;
+use crate::error::{Failure, Outcome};
+use crate::files::input;
 
 const STATE_BYTES: usize = DamperState::<f32>::BYTES;
 

@@ -5,8 +5,8 @@ use serde::Serialize;
 
 use crate::commands::line::LineArguments;
 use crate::commands::step_size::StepSize;
-use crate::failure::{Failure, Outcome};
-use crate::pil::{Client, Link, LinkError};
+use crate::error::{Failure, Outcome};
+use crate::target::pil::{Client, Link, LinkError};
 
 /// A target that said hello.
 pub(super) struct Target {

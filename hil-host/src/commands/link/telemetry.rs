@@ -11,8 +11,8 @@ use super::places::Places;
 use super::status_bits::{self, StatusBit};
 use super::target::Target;
 use crate::commands::{counted, print_report_beside};
-use crate::failure::Outcome;
-use crate::output::{self, cannot_write_rows, write_whole_if};
+use crate::error::Outcome;
+use crate::files::output::{self, cannot_write_rows, write_whole_if};
 
 /// Answers that hold all the ticks a target keeps; what comes after those is newer than the question.
 const MOST_ANSWERS: usize = KEPT_TICKS / MOST_SAMPLES;

@@ -11,9 +11,9 @@ use super::places::Places;
 use super::target::Target;
 use super::telemetry::{PlaceSample, take};
 use crate::commands::{Format, counted};
-use crate::failure::{Failure, Outcome};
-use crate::input::STANDARD_STREAM;
-use crate::output::cannot_write;
+use crate::error::{Failure, Outcome};
+use crate::files::input::STANDARD_STREAM;
+use crate::files::output::cannot_write;
 
 /// Longest time between questions.
 const LONGEST_PAUSE: Duration = Duration::from_millis(100);

@@ -3,11 +3,11 @@
 use plotters::style::RGBColor;
 
 use super::history::{Forces, History};
-use crate::page::{Figure, panel};
-use crate::plot::curves::Curve;
-use crate::plot::envelope::Envelope;
-use crate::plot::sheet::{Panel, Scale};
-use crate::plot::style::{AMBER_LINE, BLUE_LINE, PALE, RED_LINE};
+use crate::report::page::{Figure, panel};
+use crate::report::plot::curves::Curve;
+use crate::report::plot::envelope::Envelope;
+use crate::report::plot::sheet::{Panel, Scale};
+use crate::report::plot::style::{AMBER_LINE, BLUE_LINE, PALE, RED_LINE};
 
 /// Bars of a histogram at most.
 const MOST_BARS: u64 = 40;

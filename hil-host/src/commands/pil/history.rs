@@ -2,8 +2,8 @@
 
 use hdrhistogram::Histogram;
 
-use crate::pil::{Event, TickRecord};
-use crate::plot::envelope::Envelope;
+use crate::report::plot::envelope::Envelope;
+use crate::target::pil::{Event, TickRecord};
 
 /// Forces at one place (N).
 #[derive(Default)]

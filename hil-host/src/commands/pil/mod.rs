@@ -14,14 +14,14 @@ use dashpot_core::{Damper, DamperParameters};
 use super::line::LineArguments;
 use super::step_size::StepSize;
 use super::{Format, RealtimeArguments, print_report_beside, progress};
-use crate::damper_file;
-use crate::failure::{Failure, Outcome};
-use crate::input;
-use crate::output::{self, cannot_write, write_whole_if};
-use crate::pacing::Pacer;
-use crate::pil::{Client, FaultRates, FaultyLink, Link, Pace, Session};
-use crate::recording::Recording;
-use crate::replay::Ticks;
+use crate::error::{Failure, Outcome};
+use crate::files::damper;
+use crate::files::input;
+use crate::files::output::{self, cannot_write, write_whole_if};
+use crate::files::recording::Recording;
+use crate::realtime::pacing::Pacer;
+use crate::study::replay::Ticks;
+use crate::target::pil::{Client, FaultRates, FaultyLink, Link, Pace, Session};
 use history::History;
 use report::{Found, print};
 use rows::Rows;
@@ -100,7 +100,7 @@ pub fn run(arguments: &PilArguments) -> Outcome<()> {
     arguments
         .realtime
         .options_under("--paced", arguments.paced)?;
-    let load = |name: &String| damper_file::load(name, &arguments.overrides);
+    let load = |name: &String| damper::load(name, &arguments.overrides);
     let parameters: Vec<_> = arguments.dampers.iter().map(load).collect::<Outcome<_>>()?;
     let recording = Recording::open(&arguments.input)?;
     let mut found = None;

@@ -3,9 +3,9 @@
 use super::figures;
 use super::history::History;
 use super::report::Found;
-use crate::failure::Outcome;
-use crate::page::{document, escaped, figure, footer, tiles};
-use crate::timing::{optional_span, span};
+use crate::error::Outcome;
+use crate::realtime::timing::{optional_span, span};
+use crate::report::page::{document, escaped, figure, footer, tiles};
 
 /// The run as HTML.
 ///

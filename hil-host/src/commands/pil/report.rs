@@ -6,9 +6,9 @@ use serde::Serialize;
 
 use crate::commands::counted;
 use crate::commands::gap_report::write_gaps;
-use crate::pil::{FaultCounts, Report};
-use crate::recording::Gaps;
-use crate::timing::{optional_span, span};
+use crate::files::recording::Gaps;
+use crate::realtime::timing::{optional_span, span};
+use crate::target::pil::{FaultCounts, Report};
 
 /// A run and what it was of.
 #[derive(Serialize)]

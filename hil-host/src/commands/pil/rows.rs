@@ -4,9 +4,9 @@ use std::io::Write;
 use std::path::Path;
 
 use crate::commands::nearest_nanosecond;
-use crate::failure::Outcome;
-use crate::output::cannot_write_rows;
-use crate::pil::{Event, TickRecord};
+use crate::error::Outcome;
+use crate::files::output::cannot_write_rows;
+use crate::target::pil::{Event, TickRecord};
 
 /// Rows of a run, being written.
 pub(super) struct Rows<'a> {

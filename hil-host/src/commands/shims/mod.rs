@@ -9,9 +9,9 @@ use dashpot_core::characteristic::Characteristic;
 use dashpot_core::parameters::Element;
 
 use super::{DamperArguments, Format, print_report};
-use crate::damper_file;
-use crate::failure::{Failure, Outcome};
-use crate::shim_valves::{PLACES, erratum};
+use crate::error::{Failure, Outcome};
+use crate::files::damper;
+use crate::study::shim_valves::{PLACES, erratum};
 use report::{Report, ValveReport, print, valve_report};
 
 /// Shim packs: Cw over radius, equivalent thickness, lift under pressure by theory, as published and as used, flow.
@@ -47,7 +47,7 @@ pub fn run(arguments: &ShimsArguments) -> Outcome<()> {
         )));
     };
     let characteristic = Characteristic::new(&parameters)?;
-    let paper = damper_file::load("paper", &[])?;
+    let paper = damper::load("paper", &[])?;
     let Element::Physical(paper) = &paper.element else {
         return Err(Failure::new("the preset `paper` has no valves"));
     };

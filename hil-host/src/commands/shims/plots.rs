@@ -7,13 +7,13 @@ use dashpot_core::parameters::Hydraulics;
 use plotters::prelude::SeriesLabelPosition;
 
 use super::report::{ValveReport, radii};
-use crate::failure::Outcome;
-use crate::output::write_folder;
-use crate::plot::curves::{Curve, ramp};
-use crate::plot::sheet::{Layout, Panel, Scale, sheet};
-use crate::plot::style::{BLUE_LINE, GREEN_LINE, RED_LINE};
-use crate::published::Deflection;
-use crate::shim_valves::{PLACES, Place};
+use crate::error::Outcome;
+use crate::files::output::write_folder;
+use crate::report::plot::curves::{Curve, ramp};
+use crate::report::plot::sheet::{Layout, Panel, Scale, sheet};
+use crate::report::plot::style::{BLUE_LINE, GREEN_LINE, RED_LINE};
+use crate::study::published::Deflection;
+use crate::study::shim_valves::{PLACES, Place};
 
 /// Steps of pressure in a curve.
 const STEPS: u32 = 200;

@@ -7,9 +7,9 @@ use dashpot_core::parameters::{Hydraulics, Valve};
 use dashpot_core::shim::{Pack, edge_compliance_m_per_pa};
 use serde::Serialize;
 
-use crate::failure::Outcome;
-use crate::published::Deflection;
-use crate::shim_valves::{Place, theory_over_published};
+use crate::error::Outcome;
+use crate::study::published::Deflection;
+use crate::study::shim_valves::{Place, theory_over_published};
 
 #[derive(Serialize)]
 struct Coefficient {

@@ -1,0 +1,11 @@
+//! Dampers and states as numbers and bytes: words, images, saved states, and the checks they carry.
+
+pub(crate) mod checksum;
+mod image;
+pub(crate) mod revision;
+mod saved_state;
+mod words;
+
+pub use checksum::crc_32;
+pub use image::{ImageError, Loading};
+pub use saved_state::SavedStateError;

@@ -1,0 +1,35 @@
+//! A number that tells built dampers apart: FNV-1a (Fowler, Noll, Vo; 32 bit) over the bits of every
+//! constant.
+
+use crate::math::Real;
+use crate::scalars::Scalars;
+#[cfg(feature = "builder")]
+use crate::table::{Piece, Table};
+
+/// Hash of nothing.
+pub(crate) const START: u32 = 0x811c_9dc5;
+
+/// `hash` continued over the bits of constants, zero-extended.
+pub(crate) fn of_words(hash: u32, words: impl Iterator<Item = u64>) -> u32 {
+    words.fold(hash, of_word)
+}
+
+#[inline(never)] // one copy in flash
+fn of_word(hash: u32, word: u64) -> u32 {
+    word.to_le_bytes().iter().fold(hash, |hash, byte| {
+        (hash ^ u32::from(*byte)).wrapping_mul(0x0100_0193)
+    })
+}
+
+/// Hash of a table.
+#[cfg(feature = "builder")]
+pub(crate) fn of_table<T: Real>(table: &Table<T>) -> u32 {
+    let numbers = table.pieces.iter().flat_map(Piece::numbers);
+    of_words(START, numbers.map(|value| value.to_bits_u64()))
+}
+
+/// Hash of a damper: its table's and its scalars', never 0.
+pub(crate) fn of_damper<T: Real>(table: u32, scalars: &Scalars<T>) -> u32 {
+    let scalars = scalars.as_array();
+    of_words(table, scalars.iter().map(|value| value.to_bits_u64())).max(1)
+}

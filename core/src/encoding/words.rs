@@ -1,0 +1,147 @@
+//! A built damper as plain words: how a host hands constants to firmware.
+
+use crate::damper::Damper;
+use crate::scalars::{SCALARS, Scalars};
+use crate::table::{PIECES, Piece, Table};
+
+/// Scalars, the two revisions, thirteen numbers of each piece.
+const WORDS: usize = TABLE + 2 * PIECES * PIECE;
+/// Words before the table.
+pub(crate) const TABLE: usize = SCALARS + 2;
+/// Words of a piece.
+pub(crate) const PIECE: usize = 13;
+
+macro_rules! words {
+    ($float:ident, $word:ident) => {
+        #[doc = concat!("Words are the bits of each `", stringify!($float), "` as `", stringify!($word), "`, revisions zero-extended.")]
+        impl Damper<$float> {
+            /// Number of words of a damper.
+            pub const WORDS: usize = WORDS;
+
+            /// The damper of these words, at compile time or later, without the `builder` feature.
+            ///
+            /// Order: scalars, revision, revision of the table, table; each piece the four coefficients
+            /// of the flow, of the potential, of the stiffness, then its knot. Words that [`Self::to_words`] of
+            /// this version did not make are read without harm, but step to forces without meaning.
+            ///
+            /// ```
+            /// use dashpot_core::Damper;
+            #[doc = concat!("static DAMPER: Damper<", stringify!($float), "> =")]
+            #[doc = concat!("    Damper::<", stringify!($float), ">::from_words(&[0; Damper::<", stringify!($float), ">::WORDS]);")]
+            /// assert_eq!(DAMPER.revision(), 0); // all zero: no damper was built
+            /// assert_eq!(DAMPER.step(&mut DAMPER.at_rest(0.0), 1e-3), 0.0);
+            /// ```
+            pub const fn from_words(words: &[$word; WORDS]) -> Self {
+                const fn cubic(words: &[$word; WORDS], from: usize) -> [$float; 4] {
+                    [
+                        $float::from_bits(words[from]),
+                        $float::from_bits(words[from + 1]),
+                        $float::from_bits(words[from + 2]),
+                        $float::from_bits(words[from + 3]),
+                    ]
+                }
+                let mut table = Table::<$float>::ZERO;
+                let mut scalars = [0.0; SCALARS];
+                let mut index = 0;
+                while index < SCALARS {
+                    scalars[index] = $float::from_bits(words[index]);
+                    index += 1;
+                }
+                index = 0;
+                while index < 2 * PIECES {
+                    let from = TABLE + PIECE * index;
+                    let piece = &mut table.pieces[index];
+                    piece.flow = cubic(words, from);
+                    piece.potential = cubic(words, from + 4);
+                    piece.stiffness = cubic(words, from + 8);
+                    piece.knot = $float::from_bits(words[from + 12]);
+                    index += 1;
+                }
+                table.index();
+                let table_check = table.check();
+                Self {
+                    scalars: Scalars::from_array(scalars),
+                    revision: words[SCALARS] as u32,
+                    table_revision: words[SCALARS + 1] as u32,
+                    table_check,
+                    padding: [0; 4],
+                    table,
+                }
+            }
+
+            /// The words of this damper; [`Self::from_words`] gives it back to the bit.
+            pub fn to_words(&self) -> [$word; WORDS] {
+                let revisions = [self.revision, self.table_revision].map($word::from);
+                let numbers = self.table.pieces.iter().flat_map(Piece::numbers);
+                let scalars = self.scalars.as_array().map($float::to_bits);
+                let all = scalars.into_iter().chain(revisions).chain(numbers.map(|number| number.to_bits()));
+                let mut words = [0; WORDS];
+                for (word, value) in words.iter_mut().zip(all) {
+                    *word = value;
+                }
+                words
+            }
+        }
+    };
+}
+
+words!(f32, u32);
+words!(f64, u64);
+
+#[cfg(feature = "link")]
+impl Damper<f32> {
+    /// All bits zero, so that a static of it takes no flash; to be loaded.
+    pub(crate) const EMPTY: Self = Self {
+        scalars: Scalars::from_array([0.0; SCALARS]),
+        revision: 0,
+        table_revision: 0,
+        table_check: 0,
+        padding: [0; 4],
+        table: Table::<f32>::ZERO,
+    };
+}
+
+#[cfg(test)]
+mod tests {
+    use super::WORDS;
+    use crate::Damper;
+
+    /// Words that are all different and none of them NaN: 1.0 and the numbers after it.
+    macro_rules! every_word_has_its_place {
+        ($float:ident, $word:ident) => {
+            let first = $float::to_bits(1.0);
+            let words: [$word; WORDS] = core::array::from_fn(|index| first + index as $word);
+            let damper = Damper::<$float>::from_words(&words);
+            let mut expected = words;
+            // Revisions have 32 bits.
+            for index in [9, 10] {
+                expected[index] = $word::from(words[index] as u32);
+            }
+            assert_eq!(damper.to_words(), expected);
+            assert_eq!(damper.step_s().to_bits(), words[3]);
+            assert_eq!((0.5 * damper.force_limit_n()).to_bits(), words[7]);
+            assert_eq!(damper.revision(), words[9] as u32);
+            assert_eq!(damper.table.pieces[127].knot.to_bits(), words[WORDS - 1]);
+        };
+    }
+
+    #[test]
+    fn every_f32_word_has_its_place() {
+        every_word_has_its_place!(f32, u32);
+    }
+
+    #[test]
+    fn every_f64_word_has_its_place() {
+        every_word_has_its_place!(f64, u64);
+    }
+
+    #[cfg(feature = "builder")]
+    #[test]
+    fn a_built_damper_comes_back() {
+        let parameters = crate::example::reduced_vertical();
+        let single: Damper<f32> = parameters.build(1e-3).unwrap();
+        assert_eq!(Damper::<f32>::from_words(&single.to_words()), single);
+        let double: Damper<f64> = parameters.build(1e-4).unwrap();
+        assert_eq!(Damper::<f64>::from_words(&double.to_words()), double);
+    }
+}

@@ -1,0 +1,247 @@
+//! Plots of a pair: contact points, rolling radius and angle, conicity; SVG.
+
+use plotters::prelude::*;
+use plotters::style::text_anchor::{HPos, Pos, VPos};
+
+use crate::error::Outcome;
+use crate::report::plot::style::{
+    BLUE_LINE, FINE, INK, LINE, RED_LINE, axes, draw, extent, failed, letters,
+};
+use dashpot_rail::contact::geometry::RigidContact;
+use dashpot_rail::contact::pair::Pair;
+use dashpot_rail::indices::conicity::RollingRadius;
+
+/// Wheel over rail with lines between the points that touch at each lateral shift in `contacts`.
+///
+/// # Errors
+/// The drawing fails.
+pub fn contact_points(pair: &Pair, contacts: &[RigidContact]) -> Outcome<String> {
+    /// The wheel is drawn lifted by this, mm, to leave room for the lines.
+    const LIFT: f64 = 30.0;
+    /// What margins, labels and the title take of the sheet, pixels.
+    const AROUND: [f64; 2] = [88.0, 90.0];
+    let datum = pair.installation.datum() * 1e3;
+    let wheel = || {
+        pair.wheel
+            .points
+            .iter()
+            .map(move |p| (p.y * 1e3 + datum, LIFT - p.z * 1e3))
+    };
+    let rail = || pair.rail.points.iter().map(|p| (p.y * 1e3, -p.z * 1e3));
+    let x = extent(wheel().chain(rail()).map(|p| p.0));
+    let y = extent(wheel().chain(rail()).map(|p| p.1));
+    // One millimetre is as long upward as across.
+    let width = 1000;
+    let scale = (f64::from(width) - AROUND[0]) / (x.end - x.start);
+    let height = (scale * (y.end - y.start) + AROUND[1]).round() as u32;
+    draw(width, height, |area| {
+        let title = format!(
+            "Contact points, right side: {} on {}",
+            pair.wheel.name, pair.rail.name
+        );
+        let mut chart = axes!(
+            area,
+            title,
+            x,
+            y,
+            "lateral place from the track centre, mm (wheelset centred)",
+            "height, mm (wheel lifted by 30 mm)",
+            (0, 0)
+        );
+        let greatest = contacts
+            .iter()
+            .fold(1e-9, |most: f64, c| most.max(c.lateral.abs()));
+        for contact in contacts {
+            let side = &contact.sides[1];
+            let share = contact.lateral / greatest;
+            let colour = if share < -1e-9 {
+                BLUE_LINE
+            } else if share > 1e-9 {
+                RED_LINE
+            } else {
+                INK
+            };
+            let style = colour.mix(0.45 + 0.55 * share.abs()).stroke_width(FINE);
+            let top = (side.s * 1e3 + datum, LIFT - side.z * 1e3);
+            let rail_depth = pair.rail.at(side.y).z;
+            let bottom = (side.y * 1e3, -rail_depth * 1e3);
+            chart
+                .draw_series(LineSeries::new([top, bottom], style))
+                .map_err(failed)?;
+            chart
+                .draw_series([top, bottom].map(|p| Circle::new(p, 2 * FINE, colour.filled())))
+                .map_err(failed)?;
+        }
+        let outline = INK.stroke_width(LINE);
+        chart
+            .draw_series(LineSeries::new(wheel(), outline))
+            .map_err(failed)?;
+        chart
+            .draw_series(LineSeries::new(rail(), outline))
+            .map_err(failed)?;
+        let mut told = (f64::MAX, f64::MAX);
+        for contact in contacts {
+            let shift = contact.lateral * 1e3;
+            let side = &contact.sides[1];
+            let at = (side.s * 1e3 + datum, LIFT - side.z * 1e3);
+            let whole = (shift - shift.round()).abs() < 1e-6;
+            if !whole || (at.0 - told.0).hypot(at.1 - told.1) < 2.4 {
+                continue;
+            }
+            told = at;
+            // Beside the wheel's surface, along its normal.
+            let (across, up) = (side.slope.atan().sin(), side.slope.atan().cos());
+            let away = 15.0 * f64::from(FINE);
+            let offset = ((away * across) as i32, (-away * up) as i32);
+            let text = if shift.round() == 0.0 {
+                "0".to_owned()
+            } else {
+                format!("{shift:+.0}")
+            };
+            let style = letters(13, &INK).pos(Pos::new(HPos::Center, VPos::Center));
+            chart
+                .draw_series(std::iter::once(
+                    EmptyElement::at(at) + Text::new(text, offset, style),
+                ))
+                .map_err(failed)?;
+        }
+        // In the free space of the rail's head, whatever the profile.
+        let middle = 0.5
+            * (rail().map(|p| p.0).fold(f64::MAX, f64::min)
+                + rail().map(|p| p.0).fold(f64::MIN, f64::max));
+        for (row, (note, colour)) in [
+            ("lines join the points in contact,", &INK),
+            ("numbers: lateral shift of the wheelset, mm", &INK),
+            ("shifted to the right (+)", &RED_LINE),
+            ("shifted to the left (-)", &BLUE_LINE),
+        ]
+        .into_iter()
+        .enumerate()
+        {
+            let style = letters(14, colour).pos(Pos::new(HPos::Center, VPos::Top));
+            let below = 22 * row as i32 * FINE as i32;
+            chart
+                .draw_series(std::iter::once(
+                    EmptyElement::at((middle, -14.0)) + Text::new(note, (0, below), style),
+                ))
+                .map_err(failed)?;
+        }
+        Ok(())
+    })
+}
+
+/// Rolling radius difference and the right wheel's contact angle over the shift.
+///
+/// # Errors
+/// The drawing fails.
+pub fn rolling_radius(pair: &Pair, contacts: &[RigidContact]) -> Outcome<String> {
+    let title = format!(
+        "Rolling radius difference, right less left: {} on {}",
+        pair.wheel.name, pair.rail.name
+    );
+    draw(1000, 760, |area| {
+        let (upper, lower) = area.split_vertically(380 * FINE);
+        let shift = |c: &RigidContact| c.lateral * 1e3;
+        let x = extent(contacts.iter().map(shift));
+        let difference = |c: &RigidContact| c.rolling_radius_difference() * 1e3;
+        let mut chart = axes!(
+            &upper,
+            title,
+            x.clone(),
+            extent(contacts.iter().map(difference)),
+            "lateral shift at the rails' top, mm (right positive)",
+            "difference, mm",
+            (0, 0)
+        );
+        chart
+            .draw_series(LineSeries::new(
+                contacts.iter().map(|c| (shift(c), difference(c))),
+                BLUE_LINE.stroke_width(LINE),
+            ))
+            .map_err(failed)?;
+        let angle = |c: &RigidContact, side: usize| -c.sides[side].slope.atan().to_degrees();
+        let both = contacts.iter().flat_map(|c| [angle(c, 0), angle(c, 1)]);
+        let mut chart = axes!(
+            &lower,
+            "Contact angle against the track plane",
+            x,
+            extent(both),
+            "lateral shift at the rails' top, mm (right positive)",
+            "angle, degrees",
+            (0, 0)
+        );
+        for (side, name, colour) in [(1, "right wheel", RED_LINE), (0, "left wheel", BLUE_LINE)] {
+            chart
+                .draw_series(LineSeries::new(
+                    contacts.iter().map(|c| (shift(c), angle(c, side))),
+                    colour.stroke_width(LINE),
+                ))
+                .map_err(failed)?
+                .label(name)
+                .legend(move |(x, y)| {
+                    PathElement::new(
+                        [(x, y), (x + 22 * FINE as i32, y)],
+                        colour.stroke_width(LINE),
+                    )
+                });
+        }
+        chart
+            .configure_series_labels()
+            .position(SeriesLabelPosition::UpperMiddle)
+            .label_font(letters(14, &INK))
+            .legend_area_size(30 * FINE)
+            .margin(8 * FINE)
+            .background_style(WHITE.mix(0.9))
+            .border_style(INK.mix(0.3).stroke_width(FINE))
+            .draw()
+            .map_err(failed)
+    })
+}
+
+/// Equivalent conicity over the amplitude, with the value at 3 mm told.
+///
+/// # Errors
+/// The drawing fails.
+pub fn conicity(pair: &Pair, rolling: &RollingRadius, reach: f64) -> Outcome<String> {
+    let radius = pair.installation.wheel_radius;
+    let title = format!(
+        "Equivalent conicity (EN 15302): {} on {}",
+        pair.wheel.name, pair.rail.name
+    );
+    draw(1000, 620, |area| {
+        let points: Vec<(f64, f64)> = (1..=400)
+            .map(|i| reach * f64::from(i) / 400.0)
+            .filter(|amplitude| *amplitude >= 0.5e-3)
+            .filter_map(|amplitude| Some((amplitude * 1e3, rolling.conicity(amplitude, radius)?)))
+            .collect();
+        let highest = points.iter().fold(0.05, |most: f64, p| most.max(p.1));
+        let mut chart = axes!(
+            area,
+            title,
+            0.0..reach * 1e3,
+            0.0..1.08 * highest,
+            "amplitude of the lateral shift, mm",
+            "equivalent conicity, dimensionless",
+            (0, 1)
+        );
+        chart
+            .draw_series(LineSeries::new(points, BLUE_LINE.stroke_width(LINE)))
+            .map_err(failed)?;
+        if let Some(value) = rolling.conicity(3e-3, radius) {
+            let fine = FINE as i32;
+            let style = letters(16, &RED_LINE);
+            chart
+                .draw_series(std::iter::once(
+                    EmptyElement::at((3.0, value))
+                        + Circle::new((0, 0), 4 * fine, RED_LINE.filled())
+                        + Text::new(
+                            format!("{value:.3} at 3 mm"),
+                            (-4 * fine, -26 * fine),
+                            style,
+                        ),
+                ))
+                .map_err(failed)?;
+        }
+        Ok(())
+    })
+}

@@ -1,0 +1,39 @@
+//! Cost of a step on this machine.
+
+use std::hint::black_box;
+use std::time::Instant;
+
+use dashpot_core::{DamperParameters, Real};
+
+use crate::error::Outcome;
+use crate::realtime::timing::Distribution;
+
+/// Steps timed together: long against the clock's resolution, short against an interruption.
+const BLOCK: usize = 500;
+/// Steps timed at least.
+const STEPS: usize = 200_000;
+
+/// Median over blocks of steps along the motion from rest (ns).
+///
+/// # Errors
+/// Parameters that cannot be built.
+pub(super) fn median_ns_per_step<T: Real>(
+    parameters: &DamperParameters,
+    step_s: f64,
+    displacements_m: &[f64],
+) -> Outcome<f64> {
+    let damper = parameters.build::<T>(step_s)?;
+    let motion: Vec<T> = displacements_m.iter().map(|&x| T::from_f64(x)).collect();
+    let mut costs = Distribution::new();
+    for _ in 0..STEPS.div_ceil(motion.len()) {
+        let mut state = damper.at_rest(motion[0]);
+        for block in motion.chunks_exact(BLOCK) {
+            let start = Instant::now();
+            for &x in block {
+                black_box(black_box(&damper).step(&mut state, black_box(x)));
+            }
+            costs.record_ns(start.elapsed().as_secs_f64() * 1e9 / BLOCK as f64);
+        }
+    }
+    Ok(costs.quantile_ns(0.5))
+}

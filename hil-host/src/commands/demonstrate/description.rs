@@ -1,0 +1,143 @@
+//! What the dampers of the page are, from their parameters.
+
+use std::f64::consts::PI;
+
+use dashpot_core::parameters::{DamperParameters, Element, Hydraulics};
+
+use super::results::Bench;
+use crate::error::Outcome;
+use crate::study::shim_valves;
+
+/// A number without zeros at its end, to four digits behind the point.
+fn number(value: f64) -> String {
+    let text = format!("{value:.4}");
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
+fn hydraulics(bench: &Bench) -> Option<&Hydraulics> {
+    match &bench.parameters.element {
+        Element::Physical(hydraulics) => Some(hydraulics),
+        Element::Reduced(_) => None,
+    }
+}
+
+/// The first damper's build and what the others add to it.
+pub(super) fn damper(benches: &[Bench]) -> String {
+    let built = benches.first().and_then(hydraulics).map(|hydraulics| {
+        format!(
+            ", {} mm piston and {} mm rod. A constant orifice of {} mm in the piston is open both ways",
+            number(hydraulics.geometry.piston_diameter_m * 1e3),
+            number(hydraulics.geometry.rod_diameter_m * 1e3),
+            number(hydraulics.orifice.diameter_m * 1e3)
+        )
+    });
+    let mut text = format!(
+        "<p>The secondary vertical damper of a locomotive: a twin-tube hydraulic damper{}; three packs of thin \
+         steel shims, one working in extension and two in compression, bend open under oil pressure. In \
+         series stand rubber bushes and, in service, the oil column with its entrained air, the seats and a \
+         clearance.</p>\n<p>",
+        built.unwrap_or_default()
+    );
+    for bench in benches {
+        let terms = in_service_terms(&bench.parameters).join(", ");
+        text += &if terms.is_empty() {
+            format!(
+                "<b>{}</b> is the published damper literally: no clearance, no in-service term. ",
+                bench.damper
+            )
+        } else {
+            format!("<b>{}</b> adds {terms}. ", bench.damper)
+        };
+    }
+    text + "Displacement and force are positive in extension; every force is computed.</p>"
+}
+
+/// The terms that the published equations do not have, those that are on.
+fn in_service_terms(parameters: &DamperParameters) -> Vec<String> {
+    let mut terms = Vec::new();
+    let mount = &parameters.mount;
+    if mount.clearance_m > 0.0 {
+        terms.push(format!("{} mm clearance", number(mount.clearance_m * 1e3)));
+    }
+    if let Some(stiffness) = mount.seat_stiffness_n_per_m {
+        terms.push(format!("seats of {} MN/m", number(stiffness * 1e-6)));
+    }
+    let Element::Physical(hydraulics) = &parameters.element else {
+        return terms;
+    };
+    let valves = &hydraulics.valves;
+    let packs = [
+        &valves.piston_extension,
+        &valves.piston_compression,
+        &valves.foot_compression,
+    ];
+    let preload_pa = packs.map(|valve| valve.preload_pa);
+    if preload_pa.iter().any(|preload_pa| *preload_pa > 0.0) {
+        let [extension, compression, foot] = preload_pa.map(|pa| number(pa * 1e-6));
+        terms.push(format!(
+            "valve preloads of {extension}, {compression} (piston) and {foot} MPa (foot)"
+        ));
+    }
+    if let Some(leakage) = &hydraulics.leakage {
+        let gap_um = number(leakage.radial_clearance_m * 1e6);
+        terms.push(format!("leakage through a piston gap of {gap_um} µm"));
+    }
+    if let Some(relief) = &hydraulics.relief {
+        let opening_mpa = number(relief.opening_pressure_pa * 1e-6);
+        terms.push(format!("a relief valve that opens at {opening_mpa} MPa"));
+    }
+    if let Some(seal) = &hydraulics.seal {
+        let friction_n = number(seal.friction_n);
+        terms.push(format!("seal friction of {friction_n} N"));
+    }
+    if hydraulics.reservoir.is_some() {
+        terms.push("reservoir pressure".into());
+    }
+    if hydraulics.orifice.transition_reynolds > 0.0 {
+        terms.push("a laminar orifice at low flow".into());
+    }
+    if let Some(column) = &hydraulics.oil.column {
+        let air_percent = number(column.air_fraction * 1e2);
+        terms.push(format!(
+            "a compressible oil column with {air_percent} % entrained air"
+        ));
+    }
+    terms
+}
+
+/// A sentence for each relief valve: its opening pressure and the forces `P A + F_c` it opens at.
+pub(super) fn relief(benches: &[Bench]) -> String {
+    let mut text = String::new();
+    for bench in benches {
+        let Some(hydraulics) = hydraulics(bench) else {
+            continue;
+        };
+        let Some(relief) = &hydraulics.relief else {
+            continue;
+        };
+        let area_m2 = |diameter_m: f64| 0.25 * PI * diameter_m * diameter_m;
+        let piston_m2 = area_m2(hydraulics.geometry.piston_diameter_m);
+        let annulus_m2 = piston_m2 - area_m2(hydraulics.geometry.rod_diameter_m);
+        let friction_n = hydraulics.seal.as_ref().map_or(0.0, |seal| seal.friction_n);
+        let force_kn = |area_m2| 1e-3 * (relief.opening_pressure_pa * area_m2 + friction_n);
+        text += &format!(
+            " The relief valve of <b>{}</b> opens at {} MPa: {:.0} kN in extension, {:.0} kN in compression.",
+            bench.damper,
+            number(relief.opening_pressure_pa * 1e-6),
+            force_kn(annulus_m2),
+            force_kn(piston_m2)
+        );
+    }
+    text
+}
+
+/// The first erratum of the source paper, with the figures of the first damper, which is the paper's.
+///
+/// # Errors
+/// As [`shim_valves::erratum`].
+pub(super) fn erratum(benches: &[Bench]) -> Outcome<String> {
+    match benches.first().and_then(hydraulics) {
+        Some(paper) => shim_valves::erratum(paper),
+        None => Ok(String::new()),
+    }
+}

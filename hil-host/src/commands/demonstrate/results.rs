@@ -1,0 +1,169 @@
+//! What the demonstration shows: two presets on the shipped made ride, fixed step against reference, bench test, cost.
+
+use dashpot_core::DamperParameters;
+use dashpot_core::characteristic::Characteristic;
+use serde::Serialize;
+
+use crate::error::Outcome;
+use crate::files::damper;
+use crate::study::bench_test::{self, Cycle, Harmonic, Indices};
+use crate::study::verification::{deviation, fixed_step_forces, nrmse_limit, reference_forces};
+
+use super::cost::median_ns_per_step;
+
+/// Presets shown: the published equations as they stand, and the same damper in service.
+const DAMPERS: [&str; 2] = ["paper", "in-service"];
+
+/// Steps shown (s): 1 and 10 kHz.
+const STEPS_S: [f64; 2] = [1e-3, 1e-4];
+
+/// Amplitudes of the bench loops (m), at [`LOOP_FREQUENCY_HZ`].
+pub(super) const LOOP_AMPLITUDES_M: [f64; 4] = [1e-3, 2.5e-3, 5e-3, 10e-3];
+pub(super) const LOOP_FREQUENCY_HZ: f64 = 1.5;
+
+/// How near the fixed step comes to the reference, and what a step costs here.
+#[derive(Clone, Debug, Serialize)]
+pub struct Accuracy {
+    /// Preset.
+    pub damper: &'static str,
+    /// `f32` or `f64`.
+    pub scalar: &'static str,
+    /// Step (s).
+    pub step_s: f64,
+    /// rms of the error over rms of the force (1).
+    pub nrmse: f64,
+    /// The project's limit for it (1).
+    pub nrmse_limit: f64,
+    /// Largest error over largest force (1).
+    pub largest_error_over_peak: f64,
+    /// Median cost of a step, unpaced (ns).
+    pub median_ns_per_step: f64,
+}
+
+impl Accuracy {
+    /// Whether the error is above the project's limit.
+    pub fn over_limit(&self) -> bool {
+        self.nrmse > self.nrmse_limit
+    }
+}
+
+/// Forces over the ride at 1 kHz.
+pub(super) struct Ride {
+    pub(super) damper: &'static str,
+    pub(super) step_s: f64,
+    pub(super) displacements_m: Vec<f64>,
+    pub(super) reference_n: Vec<f64>,
+    /// Single precision, as on the target.
+    pub(super) fixed_step_n: Vec<f64>,
+}
+
+/// A preset on the bench.
+pub(super) struct Bench {
+    pub(super) damper: &'static str,
+    pub(super) parameters: DamperParameters,
+    pub(super) characteristic: Characteristic,
+    pub(super) loops: Vec<Cycle>,
+    pub(super) table_5: Indices,
+}
+
+/// Everything the page shows.
+pub struct Demonstration {
+    pub(super) samples: usize,
+    pub(super) duration_s: f64,
+    /// A row for each damper, step and scalar.
+    pub accuracy: Vec<Accuracy>,
+    pub(super) rides: Vec<Ride>,
+    pub(super) benches: Vec<Bench>,
+}
+
+/// Pieces of work [`run`] tells of.
+pub const WORK: u64 = (DAMPERS.len() * (STEPS_S.len() + 1)) as u64;
+
+/// Runs the demonstration; `tell` hears what is about to be done and how many pieces are done.
+///
+/// # Errors
+/// A preset, the recording or the reference fails.
+pub fn run(mut tell: impl FnMut(String, u64)) -> Outcome<Demonstration> {
+    let samples = super::recording::shipped()?;
+    let duration_s = match (samples.first(), samples.last()) {
+        (Some(first), Some(last)) => last.time_s - first.time_s,
+        _ => 0.0,
+    };
+    let mut shown = Demonstration {
+        samples: samples.len(),
+        duration_s,
+        accuracy: Vec::new(),
+        rides: Vec::new(),
+        benches: Vec::new(),
+    };
+    let mut pieces = 0..;
+    let mut tell = |work| tell(work, pieces.next().unwrap_or(WORK));
+    for name in DAMPERS {
+        let damper = damper::load(name, &[])?;
+        for step_s in STEPS_S {
+            tell(format!("{name}: ride at {:.0} kHz", 1e-3 / step_s));
+            shown.ride(name, &damper, step_s)?;
+        }
+        tell(format!("{name}: bench"));
+        shown.benches.push(bench(name, &damper)?);
+    }
+    Ok(shown)
+}
+
+impl Demonstration {
+    /// Runs the shipped recording at one step size, in both precisions.
+    fn ride(&mut self, name: &'static str, damper: &DamperParameters, step_s: f64) -> Outcome<()> {
+        let displacements_m = super::recording::at_ticks(step_s)?;
+        let reference_n = reference_forces(damper, step_s, &displacements_m)?;
+        let single = fixed_step_forces::<f32>(damper, step_s, &displacements_m)?;
+        let double = fixed_step_forces::<f64>(damper, step_s, &displacements_m)?;
+        let costs = [
+            median_ns_per_step::<f32>(damper, step_s, &displacements_m)?,
+            median_ns_per_step::<f64>(damper, step_s, &displacements_m)?,
+        ];
+        for ((scalar, fixed), median_ns_per_step) in
+            [("f32", &single), ("f64", &double)].into_iter().zip(costs)
+        {
+            let deviation = deviation(step_s, &fixed.forces_n, &reference_n)?;
+            self.accuracy.push(Accuracy {
+                damper: name,
+                scalar,
+                step_s,
+                nrmse: deviation.nrmse,
+                nrmse_limit: nrmse_limit(step_s, scalar == "f32"),
+                largest_error_over_peak: deviation.largest_error_over_peak,
+                median_ns_per_step,
+            });
+        }
+        if step_s == STEPS_S[0] {
+            self.rides.push(Ride {
+                damper: name,
+                step_s,
+                displacements_m,
+                reference_n,
+                fixed_step_n: single.forces_n,
+            });
+        }
+        Ok(())
+    }
+}
+
+fn bench(name: &'static str, damper: &DamperParameters) -> Outcome<Bench> {
+    let loops = LOOP_AMPLITUDES_M
+        .iter()
+        .map(|&amplitude_m| {
+            let motion = Harmonic {
+                amplitude_m,
+                frequency_hz: LOOP_FREQUENCY_HZ,
+            };
+            bench_test::settle(damper, motion, 1e-3)
+        })
+        .collect::<Outcome<_>>()?;
+    Ok(Bench {
+        damper: name,
+        parameters: damper.clone(),
+        characteristic: Characteristic::new(damper)?,
+        loops,
+        table_5: bench_test::settle(damper, Harmonic::TABLE_5, 1e-4)?.indices(),
+    })
+}

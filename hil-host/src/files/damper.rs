@@ -1,0 +1,261 @@
+//! Damper files and presets: TOML in SI units, unknown keys refused with the nearest one.
+
+use std::path::Path;
+
+use dashpot_core::parameters::{
+    DamperParameters, Element, Geometry, Hydraulics, Leakage, Limits, Mount, Oil, Orifice, Reduced,
+    Relief, Reservoir, Seal, TwoChamber, Valves,
+};
+use serde::{Deserialize, Serialize};
+
+use crate::error::{Failure, Outcome};
+use crate::files::input;
+
+/// Presets that ship with the program: name and file.
+pub const PRESETS: [(&str, &str); 4] = [
+    ("paper", include_str!("../../../data/dampers/paper.toml")),
+    (
+        "in-service",
+        include_str!("../../../data/dampers/in-service.toml"),
+    ),
+    (
+        "reduced-vertical",
+        include_str!("../../../data/dampers/reduced-vertical.toml"),
+    ),
+    (
+        "reduced-lateral",
+        include_str!("../../../data/dampers/reduced-lateral.toml"),
+    ),
+];
+
+/// The tables of a damper file. One with `[reduced]` has `[mount]` and `[limits]` beside it, one
+/// without has the hydraulics.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct DamperFile {
+    geometry: Option<Geometry>,
+    orifice: Option<Orifice>,
+    valves: Option<Valves>,
+    leakage: Option<Leakage>,
+    relief: Option<Relief>,
+    reservoir: Option<Reservoir>,
+    seal: Option<Seal>,
+    two_chamber: Option<TwoChamber>,
+    oil: Option<Oil>,
+    reduced: Option<Reduced>,
+    mount: Mount,
+    #[serde(default)]
+    limits: Limits,
+}
+
+/// The damper called `name`: a preset, or the TOML file at that path, `-` being standard input; then
+/// each `table.key=value` of `overrides` in order.
+///
+/// # Errors
+/// Neither preset nor readable file; text that is no TOML; unknown, missing or misplaced keys; a value
+/// outside its range. A preset that there is not, and an override without which the damper is good, are
+/// wrong use.
+///
+/// ```
+/// let damper = dashpot_hil::files::damper::load("paper", &["mount.clearance_m=1e-3".into()])?;
+/// assert_eq!(damper.mount.clearance_m, 1e-3);
+/// # Ok::<(), dashpot_hil::error::Failure>(())
+/// ```
+pub fn load(name: &str, overrides: &[String]) -> Outcome<DamperParameters> {
+    let path = Path::new(name);
+    match PRESETS.iter().find(|(preset, _)| *preset == name) {
+        Some((_, text)) => parse(name, text, overrides),
+        None => parse(
+            &input::name(path).to_string_lossy(),
+            &read(path)?,
+            overrides,
+        ),
+    }
+}
+
+fn read(path: &Path) -> Outcome<String> {
+    let names: Vec<&str> = PRESETS.iter().map(|(preset, _)| *preset).collect();
+    if !input::is_file_name(path) && !path.exists() {
+        let near = nearest(&path.to_string_lossy(), names.iter().copied());
+        return Err(Failure::wrong_use(format!(
+            "damper `{}`: no such preset or file; give a TOML file or a preset: {}{near}",
+            path.display(),
+            names.join(", ")
+        )));
+    }
+    input::read_text(path)
+}
+
+/// The damper written in `text`; `name` stands for it in errors.
+///
+/// # Errors
+/// As [`load`].
+pub fn parse(name: &str, text: &str, overrides: &[String]) -> Outcome<DamperParameters> {
+    let in_file = |message: String| Failure::new(format!("{name}: {message}"));
+    // Once as typed data for errors that name line and column, once as a tree to override.
+    let mut tree: toml::Table = toml::from_str(text).map_err(|error| in_file(explain(&error)))?;
+    let plain = toml::from_str(text)
+        .map_err(|error| in_file(explain(&error)))
+        .and_then(|file| from_file(file).map_err(|error| in_file(error.to_string())));
+    if overrides.is_empty() {
+        return plain;
+    }
+    for assignment in overrides {
+        set(&mut tree, assignment)?;
+    }
+    let changed = tree
+        .try_into()
+        .map_err(|error: toml::de::Error| in_file(format!("after --set: {}", explain(&error))))
+        .and_then(|file| from_file(file).map_err(|error| in_file(error.to_string())));
+    match plain {
+        Ok(_) => changed.map_err(Failure::into_wrong_use),
+        // The overrides may complete a file; they are not to blame for what it lacks.
+        Err(_) => changed,
+    }
+}
+
+/// Applies `table.key=value`, the value written as in TOML.
+fn set(tree: &mut toml::Table, assignment: &str) -> Outcome<()> {
+    let wrong = |why: String| {
+        Failure::wrong_use(format!(
+            "--set {assignment}: {why}; the form is table.key=value with a TOML value, such as \
+             mount.clearance_m=1e-3"
+        ))
+    };
+    let (path, value) = assignment
+        .split_once('=')
+        .ok_or_else(|| wrong("no `=`".into()))?;
+    let value: toml::Table = toml::from_str(&format!("value = {}", value.trim()))
+        .map_err(|error| wrong(error.message().to_owned()))?;
+    let value = value
+        .get("value")
+        .cloned()
+        .ok_or_else(|| wrong("no value".into()))?;
+    let mut keys: Vec<&str> = path.trim().split('.').collect();
+    let last = keys
+        .pop()
+        .filter(|key| !key.is_empty())
+        .ok_or_else(|| wrong("no key".into()))?;
+    let mut table = tree;
+    for key in keys {
+        table = table
+            .entry(key)
+            .or_insert_with(|| toml::Value::Table(toml::Table::new()))
+            .as_table_mut()
+            .ok_or_else(|| wrong(format!("`{key}` is not a table")))?;
+    }
+    // An integer where the file has a float, or none yet, is meant as a number all the same.
+    let value = match value {
+        toml::Value::Integer(number) => toml::Value::Float(number as f64),
+        other => other,
+    };
+    table.insert(last.to_owned(), value);
+    Ok(())
+}
+
+fn from_file(file: DamperFile) -> Outcome<DamperParameters> {
+    let element = match file.reduced {
+        Some(reduced) => {
+            let hydraulic = [
+                ("geometry", file.geometry.is_some()),
+                ("orifice", file.orifice.is_some()),
+                ("valves", file.valves.is_some()),
+                ("leakage", file.leakage.is_some()),
+                ("relief", file.relief.is_some()),
+                ("reservoir", file.reservoir.is_some()),
+                ("seal", file.seal.is_some()),
+                ("two_chamber", file.two_chamber.is_some()),
+                ("oil", file.oil.is_some()),
+            ];
+            if let Some((table, _)) = hydraulic.iter().find(|(_, present)| *present) {
+                return Err(Failure::new(format!(
+                    "[{table}] beside [reduced]: a reduced damper has [reduced], [mount] and [limits] only"
+                )));
+            }
+            Element::Reduced(reduced)
+        }
+        None => {
+            let missing = |table: &str| {
+                Failure::new(format!(
+                    "table [{table}] is missing: a physical damper needs [geometry], [orifice], \
+                     [valves.*], [oil] and [mount]; a reduced one [reduced] and [mount]"
+                ))
+            };
+            Element::Physical(Hydraulics {
+                geometry: file.geometry.ok_or_else(|| missing("geometry"))?,
+                orifice: file.orifice.ok_or_else(|| missing("orifice"))?,
+                valves: file.valves.ok_or_else(|| missing("valves"))?,
+                leakage: file.leakage,
+                relief: file.relief,
+                reservoir: file.reservoir,
+                seal: file.seal,
+                two_chamber: file.two_chamber,
+                oil: file.oil.ok_or_else(|| missing("oil"))?,
+            })
+        }
+    };
+    let parameters = DamperParameters {
+        element,
+        mount: file.mount,
+        limits: file.limits,
+    };
+    parameters.validate()?;
+    Ok(parameters)
+}
+
+/// The parser's message with the nearest known key where it met an unknown one.
+fn explain(error: &toml::de::Error) -> String {
+    let message = error.to_string();
+    let message = message.trim_end();
+    let quoted: Vec<&str> = error.message().split('`').skip(1).step_by(2).collect();
+    match quoted.split_first() {
+        Some((unknown, known)) if error.message().starts_with("unknown field") => {
+            format!("{message}{}", nearest(unknown, known.iter().copied()))
+        }
+        _ => message.to_owned(),
+    }
+}
+
+fn nearest<'a>(unknown: &str, known: impl Iterator<Item = &'a str>) -> String {
+    known
+        .map(|key| (strsim::jaro_winkler(unknown, key), key))
+        .filter(|(likeness, _)| *likeness > 0.7)
+        .max_by(|a, b| a.0.total_cmp(&b.0))
+        .map_or_else(String::new, |(_, key)| format!("; did you mean `{key}`?"))
+}
+
+/// The TOML text of the damper, every default written out.
+///
+/// # Errors
+/// None for a damper that [`parse`] accepts.
+pub fn to_toml(parameters: &DamperParameters) -> Outcome<String> {
+    let mut file = DamperFile {
+        geometry: None,
+        orifice: None,
+        valves: None,
+        leakage: None,
+        relief: None,
+        reservoir: None,
+        seal: None,
+        two_chamber: None,
+        oil: None,
+        reduced: None,
+        mount: parameters.mount,
+        limits: parameters.limits,
+    };
+    match &parameters.element {
+        Element::Physical(hydraulics) => {
+            file.geometry = Some(hydraulics.geometry);
+            file.orifice = Some(hydraulics.orifice);
+            file.valves = Some(hydraulics.valves.clone());
+            file.leakage = hydraulics.leakage;
+            file.relief = hydraulics.relief;
+            file.reservoir = hydraulics.reservoir;
+            file.seal = hydraulics.seal;
+            file.two_chamber = hydraulics.two_chamber;
+            file.oil = Some(hydraulics.oil);
+        }
+        Element::Reduced(reduced) => file.reduced = Some(*reduced),
+    }
+    toml::to_string_pretty(&file).map_err(|error| Failure::new(error.to_string()))
+}

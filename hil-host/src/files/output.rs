@@ -1,0 +1,200 @@
+//! What a command writes: files whole or not at all, or standard output for `-`.
+
+use std::borrow::Cow;
+use std::fs::File;
+use std::io::{self, BufWriter, Write};
+use std::path::{Path, PathBuf};
+
+use crate::error::{Failure, Outcome};
+use crate::files::input::is_standard_stream;
+use crate::files::temporary::Temporary;
+
+/// `path` as messages call it.
+pub fn name(path: &Path) -> Cow<'_, Path> {
+    if is_standard_stream(path) {
+        Cow::Borrowed(Path::new("standard output"))
+    } else {
+        Cow::Borrowed(path)
+    }
+}
+
+/// A failure to write `path`.
+pub fn cannot_write(path: &Path, error: impl Into<io::Error>) -> Failure {
+    Failure::in_writing(&name(path), error)
+}
+
+/// A failure to write rows of CSV to `path`.
+pub fn cannot_write_rows(path: &Path, error: csv::Error) -> Failure {
+    match error.into_kind() {
+        csv::ErrorKind::Io(error) => cannot_write(path, error),
+        other => cannot_write(path, io::Error::other(format!("{other:?}"))),
+    }
+}
+
+/// Refuses to write the file at `path`, as `option` asks, over the one at `input`.
+///
+/// # Errors
+/// Both are the same file.
+pub fn refuse_input(option: &str, path: &Path, input: &Path) -> Outcome<()> {
+    if is_standard_stream(path) || is_standard_stream(input) {
+        return Ok(());
+    }
+    match (path.canonicalize(), input.canonicalize()) {
+        (Ok(same), Ok(input)) if same == input => Err(Failure::wrong_use(format!(
+            "{option} {}: is the input too; give another output file",
+            path.display()
+        ))),
+        _ => Ok(()),
+    }
+}
+
+/// As [`write_whole`] where there is a path, which `write` is given with the file; without one `write` is
+/// called all the same.
+///
+/// # Errors
+/// As [`write_whole`].
+pub fn write_whole_if(
+    path: Option<&Path>,
+    write: impl FnOnce(Option<(&Path, &mut dyn Write)>) -> Outcome<()>,
+) -> Outcome<()> {
+    match path {
+        Some(path) => write_whole(path, |file| write(Some((path, file)))),
+        None => write(None),
+    }
+}
+
+/// Writes `path` through `write`; the file appears under its name only when `write` succeeded,
+/// and a file already there stays untouched otherwise. A link is followed; standard output (`-`), a
+/// device or a pipe, which cannot be replaced, is written to as it stands.
+///
+/// # Errors
+/// What `write` returns, or the folder cannot be written.
+pub fn write_whole(path: &Path, write: impl FnOnce(&mut dyn Write) -> Outcome<()>) -> Outcome<()> {
+    if is_standard_stream(path) {
+        return write_through(path, io::stdout().lock(), write);
+    }
+    if !is_replaceable(path) {
+        let file = File::options().write(true).open(path);
+        let file = file.map_err(|error| cannot_write(path, error))?;
+        return write_through(path, file, write);
+    }
+    Written::new(path, write)?.rename()
+}
+
+/// Whether `path` names a file that is or may be there, not standard output, a device or a pipe.
+pub fn is_replaceable(path: &Path) -> bool {
+    !is_standard_stream(path) && std::fs::metadata(path).map_or(true, |old| old.is_file())
+}
+
+/// A file written whole that has not got its name yet; without [`Self::rename`] it goes.
+struct Written<'a> {
+    path: &'a Path,
+    target: PathBuf,
+    temporary: Temporary,
+}
+
+impl<'a> Written<'a> {
+    fn new(path: &'a Path, write: impl FnOnce(&mut dyn Write) -> Outcome<()>) -> Outcome<Self> {
+        let failed = |error: io::Error| cannot_write(path, error);
+        let old = std::fs::metadata(path).ok();
+        let target = std::fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+        let folder = match target.parent() {
+            Some(parent) if !parent.as_os_str().is_empty() => parent,
+            _ => Path::new("."),
+        };
+        if !folder.is_dir() {
+            let message = format!("cannot write: there is no folder {}", folder.display());
+            return Err(Failure::in_file(path, message));
+        }
+        let temporary = Temporary::new(folder).map_err(failed)?;
+        let file = temporary.file().map_err(failed)?;
+        write_through(path, file, write)?;
+        match old {
+            Some(old) => file.set_permissions(old.permissions()),
+            None => make_readable(file),
+        }
+        .map_err(failed)?;
+        Ok(Self {
+            path,
+            target,
+            temporary,
+        })
+    }
+
+    fn rename(self) -> Outcome<()> {
+        self.temporary
+            .rename(&self.target)
+            .map_err(|error| cannot_write(self.path, error))
+    }
+}
+
+fn write_through(
+    path: &Path,
+    writer: impl Write,
+    write: impl FnOnce(&mut dyn Write) -> Outcome<()>,
+) -> Outcome<()> {
+    let mut writer = BufWriter::new(writer);
+    write(&mut writer)?;
+    writer.flush().map_err(|error| cannot_write(path, error))
+}
+
+/// Writes `bytes` to `path`, whole or not at all.
+///
+/// # Errors
+/// The file cannot be written.
+pub fn write_bytes(path: &Path, bytes: &[u8]) -> Outcome<()> {
+    write_whole(path, |file| write_all(file, path, bytes))
+}
+
+/// Writes files that belong together: no one gets its name before all are written.
+///
+/// # Errors
+/// One cannot be written, or is there and not a file.
+pub fn write_together(files: &[(&Path, &[u8])]) -> Outcome<()> {
+    let written: Vec<Written<'_>> = files
+        .iter()
+        .map(|&(path, bytes)| {
+            if is_replaceable(path) {
+                Written::new(path, |file| write_all(file, path, bytes))
+            } else {
+                Err(Failure::in_file(path, "cannot write: it is not a file"))
+            }
+        })
+        .collect::<Outcome<_>>()?;
+    written.into_iter().try_for_each(Written::rename)
+}
+
+fn write_all(file: &mut dyn Write, path: &Path, bytes: &[u8]) -> Outcome<()> {
+    file.write_all(bytes)
+        .map_err(|error| cannot_write(path, error))
+}
+
+/// Writes each file, a name and its text, into `folder`, made where it is missing, and tells their
+/// paths.
+///
+/// # Errors
+/// The folder cannot be made or a file not be written.
+pub fn write_folder(folder: &Path, files: &[(&str, String)]) -> Outcome<Vec<String>> {
+    std::fs::create_dir_all(folder)
+        .map_err(|error| Failure::in_file(folder, format!("cannot make the folder: {error}")))?;
+    files
+        .iter()
+        .map(|(name, text)| {
+            let path = folder.join(name);
+            write_bytes(&path, text.as_bytes())?;
+            Ok(path.display().to_string())
+        })
+        .collect()
+}
+
+/// A temporary file is private to its owner; a result is for everyone who may read the folder.
+#[cfg(unix)]
+fn make_readable(file: &File) -> io::Result<()> {
+    use std::os::unix::fs::PermissionsExt;
+    file.set_permissions(std::fs::Permissions::from_mode(0o644))
+}
+
+#[cfg(not(unix))]
+fn make_readable(_: &File) -> io::Result<()> {
+    Ok(())
+}

@@ -1,0 +1,106 @@
+//! The header of a recording: where its columns are, or what kind of file it is instead.
+
+use std::io::Read;
+use std::path::Path;
+
+use csv::{ByteRecord, Reader};
+
+use crate::error::{Failure, Outcome};
+
+/// The columns a recording must have; others are passed over.
+pub(super) const COLUMNS: [&str; 2] = ["time_s", "displacement_m"];
+
+/// What a recording must be.
+const ACCEPTED: &str = "accepted is UTF-8 text with a header that names time_s and displacement_m, cells \
+                        separated by commas, numbers with a decimal point";
+
+/// Separators of other files: the byte and its name.
+const SEPARATORS: [(u8, &str); 2] = [(b';', "semicolons"), (b'\t', "tabs")];
+
+/// Places of [`COLUMNS`] in the header of `reader`.
+///
+/// # Errors
+/// An empty file, another kind of file, or a column that is missing or doubled.
+pub(super) fn columns<R: Read>(path: &Path, reader: &mut Reader<R>) -> Outcome<[usize; 2]> {
+    let header = reader
+        .byte_headers()
+        .map_err(|error| Failure::in_file(path, format!("cannot read: {error}")))?
+        .clone();
+    if header.is_empty() {
+        return Err(Failure::in_file(
+            path,
+            "empty; a header `time_s,displacement_m` and at least one row are needed",
+        ));
+    }
+    let places = COLUMNS.map(|name| places(&header, name));
+    if let Some(column) = places.iter().position(|places| places.len() > 1) {
+        let (name, times) = (COLUMNS[column], places[column].len());
+        return Err(Failure::in_file(
+            path,
+            format!("column {name} is in the header {times} times"),
+        ));
+    }
+    match [places[0].first(), places[1].first()] {
+        [Some(&time), Some(&displacement)] => Ok([time, displacement]),
+        [time, _] => {
+            let found = binary_kind(&header).map(str::to_owned).unwrap_or_else(|| {
+                let missing = COLUMNS[usize::from(time.is_some())];
+                let what = separators(&header, reader)
+                    .unwrap_or_else(|| format!("column {missing} is missing from the header"));
+                format!("{what} (found `{}`)", shown(&header))
+            });
+            Err(Failure::in_file(path, format!("{found}; {ACCEPTED}")))
+        }
+    }
+}
+
+fn places(header: &ByteRecord, name: &str) -> Vec<usize> {
+    (0..header.len())
+        .filter(|&index| &header[index] == name.as_bytes())
+        .collect()
+}
+
+/// The kind of file that begins so, where it is a known one that does not show as a line of text.
+fn binary_kind(header: &ByteRecord) -> Option<&'static str> {
+    let bytes = header.as_slice();
+    let zeros = count(bytes, 0);
+    if bytes.starts_with(b"\x1f\x8b") {
+        Some("the file is compressed with gzip (it starts with 1f 8b)")
+    } else if bytes.starts_with(b"\xff\xfe") || bytes.starts_with(b"\xfe\xff") {
+        Some("the file is UTF-16 text (it starts with that byte order mark)")
+    } else if zeros > 0 && 3 * zeros >= bytes.len() {
+        // Of Latin letters every second byte.
+        Some("the file is UTF-16 text (between the letters are zero bytes)")
+    } else {
+        None
+    }
+}
+
+/// What separates the cells of this header, where it is not a comma, and whether the numbers of the row
+/// after it have a decimal comma.
+fn separators<R: Read>(header: &ByteRecord, reader: &mut Reader<R>) -> Option<String> {
+    let bytes = header.as_slice();
+    let commas = header.len() - 1;
+    let (_, separator) = SEPARATORS
+        .into_iter()
+        .find(|(byte, _)| count(bytes, *byte) > commas)?;
+    let mut found = format!("the cells are separated by {separator}");
+    let mut row = ByteRecord::new();
+    // A row that has more commas than the header is an error of the reader, and read all the same.
+    let _ = reader.read_byte_record(&mut row);
+    if row.len() > header.len() {
+        found.push_str(" and the numbers have a decimal comma");
+    }
+    Some(found)
+}
+
+fn count(bytes: &[u8], wanted: u8) -> usize {
+    bytes.iter().filter(|&&byte| byte == wanted).count()
+}
+
+/// The begin of the header as a line of text.
+fn shown(header: &ByteRecord) -> String {
+    let cells: Vec<_> = header.iter().map(String::from_utf8_lossy).collect();
+    let line: String = cells.join(",").chars().take(80).collect();
+    line.escape_debug().to_string()
+}

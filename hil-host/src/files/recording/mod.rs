@@ -1,0 +1,179 @@
+//! Recorded motion as a logger writes it: time and displacement, uneven, with gaps.
+
+mod gaps;
+mod header;
+mod line_ends;
+
+use std::io::Read;
+use std::path::{Path, PathBuf};
+
+use csv::{ByteRecord, Reader, ReaderBuilder};
+
+use crate::error::{Failure, Outcome};
+use crate::files::input;
+use gaps::Intervals;
+pub use gaps::{GAP_IN_MEDIANS, Gap, Gaps};
+use header::COLUMNS;
+use line_ends::LineEnds;
+
+/// One row of a recording.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sample {
+    /// Time (s).
+    pub time_s: f64,
+    /// Relative displacement of the seats (m), positive in extension.
+    pub displacement_m: f64,
+}
+
+/// A recording read row by row in bounded memory: CSV with a header, `#` comment lines, LF or CRLF, with
+/// or without byte order mark, columns in any order.
+pub struct Recording {
+    path: PathBuf,
+    reader: Reader<LineEnds<Box<dyn Read>>>,
+    columns: [usize; 2],
+    record: ByteRecord,
+    last_time_s: Option<f64>,
+    intervals: Intervals,
+}
+
+impl Recording {
+    /// Opens the recording at `path`, `-` being standard input, and reads its header.
+    ///
+    /// # Errors
+    /// No readable file, an empty one, or a column that is missing or doubled.
+    pub fn open(path: &Path) -> Outcome<Self> {
+        Self::read(&input::name(path), input::open(path)?)
+    }
+
+    /// A recording from `source`, called `path` in errors.
+    ///
+    /// # Errors
+    /// As [`Recording::open`].
+    pub fn read(path: &Path, source: Box<dyn Read>) -> Outcome<Self> {
+        let mut reader = ReaderBuilder::new()
+            .comment(Some(b'#'))
+            .trim(csv::Trim::Headers)
+            .from_reader(LineEnds::new(source));
+        let columns = header::columns(path, &mut reader)?;
+        Ok(Self {
+            path: path.to_owned(),
+            reader,
+            columns,
+            record: ByteRecord::new(),
+            last_time_s: None,
+            intervals: Intervals::new(),
+        })
+    }
+
+    /// The next row; `None` at the end.
+    ///
+    /// # Errors
+    /// A cell that is no finite number, a row of other length, or time that does not grow; with line
+    /// and column.
+    pub fn next_sample(&mut self) -> Outcome<Option<Sample>> {
+        let more = self
+            .reader
+            .read_byte_record(&mut self.record)
+            .map_err(|error| self.explain(&error))?;
+        if !more {
+            if self.last_time_s.is_none() {
+                return Err(Failure::in_file(&self.path, "no row after the header"));
+            }
+            return Ok(None);
+        }
+        let time_s = self.number(0)?;
+        let displacement_m = self.number(1)?;
+        if let Some(last) = self.last_time_s {
+            if time_s <= last {
+                return Err(self.in_time(format!(
+                    "time {time_s} s does not grow; the row before has {last} s"
+                )));
+            }
+            self.intervals.add(last, time_s, self.line());
+        }
+        self.last_time_s = Some(time_s);
+        Ok(Some(Sample {
+            time_s,
+            displacement_m,
+        }))
+    }
+
+    /// All rows left.
+    ///
+    /// # Errors
+    /// As [`Recording::next_sample`].
+    pub fn read_all(&mut self) -> Outcome<Vec<Sample>> {
+        let mut samples = Vec::new();
+        while let Some(sample) = self.next_sample()? {
+            samples.push(sample);
+        }
+        Ok(samples)
+    }
+
+    /// Bytes read so far, for a progress bar.
+    pub fn position(&self) -> u64 {
+        self.reader.position().byte()
+    }
+
+    /// The gaps among the rows read so far.
+    pub fn gaps(&self) -> Gaps {
+        self.intervals.gaps()
+    }
+
+    /// A failure of the time in the row read last.
+    pub(crate) fn in_time(&self, message: String) -> Failure {
+        self.in_cell(0, message)
+    }
+
+    fn number(&self, column: usize) -> Outcome<f64> {
+        // Trimming in the reader would cost as much again as all of its reading.
+        let cell = self.record.get(self.columns[column]).unwrap_or_default();
+        let cell = cell.trim_ascii();
+        let text = std::str::from_utf8(cell).ok();
+        match text.and_then(|text| text.parse::<f64>().ok()) {
+            Some(number) if number.is_finite() => Ok(number),
+            _ => {
+                let hint = match text.map(|text| text.replacen(',', ".", 1).parse::<f64>()) {
+                    Some(Ok(_)) if cell.contains(&b',') => {
+                        "; it has a decimal comma, accepted is a decimal point"
+                    }
+                    _ => "",
+                };
+                let shown = String::from_utf8_lossy(&cell[..cell.len().min(40)]);
+                Err(self.in_cell(column, format!("`{shown}` is not a finite number{hint}")))
+            }
+        }
+    }
+
+    fn in_cell(&self, column: usize, message: String) -> Failure {
+        Failure::in_cell(&self.path, self.line(), COLUMNS[column], message)
+    }
+
+    /// Line of the row read last.
+    fn line(&self) -> u64 {
+        let (position, source) = (self.reader.position(), self.reader.get_ref());
+        position.line() - u64::from(source.has_passed_line_feed(position.byte()))
+    }
+
+    /// A failure of the reader at the row read last.
+    fn explain(&self, error: &csv::Error) -> Failure {
+        let csv::ErrorKind::UnequalLengths {
+            expected_len, len, ..
+        } = error.kind()
+        else {
+            return Failure::in_file(&self.path, format!("cannot read: {error}"));
+        };
+        let hint = if *len == 2 * expected_len {
+            "; numbers with a decimal comma have twice the cells, accepted is a decimal point"
+        } else {
+            ""
+        };
+        Failure::in_file(
+            &self.path,
+            format!(
+                "line {}: {len} cells where the header has {expected_len}{hint}",
+                self.line()
+            ),
+        )
+    }
+}

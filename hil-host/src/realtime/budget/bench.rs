@@ -1,0 +1,44 @@
+//! The work of a tick: dampers on a made motion.
+
+use std::hint::black_box;
+
+use dashpot_core::{Damper, DamperState, Real};
+
+use crate::study::excitation::Excitation;
+
+/// Dampers on a ride that ends where it began, a decay, then rest; over and over.
+pub struct Bench<T> {
+    damper: Damper<T>,
+    states: Vec<DamperState<T>>,
+    motion: Vec<T>,
+    tick: usize,
+}
+
+impl<T: Real> Bench<T> {
+    /// So many of `damper`, built for `step_s` (s).
+    pub fn new(damper: Damper<T>, dampers: u32, step_s: f64) -> Self {
+        let mut motion = Excitation::Ride.displacements_m(step_s);
+        let last = motion.len() - 1;
+        let end = motion[last];
+        for (tick, x) in motion.iter_mut().enumerate() {
+            *x -= end * tick as f64 / last as f64;
+        }
+        motion.extend(Excitation::Decay.displacements_m(step_s));
+        motion.resize(motion.len() + (1.0 / step_s) as usize, 0.0);
+        Self {
+            states: vec![damper.at_rest(T::ZERO); dampers as usize],
+            damper,
+            motion: motion.into_iter().map(T::from_f64).collect(),
+            tick: 0,
+        }
+    }
+
+    /// Steps every damper once.
+    pub fn tick(&mut self) {
+        let x = black_box(self.motion[self.tick]);
+        for state in &mut self.states {
+            black_box(self.damper.step(state, x));
+        }
+        self.tick = (self.tick + 1) % self.motion.len();
+    }
+}

@@ -1,0 +1,5 @@
+//! Real time on the host: ticks at a fixed rate, time spans and how they are spread, the budget of a step.
+
+pub mod budget;
+pub mod pacing;
+pub mod timing;

@@ -1,0 +1,133 @@
+//! What makes a thread real-time, each asked of the system and refused with a reason.
+
+use serde::Serialize;
+
+use crate::error::{Failure, Outcome};
+
+/// Real-time properties of the thread that steps.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
+pub struct RealtimeOptions {
+    /// Priority under SCHED_FIFO, 1 to 99.
+    pub fifo_priority: Option<u8>,
+    /// All memory locked, present and future: no page fault.
+    pub lock_memory: bool,
+    /// Core the thread is pinned to.
+    pub core: Option<usize>,
+}
+
+#[cfg(target_os = "linux")]
+impl RealtimeOptions {
+    /// Applies the options to the calling thread (memory: to the process), the core first.
+    ///
+    /// # Errors
+    /// The first option the system does not allow, with what is missing.
+    pub fn apply(&self) -> Outcome<()> {
+        if let Some(core) = self.core {
+            pin(core)?;
+        }
+        if self.lock_memory {
+            lock_memory()?;
+        }
+        if let Some(priority) = self.fifo_priority {
+            set_fifo(priority)?;
+        }
+        Ok(())
+    }
+}
+
+#[cfg(not(target_os = "linux"))]
+impl RealtimeOptions {
+    /// Applies the options to the calling thread.
+    ///
+    /// # Errors
+    /// Any option: they need Linux.
+    pub fn apply(&self) -> Outcome<()> {
+        let asked = [
+            ("--fifo", self.fifo_priority.is_some()),
+            ("--lock-memory", self.lock_memory),
+            ("--core", self.core.is_some()),
+        ];
+        match asked.iter().find(|(_, asked)| *asked) {
+            Some((option, _)) => Err(Failure::new(format!(
+                "{option}: not on this system, it needs Linux"
+            ))),
+            None => Ok(()),
+        }
+    }
+}
+
+#[cfg(target_os = "linux")]
+fn pin(core: usize) -> Outcome<()> {
+    use nix::sched::{CpuSet, sched_getaffinity, sched_setaffinity};
+    use nix::unistd::Pid;
+
+    let this_thread = Pid::from_raw(0);
+    let refused = |why: String| Failure::new(format!("--core {core}: {why}"));
+    let granted = sched_getaffinity(this_thread)
+        .map_err(|error| refused(format!("the system does not tell its cores: {error}")))?;
+    let cores: Vec<usize> = (0..CpuSet::count())
+        .filter(|core| granted.is_set(*core).unwrap_or(false))
+        .collect();
+    if !cores.contains(&core) {
+        let names: Vec<String> = cores.iter().map(usize::to_string).collect();
+        return Err(Failure::wrong_use(format!(
+            "--core {core}: no core this process may use, allowed: {}",
+            names.join(", ")
+        )));
+    }
+    let mut wanted = CpuSet::new();
+    wanted
+        .set(core)
+        .and_then(|()| sched_setaffinity(this_thread, &wanted))
+        .map_err(|error| refused(format!("the system refused: {error}")))
+}
+
+#[cfg(target_os = "linux")]
+fn lock_memory() -> Outcome<()> {
+    use nix::sys::mman::{MlockAllFlags, mlockall};
+    use nix::sys::resource::{RLIM_INFINITY, Resource, getrlimit};
+
+    mlockall(MlockAllFlags::MCL_CURRENT | MlockAllFlags::MCL_FUTURE).map_err(|error| {
+        let limit = match getrlimit(Resource::RLIMIT_MEMLOCK) {
+            Ok((RLIM_INFINITY, _)) => "unlimited".to_owned(),
+            Ok((soft, _)) => format!("{soft} bytes"),
+            Err(error) => error.to_string(),
+        };
+        Failure::new(format!(
+            "--lock-memory: the system refused ({error}); needs CAP_IPC_LOCK, or RLIMIT_MEMLOCK \
+             (`ulimit -l`, now {limit}) above the size of the process"
+        ))
+    })
+}
+
+#[cfg(target_os = "linux")]
+fn set_fifo(priority: u8) -> Outcome<()> {
+    use nix::errno::Errno;
+    use nix::sys::resource::{Resource, getrlimit};
+    use thread_priority::{
+        Error, RealtimeThreadSchedulePolicy, ThreadPriority, ThreadPriorityValue,
+        ThreadSchedulePolicy, set_thread_priority_and_policy, thread_native_id,
+    };
+
+    let refused = |why: String| {
+        let limit = getrlimit(Resource::RLIMIT_RTPRIO)
+            .map_or_else(|error| error.to_string(), |(soft, _)| soft.to_string());
+        Failure::new(format!(
+            "--fifo {priority}: the system refused ({why}); needs CAP_SYS_NICE, or RLIMIT_RTPRIO \
+             (`ulimit -r`, now {limit}) of at least {priority}"
+        ))
+    };
+    let wanted = ThreadPriorityValue::try_from(priority)
+        .map_err(|_| Failure::new(format!("--fifo {priority}: allowed: 1 to 99")))?;
+    set_thread_priority_and_policy(
+        thread_native_id(),
+        ThreadPriority::Crossplatform(wanted),
+        ThreadSchedulePolicy::Realtime(RealtimeThreadSchedulePolicy::Fifo),
+    )
+    .map_err(|error| {
+        refused(match error {
+            Error::OS(number) => Errno::from_raw(number).to_string(),
+            other => other.to_string(),
+        })
+    })
+}

@@ -1,0 +1,45 @@
+//! Force loops: force over displacement and over velocity, side by side.
+
+use plotters::prelude::SeriesLabelPosition;
+use plotters::style::RGBColor;
+
+use super::curves::Curve;
+use super::sheet::{Panel, Scale};
+use crate::study::bench_test::Cycle;
+
+/// Two panels: force (kN) over displacement (mm) and over velocity (m/s). The legend, if there is one,
+/// stands in the second, whose upper left is free.
+pub(crate) fn panels(
+    displacement: Vec<Curve>,
+    velocity: Vec<Curve>,
+    legend: Option<SeriesLabelPosition>,
+) -> Vec<Panel> {
+    let panel = |x: &str, legend, curves| Panel {
+        title: String::new(),
+        x_label: x.into(),
+        y_label: "force, kN".into(),
+        legend,
+        sides: true,
+        scale: Scale::Linear,
+        curves,
+    };
+    vec![
+        panel("displacement, mm", None, displacement),
+        panel("velocity, m/s", legend, velocity),
+    ]
+}
+
+/// A settled cycle as a closed curve of either panel.
+pub(crate) fn of_cycle(name: &str, colour: RGBColor, cycle: &Cycle) -> (Curve, Curve) {
+    let forces = cycle.forces_n.iter().map(|force| force * 1e-3);
+    let close = |abscissas: Vec<f64>| {
+        let points = abscissas.into_iter().zip(forces.clone());
+        let closed = points.clone().chain(points.take(1));
+        Curve::new(name, colour, closed.collect::<Vec<_>>())
+    };
+    let displacements = cycle.displacements_m.iter().map(|x| x * 1e3);
+    (
+        close(displacements.collect()),
+        close(cycle.velocities_m_per_s()),
+    )
+}

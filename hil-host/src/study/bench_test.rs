@@ -1,0 +1,185 @@
+//! Bench test: a harmonic motion until the force repeats, and the indices of one settled cycle.
+
+use std::f64::consts::TAU;
+
+use dashpot_core::{DamperParameters, Status};
+use serde::Serialize;
+
+use crate::error::{Failure, Outcome};
+
+/// A cycle has settled when no force differs from the cycle before by more than this share of the peak.
+const SETTLED: f64 = 1e-9;
+
+/// A damper that has not settled by then does not.
+const MOST_CYCLES: usize = 200;
+
+/// A harmonic motion `x = A sin(2 pi f t)` of the seats.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Harmonic {
+    /// Amplitude A (m).
+    pub amplitude_m: f64,
+    /// Frequency f (Hz).
+    pub frequency_hz: f64,
+}
+
+impl Harmonic {
+    /// Nominal motion of the source paper's Table 5: 24.875 mm at 0.64 Hz, 0.1 m/s.
+    pub const TABLE_5: Self = Self {
+        amplitude_m: 24.875e-3,
+        frequency_hz: 0.64,
+    };
+
+    /// Peak velocity `2 pi f A` (m/s).
+    pub fn peak_velocity_m_per_s(&self) -> f64 {
+        TAU * self.frequency_hz * self.amplitude_m
+    }
+
+    fn check(&self) -> Outcome<()> {
+        for (name, value, high, unit) in [
+            ("--amplitude-m", self.amplitude_m, 1.0, "m"),
+            ("--frequency-hz", self.frequency_hz, 1000.0, "Hz"),
+        ] {
+            if !(value > 0.0 && value <= high) {
+                return Err(Failure::wrong_use(format!(
+                    "{name}: {value}, allowed: above 0 and at most {high} {unit}"
+                )));
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Indices of one settled cycle.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Indices {
+    /// Largest force in extension F_e (N).
+    pub max_extension_force_n: f64,
+    /// Largest force in compression F_c (N), as a magnitude.
+    pub max_compression_force_n: f64,
+    /// `(F_e - F_c)/(F_e + F_c)` (1); `None` without force.
+    pub asymmetry_rate: Option<f64>,
+    /// Energy taken from the motion in the cycle, the integral of F dx (J).
+    pub energy_per_cycle_j: f64,
+    /// Mean of both largest forces over the peak velocity (N s/m).
+    pub damping_coefficient_n_s_per_m: f64,
+}
+
+/// One settled cycle: displacement (m) and force (N) at each step.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Cycle {
+    /// The motion.
+    pub motion: Harmonic,
+    /// Displacements (m), from the first step after zero.
+    pub displacements_m: Vec<f64>,
+    /// Forces (N) at them.
+    pub forces_n: Vec<f64>,
+    /// Step used (s): the one asked for, shortened to a whole number of steps a cycle.
+    pub step_s: f64,
+    /// Cycles run until the force repeated.
+    pub cycles: usize,
+}
+
+/// Runs a damper in double precision through `motion` with steps of at most `step_s` (s) until the
+/// force repeats.
+///
+/// # Errors
+/// A motion or step outside its range or faster than the damper's limit; a damper that does not build;
+/// a force that does not repeat.
+///
+/// ```
+/// use dashpot_hil::files::damper;
+/// use dashpot_hil::study::bench_test;
+/// let damper = damper::load("reduced-vertical", &["mount.clearance_m=0.0".into()])?;
+/// let motion = bench_test::Harmonic { amplitude_m: 1e-3, frequency_hz: 1.0 };
+/// let indices = bench_test::settle(&damper, motion, 1e-4)?.indices();
+/// // A spring K behind a damper C: C w A/sqrt(1 + (w C/K)^2).
+/// assert!((indices.max_extension_force_n / 750.65 - 1.0).abs() < 1e-4);
+/// # Ok::<(), dashpot_hil::error::Failure>(())
+/// ```
+pub fn settle(parameters: &DamperParameters, motion: Harmonic, step_s: f64) -> Outcome<Cycle> {
+    motion.check()?;
+    if !(1e-6..=2e-2).contains(&step_s) {
+        return Err(Failure::wrong_use(format!(
+            "step: {step_s} s, allowed: 1e-6 to 2e-2 s"
+        )));
+    }
+    let period = 1.0 / motion.frequency_hz;
+    let ticks = (period / step_s - 1e-9).ceil();
+    if !(20.0..=2e7).contains(&ticks) {
+        return Err(Failure::wrong_use(format!(
+            "{ticks} steps of {step_s} s a cycle, allowed: 20 to 2e7; choose another step or frequency"
+        )));
+    }
+    let ticks = ticks as usize;
+    let step_s = period / ticks as f64;
+    let damper = parameters.build::<f64>(step_s)?;
+    let displacements: Vec<f64> = (1..=ticks)
+        .map(|tick| motion.amplitude_m * (TAU * tick as f64 / ticks as f64).sin())
+        .collect();
+    let mut state = damper.at_rest(0.0);
+    let mut forces = vec![0.0; ticks];
+    for cycle in 1..=MOST_CYCLES {
+        let (mut peak, mut change) = (0.0_f64, 0.0_f64);
+        for (force, &x) in forces.iter_mut().zip(&displacements) {
+            let before = *force;
+            *force = damper.step(&mut state, x);
+            peak = peak.max(force.abs());
+            change = change.max((*force - before).abs());
+        }
+        if state.status().contains(Status::INPUT_LIMITED) {
+            return Err(Failure::wrong_use(format!(
+                "the motion reaches {:.3} m/s, allowed: limits.rate_m_per_s = {} m/s",
+                motion.peak_velocity_m_per_s(),
+                parameters.limits.rate_m_per_s
+            )));
+        }
+        if cycle > 1 && change <= SETTLED * peak {
+            return Ok(Cycle {
+                motion,
+                displacements_m: displacements,
+                forces_n: forces,
+                step_s,
+                cycles: cycle,
+            });
+        }
+    }
+    Err(Failure::new(format!(
+        "the force does not repeat within {MOST_CYCLES} cycles of {} m at {} Hz",
+        motion.amplitude_m, motion.frequency_hz
+    )))
+}
+
+impl Cycle {
+    /// Velocities (m/s) at the displacements: `2 pi f A cos(2 pi f t)`.
+    pub fn velocities_m_per_s(&self) -> Vec<f64> {
+        let ticks = self.displacements_m.len();
+        let peak = self.motion.peak_velocity_m_per_s();
+        (1..=ticks)
+            .map(|tick| peak * (TAU * tick as f64 / ticks as f64).cos())
+            .collect()
+    }
+
+    /// The indices of this cycle; its energy by the trapezoidal rule.
+    pub fn indices(&self) -> Indices {
+        let (forces, x) = (&self.forces_n, &self.displacements_m);
+        let extension = forces.iter().fold(0.0, |most: f64, &force| most.max(force));
+        let compression = forces
+            .iter()
+            .fold(0.0, |most: f64, &force| most.max(-force));
+        let ticks = forces.len();
+        let energy = (0..ticks)
+            .map(|tick| {
+                let last = (tick + ticks - 1) % ticks;
+                0.5 * (forces[tick] + forces[last]) * (x[tick] - x[last])
+            })
+            .sum();
+        let sum = extension + compression;
+        Indices {
+            max_extension_force_n: extension,
+            max_compression_force_n: compression,
+            asymmetry_rate: (sum > 0.0).then(|| (extension - compression) / sum),
+            energy_per_cycle_j: energy,
+            damping_coefficient_n_s_per_m: 0.5 * sum / self.motion.peak_velocity_m_per_s(),
+        }
+    }
+}

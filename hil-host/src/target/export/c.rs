@@ -1,0 +1,83 @@
+//! C source with the bytes of a damper as a constant in flash, and the header that declares it.
+
+use std::fmt::Write;
+
+use dashpot_core::Damper;
+
+use super::{Provenance, Word, name};
+use crate::error::{Failure, Outcome};
+
+/// C source of `const uint8_t NAME[]`, to compile on its own or to include in one file; C99 and C++11.
+///
+/// The array is what `dashpot_damper_init` of the C library takes.
+///
+/// # Errors
+/// The scalar is not `f32`; `constant` is no name of a constant, or one that headers may define.
+pub fn c_source<T: Word>(
+    constant: &str,
+    damper: &Damper<T>,
+    provenance: &Provenance<'_>,
+) -> Outcome<String> {
+    let mut text = declaration(constant, damper, provenance)?;
+    let image = T::image(damper);
+    text.push_str(&format!(
+        "\nconst uint8_t {constant}[{}] = {{\n",
+        image.len()
+    ));
+    for row in image.chunks(16) {
+        let bytes: Vec<String> = row.iter().map(|byte| format!("0x{byte:02x}")).collect();
+        // Writing to a String does not fail.
+        let _ = writeln!(text, "    {},", bytes.join(", "));
+    }
+    text.push_str("};\n");
+    Ok(text)
+}
+
+/// C header that declares the array of [`c_source`] with its size; C++ too.
+///
+/// # Errors
+/// Those of [`c_source`].
+pub fn c_header<T: Word>(
+    constant: &str,
+    damper: &Damper<T>,
+    provenance: &Provenance<'_>,
+) -> Outcome<String> {
+    let declaration = declaration(constant, damper, provenance)?;
+    let guard = format!("{}{constant}_H", name::C_LIBRARY_PREFIX);
+    Ok(format!(
+        "#ifndef {guard}\n#define {guard}\n\n{declaration}\n#endif\n"
+    ))
+}
+
+/// Where the damper is from, and its array declared: without a declaration before it a constant of C++
+/// would be of its own file only.
+fn declaration<T: Word>(
+    constant: &str,
+    damper: &Damper<T>,
+    provenance: &Provenance<'_>,
+) -> Outcome<String> {
+    name::check_c(constant)?;
+    if T::NAME != f32::NAME {
+        return Err(Failure::wrong_use(format!(
+            "--scalar {}: the C library is of single precision, allowed with --lang c: f32",
+            T::NAME
+        )));
+    }
+    let length = T::image(damper).len();
+    let stored = format!("{length} bytes");
+    let needs = format!("the C library of dashpot {}", env!("CARGO_PKG_VERSION"));
+    Ok(format!(
+        "{}\n\
+         #include <stdint.h>\n\n\
+         #ifdef __cplusplus\n\
+         extern \"C\" {{\n\
+         #endif\n\n\
+         // {}\n\
+         extern const uint8_t {constant}[{length}];\n\n\
+         #ifdef __cplusplus\n\
+         }}\n\
+         #endif\n",
+        provenance.comment(damper, &stored, &needs),
+        provenance.title(),
+    ))
+}

@@ -1,0 +1,218 @@
+//! The host's end of the link: one request at a time, repeated until it is answered.
+
+use std::time::{Duration, Instant};
+
+use dashpot_core::Damper;
+use dashpot_core::link::{
+    FrameReader, Header, PROTOCOL, RESPONSE_BYTES, Refusal, Request, Response, Scalar, Welcome,
+    request_frame,
+};
+use serde::Serialize;
+
+use super::{Link, LinkError};
+use crate::error::Failure;
+
+/// What a byte may take on the way to a target behind a bridge, which has it from the host at once: 87 us at
+/// 115200 bit/s.
+const BYTE_TIME: Duration = Duration::from_micros(100);
+
+/// Session numbers to try: the first may be the open one, by chance or after an earlier run.
+const MOST_SESSIONS: u32 = 10;
+
+/// How long to wait for an answer, and how often to ask.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Patience {
+    /// Wait for each try, beside the time its bytes take.
+    pub timeout: Duration,
+    /// Tries of a request, 1 at least.
+    pub tries: u32,
+}
+
+impl Default for Patience {
+    /// Eight tries of a fifth of a second.
+    fn default() -> Self {
+        Self {
+            timeout: Duration::from_millis(200),
+            tries: 8,
+        }
+    }
+}
+
+impl Patience {
+    /// How long to wait for the answer to a frame of so many bytes.
+    fn for_frame(&self, bytes: usize) -> Duration {
+        self.timeout + BYTE_TIME.saturating_mul(bytes as u32)
+    }
+}
+
+/// Faults of the link that the host noticed; every one of them was survived.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct LinkFaults {
+    /// Tries without an answer in time.
+    pub timeouts: u64,
+    /// Requests sent again under the same sequence number.
+    pub repeated_requests: u64,
+    /// Requests that the target received broken.
+    pub corrupt_requests: u64,
+    /// Answers received broken.
+    pub corrupt_answers: u64,
+    /// Answers to requests no longer asked.
+    pub stale_answers: u64,
+    /// Sessions that the target no longer knew, as after a reset.
+    pub lost_sessions: u64,
+}
+
+/// Asks a target over a link.
+pub struct Client<L> {
+    link: L,
+    patience: Patience,
+    header: Header,
+    faults: LinkFaults,
+    reader: FrameReader<RESPONSE_BYTES>,
+    received: Vec<u8>,
+    answer: Vec<u8>,
+}
+
+impl<L: Link> Client<L> {
+    /// A client whose first session is the one after `session`; a number drawn for each run keeps it apart
+    /// from the last run's.
+    pub fn new(link: L, patience: Patience, session: u16) -> Self {
+        Self {
+            link,
+            patience,
+            header: Header {
+                session,
+                sequence: 0,
+            },
+            faults: LinkFaults::default(),
+            reader: FrameReader::new(),
+            received: Vec::new(),
+            answer: Vec::new(),
+        }
+    }
+
+    /// Faults noticed so far.
+    pub fn faults(&self) -> LinkFaults {
+        self.faults
+    }
+
+    /// The link.
+    pub fn link(&mut self) -> &mut L {
+        &mut self.link
+    }
+
+    /// Opens a new session.
+    ///
+    /// # Errors
+    /// No answer, a target of another protocol, or one whose dampers are not this host's in single precision.
+    pub fn hello(&mut self) -> Result<Welcome<'_>, LinkError> {
+        let hello = Request::Hello { protocol: PROTOCOL };
+        let mut tries = 1;
+        loop {
+            self.header.session = self.header.session.wrapping_add(1);
+            match self.exchange(&hello) {
+                Err(LinkError::SessionLost) if tries < MOST_SESSIONS => tries += 1,
+                done => break done?,
+            }
+        }
+        let Response::Welcome(welcome) = self.response()? else {
+            return Err(LinkError::Unreadable);
+        };
+        if welcome.scalar != Scalar::F32 {
+            return Err(LinkError::Broken(Failure::new(
+                "the target steps in f64, this host in f32",
+            )));
+        }
+        if welcome.image_bytes as usize != Damper::<f32>::IMAGE_BYTES {
+            return Err(LinkError::Unreadable);
+        }
+        Ok(welcome)
+    }
+
+    /// Asks until there is an answer. The target carries the request out once, however often it is sent.
+    ///
+    /// # Errors
+    /// No answer, or a refusal.
+    pub fn request(&mut self, request: &Request<'_>) -> Result<Response<'_>, LinkError> {
+        self.exchange(request)?;
+        self.response()
+    }
+
+    /// Asks until the answer is there and no refusal.
+    fn exchange(&mut self, request: &Request<'_>) -> Result<(), LinkError> {
+        self.header.sequence = self.header.sequence.wrapping_add(1);
+        let frame = request_frame(self.header, request);
+        let frame = frame.bytes();
+        if frame.is_empty() {
+            return Err(LinkError::Broken(Failure::new(
+                "a request is too long for a frame",
+            )));
+        }
+        for again in 0..self.patience.tries.max(1) {
+            self.faults.repeated_requests += u64::from(again > 0);
+            self.link.send(frame).map_err(LinkError::Broken)?;
+            if self.wait(self.patience.for_frame(frame.len()))? {
+                return match self.response()? {
+                    Response::Refused(Refusal::NoSession | Refusal::OutOfOrder(_)) => {
+                        self.faults.lost_sessions += 1;
+                        Err(LinkError::SessionLost)
+                    }
+                    Response::Refused(refusal) => Err(LinkError::Refused(refusal)),
+                    _ => Ok(()),
+                };
+            }
+        }
+        Err(LinkError::Silent(self.patience))
+    }
+
+    /// The last answer.
+    fn response(&self) -> Result<Response<'_>, LinkError> {
+        let answer = parse(&self.answer).ok_or(LinkError::Unreadable)?;
+        Ok(answer.1)
+    }
+
+    /// Waits up to `time` for the answer to the last request; false when it should be sent again.
+    fn wait(&mut self, time: Duration) -> Result<bool, LinkError> {
+        let deadline = Instant::now() + time;
+        loop {
+            let received = std::mem::take(&mut self.received);
+            for (index, byte) in received.iter().enumerate() {
+                let message = match self.reader.push(*byte) {
+                    None => continue,
+                    Some(Err(_)) => {
+                        self.faults.corrupt_answers += 1;
+                        continue;
+                    }
+                    Some(Ok(message)) => message.bytes,
+                };
+                let (header, response) = parse(message).ok_or(LinkError::Unreadable)?;
+                if response == Response::Refused(Refusal::Corrupt) {
+                    self.faults.corrupt_requests += 1;
+                    self.received = received[index + 1..].to_vec();
+                    return Ok(false);
+                }
+                if header == self.header {
+                    self.answer = message.to_vec();
+                    self.received = received[index + 1..].to_vec();
+                    return Ok(true);
+                }
+                self.faults.stale_answers += 1;
+            }
+            let left = deadline.saturating_duration_since(Instant::now());
+            let mut buffer = [0; 1024];
+            let count = self
+                .link
+                .receive(&mut buffer, left)
+                .map_err(LinkError::Broken)?;
+            if count == 0 {
+                self.faults.timeouts += 1;
+                return Ok(false);
+            }
+            self.received.extend_from_slice(&buffer[..count]);
+        }
+    }
+}
+
+fn parse(message: &[u8]) -> Option<(Header, Response<'_>)> {
+    postcard::from_bytes(message).ok()
+}

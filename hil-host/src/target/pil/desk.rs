@@ -1,0 +1,77 @@
+//! The firmware's device without a processor: the same code, on the desk.
+
+use std::collections::VecDeque;
+use std::time::Duration;
+
+use dashpot_core::Damper;
+use dashpot_core::link::{Clock, Device};
+
+use super::Link;
+use crate::error::Outcome;
+
+/// A device of `N` dampers in this process. It answers at once or, to a broken line, not at all: no wait is
+/// real.
+#[derive(Debug)]
+pub struct Desk<const N: usize> {
+    bank: [Damper<f32>; N],
+    device: Box<Device<N>>,
+    answers: VecDeque<u8>,
+}
+
+impl<const N: usize> Desk<N> {
+    /// A device with these dampers after power on.
+    pub fn new(bank: [Damper<f32>; N]) -> Self {
+        Self {
+            device: power_on(&bank),
+            bank,
+            answers: VecDeque::new(),
+        }
+    }
+
+    /// The device.
+    pub fn device(&mut self) -> &mut Device<N> {
+        &mut self.device
+    }
+}
+
+fn power_on<const N: usize>(bank: &[Damper<f32>; N]) -> Box<Device<N>> {
+    let clock = Clock {
+        now: || 0,
+        hz: 1_000_000,
+    };
+    let mut device = Box::new(Device::new());
+    device.start(&bank.each_ref(), clock);
+    device
+}
+
+impl<const N: usize> Link for Desk<N> {
+    fn send(&mut self, bytes: &[u8]) -> Outcome<()> {
+        for byte in bytes {
+            let mut answered = self.device.receive(*byte);
+            while self.device.is_busy() {
+                answered = self.device.advance();
+            }
+            if answered {
+                self.answers.extend(self.device.response());
+            }
+        }
+        Ok(())
+    }
+
+    fn receive(&mut self, buffer: &mut [u8], _: Duration) -> Outcome<usize> {
+        let count = buffer.len().min(self.answers.len());
+        for (place, byte) in buffer.iter_mut().zip(self.answers.drain(..count)) {
+            *place = byte;
+        }
+        Ok(count)
+    }
+
+    fn reset_target(&mut self) -> Outcome<()> {
+        self.device = power_on(&self.bank);
+        Ok(())
+    }
+
+    fn can_reset(&self) -> bool {
+        true
+    }
+}

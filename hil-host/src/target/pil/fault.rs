@@ -1,0 +1,246 @@
+//! Faults on a link, made on purpose: a wrapper around any other.
+
+use std::collections::VecDeque;
+use std::str::FromStr;
+use std::time::{Duration, Instant};
+
+use fastrand::Rng;
+use serde::Serialize;
+
+use super::Link;
+use crate::error::{Failure, Outcome};
+
+/// Probability of each fault per frame (1), both ways.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct FaultRates {
+    /// The frame is lost.
+    pub drop: f64,
+    /// One bit of the frame is wrong.
+    pub corrupt: f64,
+    /// The frame arrives only after its receiver stopped waiting.
+    pub delay: f64,
+    /// The frame arrives twice.
+    pub duplicate: f64,
+    /// The frame arrives after the one sent after it.
+    pub reorder: f64,
+    /// The target is reset before the frame reaches it.
+    pub reset: f64,
+}
+
+const KINDS: &str = "drop, corrupt, delay, duplicate, reorder, reset";
+
+impl FromStr for FaultRates {
+    type Err = String;
+
+    /// `drop=0.01,reset=0.001`: kinds and probabilities per frame.
+    fn from_str(text: &str) -> Result<Self, String> {
+        let mut rates = Self::default();
+        for part in text.split(',') {
+            let (kind, rate) = part
+                .split_once('=')
+                .ok_or_else(|| format!("`{part}` is not KIND=PROBABILITY"))?;
+            let place = match kind {
+                "drop" => &mut rates.drop,
+                "corrupt" => &mut rates.corrupt,
+                "delay" => &mut rates.delay,
+                "duplicate" => &mut rates.duplicate,
+                "reorder" => &mut rates.reorder,
+                "reset" => &mut rates.reset,
+                _ => return Err(format!("`{kind}` is no fault; allowed: {KINDS}")),
+            };
+            *place = match rate.parse() {
+                Ok(rate) if (0.0..=0.5).contains(&rate) => rate,
+                _ => return Err(format!("{kind}: `{rate}` is not within 0 to 0.5")),
+            };
+        }
+        let sum = rates.drop + rates.corrupt + rates.delay + rates.duplicate + rates.reorder;
+        if sum + rates.reset > 1.0 {
+            return Err("the probabilities add up to more than 1".into());
+        }
+        Ok(rates)
+    }
+}
+
+/// Faults made so far.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct FaultCounts {
+    /// Frames lost.
+    pub dropped: u64,
+    /// Frames with a wrong bit.
+    pub corrupted: u64,
+    /// Frames late.
+    pub delayed: u64,
+    /// Frames twice.
+    pub duplicated: u64,
+    /// Frames after the one sent after them.
+    pub reordered: u64,
+    /// Resets of the target.
+    pub resets: u64,
+}
+
+/// A link that makes faults, the same ones for the same seed and the same frames.
+pub struct FaultyLink<L> {
+    link: L,
+    rates: FaultRates,
+    random: Rng,
+    counts: FaultCounts,
+    to_target: Way,
+    to_host: Way,
+    /// From the target, its frame not yet ended.
+    partial: Vec<u8>,
+    ready: VecDeque<u8>,
+}
+
+/// One way of the link.
+#[derive(Default)]
+struct Way {
+    /// Before the next frame.
+    late: Vec<Vec<u8>>,
+    /// After the next frame.
+    after_next: Vec<Vec<u8>>,
+}
+
+impl<L: Link> FaultyLink<L> {
+    /// Wraps `link`.
+    ///
+    /// # Errors
+    /// Resets are asked of a link that cannot reset its target.
+    pub fn new(link: L, rates: FaultRates, seed: u64) -> Outcome<Self> {
+        if rates.reset > 0.0 && !link.can_reset() {
+            return Err(Failure::wrong_use(
+                "fault `reset`: this link cannot reset its target; `--link qemu` can",
+            ));
+        }
+        Ok(Self {
+            link,
+            rates,
+            random: Rng::with_seed(seed),
+            counts: FaultCounts::default(),
+            to_target: Way::default(),
+            to_host: Way::default(),
+            partial: Vec::new(),
+            ready: VecDeque::new(),
+        })
+    }
+
+    /// The link inside.
+    pub fn inner(&mut self) -> &mut L {
+        &mut self.link
+    }
+
+    /// What arrives when `frame` is sent.
+    fn pass(&mut self, frame: Vec<u8>, towards_target: bool) -> Vec<Vec<u8>> {
+        let way = if towards_target {
+            &mut self.to_target
+        } else {
+            &mut self.to_host
+        };
+        let mut arriving = std::mem::take(&mut way.late);
+        let after = std::mem::take(&mut way.after_next);
+        let rates = &self.rates;
+        let kinds = [
+            rates.drop,
+            rates.corrupt,
+            rates.delay,
+            rates.duplicate,
+            rates.reorder,
+        ];
+        let mut left = self.random.f64();
+        let kind = kinds.iter().position(|rate| {
+            left -= rate;
+            left < 0.0
+        });
+        let counts = &mut self.counts;
+        match kind {
+            Some(0) => counts.dropped += 1,
+            Some(1) => {
+                counts.corrupted += 1;
+                let mut frame = frame;
+                let place = self.random.usize(..frame.len());
+                frame[place] ^= 1 << self.random.u32(..8);
+                arriving.push(frame);
+            }
+            Some(2) => {
+                counts.delayed += 1;
+                way.late.push(frame);
+            }
+            Some(3) => {
+                counts.duplicated += 1;
+                arriving.push(frame.clone());
+                arriving.push(frame);
+            }
+            Some(4) => {
+                counts.reordered += 1;
+                way.after_next.push(frame);
+            }
+            _ => arriving.push(frame),
+        }
+        arriving.extend(after);
+        arriving
+    }
+
+    fn hand_over(&mut self, buffer: &mut [u8]) -> usize {
+        let count = buffer.len().min(self.ready.len());
+        for (place, byte) in buffer.iter_mut().zip(self.ready.drain(..count)) {
+            *place = byte;
+        }
+        count
+    }
+}
+
+impl<L: Link> Link for FaultyLink<L> {
+    /// Takes `bytes` as one frame.
+    fn send(&mut self, bytes: &[u8]) -> Outcome<()> {
+        if bytes.is_empty() {
+            return Ok(());
+        }
+        if self.random.f64() < self.rates.reset {
+            self.counts.resets += 1;
+            self.reset_target()?;
+        }
+        for frame in self.pass(bytes.to_vec(), true) {
+            self.link.send(&frame)?;
+        }
+        Ok(())
+    }
+
+    fn receive(&mut self, buffer: &mut [u8], timeout: Duration) -> Outcome<usize> {
+        let deadline = Instant::now() + timeout;
+        while self.ready.is_empty() {
+            let left = deadline.saturating_duration_since(Instant::now());
+            let mut bytes = [0; 1024];
+            let count = self.link.receive(&mut bytes, left)?;
+            for byte in &bytes[..count] {
+                self.partial.push(*byte);
+                if *byte == 0 {
+                    let frame = std::mem::take(&mut self.partial);
+                    let arriving = self.pass(frame, false);
+                    self.ready.extend(arriving.into_iter().flatten());
+                }
+            }
+            if count == 0 {
+                let late = std::mem::take(&mut self.to_host.late);
+                self.ready.extend(late.into_iter().flatten());
+                return Ok(0);
+            }
+        }
+        Ok(self.hand_over(buffer))
+    }
+
+    fn reset_target(&mut self) -> Outcome<()> {
+        self.partial.clear();
+        self.link.reset_target()
+    }
+
+    fn can_reset(&self) -> bool {
+        self.link.can_reset()
+    }
+
+    fn instructions_per_s(&self) -> Option<f64> {
+        self.link.instructions_per_s()
+    }
+
+    fn faults_made(&self) -> FaultCounts {
+        self.counts
+    }
+}

@@ -1,0 +1,4 @@
+//! Numerical tools of this crate.
+
+pub mod elliptic;
+pub mod spline;

@@ -1,0 +1,150 @@
+//! Rolling radius difference and equivalent conicity against closed forms and another integration.
+
+use dashpot_rail::contact::pair::{Installation, Pair};
+use dashpot_rail::indices::conicity::{CONTACT_DISTANCE, RollingRadius};
+use dashpot_rail::profile::Profile;
+use dashpot_rail::profile::uic60;
+
+const RADIUS: f64 = 0.46;
+
+#[test]
+fn a_cone_has_its_own_conicity_at_every_amplitude() {
+    let cone = RollingRadius::from_fn(10e-3, 400, |y| 2.0 * 0.05 * y);
+    for amplitude in [0.2e-3, 1e-3, 3e-3, 9.9e-3] {
+        let conicity = cone.conicity(amplitude, RADIUS).unwrap();
+        assert!((conicity - 0.05).abs() < 1e-6, "{conicity}");
+    }
+    assert_eq!(cone.conicity(10.2e-3, RADIUS), None);
+}
+
+#[test]
+fn a_shifted_cone_swings_about_its_own_line() {
+    let cone = RollingRadius::from_fn(10e-3, 400, |y| 2.0 * 0.1 * (y - 1.3e-3));
+    assert!((cone.rolling_line().unwrap() - 1.3e-3).abs() < 1e-12);
+    assert!((cone.conicity(3e-3, RADIUS).unwrap() - 0.1).abs() < 1e-6);
+}
+
+#[test]
+fn a_step_has_the_wavelength_of_falling_to_and_fro() {
+    // Constant difference c either side: quarter wave sqrt(2 A e r / c), so tan g = pi^2 c / (16 A).
+    let c = 0.4e-3;
+    let step = RollingRadius::from_fn(10e-3, 20_000, |y| c * y.signum());
+    for amplitude in [1e-3, 4e-3] {
+        let expected = std::f64::consts::PI.powi(2) * c / (16.0 * amplitude);
+        let conicity = step.conicity(amplitude, RADIUS).unwrap();
+        assert!(
+            (conicity / expected - 1.0).abs() < 1e-3,
+            "{conicity} {expected}"
+        );
+    }
+}
+
+#[test]
+fn a_cubic_has_the_period_of_its_oscillator() {
+    // y'' = -k y^3 from A: quarter wave 1.854074677 / (A sqrt k), half the lemniscate's complete integral.
+    let k3 = 2000.0;
+    let cubic = RollingRadius::from_fn(10e-3, 4000, |y| k3 * y.powi(3));
+    let amplitude = 5e-3;
+    let k = k3 / (CONTACT_DISTANCE * RADIUS);
+    let wave = 4.0 * 1.854_074_677 / (amplitude * k.sqrt());
+    let expected = 0.5 * CONTACT_DISTANCE * RADIUS * (std::f64::consts::TAU / wave).powi(2);
+    let conicity = cubic.conicity(amplitude, RADIUS).unwrap();
+    assert!(
+        (conicity / expected - 1.0).abs() < 1e-5,
+        "{conicity} {expected}"
+    );
+}
+
+#[test]
+fn the_standard_pair_has_the_known_conicity_and_its_path_the_same_wave() {
+    let pair = Pair::standard(Installation::default()).unwrap();
+    let rolling = RollingRadius::of(&pair, 10e-3, 1600);
+    // S1002 on UIC 60 at 1:40, 1435 mm, 1360 mm: 0.17 to 0.18 at 3 mm in the literature (0.18 with two digits).
+    let conicity = rolling.conicity(3e-3, 0.625).unwrap();
+    println!("conicity at 3 mm: {conicity:.4}");
+    assert!((0.165..0.185).contains(&conicity), "{conicity}");
+    // The path itself, by Runge and Kutta's steps along the track.
+    for amplitude in [2e-3, 3e-3, 5.5e-3] {
+        let bend = |y: f64| -rolling.at(y) / (CONTACT_DISTANCE * 0.625);
+        let (mut y, mut slope, mut x) = (-amplitude, 0.0, 0.0);
+        let h = 2e-3;
+        let half = loop {
+            let k1 = (slope, bend(y));
+            let k2 = (slope + 0.5 * h * k1.1, bend(y + 0.5 * h * k1.0));
+            let k3 = (slope + 0.5 * h * k2.1, bend(y + 0.5 * h * k2.0));
+            let k4 = (slope + h * k3.1, bend(y + h * k3.0));
+            let next = slope + h / 6.0 * (k1.1 + 2.0 * k2.1 + 2.0 * k3.1 + k4.1);
+            if x > 1.0 && next <= 0.0 {
+                break x + h * slope / (slope - next);
+            }
+            y += h / 6.0 * (k1.0 + 2.0 * k2.0 + 2.0 * k3.0 + k4.0);
+            slope = next;
+            x += h;
+        };
+        let expected = 0.5 * CONTACT_DISTANCE * 0.625 * (std::f64::consts::PI / half).powi(2);
+        let conicity = rolling.conicity(amplitude, 0.625).unwrap();
+        assert!(
+            (conicity / expected - 1.0).abs() < 2e-3,
+            "{amplitude}: {conicity} {expected}"
+        );
+    }
+    // Right and left are the same wheel.
+    for i in 0..=800 {
+        let (a, b) = (rolling.difference[i], rolling.difference[1600 - i]);
+        assert!((a + b).abs() < 1e-6, "{a} {b}");
+    }
+}
+
+/// A cone of 1:40 with a straight flange face of 70 degrees and a round tip, as readings each half millimetre.
+fn cone() -> Profile {
+    let face = 70_f64.to_radians().tan();
+    let places: Vec<[f64; 2]> = (-132..=120)
+        .map(|i| f64::from(i) * 0.5)
+        .map(|s| {
+            let z = if s > -36.0 {
+                -s / 40.0
+            } else if s > -44.0 {
+                0.9 - (s + 36.0) * face
+            } else {
+                let tip = 0.9 + 8.0 * face;
+                tip + 4.0 - (s + 50.0).powi(2) * 4.0 / 36.0
+            };
+            [s * 1e-3, z * 1e-3]
+        })
+        .collect();
+    Profile::through("cone", &places, 0.0)
+}
+
+#[test]
+fn a_cone_on_the_round_head_rolls_on_the_point_of_equal_slope() {
+    let installation = Installation {
+        inclination: 0.0,
+        ..Installation::default()
+    };
+    let pair = Pair::new(cone(), &uic60::profile(), installation).unwrap();
+    let mut room = Vec::new();
+    for shift in [-4e-3, -1e-3, 0.0, 2e-3, 4e-3] {
+        let contact = pair.rigid(shift, 0.0, &mut room);
+        for (side, sign) in contact.sides.iter().zip([-1.0, 1.0]) {
+            // The cone touches R 300 where the head has its slope: 300 sin(g) from the rail's middle.
+            let slope = (1.0_f64 / 40.0).atan() - sign * contact.roll;
+            let middle = 0.5 * 1.435 + 35.984e-3;
+            let y = middle - 0.3 * slope.sin();
+            assert!((side.y - y).abs() < 0.05e-3, "{shift}: {} {y}", side.y);
+            assert!(
+                (side.slope + slope.tan()).abs() < 2e-6,
+                "{shift}: {}",
+                side.slope
+            );
+        }
+        // To the first order of the small angles a cone's radius difference is 2 g y / (1 - g R / e),
+        // with e the half distance of the points: the shift of the points on the heads included.
+        let e = contact.sides[1].y;
+        let expected = 2.0 / 40.0 * shift / (1.0 - 0.3 / 40.0 / e);
+        let found = contact.rolling_radius_difference();
+        assert!(
+            (found - expected).abs() < 0.005 * expected.abs() + 1e-8,
+            "{shift}: {found} {expected}"
+        );
+    }
+}

@@ -1,0 +1,239 @@
+//! Profiles against their definitions, the standards' figures, and texts of every wrong kind.
+
+use dashpot_rail::contact::pair::{Installation, Pair};
+use dashpot_rail::profile::measured::{self, ProfileError};
+use dashpot_rail::profile::{Body, Profile};
+use dashpot_rail::profile::{s1002, uic60};
+
+#[test]
+fn s1002_sections_join() {
+    // The other joints are given to nine decimals and meet within a tenth of a nanometre.
+    // Half a last digit of each of C's ten-digit coefficients sums to 7e-5 mm at -26 and 2.1e-4 mm at -35.
+    let rounding = |joint: f64| match joint {
+        -26.0 => 7e-5,
+        -35.0 => 2.1e-4,
+        _ => 1e-7,
+    };
+    for (section, joint) in s1002::JOINTS_MM[..7].iter().enumerate() {
+        let gap = s1002::section_mm(section, *joint) - s1002::section_mm(section + 1, *joint);
+        assert!(gap.abs() < rounding(*joint), "joint {joint}: gap {gap} mm");
+        let slope = |k: usize| {
+            (s1002::section_mm(k, joint + 1e-4) - s1002::section_mm(k, joint - 1e-4)) / 2e-4
+        };
+        let bend = slope(section) - slope(section + 1);
+        assert!(bend.abs() < 2e-4, "joint {joint}: slopes differ by {bend}");
+    }
+    // EN 13715: flange height 28 mm over the datum, tip 55 mm from it, flange thickness 32.5 mm at 10 mm depth.
+    assert!((s1002::depth_mm(-55.0) - 28.0).abs() < 1e-9);
+    assert!(s1002::depth_mm(0.0).abs() < 1e-12);
+    let at_ten = (-4000..-3000)
+        .map(|i| f64::from(i) * 0.01)
+        .find(|&s| s1002::depth_mm(s) < 10.0)
+        .unwrap();
+    assert!((70.0 + at_ten - 32.5).abs() < 0.02, "{at_ten}");
+}
+
+#[test]
+fn uic60_joints_lie_where_the_standard_says() {
+    for (y, depth) in [(10.499_79, 0.183_80), (25.988_03, 2.253_20)] {
+        let arc = (0..4_000_000)
+            .map(|i| f64::from(i) * 1e-5)
+            .find(|&arc| uic60::place_mm(arc)[0] >= y)
+            .unwrap();
+        let place = uic60::place_mm(arc);
+        assert!((place[1] - depth).abs() < 1e-5, "{place:?} for {depth}");
+    }
+    // EN 13674-1: the head is 72 mm wide where R 13 ends, 14.3 mm down.
+    let side = uic60::place_mm(10.502_0 + 15.7 + 19.0);
+    let width = 2.0 * (side[0] - (side[1] - 14.26) / 20.0);
+    assert!((width - 72.0).abs() < 2e-3, "{width}");
+}
+
+#[test]
+fn splines_follow_the_definitions_with_their_curvatures() {
+    let wheel = s1002::profile();
+    for i in -6900..6000 {
+        let s = f64::from(i) * 0.01;
+        let off = wheel.at(s * 1e-3).z * 1e3 - s1002::depth_mm(s);
+        // Linear between samples 0.1 mm apart: h^2 / 8 R, steep on the back of the flange.
+        assert!(off.abs() < 2e-3, "{s}: {off} mm");
+    }
+    for sample in &wheel.points {
+        let off = sample.z * 1e3 - s1002::depth_mm(sample.y * 1e3);
+        assert!(
+            off.abs() < 1e-4 || sample.y < -0.068,
+            "{sample:?}: {off} mm"
+        );
+    }
+    let radius = |profile: &Profile, y: f64| 1e3 / profile.at(y * 1e-3).curvature;
+    for (profile, y, expected) in [
+        (&wheel, 45.0, f64::INFINITY),
+        (&wheel, -37.0, 13.0),
+        (&wheel, -45.0, -20.0),
+        (&wheel, -58.0, -12.0),
+        (&uic60::profile(), 0.0, 300.0),
+        (&uic60::profile(), -7.0, 300.0),
+        (&uic60::profile(), 18.0, 80.0),
+        (&uic60::profile(), -31.0, 13.0),
+    ] {
+        let curvature = 1.0 / radius(profile, y) - 1.0 / expected;
+        assert!(
+            curvature.abs() < 2e-4 / 13.0,
+            "at {y}: {}",
+            radius(profile, y)
+        );
+    }
+}
+
+fn parsed(text: &str) -> Result<Profile, ProfileError> {
+    measured::parse("wheel", text, Body::Wheel, measured::DEFAULT_SMOOTHING)
+}
+
+/// S1002 each 0.5 mm with two decimals, as a profile gauge writes it.
+fn readings(decimals: usize) -> Vec<(f64, f64)> {
+    let round = |x: f64| format!("{x:.decimals$}").parse::<f64>().unwrap();
+    (-138..=120)
+        .map(|i| f64::from(i) * 0.5)
+        .map(|s| (round(s), round(s1002::depth_mm(s))))
+        .collect()
+}
+
+fn text(rows: &[(f64, f64)]) -> String {
+    let rows: Vec<String> = rows.iter().map(|(y, z)| format!("{y},{z}")).collect();
+    format!("# a gauge\ny_mm,z_mm\n{}\n", rows.join("\n"))
+}
+
+#[test]
+fn a_gauge_s_file_gives_the_profile_back() {
+    let wheel = parsed(&text(&readings(2))).unwrap();
+    let truth = s1002::profile();
+    let (mut worst, mut squares, mut count) = (0.0_f64, 0.0, 0.0);
+    for i in -350..550 {
+        let s = f64::from(i) * 0.1;
+        let z = wheel.at(s * 1e-3).z * 1e3;
+        worst = worst.max((z - s1002::depth_mm(s)).abs());
+        if (-20.0..30.0).contains(&s) {
+            let off = wheel.at(s * 1e-3).curvature - truth.at(s * 1e-3).curvature;
+            squares += off * off;
+            count += 1.0;
+        }
+    }
+    let curvature = f64::sqrt(squares / count);
+    println!("rounded to 0.01 mm: {worst:.4} mm, curvature {curvature:.2} per m RMS");
+    assert!(worst < 0.005, "{worst} mm");
+    assert!(curvature < 2.0, "{curvature} per m");
+    let mut rows = readings(2);
+    rows.reverse();
+    let reversed = parsed(&text(&rows)).unwrap();
+    assert_eq!(reversed.points, wheel.points);
+}
+
+#[test]
+fn wrong_texts_say_what_where_and_what_is_allowed() {
+    let good = readings(2);
+    type Change<'a> = &'a dyn Fn(&mut Vec<(f64, f64)>);
+    let with = |change: Change<'_>| {
+        let mut rows = good.clone();
+        change(&mut rows);
+        text(&rows)
+    };
+    let cases: Vec<(&str, String, &[&str])> = vec![
+        (
+            "few",
+            with(&|rows| rows.truncate(12)),
+            &["too few points: 12", "30 or more"],
+        ),
+        (
+            "folded",
+            with(&|rows| rows[100].0 = rows[99].0 - 0.2),
+            &[":103: column y_mm", "folded back"],
+        ),
+        (
+            "gap",
+            with(&|rows| drop(rows.drain(100..115))),
+            &[":103: column y_mm", "gap: 8.", "5 mm"],
+        ),
+        (
+            "wrong side up",
+            with(&|rows| rows.iter_mut().for_each(|row| row.1 = -row.1)),
+            &["wrong side up", "positive z_mm"],
+        ),
+        (
+            "wrong side",
+            with(&|rows| rows.iter_mut().for_each(|row| row.0 = -row.0)),
+            &["wrong side: the flange must lie at negative y_mm"],
+        ),
+        (
+            "word",
+            text(&good).replace("-30,", "x,"),
+            &["column y_mm", "\"x\" is not a number"],
+        ),
+        (
+            "infinite",
+            text(&good).replace("-30,", "inf,"),
+            &["column y_mm", "\"inf\""],
+        ),
+        (
+            "columns",
+            text(&good).replace("-30,", "-30,1,"),
+            &["3 columns, allowed: 2"],
+        ),
+        (
+            "tread only",
+            text(&good[80..]),
+            &["no flange", "15 mm or more"],
+        ),
+    ];
+    for (kind, text, expected) in cases {
+        let error = parsed(&text).unwrap_err();
+        let cell = error.cell();
+        let place = cell.map_or_else(String::new, |(line, column)| {
+            format!(":{line}: column {column}: ")
+        });
+        let message = format!("{place}{error}");
+        for part in expected {
+            assert!(message.contains(part), "{kind}: {message}");
+        }
+    }
+    let head: Vec<(f64, f64)> = uic60::profile()
+        .points
+        .iter()
+        .step_by(5)
+        .map(|p| (p.y * 1e3, -p.z * 1e3))
+        .collect();
+    let upside_down = measured::parse("rail", &text(&head), Body::Rail, 0.0);
+    assert_eq!(upside_down.unwrap_err(), ProfileError::HeadDown);
+}
+
+#[test]
+fn impossible_installations_are_refused() {
+    for (installation, part) in [
+        (
+            Installation {
+                gauge: 1.0,
+                ..Installation::default()
+            },
+            "gauge less back-to-back",
+        ),
+        (
+            Installation {
+                wheel_radius: f64::NAN,
+                ..Installation::default()
+            },
+            "wheel radius",
+        ),
+        (
+            Installation {
+                inclination: 0.5,
+                ..Installation::default()
+            },
+            "inclination",
+        ),
+    ] {
+        let message = Pair::standard(installation).unwrap_err().to_string();
+        assert!(
+            message.contains(part) && message.contains("allowed"),
+            "{message}"
+        );
+    }
+}

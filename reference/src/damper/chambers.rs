@@ -1,0 +1,128 @@
+//! Compression with the pressures of both chambers.
+//!
+//! Pressures are gauge (Pa), flows (m^3/s), velocities (m/s), positive in compression. The working
+//! pressure is `F/A_comp`, seal friction taken off the force.
+
+use super::bracket::increasing_root;
+use super::paths::{Areas, Foot, PistonPaths};
+
+/// Compression with both chamber pressures, `P_1` piston side and `P_2` rod side:
+/// `A_ext v = Q_piston(P_1 - P_2)`, `A_rod v = Q_foot(P_1)`, `F = P_1 A_comp - P_2 A_ext`;
+/// at `P_2 = p_vap` only the sum of the two balances holds.
+#[derive(Clone, Debug)]
+pub(super) struct TwoChambers {
+    pub(super) piston: PistonPaths,
+    pub(super) foot: Foot,
+    pub(super) areas: Areas,
+    /// Lowest gauge pressure of the rod side (Pa).
+    pub(super) vapour: f64,
+}
+
+impl TwoChambers {
+    /// Force up to which neither foot valve nor piston passes oil, the rod side not boiling (N).
+    fn closed_force(&self) -> f64 {
+        self.areas.rod * self.foot.closed_up_to()
+            + self.areas.extension * self.piston.closed_up_to()
+    }
+
+    pub(super) fn closed_up_to(&self) -> f64 {
+        let (foot, piston) = (self.foot.closed_up_to(), self.piston.closed_up_to());
+        let force = if foot - piston >= self.vapour {
+            self.closed_force()
+        } else {
+            // the rod side boils first and the piston paths open against it
+            let upstream = self.vapour + piston;
+            upstream * self.areas.compression - self.vapour * self.areas.extension
+        };
+        force.max(0.0) / self.areas.compression
+    }
+
+    /// Piston velocity at working pressure `closed + above`.
+    pub(super) fn velocity(&self, closed: f64, above: f64) -> f64 {
+        match self.share(closed, above) {
+            Some((foot_excess, drop)) => self.through(drop, self.foot.closed_up_to(), foot_excess),
+            None => {
+                let upstream =
+                    closed + above + self.vapour * self.areas.extension / self.areas.compression;
+                self.through(upstream - self.vapour, upstream, 0.0)
+            }
+        }
+    }
+
+    /// Velocity from both flows, at piston-side pressure `base + over`.
+    fn through(&self, drop: f64, base: f64, over: f64) -> f64 {
+        let density = self.piston.fluid.density(base + over);
+        (self.piston.flow(drop, base + over) + self.foot.flow(base, over, density))
+            / self.areas.compression
+    }
+
+    /// How a working pressure is shared between the foot valve (excess over its opening) and the
+    /// piston (drop); `None` when the rod side boils.
+    fn share(&self, closed: f64, above: f64) -> Option<(f64, f64)> {
+        let Areas {
+            extension,
+            compression,
+            rod,
+        } = self.areas;
+        let (foot, piston) = (self.foot.closed_up_to(), self.piston.closed_up_to());
+        let excess = (closed * compression - self.closed_force()) + above * compression;
+        if excess < 0.0 {
+            return None;
+        }
+        // in the root of the excess both flows are smooth where the foot valve opens
+        let drop = |root: f64| piston + ((excess - rod * root * root) / extension).max(0.0);
+        let root = increasing_root(0.0, (excess / rod).sqrt(), |root| {
+            self.imbalance(drop(root), foot, root * root)
+        });
+        let (over, drop) = (root * root, drop(root));
+        (foot + over - drop >= self.vapour).then_some((over, drop))
+    }
+
+    /// Flow the foot valve passes beyond what the rod displaces, times `A_ext`.
+    fn imbalance(&self, drop: f64, base: f64, over: f64) -> f64 {
+        let density = self.piston.fluid.density(base + over);
+        self.areas.extension * self.foot.flow(base, over, density)
+            - self.areas.rod * self.piston.flow(drop, base + over)
+    }
+
+    /// Working pressures up to `limit` at which a piston valve opens or the rod side starts or
+    /// ceases to boil.
+    pub(super) fn kinks(&self, limit: f64) -> Vec<f64> {
+        let Areas {
+            extension,
+            compression,
+            rod,
+        } = self.areas;
+        let base = self.foot.closed_up_to();
+        let mut kinks: Vec<f64> = self
+            .piston
+            .openings()
+            .map(|drop| {
+                let most = limit * compression / rod;
+                let over = increasing_root(0.0, most, |over| self.imbalance(drop, base, over));
+                let upstream = (base + over).max(drop + self.vapour);
+                (upstream * compression - (upstream - drop).max(self.vapour) * extension)
+                    / compression
+            })
+            .collect();
+        let closed = self.closed_up_to();
+        let boils = |above: f64| self.share(closed, above).is_none();
+        let scan = |i: u32| (limit - closed).max(0.0) * (f64::from(i) / 400.0).powi(2);
+        for i in 1..=400 {
+            let (mut low, mut high) = (scan(i - 1), scan(i));
+            let before = boils(low);
+            if before != boils(high) {
+                for _ in 0..100 {
+                    let middle = 0.5 * (low + high);
+                    if boils(middle) == before {
+                        low = middle;
+                    } else {
+                        high = middle;
+                    }
+                }
+                kinks.push(closed + high);
+            }
+        }
+        kinks
+    }
+}

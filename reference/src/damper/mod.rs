@@ -1,0 +1,225 @@
+//! Reference solution of the damper: the physics of the parameters' documentation, written from
+//! the laws and integrated by an adaptive stiff solver to a tolerance of 1e-12 a step.
+//!
+//! It shares nothing with the fixed step but the parameters: chamber pressure and piston position
+//! are states, clearance, opening valves, release and yielding are events. Signs as everywhere:
+//! displacement positive in extension, force positive when it resists extension.
+
+mod bracket;
+mod chambers;
+mod esdirk;
+mod motion;
+mod oil;
+mod passage;
+mod paths;
+mod segment;
+mod shim;
+mod side;
+
+use std::rc::Rc;
+
+use dashpot_core::DamperParameters;
+
+use self::motion::{Mode, Motion, Piece};
+use self::segment::Scales;
+use self::side::Side;
+use crate::error::ReferenceError;
+
+pub use self::motion::Statistics;
+pub use self::segment::{Arrival, Integrator, STATES, Segment};
+
+/// Reference solver of one damper.
+pub struct Reference {
+    sides: Rc<[Side; 2]>,
+    half_clearance: f64,
+    statistics: Statistics,
+}
+
+impl Reference {
+    /// The laws of a damper.
+    ///
+    /// # Errors
+    /// A law has no solution: force limit below the force at which the piston starts, no
+    /// flow path, no stiffness, negative clearance.
+    pub fn new(parameters: &DamperParameters) -> Result<Self, ReferenceError> {
+        let clearance = parameters.mount.clearance_m;
+        if !(clearance >= 0.0 && clearance.is_finite()) {
+            return Err(ReferenceError::Clearance {
+                clearance_m: clearance,
+            });
+        }
+        Ok(Self {
+            sides: Rc::new(Side::both(parameters)?),
+            half_clearance: clearance / 2.0,
+            statistics: Statistics::default(),
+        })
+    }
+
+    /// Force (N) at each time (s), the displacement (m) linear in between, from rest in the middle
+    /// of the clearance at the first sample. The input is taken as it is: no rate limit.
+    ///
+    /// # Errors
+    /// Times that do not increase, values that are not finite, unequal lengths, and a tolerance that the
+    /// solver cannot reach.
+    pub fn forces(
+        &mut self,
+        times_s: &[f64],
+        displacements_m: &[f64],
+    ) -> Result<Vec<f64>, ReferenceError> {
+        check_samples(times_s, displacements_m)?;
+        let Some((motion, first)) = self.prepare(times_s, displacements_m) else {
+            return Ok(vec![0.0; times_s.len()]);
+        };
+        let (forces, statistics) = esdirk::with_esdirk(first, |solver| {
+            run(motion, times_s, displacements_m, solver)
+        })?;
+        self.statistics = statistics;
+        Ok(forces)
+    }
+
+    /// As [`Self::forces`], with another solver of the same segments.
+    ///
+    /// # Errors
+    /// As [`Self::forces`].
+    pub fn forces_with(
+        &mut self,
+        solver: &mut dyn Integrator,
+        times_s: &[f64],
+        displacements_m: &[f64],
+    ) -> Result<Vec<f64>, ReferenceError> {
+        check_samples(times_s, displacements_m)?;
+        let Some((motion, _)) = self.prepare(times_s, displacements_m) else {
+            return Ok(vec![0.0; times_s.len()]);
+        };
+        let (forces, statistics) = run(motion, times_s, displacements_m, solver)?;
+        self.statistics = statistics;
+        Ok(forces)
+    }
+
+    /// What the last run counted.
+    pub fn statistics(&self) -> Statistics {
+        self.statistics
+    }
+
+    /// Force (N) at a constant velocity (m/s) once the springs have settled, both signed: seal
+    /// friction plus `A P` with `v(P)` the velocity, at most the force at which the damper yields.
+    /// 0 at velocity 0, where any force up to the one that starts the piston is possible.
+    pub fn static_force(&self, velocity_m_per_s: f64) -> f64 {
+        if velocity_m_per_s == 0.0 {
+            return 0.0;
+        }
+        let side = &self.sides[usize::from(velocity_m_per_s < 0.0)];
+        let coordinate = side.coordinate_at(velocity_m_per_s.abs());
+        side.force(coordinate).copysign(velocity_m_per_s)
+    }
+
+    /// The chain at rest and a segment to set a solver up with; `None` when nothing moves.
+    fn prepare(&mut self, times: &[f64], x: &[f64]) -> Option<(Motion, Segment)> {
+        self.statistics = Statistics::default();
+        let scales = scales(&self.sides, times, x)?;
+        let motion = Motion {
+            sides: Rc::clone(&self.sides),
+            scales,
+            half_clearance: self.half_clearance,
+            mode: Mode::Clearance { piston: x[0] },
+            statistics: Statistics::default(),
+        };
+        let first = Segment {
+            sides: Rc::clone(&self.sides),
+            scales,
+            side: 0,
+            speed: scales.velocity,
+            start: 0.0,
+            bound: self.sides[0].yield_coordinate,
+            duration: scales.time,
+            knee: scales.coordinate[0],
+        };
+        Some((motion, first))
+    }
+}
+
+/// Run the chain over the whole motion.
+fn run(
+    mut motion: Motion,
+    times: &[f64],
+    x: &[f64],
+    solver: &mut dyn Integrator,
+) -> Result<(Vec<f64>, Statistics), ReferenceError> {
+    let mut forces = Vec::with_capacity(times.len());
+    forces.push(motion.force(x[0]));
+    for i in 1..times.len() {
+        let piece = Piece {
+            start: x[i - 1],
+            end: x[i],
+            duration: times[i] - times[i - 1],
+        };
+        motion
+            .follow(&piece, solver)
+            .map_err(|error| ReferenceError::Piece {
+                start_s: times[i - 1],
+                end_s: times[i],
+                source: Box::new(error),
+            })?;
+        forces.push(motion.force(x[i]));
+    }
+    motion.statistics.steps = solver.steps();
+    Ok((forces, motion.statistics))
+}
+
+/// Scales from the motion: its effective velocity, and the force that velocity or, if less, the
+/// effective displacement over the springs makes. `None` when nothing moves.
+fn scales(sides: &[Side; 2], times: &[f64], x: &[f64]) -> Option<Scales> {
+    let duration = times[times.len() - 1] - times[0];
+    let (mut velocity, mut amplitude) = (0.0, 0.0);
+    for (t, x) in times.windows(2).zip(x.windows(2)) {
+        velocity += (x[1] - x[0]).powi(2) / (t[1] - t[0]);
+    }
+    let mean = x.iter().sum::<f64>() / x.len() as f64;
+    for x in x {
+        amplitude += (x - mean).powi(2);
+    }
+    let velocity = (velocity / duration).sqrt();
+    let amplitude = (amplitude / x.len() as f64).sqrt();
+    if !(velocity > 0.0 && amplitude > 0.0) {
+        return None;
+    }
+    let coordinate = [0, 1].map(|i| {
+        let side: &Side = &sides[i];
+        let elastic = side.coordinate_stretched(side.closed_stretch + amplitude);
+        side.coordinate_at(velocity).min(elastic)
+    });
+    let stretch = [0, 1]
+        .map(|i| sides[i].stretch(sides[i].force(coordinate[i])) - sides[i].closed_stretch)
+        .into_iter()
+        .fold(f64::INFINITY, f64::min);
+    Some(Scales {
+        velocity,
+        coordinate,
+        time: stretch / velocity,
+        stretch,
+    })
+}
+
+fn check_samples(times: &[f64], x: &[f64]) -> Result<(), ReferenceError> {
+    if times.is_empty() || times.len() != x.len() {
+        return Err(ReferenceError::Lengths {
+            times: times.len(),
+            displacements: x.len(),
+        });
+    }
+    if let Some(i) = (0..times.len()).find(|i| !(times[*i].is_finite() && x[*i].is_finite())) {
+        return Err(ReferenceError::Sample {
+            sample: i,
+            time_s: times[i],
+            displacement_m: x[i],
+        });
+    }
+    if let Some(i) = times.windows(2).position(|t| t[1] <= t[0]) {
+        return Err(ReferenceError::Times {
+            sample: i + 1,
+            time_s: times[i + 1],
+            before_s: times[i],
+        });
+    }
+    Ok(())
+}

@@ -1,0 +1,245 @@
+//! The chain through its modes over a piecewise linear motion of the seats.
+//!
+//! In the clearance, held by a still piston and yielding, the force follows from the geometry; only
+//! flow through the valves is integrated. Within one linear piece the coordinate of the pressure
+//! moves one way, so the next bound it can meet is known beforehand.
+
+use std::rc::Rc;
+
+use super::segment::{Integrator, Scales, Segment};
+use super::side::Side;
+use crate::error::ReferenceError;
+
+/// Seat velocity over the typical one below which it counts as rest: the equilibrium force then
+/// is below any tolerance, and so is the stretch missed.
+const REST: f64 = 1e-8;
+
+/// Mode changes allowed within one linear piece; each side has at most two and its kinks.
+const MAX_CHANGES: usize = 1000;
+
+/// Where the chain is.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Mode {
+    /// Damper between its seats, no force.
+    Clearance { piston: f64 },
+    /// In contact, the piston held by friction or closed valves.
+    Held { side: usize, piston: f64 },
+    /// In contact, oil flowing.
+    Flow { side: usize, coordinate: f64 },
+    /// Yielding at the force limit.
+    Yield { side: usize },
+}
+
+/// A linear piece of motion.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Piece {
+    /// Displacement at its start (m).
+    pub(super) start: f64,
+    /// Displacement at its end (m).
+    pub(super) end: f64,
+    /// How long it takes (s).
+    pub(super) duration: f64,
+}
+
+/// What a run counted.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Statistics {
+    /// Steps the solver accepted.
+    pub steps: usize,
+    /// Changes of mode.
+    pub events: usize,
+    /// Largest difference between the piston travel integrated over a segment and the one the
+    /// chain's geometry leaves to it (m).
+    pub closure_m: f64,
+}
+
+/// The chain in motion.
+pub(super) struct Motion {
+    pub(super) sides: Rc<[Side; 2]>,
+    pub(super) scales: Scales,
+    /// Half the clearance (m).
+    pub(super) half_clearance: f64,
+    pub(super) mode: Mode,
+    pub(super) statistics: Statistics,
+}
+
+/// +1 extension, -1 compression.
+fn sign(side: usize) -> f64 {
+    if side == 0 { 1.0 } else { -1.0 }
+}
+
+impl Motion {
+    /// Force (N), positive when it resists extension, at displacement `x` of the seats.
+    pub(super) fn force(&self, x: f64) -> f64 {
+        match self.mode {
+            Mode::Clearance { .. } => 0.0,
+            Mode::Held { side, piston } => {
+                let stretch = sign(side) * (x - piston) - self.half_clearance;
+                sign(side) * self.sides[side].held_force(stretch)
+            }
+            Mode::Flow { side, coordinate } => sign(side) * self.sides[side].force(coordinate),
+            Mode::Yield { side } => sign(side) * self.sides[side].yield_force,
+        }
+    }
+
+    /// Move the seats along one linear piece.
+    pub(super) fn follow(
+        &mut self,
+        piece: &Piece,
+        solver: &mut dyn Integrator,
+    ) -> Result<(), ReferenceError> {
+        let velocity = (piece.end - piece.start) / piece.duration;
+        let mut elapsed = 0.0;
+        for _ in 0..MAX_CHANGES {
+            let left = piece.duration - elapsed;
+            let x = if elapsed == 0.0 {
+                piece.start
+            } else {
+                piece.start + velocity * elapsed
+            };
+            let (spent, next) = match self.mode {
+                Mode::Clearance { piston } => self.cross_clearance(piston, x, velocity),
+                Mode::Held { side, piston } => self.hold(side, piston, x, velocity),
+                Mode::Flow { side, coordinate } => {
+                    let start = (coordinate, x);
+                    self.flow(side, start, velocity, left, solver)?
+                }
+                Mode::Yield { side } => self.give(side, velocity),
+            };
+            // flow has been integrated to where it is; the others wait for their event
+            let flowed = matches!(self.mode, Mode::Flow { .. });
+            if spent >= left && !flowed {
+                return Ok(());
+            }
+            if std::mem::discriminant(&self.mode) != std::mem::discriminant(&next) {
+                self.statistics.events += 1;
+            }
+            elapsed += spent;
+            self.mode = next;
+            if spent >= left {
+                return Ok(());
+            }
+        }
+        Err(ReferenceError::Changes {
+            most: MAX_CHANGES,
+            start_m: piece.start,
+            end_m: piece.end,
+        })
+    }
+
+    fn cross_clearance(&self, piston: f64, x: f64, velocity: f64) -> (f64, Mode) {
+        let stay = Mode::Clearance { piston };
+        if velocity == 0.0 {
+            return (f64::INFINITY, stay);
+        }
+        let side = usize::from(velocity < 0.0);
+        let distance = (self.half_clearance - sign(side) * (x - piston)).max(0.0);
+        (distance / velocity.abs(), Mode::Held { side, piston })
+    }
+
+    fn hold(&self, side: usize, piston: f64, x: f64, velocity: f64) -> (f64, Mode) {
+        let stay = Mode::Held { side, piston };
+        let stretch = (sign(side) * (x - piston) - self.half_clearance).max(0.0);
+        let speed = sign(side) * velocity;
+        if speed > 0.0 {
+            let opening = (self.sides[side].closed_stretch - stretch).max(0.0);
+            let flow = Mode::Flow {
+                side,
+                coordinate: 0.0,
+            };
+            (opening / speed, flow)
+        } else if speed < 0.0 {
+            (stretch / -speed, Mode::Clearance { piston })
+        } else {
+            (f64::INFINITY, stay)
+        }
+    }
+
+    fn give(&self, side: usize, velocity: f64) -> (f64, Mode) {
+        let limits = &self.sides[side];
+        if sign(side) * velocity >= limits.yield_velocity {
+            (f64::INFINITY, self.mode)
+        } else {
+            let coordinate = limits.yield_coordinate;
+            (0.0, Mode::Flow { side, coordinate })
+        }
+    }
+
+    /// Flow from a coordinate at displacement `x` of the seats until the next event.
+    fn flow(
+        &mut self,
+        side: usize,
+        (start, x): (f64, f64),
+        velocity: f64,
+        left: f64,
+        solver: &mut dyn Integrator,
+    ) -> Result<(f64, Mode), ReferenceError> {
+        let laws = &self.sides[side];
+        let mut speed = sign(side) * velocity;
+        if speed.abs() < REST * self.scales.velocity {
+            speed = 0.0;
+        }
+        let excess = speed - laws.velocity(start);
+        let stay = |coordinate| (f64::INFINITY, Mode::Flow { side, coordinate });
+        if excess == 0.0 {
+            return Ok(stay(start));
+        }
+        let released = |x: f64| Mode::Held {
+            side,
+            piston: x - sign(side) * (self.half_clearance + laws.closed_stretch),
+        };
+        let bound = if excess > 0.0 {
+            if start >= laws.yield_coordinate {
+                return Ok((0.0, Mode::Yield { side }));
+            }
+            let ahead = laws.kinks.iter().find(|kink| **kink > start);
+            ahead.copied().unwrap_or(laws.yield_coordinate)
+        } else {
+            if start <= 0.0 {
+                return Ok((0.0, released(x)));
+            }
+            let behind = laws.kinks.iter().rfind(|kink| **kink < start);
+            behind.copied().unwrap_or(0.0)
+        };
+        let segment = Segment {
+            sides: Rc::clone(&self.sides),
+            scales: self.scales,
+            side,
+            speed,
+            start,
+            bound,
+            duration: left,
+            knee: speed.abs() / self.scales.velocity * self.scales.coordinate[side],
+        };
+        let arrival = solver.advance(&segment)?;
+        let end = if arrival.at_bound {
+            bound
+        } else {
+            (arrival.state[0] * self.scales.coordinate[side]).max(0.0)
+        };
+        let spent = arrival.state[1] * self.scales.time;
+        let stretched = laws.stretch(laws.force(end)) - laws.stretch(laws.force(start));
+        let travel = arrival.state[2] * self.scales.stretch;
+        let closure = (speed * spent - stretched - travel).abs();
+        let next = if !arrival.at_bound {
+            stay(end)
+        } else if bound == laws.yield_coordinate {
+            (spent, Mode::Yield { side })
+        } else if bound > 0.0 {
+            (
+                spent,
+                Mode::Flow {
+                    side,
+                    coordinate: bound,
+                },
+            )
+        } else if speed > 0.0 {
+            // zero is met within the tolerance around an equilibrium above it
+            stay(laws.coordinate_at(speed))
+        } else {
+            (spent, released(x + velocity * spent))
+        };
+        self.statistics.closure_m = self.statistics.closure_m.max(closure);
+        Ok(next)
+    }
+}

@@ -1,0 +1,10 @@
+//! Independent solutions that the fixed steps are checked against: adaptive, to a stated tolerance.
+//!
+//! They share the parameters with what they check, and nothing else.
+#![forbid(unsafe_code)]
+#![warn(missing_docs)]
+
+pub mod damper;
+mod error;
+
+pub use error::ReferenceError;
