@@ -156,7 +156,14 @@ fn measure_target(json: bool) -> Outcome {
     let path = repository().join("target/target_figures.json");
     let _ = std::fs::remove_file(&path);
     let held = cargo_aside(
-        &["test", "--package", "dashpot", "--test", "target"],
+        &[
+            "test",
+            "--package",
+            "dashpot",
+            "--test",
+            "target",
+            "processors",
+        ],
         &[("DASHPOT_TARGET_REPORT", &path.to_string_lossy())],
     );
     let report = std::fs::read_to_string(&path).unwrap_or_default();

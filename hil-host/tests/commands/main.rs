@@ -1,0 +1,22 @@
+//! `dashpot` from outside, as its users run it.
+
+mod budget;
+mod c_library_page;
+#[path = "../common/mod.rs"]
+mod common;
+mod contact;
+mod demonstration;
+mod export;
+mod export_c;
+mod firmware_bank;
+mod gaps;
+mod interruption;
+mod page_layout;
+mod replay;
+mod rig;
+mod rig_report;
+mod shims;
+mod standard_streams;
+mod step_size;
+mod verify;
+mod wrong_use;

@@ -1,0 +1,271 @@
+//! An option that is wrong ends any command with exit code 2, a file that is wrong with 1; both leave no file.
+
+use crate::common::{dashpot, error_of, files_in};
+
+const MOTION: &str = "time_s,displacement_m\n0,0\n1,1\n";
+
+const BAD_DAMPER: &str = "[mount]\nstiffness_n_per_m = -1\n\
+                          [reduced]\ndamping_n_s_per_m = 1e5\nsaturation_velocity_m_per_s = 0.03\n";
+
+const REPLAY: [&str; 5] = ["replay", "--input", "in.csv", "--output", "out.csv"];
+const VERIFY: [&str; 3] = ["verify", "--input", "in.csv"];
+const PIL: [&str; 5] = ["pil", "--input", "in.csv", "--link", "tcp:localhost:1"];
+const EXPORT: [&str; 3] = ["export", "--output", "damper"];
+
+/// Runs `command` with `options` beside a good recording, a file that is no damper and one that is neither.
+fn check(command: &[&str], options: &[&str], code: i32, part: &str) {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    std::fs::write(at("in.csv"), MOTION).unwrap();
+    std::fs::write(at("bad.toml"), BAD_DAMPER).unwrap();
+    std::fs::write(at("bad.csv"), "a,b\n0,0\n").unwrap();
+    let arguments = [command, options].concat();
+    let output = dashpot(&arguments, folder.path());
+    let error = error_of(&output);
+    assert_eq!(output.status.code(), Some(code), "{arguments:?}: {error}");
+    assert!(error.starts_with("error: "), "{arguments:?}: {error}");
+    assert!(
+        error.contains(part),
+        "{arguments:?}: `{error}` lacks `{part}`"
+    );
+    assert!(output.stdout.is_empty(), "{arguments:?}");
+    assert_eq!(files_in(folder.path()), ["bad.csv", "bad.toml", "in.csv"]);
+}
+
+fn wrong_use(command: &[&str], options: &[&str], part: &str) {
+    check(command, options, 2, part);
+}
+
+fn failed(command: &[&str], options: &[&str], part: &str) {
+    check(command, options, 1, part);
+}
+
+#[test]
+fn commands_and_options_that_there_are_not() {
+    wrong_use(&["nonsense"], &[], "unrecognized subcommand");
+    wrong_use(&["--outptu", "x.html"], &[], "unexpected argument");
+    wrong_use(&["--format", "xml"], &[], "possible values: text, json");
+    wrong_use(&["replay"], &[], "required arguments");
+    wrong_use(&["rig", "--amplitude"], &[], "--amplitude");
+    for command in [
+        "replay", "rig", "verify", "shims", "budget", "export", "contact", "pil", "link",
+    ] {
+        wrong_use(
+            &[command],
+            &["--format", "xml"],
+            "possible values: text, json",
+        );
+    }
+}
+
+#[test]
+fn step_sizes() {
+    let export: &[&str] = &[&EXPORT[..], &["--lang", "bin"]].concat();
+    for command in [&REPLAY[..], &VERIFY, export, &["rig"]] {
+        for value in ["0", "0.9999", "20001", "-5", "nan", "inf", "1e3us", ""] {
+            wrong_use(command, &["--step-us", value], "allowed: 1 to 20000 us");
+        }
+    }
+    wrong_use(
+        &REPLAY,
+        &["--realtime", "--step-us", "62.5"],
+        "allowed are 100 to 1000 us",
+    );
+    wrong_use(&REPLAY, &["--fifo", "10"], "go with --realtime");
+}
+
+#[test]
+fn dampers() {
+    let export: &[&str] = &[&EXPORT[..], &["--lang", "bin"]].concat();
+    let every: [&[&str]; 7] = [
+        &REPLAY,
+        &VERIFY,
+        &PIL,
+        export,
+        &["rig"],
+        &["shims", "--no-plots"],
+        &["budget", "--steps", "1"],
+    ];
+    for command in every {
+        wrong_use(command, &["--damper", "papr"], "did you mean `paper`");
+        failed(
+            command,
+            &["--damper", "none.toml"],
+            "none.toml: cannot read",
+        );
+        failed(command, &["--damper", "./none"], "./none: cannot read");
+        failed(
+            command,
+            &["--damper", "bad.toml"],
+            "bad.toml: mount.stiffness",
+        );
+        for (set, part) in [
+            ("mount.clearence_m=1e-3", "did you mean `clearance_m`"),
+            ("mount.stiffness_n_per_m=-1", "mount.stiffness_n_per_m = -1"),
+            ("mount.stiffness_n_per_m", "no `=`"),
+            ("mount.clearance_m=wide", "the form is table.key=value"),
+            (
+                "geometry.rod_diameter_m=0.07",
+                "0 to 0.95 of piston_diameter_m",
+            ),
+            (
+                "valves.foot_compression.clamp_radius_m=0.2",
+                "below free_radius_m",
+            ),
+        ] {
+            wrong_use(command, &["--set", set], part);
+        }
+        // The file is to blame, not what is set beside it.
+        let options = ["--damper", "bad.toml", "--set", "mount.clearance_m=1e-3"];
+        failed(command, &options, "bad.toml: ");
+    }
+}
+
+#[test]
+fn recordings() {
+    for command in [
+        &["replay", "--output", "out.csv"][..],
+        &["verify"],
+        &PIL[..1],
+    ] {
+        let command = match command {
+            ["pil"] => &["pil", "--link", "tcp:localhost:1"],
+            other => other,
+        };
+        failed(command, &["--input", "none.csv"], "none.csv: cannot read");
+        failed(command, &["--input", "."], "it is a folder");
+        failed(command, &["--input", "bad.csv"], "column time_s is missing");
+    }
+    let onto_itself = ["--input", "in.csv", "--output", "in.csv"];
+    wrong_use(
+        &["replay"],
+        &onto_itself,
+        "--output in.csv: is the input too",
+    );
+    failed(
+        &["replay", "--input", "in.csv"],
+        &["--output", "none/out.csv"],
+        "there is no folder none",
+    );
+}
+
+#[test]
+fn verify_and_pil() {
+    for value in ["0", "-1", "nan", "inf", "small"] {
+        wrong_use(&VERIFY, &["--at-most", value], "allowed: a number above 0");
+    }
+    wrong_use(&PIL[..3], &["--link", "usb"], "allowed: tcp:HOST:PORT");
+    wrong_use(&PIL, &["--faults", "flood=1"], "is no fault; allowed: drop");
+    wrong_use(&PIL, &["--faults", "drop=2"], "not within 0 to 0.5");
+    for (option, value) in [
+        ("--ticks", "0"),
+        ("--timeout-ms", "0"),
+        ("--tries", "1001"),
+        ("--baud", "0"),
+        ("--seed", "x"),
+    ] {
+        wrong_use(&PIL, &[option, value], option);
+    }
+}
+
+#[test]
+fn rig() {
+    for (options, part) in [
+        (
+            &["--amplitude-m", "0"][..],
+            "--amplitude-m: 0, allowed: above 0",
+        ),
+        (&["--frequency-hz", "nan"], "--frequency-hz: NaN, allowed"),
+        (&["--frequency-hz", "fast"], "--frequency-hz"),
+        (&["--frequency-hz", "900"], "allowed: 20 to 2e7"),
+        (
+            &["--amplitude-m", "0.5", "--frequency-hz", "10"],
+            "limits.rate_m_per_s",
+        ),
+    ] {
+        wrong_use(&["rig"], options, part);
+    }
+}
+
+#[test]
+fn budget() {
+    for (options, part) in [
+        (&["--rate-hz", "999"][..], "1000..=10000"),
+        (&["--steps", "0"], "1..="),
+        (&["--dampers", "0"], "1..=10000"),
+        (&["--fifo", "100"], "1..=99"),
+        #[cfg(target_os = "linux")]
+        (
+            &["--core", "1000000"],
+            "--core 1000000: no core this process may use, allowed: ",
+        ),
+    ] {
+        wrong_use(&["budget"], options, part);
+    }
+}
+
+#[test]
+fn export() {
+    wrong_use(&EXPORT, &["--lang", "ada"], "possible values: rust, c, bin");
+    wrong_use(
+        &EXPORT,
+        &["--lang", "rust", "--name", "fn"],
+        "allowed: A to Z first",
+    );
+    wrong_use(
+        &EXPORT,
+        &["--lang", "c", "--name", "9X"],
+        "allowed: A to Z first",
+    );
+    wrong_use(
+        &EXPORT,
+        &["--lang", "c", "--name", "INT32_MAX"],
+        "allowed: not NULL",
+    );
+    wrong_use(
+        &EXPORT,
+        &["--lang", "c", "--scalar", "f64"],
+        "allowed with --lang c: f32",
+    );
+    wrong_use(
+        &EXPORT,
+        &["--lang", "bin", "--name", "X"],
+        "allowed: --lang rust or c",
+    );
+    let nowhere = ["export", "--lang", "rust", "--output", "none/such.rs"];
+    failed(&nowhere, &[], "none/such.rs: cannot write");
+}
+
+#[test]
+fn contact() {
+    let contact = ["contact", "--no-plots"];
+    for (options, part) in [
+        (
+            &["--wheel", "s1003"][..],
+            "s1003: no such profile, allowed: s1002",
+        ),
+        (
+            &["--rail", "uic61"],
+            "uic61: no such profile, allowed: uic60",
+        ),
+        (&["--gauge-m", "1.2"], "allowed: 0.03 to 0.12 m"),
+        (&["--gauge-m", "nan"], "gauge: NaN, allowed: 0.5 to 2"),
+        (
+            &["--wheel-radius-m", "1e9"],
+            "wheel radius: 1000000000, allowed: 0.1 to 1",
+        ),
+        (&["--wheel-radius-m", "large"], "--wheel-radius-m"),
+        (
+            &["--smoothing-m", "-1"],
+            "--smoothing-m: -1, allowed: 0 to 0.05 m",
+        ),
+        (
+            &["--smoothing-m=1"],
+            "--smoothing-m: 1, allowed: 0 to 0.05 m",
+        ),
+    ] {
+        wrong_use(&contact, options, part);
+    }
+    failed(&contact, &["--wheel", "none.csv"], "none.csv: cannot read");
+    failed(&contact, &["--rail", "bad.csv"], "bad.csv: too few points");
+}

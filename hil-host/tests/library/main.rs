@@ -1,0 +1,6 @@
+//! Parts of the host used as a library.
+
+mod pacing;
+mod profile_file;
+mod recording_header;
+mod timing;

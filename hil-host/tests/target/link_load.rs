@@ -1,0 +1,104 @@
+//! `dashpot link load`: dampers and images into places.
+
+use crate::link_common::Rig;
+use crate::pil_common::built;
+use dashpot_core::Damper;
+use dashpot_hil::files::damper;
+use serde_json::json;
+
+#[test]
+fn a_damper_goes_where_it_is_not_yet() {
+    let rig = Rig::new();
+    let load = ["load", "--damper", "in-service"];
+    let revision = built("in-service").revision();
+    // The second place has it from the start.
+    let told = rig.text(&load);
+    assert_eq!(
+        told,
+        format!(
+            "in-service, revision {revision:#010x}\nloaded into places 0, 2\nskipped place 1: there already\n"
+        )
+    );
+    let again = rig.json(&load);
+    let all =
+        json!({"damper": "in-service", "revision": revision, "loaded": [], "skipped": [0, 1, 2]});
+    assert_eq!(again, all);
+    let other = [
+        "--set",
+        "mount.clearance_m=2e-3",
+        "--place",
+        "2",
+        "--place",
+        "0",
+        "--place",
+        "2",
+    ];
+    let told = rig.json(&[&load[..], &other].concat());
+    assert_eq!(told["loaded"], json!([0, 2]));
+    let revisions = &rig.json(&["hello"])["revisions"];
+    assert_eq!(revisions[1], json!(revision));
+    assert_eq!(revisions[0], told["revision"]);
+    assert_eq!(revisions[2], told["revision"]);
+}
+
+#[test]
+fn a_damper_is_loaded_while_the_tick_runs() {
+    let rig = Rig::new();
+    rig.text(&["run", "--displacement-m", "0"]);
+    rig.text(&["load", "--damper", "paper", "--place", "0"]);
+    assert_eq!(
+        rig.json(&["hello"])["revisions"][0],
+        json!(built("paper").revision())
+    );
+    let status = rig.json(&["status"]);
+    assert_eq!(status["places"][0]["status"], json!(["damper_swapped"]));
+}
+
+#[test]
+fn an_image_is_loaded_when_it_fits() {
+    let rig = Rig::new();
+    let paper = built("paper");
+    rig.write("paper.bin", paper.to_image());
+    let told = rig.json(&["load", "--image", "paper.bin", "--place", "2"]);
+    let report =
+        json!({"damper": "paper.bin", "revision": paper.revision(), "loaded": [2], "skipped": []});
+    assert_eq!(told, report);
+
+    let parameters = damper::load("paper", &[]).unwrap();
+    let half: Damper<f32> = parameters.build(5e-4).unwrap();
+    let double: Damper<f64> = parameters.build(1e-3).unwrap();
+    let mut damaged = paper.to_image();
+    damaged[100] ^= 1;
+    for (image, part) in [
+        (
+            &half.to_image()[..],
+            "x.bin: built for a step of 500 us, the target steps 1000 us; export it for that step",
+        ),
+        (&double.to_image()[..], "x.bin: "),
+        (&damaged[..], "x.bin: CRC-32 does not match"),
+        (
+            b"DASH",
+            "x.bin: 4 bytes where a damper has 6720; allowed: what `dashpot export --lang bin`",
+        ),
+        (b"", "x.bin: 0 bytes"),
+    ] {
+        rig.write("x.bin", image);
+        let error = rig.error(&["load", "--image", "x.bin"], 1);
+        assert!(error.contains(part), "{error}");
+    }
+    let error = rig.error(&["load", "--image", "none.bin"], 1);
+    assert!(error.contains("none.bin: cannot read"), "{error}");
+    let revisions = &rig.json(&["hello"])["revisions"];
+    assert_eq!(revisions[0], json!(built("reduced-vertical").revision()));
+}
+
+#[test]
+fn a_place_that_is_not_there_is_wrong_use() {
+    let rig = Rig::new();
+    let load = ["load", "--damper", "paper", "--place", "0", "--place", "7"];
+    let error = rig.error(&load, 2);
+    assert!(error.contains("--place 7: the target has 3 dampers; allowed: 0 to 2"));
+    // Not even the place that is there.
+    let revisions = &rig.json(&["hello"])["revisions"];
+    assert_eq!(revisions[0], json!(built("reduced-vertical").revision()));
+}

@@ -1,0 +1,100 @@
+//! A damper of its own in each place of the target.
+
+use crate::pil_common::{PATIENCE, built, desk, motion, ride};
+use dashpot_core::Damper;
+use dashpot_hil::error::{Kind, Outcome};
+use dashpot_hil::target::pil::{Client, Desk, FaultRates, FaultyLink, Link, Pace, Report, Session};
+
+/// Runs `dampers` and keeps the forces of the target (N), tick by tick.
+fn forces(
+    link: impl Link,
+    dampers: &[Damper<f32>],
+    ticks: usize,
+) -> Outcome<(Report, Vec<Vec<f32>>)> {
+    let mut session = Session::open(Client::new(link, PATIENCE, 40))?;
+    let mut forces_n = Vec::new();
+    let report = session.run(dampers, motion(ticks), &mut Pace::default(), |record| {
+        assert_eq!(record.target_forces_n, record.host_forces_n);
+        forces_n.push(record.target_forces_n.to_vec());
+        Ok(())
+    })?;
+    Ok((report, forces_n))
+}
+
+fn three() -> [Damper<f32>; 3] {
+    [
+        built("paper"),
+        built("in-service"),
+        built("reduced-vertical"),
+    ]
+}
+
+#[test]
+fn place_i_has_damper_i() {
+    let dampers = three();
+    let (report, forces_n) = forces(desk(), &dampers, 600).unwrap();
+    assert_eq!(
+        (report.ticks, report.mismatches, report.state_mismatches),
+        (600, 0, 0)
+    );
+    let ride = ride(600);
+    for (place, damper) in dampers.iter().enumerate() {
+        let mut state = damper.at_rest(ride[0]);
+        for (tick, forces_n) in forces_n.iter().enumerate() {
+            let expected = damper.step(&mut state, ride[tick.saturating_sub(place)]);
+            assert_eq!(forces_n[place], expected, "place {place}, tick {tick}");
+        }
+        assert!(
+            forces_n
+                .iter()
+                .any(|forces_n| forces_n[place].abs() > 100.0)
+        );
+    }
+}
+
+/// A dozen different dampers take a dozen requests, so resets at 0.5 % of the frames are survived.
+#[test]
+fn after_a_reset_each_place_has_its_damper_again() {
+    let dampers: [Damper<f32>; 12] = std::array::from_fn(|place| {
+        let mut damper = three()[place % 3];
+        damper.set_clearance_m(1e-4 * place as f32);
+        damper
+    });
+    let other = Desk::<12>::new([built("reduced-lateral"); 12]);
+    let rates: FaultRates = "reset=0.005".parse().unwrap();
+    let link = FaultyLink::new(other, rates, 3).unwrap();
+    let (report, _) = forces(link, &dampers, 2000).unwrap();
+    assert_eq!((report.mismatches, report.state_mismatches), (0, 0));
+    assert!(report.recoveries > 5, "{}", report.recoveries);
+}
+
+#[test]
+fn one_damper_goes_into_every_place() {
+    let one = forces(desk(), &[built("paper")], 300).unwrap();
+    let three = forces(
+        desk(),
+        &[built("paper"), built("paper"), built("paper")],
+        300,
+    )
+    .unwrap();
+    assert_eq!(one.1, three.1);
+}
+
+#[test]
+fn another_number_of_dampers_is_refused_before_the_target_is_touched() {
+    for count in [0, 2, 4] {
+        let dampers = vec![built("paper"); count];
+        let mut session = Session::open(Client::new(desk(), PATIENCE, 40)).unwrap();
+        let refused = session.run(&dampers, motion(10), &mut Pace::default(), |_| Ok(()));
+        let refused = refused.unwrap_err();
+        assert_eq!(refused.kind(), Kind::WrongUse);
+        assert_eq!(
+            refused.to_string(),
+            format!(
+                "--damper: {count} dampers, the target has 3 places; allowed: 1, for all places, or 3, one for each"
+            )
+        );
+        // Hello alone.
+        assert_eq!(session.link().device().counters().accepted, 1);
+    }
+}

@@ -1,0 +1,104 @@
+//! The host's end of the link: how long it waits, its session numbers, and refusals in words.
+
+use std::cell::RefCell;
+use std::rc::Rc;
+use std::time::{Duration, Instant};
+
+use crate::pil_common::{PATIENCE, desk};
+use dashpot_core::Damper;
+use dashpot_core::link::{Refusal, Request};
+use dashpot_hil::error::Outcome;
+use dashpot_hil::target::pil::{Client, Desk, Link, LinkError, Patience};
+
+/// Nobody: tells how long it was to wait since it was made.
+struct Nobody(Instant, Rc<RefCell<Vec<Duration>>>);
+
+impl Link for Nobody {
+    fn send(&mut self, _: &[u8]) -> Outcome<()> {
+        Ok(())
+    }
+
+    fn receive(&mut self, _: &mut [u8], timeout: Duration) -> Outcome<usize> {
+        self.1.borrow_mut().push(self.0.elapsed() + timeout);
+        Ok(0)
+    }
+}
+
+#[test]
+fn the_wait_allows_for_the_time_a_long_frame_takes() {
+    let waits = Rc::default();
+    let once = Patience {
+        timeout: Duration::from_millis(200),
+        tries: 1,
+    };
+    let mut client = Client::new(Nobody(Instant::now(), Rc::clone(&waits)), once, 1);
+    let image = &[0; Damper::<f32>::IMAGE_BYTES];
+    let silent = client.request(&Request::Load { damper: 0, image });
+    assert_eq!(silent, Err(LinkError::Silent(once)));
+    // At 115200 bit/s a bridge is busy with these bytes for 0.58 s.
+    let busy = Duration::from_secs_f64(image.len() as f64 * 10.0 / 115_200.0);
+    let [wait] = waits.borrow()[..] else {
+        panic!("one try, one wait")
+    };
+    assert!(wait >= once.timeout + busy, "{wait:?}");
+}
+
+/// A desk that several clients reach.
+#[derive(Clone)]
+struct Shared(Rc<RefCell<Desk<3>>>);
+
+impl Link for Shared {
+    fn send(&mut self, bytes: &[u8]) -> Outcome<()> {
+        self.0.borrow_mut().send(bytes)
+    }
+
+    fn receive(&mut self, buffer: &mut [u8], timeout: Duration) -> Outcome<usize> {
+        self.0.borrow_mut().receive(buffer, timeout)
+    }
+}
+
+#[test]
+fn a_session_number_that_is_open_is_passed_over() {
+    let desk = Shared(Rc::new(RefCell::new(desk())));
+    let mut first = Client::new(desk.clone(), PATIENCE, u16::MAX);
+    first.hello().unwrap();
+    first.request(&Request::Status).unwrap();
+    let mut second = Client::new(desk, PATIENCE, u16::MAX);
+    second.hello().unwrap();
+    second.request(&Request::Status).unwrap();
+    // The first has lost its session to the second, and takes the target back.
+    let lost = first.request(&Request::Status);
+    assert_eq!(lost, Err(LinkError::SessionLost));
+    let told = LinkError::SessionLost.to_string();
+    assert!(told.contains("another program said hello"), "{told}");
+    first.hello().unwrap();
+    first.request(&Request::Status).unwrap();
+}
+
+#[test]
+fn every_refusal_has_a_sentence() {
+    for (refusal, part) in [
+        (Refusal::Corrupt, "broken"),
+        (Refusal::Unreadable, "cannot read"),
+        (Refusal::Protocol(9), "version 9"),
+        (Refusal::NoSession, "say hello first"),
+        (Refusal::OutOfOrder(8), "expects the sequence number 8"),
+        (Refusal::Tick(7), "expects tick 7"),
+        (Refusal::Count(6), "has 6 dampers"),
+        (Refusal::Damper(5), "places 0 to 4"),
+        (Refusal::NeedsRebuild, "build a damper on the host"),
+        (Refusal::Range, "a clearance of 0 to 0.1 m"),
+        (Refusal::ImageBytes(4), "images of 4 bytes"),
+        (Refusal::Image, "damaged or of another version"),
+        (Refusal::StepSize, "another step"),
+        (Refusal::State, "a state of another damper"),
+        (Refusal::Running, "runs free; stop"),
+        (Refusal::NotRunning, "does not run free"),
+        (Refusal::LinkLost, "lost the link"),
+        (Refusal::Corrupted(3), "place 3 was damaged"),
+    ] {
+        let told = LinkError::Refused(refusal).to_string();
+        assert!(told.contains(part), "{refusal:?}: {told}");
+        assert!(!told.contains(&format!("{refusal:?}")), "{told}");
+    }
+}

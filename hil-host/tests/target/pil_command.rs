@@ -1,0 +1,277 @@
+//! `dashpot pil` against a target on the desk behind a TCP port: its files and its refusals.
+
+use std::path::Path;
+use std::process::Output;
+
+use crate::common::{dashpot, error_of, files_in, json_of, text_of};
+use crate::pil_common::{altered, desk, serve_tcp};
+use dashpot_core::link::Response;
+use dashpot_hil::target::pil::Link;
+
+/// Half a second to and fro with a gap at the end: 601 ticks.
+const TICKS: usize = 601;
+
+fn recording(folder: &Path) {
+    let mut text = String::from("time_s,displacement_m\n");
+    for sample in 0..=500 {
+        let time_s = 2.0 + f64::from(sample) * 1e-3;
+        text += &format!("{time_s:.3},{:.6}\n", 0.01 * (20.0 * time_s).sin());
+    }
+    text += "2.6,0\n";
+    std::fs::write(folder.join("in.csv"), text).unwrap();
+}
+
+fn pil_with(
+    target: impl FnOnce() -> Box<dyn Link> + Send + 'static,
+    options: &[&str],
+    folder: &Path,
+) -> Output {
+    recording(folder);
+    let link = format!("tcp:{}", serve_tcp(target));
+    // On a busy machine an answer may take long; it always comes.
+    let wait = ["--timeout-ms", "60000"];
+    let arguments = [
+        &["pil", "--link", &link, "--input", "in.csv"],
+        &wait[..],
+        options,
+    ]
+    .concat();
+    dashpot(&arguments, folder)
+}
+
+fn pil(options: &[&str], folder: &Path) -> Output {
+    pil_with(|| Box::new(desk()), options, folder)
+}
+
+const THREE: [&str; 6] = [
+    "--damper",
+    "paper",
+    "--damper",
+    "in-service",
+    "--damper",
+    "reduced-vertical",
+];
+
+fn rows(text: &str) -> Vec<Vec<String>> {
+    let mut rows = csv::Reader::from_reader(text.as_bytes());
+    let rows = rows
+        .records()
+        .map(|row| row.unwrap().iter().map(String::from).collect());
+    rows.collect()
+}
+
+#[test]
+fn the_output_has_a_row_for_each_tick() {
+    let folder = tempfile::tempdir().unwrap();
+    let output = pil(
+        &[&THREE[..], &["--output", "out.csv"]].concat(),
+        folder.path(),
+    );
+    assert!(output.status.success(), "{output:?}");
+    let report = text_of(&output);
+    assert!(report.starts_with(&format!(
+        "{TICKS} ticks of 1000 us through paper, in-service, reduced-vertical on"
+    )));
+    assert!(
+        report.contains("warning: 1 gap in the recording"),
+        "{report}"
+    );
+    assert!(report.ends_with("wrote out.csv\n"), "{report}");
+    let text = std::fs::read_to_string(folder.path().join("out.csv")).unwrap();
+    let header = "tick,time_s,displacement_m_0,target_force_n_0,host_force_n_0,status_0,\
+                  displacement_m_1,target_force_n_1,host_force_n_1,status_1,\
+                  displacement_m_2,target_force_n_2,host_force_n_2,status_2,clock_ticks,round_trip_ns,event";
+    assert_eq!(text.lines().next(), Some(header));
+    let rows = rows(&text);
+    assert_eq!(rows.len(), TICKS);
+    for (index, row) in rows.iter().enumerate() {
+        assert_eq!(row[0], (index + 1).to_string());
+        let time_s: f64 = row[1].parse().unwrap();
+        assert!((time_s - (2.0 + index as f64 * 1e-3)).abs() < 1e-9);
+        for place in 0..3 {
+            let columns = &row[2 + 4 * place..];
+            // Place i is i ticks behind.
+            assert_eq!(columns[0], rows[index.saturating_sub(place)][2]);
+            assert_eq!(columns[1], columns[2]);
+        }
+        assert!(row[15].parse::<u64>().unwrap() > 0);
+        assert_eq!(row[16], "");
+    }
+    // Dampers of their own.
+    assert!(
+        rows.iter()
+            .any(|row| row[3] != "0.0" && row[7] != row[3] && row[11] != row[7])
+    );
+}
+
+#[test]
+fn events_are_named_in_their_rows() {
+    let folder = tempfile::tempdir().unwrap();
+    // The one fault that lets nobody wait.
+    let faults = ["--faults", "duplicate=0.05"];
+    let output = pil(
+        &[&faults[..], &["--output", "-", "--format", "json"]].concat(),
+        folder.path(),
+    );
+    assert!(output.status.success(), "{output:?}");
+    let report = json_of(&output.stderr);
+    let rows = rows(&text_of(&output));
+    assert_eq!(rows.len(), TICKS);
+    let named = rows.iter().filter(|row| row[16] == "duplicate").count() as u64;
+    let made = report["injected_faults"]["duplicated"].as_u64().unwrap();
+    assert!(named > 3 && named <= made, "{named}: {report}");
+    assert!(rows.iter().any(|row| row[16].is_empty()));
+}
+
+#[test]
+fn the_page_shows_each_place_and_the_results() {
+    let folder = tempfile::tempdir().unwrap();
+    let options = [&THREE[..], &["--page", "run.html", "--format", "json"]].concat();
+    let output = pil(&options, folder.path());
+    assert!(output.status.success(), "{output:?}");
+    let report = json_of(&output.stdout);
+    assert_eq!(report["files"], serde_json::json!(["run.html"]));
+    assert_eq!(
+        report["dampers"],
+        serde_json::json!(["paper", "in-service", "reduced-vertical"])
+    );
+    let page = std::fs::read_to_string(folder.path().join("run.html")).unwrap();
+    assert!(page.starts_with("<!DOCTYPE html>") && page.ends_with("</html>\n"));
+    for (place, damper) in ["paper", "in-service", "reduced-vertical"]
+        .iter()
+        .enumerate()
+    {
+        assert!(page.contains(&format!("<h3>Place {place}: {damper}</h3>")));
+    }
+    // Forces of three places, clock ticks and round trip, each for a desk and a phone.
+    assert_eq!(page.matches("<svg").count(), 2 * 5);
+    assert_eq!(page.matches("Every force has the host's bits.").count(), 3);
+    assert!(!page.contains("Marks on the time axes") && !page.contains("http"));
+}
+
+#[test]
+fn a_paced_run_tells_missed_deadlines() {
+    let folder = tempfile::tempdir().unwrap();
+    let options = [
+        "--paced", "--ticks", "30", "--output", "-", "--page", "run.html", "--format", "json",
+    ];
+    let output = pil(&options, folder.path());
+    assert!(output.status.success(), "{output:?}");
+    let report = json_of(&output.stderr);
+    let missed = report["pacing"]["missed_deadlines"].as_u64().unwrap();
+    assert_eq!(report["pacing"]["response"]["count"], 30);
+    let late = rows(&text_of(&output))
+        .iter()
+        .filter(|row| row[16] == "late")
+        .count();
+    assert_eq!(late as u64, missed);
+    let page = std::fs::read_to_string(folder.path().join("run.html")).unwrap();
+    assert!(page.contains("<td>missed deadlines</td>") && page.contains("Dashed: one step."));
+}
+
+#[test]
+fn a_force_that_differs_fails_the_command_and_is_shown() {
+    let folder = tempfile::tempdir().unwrap();
+    let wrong = || -> Box<dyn Link> {
+        // One wrong bit in one force of tick 42.
+        Box::new(altered(|header, mut response, frame| {
+            if let Response::Forces(forces) = &mut response
+                && forces.tick == 42
+            {
+                forces.forces_n[1] = f32::from_bits(forces.forces_n[1].to_bits() ^ 1);
+            }
+            frame.write(&(header, response))
+        }))
+    };
+    let files = ["--output", "out.csv", "--page", "run.html"];
+    let output = pil_with(wrong, &files, folder.path());
+    assert_eq!(output.status.code(), Some(1), "{output:?}");
+    assert!(error_of(&output).contains("1 forces or status words and 0 states differ"));
+    assert_eq!(files_in(folder.path()), ["in.csv", "out.csv", "run.html"]);
+    let text = std::fs::read_to_string(folder.path().join("out.csv")).unwrap();
+    let differing: Vec<_> = rows(&text)
+        .into_iter()
+        .filter(|row| row[16] == "mismatch")
+        .collect();
+    assert_eq!(differing.len(), 1);
+    assert_eq!(differing[0][0], "42");
+    assert_ne!(differing[0][7], differing[0][8]);
+    let page = std::fs::read_to_string(folder.path().join("run.html")).unwrap();
+    assert_eq!(
+        page.matches("Red, on axes of its own: target less host.")
+            .count(),
+        1
+    );
+}
+
+#[test]
+fn another_number_of_dampers_than_places_is_wrong_use() {
+    let folder = tempfile::tempdir().unwrap();
+    let files = ["--output", "out.csv", "--page", "run.html"];
+    let output = pil(&[&THREE[..4], &files].concat(), folder.path());
+    assert_eq!(output.status.code(), Some(2), "{output:?}");
+    assert!(
+        error_of(&output)
+            .contains("2 dampers, the target has 3 places; allowed: 1, for all places, or 3")
+    );
+    assert_eq!(files_in(folder.path()), ["in.csv"]);
+}
+
+#[test]
+fn files_that_cannot_be_are_refused_before_the_target_is_asked() {
+    for (options, code, part) in [
+        (
+            &["--page", "none/run.html"][..],
+            1,
+            "none/run.html: cannot write: there is no folder none",
+        ),
+        (
+            &["--output", "none/out.csv"],
+            1,
+            "none/out.csv: cannot write: there is no folder none",
+        ),
+        (
+            &["--output", "in.csv"],
+            2,
+            "--output in.csv: is the input too",
+        ),
+        (
+            &["--page", "./in.csv"],
+            2,
+            "--page ./in.csv: is the input too",
+        ),
+        (
+            &["--output", "x", "--page", "x"],
+            2,
+            "--output and --page: both are x",
+        ),
+        (
+            &["--output", "-", "--page", "-"],
+            2,
+            "--output and --page: both are -",
+        ),
+        (
+            &["--damper", "-", "--damper", "-"],
+            2,
+            "`-` is standard input, which can be read for one of them only",
+        ),
+        (
+            &["--core", "0"],
+            2,
+            "--fifo, --lock-memory and --core go with --paced",
+        ),
+    ] {
+        let folder = tempfile::tempdir().unwrap();
+        recording(folder.path());
+        // Nobody listens at this port.
+        let command = ["pil", "--link", "tcp:localhost:1", "--input", "in.csv"];
+        let output = dashpot(&[&command[..], options].concat(), folder.path());
+        assert_eq!(output.status.code(), Some(code), "{options:?}: {output:?}");
+        assert!(
+            error_of(&output).contains(part),
+            "{options:?}: {}",
+            error_of(&output)
+        );
+        assert_eq!(files_in(folder.path()), ["in.csv"]);
+    }
+}

@@ -1,0 +1,12 @@
+//! Wheel on rail: profiles, geometry, normal and creep forces, conicity.
+
+mod common;
+mod conicity;
+mod creep;
+mod geometry;
+mod laws;
+mod normal;
+mod profiles;
+mod published;
+mod safety;
+mod wheelset;

@@ -1,0 +1,6 @@
+//! The reference against closed forms, printed values and a second solver.
+
+mod agreement;
+mod common;
+mod laws;
+mod robustness;

@@ -1,0 +1,18 @@
+//! The damper: its laws, accuracy, safety and encodings.
+
+mod accuracy;
+mod bank;
+mod contract;
+mod disc;
+mod energy;
+mod force_limit;
+mod image;
+mod integrity;
+mod maxwell;
+mod offset;
+mod oil;
+mod properties;
+mod published;
+mod random_dampers;
+mod static_forces;
+mod yardstick;

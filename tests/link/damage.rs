@@ -1,0 +1,127 @@
+//! Memory damaged while the tick runs free: it is found, latched, counted, and takes the safe output until the
+//! damper is loaded again.
+
+use crate::common::{Bench, reals};
+use dashpot_core::Status;
+use dashpot_core::integrity::SLICES;
+use dashpot_core::link::{Device, LossOfLink, Refusal, Request, Response, SafeOutput};
+
+/// Flips a bit of the only place in the device that holds these bytes.
+fn flip_a_bit_of(device: &mut Device<2>, bytes: &[u8]) {
+    let (start, length) = (
+        std::ptr::from_mut(device).cast::<u8>(),
+        size_of::<Device<2>>(),
+    );
+    // SAFETY: the device's memory; what is changed is a number, of which every bit pattern is one.
+    let memory = unsafe { std::slice::from_raw_parts_mut(start, length) };
+    let places = memory.windows(bytes.len()).enumerate();
+    let found: Vec<usize> = places
+        .filter_map(|(place, window)| (window == bytes).then_some(place))
+        .collect();
+    let [place] = found[..] else {
+        panic!("{} places", found.len());
+    };
+    memory[place + 2] ^= 1 << 5;
+}
+
+fn running() -> Bench {
+    let mut bench = Bench::open();
+    bench.done(&Request::LossOfLink(LossOfLink {
+        after_ticks: u32::MAX,
+        output: SafeOutput::RampToZero { ticks: 4 },
+    }));
+    bench.ask(&run());
+    bench.ask(&Request::Displace {
+        displacements_m: reals([2e-3; 2]),
+    });
+    bench.device.tick(1);
+    assert!(bench.device.outputs_n().iter().all(|force| *force > 100.0));
+    bench
+}
+
+fn run() -> Request<'static> {
+    Request::Run {
+        displacements_m: reals([0.0; 2]),
+    }
+}
+
+/// Ticks until the damage is found; the outputs fall to zero.
+fn falls_to_zero(bench: &mut Bench) -> u32 {
+    let mut ticks = 0;
+    let mut last_good = *bench.device.outputs_n();
+    while bench.counters().corruptions == 0 {
+        last_good = *bench.device.outputs_n();
+        bench.device.tick(1);
+        ticks += 1;
+        assert!(ticks < 5 * SLICES, "not found");
+    }
+    for share in [0.75, 0.5, 0.25, 0.0, 0.0] {
+        assert_eq!(
+            *bench.device.outputs_n(),
+            last_good.map(|force| share * force)
+        );
+        bench.device.tick(1);
+    }
+    assert_eq!(bench.counters().corruptions, 1);
+    ticks
+}
+
+#[test]
+fn damaged_constants_take_the_safe_output_until_the_damper_is_loaded_again() {
+    let mut bench = running();
+    // A piece of the first damper's table: twelve coefficients and its knot.
+    let words = bench.dampers[0].to_words();
+    let piece = words[11 + 13 * 5..][..13]
+        .iter()
+        .flat_map(|word| word.to_le_bytes());
+    let piece: Vec<u8> = piece.collect();
+    flip_a_bit_of(&mut bench.device, &piece);
+    // A round of either damper, and the rest of the one that was under way.
+    assert!(falls_to_zero(&mut bench) <= 3 * SLICES);
+    let (status, _) = bench.status(&Request::Status);
+    let damaged = |bits: u16| bits & Status::CORRUPTED.bits() != 0;
+    assert_eq!([damaged(status[0]), damaged(status[1])], [true, false]);
+    let displace = Request::Displace {
+        displacements_m: reals([0.0; 2]),
+    };
+    assert_eq!(bench.ask(&displace).refusal(), Some(Refusal::Corrupted(0)));
+    assert_eq!(bench.ask(&run()).refusal(), Some(Refusal::Corrupted(0)));
+    let image = bench.dampers[0].to_image();
+    assert_eq!(bench.load(0, &image).response().1, Response::Done);
+    assert_eq!(bench.ask(&run()).forces().tick, 0);
+    assert_eq!(bench.ask(&displace).forces().forces_n[..], [0.0; 2]);
+    bench.device.tick(4 * SLICES);
+    assert_eq!(bench.counters().corruptions, 1, "undamaged again");
+}
+
+/// Even the step of the first damper, which is that of the bank.
+#[test]
+fn a_damper_with_a_damaged_step_can_be_loaded_again() {
+    let mut bench = running();
+    let scalars = bench.dampers[0].to_words()[..9].to_vec();
+    let scalars: Vec<u8> = scalars.iter().flat_map(|word| word.to_le_bytes()).collect();
+    // From the step on, so that the bit flipped is one of it.
+    flip_a_bit_of(&mut bench.device, &scalars[12..]);
+    falls_to_zero(&mut bench);
+    let image = bench.dampers[0].to_image();
+    assert_eq!(bench.load(0, &image).response().1, Response::Done);
+    assert_eq!(bench.ask(&run()).forces().tick, 0);
+}
+
+#[test]
+fn a_damaged_state_takes_the_safe_output_until_run() {
+    let mut bench = running();
+    // The revision in the second state, and with it the mark: as if it had never been written.
+    let state = bench.device.states()[1].to_bytes();
+    let before = bench.device.tick_number();
+    let place = std::ptr::from_ref(&bench.device.states()[1]).cast_mut();
+    // SAFETY: plain data that nothing else refers to now.
+    unsafe { place.cast::<[u8; 24]>().write([0xff; 24]) };
+    let ticks = falls_to_zero(&mut bench);
+    assert!(ticks <= 2, "{ticks}");
+    assert_ne!(bench.device.states()[1].to_bytes(), state);
+    assert!(bench.device.tick_number() > before);
+    assert_eq!(bench.ask(&run()).forces().tick, 0);
+    bench.device.tick(10);
+    assert_eq!(bench.counters().corruptions, 1);
+}

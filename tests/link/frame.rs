@@ -1,0 +1,192 @@
+//! Frames: what comes back, what is refused, and that a zero byte ends any trouble.
+
+use dashpot_core::link::{
+    Forces, FrameError, FrameReader, Header, MOST_DAMPERS, MOST_SAMPLES, REQUEST_BYTES,
+    RESPONSE_BYTES, Request, RequestFrame, Response, ResponseFrame, Sample, Scalar, Welcome,
+};
+use proptest::prelude::*;
+
+/// Messages of a stream, each `None` where the reader found a fault.
+fn read(bytes: &[u8]) -> Vec<Option<Vec<u8>>> {
+    let mut reader = FrameReader::<REQUEST_BYTES>::new();
+    let mut messages = Vec::new();
+    for byte in bytes {
+        if let Some(result) = reader.push(*byte) {
+            messages.push(result.ok().map(|message| message.bytes.to_vec()));
+        }
+    }
+    messages
+}
+
+fn step(tick: u32) -> (Header, Request<'static>) {
+    let header = Header {
+        session: 0xabcd,
+        sequence: tick,
+    };
+    let displacements_m = (0..12).map(|i| 1e-3 * (i as f32 - 4.0)).collect();
+    (
+        header,
+        Request::Step {
+            tick,
+            displacements_m,
+        },
+    )
+}
+
+/// CRC-32 from its definition (ISO 3309): reflected polynomial 0xedb88320, all ones before and after.
+fn crc_32(bytes: &[u8]) -> u32 {
+    !bytes.iter().fold(u32::MAX, |crc, byte| {
+        (0..8).fold(crc ^ u32::from(*byte), |crc, _| {
+            (crc >> 1) ^ (0xedb8_8320 * (crc & 1))
+        })
+    })
+}
+
+/// COBS by its definition (Cheshire and Baker 1999): each code byte is the distance to the next.
+fn cobs_decoded(bytes: &[u8]) -> Vec<u8> {
+    let (mut decoded, mut place) = (Vec::new(), 0);
+    while place < bytes.len() {
+        let code = usize::from(bytes[place]);
+        decoded.extend(&bytes[place + 1..place + code]);
+        place += code;
+        if code < 255 && place < bytes.len() {
+            decoded.push(0);
+        }
+    }
+    decoded
+}
+
+#[test]
+fn a_frame_is_cobs_of_message_and_crc() {
+    let mut frame = RequestFrame::new();
+    assert!(frame.write(&step(7)));
+    let (end, encoded) = frame.bytes().split_last().unwrap();
+    assert_eq!(*end, 0);
+    assert!(!encoded.contains(&0));
+    let decoded = cobs_decoded(encoded);
+    let (message, check) = decoded.split_at(decoded.len() - 4);
+    assert_eq!(check, crc_32(message).to_le_bytes());
+    assert_eq!(read(frame.bytes()), [Some(message.to_vec())]);
+    let parsed: (Header, Request<'_>) = postcard::from_bytes(message).unwrap();
+    assert_eq!(parsed, step(7));
+}
+
+#[test]
+fn every_wrong_bit_of_a_frame_is_refused() {
+    let mut frame = RequestFrame::new();
+    for tick in [1, 0x0100_0000, u32::MAX] {
+        assert!(frame.write(&step(tick)));
+        for bit in 0..8 * frame.bytes().len() {
+            let mut wrong = frame.bytes().to_vec();
+            wrong[bit / 8] ^= 1 << (bit % 8);
+            wrong.push(0);
+            for message in read(&wrong) {
+                assert_eq!(message, None, "bit {bit}");
+            }
+        }
+    }
+}
+
+#[test]
+fn every_cut_frame_is_refused_and_the_next_is_read() {
+    let mut frame = RequestFrame::new();
+    assert!(frame.write(&step(3)));
+    let whole = frame.bytes();
+    let message = read(whole).remove(0);
+    for length in 1..whole.len() - 1 {
+        let stream = [&whole[..length], &[0], whole].concat();
+        assert_eq!(read(&stream), [None, message.clone()], "{length} bytes");
+    }
+}
+
+#[test]
+fn the_longest_messages_fit() {
+    let header = Header {
+        session: u16::MAX,
+        sequence: u32::MAX,
+    };
+    let states = [0xff; MOST_DAMPERS * 24];
+    let tick = u32::MAX;
+    let mut request = RequestFrame::new();
+    let restore = Request::Restore {
+        tick,
+        states: &states,
+    };
+    assert!(request.write(&(header, restore)));
+    let image = [0xff; dashpot_core::Damper::<f32>::IMAGE_BYTES];
+    let load = Request::Load {
+        damper: u8::MAX,
+        image: &image,
+    };
+    assert!(request.write(&(header, load)));
+
+    let mut response = ResponseFrame::new();
+    let saved = Response::Saved {
+        tick,
+        states: &states,
+    };
+    assert!(response.write(&(header, saved)));
+    let welcome = Response::Welcome(Welcome {
+        protocol: u16::MAX,
+        core_version: "1000.1000.1000",
+        revisions: [u32::MAX; MOST_DAMPERS].into_iter().collect(),
+        scalar: Scalar::F64,
+        step_s: f32::MAX,
+        image_bytes: tick,
+        tick,
+        clock_hz: tick,
+        running: true,
+    });
+    assert!(response.write(&(header, welcome)));
+    let sample = Sample {
+        tick,
+        displacement_m: f32::MAX,
+        force_n: f32::MAX,
+        status: u16::MAX,
+    };
+    let telemetry = Response::Telemetry {
+        overwritten: tick,
+        samples: [sample; MOST_SAMPLES].into_iter().collect(),
+    };
+    assert!(response.write(&(header, telemetry)));
+    let forces = Response::Forces(Forces {
+        tick,
+        forces_n: [f32::MAX; MOST_DAMPERS].into_iter().collect(),
+        status: [u16::MAX; MOST_DAMPERS].into_iter().collect(),
+        clock_ticks: tick,
+    });
+    assert!(response.write(&(header, forces)));
+}
+
+#[test]
+fn what_is_too_long_is_not_written_and_not_read() {
+    let mut frame = ResponseFrame::new();
+    assert!(frame.write(&[7_u8; 32]));
+    let long = "x".repeat(RESPONSE_BYTES);
+    assert!(!frame.write(&long.as_str()));
+    assert!(frame.bytes().is_empty());
+
+    let mut reader = FrameReader::<RESPONSE_BYTES>::new();
+    for _ in 0..10 * RESPONSE_BYTES {
+        assert_eq!(reader.push(1), None);
+    }
+    assert_eq!(reader.push(0), Some(Err(FrameError::TooLong)));
+    assert!(frame.write(&step(1)));
+    let results = frame
+        .bytes()
+        .iter()
+        .filter_map(|byte| reader.push(*byte).map(|r| r.is_ok()));
+    assert_eq!(results.collect::<Vec<_>>(), [true]);
+}
+
+proptest! {
+    #[test]
+    fn any_bytes_then_a_zero_then_a_frame(noise in prop::collection::vec(any::<u8>(), 0..2000), tick in any::<u32>()) {
+        let mut frame = RequestFrame::new();
+        prop_assert!(frame.write(&step(tick)));
+        let stream = [&noise[..], &[0], frame.bytes()].concat();
+        let messages = read(&stream);
+        let expected = read(frame.bytes());
+        prop_assert_eq!(messages.last(), expected.last());
+    }
+}

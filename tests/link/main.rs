@@ -1,0 +1,9 @@
+//! The link: frames, the device, and the document that describes them.
+
+mod common;
+mod damage;
+mod device;
+mod document;
+mod frame;
+mod load;
+mod running;
