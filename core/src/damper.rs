@@ -94,7 +94,7 @@ impl<T: Real> Damper<T> {
         let limit = self.scalars.half_force_limit + self.scalars.half_force_limit;
         let most = T::from_f64(LARGEST_FORCE_N);
         if limit <= most {
-            limit.larger(T::ZERO)
+            limit.max(T::ZERO)
         } else {
             most
         }
@@ -106,7 +106,7 @@ impl<T: Real> Damper<T> {
         let half = T::from_f64(0.5) * clearance_m;
         let most = T::from_f64(0.5 * LARGEST_CLEARANCE_M);
         let half = if half > T::ZERO && half.is_finite() {
-            half.smaller(most)
+            half.min(most)
         } else {
             T::ZERO
         };
@@ -127,7 +127,7 @@ impl<T: Real> Damper<T> {
     pub(crate) fn could_leave(&self, state: &DamperState<T>) -> bool {
         state.displacement.is_finite()
             && state.potential.is_finite()
-            && state.stretch.magnitude() <= self.largest_reach()
-            && state.force.magnitude() <= self.force_limit_n()
+            && state.stretch.abs() <= self.largest_reach()
+            && state.force.abs() <= self.force_limit_n()
     }
 }

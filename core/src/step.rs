@@ -46,11 +46,11 @@ impl<T: Real> Damper<T> {
     pub fn adopt(&self, state: &mut DamperState<T>) {
         let a = self.scalars.half_clearance;
         let limit = self.force_limit_n();
-        let force = state.force.larger(-limit).smaller(limit);
+        let force = state.force.max(-limit).min(limit);
         (state.stretch, state.potential) = if force == T::ZERO {
-            (state.stretch.larger(-a).smaller(a), T::ZERO)
+            (state.stretch.max(-a).min(a), T::ZERO)
         } else {
-            settle(self, force)
+            state_at_force(self, force)
         };
         if state.revision != 0 {
             state.latch(Status::DAMPER_SWAPPED);
@@ -67,12 +67,12 @@ pub(crate) fn step<T: Real, V: Lanes<T, L>, const L: usize>(
     displacements: [T; L],
 ) -> [T; L] {
     let (travel, rest_rounder) = enter::<T, V, L>(dampers, states, V::new(displacements));
-    let [_, start, potential, _] = V::columns(states.each_ref().map(DamperState::numbers));
+    let [_, start, potential, _] = V::transpose(states.each_ref().map(DamperState::numbers));
 
     let stages = Stages::new(dampers);
-    let gamma = V::all(IMPLICIT_SHARE);
+    let gamma = V::splat(IMPLICIT_SHARE);
     let first = stages.solve(start + gamma * travel);
-    let last = stages.solve(start + travel - V::all(1.0 - IMPLICIT_SHARE) * first.flow);
+    let last = stages.solve(start + travel - V::splat(1.0 - IMPLICIT_SHARE) * first.flow);
     let bend = gamma * (last.flow - first.flow);
     let quadrature = first.flow + bend;
     let change = travel - quadrature;
@@ -81,8 +81,8 @@ pub(crate) fn step<T: Real, V: Lanes<T, L>, const L: usize>(
     // The flow's mean over the straight path, by its potential and, off the path, by its slope.
     let end_potential = last.potential();
     let area = end_potential - potential + bend * bend;
-    let most = (change * V::all(CORRECTION_SHARE)).magnitudes();
-    let correction = (area / change - quadrature).at_most(most).at_least(-most);
+    let most = (change * V::splat(CORRECTION_SHARE)).abs();
+    let correction = (area / change - quadrature).min(most).max(-most);
     let contact = last.flow * start * potential;
     let correction = correction.unless_positive(contact);
 
@@ -91,8 +91,8 @@ pub(crate) fn step<T: Real, V: Lanes<T, L>, const L: usize>(
     let magnitude = stages.force(stretch, last.stiffness());
     let yields = magnitude.reaches(stages.force_limit);
     // Damaged constants may make each of the two any number or none; the force is finite all the same.
-    let limited = magnitude.at_most(stages.force_limit).at_least(V::all(0.0));
-    let limited = limited.at_most(V::all(LARGEST_FORCE_N));
+    let limited = magnitude.min(stages.force_limit).max(V::splat(0.0));
+    let limited = limited.min(V::splat(LARGEST_FORCE_N));
     let forces = limited.with_sign_of(stretch).array();
     let (stretches, potentials) = (stretch.array(), potential.array());
     for (lane, state) in states.iter_mut().enumerate() {
@@ -118,10 +118,10 @@ fn enter<T: Real, V: Lanes<T, L>, const L: usize>(
         .iter()
         .zip(&*states)
         .all(|(damper, state)| damper.revision == state.revision);
-    if !(known && travel.magnitudes().all_within(number(|k| k.largest_move))) {
+    if !(known && travel.abs().all_at_most(number(|k| k.largest_move))) {
         let mut travels = displacement.array();
         for ((damper, state), travel) in dampers.iter().zip(&mut *states).zip(&mut travels) {
-            *travel = admit(damper, state, *travel);
+            *travel = limit_input(damper, state, *travel);
         }
         travel = V::new(travels);
     }
@@ -139,7 +139,7 @@ fn enter<T: Real, V: Lanes<T, L>, const L: usize>(
 /// stepped is adopted, a travel that is not credible limited; each latched, the last counted.
 #[cold]
 #[inline(never)]
-fn admit<T: Real>(damper: &Damper<T>, state: &mut DamperState<T>, displacement: T) -> T {
+fn limit_input<T: Real>(damper: &Damper<T>, state: &mut DamperState<T>, displacement: T) -> T {
     if !state.is_marked() || !state.displacement.is_finite() {
         *state = damper.at_rest(displacement);
         state.latch(Status::CORRUPTED);
@@ -149,13 +149,13 @@ fn admit<T: Real>(damper: &Damper<T>, state: &mut DamperState<T>, displacement: 
     }
     let travel = displacement - state.displacement;
     let largest_move = damper.scalars.largest_move;
-    if travel.magnitude() <= largest_move {
+    if travel.abs() <= largest_move {
         return travel;
     }
     state.rejected_inputs = state.rejected_inputs.saturating_add(1);
     if travel.is_finite() {
         state.latch(Status::INPUT_LIMITED);
-        let limited = travel.larger(-largest_move).smaller(largest_move);
+        let limited = travel.max(-largest_move).min(largest_move);
         // What the displacement can move by: far out, less than the limit.
         (state.displacement + limited) - state.displacement
     } else {
@@ -184,10 +184,11 @@ struct Stage<'a, T, V, const L: usize> {
 impl<'a, T: Real, V: Lanes<T, L>, const L: usize> Stages<'a, T, V, L> {
     #[inline(always)]
     fn new(dampers: [&'a Damper<T>; L]) -> Self {
-        let [offset, first_knot, half_clearance, half_limit] = V::columns(dampers.map(|damper| {
-            let k = &damper.scalars;
-            [k.offset, k.first_knot, k.half_clearance, k.half_force_limit]
-        }));
+        let [offset, first_knot, half_clearance, half_limit] =
+            V::transpose(dampers.map(|damper| {
+                let k = &damper.scalars;
+                [k.offset, k.first_knot, k.half_clearance, k.half_force_limit]
+            }));
         Self {
             tables: dampers.map(|damper| &damper.table),
             offset,
@@ -201,7 +202,7 @@ impl<'a, T: Real, V: Lanes<T, L>, const L: usize> Stages<'a, T, V, L> {
     #[inline(always)]
     fn solve(&self, reach: V) -> Stage<'a, T, V, L> {
         // Comparing with a constant takes one instruction by every compiler, with a variable it may take eight.
-        let beyond = (reach.magnitudes() - self.offset).at_least(V::all(0.0));
+        let beyond = (reach.abs() - self.offset).max(V::splat(0.0));
         let (pieces, z) = locate(self.tables, beyond + self.first_knot, reach);
         let flow = cubic(pieces.map(|piece| piece.flow), z);
         Stage { flow, pieces, z }
@@ -211,7 +212,7 @@ impl<'a, T: Real, V: Lanes<T, L>, const L: usize> Stages<'a, T, V, L> {
     /// the limit.
     #[inline(always)]
     fn force(&self, stretch: V, stiffness: V) -> V {
-        let beyond = (stretch.magnitudes() - self.half_clearance).at_least(V::all(0.0));
+        let beyond = (stretch.abs() - self.half_clearance).max(V::splat(0.0));
         beyond * stiffness
     }
 }
@@ -231,20 +232,20 @@ impl<T: Real, V: Lanes<T, L>, const L: usize> Stage<'_, T, V, L> {
 }
 
 /// The stretch (m) and flow potential (m^2) at which `damper` has a force (N), by bisection of its stages.
-pub(crate) fn settle<T: Real>(damper: &Damper<T>, force: T) -> (T, T) {
+pub(crate) fn state_at_force<T: Real>(damper: &Damper<T>, force: T) -> (T, T) {
     let stages: Stages<'_, T, T, 1> = Stages::new([damper]);
     let signed = |value: T| if force < T::ZERO { -value } else { value };
     let mut low = damper.scalars.half_clearance;
     let mut high = damper.largest_reach();
     let mut found = (T::ZERO, T::ZERO);
-    for _ in 0..T::DIGITS + 2 {
+    for _ in 0..T::MANTISSA_DIGITS + 2 {
         let middle = T::from_f64(0.5) * (low + high);
         let reach = signed(middle);
         let stage = stages.solve(reach);
         let stretch = reach - T::from_f64(IMPLICIT_SHARE) * stage.flow;
         let reached = stages.force(stretch, stage.stiffness());
         found = (stretch, stage.potential());
-        if reached < force.magnitude() {
+        if reached < force.abs() {
             low = middle;
         } else {
             high = middle;

@@ -6,7 +6,7 @@
 //! At most [`KNOTS_PER_BIN`] knots lie within a bin, so as many comparisons end at the right piece.
 
 use crate::encoding::checksum;
-use crate::math::{Lanes, Real};
+use crate::math::Lanes;
 
 /// Pieces a side.
 pub(crate) const PIECES: usize = 64;
@@ -207,7 +207,7 @@ pub(crate) const fn bin_shift(digits: u32) -> u32 {
 /// For each lane the piece around the positive `reach` on the side of `direction`, and z in it. Any
 /// number is safe to look up.
 #[inline(always)]
-pub(crate) fn locate<T: Real, V: Lanes<T, L>, const L: usize>(
+pub(crate) fn locate<T: Copy, V: Lanes<T, L>, const L: usize>(
     tables: [&Table<T>; L],
     reach: V,
     direction: V,
@@ -216,13 +216,13 @@ pub(crate) fn locate<T: Real, V: Lanes<T, L>, const L: usize>(
     let first: [usize; L] = core::array::from_fn(|lane| {
         usize::from(tables[lane].bins[bins[lane] % BINS][sides[lane] % 2])
     });
-    let beyond = reach.beyond(core::array::from_fn(|lane| {
+    let passed = reach.knots_passed(core::array::from_fn(|lane| {
         let piece = &tables[lane].pieces[first[lane] % (2 * PIECES)];
         let [next, second] = piece.next_knots;
         [piece.knot, next, second, piece.padding]
     }));
     let pieces = core::array::from_fn(|lane| {
-        &tables[lane].pieces[(first[lane] + beyond[lane]) % (2 * PIECES)]
+        &tables[lane].pieces[(first[lane] + passed[lane]) % (2 * PIECES)]
     });
     let knot = V::new(pieces.map(|piece: &Piece<T>| piece.knot));
     (pieces, reach - knot)
@@ -231,7 +231,7 @@ pub(crate) fn locate<T: Real, V: Lanes<T, L>, const L: usize>(
 /// `c0 + c1 z + c2 z^2 + c3 z^3` of each lane, in pairs: a shorter chain than Horner's for one product
 /// more.
 #[inline(always)]
-pub(crate) fn cubic<T: Real, V: Lanes<T, L>, const L: usize>(coefficients: [[T; 4]; L], z: V) -> V {
-    let [c0, c1, c2, c3] = V::columns(coefficients);
+pub(crate) fn cubic<T: Copy, V: Lanes<T, L>, const L: usize>(coefficients: [[T; 4]; L], z: V) -> V {
+    let [c0, c1, c2, c3] = V::transpose(coefficients);
     (c3 * z + c2) * (z * z) + (c1 * z + c0)
 }

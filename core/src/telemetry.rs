@@ -82,7 +82,7 @@ impl<const N: usize> Telemetry<N> {
             count += 1.0;
         }
         if count > 0.0 {
-            approximate::square_root(sum / count)
+            approximate::sqrt(sum / count)
         } else {
             0.0
         }

@@ -46,7 +46,7 @@ pub(super) fn write<T: Real>(stage: &Stage<'_>, direction: f64, pieces: &mut [Pi
         piece.stiffness = constant((1.0 + YIELD_MARGIN) * end.stiffness);
         piece.potential = constant(potential);
         // Pieces left over are never reached.
-        knot = T::LARGEST;
+        knot = T::MAX;
     }
 }
 
@@ -118,7 +118,7 @@ fn has_room<T: Real>(knots: impl Iterator<Item = f64>, reach: f64) -> bool {
         if other == knot {
             return false;
         }
-        within += usize::from(other.bin() == knot.bin());
+        within += usize::from(other.bins() == knot.bins());
     }
     within < KNOTS_PER_BIN
 }

@@ -128,7 +128,7 @@ impl DamperParameters {
         let yields = branches.map(|branch| branch.deflection(branch.force_limit));
         let reach = 1.5 * (1.2 * yields[0].max(yields[1]) + 0.2 * largest_move) + largest_move;
         let first_knot = first_knot(reach);
-        let mut table = T::TABLE;
+        let mut table = T::ZERO_TABLE;
         let (extension, compression) = table.pieces.split_at_mut(PIECES);
         for (branch, direction, pieces) in [
             (&branches[0], 1.0, extension),

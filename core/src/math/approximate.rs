@@ -6,7 +6,7 @@ use micromath::F32Ext;
 ///
 /// micromath halves the exponent in the number's bits, which is exact at even powers of 2 and largest
 /// in error, 6.07 %, half-way between two.
-pub(crate) fn square_root(value: f32) -> f32 {
+pub(crate) fn sqrt(value: f32) -> f32 {
     if value > 0.0 {
         F32Ext::sqrt(value)
     } else {
@@ -24,7 +24,7 @@ mod tests {
             let value = 1.0 + 3.0 * step as f32 / 40_000.0;
             for scale in [1e-6, 1.0, 1e9] {
                 let exact = libm::sqrtf(value * scale);
-                worst = worst.max((super::square_root(value * scale) - exact).abs() / exact);
+                worst = worst.max((super::sqrt(value * scale) - exact).abs() / exact);
             }
         }
         assert!(worst < 0.062, "worst error {worst}");
@@ -32,7 +32,7 @@ mod tests {
             worst > 0.01,
             "exact after all: {worst}; the documentation is wrong"
         );
-        assert_eq!(super::square_root(0.0), 0.0);
-        assert_eq!(super::square_root(-1.0), 0.0);
+        assert_eq!(super::sqrt(0.0), 0.0);
+        assert_eq!(super::sqrt(-1.0), 0.0);
     }
 }

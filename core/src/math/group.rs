@@ -78,21 +78,25 @@ macro_rules! group {
                 Self(low, high)
             }
             #[inline(always)]
+            fn splat(value: f64) -> Self {
+                Self::new([value as $float; GROUP])
+            }
+            #[inline(always)]
             fn array(self) -> [$float; GROUP] {
                 whole([self.0.to_array(), self.1.to_array()])
             }
             #[inline(always)]
-            fn columns(rows: [[$float; 4]; GROUP]) -> [Self; 4] {
-                let columns = |rows: [[$float; 4]; 4]| $vector::transpose(rows.map($vector::new));
-                let [low, high] = halves(rows).map(columns);
+            fn transpose(rows: [[$float; 4]; GROUP]) -> [Self; 4] {
+                let transpose = |rows: [[$float; 4]; 4]| $vector::transpose(rows.map($vector::new));
+                let [low, high] = halves(rows).map(transpose);
                 core::array::from_fn(|column| Self(low[column], high[column]))
             }
             #[inline(always)]
-            fn magnitudes(self) -> Self {
+            fn abs(self) -> Self {
                 self.map($vector::abs)
             }
             #[inline(always)]
-            fn at_least(self, other: Self) -> Self {
+            fn max(self, other: Self) -> Self {
                 // One instruction there; elsewhere it would pass NaN on.
                 if cfg!(target_arch = "x86_64") {
                     self.zip(other, $vector::fast_max)
@@ -101,7 +105,7 @@ macro_rules! group {
                 }
             }
             #[inline(always)]
-            fn at_most(self, other: Self) -> Self {
+            fn min(self, other: Self) -> Self {
                 if cfg!(target_arch = "x86_64") {
                     self.zip(other, $vector::fast_min)
                 } else {
@@ -109,7 +113,7 @@ macro_rules! group {
                 }
             }
             #[inline(always)]
-            fn all_within(self, other: Self) -> bool {
+            fn all_at_most(self, other: Self) -> bool {
                 let within = self.zip(other, $vector::simd_le);
                 (within.0 & within.1).all()
             }
@@ -141,11 +145,11 @@ macro_rules! group {
                 whole([bins(self.0), bins(self.1)]).map(|bin| bin as usize)
             }
             #[inline(always)]
-            fn beyond(self, knots: [[$float; 4]; GROUP]) -> [usize; GROUP] {
-                let [_, next, second, _] = Self::columns(knots);
+            fn knots_passed(self, knots: [[$float; 4]; GROUP]) -> [usize; GROUP] {
+                let [_, next, second, _] = Self::transpose(knots);
                 let [next, second] = [next, second].map(|knot| {
-                    let beyond = self.zip(knot, $vector::simd_gt);
-                    beyond.0.to_bitmask() | beyond.1.to_bitmask() << 4
+                    let passed = self.zip(knot, $vector::simd_gt);
+                    passed.0.to_bitmask() | passed.1.to_bitmask() << 4
                 });
                 core::array::from_fn(|lane| {
                     (next >> lane & 1) as usize + (second >> lane & 1) as usize

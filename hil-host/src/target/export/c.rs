@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use dashpot_core::Damper;
+use dashpot_core::{Damper, Real};
 
 use super::{Provenance, Word, name};
 use crate::error::{Failure, Outcome};
@@ -57,7 +57,7 @@ fn declaration<T: Word>(
     provenance: &Provenance<'_>,
 ) -> Outcome<String> {
     name::check_c(constant)?;
-    if T::NAME != f32::NAME {
+    if T::NAME != <f32 as Real>::NAME {
         return Err(Failure::wrong_use(format!(
             "--scalar {}: the C library is of single precision, allowed with --lang c: f32",
             T::NAME
