@@ -2,11 +2,9 @@
 
 use heapless::Vec;
 
-use crate::build::ElementLaws;
 use crate::build::root::bracketed_root;
-use crate::error::BuildError;
+use crate::build::{CheckedParameters, ElementLaws};
 use crate::hydraulics::{HydraulicSide, jet_velocity};
-use crate::parameters::DamperParameters;
 
 /// One of the three shim-pack valves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -43,14 +41,11 @@ pub struct Characteristic {
 
 impl Characteristic {
     /// The static laws of a damper.
-    ///
-    /// # Errors
-    /// As [`DamperParameters::validate`].
-    pub fn new(parameters: &DamperParameters) -> Result<Self, BuildError> {
-        Ok(Self {
-            laws: parameters.laws()?,
+    pub fn new(parameters: &CheckedParameters) -> Self {
+        Self {
+            laws: parameters.laws.clone(),
             force_limit_n: parameters.limits.force_n,
-        })
+        }
     }
 
     /// Force (N) at a constant velocity (m/s), both positive in extension; 0 at rest. At most the force
@@ -87,16 +82,10 @@ impl Characteristic {
     ///
     /// ```
     /// use dashpot_core::characteristic::{Characteristic, Corner};
-    /// use dashpot_core::parameters::{DamperParameters, Element, Limits, Mount, Reduced};
+    /// use dashpot_core::parameters::{DamperParameters, Mount};
     ///
-    /// let characteristic = Characteristic::new(&DamperParameters {
-    ///     element: Element::Reduced(Reduced {
-    ///         damping_n_s_per_m: 120e3,
-    ///         saturation_velocity_m_per_s: 0.03,
-    ///     }),
-    ///     mount: Mount { stiffness_n_per_m: 8e6, seat_stiffness_n_per_m: None, clearance_m: 1e-3 },
-    ///     limits: Limits::default(),
-    /// })?;
+    /// let parameters = DamperParameters::reduced(120e3, 0.03, Mount::new(8e6));
+    /// let characteristic = Characteristic::new(&parameters.check()?);
     /// assert_eq!(characteristic.corners()[..], [(Corner::Yields, 3600.0), (Corner::Yields, -3600.0)]);
     /// # Ok::<(), dashpot_core::BuildError>(())
     /// ```
@@ -124,16 +113,10 @@ impl Characteristic {
     ///
     /// ```
     /// use dashpot_core::characteristic::{Characteristic, ShimPackValve};
-    /// use dashpot_core::parameters::{DamperParameters, Element, Limits, Mount, Reduced};
+    /// use dashpot_core::parameters::{DamperParameters, Mount};
     ///
-    /// let characteristic = Characteristic::new(&DamperParameters {
-    ///     element: Element::Reduced(Reduced {
-    ///         damping_n_s_per_m: 120e3,
-    ///         saturation_velocity_m_per_s: 0.03,
-    ///     }),
-    ///     mount: Mount { stiffness_n_per_m: 8e6, seat_stiffness_n_per_m: None, clearance_m: 1e-3 },
-    ///     limits: Limits::default(),
-    /// })?;
+    /// let parameters = DamperParameters::reduced(120e3, 0.03, Mount::new(8e6));
+    /// let characteristic = Characteristic::new(&parameters.check()?);
     /// assert_eq!(characteristic.force_n(0.01), 1200.0);
     /// assert_eq!(characteristic.force_n(-0.1), -3600.0);
     /// assert!(characteristic.valve_flow_m3_per_s(ShimPackValve::FootCompression, 1e6).is_none());

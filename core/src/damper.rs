@@ -12,17 +12,10 @@ use crate::table::{DOUBLINGS, Table};
 ///
 /// ```
 /// # #[cfg(feature = "builder")] {
-/// use dashpot_core::parameters::{DamperParameters, Element, Limits, Mount, Reduced};
+/// use dashpot_core::parameters::{DamperParameters, Mount};
 /// use dashpot_core::Damper;
 ///
-/// let parameters = DamperParameters {
-///     element: Element::Reduced(Reduced {
-///         damping_n_s_per_m: 120e3,
-///         saturation_velocity_m_per_s: 0.03,
-///     }),
-///     mount: Mount { stiffness_n_per_m: 8e6, seat_stiffness_n_per_m: None, clearance_m: 0.0 },
-///     limits: Limits::default(),
-/// };
+/// let parameters = DamperParameters::reduced(120e3, 0.03, Mount::new(8e6));
 /// let damper: Damper<f32> = parameters.build(1e-3)?;
 /// let mut state = damper.at_rest(0.0);
 /// let mut force = 0.0;

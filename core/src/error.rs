@@ -2,6 +2,9 @@
 
 use core::fmt;
 
+#[cfg(feature = "builder")]
+use crate::parameters::{Numbers, Range};
+
 /// A parameter that cannot be built, with the field's name and what is allowed.
 ///
 /// ```
@@ -38,37 +41,33 @@ impl fmt::Display for BuildError {
 
 impl core::error::Error for BuildError {}
 
-/// `Ok` when `valid`, else the error that names the field. NaN and infinity never pass.
+/// `Ok` when a value is in its range and keeps its relation to others, else the error that names the field.
 #[cfg(feature = "builder")]
 pub(crate) fn require(
     section: &'static str,
-    field: &'static str,
+    range: &Range,
     value: f64,
-    valid: bool,
-    allowed: &'static str,
+    keeps_relation: bool,
 ) -> Result<(), BuildError> {
-    if valid && value.is_finite() {
+    if range.contains(value) && keeps_relation {
         Ok(())
     } else {
         Err(BuildError {
             section,
-            field,
+            field: range.key,
             value,
-            allowed,
+            allowed: range.allowed,
         })
     }
 }
 
-/// Requires fields of one table of the damper file to lie in their ranges, each told in words with its unit.
+/// As [`require`], of every number of a field.
 #[cfg(feature = "builder")]
-macro_rules! require_ranges {
-    ($section:expr, $of:expr; $($field:ident in $range:expr, $allowed:literal;)+) => {
-        [$((stringify!($field), $of.$field, $range, $allowed)),+]
-            .into_iter()
-            .try_for_each(|(field, value, range, allowed)| {
-                $crate::error::require($section, field, value, range.contains(&value), allowed)
-            })
-    };
+pub(crate) fn require_range(
+    section: &'static str,
+    range: &Range,
+    field: &impl Numbers,
+) -> Result<(), BuildError> {
+    let mut numbers = field.numbers().iter();
+    numbers.try_for_each(|value| require(section, range, *value, true))
 }
-#[cfg(feature = "builder")]
-pub(crate) use require_ranges;

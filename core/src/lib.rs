@@ -41,6 +41,8 @@ mod table;
 pub mod telemetry;
 
 pub use bank::step_bank;
+#[cfg(feature = "builder")]
+pub use build::CheckedParameters;
 pub use damper::Damper;
 pub use encoding::{ImageError, Loading, SavedStateError, crc_32};
 pub use error::BuildError;

@@ -90,7 +90,7 @@ fn corners(name: &str) -> Vec<(String, f64)> {
         .into_iter()
         .find(|(row, ..)| *row == name)
         .expect("a row of the table");
-    let law = Characteristic::new(&damper(preset, overrides)).expect("a valid damper");
+    let law = Characteristic::new(&damper(preset, overrides).check().expect("a valid damper"));
     law.corners()
         .iter()
         .map(|(corner, force)| {

@@ -218,7 +218,7 @@ fn measure(number: u64) -> Result<Case, String> {
         nrmse: [[0.0; 2]; 2],
         reached: Vec::new(),
     };
-    let law = Characteristic::new(&parameters).map_err(|error| error.to_string())?;
+    let law = Characteristic::new(&parameters.check().map_err(|error| error.to_string())?);
     for (step_s, found) in STEPS_S.into_iter().zip(&mut case.nrmse) {
         let ticks = (DURATION_S / step_s).round() as usize;
         let times: Vec<f64> = (0..=ticks).map(|tick| tick as f64 * step_s).collect();

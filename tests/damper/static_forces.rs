@@ -281,7 +281,7 @@ fn a_cold_reservoir_draws_at_the_foot_valve() {
     );
     let back: f64 = 101_325.0 * (253.15 / 293.15 - 1.0);
     assert!((back + 13_826.0).abs() < 1.0);
-    let law = Characteristic::new(&cold).expect("a preset");
+    let law = Characteristic::new(&cold.check().expect("a preset"));
     for pressure in [1e3, 1e5] {
         let density = 870.0 / (1.0 - 35.0 * 7e-4) / (1.0 - pressure / 1.5e9);
         let by_hand = 0.61

@@ -1,82 +1,54 @@
-//! Parameters to constants: everything that may fail, allocate nothing and take its time.
+//! Parameters to constants: what may be refused and takes its time; nothing is allocated.
 
 mod branch;
+mod checked;
 mod fit;
 mod knots;
 pub(crate) mod root;
 mod span;
 
+pub use checked::CheckedParameters;
+pub(crate) use checked::ElementLaws;
+
 use branch::{Branch, Law};
 use span::Stage;
 
 use crate::damper::Damper;
-use crate::error::{BuildError, require, require_ranges};
-use crate::hydraulics::{HydraulicSide, Laws};
+use crate::error::BuildError;
+use crate::hydraulics::HydraulicSide;
 use crate::math::Real;
-use crate::parameters::{
-    DamperParameters, Element, LARGEST_CLEARANCE_M, LARGEST_FORCE_N, Limits, Mount, OilColumn,
-    Reduced,
-};
+use crate::parameters::{DamperParameters, OilColumn, STEP_RANGE_S};
 use crate::scalars::Scalars;
 use crate::table::{DOUBLINGS, PIECES};
 
-/// The laws of an element, checked and ready to evaluate.
-#[allow(clippy::large_enum_variant)] // one per damper, never in an array
-pub(crate) enum ElementLaws {
-    /// Hydraulics.
-    Physical(Laws),
-    /// Damping coefficient and saturation velocity.
-    Reduced(Reduced),
-}
-
 impl DamperParameters {
-    /// Checks every parameter.
+    /// [`Self::check`], then [`CheckedParameters::build`].
     ///
     /// # Errors
     /// The first field out of its range, with the range.
-    pub fn validate(&self) -> Result<(), BuildError> {
-        self.laws().map(drop)
+    pub fn build<T: Real>(&self, step_s: f64) -> Result<Damper<T>, BuildError> {
+        self.check()?.build(step_s)
     }
+}
 
-    /// The laws of the element, every parameter checked.
-    pub(crate) fn laws(&self) -> Result<ElementLaws, BuildError> {
-        validate_mount(&self.mount)?;
-        validate_limits(&self.limits)?;
-        match &self.element {
-            Element::Physical(hydraulics) => {
-                let laws = Laws::new(hydraulics)?;
-                require(
-                    "limits",
-                    "force_n",
-                    self.limits.force_n,
-                    self.limits.force_n > 2.0 * laws.friction_n,
-                    "above twice seal.friction_n",
-                )?;
-                Ok(ElementLaws::Physical(laws))
-            }
-            Element::Reduced(reduced) => {
-                validate_reduced(reduced)?;
-                Ok(ElementLaws::Reduced(*reduced))
-            }
-        }
-    }
-
+impl CheckedParameters {
     /// The constants of this damper for a fixed step (s).
     ///
     /// Bounded work (some thousand evaluations of the flow laws), no allocation; run it on the
     /// host or outside the tick.
     ///
     /// # Errors
-    /// The first field out of its range, with the range.
+    /// A step outside [`STEP_RANGE_S`].
     pub fn build<T: Real>(&self, step_s: f64) -> Result<Damper<T>, BuildError> {
-        require(
-            "step",
-            "step_s",
-            step_s,
-            (1e-6..=2e-2).contains(&step_s),
-            "1e-6 to 2e-2 s",
-        )?;
-        let damper = match &self.laws()? {
+        if !STEP_RANGE_S.contains(&step_s) {
+            return Err(BuildError {
+                section: "step",
+                field: "step_s",
+                value: step_s,
+                allowed: "1e-6 to 2e-2 s",
+            });
+        }
+        let damper = match &self.laws {
             ElementLaws::Physical(laws) => {
                 let branch = |compression: bool| {
                     let volume = |column: OilColumn| {
@@ -179,32 +151,4 @@ fn position_span(largest_move: f64) -> f64 {
         span *= 2.0;
     }
     span
-}
-
-fn validate_mount(mount: &Mount) -> Result<(), BuildError> {
-    require_ranges!("mount", mount; stiffness_n_per_m in 1e4..=1e12, "1e4 to 1e12 N/m";)?;
-    if let Some(stiffness) = mount.seat_stiffness_n_per_m {
-        require(
-            "mount",
-            "seat_stiffness_n_per_m",
-            stiffness,
-            (1e4..=1e12).contains(&stiffness),
-            "1e4 to 1e12 N/m",
-        )?;
-    }
-    require_ranges!("mount", mount; clearance_m in 0.0..=LARGEST_CLEARANCE_M, "0 to 0.1 m";)
-}
-
-fn validate_limits(limits: &Limits) -> Result<(), BuildError> {
-    require_ranges!("limits", limits;
-        force_n in 1.0..=LARGEST_FORCE_N, "1 to 1e7 N";
-        rate_m_per_s in 1e-3..=100.0, "1e-3 to 100 m/s";
-    )
-}
-
-fn validate_reduced(reduced: &Reduced) -> Result<(), BuildError> {
-    require_ranges!("reduced", reduced;
-        damping_n_s_per_m in 1.0..=1e9, "1 to 1e9 N s/m";
-        saturation_velocity_m_per_s in 1e-6..=100.0, "1e-6 to 100 m/s";
-    )
 }

@@ -64,17 +64,10 @@ macro_rules! saved_state {
             ///
             /// ```
             /// # #[cfg(feature = "builder")] {
-            /// use dashpot_core::parameters::{DamperParameters, Element, Limits, Mount, Reduced};
+            /// use dashpot_core::parameters::{DamperParameters, Mount};
             /// use dashpot_core::{Damper, SavedStateError};
             ///
-            /// let parameters = DamperParameters {
-            ///     element: Element::Reduced(Reduced {
-            ///         damping_n_s_per_m: 120e3,
-            ///         saturation_velocity_m_per_s: 0.03,
-            ///     }),
-            ///     mount: Mount { stiffness_n_per_m: 8e6, seat_stiffness_n_per_m: None, clearance_m: 1e-3 },
-            ///     limits: Limits::default(),
-            /// };
+            /// let parameters = DamperParameters::reduced(120e3, 0.03, Mount::new(8e6));
             #[doc = concat!("let damper: Damper<", stringify!($float), "> = parameters.build(1e-3)?;")]
             /// let mut bytes = damper.at_rest(0.25).to_bytes();
             /// assert_eq!(damper.restore(&bytes).unwrap().displacement(), 0.25);

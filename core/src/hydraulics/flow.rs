@@ -2,10 +2,12 @@
 
 use core::f64::consts::PI;
 
-use crate::error::{BuildError, require, require_ranges};
 use crate::math::elementary::sqrt;
-use crate::parameters::{Hydraulics, Oil, Relief, Valve};
-use crate::shim::edge_compliance_m_per_pa;
+use crate::oil::ZERO_CELSIUS_K;
+use crate::parameters::{
+    ATMOSPHERIC_PRESSURE_PA, Hydraulics, Leakage, Oil, Relief, Reservoir, Valve, circle_area,
+};
+use crate::shim::edge_compliance;
 
 /// Shim-pack valve ready to evaluate: `Q = Cd 2 pi r_w k_w (P - P_0)+ sqrt(2 (P - P_b)+/rho)`.
 #[derive(Clone, Copy, Debug)]
@@ -16,34 +18,15 @@ pub(crate) struct ShimValve {
 }
 
 impl ShimValve {
-    fn new(section: &'static str, valve: &Valve) -> Result<Self, BuildError> {
-        let check = |field, value, valid, allowed| require(section, field, value, valid, allowed);
-        let compliance = edge_compliance_m_per_pa(section, valve)?;
-        check(
-            "free_radius_m",
-            valve.free_radius_m,
-            valve.free_radius_m > 0.0 && valve.free_radius_m <= 1.0,
-            "above 0 and at most 1 m",
-        )?;
-        check(
-            "clamp_radius_m",
-            valve.clamp_radius_m,
-            valve.clamp_radius_m > 0.0 && valve.clamp_radius_m < valve.free_radius_m,
-            "above 0 and below free_radius_m",
-        )?;
-        require_ranges!(section, valve;
-            equivalent_pressure_factor in 0.0..=10.0, "0 to 10";
-            discharge_coefficient in 0.0..=1.0, "0 to 1";
-            preload_pa in 0.0..=1e8, "0 to 1e8 Pa";
-        )?;
-        Ok(Self {
+    fn new(valve: &Valve) -> Self {
+        Self {
             area_gradient: valve.discharge_coefficient
                 * 2.0
                 * PI
                 * valve.free_radius_m
-                * compliance,
+                * edge_compliance(valve),
             preload_pa: valve.preload_pa,
-        })
+        }
     }
 
     /// Flow of a jet at `jet_m_per_s` through the valve, which lifts under `lift_pa`.
@@ -65,6 +48,24 @@ pub(crate) struct FlowPaths {
 }
 
 impl FlowPaths {
+    fn new(hydraulics: &Hydraulics) -> Self {
+        let orifice = &hydraulics.orifice;
+        let area = circle_area(orifice.diameter_m);
+        let transition_flow = if orifice.diameter_m > 0.0 {
+            orifice.transition_reynolds * hydraulics.oil.kinematic_viscosity_m2_per_s() * area
+                / orifice.diameter_m
+        } else {
+            0.0
+        };
+        let leakage = hydraulics.leakage.as_ref();
+        Self {
+            orifice_area: orifice.discharge_coefficient * area,
+            transition_flow,
+            leakage: leakage.map_or(0.0, |leakage| leakage_conductance(leakage, hydraulics)),
+            relief: hydraulics.relief,
+        }
+    }
+
     /// Flow at `pressure_pa` across the piston of oil of a density, whose jet has `jet_m_per_s`.
     fn flow(&self, pressure_pa: f64, density_kg_per_m3: f64, jet_m_per_s: f64) -> f64 {
         let turbulent = self.orifice_area * jet_m_per_s;
@@ -148,149 +149,46 @@ impl Laws {
         self.paths.flow(difference_pa, density, jet) + valve.flow(difference_pa, jet)
     }
 
-    pub(crate) fn new(hydraulics: &Hydraulics) -> Result<Self, BuildError> {
-        let (piston_area, rod_area) = areas(hydraulics)?;
-        let rod_side_area = piston_area - rod_area;
-        hydraulics.oil.validate()?;
+    /// The laws of parameters that were checked.
+    pub(crate) fn new(hydraulics: &Hydraulics) -> Self {
         let valves = &hydraulics.valves;
-        Ok(Self {
+        let geometry = &hydraulics.geometry;
+        Self {
             oil: hydraulics.oil,
-            paths: flow_paths(hydraulics)?,
-            extension: ShimValve::new("valves.piston_extension", &valves.piston_extension)?,
-            compression: ShimValve::new("valves.piston_compression", &valves.piston_compression)?,
-            foot: ShimValve::new("valves.foot_compression", &valves.foot_compression)?,
+            paths: FlowPaths::new(hydraulics),
+            extension: ShimValve::new(&valves.piston_extension),
+            compression: ShimValve::new(&valves.piston_compression),
+            foot: ShimValve::new(&valves.foot_compression),
             relief_opening_pa: hydraulics.relief.map(|relief| relief.opening_pressure_pa),
-            rod_side_area,
-            piston_area,
-            back_pressure_pa: back_pressure(hydraulics, rod_area)?,
-            friction_n: friction(hydraulics)?,
-            vapour_pressure_pa: vapour_pressure(hydraulics)?,
-        })
+            rod_side_area: geometry.piston_area() - geometry.rod_area(),
+            piston_area: geometry.piston_area(),
+            back_pressure_pa: hydraulics.reservoir.map_or(0.0, |reservoir| {
+                back_pressure(
+                    &reservoir,
+                    geometry.rod_area(),
+                    hydraulics.oil.temperature_c,
+                )
+            }),
+            friction_n: hydraulics.seal.map_or(0.0, |seal| seal.friction_n),
+            vapour_pressure_pa: hydraulics.two_chamber.map(|two| two.vapour_pressure_pa),
+        }
     }
 }
 
-fn areas(hydraulics: &Hydraulics) -> Result<(f64, f64), BuildError> {
-    let geometry = &hydraulics.geometry;
-    require_ranges!("geometry", geometry; piston_diameter_m in 1e-3..=1.0, "1e-3 to 1 m";)?;
-    require(
-        "geometry",
-        "rod_diameter_m",
-        geometry.rod_diameter_m,
-        geometry.rod_diameter_m >= 0.0
-            && geometry.rod_diameter_m <= 0.95 * geometry.piston_diameter_m,
-        "0 to 0.95 of piston_diameter_m",
-    )?;
-    let area = |diameter: f64| 0.25 * PI * diameter * diameter;
-    Ok((
-        area(geometry.piston_diameter_m),
-        area(geometry.rod_diameter_m),
-    ))
-}
-
-fn flow_paths(hydraulics: &Hydraulics) -> Result<FlowPaths, BuildError> {
-    let orifice = &hydraulics.orifice;
-    require(
-        "orifice",
-        "diameter_m",
-        orifice.diameter_m,
-        orifice.diameter_m >= 0.0 && orifice.diameter_m < hydraulics.geometry.piston_diameter_m,
-        "0 to below piston_diameter_m",
-    )?;
-    require_ranges!("orifice", orifice;
-        discharge_coefficient in 0.0..=1.0, "0 to 1";
-        transition_reynolds in 0.0..=1e5, "0 to 1e5";
-    )?;
-    let area = 0.25 * PI * orifice.diameter_m * orifice.diameter_m;
-    let transition_flow = if orifice.diameter_m > 0.0 {
-        orifice.transition_reynolds * hydraulics.oil.kinematic_viscosity_m2_per_s() * area
-            / orifice.diameter_m
-    } else {
-        0.0
-    };
-    Ok(FlowPaths {
-        orifice_area: orifice.discharge_coefficient * area,
-        transition_flow,
-        leakage: leakage(hydraulics)?,
-        relief: relief(hydraulics)?,
-    })
-}
-
-fn leakage(hydraulics: &Hydraulics) -> Result<f64, BuildError> {
-    let Some(leakage) = &hydraulics.leakage else {
-        return Ok(0.0);
-    };
-    require_ranges!("leakage", leakage;
-        radial_clearance_m in 0.0..=1e-3, "0 to 1e-3 m";
-        length_m in 1e-4..=1.0, "1e-4 to 1 m";
-        eccentricity_ratio in 0.0..=1.0, "0 to 1";
-    )?;
+/// Leakage past the piston, conductance times density (kg/(s Pa)).
+fn leakage_conductance(leakage: &Leakage, hydraulics: &Hydraulics) -> f64 {
     let (c, e) = (leakage.radial_clearance_m, leakage.eccentricity_ratio);
     let radius = 0.5 * hydraulics.geometry.piston_diameter_m;
-    Ok(PI * radius * c * c * c * (1.0 + 1.5 * e * e)
-        / (6.0 * hydraulics.oil.kinematic_viscosity_m2_per_s() * leakage.length_m))
+    PI * radius * c * c * c * (1.0 + 1.5 * e * e)
+        / (6.0 * hydraulics.oil.kinematic_viscosity_m2_per_s() * leakage.length_m)
 }
 
-fn relief(hydraulics: &Hydraulics) -> Result<Option<Relief>, BuildError> {
-    let Some(relief) = hydraulics.relief else {
-        return Ok(None);
-    };
-    require_ranges!("relief", relief;
-        opening_pressure_pa in 0.0..=1e8, "0 to 1e8 Pa";
-        area_gradient_m2_per_pa in 0.0..=1e-6, "0 to 1e-6 m2/Pa";
-        discharge_coefficient in 0.0..=1.0, "0 to 1";
-    )?;
-    Ok(Some(relief))
-}
-
-fn back_pressure(hydraulics: &Hydraulics, rod_area: f64) -> Result<f64, BuildError> {
-    use crate::oil::ZERO_CELSIUS_K;
-    use crate::parameters::ATMOSPHERIC_PRESSURE_PA;
-    let Some(reservoir) = &hydraulics.reservoir else {
-        return Ok(0.0);
-    };
-    require_ranges!("reservoir", reservoir;
-        fill_pressure_pa in 0.0..=1e7, "0 to 1e7 Pa";
-        gas_volume_m3 in 1e-6..=1.0, "1e-6 to 1 m3";
-        fill_temperature_c in -60.0..=150.0, "-60 to 150 degC";
-    )?;
-    let volume = reservoir.gas_volume_m3 - rod_area * reservoir.rod_insertion_m;
-    require(
-        "reservoir",
-        "rod_insertion_m",
-        reservoir.rod_insertion_m,
-        reservoir.rod_insertion_m.abs() <= 1.0 && volume >= 0.1 * reservoir.gas_volume_m3,
-        "-1 to 1 m and leaving a tenth of gas_volume_m3",
-    )?;
-    let warming = (hydraulics.oil.temperature_c + ZERO_CELSIUS_K)
-        / (reservoir.fill_temperature_c + ZERO_CELSIUS_K);
+/// Gauge pressure behind the foot valve (Pa).
+fn back_pressure(reservoir: &Reservoir, rod_area: f64, temperature_c: f64) -> f64 {
+    let warming =
+        (temperature_c + ZERO_CELSIUS_K) / (reservoir.fill_temperature_c + ZERO_CELSIUS_K);
     let absolute = (reservoir.fill_pressure_pa + ATMOSPHERIC_PRESSURE_PA)
-        * (reservoir.gas_volume_m3 / volume)
+        * (reservoir.gas_volume_m3 / reservoir.volume_m3(rod_area))
         * warming;
-    Ok(absolute - ATMOSPHERIC_PRESSURE_PA)
-}
-
-fn friction(hydraulics: &Hydraulics) -> Result<f64, BuildError> {
-    let Some(seal) = &hydraulics.seal else {
-        return Ok(0.0);
-    };
-    require_ranges!("seal", seal; friction_n in 0.0..=1e4, "0 to 1e4 N";)?;
-    Ok(seal.friction_n)
-}
-
-fn vapour_pressure(hydraulics: &Hydraulics) -> Result<Option<f64>, BuildError> {
-    use crate::parameters::ATMOSPHERIC_PRESSURE_PA;
-    let Some(two_chamber) = &hydraulics.two_chamber else {
-        return Ok(None);
-    };
-    require_ranges!("two_chamber", two_chamber;
-        vapour_pressure_pa in -ATMOSPHERIC_PRESSURE_PA..=0.0, "-101325 to 0 Pa (gauge)";
-    )?;
-    require(
-        "geometry",
-        "rod_diameter_m",
-        hydraulics.geometry.rod_diameter_m,
-        hydraulics.geometry.rod_diameter_m > 0.0,
-        "above 0 with two_chamber",
-    )?;
-    Ok(Some(two_chamber.vapour_pressure_pa))
+    absolute - ATMOSPHERIC_PRESSURE_PA
 }

@@ -2,8 +2,9 @@
 
 use nalgebra::{Matrix4, Vector4};
 
-use crate::error::{BuildError, require};
+use crate::error::BuildError;
 use crate::math::elementary::log;
+use crate::parameters::Valve;
 
 /// Annular disc of a pack: clamped at `clamp_radius_m`, free at `free_radius_m`.
 ///
@@ -33,7 +34,7 @@ impl Disc {
     /// Solves the disc's four boundary conditions; `section` names the disc in errors.
     ///
     /// # Errors
-    /// Radii not `0 < r_n < r_w`, modulus not positive, Poisson's ratio outside 0 to 0.5.
+    /// A radius, the modulus or Poisson's ratio out of the range of [`Valve::RANGES`].
     pub fn new(
         section: &'static str,
         clamp_radius_m: f64,
@@ -41,34 +42,24 @@ impl Disc {
         elastic_modulus_pa: f64,
         poisson_ratio: f64,
     ) -> Result<Self, BuildError> {
-        require(
-            section,
-            "free_radius_m",
-            free_radius_m,
-            free_radius_m > 0.0 && free_radius_m <= 1.0,
-            "above 0 and at most 1 m",
-        )?;
-        require(
-            section,
-            "clamp_radius_m",
-            clamp_radius_m,
-            clamp_radius_m > 1e-3 * free_radius_m && clamp_radius_m < 0.999 * free_radius_m,
-            "between 0.001 and 0.999 of free_radius_m",
-        )?;
-        require(
-            section,
-            "elastic_modulus_pa",
+        let valve = Valve {
             elastic_modulus_pa,
-            elastic_modulus_pa > 0.0,
-            "above 0",
-        )?;
-        require(
-            section,
-            "poisson_ratio",
             poisson_ratio,
-            (0.0..=0.5).contains(&poisson_ratio),
-            "0 to 0.5",
-        )?;
+            ..Valve::with_edge_compliance(clamp_radius_m, free_radius_m, 0.0, 0.0)
+        };
+        valve.check(section)?;
+        Ok(Self::of(&valve))
+    }
+
+    /// The disc of a valve that was checked.
+    pub(crate) fn of(valve: &Valve) -> Self {
+        let &Valve {
+            clamp_radius_m,
+            free_radius_m,
+            elastic_modulus_pa,
+            poisson_ratio,
+            ..
+        } = valve;
         let q = clamp_radius_m / free_radius_m;
         let (nu, ln) = (poisson_ratio, log(q));
         // Rows: w(q) = 0, w'(q) = 0, shear(1) = 0, moment(1) = 0, each for
@@ -91,13 +82,13 @@ impl Disc {
             .solve(&load)
             .map_or([0.0; 4], |solution| solution.into());
         let square = free_radius_m * free_radius_m;
-        Ok(Self {
+        Self {
             clamp_radius_m,
             free_radius_m,
             shape,
             scale: square * square * 12.0 * (1.0 - nu * nu) / elastic_modulus_pa,
             poisson_ratio,
-        })
+        }
     }
 
     /// Deflection coefficient `Cw(r)` (m^6/N) of `w = Cw P/h^3`, `r` held within the disc.

@@ -3,7 +3,7 @@
 use heapless::Vec;
 
 use super::Disc;
-use crate::error::{BuildError, require};
+use crate::error::BuildError;
 use crate::parameters::{MAX_SHIMS, Valve};
 
 /// Stack of discs with equal radii that slide on each other: `h_e^3 = sum h_i^3`.
@@ -19,32 +19,20 @@ impl Pack {
     /// # Errors
     /// A disc that cannot be, no shim, or a thickness outside 0.01 to 10 mm.
     pub fn new(section: &'static str, valve: &Valve) -> Result<Self, BuildError> {
-        require(
-            section,
-            "shims_m",
-            valve.shims_m.len() as f64,
-            !valve.shims_m.is_empty(),
-            "1 to 16 shims when edge_compliance_m_per_pa is not given",
-        )?;
-        for &thickness in &valve.shims_m {
-            require(
-                section,
-                "shims_m",
-                thickness,
-                (1e-5..=1e-2).contains(&thickness),
-                "1e-5 to 1e-2 m each",
-            )?;
-        }
-        Ok(Self {
-            disc: Disc::new(
-                section,
-                valve.clamp_radius_m,
-                valve.free_radius_m,
-                valve.elastic_modulus_pa,
-                valve.poisson_ratio,
-            )?,
+        let shims_alone = Valve {
+            edge_compliance_m_per_pa: None,
+            ..valve.clone()
+        };
+        shims_alone.check(section)?;
+        Ok(Self::of(valve))
+    }
+
+    /// The pack of a valve that was checked.
+    fn of(valve: &Valve) -> Self {
+        Self {
+            disc: Disc::of(valve),
             shims_m: valve.shims_m.clone(),
-        })
+        }
     }
 
     /// Equivalent thickness cubed `h_e^3 = sum h_i^3` (m^3).
@@ -72,20 +60,16 @@ impl Pack {
 /// the equivalent-pressure factor Ce.
 ///
 /// # Errors
-/// As [`Pack::new`], or a given compliance that is negative.
+/// As [`Pack::new`]; shims are needed only where no compliance is given.
 pub fn edge_compliance_m_per_pa(section: &'static str, valve: &Valve) -> Result<f64, BuildError> {
-    let uniform = match valve.edge_compliance_m_per_pa {
-        Some(given) => {
-            require(
-                section,
-                "edge_compliance_m_per_pa",
-                given,
-                (0.0..=1e-6).contains(&given),
-                "0 to 1e-6 m/Pa",
-            )?;
-            given
-        }
-        None => Pack::new(section, valve)?.compliance_m_per_pa(valve.free_radius_m),
-    };
-    Ok(uniform * valve.equivalent_pressure_factor)
+    valve.check(section)?;
+    Ok(edge_compliance(valve))
+}
+
+/// As [`edge_compliance_m_per_pa`], of a valve that was checked.
+pub(crate) fn edge_compliance(valve: &Valve) -> f64 {
+    let uniform = valve
+        .edge_compliance_m_per_pa
+        .unwrap_or_else(|| Pack::of(valve).compliance_m_per_pa(valve.free_radius_m));
+    uniform * valve.equivalent_pressure_factor
 }

@@ -199,7 +199,7 @@ fn from_file(file: DamperFile) -> Outcome<DamperParameters> {
         mount: file.mount,
         limits: file.limits,
     };
-    parameters.validate()?;
+    parameters.check()?;
     Ok(parameters)
 }
 

@@ -61,17 +61,10 @@ macro_rules! loading {
             ///
             /// ```
             /// # #[cfg(feature = "builder")] {
-            /// use dashpot_core::parameters::{DamperParameters, Element, Limits, Mount, Reduced};
+            /// use dashpot_core::parameters::{DamperParameters, Mount};
             /// use dashpot_core::{Damper, Loading};
             ///
-            /// let parameters = DamperParameters {
-            ///     element: Element::Reduced(Reduced {
-            ///         damping_n_s_per_m: 120e3,
-            ///         saturation_velocity_m_per_s: 0.03,
-            ///     }),
-            ///     mount: Mount { stiffness_n_per_m: 8e6, seat_stiffness_n_per_m: None, clearance_m: 0.0 },
-            ///     limits: Limits::default(),
-            /// };
+            /// let parameters = DamperParameters::reduced(120e3, 0.03, Mount::new(8e6));
             #[doc = concat!("let built: Damper<", stringify!($float), "> = parameters.build(1e-3)?;")]
             /// let image = built.to_image();
             #[doc = concat!("let mut damper = Damper::<", stringify!($float), ">::from_words(&[0; Damper::<", stringify!($float), ">::WORDS]);")]

@@ -162,7 +162,7 @@ fn bench(name: &'static str, damper: &DamperParameters) -> Outcome<Bench> {
     Ok(Bench {
         damper: name,
         parameters: damper.clone(),
-        characteristic: Characteristic::new(damper)?,
+        characteristic: Characteristic::new(&damper.check()?),
         loops,
         table_5: bench_test::settle(damper, Harmonic::TABLE_5, 1e-4)?.indices(),
     })

@@ -1,0 +1,252 @@
+//! Parameters of the hydraulics: geometry, flow paths, valves.
+
+use heapless::Vec;
+
+use super::Oil;
+use super::range::{allowed, parameters};
+
+/// Most shims a pack may hold.
+pub const MAX_SHIMS: usize = 16;
+
+/// The physical damper: geometry, flow paths and oil.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Hydraulics {
+    /// Piston and rod.
+    pub geometry: Geometry,
+    /// Constant orifice in the piston, open both ways.
+    pub orifice: Orifice,
+    /// The three shim-pack valves.
+    pub valves: Valves,
+    /// Annular gap between piston and cylinder; `None` is off.
+    pub leakage: Option<Leakage>,
+    /// Blow-off valve, one law for both directions; `None` is off.
+    pub relief: Option<Relief>,
+    /// Gas-loaded reservoir behind the foot valve; `None` is zero back pressure.
+    pub reservoir: Option<Reservoir>,
+    /// Seal friction; `None` is off.
+    pub seal: Option<Seal>,
+    /// Compression with two chamber pressures; `None` lumps piston and foot valve.
+    pub two_chamber: Option<TwoChamber>,
+    /// The oil.
+    pub oil: Oil,
+}
+
+impl Hydraulics {
+    /// Rod, orifice, valves and oil; everything else off.
+    pub fn new(geometry: Geometry, orifice: Orifice, valves: Valves, oil: Oil) -> Self {
+        Self {
+            geometry,
+            orifice,
+            valves,
+            leakage: None,
+            relief: None,
+            reservoir: None,
+            seal: None,
+            two_chamber: None,
+            oil,
+        }
+    }
+}
+
+parameters! {
+    /// Piston and rod.
+    #[derive(Copy)]
+    pub struct Geometry, GeometryRanges {
+        /// Rod diameter (m).
+        rod_diameter_m: f64, 0 to 0.95 => "0 to 0.95 of piston_diameter_m, above 0 with two_chamber";
+        /// Piston diameter (m).
+        piston_diameter_m: f64, 1e-3 to 1 "m";
+    }
+}
+
+/// Area (m^2) of a circle of this diameter (m).
+#[cfg(feature = "builder")]
+pub(crate) fn circle_area(diameter_m: f64) -> f64 {
+    0.25 * core::f64::consts::PI * diameter_m * diameter_m
+}
+
+#[cfg(feature = "builder")]
+impl Geometry {
+    /// Area of the piston (m^2).
+    pub(crate) fn piston_area(&self) -> f64 {
+        circle_area(self.piston_diameter_m)
+    }
+
+    /// Area of the rod (m^2).
+    pub(crate) fn rod_area(&self) -> f64 {
+        circle_area(self.rod_diameter_m)
+    }
+}
+
+parameters! {
+    /// Constant orifice: `Q = Cd pi d^2/4 sqrt(2 P/rho)` when turbulent.
+    #[derive(Copy)]
+    pub struct Orifice, OrificeRanges {
+        /// Orifice diameter (m); 0 closes it.
+        diameter_m: f64, 0 to 1 => "0 to below piston_diameter_m";
+        /// Turbulent discharge coefficient (1).
+        discharge_coefficient: f64, 0 to 1;
+        /// Reynolds number `Re = u d/nu` (u mean velocity in the bore) at which the laminar and the
+        /// turbulent part of the pressure drop are equal; 0 is always turbulent.
+        ///
+        /// Law with the transition: `P = R_t Q^2 + R_l Q`, `R_t = rho/(2 (Cd A)^2)`, `R_l = R_t Q_t`,
+        /// `Q_t = Re nu A/d`.
+        transition_reynolds: f64 = 0, 0 to 1e5;
+    }
+}
+
+/// The three shim-pack valves.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
+pub struct Valves {
+    /// Piston valve that works in extension.
+    pub piston_extension: Valve,
+    /// Piston valve that works in compression.
+    pub piston_compression: Valve,
+    /// Foot valve that works in compression.
+    pub foot_compression: Valve,
+}
+
+parameters! {
+    /// A shim-pack valve: edge lift `w = k_w (P - P_0)+`, flow `Q = Cd 2 pi r_w w sqrt(2 P/rho)`.
+    ///
+    /// The edge compliance `k_w` (m/Pa) is `edge_compliance_m_per_pa * equivalent_pressure_factor`
+    /// when the former is given, else `Cw(r_w) equivalent_pressure_factor / h_e^3` of the pack.
+    pub struct Valve, ValveRanges {
+        /// Clamping radius r_n of the discs (m).
+        clamp_radius_m: f64, 0 to 1 => "between 0.001 and 0.999 of free_radius_m";
+        /// Free (outer) radius r_w of the discs (m).
+        free_radius_m: f64, 0 to 1 => "above 0 and at most 1 m";
+        /// Thickness of each shim (m); may be empty when the edge compliance is given.
+        shims_m: Vec<f64, MAX_SHIMS>, 1e-5 to 1e-2 "m each";
+        /// Edge lift per uniform pressure (m/Pa), in place of the pack's theory.
+        edge_compliance_m_per_pa: Option<f64>, 0 to 1e-6 "m/Pa";
+        /// Equivalent-pressure correction factor Ce (1).
+        equivalent_pressure_factor: f64 = 1, 0 to 10;
+        /// Discharge coefficient of the lifted edge (1).
+        discharge_coefficient: f64, 0 to 1;
+        /// Opening pressure P_0 (Pa).
+        preload_pa: f64 = 0, 0 to 1e8 "Pa";
+        /// Elastic modulus of the shims (Pa); by default that of Table 1 of the source paper.
+        elastic_modulus_pa: f64 = 2e11, 1e3 to 1e15 "Pa";
+        /// Poisson's ratio of the shims (1); by default that of Table 1 of the source paper.
+        poisson_ratio: f64 = 0.3, 0 to 0.5;
+    }
+}
+
+impl Valve {
+    /// A valve of a given edge compliance (m/Pa) between two radii (m), with its discharge coefficient (1); no
+    /// preload.
+    pub fn with_edge_compliance(
+        clamp_radius_m: f64,
+        free_radius_m: f64,
+        edge_compliance_m_per_pa: f64,
+        discharge_coefficient: f64,
+    ) -> Self {
+        Self {
+            edge_compliance_m_per_pa: Some(edge_compliance_m_per_pa),
+            ..Self::with_shims(
+                clamp_radius_m,
+                free_radius_m,
+                Vec::new(),
+                discharge_coefficient,
+            )
+        }
+    }
+
+    /// A valve of shims of these thicknesses (m) between two radii (m), with its discharge coefficient (1); spring
+    /// steel, no preload.
+    pub fn with_shims(
+        clamp_radius_m: f64,
+        free_radius_m: f64,
+        shims_m: Vec<f64, MAX_SHIMS>,
+        discharge_coefficient: f64,
+    ) -> Self {
+        Self {
+            clamp_radius_m,
+            free_radius_m,
+            shims_m,
+            edge_compliance_m_per_pa: None,
+            equivalent_pressure_factor: 1.0,
+            discharge_coefficient,
+            preload_pa: 0.0,
+            elastic_modulus_pa: const { Self::RANGES.elastic_modulus_pa.default.unwrap() },
+            poisson_ratio: const { Self::RANGES.poisson_ratio.default.unwrap() },
+        }
+    }
+}
+
+parameters! {
+    /// Laminar leakage past the piston: `Q = pi R c^3 (1 + 1.5 e^2) P/(6 mu L)`, R the piston radius.
+    #[derive(Copy)]
+    pub struct Leakage, LeakageRanges {
+        /// Radial clearance c between piston and cylinder (m).
+        radial_clearance_m: f64, 0 to 1e-3 "m";
+        /// Length L of the gap (m).
+        length_m: f64, 1e-4 to 1 "m";
+        /// Eccentricity e over clearance (1), 0 concentric to 1 touching.
+        eccentricity_ratio: f64 = 0, 0 to 1;
+    }
+}
+
+parameters! {
+    /// Relief valve: `Q = Cd g (P - P_open)+ sqrt(2 P/rho)`, g the area gradient.
+    #[derive(Copy)]
+    pub struct Relief, ReliefRanges {
+        /// Pressure at which it opens (Pa).
+        opening_pressure_pa: f64, 0 to 1e8 "Pa";
+        /// Flow area per pressure above opening (m^2/Pa).
+        area_gradient_m2_per_pa: f64, 0 to 1e-6 "m2/Pa";
+        /// Discharge coefficient (1).
+        discharge_coefficient: f64, 0 to 1;
+    }
+}
+
+parameters! {
+    /// Gas above the oil in the reservoir. Back pressure (gauge) at the operating point:
+    /// `P_b = (p_fill + p_a) (V_fill/V) (T/T_fill) - p_a` with `V = V_fill - A_rod x_rod`, isothermal
+    /// over the slow change of mean rod position; constant over a stroke, which moves it by less than
+    /// `A_rod stroke/V`.
+    #[derive(Copy)]
+    pub struct Reservoir, ReservoirRanges {
+        /// Gauge pressure when filled (Pa).
+        fill_pressure_pa: f64, 0 to 1e7 "Pa";
+        /// Gas volume when filled (m^3).
+        gas_volume_m3: f64, 1e-6 to 1 "m3";
+        /// Oil and gas temperature when filled (degC).
+        fill_temperature_c: f64, -60 to 150 "degC";
+        /// Mean rod insertion beyond the position at filling (m), positive in compression.
+        rod_insertion_m: f64 = 0, -1 to 1 => "-1 to 1 m and leaving a tenth of gas_volume_m3";
+    }
+}
+
+#[cfg(feature = "builder")]
+impl Reservoir {
+    /// Gas volume with the rod inserted (m^3), its area in m^2.
+    pub(crate) fn volume_m3(&self, rod_area_m2: f64) -> f64 {
+        self.gas_volume_m3 - rod_area_m2 * self.rod_insertion_m
+    }
+}
+
+parameters! {
+    /// Coulomb friction of seals and guide: `P = (|F| - F_c)+ / A`.
+    #[derive(Copy)]
+    pub struct Seal, SealRanges {
+        /// Friction force F_c (N).
+        friction_n: f64, 0 to 1e4 "N";
+    }
+}
+
+parameters! {
+    /// Compression with the pressures of both chambers:
+    /// `A_ext v = Q_piston(P1 - P2)`, `A_rod v = Q_foot(P1 - P_b)`, `F = P1 A_comp - P2 A_ext`.
+    #[derive(Copy)]
+    pub struct TwoChamber, TwoChamberRanges {
+        /// Lowest gauge pressure the rod-side chamber can reach (Pa), about -1e5.
+        vapour_pressure_pa: f64, -101325 to 0 "Pa (gauge)";
+    }
+}

@@ -1,0 +1,173 @@
+//! What a damper is: parameters in SI units, as a damper file or a literal gives them.
+//!
+//! Signals of the element: `x` relative displacement of the two seats, positive in
+//! extension (m); `F` force (N), positive when it resists extension.
+
+mod hydraulics;
+#[cfg(feature = "builder")]
+mod numbers;
+mod oil;
+mod range;
+#[cfg(feature = "serde")]
+mod written;
+
+pub use hydraulics::{
+    Geometry, GeometryRanges, Hydraulics, Leakage, LeakageRanges, MAX_SHIMS, Orifice,
+    OrificeRanges, Relief, ReliefRanges, Reservoir, ReservoirRanges, Seal, SealRanges, TwoChamber,
+    TwoChamberRanges, Valve, ValveRanges, Valves,
+};
+pub use oil::{
+    ATMOSPHERIC_PRESSURE_PA, DENSITY_TEMPERATURE_C, Oil, OilColumn, OilColumnRanges, OilRanges,
+};
+pub use range::Range;
+
+#[cfg(feature = "builder")]
+pub(crate) use hydraulics::circle_area;
+#[cfg(feature = "builder")]
+pub(crate) use numbers::Numbers;
+
+use range::{allowed, parameters};
+
+/// Step sizes (s) that a damper can be built for.
+pub const STEP_RANGE_S: core::ops::RangeInclusive<f64> = 1e-6..=2e-2;
+
+/// Largest clearance 2a (m).
+pub const LARGEST_CLEARANCE_M: f64 = Mount::RANGES.clearance_m.greatest;
+
+/// Largest force limit (N). No step returns more, whatever bits its damper and state have.
+pub const LARGEST_FORCE_N: f64 = Limits::RANGES.force_n.greatest;
+
+/// Everything that defines one damper.
+///
+/// ```
+/// use dashpot_core::parameters::{DamperParameters, Mount};
+///
+/// let mut parameters = DamperParameters::reduced(120e3, 0.03, Mount::new(8e6));
+/// parameters.mount.clearance_m = 1e-3;
+/// assert_eq!(parameters.limits.force_n, 50e3);
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct DamperParameters {
+    /// What makes the force: hydraulics or the reduced in-service law.
+    pub element: Element,
+    /// Seats, rubber and clearance in series with the element.
+    pub mount: Mount,
+    /// Bounds on force and input that hold whatever the input is.
+    pub limits: Limits,
+}
+
+/// The velocity law inside the series chain.
+#[derive(Clone, Debug, PartialEq)]
+#[allow(clippy::large_enum_variant)] // built once on the host, never in an array
+pub enum Element {
+    /// Oil through orifice and shim-pack valves.
+    Physical(Hydraulics),
+    /// Damping coefficient and saturation velocity.
+    Reduced(Reduced),
+}
+
+impl DamperParameters {
+    /// A damper of this element on this mount, with the default limits.
+    pub fn new(element: Element, mount: Mount) -> Self {
+        Self {
+            element,
+            mount,
+            limits: Limits::default(),
+        }
+    }
+
+    /// The reduced element: damping coefficient C (N s/m), saturation velocity V_r (m/s).
+    pub fn reduced(damping_n_s_per_m: f64, saturation_velocity_m_per_s: f64, mount: Mount) -> Self {
+        let reduced = Reduced {
+            damping_n_s_per_m,
+            saturation_velocity_m_per_s,
+        };
+        Self::new(Element::Reduced(reduced), mount)
+    }
+}
+
+parameters! {
+    /// Seats of the damper: springs and clearance in series with it.
+    #[derive(Copy)]
+    pub struct Mount, MountRanges {
+        /// Stiffness of the rubber bushes, or the whole effective stiffness Ke (N/m).
+        stiffness_n_per_m: f64, 1e4 to 1e12 "N/m";
+        /// Stiffness of the seats (N/m); `None` is rigid.
+        seat_stiffness_n_per_m: Option<f64>, 1e4 to 1e12 "N/m";
+        /// Clearance 2a between damper and seats, the whole play (m).
+        clearance_m: f64 = 0, 0 to 0.1 "m";
+    }
+}
+
+impl Mount {
+    /// One spring (N/m), rigid seats, no clearance.
+    pub fn new(stiffness_n_per_m: f64) -> Self {
+        Self {
+            stiffness_n_per_m,
+            seat_stiffness_n_per_m: None,
+            clearance_m: 0.0,
+        }
+    }
+}
+
+parameters! {
+    /// The reduced in-service element: `F = C v` up to the saturation force `C V_r`, flat beyond.
+    #[derive(Copy)]
+    pub struct Reduced, ReducedRanges {
+        /// Damping coefficient C (N s/m).
+        damping_n_s_per_m: f64, 1 to 1e9 "N s/m";
+        /// Saturation velocity V_r (m/s).
+        saturation_velocity_m_per_s: f64, 1e-6 to 100 "m/s";
+    }
+}
+
+parameters! {
+    /// Bounds that hold whatever the input is.
+    #[derive(Copy)]
+    pub struct Limits, LimitsRanges {
+        /// Largest force magnitude (N); beyond it the damper yields at constant force.
+        force_n: f64 = 50e3, 1 to 1e7 => "1 to 1e7 N and above twice seal.friction_n";
+        /// Largest credible rate of the displacement input (m/s); a faster input is followed at
+        /// this rate and flagged.
+        rate_m_per_s: f64 = 2, 1e-3 to 100 "m/s";
+    }
+}
+
+impl Default for Limits {
+    fn default() -> Self {
+        Self {
+            force_n: const { Self::RANGES.force_n.default.unwrap() },
+            rate_m_per_s: const { Self::RANGES.rate_m_per_s.default.unwrap() },
+        }
+    }
+}
+
+/// Every parameter: the table of a damper file it stands in, and its range. A table `valves` stands for each of
+/// the three.
+///
+/// ```
+/// let mut all = dashpot_core::parameters::ranges();
+/// let (table, clearance) = all.find(|(_, range)| range.key == "clearance_m").unwrap();
+/// assert_eq!((table, clearance.allowed), ("mount", "0 to 0.1 m"));
+/// ```
+pub fn ranges() -> impl Iterator<Item = (&'static str, Range)> {
+    fn table(
+        name: &'static str,
+        ranges: impl Iterator<Item = Range>,
+    ) -> impl Iterator<Item = (&'static str, Range)> {
+        ranges.map(move |range| (name, range))
+    }
+    table("geometry", Geometry::RANGES.all())
+        .chain(table("orifice", Orifice::RANGES.all()))
+        .chain(table("valves", Valve::RANGES.all()))
+        .chain(table("leakage", Leakage::RANGES.all()))
+        .chain(table("relief", Relief::RANGES.all()))
+        .chain(table("reservoir", Reservoir::RANGES.all()))
+        .chain(table("seal", Seal::RANGES.all()))
+        .chain(table("two_chamber", TwoChamber::RANGES.all()))
+        .chain(table("oil", Oil::RANGES.all()))
+        .chain(table("oil.column", OilColumn::RANGES.all()))
+        .chain(table("mount", Mount::RANGES.all()))
+        .chain(table("reduced", Reduced::RANGES.all()))
+        .chain(table("limits", Limits::RANGES.all()))
+}
