@@ -152,18 +152,28 @@ impl Valve {
         self.check_ranges(table)?;
         let (clamp, free) = (self.clamp_radius_m, self.free_radius_m);
         require(table, &Self::RANGES.free_radius_m, free, free > 0.0)?;
-        let within = clamp > 1e-3 * free && clamp < 0.999 * free;
-        require(table, &Self::RANGES.clamp_radius_m, clamp, within)?;
-        let has_lift = self.edge_compliance_m_per_pa.is_some() || !self.shims_m.is_empty();
-        if has_lift {
-            Ok(())
-        } else {
+        let inside = clamp > 0.0 && clamp < free;
+        require(table, &Self::RANGES.clamp_radius_m, clamp, inside)?;
+        if self.edge_compliance_m_per_pa.is_some() {
+            return Ok(());
+        }
+        // What the theory of the pack needs.
+        let refused = |field, value, allowed| {
             Err(BuildError {
                 section: table,
-                field: Self::RANGES.shims_m.key,
-                value: 0.0,
-                allowed: "1 to 16 shims when edge_compliance_m_per_pa is not given",
+                field,
+                value,
+                allowed,
             })
+        };
+        if !(1e-3 * free..0.999 * free).contains(&clamp) {
+            let key = Self::RANGES.clamp_radius_m.key;
+            return refused(key, clamp, "between 0.001 and 0.999 of free_radius_m");
         }
+        if self.shims_m.is_empty() {
+            let allowed = "1 to 16 shims when edge_compliance_m_per_pa is not given";
+            return refused(Self::RANGES.shims_m.key, 0.0, allowed);
+        }
+        Ok(())
     }
 }

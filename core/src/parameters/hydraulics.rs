@@ -118,7 +118,7 @@ parameters! {
     /// when the former is given, else `Cw(r_w) equivalent_pressure_factor / h_e^3` of the pack.
     pub struct Valve, ValveRanges {
         /// Clamping radius r_n of the discs (m).
-        clamp_radius_m: f64, 0 to 1 => "between 0.001 and 0.999 of free_radius_m";
+        clamp_radius_m: f64, 0 to 1 => "above 0 and below free_radius_m";
         /// Free (outer) radius r_w of the discs (m).
         free_radius_m: f64, 0 to 1 => "above 0 and at most 1 m";
         /// Thickness of each shim (m); may be empty when the edge compliance is given.

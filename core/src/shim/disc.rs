@@ -1,5 +1,6 @@
 //! One annular disc under uniform pressure.
 
+use heapless::Vec;
 use nalgebra::{Matrix4, Vector4};
 
 use crate::error::BuildError;
@@ -45,7 +46,8 @@ impl Disc {
         let valve = Valve {
             elastic_modulus_pa,
             poisson_ratio,
-            ..Valve::with_edge_compliance(clamp_radius_m, free_radius_m, 0.0, 0.0)
+            // Any shim: a disc is told for all thicknesses.
+            ..Valve::with_shims(clamp_radius_m, free_radius_m, Vec::from_array([1e-3]), 0.0)
         };
         valve.check(section)?;
         Ok(Self::of(&valve))
