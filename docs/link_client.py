@@ -10,7 +10,7 @@ import struct
 import sys
 import zlib
 
-PROTOCOL = 2
+PROTOCOL = 3
 HELLO, SET, STEP, STATUS = 0, 2, 5, 14
 WELCOME, DONE, FORCES, STATUS_ANSWER, REFUSED = 0, 1, 2, 7, 8
 CORRUPT = 0

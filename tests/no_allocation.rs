@@ -63,7 +63,7 @@ fn steps_and_live_changes_allocate_nothing() {
             let damper = [&in_service, &paper, &worn][tick as usize / 100 % 3];
             black_box(damper.step(&mut state, displacement(tick)));
         }
-        worn.set_clearance_m(2e-3);
+        worn.set_clearance_m(2e-3).unwrap();
         black_box(worn.step(&mut state, 0.0));
     });
     assert_eq!(found, 0);

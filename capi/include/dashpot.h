@@ -201,6 +201,10 @@ enum dashpot_error
      * The header is of another version than the library, or gives its storage another size.
      */
     DASHPOT_ERROR_HEADER = 16,
+    /**
+     * The revision of an image is not that of its constants: no build made them.
+     */
+    DASHPOT_ERROR_REVISION = 17,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -369,13 +373,16 @@ dashpot_error dashpot_state_read(const dashpot_state *state, dashpot_reading *re
 dashpot_error dashpot_state_clear_status(dashpot_state *state);
 
 /**
- * Saves a state as bytes, for a file or a link; to keep it in memory, copy the structure.
+ * Saves a state as bytes, for a file or a link, the same that `DamperState::save` of dashpot-core makes; to keep it in
+ * memory, copy the structure.
  *
  * @param state   made by `dashpot_state_init` or `dashpot_state_restore`
  * @param saved   written, at any alignment
  * @param length  bytes at `saved`, `DASHPOT_SAVED_STATE_SIZE`
  */
-dashpot_error dashpot_state_save(const dashpot_state *state, uint8_t *saved, size_t length);
+dashpot_error dashpot_state_save(const dashpot_state *state,
+                                 uint8_t *saved,
+                                 size_t length);
 
 /**
  * Restores a saved state: its next steps have the bits they would have had.

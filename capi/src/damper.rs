@@ -1,7 +1,6 @@
 //! Functions on a damper.
 
-use dashpot_core::Damper;
-use dashpot_core::parameters::LARGEST_CLEARANCE_M;
+use dashpot_core::{ClearanceError, Damper};
 
 use crate::error::DashpotError;
 use crate::pointer::{Memory, bytes, check, exclusive, shared};
@@ -96,13 +95,10 @@ pub unsafe extern "C" fn dashpot_damper_set_clearance(
     let done = || {
         // SAFETY: the caller's promise; the reference ends here.
         unsafe { made(damper) }?;
-        if !(0.0..=LARGEST_CLEARANCE_M as f32).contains(&clearance_m) {
-            return Err(DashpotError::Range);
-        }
         // SAFETY: the caller's promise; the storage is a Damper's to the byte.
         let damper: &mut Damper<f32> = unsafe { exclusive(damper.cast()) }?;
-        damper.set_clearance_m(clearance_m);
-        Ok(())
+        let set = damper.set_clearance_m(clearance_m);
+        set.map_err(|ClearanceError| DashpotError::Range)
     };
     DashpotError::from(done())
 }

@@ -42,12 +42,14 @@ pub enum DashpotError {
     Overlap = 15,
     /// The header is of another version than the library, or gives its storage another size.
     Header = 16,
+    /// The revision of an image is not that of its constants: no build made them.
+    Revision = 17,
 }
 
 /// cbindgen:ignore
 impl DashpotError {
     /// Every code, in the order of their numbers.
-    pub const ALL: [Self; 17] = [
+    pub const ALL: [Self; 18] = [
         Self::None,
         Self::NullPointer,
         Self::Misaligned,
@@ -65,6 +67,7 @@ impl DashpotError {
         Self::Corrupted,
         Self::Overlap,
         Self::Header,
+        Self::Revision,
     ];
 
     const fn text(self) -> &'static CStr {
@@ -86,6 +89,7 @@ impl DashpotError {
             Self::Corrupted => c"constants or a state were damaged in memory",
             Self::Overlap => c"what the call changes overlaps something else it was given",
             Self::Header => c"dashpot.h is of another version than the library",
+            Self::Revision => c"the revision of the image is not that of its constants",
         }
     }
 }
@@ -99,7 +103,8 @@ impl From<ImageError> for DashpotError {
             ImageError::Version(_) => Self::Version,
             ImageError::Scalar(_) => Self::Scalar,
             ImageError::Checksum => Self::Checksum,
-            ImageError::Constants => Self::Values,
+            ImageError::Revision => Self::Revision,
+            _ => Self::Values,
         }
     }
 }
@@ -108,7 +113,12 @@ impl From<SavedStateError> for DashpotError {
     fn from(error: SavedStateError) -> Self {
         match error {
             SavedStateError::Revision { .. } => Self::WrongDamper,
-            SavedStateError::Values => Self::Values,
+            SavedStateError::Length { .. } => Self::Length,
+            SavedStateError::Magic => Self::Magic,
+            SavedStateError::Version(_) => Self::Version,
+            SavedStateError::Scalar(_) => Self::Scalar,
+            SavedStateError::Checksum => Self::Checksum,
+            _ => Self::Values,
         }
     }
 }

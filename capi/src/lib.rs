@@ -15,7 +15,6 @@ mod check;
 mod damper;
 mod error;
 mod pointer;
-mod saved;
 mod state;
 mod step;
 mod types;

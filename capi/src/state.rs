@@ -5,8 +5,7 @@ use dashpot_core::DamperState;
 use crate::damper::made;
 use crate::error::DashpotError;
 use crate::pointer::{Memory, bytes, check, exclusive, shared};
-use crate::saved;
-use crate::types::{DashpotDamper, DashpotReading, DashpotState};
+use crate::types::{DASHPOT_SAVED_STATE_SIZE, DashpotDamper, DashpotReading, DashpotState};
 
 /// A state that was made, to read.
 ///
@@ -97,7 +96,8 @@ pub unsafe extern "C" fn dashpot_state_clear_status(state: *mut DashpotState) ->
     DashpotError::from(done())
 }
 
-/// Saves a state as bytes, for a file or a link; to keep it in memory, copy the structure.
+/// Saves a state as bytes, for a file or a link, the same that `DamperState::save` of dashpot-core makes; to keep it in
+/// memory, copy the structure.
 ///
 /// @param state   made by `dashpot_state_init` or `dashpot_state_restore`
 /// @param saved   written, at any alignment
@@ -112,12 +112,16 @@ pub unsafe extern "C" fn dashpot_state_save(
         // SAFETY: the caller's promise.
         let state = unsafe { made_state(state) }?;
         check(saved)?;
-        if length != saved::BYTES {
+        if length != DASHPOT_SAVED_STATE_SIZE {
             return Err(DashpotError::Length);
         }
         Memory::array(saved, length).check_apart(Memory::of(state))?;
         // SAFETY: checked, and the caller's promise; an array of bytes has no alignment.
-        unsafe { saved.cast::<[u8; saved::BYTES]>().write(saved::save(state)) };
+        unsafe {
+            saved
+                .cast::<[u8; DASHPOT_SAVED_STATE_SIZE]>()
+                .write(state.save())
+        };
         Ok(())
     };
     DashpotError::from(done())
@@ -142,7 +146,7 @@ pub unsafe extern "C" fn dashpot_state_restore(
         let (damper, saved) = unsafe { (made(damper)?, bytes(saved, length)?) };
         Memory::of(state).check_apart(Memory::of(damper))?;
         Memory::of(state).check_apart(Memory::of_bytes(saved))?;
-        let restored = saved::restore(damper, saved)?;
+        let restored = damper.restore(saved)?;
         // SAFETY: checked, and the caller's promise; the storage is a DamperState's to the byte.
         unsafe { state.cast::<DamperState<f32>>().write(restored) };
         Ok(())

@@ -3,8 +3,6 @@
 use dashpot_core::integrity::Check;
 use dashpot_core::{Damper, DamperState};
 
-use crate::saved;
-
 /// Bytes of a damper.
 pub const DASHPOT_DAMPER_SIZE: usize = size_of::<Damper<f32>>();
 /// Words of a damper.
@@ -16,7 +14,7 @@ pub const DASHPOT_STATE_WORDS: usize = DASHPOT_STATE_SIZE / size_of::<u32>();
 /// Bytes of an image, from which a damper is made.
 pub const DASHPOT_IMAGE_SIZE: usize = Damper::<f32>::IMAGE_BYTES;
 /// Bytes of a saved state.
-pub const DASHPOT_SAVED_STATE_SIZE: usize = saved::BYTES;
+pub const DASHPOT_SAVED_STATE_SIZE: usize = DamperState::<f32>::SAVED_BYTES;
 
 /// Storage of a built damper: constants for one step size. Opaque; may be copied whole.
 #[repr(C)]

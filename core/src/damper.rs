@@ -1,6 +1,7 @@
 //! The damper: constants for one step size, shared by any number of states.
 
 use crate::encoding::revision;
+use crate::error::ClearanceError;
 use crate::math::Real;
 use crate::parameters::{LARGEST_CLEARANCE_M, LARGEST_FORCE_N};
 use crate::scalars::Scalars;
@@ -94,19 +95,19 @@ impl<T: Real> Damper<T> {
     }
 
     /// Sets the clearance 2a (m): a live change for firmware, a few dozen operations, no table touched.
-    /// Held to 0 to 0.1 m; a value that is not finite counts as 0.
-    pub fn set_clearance_m(&mut self, clearance_m: T) {
+    ///
+    /// # Errors
+    /// A clearance that is not 0 to [`LARGEST_CLEARANCE_M`]; the damper stays as it is.
+    pub fn set_clearance_m(&mut self, clearance_m: T) -> Result<(), ClearanceError> {
+        if !(T::ZERO..=T::from_f64(LARGEST_CLEARANCE_M)).contains(&clearance_m) {
+            return Err(ClearanceError);
+        }
         let half = T::from_f64(0.5) * clearance_m;
-        let most = T::from_f64(0.5 * LARGEST_CLEARANCE_M);
-        let half = if half > T::ZERO && half.is_finite() {
-            half.min(most)
-        } else {
-            T::ZERO
-        };
         let k = &mut self.scalars;
         k.half_clearance = half;
         k.offset = half + k.held;
         self.revision = revision::of_damper(self.table_revision, k);
+        Ok(())
     }
 
     /// Reach (m) at the end of the bins; no stage looks beyond it.

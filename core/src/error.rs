@@ -1,7 +1,6 @@
 //! Errors of building a damper. The step itself has none.
 
-use core::fmt;
-
+use crate::parameters::Mount;
 #[cfg(feature = "builder")]
 use crate::parameters::{Numbers, Range};
 
@@ -17,7 +16,8 @@ use crate::parameters::{Numbers, Range};
 /// };
 /// assert_eq!(error.to_string(), "mount.stiffness_n_per_m = -1 is not allowed: must be above 0");
 /// ```
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[error("{section}.{field} = {value} is not allowed: must be {allowed}")]
 pub struct BuildError {
     /// Table of the damper file that holds the field.
     pub section: &'static str,
@@ -29,17 +29,10 @@ pub struct BuildError {
     pub allowed: &'static str,
 }
 
-impl fmt::Display for BuildError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(
-            f,
-            "{}.{} = {} is not allowed: must be {}",
-            self.section, self.field, self.value, self.allowed
-        )
-    }
-}
-
-impl core::error::Error for BuildError {}
+/// A clearance that is not 0 to 0.1 m.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("mount.clearance_m must be {}", Mount::RANGES.clearance_m.allowed)]
+pub struct ClearanceError;
 
 /// `Ok` when a value is in its range and keeps its relation to others, else the error that names the field.
 #[cfg(feature = "builder")]

@@ -1,8 +1,6 @@
 //! A slow check of a damper in memory: a slice at every call, in constant time, so that a bit flipped in
 //! constants is found while they are in use.
 
-use core::fmt;
-
 use crate::damper::Damper;
 use crate::encoding::revision;
 use crate::math::Real;
@@ -10,16 +8,9 @@ use crate::state::DamperState;
 use crate::table::ROWS;
 
 /// Constants or a state that no build and no step leaves behind: memory was damaged.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("constants or a state were damaged in memory")]
 pub struct Corrupted;
-
-impl fmt::Display for Corrupted {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("constants or a state were damaged in memory")
-    }
-}
-
-impl core::error::Error for Corrupted {}
 
 /// How far the check of a damper has come.
 ///

@@ -45,7 +45,7 @@ pub use bank::step_bank;
 pub use build::CheckedParameters;
 pub use damper::Damper;
 pub use encoding::{ImageError, Loading, SavedStateError, crc_32};
-pub use error::BuildError;
+pub use error::{BuildError, ClearanceError};
 pub use math::Real;
 pub use parameters::DamperParameters;
 pub use state::DamperState;

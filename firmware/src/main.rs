@@ -36,7 +36,9 @@ fn main() -> ! {
     };
     // Behind a pointer fields are reached by their offsets; of a known address each takes two more instructions.
     let device = core::hint::black_box(device);
-    device.start(&BANK, board::start_clock());
+    if device.start(&BANK, board::start_clock()).is_err() {
+        safe_state::halt();
+    }
     if let Some(mut core) = cortex_m::Peripherals::take() {
         let period = device.step_s() * CLOCK_HZ as f32 + 0.5;
         core.SYST.set_clock_source(SystClkSource::Core);

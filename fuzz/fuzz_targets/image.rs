@@ -20,7 +20,7 @@ fuzz_target!(|bytes: &[u8]| {
         };
         let mut state = damper.at_rest(0.0);
         if let Some(saved) = bytes.first_chunk()
-            && let Ok(restored) = damper.restore(saved)
+            && let Ok(restored) = damper.state_from_bytes(saved)
         {
             state = restored;
         }

@@ -11,7 +11,7 @@ fuzz_target!(|bytes: &[u8]| {
     let mut reader = FrameReader::<REQUEST_BYTES>::new();
     let clock = Clock { now: || 0, hz: 1 };
     let mut device = Box::new(Device::new());
-    device.start(&[&DAMPER; 2], clock);
+    device.start(&[&DAMPER; 2], clock).expect("one step");
     for byte in bytes.iter().chain(&[0]) {
         let _ = reader.push(*byte);
         let mut answered = device.receive(*byte);

@@ -1,7 +1,9 @@
 //! The contract for bad values: input, output, tiny states, nonsense parameters, live changes.
 
 use dashpot::damper;
-use dashpot_core::{Damper, DamperParameters, DamperState, Real, Status, step_bank};
+use dashpot_core::{
+    ClearanceError, Damper, DamperParameters, DamperState, Real, Status, step_bank,
+};
 use dashpot_hil::files::damper;
 
 const STEP_S: f64 = 1e-3;
@@ -423,17 +425,16 @@ fn the_clearance_is_set_without_a_rebuild() {
         .build(STEP_S)
         .expect("a valid damper");
     let revision = damper.revision();
-    damper.set_clearance_m(2e-3);
+    assert_eq!(damper.set_clearance_m(2e-3), Ok(()));
     assert_ne!(damper.revision(), revision);
     assert_eq!(damper, built, "the same damper, revision and all");
-    for (given, taken) in [
-        (f64::NAN, 0.0),
-        (-1.0, 0.0),
-        (f64::INFINITY, 0.0),
-        (5.0, 0.1),
-    ] {
-        damper.set_clearance_m(given);
-        assert_eq!(damper.clearance_m(), taken);
+    for refused in [f64::NAN, -1.0, f64::INFINITY, 5.0] {
+        assert_eq!(damper.set_clearance_m(refused), Err(ClearanceError));
+        assert_eq!(damper, built, "as it was");
+    }
+    for allowed in [0.0, 0.1] {
+        assert_eq!(damper.set_clearance_m(allowed), Ok(()));
+        assert_eq!(damper.clearance_m(), allowed);
     }
 }
 

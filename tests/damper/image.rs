@@ -46,7 +46,7 @@ fn every_preset_comes_back() {
 #[test]
 fn a_damper_changed_live_comes_back() {
     let mut damper = single();
-    damper.set_clearance_m(2.5e-3);
+    damper.set_clearance_m(2.5e-3).unwrap();
     assert_eq!(read(&damper.to_image()), Ok(damper));
 }
 
@@ -93,9 +93,9 @@ fn every_flipped_bit_is_refused_and_changes_nothing() {
 #[test]
 fn every_truncation_and_extra_bytes_are_refused() {
     let mut image = image();
-    let expected = image.len();
+    let expected = image.len() as u32;
     for found in 0..expected {
-        let refused = read(&image[..found]);
+        let refused = read(&image[..found as usize]);
         assert_eq!(refused, Err(ImageError::Length { expected, found }));
     }
     image.push(0);
@@ -123,11 +123,14 @@ fn constants_of_no_build_are_refused_though_signed() {
             let mut changed = image.clone();
             changed[at..at + 4].copy_from_slice(&other.to_le_bytes());
             let refused = read(&signed(changed));
-            assert_eq!(
-                refused,
-                Err(ImageError::Constants),
-                "{other:#x} at byte {at}"
-            );
+            // 16 bytes of header, eleven words, then pieces of thirteen.
+            let piece = (at / 4).checked_sub(15).map(|word| word as u32 / 13);
+            let finite = f32::from_bits(other).is_finite();
+            let expected = match piece {
+                Some(piece) if !finite => ImageError::Piece(piece),
+                _ => ImageError::Revision,
+            };
+            assert_eq!(refused, Err(expected), "{other:#x} at byte {at}");
         }
     }
 }
@@ -172,7 +175,7 @@ fn constants_out_of_range_are_refused_though_their_revision_is_right() {
     loose[6] = 0.051_f32.to_bits();
     loose[4] = (0.051 + f32::from_bits(words[8])).to_bits();
     let refused = read(&forged(loose, revision_at));
-    assert_eq!(refused, Err(ImageError::Constants));
+    assert_eq!(refused, Err(ImageError::Scalars));
     let last = words.len() - 1;
     for coefficient in [revision_at + 2, last] {
         cases.extend([(coefficient, f32::NAN), (coefficient, f32::NEG_INFINITY)]);
@@ -181,7 +184,11 @@ fn constants_out_of_range_are_refused_though_their_revision_is_right() {
         let mut words = words.clone();
         words[at] = value.to_bits();
         let refused = read(&forged(words, revision_at));
-        assert_eq!(refused, Err(ImageError::Constants), "word {at} = {value}");
+        let expected = match at.checked_sub(revision_at + 2) {
+            Some(word) => ImageError::Piece(word as u32 / 13),
+            None => ImageError::Scalars,
+        };
+        assert_eq!(refused, Err(expected), "word {at} = {value}");
     }
 }
 

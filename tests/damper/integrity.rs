@@ -175,7 +175,7 @@ fn a_change_between_slices_is_no_damage() {
     let mut check = Check::default();
     for call in 0..5 * SLICES {
         if call % 100 == 7 {
-            damper.set_clearance_m(1e-5 * call as f32);
+            damper.set_clearance_m(1e-5 * call as f32).unwrap();
         }
         if call % 777 == 500 {
             damper = if damper == other { dampers()[0] } else { other };

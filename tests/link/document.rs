@@ -12,7 +12,7 @@ use dashpot_core::link::{
     Counters, FrameReader, Header, LossOfLink, PROTOCOL, Parameter, RESPONSE_BYTES, Refusal,
     Request, Response, SafeOutput, Sample, Scalar, request_frame,
 };
-use dashpot_core::{Damper, Status};
+use dashpot_core::{Damper, ImageError, Status};
 use dashpot_hil::target::pil::{Desk, Link};
 use serde::Serialize;
 use xtask::tools::{PYTHON, have};
@@ -20,7 +20,7 @@ use xtask::tools::{PYTHON, have};
 const LINK: &str = "docs/link.md";
 
 fn desk<const N: usize>(names: [&str; N]) -> Desk<N> {
-    Desk::new(names.map(|name| damper(name, &[]).build(1e-3).expect("a preset")))
+    Desk::new(names.map(|name| damper(name, &[]).build(1e-3).expect("a preset"))).expect("one step")
 }
 
 /// Number of a choice on the wire.
@@ -117,8 +117,7 @@ fn the_numbers_are_those_of_the_code() {
         Refusal::Damper(0),
         Refusal::NeedsRebuild,
         Refusal::Range,
-        Refusal::ImageBytes(0),
-        Refusal::Image,
+        Refusal::Image(ImageError::Magic),
         Refusal::StepSize,
         Refusal::State,
         Refusal::Running,
@@ -127,6 +126,21 @@ fn the_numbers_are_those_of_the_code() {
         Refusal::Corrupted(0),
     ];
     assert_eq!(rows("refusal"), numbered(&refusals));
+    let image_errors = [
+        ImageError::Length {
+            expected: 0,
+            found: 0,
+        },
+        ImageError::Magic,
+        ImageError::ByteOrder,
+        ImageError::Version(0),
+        ImageError::Scalar(0),
+        ImageError::Checksum,
+        ImageError::Piece(0),
+        ImageError::Revision,
+        ImageError::Scalars,
+    ];
+    assert_eq!(rows("image"), numbered(&image_errors));
     let text = document::read(LINK);
     assert!(text.contains(&format!("This is protocol **{PROTOCOL}**.")));
     let parameters = [
@@ -241,7 +255,7 @@ fn the_revision_is_computed_as_the_document_says() {
     let first = built.revision();
     for clearance_m in [None, Some(2e-3)] {
         if let Some(clearance_m) = clearance_m {
-            built.set_clearance_m(clearance_m);
+            built.set_clearance_m(clearance_m).unwrap();
             assert_ne!(built.revision(), first);
         }
         let image = built.to_image();

@@ -2,8 +2,8 @@
 
 use crate::common::{Bench, built, reals};
 use dashpot::damper;
-use dashpot_core::Damper;
 use dashpot_core::link::{PROTOCOL, Parameter, Refusal, Request, Response, request_frame};
+use dashpot_core::{Damper, ImageError};
 
 #[test]
 fn a_damaged_damper_is_refused_whole() {
@@ -14,14 +14,17 @@ fn a_damaged_damper_is_refused_whole() {
     for bit in [0, 8 * 500 + 3, 8 * image.len() - 1] {
         let mut wrong = image;
         wrong[bit / 8] ^= 1 << (bit % 8);
-        assert_eq!(bench.load(0, &wrong).refusal(), Some(Refusal::Image));
+        let error = Damper::<f32>::from_image(&wrong).unwrap_err();
+        assert_eq!(bench.load(0, &wrong).refusal(), Some(Refusal::Image(error)));
     }
     let slower: Damper<f32> = damper("paper", &[]).build(2e-3).unwrap();
     let refusal = bench.load(0, &slower.to_image()).refusal();
     assert_eq!(refusal, Some(Refusal::StepSize));
 
     let cut = bench.load(0, &image[..image.len() - 1]).refusal();
-    assert_eq!(cut, Some(Refusal::ImageBytes(image.len() as u32)));
+    let (expected, found) = (image.len() as u32, image.len() as u32 - 1);
+    let length = ImageError::Length { expected, found };
+    assert_eq!(cut, Some(Refusal::Image(length)));
     assert_eq!(bench.states(), before);
 
     bench.header.session += 1;
@@ -52,7 +55,7 @@ fn a_loaded_damper_and_a_set_clearance_go_on_with_the_cores_bits() {
                 parameter: Parameter::ClearanceM,
                 value: 1.5e-3,
             });
-            damper.set_clearance_m(1.5e-3);
+            damper.set_clearance_m(1.5e-3).unwrap();
         }
         let x = 6e-3 * (0.03 * tick as f32).sin();
         let force = damper.step(&mut state, x);

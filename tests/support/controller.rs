@@ -114,7 +114,7 @@ pub fn expected() -> String {
     let mut digest = 0x811c_9dc5_u32;
     for tick in 0..10_000 {
         if tick == 6000 {
-            dampers[1].set_clearance_m(2.5e-3);
+            dampers[1].set_clearance_m(2.5e-3).expect("a clearance");
         }
         for (number, state) in states.iter_mut().enumerate() {
             let force = dampers[number % 2].step(state, sensor(number as u32, tick));

@@ -4,6 +4,7 @@ pub(crate) mod checksum;
 mod image;
 pub(crate) mod revision;
 mod saved_state;
+mod state_bytes;
 mod words;
 
 pub use checksum::crc_32;

@@ -1,15 +1,54 @@
-//! A state as bytes: kept by a host or a file and given back to the same damper.
+//! A saved state: what a host or a program in C keeps in a file and gives back to the same damper.
+//!
+//! | offset | bytes | holds |
+//! |---|---|---|
+//! | 0 | 4 | `DAST` |
+//! | 4 | 2 | version of this format |
+//! | 6 | 2 | bytes of a scalar, 4 or 8 |
+//! | 8 | 24 or 40 | [`DamperState::to_bytes`](crate::DamperState) |
+//! | end - 4 | 4 | CRC-32 (ISO-HDLC) of all bytes before |
+//!
+//! Every number is little-endian.
 
-use core::fmt;
+use zerocopy::little_endian::{U16, U32};
+use zerocopy::{FromBytes, Immutable, IntoBytes, KnownLayout, Unaligned};
 
+use super::checksum::crc_32;
 use crate::damper::Damper;
 use crate::state::DamperState;
-use crate::status::Status;
+
+const MAGIC: [u8; 4] = *b"DAST";
+/// Changes whenever the same bytes would mean another state.
+const VERSION: u16 = 1;
+/// Bytes of the CRC-32.
+const CHECK_BYTES: usize = 4;
 
 /// Why bytes are no state of a damper.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum SavedStateError {
+    /// Cut short or too long.
+    #[error("{found} bytes where a saved state has {expected}")]
+    Length {
+        /// Bytes of a saved state.
+        expected: usize,
+        /// Bytes there are.
+        found: usize,
+    },
+    /// The first four bytes are not `DAST`.
+    #[error("not a saved state: must start with DAST")]
+    Magic,
+    /// Another version of the format, the one found.
+    #[error("format version {0}, must be {VERSION}")]
+    Version(u16),
+    /// Another scalar; the bytes of the one found.
+    #[error("scalar of {0} bytes is not this damper's")]
+    Scalar(u16),
+    /// The CRC-32 is not that of the bytes: damaged on the way.
+    #[error("CRC-32 does not match: the bytes are damaged")]
+    Checksum,
     /// Another damper stepped the state last.
+    #[error("state of damper {found:#010x}, this is {expected:#010x}")]
     Revision {
         /// Revision of this damper.
         expected: u32,
@@ -17,50 +56,47 @@ pub enum SavedStateError {
         found: u32,
     },
     /// A number that no step of this damper leaves behind.
+    #[error("state with values that no step leaves behind")]
     Values,
 }
 
-impl fmt::Display for SavedStateError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Revision { expected, found } => {
-                write!(f, "state of damper {found:#010x}, this is {expected:#010x}")
-            }
-            Self::Values => f.write_str("state with values that no step leaves behind"),
-        }
-    }
+/// A saved state of `BYTES` without what is around it.
+#[derive(FromBytes, IntoBytes, Immutable, KnownLayout, Unaligned)]
+#[repr(C)]
+struct Saved<const BYTES: usize> {
+    magic: [u8; 4],
+    version: U16,
+    scalar_bytes: U16,
+    state: [u8; BYTES],
+    check: U32,
 }
 
-impl core::error::Error for SavedStateError {}
-
 macro_rules! saved_state {
-    ($float:ident, $bytes:literal) => {
+    ($float:ident) => {
         impl DamperState<$float> {
             /// Bytes of a saved state.
-            pub const BYTES: usize = $bytes;
+            pub const SAVED_BYTES: usize = size_of::<Saved<{ Self::BYTES }>>();
 
-            /// This state as bytes, little-endian: displacement, stretch, flow potential, force, then
-            /// revision (4 bytes), status bits (2) and rejected inputs (2).
-            pub fn to_bytes(&self) -> [u8; $bytes] {
-                let reals = [self.displacement, self.stretch, self.potential, self.force];
-                let reals = reals.into_iter().flat_map($float::to_le_bytes);
-                let bytes = reals
-                    .chain(self.revision.to_le_bytes())
-                    .chain(self.status().bits().to_le_bytes())
-                    .chain(self.rejected_inputs.to_le_bytes());
-                let mut saved = [0; $bytes];
-                for (place, byte) in saved.iter_mut().zip(bytes) {
-                    *place = byte;
-                }
-                saved
+            /// This state as bytes that stand by themselves, the same in Rust and in C; [`Damper::restore`] takes them.
+            pub fn save(&self) -> [u8; Self::SAVED_BYTES] {
+                let mut saved = Saved {
+                    magic: MAGIC,
+                    version: VERSION.into(),
+                    scalar_bytes: (size_of::<$float>() as u16).into(),
+                    state: self.to_bytes(),
+                    check: U32::ZERO,
+                };
+                saved.check = check(saved.as_bytes()).into();
+                zerocopy::transmute!(saved)
             }
         }
 
         impl Damper<$float> {
-            /// The state of [`DamperState::to_bytes`], to the bit.
+            /// The state of [`DamperState::save`], to the bit.
             ///
             /// # Errors
-            /// The state is another damper's, or holds what no step of this damper leaves behind.
+            /// The bytes are damaged or no saved state; the state is another damper's, or holds what no step of this
+            /// damper leaves behind.
             ///
             /// ```
             /// # #[cfg(feature = "builder")] {
@@ -69,87 +105,43 @@ macro_rules! saved_state {
             ///
             /// let parameters = DamperParameters::reduced(120e3, 0.03, Mount::new(8e6));
             #[doc = concat!("let damper: Damper<", stringify!($float), "> = parameters.build(1e-3)?;")]
-            /// let mut bytes = damper.at_rest(0.25).to_bytes();
-            /// assert_eq!(damper.restore(&bytes).unwrap().displacement(), 0.25);
-            #[doc = concat!("let revision = &mut bytes[", stringify!($bytes), " - 8..][..4];")]
-            /// revision.copy_from_slice(&7_u32.to_le_bytes());
-            /// let refused = SavedStateError::Revision { expected: damper.revision(), found: 7 };
-            /// assert_eq!(damper.restore(&bytes), Err(refused));
+            /// let mut saved = damper.at_rest(0.25).save();
+            /// assert_eq!(damper.restore(&saved).unwrap().displacement(), 0.25);
+            /// saved[10] ^= 1;
+            /// assert_eq!(damper.restore(&saved), Err(SavedStateError::Checksum));
             /// # }
             /// # Ok::<(), dashpot_core::BuildError>(())
             /// ```
-            pub fn restore(&self, bytes: &[u8; $bytes]) -> Result<DamperState<$float>, SavedStateError> {
-                const REAL: usize = size_of::<$float>();
-                let (reals, _) = bytes.as_chunks::<REAL>();
-                let [displacement, stretch, potential, force, ..] = *reals else {
-                    return Err(SavedStateError::Values);
+            pub fn restore(&self, saved: &[u8]) -> Result<DamperState<$float>, SavedStateError> {
+                const STATE_BYTES: usize = DamperState::<$float>::BYTES;
+                let length = SavedStateError::Length {
+                    expected: DamperState::<$float>::SAVED_BYTES,
+                    found: saved.len(),
                 };
-                let [.., r0, r1, r2, r3, s0, s1, n0, n1] = *bytes;
-                let state = DamperState::new(
-                    [displacement, stretch, potential, force].map($float::from_le_bytes),
-                    u32::from_le_bytes([r0, r1, r2, r3]),
-                    Status::from_bits(u16::from_le_bytes([s0, s1])),
-                    u16::from_le_bytes([n0, n1]),
-                );
-                if state.revision != self.revision {
-                    return Err(SavedStateError::Revision {
-                        expected: self.revision,
-                        found: state.revision,
-                    });
+                let found = Saved::<STATE_BYTES>::ref_from_bytes(saved).map_err(|_| length)?;
+                if found.magic != MAGIC {
+                    Err(SavedStateError::Magic)
+                } else if found.version != VERSION {
+                    Err(SavedStateError::Version(found.version.get()))
+                } else if usize::from(found.scalar_bytes.get()) != size_of::<$float>() {
+                    Err(SavedStateError::Scalar(found.scalar_bytes.get()))
+                } else if found.check != check(saved) {
+                    Err(SavedStateError::Checksum)
+                } else {
+                    self.state_from_bytes(&found.state)
                 }
-                if self.could_leave(&state) { Ok(state) } else { Err(SavedStateError::Values) }
             }
         }
     };
 }
 
-saved_state!(f32, 24);
-saved_state!(f64, 40);
+saved_state!(f32);
+saved_state!(f64);
 
-#[cfg(test)]
-mod tests {
-    use super::SavedStateError;
-    use crate::Damper;
-
-    #[cfg(feature = "builder")]
-    fn damper() -> Damper<f32> {
-        crate::example::reduced_vertical().build(1e-3).unwrap()
-    }
-
-    #[cfg(feature = "builder")]
-    #[test]
-    fn a_restored_state_goes_on_to_the_bit() {
-        let damper = damper();
-        let mut state = damper.at_rest(0.0);
-        for tick in 0..500 {
-            // Up to 0.3 m/s, ten times the saturation velocity, and a step too fast to follow.
-            let x = 0.01 * (0.03 * tick as f32).sin() + if tick == 250 { 5.0 } else { 0.0 };
-            let mut restored = damper.restore(&state.to_bytes()).unwrap();
-            assert_eq!(restored, state);
-            let force = damper.step(&mut state, x);
-            assert_eq!(damper.step(&mut restored, x).to_bits(), force.to_bits());
-        }
-        assert!(state.rejected_inputs() > 0);
-    }
-
-    #[cfg(feature = "builder")]
-    #[test]
-    fn values_that_no_step_leaves_are_refused() {
-        let damper = damper();
-        let state = damper.at_rest(0.0);
-        for (offset, value) in [
-            (0, f32::NAN),
-            (0, f32::INFINITY),
-            (4, 1.0),
-            (4, f32::NAN),
-            (8, f32::NEG_INFINITY),
-            (12, 3700.0),
-            (12, f32::NAN),
-        ] {
-            let mut bytes = state.to_bytes();
-            bytes[offset..offset + 4].copy_from_slice(&value.to_le_bytes());
-            let refused = damper.restore(&bytes);
-            assert_eq!(refused, Err(SavedStateError::Values), "{value} at {offset}");
-        }
-    }
+/// CRC-32 of a saved state but for the CRC-32 at its end.
+fn check(saved: &[u8]) -> u32 {
+    let (checked, _) = saved
+        .split_at_checked(saved.len().wrapping_sub(CHECK_BYTES))
+        .unwrap_or_default();
+    crc_32(checked)
 }

@@ -4,7 +4,9 @@ use core::ops::Range;
 
 use super::board::{Line, Outputs};
 use super::frame::{FrameReader, Message, REQUEST_BYTES, ResponseFrame};
-use super::message::{Counters, Header, Refusal, Request, Response};
+use super::loaded::StepSizeError;
+use super::message::{Counters, Header, Request, Response};
+use super::refusal::Refusal;
 use super::service::{Clock, Service, count};
 use super::session::{Session, Verdict};
 use crate::damper::Damper;
@@ -44,7 +46,7 @@ const BYTES_PER_PASS: usize = 32;
 ///
 /// static DAMPER: Damper<f32> = Damper::<f32>::from_words(&[0; Damper::<f32>::WORDS]);
 /// let mut device = Box::new(Device::<2>::new()); // in firmware a static
-/// device.start(&[&DAMPER; 2], Clock { now: || 0, hz: 1_000_000 });
+/// device.start(&[&DAMPER; 2], Clock { now: || 0, hz: 1_000_000 })?;
 ///
 /// let hello = Request::Hello { protocol: PROTOCOL };
 /// let hello = request_frame(Header { session: 1, sequence: 1 }, &hello);
@@ -55,6 +57,7 @@ const BYTES_PER_PASS: usize = 32;
 /// }
 /// assert_eq!(device.counters().accepted, 1);
 /// assert_eq!((host.1, actuators.0), (device.response().len(), [0.0; 2]));
+/// # Ok::<(), dashpot_core::link::StepSizeError>(())
 /// ```
 #[derive(Debug)]
 #[repr(C)] // what every byte needs first, where an instruction reaches it
@@ -131,10 +134,16 @@ impl<const N: usize> Device<N> {
         }
     }
 
-    /// Takes copies of `dampers`, at rest at 0, the host stepping; the step is that of the first damper. Steps
-    /// are measured by `clock`.
-    pub fn start(&mut self, dampers: &[&Damper<f32>; N], clock: Clock) {
-        self.service.start(dampers, clock);
+    /// Takes copies of `dampers`, at rest at 0, the host stepping. Steps are measured by `clock`.
+    ///
+    /// # Errors
+    /// The dampers are not all built for one step; the device is as it was.
+    pub fn start(
+        &mut self,
+        dampers: &[&Damper<f32>; N],
+        clock: Clock,
+    ) -> Result<(), StepSizeError> {
+        self.service.start(dampers, clock)
     }
 
     /// One pass of a firmware's loop: runs the `due` ticks that the timer counted since the last pass, then does

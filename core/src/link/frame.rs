@@ -28,6 +28,7 @@ const fn frame_bytes(message_bytes: usize) -> usize {
 
 /// Why bytes between two zeros are no message.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum FrameError {
     /// A zero came where COBS has none.
     Framing,

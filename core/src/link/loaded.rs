@@ -2,12 +2,12 @@
 
 use heapless::Vec;
 
-use super::message::{Forces, MOST_DAMPERS, Reals, Refusal, Response};
+use super::message::{Forces, MOST_DAMPERS, Reals, Response};
+use super::refusal::Refusal;
 use super::slots::Slots;
 use crate::bank::step_bank;
 use crate::damper::Damper;
 use crate::integrity::Check;
-use crate::parameters::LARGEST_CLEARANCE_M;
 use crate::state::DamperState;
 use crate::status::Status;
 
@@ -15,6 +15,14 @@ const STATE_BYTES: usize = DamperState::<f32>::BYTES;
 
 /// Room for the states of a bank as bytes.
 pub(crate) type SavedStates = [u8; MOST_DAMPERS * STATE_BYTES];
+
+/// A bank whose dampers are not all built for one step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("damper {damper} is built for another step than damper 0")]
+pub struct StepSizeError {
+    /// The first damper of another step than the first of all.
+    pub damper: usize,
+}
 
 /// Dampers, states, last displacements and forces, tick.
 #[derive(Clone, Debug)]
@@ -42,10 +50,15 @@ impl<const N: usize> Loaded<N> {
     }
 
     /// Copies of these dampers, at rest at 0.
-    pub(crate) fn start(&mut self, dampers: &[&Damper<f32>; N]) {
+    pub(crate) fn start(&mut self, dampers: &[&Damper<f32>; N]) -> Result<(), StepSizeError> {
+        let step_s = dampers.first().map_or(0.0, |damper| damper.step_s());
+        if let Some(damper) = dampers.iter().position(|other| other.step_s() != step_s) {
+            return Err(StepSizeError { damper });
+        }
         self.dampers.fill(dampers);
-        self.step_s = self.dampers.get(0).map_or(0.0, Damper::step_s);
+        self.step_s = step_s;
         self.rest_at([0.0; N]);
+        Ok(())
     }
 
     pub(crate) fn tick(&self) -> u32 {
@@ -121,11 +134,9 @@ impl<const N: usize> Loaded<N> {
 
     /// Changes the clearance 2a (m) of a damper; its state keeps the force.
     pub(crate) fn set_clearance(&mut self, damper: u8, clearance_m: f32) -> Result<(), Refusal> {
-        if !(0.0..=LARGEST_CLEARANCE_M as f32).contains(&clearance_m) {
-            return Err(Refusal::Range);
-        }
         if let Some(damper) = self.dampers.get_mut(damper) {
-            damper.set_clearance_m(clearance_m);
+            let set = damper.set_clearance_m(clearance_m);
+            set.map_err(|_| Refusal::Range)?;
         }
         self.carry_over(damper);
         Ok(())
@@ -189,7 +200,7 @@ impl<const N: usize> Loaded<N> {
         }
         let mut states = self.states;
         for ((state, damper), saved) in states.iter_mut().zip(self.dampers.all()).zip(saved) {
-            *state = damper.restore(saved).map_err(|_| Refusal::State)?;
+            *state = damper.state_from_bytes(saved).map_err(|_| Refusal::State)?;
         }
         self.states = states;
         self.displacements_m = states.map(|state| state.displacement());

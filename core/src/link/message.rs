@@ -3,10 +3,11 @@
 use heapless::Vec;
 use serde::{Deserialize, Serialize};
 
+use super::refusal::Refusal;
 use super::safe_output::LossOfLink;
 
 /// Version of the messages; changes whenever their bytes do.
-pub const PROTOCOL: u16 = 2;
+pub const PROTOCOL: u16 = 3;
 /// Dampers a device may hold.
 pub const MOST_DAMPERS: usize = 16;
 /// Telemetry samples in one response at most.
@@ -26,6 +27,7 @@ pub struct Header {
 
 /// What a host asks. Displacements (m) are positive in extension.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub enum Request<'a> {
     /// Opens the session of the header. Moves no state.
     Hello {
@@ -101,6 +103,7 @@ pub enum Request<'a> {
 
 /// Parameters by their key in a damper file. Only the clearance can change without a rebuild.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub enum Parameter {
     /// `mount.clearance_m`: 2a, the whole play.
     ClearanceM,
@@ -116,6 +119,7 @@ pub enum Parameter {
 
 /// What a device answers.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub enum Response<'a> {
     /// To hello.
     #[serde(borrow)]
@@ -181,6 +185,7 @@ pub struct Welcome<'a> {
 
 /// Floating-point type of a device's dampers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub enum Scalar {
     /// Single precision.
     F32,
@@ -253,46 +258,4 @@ impl Counters {
         link_losses: 0,
         corruptions: 0,
     };
-}
-
-/// Why a request was not carried out.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Refusal {
-    /// The frame was broken on the way; the header is not that of a request. Send again.
-    Corrupt,
-    /// The frame holds no request of this protocol.
-    Unreadable,
-    /// The device speaks this protocol.
-    Protocol(u16),
-    /// No such session: say hello first. A device that was reset has none.
-    NoSession,
-    /// Expected this sequence number.
-    OutOfOrder(u32),
-    /// Expected this tick.
-    Tick(u32),
-    /// Expected this many displacements or states.
-    Count(u8),
-    /// There is no such damper; this many are there.
-    Damper(u8),
-    /// Needs a rebuild on the host, then a load.
-    NeedsRebuild,
-    /// The value is not finite or out of range.
-    Range,
-    /// Expected an image of this many bytes.
-    ImageBytes(u32),
-    /// The image is no damper.
-    Image,
-    /// The image is of a damper built for another step.
-    StepSize,
-    /// A saved state is another damper's or damaged.
-    State,
-    /// Not while the tick runs free: stop first.
-    Running,
-    /// Only while the tick runs free.
-    NotRunning,
-    /// The link was lost: the safe output stays until run.
-    LinkLost,
-    /// The constants of this damper were damaged in memory: the safe output stays until it is loaded again and
-    /// run.
-    Corrupted(u8),
 }

@@ -13,6 +13,7 @@ mod guard;
 mod loaded;
 mod message;
 mod recorder;
+mod refusal;
 mod safe_output;
 mod service;
 mod session;
@@ -24,10 +25,12 @@ pub use frame::{
     Frame, FrameError, FrameReader, Message, REQUEST_BYTES, REQUEST_FRAME_BYTES, RESPONSE_BYTES,
     RESPONSE_FRAME_BYTES, RequestFrame, ResponseFrame, request_frame,
 };
+pub use loaded::StepSizeError;
 pub use message::{
-    Counters, Forces, Header, MOST_DAMPERS, MOST_SAMPLES, PROTOCOL, Parameter, Reals, Refusal,
-    Request, Response, Sample, Scalar, Welcome,
+    Counters, Forces, Header, MOST_DAMPERS, MOST_SAMPLES, PROTOCOL, Parameter, Reals, Request,
+    Response, Sample, Scalar, Welcome,
 };
 pub use recorder::KEPT_TICKS;
+pub use refusal::Refusal;
 pub use safe_output::{LossOfLink, SafeOutput};
 pub use service::Clock;

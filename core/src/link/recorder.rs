@@ -2,7 +2,8 @@
 
 use heapless::Vec;
 
-use super::message::{MOST_SAMPLES, Refusal, Response, Sample};
+use super::message::{MOST_SAMPLES, Response, Sample};
+use super::refusal::Refusal;
 use crate::state::DamperState;
 use crate::status::Status;
 

@@ -23,6 +23,7 @@ impl Default for LossOfLink {
 
 /// Output of every damper after the loss of the link.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub enum SafeOutput {
     /// The last good force.
     Hold,

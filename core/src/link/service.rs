@@ -1,14 +1,15 @@
 //! Carries requests out on the loaded dampers.
 
 use super::guard::Guard;
-use super::loaded::{Loaded, SavedStates};
+use super::loaded::{Loaded, SavedStates, StepSizeError};
 use super::message::{
-    Counters, MOST_DAMPERS, PROTOCOL, Parameter, Reals, Refusal, Request, Response, Scalar, Welcome,
+    Counters, MOST_DAMPERS, PROTOCOL, Parameter, Reals, Request, Response, Scalar, Welcome,
 };
 use super::recorder::Recorder;
+use super::refusal::Refusal;
 use super::safe_output::{LossOfLink, Watch};
 use crate::damper::Damper;
-use crate::encoding::{ImageError, Loading};
+use crate::encoding::Loading;
 use crate::state::DamperState;
 
 /// A free-running clock to measure steps with.
@@ -53,10 +54,15 @@ impl<const N: usize> Service<N> {
         }
     }
 
-    pub(crate) fn start(&mut self, dampers: &[&Damper<f32>; N], clock: Clock) {
-        self.loaded.start(dampers);
+    pub(crate) fn start(
+        &mut self,
+        dampers: &[&Damper<f32>; N],
+        clock: Clock,
+    ) -> Result<(), StepSizeError> {
+        self.loaded.start(dampers)?;
         self.watch.configure(LossOfLink::default());
         self.clock = Some(clock);
+        Ok(())
     }
 
     pub(crate) fn outputs_n(&self) -> &[f32; N] {
@@ -114,10 +120,7 @@ impl<const N: usize> Service<N> {
         loading: &mut Loading,
     ) -> Result<bool, Refusal> {
         let done = self.loaded.spare().load_slice(image, loading);
-        let done = done.map_err(|error| match error {
-            ImageError::Length { expected, .. } => Refusal::ImageBytes(expected as u32),
-            _ => Refusal::Image,
-        })?;
+        let done = done.map_err(Refusal::Image)?;
         if done {
             self.loaded.replace(damper)?;
             self.guard.loaded(damper);

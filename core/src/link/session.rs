@@ -1,6 +1,7 @@
 //! Which request is next: sequence numbers, repeated requests, sessions.
 
-use super::message::{Header, Refusal};
+use super::message::Header;
+use super::refusal::Refusal;
 
 /// The open session and its last request.
 #[derive(Clone, Copy, Debug)]

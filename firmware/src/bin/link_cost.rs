@@ -55,7 +55,9 @@ fn main() -> ! {
     };
     // Behind a pointer fields are reached by their offsets; of a known address each takes two more instructions.
     let device = core::hint::black_box(device);
-    device.start(&BANK, board::start_clock());
+    if device.start(&BANK, board::start_clock()).is_err() {
+        safe_state::halt();
+    }
     let mut outputs = SerialOutputs::start();
     let mut frame = Frame::<128>::new();
     let header = |sequence| Header {

@@ -57,10 +57,10 @@ fn place_i_has_damper_i() {
 fn after_a_reset_each_place_has_its_damper_again() {
     let dampers: [Damper<f32>; 12] = std::array::from_fn(|place| {
         let mut damper = three()[place % 3];
-        damper.set_clearance_m(1e-4 * place as f32);
+        damper.set_clearance_m(1e-4 * place as f32).unwrap();
         damper
     });
-    let other = Desk::<12>::new([built("reduced-lateral"); 12]);
+    let other = Desk::<12>::new([built("reduced-lateral"); 12]).unwrap();
     let rates: FaultRates = "reset=0.005".parse().unwrap();
     let link = FaultyLink::new(other, rates, 3).unwrap();
     let (report, _) = forces(link, &dampers, 2000).unwrap();

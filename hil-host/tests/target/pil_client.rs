@@ -5,8 +5,8 @@ use std::rc::Rc;
 use std::time::{Duration, Instant};
 
 use crate::pil_common::{PATIENCE, desk};
-use dashpot_core::Damper;
 use dashpot_core::link::{Refusal, Request};
+use dashpot_core::{Damper, ImageError};
 use dashpot_hil::error::Outcome;
 use dashpot_hil::target::pil::{Client, Desk, Link, LinkError, Patience};
 
@@ -88,8 +88,14 @@ fn every_refusal_has_a_sentence() {
         (Refusal::Damper(5), "places 0 to 4"),
         (Refusal::NeedsRebuild, "build a damper on the host"),
         (Refusal::Range, "a clearance of 0 to 0.1 m"),
-        (Refusal::ImageBytes(4), "images of 4 bytes"),
-        (Refusal::Image, "damaged or of another version"),
+        (
+            Refusal::Image(ImageError::Version(1)),
+            "format version 1, must be 2",
+        ),
+        (
+            Refusal::Image(ImageError::Checksum),
+            "the bytes are damaged",
+        ),
         (Refusal::StepSize, "another step"),
         (Refusal::State, "a state of another damper"),
         (Refusal::Running, "runs free; stop"),

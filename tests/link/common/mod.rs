@@ -52,7 +52,7 @@ impl Bench {
         let dampers = [built("in-service", &[]), built("reduced-vertical", &[])];
         let clock = Clock { now: || 0, hz: 1 };
         let mut device = Box::new(Device::new());
-        device.start(&dampers.each_ref(), clock);
+        device.start(&dampers.each_ref(), clock).unwrap();
         let header = Header {
             session: SESSION,
             sequence: 0,

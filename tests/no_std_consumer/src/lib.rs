@@ -47,10 +47,11 @@ pub extern "C" fn checked_change(
     damper: &mut Damper<f32>,
     state: &mut DamperState<f32>,
     clearance_m: f32,
-) {
-    damper.set_clearance_m(clearance_m);
+) -> bool {
+    let set = damper.set_clearance_m(clearance_m);
     damper.adopt(state);
     state.clear_status();
+    set.is_ok()
 }
 
 /// A damper over a link; whether it was taken.

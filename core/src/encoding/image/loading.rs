@@ -1,10 +1,10 @@
 //! A damper from an image, in slices of bounded work. Nothing is written before everything is verified.
 
 use super::super::words::{PIECE, TABLE};
-use super::{BYTE_ORDER, CHECK_BYTES, HEADER_BYTES, ImageError, MAGIC, VERSION};
+use super::header::Header;
+use super::{CHECK_BYTES, ImageError};
 use crate::damper::Damper;
-use crate::encoding::checksum;
-use crate::encoding::revision;
+use crate::encoding::{checksum, revision};
 use crate::parameters::{LARGEST_CLEARANCE_M, LARGEST_FORCE_N};
 use crate::scalars::{SCALARS, Scalars};
 use crate::table::{INDEX_SLICES, ROWS};
@@ -128,7 +128,7 @@ macro_rules! loading {
             fn read_scalars(image: &[u8]) -> Result<(Scalars<$float>, [$word; 2]), ImageError> {
                 let words = Words::<{ size_of::<$float>() }>::of(image);
                 let both = words.scalars().zip(words.revisions());
-                let (scalars, revisions) = both.ok_or(ImageError::Constants)?;
+                let (scalars, revisions) = both.ok_or(ImageError::Scalars)?;
                 let scalars = Scalars::from_array(scalars.map($float::from_le_bytes));
                 Ok((scalars, revisions.map($word::from_le_bytes)))
             }
@@ -139,7 +139,7 @@ macro_rules! loading {
                 let number = |word: &[u8; BYTES]| $float::from_le_bytes(*word);
                 match stage {
                     Stage::Checksum { bytes, crc } => {
-                        let body = open(image, BYTES, Self::IMAGE_BYTES)?;
+                        let body = open(image, &Header::new(BYTES, Self::IMAGE_BYTES))?;
                         let left = body.checked.get(bytes..).unwrap_or_default();
                         let slice = left.get(..BYTES_PER_SLICE).unwrap_or(left);
                         if !slice.is_empty() {
@@ -155,7 +155,7 @@ macro_rules! loading {
                         let words = Words::<BYTES>::of(image);
                         if let Some(coefficients) = words.piece(piece) {
                             if !coefficients.iter().all(|word| number(word).is_finite()) {
-                                return Err(ImageError::Constants);
+                                return Err(ImageError::Piece(piece as u32));
                             }
                             let widened = coefficients.iter().map(|word| number(word).to_bits().into());
                             let hash = revision::of_words(hash, widened);
@@ -170,10 +170,12 @@ macro_rules! loading {
                             && scalars.half_force_limit <= (0.5 * LARGEST_FORCE_N) as $float
                             && scalars.first_knot > 0.0
                             && scalars.offset == scalars.half_clearance + scalars.held;
-                        if revisions == [revision, hash].map($word::from) && credible {
-                            Ok(Stage::Write { piece: 0 })
+                        if revisions != [revision, hash].map($word::from) {
+                            Err(ImageError::Revision)
+                        } else if !credible {
+                            Err(ImageError::Scalars)
                         } else {
-                            Err(ImageError::Constants)
+                            Ok(Stage::Write { piece: 0 })
                         }
                     }
                     done => Ok(done),
@@ -183,61 +185,21 @@ macro_rules! loading {
     };
 }
 
-/// An image of `expected` bytes taken apart, its header and length right.
-fn open(bytes: &[u8], scalar_bytes: usize, expected: usize) -> Result<Body<'_>, ImageError> {
-    let length = |found| ImageError::Length { expected, found };
-    let whole = bytes
-        .split_last_chunk::<CHECK_BYTES>()
-        .and_then(|(checked, stated)| {
-            let header = checked.first_chunk::<HEADER_BYTES>()?;
-            let stated = u32::from_le_bytes(*stated);
-            Some((header, Body { checked, stated }))
-        });
-    let (header, body) = whole.ok_or(length(bytes.len()))?;
-    let [
-        m0,
-        m1,
-        m2,
-        m3,
-        o0,
-        o1,
-        v0,
-        v1,
-        s0,
-        s1,
-        s2,
-        s3,
-        l0,
-        l1,
-        l2,
-        l3,
-    ] = *header;
-    let version = u16::from_le_bytes([v0, v1]);
-    let scalar = u32::from_le_bytes([s0, s1, s2, s3]);
-    let stated = u32::from_le_bytes([l0, l1, l2, l3]) as usize;
-    if [m0, m1, m2, m3] != MAGIC {
-        Err(ImageError::Magic)
-    } else if u16::from_le_bytes([o0, o1]) != BYTE_ORDER {
-        Err(ImageError::ByteOrder)
-    } else if version != VERSION {
-        Err(ImageError::Version(version))
-    } else if scalar as usize != scalar_bytes {
-        Err(ImageError::Scalar(scalar))
-    } else if stated != expected {
-        Err(length(stated))
-    } else if bytes.len() != expected {
-        Err(length(bytes.len()))
-    } else {
-        Ok(body)
-    }
+/// What the CRC-32 of an image is of, and what it is.
+struct Body<'a> {
+    checked: &'a [u8],
+    stated: u32,
 }
 
-/// An image taken apart.
-struct Body<'a> {
-    /// The bytes that the CRC-32 is of.
-    checked: &'a [u8],
-    /// The CRC-32 the image states.
-    stated: u32,
+/// An image whose header and length are right.
+fn open<'a>(image: &'a [u8], header: &Header) -> Result<Body<'a>, ImageError> {
+    header.check(image)?;
+    // The header is there, and so are more bytes than the check has.
+    let (checked, stated) = image
+        .split_last_chunk()
+        .unwrap_or((image, &[0; CHECK_BYTES]));
+    let stated = u32::from_le_bytes(*stated);
+    Ok(Body { checked, stated })
 }
 
 /// The words of an image.
@@ -246,7 +208,7 @@ struct Words<'a, const BYTES: usize>(&'a [[u8; BYTES]]);
 impl<'a, const BYTES: usize> Words<'a, BYTES> {
     fn of(image: &'a [u8]) -> Self {
         let end = image.len().saturating_sub(CHECK_BYTES);
-        let words = image.get(HEADER_BYTES..end).unwrap_or_default();
+        let words = image.get(Header::BYTES..end).unwrap_or_default();
         Self(words.as_chunks().0)
     }
 

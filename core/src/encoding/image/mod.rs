@@ -12,77 +12,57 @@
 //!
 //! Every number is little-endian.
 
+mod header;
 mod loading;
 
 pub use loading::Loading;
 
-use core::fmt;
+use zerocopy::IntoBytes;
 
+use super::checksum::crc_32;
 use crate::damper::Damper;
-use crate::encoding::checksum::crc_32;
+use header::{Header, VERSION};
 
-const MAGIC: [u8; 4] = *b"DASH";
-const BYTE_ORDER: u16 = 0xfeff;
-/// Changes whenever the same words would mean another damper.
-const VERSION: u16 = 2;
-const HEADER_BYTES: usize = 16;
+/// Bytes of the CRC-32.
 const CHECK_BYTES: usize = 4;
 
 /// Why bytes are no damper.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[cfg_attr(feature = "link", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub enum ImageError {
     /// Cut short, too long, or of a core with another table.
+    #[error("{found} bytes where a damper has {expected}")]
     Length {
         /// Bytes of an image.
-        expected: usize,
+        expected: u32,
         /// Bytes there are, or bytes the header states.
-        found: usize,
+        found: u32,
     },
     /// The first four bytes are not `DASH`.
+    #[error("not a damper: must start with DASH")]
     Magic,
     /// The byte-order mark is not that of little-endian numbers.
+    #[error("byte order is not little-endian")]
     ByteOrder,
     /// Another version of the format, the one found.
+    #[error("format version {0}, must be {VERSION}")]
     Version(u16),
     /// Another scalar; the bytes of the one found.
+    #[error("scalar of {0} bytes is not this damper's")]
     Scalar(u32),
     /// The CRC-32 is not that of the bytes: damaged on the way.
+    #[error("CRC-32 does not match: the bytes are damaged")]
     Checksum,
-    /// A constant is not finite or out of range, or the revision is not that of the constants.
-    Constants,
-}
-
-impl fmt::Display for ImageError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Length { expected, found } => {
-                write!(f, "{found} bytes where a damper has {expected}")
-            }
-            Self::Magic => f.write_str("not a damper: must start with DASH"),
-            Self::ByteOrder => f.write_str("byte order is not little-endian"),
-            Self::Version(found) => write!(f, "format version {found}, must be {VERSION}"),
-            Self::Scalar(found) => write!(f, "scalar of {found} bytes is not this damper's"),
-            Self::Checksum => f.write_str("CRC-32 does not match: the bytes are damaged"),
-            Self::Constants => f.write_str("constants or revision that no build makes"),
-        }
-    }
-}
-
-impl core::error::Error for ImageError {}
-
-/// Header of an image of `length` bytes.
-fn header(scalar_bytes: usize, length: usize) -> [u8; HEADER_BYTES] {
-    let mut header = [0; HEADER_BYTES];
-    let fields = MAGIC
-        .into_iter()
-        .chain(BYTE_ORDER.to_le_bytes())
-        .chain(VERSION.to_le_bytes())
-        .chain((scalar_bytes as u32).to_le_bytes())
-        .chain((length as u32).to_le_bytes());
-    for (byte, field) in header.iter_mut().zip(fields) {
-        *byte = field;
-    }
-    header
+    /// A number of this piece of the table, from 0, is not finite.
+    #[error("piece {0} of the table has a number that is not finite")]
+    Piece(u32),
+    /// The revision is not that of the constants: no build made them.
+    #[error("the revision is not that of the constants: no build made them")]
+    Revision,
+    /// A constant beside the table is not finite or out of range.
+    #[error("a constant beside the table is not finite or out of range")]
+    Scalars,
 }
 
 macro_rules! image {
@@ -90,17 +70,17 @@ macro_rules! image {
         impl Damper<$float> {
             /// Bytes of an image of a damper.
             pub const IMAGE_BYTES: usize =
-                HEADER_BYTES + Self::WORDS * size_of::<$word>() + CHECK_BYTES;
+                Header::BYTES + Self::WORDS * size_of::<$word>() + CHECK_BYTES;
 
             /// This damper as bytes, checked by [`Self::load_image`].
             pub fn to_image(&self) -> [u8; Self::IMAGE_BYTES] {
                 let mut image = [0; Self::IMAGE_BYTES];
                 let words = self.to_words();
-                let bytes = header(size_of::<$word>(), Self::IMAGE_BYTES)
-                    .into_iter()
-                    .chain(words.iter().flat_map(|word| word.to_le_bytes()));
-                for (place, byte) in image.iter_mut().zip(bytes) {
-                    *place = byte;
+                let header = Header::new(size_of::<$word>(), Self::IMAGE_BYTES);
+                let header = header.as_bytes().iter().copied();
+                let bytes = header.chain(words.iter().flat_map(|word| word.to_le_bytes()));
+                for (to, byte) in image.iter_mut().zip(bytes) {
+                    *to = byte;
                 }
                 if let Some((checked, check)) = image.split_last_chunk_mut::<CHECK_BYTES>() {
                     *check = crc_32(checked).to_le_bytes();
@@ -116,7 +96,7 @@ macro_rules! image {
             /// ```
             /// use dashpot_core::{Damper, ImageError};
             #[doc = concat!("let found = Damper::<", stringify!($float), ">::from_image(b\"DASH\");")]
-            #[doc = concat!("let expected = Damper::<", stringify!($float), ">::IMAGE_BYTES;")]
+            #[doc = concat!("let expected = Damper::<", stringify!($float), ">::IMAGE_BYTES as u32;")]
             /// assert_eq!(found, Err(ImageError::Length { expected, found: 4 }));
             /// ```
             pub fn from_image(image: &[u8]) -> Result<Self, ImageError> {

@@ -99,6 +99,7 @@ impl fmt::Display for SafeOutputChoice {
             SafeOutput::Hold => f.write_str("hold"),
             SafeOutput::Zero => f.write_str("zero"),
             SafeOutput::RampToZero { ticks } => write!(f, "ramp={ticks}"),
+            other => write!(f, "{other:?}"),
         }
     }
 }

@@ -33,7 +33,7 @@ const ALL: [(StatusBit, Status, &str); 5] = [
 
 /// The bits that are set in a status word.
 pub(super) fn of_word(word: u16) -> Vec<StatusBit> {
-    let status = Status::from_bits(word);
+    let status = Status::from_bits_truncate(word);
     let set = ALL.iter().filter(|(_, bit, _)| status.contains(*bit));
     set.map(|(name, ..)| *name).collect()
 }

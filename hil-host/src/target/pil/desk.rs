@@ -4,10 +4,10 @@ use std::collections::VecDeque;
 use std::time::Duration;
 
 use dashpot_core::Damper;
-use dashpot_core::link::{Clock, Device};
+use dashpot_core::link::{Clock, Device, StepSizeError};
 
 use super::Link;
-use crate::error::Outcome;
+use crate::error::{Failure, Outcome};
 
 /// A device of `N` dampers in this process. It answers at once or, to a broken line, not at all: no wait is
 /// real.
@@ -20,12 +20,15 @@ pub struct Desk<const N: usize> {
 
 impl<const N: usize> Desk<N> {
     /// A device with these dampers after power on.
-    pub fn new(bank: [Damper<f32>; N]) -> Self {
-        Self {
-            device: power_on(&bank),
+    ///
+    /// # Errors
+    /// The dampers are not all built for one step.
+    pub fn new(bank: [Damper<f32>; N]) -> Result<Self, StepSizeError> {
+        Ok(Self {
+            device: power_on(&bank)?,
             bank,
             answers: VecDeque::new(),
-        }
+        })
     }
 
     /// The device.
@@ -34,14 +37,14 @@ impl<const N: usize> Desk<N> {
     }
 }
 
-fn power_on<const N: usize>(bank: &[Damper<f32>; N]) -> Box<Device<N>> {
+fn power_on<const N: usize>(bank: &[Damper<f32>; N]) -> Result<Box<Device<N>>, StepSizeError> {
     let clock = Clock {
         now: || 0,
         hz: 1_000_000,
     };
     let mut device = Box::new(Device::new());
-    device.start(&bank.each_ref(), clock);
-    device
+    device.start(&bank.each_ref(), clock)?;
+    Ok(device)
 }
 
 impl<const N: usize> Link for Desk<N> {
@@ -67,7 +70,7 @@ impl<const N: usize> Link for Desk<N> {
     }
 
     fn reset_target(&mut self) -> Outcome<()> {
-        self.device = power_on(&self.bank);
+        self.device = power_on(&self.bank).map_err(|error| Failure::new(error.to_string()))?;
         Ok(())
     }
 

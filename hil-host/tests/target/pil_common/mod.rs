@@ -33,6 +33,7 @@ pub fn desk() -> Desk<3> {
         built("in-service"),
         built("reduced-lateral"),
     ])
+    .unwrap()
 }
 
 /// The first `ticks` displacements of the made ride (m).
