@@ -33,7 +33,7 @@ pub enum Corner {
     Yields,
 }
 
-/// Laws of a damper at constant velocity: springs settled, clearance taken up.
+/// Laws of a damper at constant velocity: springs at rest, clearance taken up.
 pub struct Characteristic {
     laws: ElementLaws,
     force_limit_n: f64,

@@ -1,4 +1,4 @@
-//! Errors of building a damper. The step itself has none.
+//! Errors of building a damper and of changing it. The step itself has no errors.
 
 use crate::parameters::Mount;
 #[cfg(feature = "builder")]

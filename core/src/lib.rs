@@ -1,14 +1,6 @@
-//! Fixed-step, allocation-free hydraulic damper for hardware-in-the-loop firmware.
-//!
-//! Parameters in SI units are built, once and with every error there is, into a [`Damper`]: constants
-//! for one step size. A [`DamperState`] holds what changes. [`Damper::step`] turns the displacement of
-//! a tick into the force of that tick in a fixed number of operations; it cannot fail, allocates
-//! nothing and uses + - * / only, so every IEEE 754 machine computes the same bits.
-//!
-//! Features: `builder` (default) has the parameters-to-constants part; without it the crate is the step
-//! alone. `serde` reads and writes parameters, `log` reports builds through the `log` facade,
-//! `link` serves a bank of dampers over a serial line.
+#![doc = include_str!("../README.md")]
 #![no_std]
+#![cfg_attr(docsrs, feature(doc_cfg))]
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
 

@@ -49,7 +49,7 @@ impl Oil {
 }
 
 impl OilColumn {
-    /// Share of its atmospheric volume by which the mixture shortens under gauge pressure P:
+    /// Fraction of its atmospheric volume by which the mixture shortens under gauge pressure P:
     /// `(1 - alpha) P/E_l + alpha (1 - (p_a/(p_a + P))^(1/n))` (1).
     pub fn compression(&self, pressure_pa: f64) -> f64 {
         (1.0 - self.air_fraction) * pressure_pa / self.bulk_modulus_pa

@@ -94,7 +94,7 @@ impl<T: Real> DamperState<T> {
         self.force
     }
 
-    /// Revision of the damper that stepped last, 0 of none.
+    /// Revision of the damper that stepped last, 0 before the first step.
     #[inline]
     pub fn revision(&self) -> u32 {
         self.revision

@@ -17,11 +17,11 @@ use crate::state::DamperState;
 use crate::status::Status;
 use crate::table::{Piece, Table, cubic, locate};
 
-/// gamma of the two stages.
-pub(crate) const IMPLICIT_SHARE: f64 = 1.0 - core::f64::consts::FRAC_1_SQRT_2;
+/// gamma of both stages: the implicit part of each.
+pub(crate) const GAMMA: f64 = 1.0 - core::f64::consts::FRAC_1_SQRT_2;
 
-/// The correction is at most this share of the step's travel, so it never undoes the damping.
-const CORRECTION_SHARE: f64 = 0.125;
+/// Largest correction over the change of the stretch in the step, so that it never undoes the damping.
+const LARGEST_CORRECTION: f64 = 0.125;
 
 impl<T: Real> Damper<T> {
     /// Force (N) at this tick for the displacement (m) of the tick; positive when it resists
@@ -70,9 +70,9 @@ pub(crate) fn step<T: Real, V: Lanes<T, L>, const L: usize>(
     let [_, start, potential, _] = V::transpose(states.each_ref().map(DamperState::numbers));
 
     let stages = Stages::new(dampers);
-    let gamma = V::splat(IMPLICIT_SHARE);
+    let gamma = V::splat(GAMMA);
     let first = stages.solve(start + gamma * travel);
-    let last = stages.solve(start + travel - V::splat(1.0 - IMPLICIT_SHARE) * first.flow);
+    let last = stages.solve(start + travel - V::splat(1.0 - GAMMA) * first.flow);
     let bend = gamma * (last.flow - first.flow);
     let quadrature = first.flow + bend;
     let change = travel - quadrature;
@@ -81,7 +81,7 @@ pub(crate) fn step<T: Real, V: Lanes<T, L>, const L: usize>(
     // The flow's mean over the straight path, by its potential and, off the path, by its slope.
     let end_potential = last.potential();
     let area = end_potential - potential + bend * bend;
-    let most = (change * V::splat(CORRECTION_SHARE)).abs();
+    let most = (change * V::splat(LARGEST_CORRECTION)).abs();
     let correction = (area / change - quadrature).min(most).max(-most);
     let contact = last.flow * start * potential;
     let correction = correction.unless_positive(contact);
@@ -90,7 +90,7 @@ pub(crate) fn step<T: Real, V: Lanes<T, L>, const L: usize>(
     let potential = end_potential - last.flow * correction;
     let magnitude = stages.force(stretch, last.stiffness());
     let yields = magnitude.reaches(stages.force_limit);
-    // Damaged constants may make each of the two any number or none; the force is finite all the same.
+    // Damaged constants may make each of the two any number or NaN; the force is finite all the same.
     let limited = magnitude.min(stages.force_limit).max(V::splat(0.0));
     let limited = limited.min(V::splat(LARGEST_FORCE_N));
     let forces = limited.with_sign_of(stretch).array();
@@ -242,7 +242,7 @@ pub(crate) fn state_at_force<T: Real>(damper: &Damper<T>, force: T) -> (T, T) {
         let middle = T::from_f64(0.5) * (low + high);
         let reach = signed(middle);
         let stage = stages.solve(reach);
-        let stretch = reach - T::from_f64(IMPLICIT_SHARE) * stage.flow;
+        let stretch = reach - T::from_f64(GAMMA) * stage.flow;
         let reached = stages.force(stretch, stage.stiffness());
         found = (stretch, stage.potential());
         if reached < force.abs() {

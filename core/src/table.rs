@@ -133,7 +133,7 @@ macro_rules! table {
                 piece
             }
 
-            /// Tells the pieces from `start` to `end` where the next ones begin; returns the first.
+            /// Writes into the pieces from `start` to `end` where the next ones begin; returns the first.
             const fn link_knots(&mut self, start: usize, end: usize) -> usize {
                 let mut piece = start;
                 while piece < end {

@@ -52,7 +52,7 @@ impl<const N: usize> Telemetry<N> {
             let _ = self.samples.pop_front();
             self.overwritten = self.overwritten.saturating_add(1);
         }
-        // There is room now, unless N is 0: then nothing is kept.
+        // It is not full now, unless N is 0: then nothing is kept.
         let _ = self.samples.push_back(sample);
     }
 

@@ -5,13 +5,13 @@ use heapless::Vec;
 use super::root::bracketed_root;
 use super::span::{Span, Stage};
 use crate::math::Real;
-use crate::step::IMPLICIT_SHARE;
+use crate::step::GAMMA;
 use crate::table::{DOUBLINGS, KNOTS_PER_BIN, PIECES, Piece};
 
-/// A span that is missed by no more than this share is not divided.
+/// A span whose cubics miss by no more than this fraction is not divided.
 const TOLERANCE: f64 = 1e-9;
 
-/// Share by which the table's force exceeds the limit where the element yields, above rounding in `f32`.
+/// Fraction by which the table's force exceeds the limit where the element yields, above rounding in `f32`.
 const YIELD_MARGIN: f64 = 1e-5;
 
 /// The last piece is the one beyond the limit.
@@ -37,10 +37,10 @@ pub(super) fn write<T: Real>(stage: &Stage<'_>, direction: f64, pieces: &mut [Pi
         return;
     };
     let mut knot = T::from_f64(end.reach);
-    let flow = end.flow + (knot.to_f64() - end.reach) / IMPLICIT_SHARE;
+    let flow = end.flow + (knot.to_f64() - end.reach) / GAMMA;
     for piece in knot_of {
         // Where the element yields, what is not stretch is flow: exactly, over any reach.
-        let linear = [direction * flow, direction / IMPLICIT_SHARE, 0.0, 0.0];
+        let linear = [direction * flow, direction / GAMMA, 0.0, 0.0];
         piece.knot = knot;
         piece.flow = linear.map(T::from_f64);
         piece.stiffness = constant((1.0 + YIELD_MARGIN) * end.stiffness);
@@ -68,10 +68,10 @@ fn spans<T: Real>(stage: &Stage<'_>) -> Spans {
         };
         let starts = spans.iter().map(|span| span.start().reach);
         let knots = starts.chain(spans.last().map(|span| span.end().reach));
-        if has_room::<T>(knots, spans[worst].middle().reach) {
+        if fits::<T>(knots, spans[worst].middle().reach) {
             let [before, after] = spans[worst].halves(stage);
             spans[worst] = before;
-            // There is room: the loop's condition.
+            // It is not full: the loop's condition.
             let _ = spans.insert(worst + 1, after);
         } else {
             spans[worst].misfit = 0.0;
@@ -89,7 +89,7 @@ fn corners<T: Real>(stage: &Stage<'_>) -> Vec<f64, 10> {
     let mut forces = Vec::from_array([start, end]);
     for (_, corner) in stage.branch.corners() {
         let knots = forces.iter().map(|force| stage.sample(*force).reach);
-        if start < corner && corner < end && has_room::<T>(knots, stage.sample(corner).reach) {
+        if start < corner && corner < end && fits::<T>(knots, stage.sample(corner).reach) {
             // Its capacity exceeds the number of a branch's corners by the two ends.
             let _ = forces.push(corner);
         }
@@ -110,8 +110,8 @@ fn end(stage: &Stage<'_>) -> f64 {
     })
 }
 
-/// Whether a knot at `reach` (m) is neither one too many in its bin nor at the place of another.
-fn has_room<T: Real>(knots: impl Iterator<Item = f64>, reach: f64) -> bool {
+/// Whether a knot at `reach` (m) is neither one too many in its bin nor equal to another.
+fn fits<T: Real>(knots: impl Iterator<Item = f64>, reach: f64) -> bool {
     let knot = T::from_f64(reach);
     let mut within = 0;
     for other in knots.map(T::from_f64) {

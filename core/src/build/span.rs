@@ -3,9 +3,9 @@
 use super::branch::Branch;
 use super::fit;
 use crate::math::elementary::sqrt;
-use crate::step::IMPLICIT_SHARE;
+use crate::step::GAMMA;
 
-/// Share of the limit at whose force an error is a share of the flow at least; see [`Stage::floor`].
+/// Fraction of the force limit; see [`Stage::floor`].
 const LOW_FORCE: f64 = 1e-3;
 /// As [`LOW_FORCE`], of the flow at the limit, for a branch that is closed at low force.
 const LOW_FLOW: f64 = 1e-4;
@@ -26,8 +26,8 @@ pub(super) struct Stage<'a> {
     pub(super) branch: &'a Branch<'a>,
     pub(super) step_s: f64,
     pub(super) first_knot: f64,
-    /// Flow times the step of which an error is a share at the least (m): what passes at low force hardly
-    /// matters where the force is not low.
+    /// Errors of the flow are relative to the flow and at least this, times the step (m): what passes at low force
+    /// hardly matters where the force is not low.
     floor: f64,
 }
 
@@ -49,7 +49,7 @@ impl<'a> Stage<'a> {
         let flow = self.step_s * self.branch.velocity(force);
         let deflection = self.branch.deflection(force);
         Sample {
-            reach: deflection + IMPLICIT_SHARE * flow - self.branch.held() + self.first_knot,
+            reach: deflection + GAMMA * flow - self.branch.held() + self.first_knot,
             flow,
             stiffness: self.branch.secant_stiffness(force, deflection),
         }
@@ -71,7 +71,7 @@ pub(super) struct Span {
     width: f64,
     t: [f64; 2],
     samples: [Sample; SAMPLES],
-    /// Largest share by which the cubics miss flow or stiffness (1).
+    /// Largest relative error of the cubics in flow or stiffness (1).
     pub(super) misfit: f64,
 }
 
@@ -176,16 +176,16 @@ impl Span {
         for sample in CHECKS.map(|check| self.samples[check]) {
             let miss = |cubic, value: f64| (fit::value(cubic, sample.reach - knot) - value).abs();
             // A closed branch holds a stretch for seconds: 1e-5 of it counts as flow.
-            let share = sample.flow + stage.floor + 1e-5 * sample.reach;
-            let misfit = (miss(flow, sample.flow) / share)
+            let scale = sample.flow + stage.floor + 1e-5 * sample.reach;
+            let misfit = (miss(flow, sample.flow) / scale)
                 .max(miss(stiffness, sample.stiffness) / sample.stiffness);
             self.misfit = self.misfit.max(misfit);
         }
     }
 
     fn force(&self, sample: usize) -> f64 {
-        let share = sample as f64 / (SAMPLES - 1) as f64;
-        self.force_at(self.t[0] + share * (self.t[1] - self.t[0]))
+        let fraction = sample as f64 / (SAMPLES - 1) as f64;
+        self.force_at(self.t[0] + fraction * (self.t[1] - self.t[0]))
     }
 
     fn force_at(&self, t: f64) -> f64 {

@@ -5,7 +5,7 @@ pub trait Line {
     /// A received byte, if one waits.
     fn receive(&mut self) -> Option<u8>;
 
-    /// Sends a byte; false when there is no room for it now.
+    /// Sends a byte; false when the line cannot take it now.
     fn send(&mut self, byte: u8) -> bool;
 }
 

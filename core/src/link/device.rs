@@ -82,7 +82,7 @@ pub struct Device<const N: usize> {
 enum Intake {
     /// It belongs to a frame.
     Frames,
-    /// It is dropped, for an image is being loaded from the room for frames.
+    /// It is dropped, for an image is being loaded from the buffer of the frames.
     Loading,
     /// As [`Intake::Loading`], within a frame.
     LoadingWithinFrame,
@@ -173,7 +173,7 @@ impl<const N: usize> Device<N> {
         }
     }
 
-    /// Takes bytes of the line until there is a response to send, or none waits, or it took its share of a pass.
+    /// Takes bytes of the line until there is a response to send, or none waits, or it took as many as a pass may.
     #[inline]
     fn receive_waiting(&mut self, line: &mut impl Line) -> bool {
         for _ in 0..BYTES_PER_PASS {

@@ -30,9 +30,9 @@ const fn frame_bytes(message_bytes: usize) -> usize {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum FrameError {
-    /// A zero came where COBS has none.
+    /// A zero byte where COBS allows no zero.
     Framing,
-    /// Longer than the reader's room.
+    /// Longer than the reader's buffer.
     TooLong,
     /// The CRC-32 is missing or not that of the message.
     Check,
@@ -64,9 +64,9 @@ pub struct Frame<const BYTES: usize> {
     length: usize,
 }
 
-/// A frame with room for every request.
+/// A frame large enough for every request.
 pub type RequestFrame = Frame<REQUEST_FRAME_BYTES>;
-/// A frame with room for every response.
+/// A frame large enough for every response.
 pub type ResponseFrame = Frame<RESPONSE_FRAME_BYTES>;
 
 impl<const BYTES: usize> Default for Frame<BYTES> {
@@ -85,7 +85,7 @@ impl<const BYTES: usize> Frame<BYTES> {
         }
     }
 
-    /// Becomes the frame of `message`; false, and empty, when there is no room for it.
+    /// Becomes the frame of `message`; false, and empty, when it does not fit.
     pub fn write(&mut self, message: &impl Serialize) -> bool {
         self.length = self.encode(message).unwrap_or(0);
         self.length > 0

@@ -11,8 +11,8 @@ const _: () = assert!(MOST_DAMPERS <= u16::BITS as usize);
 #[derive(Clone, Debug)]
 pub(crate) struct Guard {
     check: Check,
-    constants_place: u8,
-    state_place: u8,
+    next_constants: u8,
+    next_state: u8,
     constants: u16,
     states: u16,
 }
@@ -21,8 +21,8 @@ impl Guard {
     pub(crate) const fn new() -> Self {
         Self {
             check: Check::START,
-            constants_place: 0,
-            state_place: 0,
+            next_constants: 0,
+            next_state: 0,
             constants: 0,
             states: 0,
         }
@@ -32,33 +32,33 @@ impl Guard {
     /// to be.
     pub(crate) fn check<const N: usize>(&mut self, loaded: &mut Loaded<N>) -> u32 {
         let mut found = 0;
-        let place = self.constants_place;
-        if !loaded.check_constants(place, &mut self.check) {
-            found += u32::from(mark(&mut self.constants, place));
+        let damper = self.next_constants;
+        if !loaded.check_constants(damper, &mut self.check) {
+            found += u32::from(mark(&mut self.constants, damper));
         }
         // A state latches what it met of damaged constants too.
-        let place = self.state_place;
-        if !loaded.check_state(place) && self.constants & bit(place) == 0 {
-            found += u32::from(mark(&mut self.states, place));
+        let damper = self.next_state;
+        if !loaded.check_state(damper) && self.constants & bit(damper) == 0 {
+            found += u32::from(mark(&mut self.states, damper));
         }
-        let next = |place: u8| {
-            if usize::from(place) + 1 < N {
-                place + 1
+        let next = |damper: u8| {
+            if usize::from(damper) + 1 < N {
+                damper + 1
             } else {
                 0
             }
         };
         if self.check.is_at_start() {
-            self.constants_place = next(self.constants_place);
+            self.next_constants = next(self.next_constants);
         }
-        self.state_place = next(self.state_place);
+        self.next_state = next(self.next_state);
         found
     }
 
-    /// A damper was loaded in a place. If that was damaged, so is what its state came to.
-    pub(crate) fn loaded(&mut self, place: u8) {
-        self.states |= self.constants & bit(place);
-        self.constants &= !bit(place);
+    /// A damper was loaded. If the old one was damaged, so is what its state came to.
+    pub(crate) fn loaded(&mut self, damper: u8) {
+        self.states |= self.constants & bit(damper);
+        self.constants &= !bit(damper);
     }
 
     /// Every state was made anew.
@@ -77,17 +77,17 @@ impl Guard {
     }
 }
 
-fn bit(place: u8) -> u16 {
-    1 << (place % u16::BITS as u8)
+fn bit(damper: u8) -> u16 {
+    1 << (damper % u16::BITS as u8)
 }
 
-/// Whether the place was not marked before.
-fn mark(places: &mut u16, place: u8) -> bool {
-    let new = *places & bit(place) == 0;
-    *places |= bit(place);
+/// Whether the damper was not marked before.
+fn mark(dampers: &mut u16, damper: u8) -> bool {
+    let new = *dampers & bit(damper) == 0;
+    *dampers |= bit(damper);
     new
 }
 
-fn first(places: u16) -> Option<u8> {
-    (places != 0).then(|| places.trailing_zeros() as u8)
+fn first(dampers: u16) -> Option<u8> {
+    (dampers != 0).then(|| dampers.trailing_zeros() as u8)
 }

@@ -13,7 +13,7 @@ use crate::status::Status;
 
 const STATE_BYTES: usize = DamperState::<f32>::BYTES;
 
-/// Room for the states of a bank as bytes.
+/// Buffer for the states of a bank as bytes.
 pub(crate) type SavedStates = [u8; MOST_DAMPERS * STATE_BYTES];
 
 /// A bank whose dampers are not all built for one step.
@@ -107,8 +107,8 @@ impl<const N: usize> Loaded<N> {
 
     fn rest_at(&mut self, displacements_m: [f32; N]) {
         let dampers = self.dampers.all();
-        let places = self.states.iter_mut().zip(dampers).zip(&displacements_m);
-        for ((state, damper), displacement_m) in places {
+        let states = self.states.iter_mut().zip(dampers).zip(&displacements_m);
+        for ((state, damper), displacement_m) in states {
             *state = damper.at_rest(*displacement_m);
         }
         self.displacements_m = displacements_m;
@@ -116,12 +116,12 @@ impl<const N: usize> Loaded<N> {
         self.tick = 0;
     }
 
-    /// Room to load a damper into, for [`Self::replace`].
+    /// The damper to load into, for [`Self::replace`].
     pub(crate) fn spare(&mut self) -> &mut Damper<f32> {
         self.dampers.spare_mut()
     }
 
-    /// Puts the damper loaded into the spare room in the place of another, whose state keeps the force.
+    /// Makes the damper that was loaded one of the bank, in place of another, whose state keeps the force.
     pub(crate) fn replace(&mut self, damper: u8) -> Result<(), Refusal> {
         let step_s = self.spare().step_s();
         if step_s != self.step_s {
@@ -184,12 +184,12 @@ impl<const N: usize> Loaded<N> {
     }
 
     /// The states as bytes, in order.
-    pub(crate) fn save<'a>(&self, room: &'a mut SavedStates) -> &'a [u8] {
-        let (places, _) = room.as_chunks_mut::<STATE_BYTES>();
-        for (place, state) in places.iter_mut().zip(&self.states) {
-            *place = state.to_bytes();
+    pub(crate) fn save<'a>(&self, buffer: &'a mut SavedStates) -> &'a [u8] {
+        let (bytes, _) = buffer.as_chunks_mut::<STATE_BYTES>();
+        for (bytes, state) in bytes.iter_mut().zip(&self.states) {
+            *bytes = state.to_bytes();
         }
-        room.get(..N * STATE_BYTES).unwrap_or_default()
+        buffer.get(..N * STATE_BYTES).unwrap_or_default()
     }
 
     /// All states and the tick from bytes; nothing changes unless every state is right.

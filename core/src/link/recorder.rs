@@ -24,7 +24,7 @@ struct Tick<const N: usize> {
 #[derive(Debug)]
 pub(crate) struct Recorder<const N: usize> {
     ticks: [Tick<N>; KEPT_TICKS],
-    /// Ticks ever recorded, wrapping; the next goes to this place in the ring.
+    /// Ticks ever recorded, wrapping; modulo the ring it is the index of the next.
     recorded: u32,
     kept: u32,
     /// Of those, how many each damper's reader has taken or missed.
@@ -61,11 +61,11 @@ impl<const N: usize> Recorder<N> {
 
     /// The oldest samples of a damper that were not taken yet.
     pub(crate) fn take(&mut self, damper: u8) -> Result<Response<'static>, Refusal> {
-        let place = usize::from(damper);
+        let index = usize::from(damper);
         let reader = self
             .taken
-            .get_mut(place)
-            .zip(self.overwritten.get_mut(place));
+            .get_mut(index)
+            .zip(self.overwritten.get_mut(index));
         let (taken, overwritten) = reader.ok_or(Refusal::Damper(N as u8))?;
         let missed = self.recorded.wrapping_sub(*taken).saturating_sub(self.kept);
         *overwritten = overwritten.saturating_add(missed);
@@ -76,9 +76,9 @@ impl<const N: usize> Recorder<N> {
             let of = &self.ticks[taken.wrapping_add(sample) as usize % KEPT_TICKS];
             Some(Sample {
                 tick: of.tick,
-                displacement_m: *of.displacements_m.get(place)?,
-                force_n: *of.forces_n.get(place)?,
-                status: of.status.get(place)?.bits(),
+                displacement_m: *of.displacements_m.get(index)?,
+                force_n: *of.forces_n.get(index)?,
+                status: of.status.get(index)?.bits(),
             })
         });
         let samples: Vec<Sample, MOST_SAMPLES> = samples.collect();

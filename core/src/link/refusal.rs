@@ -6,7 +6,7 @@ use super::message::PROTOCOL;
 use crate::encoding::ImageError;
 use crate::parameters::Mount;
 
-/// Why a request was not carried out; told for a person at the host.
+/// Why a request was not carried out; its text is for a person at the host.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, thiserror::Error)]
 #[non_exhaustive]
 pub enum Refusal {

@@ -112,7 +112,7 @@ impl<const N: usize> Service<N> {
         });
     }
 
-    /// A slice of loading an image for a place; true when the damper is in it.
+    /// A slice of loading an image; true when its damper is one of the bank.
     pub(crate) fn load_slice(
         &mut self,
         damper: u8,
@@ -152,18 +152,18 @@ impl<const N: usize> Service<N> {
                 if configuration.after_ticks == 0 {
                     return Err(Refusal::Range);
                 }
-                self.good()?;
+                self.require_outputs_good()?;
                 self.watch.configure(*configuration);
             }
             Request::Reset { displacements_m } => {
-                self.stepped()?;
-                self.rest(displacements_m)?;
+                self.require_host_steps()?;
+                self.put_at_rest(displacements_m)?;
             }
             Request::Step {
                 tick,
                 displacements_m,
             } => {
-                self.stepped()?;
+                self.require_host_steps()?;
                 let expected = self.loaded.tick().wrapping_add(1);
                 if *tick != expected {
                     return Err(Refusal::Tick(expected));
@@ -175,13 +175,13 @@ impl<const N: usize> Service<N> {
                 return Ok(Response::Forces(forces));
             }
             Request::Run { displacements_m } => {
-                if self.running && self.good().is_ok() {
+                if self.running && self.require_outputs_good().is_ok() {
                     return Err(Refusal::Running);
                 }
                 if let Some(damper) = self.guard.damaged_constants() {
                     return Err(Refusal::Corrupted(damper));
                 }
-                self.rest(displacements_m)?;
+                self.put_at_rest(displacements_m)?;
                 self.watch.restart();
                 self.running = true;
                 return Ok(self.forces());
@@ -190,7 +190,7 @@ impl<const N: usize> Service<N> {
                 if !self.running {
                     return Err(Refusal::NotRunning);
                 }
-                self.good()?;
+                self.require_outputs_good()?;
                 self.loaded.displace(displacements_m)?;
                 self.watch.alive();
                 return Ok(self.forces());
@@ -210,7 +210,7 @@ impl<const N: usize> Service<N> {
                 });
             }
             Request::Restore { tick, states } => {
-                self.stepped()?;
+                self.require_host_steps()?;
                 self.loaded.restore(*tick, states)?;
                 self.guard.new_states();
             }
@@ -249,7 +249,7 @@ impl<const N: usize> Service<N> {
     }
 
     /// Every damper at rest, outputs 0.
-    fn rest(&mut self, displacements_m: &Reals) -> Result<(), Refusal> {
+    fn put_at_rest(&mut self, displacements_m: &Reals) -> Result<(), Refusal> {
         self.loaded.reset(displacements_m)?;
         self.guard.new_states();
         self.outputs_n = [0.0; N];
@@ -257,7 +257,7 @@ impl<const N: usize> Service<N> {
     }
 
     /// Only while the host steps.
-    fn stepped(&self) -> Result<(), Refusal> {
+    fn require_host_steps(&self) -> Result<(), Refusal> {
         if self.running {
             Err(Refusal::Running)
         } else {
@@ -266,7 +266,7 @@ impl<const N: usize> Service<N> {
     }
 
     /// Only while the outputs are not the safe ones.
-    fn good(&self) -> Result<(), Refusal> {
+    fn require_outputs_good(&self) -> Result<(), Refusal> {
         match self.guard.damaged() {
             _ if self.watch.lost() => Err(Refusal::LinkLost),
             Some(damper) => Err(Refusal::Corrupted(damper)),

@@ -1,4 +1,4 @@
-//! Room for the dampers of a bank and one more, which is loaded while the others step.
+//! Storage for the dampers of a bank and one more, which is loaded while the others step.
 
 use crate::damper::Damper;
 
@@ -10,7 +10,7 @@ pub(crate) struct Slots<const N: usize> {
     last: Damper<f32>,
     /// Slot of each damper of the bank.
     slots: [u8; N],
-    /// Slot of none.
+    /// The slot that no damper of the bank is in.
     spare: u8,
 }
 
@@ -53,7 +53,7 @@ impl<const N: usize> Slots<N> {
         Some(self.slot_mut(slot))
     }
 
-    /// The damper of no place.
+    /// The damper that is not of the bank.
     pub(crate) fn spare_mut(&mut self) -> &mut Damper<f32> {
         self.slot_mut(self.spare)
     }

@@ -1,4 +1,4 @@
-//! Ranges and defaults: written once, beside the field; what is checked, told and documented comes from there.
+//! Ranges and defaults: written once, beside the field; checks, error texts and documentation come from there.
 
 /// Range and default of one parameter.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,7 +34,7 @@ macro_rules! optional {
 }
 pub(crate) use optional;
 
-/// A range in words: its bounds and its unit, or what is told instead.
+/// A range in words: its bounds and its unit, or the words given instead.
 macro_rules! allowed {
     ($least:literal $greatest:literal) => {
         concat!($least, " to ", $greatest)

@@ -46,7 +46,7 @@ impl Disc {
         let valve = Valve {
             elastic_modulus_pa,
             poisson_ratio,
-            // Any shim: a disc is told for all thicknesses.
+            // Any thickness: the coefficients hold for all.
             ..Valve::with_shims(clamp_radius_m, free_radius_m, Vec::from_array([1e-3]), 0.0)
         };
         valve.check(section)?;
