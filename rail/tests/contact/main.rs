@@ -9,4 +9,5 @@ mod normal;
 mod profiles;
 mod published;
 mod safety;
+mod tables;
 mod wheelset;
