@@ -24,6 +24,7 @@ pub enum Status {
 
 /// Forces of the rail on one patch of the wheel.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[non_exhaustive]
 pub struct PatchForces {
     /// Normal load, N; zero when wheel and rail are apart.
     pub load_n: f64,
@@ -49,6 +50,7 @@ pub struct PatchForces {
 
 /// Forces of one rail on its wheel.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[non_exhaustive]
 pub struct WheelForces {
     /// The patch on the tread, then that on the flange.
     pub patches: [PatchForces; 2],
@@ -62,6 +64,7 @@ pub struct WheelForces {
 
 /// Forces of both rails on a wheelset.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[non_exhaustive]
 pub struct WheelsetForces {
     /// The left wheel, then the right wheel.
     pub wheels: [WheelForces; 2],

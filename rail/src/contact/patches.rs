@@ -4,7 +4,7 @@ use super::pair::Pair;
 use super::silhouette::{SilhouettePoint, WheelPose};
 
 /// Regularization length of the contact search, m: about a tenth of the penetration under a
-/// wheel load. A greater one blends tread and flange, a smaller one lets the contact jump.
+/// wheel load. A greater one blends tread and flange, with a smaller one the contact jumps.
 pub const REGULARIZATION_M: f64 = 1e-5;
 
 /// One contact patch of a wheel, on the tread or on the flange, at the greatest interpenetration there.
@@ -12,6 +12,7 @@ pub const REGULARIZATION_M: f64 = 1e-5;
 /// Every quantity is a mean over the silhouette with weights `exp(interpenetration / regularization)`, so that it
 /// moves continuously where the contact of rigid bodies would jump (quasi-elastic contact, Arnold and Netter 1998).
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Patch {
     /// Depth of the wheel below the rail's surface when the tread datum is at the height of the rail's top, m.
     pub interpenetration_m: f64,
@@ -31,6 +32,7 @@ pub struct Patch {
 
 /// The patches of one wheel.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Patches {
     /// The patch on the tread.
     pub tread: Patch,

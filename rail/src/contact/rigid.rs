@@ -6,6 +6,7 @@ use super::silhouette::{SilhouettePoint, WheelPose};
 
 /// A wheelset standing on both rails without penetration.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct RigidContact {
     /// Lateral shift at the height of the top of the rails, right positive, m.
     pub lateral_m: f64,

@@ -16,6 +16,7 @@ pub struct WheelPose {
 
 /// One point of the wheel's silhouette over the rail.
 #[derive(Debug, Clone, Copy)]
+#[non_exhaustive]
 pub struct SilhouettePoint {
     /// Index of the point in the wheel's profile.
     pub index: usize,

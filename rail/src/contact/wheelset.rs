@@ -54,7 +54,7 @@ impl<L: CreepLaw> WheelsetContact<L> {
 
     /// Forces on a wheelset in `motion` over the left and the right rail.
     ///
-    /// Does not allocate and does not fail: motions beyond the tables or with NaN are told by [`Status`].
+    /// Does not allocate and does not fail: [`Status`] reports a motion that is beyond the tables or contains NaN.
     #[inline]
     pub fn forces(&self, motion: &Motion, rails: &[RailDisplacement; 2]) -> WheelsetForces {
         let mut forces = WheelsetForces::default();

@@ -244,7 +244,7 @@ fn check(lateral: &[f64], difference: &[f64]) -> Result<(), RollingRadiusError> 
     let step = (lateral[shifts - 1] - lateral[0]) / (shifts - 1) as f64;
     for (index, (&lateral_m, &difference_m)) in lateral.iter().zip(difference).enumerate() {
         let even = lateral[0] + step * index as f64;
-        // A millionth of a step leaves room for rounding, also in files with few digits.
+        // The tolerance is for rounding errors.
         let fits = step > 0.0 && (lateral_m - even).abs() <= 1e-6 * step;
         if !(fits && difference_m.is_finite()) {
             return Err(RollingRadiusError::Sample {

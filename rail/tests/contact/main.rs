@@ -3,6 +3,7 @@
 mod common;
 mod conicity;
 mod creep;
+mod fastsim;
 mod geometry;
 mod laws;
 mod normal;

@@ -39,8 +39,11 @@ fn uic60_joints_lie_where_the_standard_says() {
             .map(|i| f64::from(i) * 1e-5)
             .find(|&arc| uic60::position_mm(arc)[0] >= y)
             .unwrap();
-        let place = uic60::position_mm(arc);
-        assert!((place[1] - depth).abs() < 1e-5, "{place:?} for {depth}");
+        let position = uic60::position_mm(arc);
+        assert!(
+            (position[1] - depth).abs() < 1e-5,
+            "{position:?} for {depth}"
+        );
     }
     // EN 13674-1: the head is 72 mm wide where R 13 ends, 14.3 mm down.
     let side = uic60::position_mm(10.502_0 + 15.7 + 19.0);
@@ -186,10 +189,10 @@ fn wrong_texts_say_what_where_and_what_is_allowed() {
     for (kind, text, expected) in cases {
         let error = parsed(&text).unwrap_err();
         let cell = error.cell();
-        let place = cell.map_or_else(String::new, |(line, column)| {
+        let location = cell.map_or_else(String::new, |(line, column)| {
             format!(":{line}: column {column}: ")
         });
-        let message = format!("{place}{error}");
+        let message = format!("{location}{error}");
         for part in expected {
             assert!(message.contains(part), "{kind}: {message}");
         }

@@ -2,8 +2,8 @@
 //!
 //! Polach: the subroutine of the 1999 paper evaluated in Python in the form two public codes give it,
 //! leo-bart/mbs-flex-rail (from the FORTRAN) and wangjianbin123/OpenVSD. Both agree with these numbers
-//! but for one thing each: the first takes the lesser of the lateral creepages with and without spin,
-//! by which pure spin would give no force; the second counts the spin's force the other way, against
+//! except in one respect each: the first takes the lesser of the lateral creepages with and without spin,
+//! by which pure spin would cause no force; in the second the force of the spin has the opposite sign, against
 //! Kalker's linear theory. Shen, Hedrick and Elkins: `mu N (1 - (1 - f / 3)^3)` in Python.
 
 use dashpot_rail::creep::{
@@ -61,7 +61,7 @@ const ROWS: [Row; 14] = [
 ];
 
 #[test]
-fn the_cheap_laws_give_the_forces_of_other_transcriptions() {
+fn the_closed_form_laws_agree_with_other_transcriptions() {
     for (contact, [longitudinal, lateral, spin], polach, she) in ROWS {
         let contact = &CONTACTS[contact];
         let creepage = Creepage {

@@ -50,7 +50,7 @@ pub enum TablesError {
     Kalker(#[from] KalkerError),
 }
 
-/// One node: the numbers of the tread's patch, then those of the flange's; aligned for whole vectors.
+/// One node: the numbers of the tread's patch, then those of the flange's; aligned for vector loads.
 #[derive(Debug, Clone, Copy)]
 #[repr(align(32))]
 struct Node([f32; 2 * NUMBERS]);

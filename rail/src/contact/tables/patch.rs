@@ -14,6 +14,7 @@ pub(super) const NUMBERS: usize = 12;
 
 /// One patch as read from the tables.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct TabulatedPatch {
     /// As [`Patch::interpenetration_m`], m.
     pub interpenetration_m: f64,

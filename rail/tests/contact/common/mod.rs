@@ -5,7 +5,9 @@ use std::sync::OnceLock;
 use dashpot_rail::contact::{
     Grid, Installation, Motion, Pair, RailDisplacement, Steel, Tables, WheelsetContact,
 };
-use dashpot_rail::creep::{CreepLaw, Fastsim, Friction, Polach, ShenHedrickElkins};
+use dashpot_rail::creep::{
+    CreepLaw, Fastsim, Friction, KalkerTable, LoadedContact, Polach, ShenHedrickElkins,
+};
 
 pub fn tables() -> &'static Tables {
     static TABLES: OnceLock<Tables> = OnceLock::new();
@@ -67,5 +69,17 @@ pub fn rolling(speed_m_per_s: f64) -> Motion {
         speed_m_per_s,
         rotation_rad_per_s: speed_m_per_s / 0.625,
         ..Motion::default()
+    }
+}
+
+/// A contact of steel with G 82 GPa and Poisson's ratio 0.28.
+pub fn contact(load_n: f64, a: f64, b: f64, friction: f64) -> LoadedContact {
+    LoadedContact {
+        load_n,
+        a_m: a,
+        b_m: b,
+        shear_modulus_pa: 82e9,
+        kalker: KalkerTable::new(0.28).unwrap().at(a / b),
+        friction,
     }
 }
