@@ -5,7 +5,7 @@ use dashpot_rail::profile::{Body, measured};
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|text: &str| {
-    for body in [Body::Wheel, Body::RailDisplacement] {
+    for body in [Body::Wheel, Body::Rail] {
         let _ = measured::parse("fuzz", text, body, measured::DEFAULT_SMOOTHING_M);
     }
 });
