@@ -6,6 +6,6 @@ use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|text: &str| {
     for body in [Body::Wheel, Body::Rail] {
-        let _ = measured::parse("fuzz", text, body, measured::DEFAULT_SMOOTHING);
+        let _ = measured::parse("fuzz", text, body, measured::DEFAULT_SMOOTHING_M);
     }
 });

@@ -4,7 +4,7 @@ use std::fmt;
 use std::io;
 use std::path::Path;
 
-use dashpot_rail::contact::pair::PairError;
+use dashpot_rail::contact::PairError;
 
 /// A failure with a message that names the place and what is allowed there.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -105,9 +105,7 @@ impl From<dashpot_reference::ReferenceError> for Failure {
 impl From<PairError> for Failure {
     fn from(error: PairError) -> Self {
         match error {
-            PairError::Distance { .. } | PairError::Play { .. } => {
-                Self::wrong_use(error.to_string())
-            }
+            PairError::Installation(_) => Self::wrong_use(error.to_string()),
             _ => Self::new(error.to_string()),
         }
     }

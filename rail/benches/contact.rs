@@ -3,45 +3,39 @@
 use std::hint::black_box;
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use dashpot_rail::contact::hertz::Steel;
-use dashpot_rail::contact::motion::{Motion, Rail};
-use dashpot_rail::contact::pair::{Installation, Pair};
-use dashpot_rail::contact::table::{Grid, Tables};
-use dashpot_rail::contact::wheelset::WheelsetContact;
-use dashpot_rail::creep::creepage::CreepLaw;
-use dashpot_rail::creep::fastsim::Fastsim;
-use dashpot_rail::creep::friction::Friction;
-use dashpot_rail::creep::polach::Polach;
-use dashpot_rail::creep::shen_hedrick_elkins::ShenHedrickElkins;
+use dashpot_rail::contact::{
+    Grid, Installation, Motion, Pair, RailDisplacement, Steel, Tables, WheelsetContact,
+};
+use dashpot_rail::creep::{CreepLaw, Fastsim, Friction, Polach, ShenHedrickElkins};
 
 /// Both rails pressed inward until tread and flange of both wheels are loaded.
-fn four_patches() -> (Motion, [Rail; 2]) {
+fn four_patches() -> (Motion, [RailDisplacement; 2]) {
     let motion = Motion {
-        speed: 27.8,
-        rotation: 27.8 / 0.625,
-        yaw: 0.008,
-        vertical: -0.75e-3,
+        speed_m_per_s: 27.8,
+        rotation_rad_per_s: 27.8 / 0.625,
+        yaw_rad: 0.008,
+        vertical_m: -0.75e-3,
         ..Motion::default()
     };
-    let rail = |lateral| Rail {
-        lateral,
-        ..Rail::default()
+    let rail = |lateral_m| RailDisplacement {
+        lateral_m,
+        ..RailDisplacement::default()
     };
     (motion, [rail(6.68e-3), rail(-6.68e-3)])
 }
 
 /// A wheelset in a curve: two patches on the outer wheel, one on the inner.
-fn curve() -> (Motion, [Rail; 2]) {
+fn curve() -> (Motion, [RailDisplacement; 2]) {
     let motion = Motion {
-        speed: 27.8,
-        rotation: 27.8 / 0.625,
-        yaw: 0.008,
-        lateral: 6.4e-3,
-        vertical: -0.15e-3,
-        roll: -0.65e-3,
+        speed_m_per_s: 27.8,
+        rotation_rad_per_s: 27.8 / 0.625,
+        yaw_rad: 0.008,
+        lateral_m: 6.4e-3,
+        vertical_m: -0.15e-3,
+        roll_rad: -0.65e-3,
         ..Motion::default()
     };
-    (motion, [Rail::default(); 2])
+    (motion, [RailDisplacement::default(); 2])
 }
 
 fn measure(
@@ -59,7 +53,7 @@ fn measure(
             .wheels
             .iter()
             .flat_map(|wheel| wheel.patches)
-            .filter(|patch| patch.load > 1.0)
+            .filter(|patch| patch.load_n > 1.0)
             .count();
         criterion.bench_function(&format!("{law_name}/{case} ({loaded} loaded)"), |bencher| {
             bencher.iter(|| {
@@ -72,14 +66,12 @@ fn measure(
 }
 
 fn contact(criterion: &mut Criterion) {
-    let pair = match Pair::standard(Installation::default()) {
-        Ok(pair) => pair,
-        Err(failure) => panic!("{failure}"),
-    };
-    let tables = Tables::new(pair, Steel::default(), Grid::default());
+    let pair = Pair::standard(Installation::default()).expect("the standard pair is valid");
+    let tables =
+        Tables::new(pair, Steel::default(), Grid::default()).expect("the default grid is valid");
     let friction = Friction::default();
     let falling = Friction {
-        rest: 0.4,
+        residual_ratio: 0.4,
         ..friction
     };
     measure(criterion, "polach", &tables, Polach, friction);

@@ -3,13 +3,10 @@
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use dashpot_rail::contact::hertz::Steel;
-use dashpot_rail::contact::motion::{Motion, Rail};
-use dashpot_rail::contact::pair::{Installation, Pair};
-use dashpot_rail::contact::table::{Grid, Tables};
-use dashpot_rail::contact::wheelset::WheelsetContact;
-use dashpot_rail::creep::friction::Friction;
-use dashpot_rail::creep::polach::Polach;
+use dashpot_rail::contact::{
+    Grid, Installation, Motion, Pair, RailDisplacement, Steel, Tables, WheelsetContact,
+};
+use dashpot_rail::creep::{Friction, Polach};
 
 struct Counting;
 
@@ -34,23 +31,23 @@ static ALLOCATOR: Counting = Counting;
 fn forces_are_computed_without_allocating() {
     let pair = Pair::standard(Installation::default()).unwrap();
     let mut grid = Grid::default();
-    grid.roll.cells = [1, 2, 1];
-    let tables = Tables::new(pair, Steel::default(), grid);
+    grid.roll_rad.cells = [1, 2, 1];
+    let tables = Tables::new(pair, Steel::default(), grid).unwrap();
     let contact = WheelsetContact::new(tables, Polach, Friction::default());
-    let rails = [Rail::default(); 2];
+    let rails = [RailDisplacement::default(); 2];
     let before = COUNT.load(Ordering::Relaxed);
     assert!(before > 0, "the counter does not count");
     let mut loads = 0.0;
     for i in 0..10_000 {
         let motion = Motion {
-            speed: 20.0,
-            rotation: 32.0,
-            lateral: f64::from(i) * 1e-6,
-            vertical: -0.2e-3,
-            yaw: 2e-3,
+            speed_m_per_s: 20.0,
+            rotation_rad_per_s: 32.0,
+            lateral_m: f64::from(i) * 1e-6,
+            vertical_m: -0.2e-3,
+            yaw_rad: 2e-3,
             ..Motion::default()
         };
-        loads += contact.forces(&motion, &rails).force[2];
+        loads += contact.forces(&motion, &rails).force_n[2];
     }
     let after = COUNT.load(Ordering::Relaxed);
     assert!(loads < 0.0);

@@ -15,7 +15,7 @@ fn a_wrong_cell_is_told_with_file_line_and_column() {
     }
     std::fs::write(&path, &text).unwrap();
     let wheel = profile::read(&path, Body::Wheel, 0.004).unwrap();
-    assert_eq!(wheel.name, "wheel");
+    assert_eq!(wheel.name(), "wheel");
     std::fs::write(&path, text.replace("\n-68,", "\nx,")).unwrap();
     let error = profile::read(&path, Body::Wheel, 0.004).unwrap_err();
     let expected = format!(

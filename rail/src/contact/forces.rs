@@ -1,104 +1,115 @@
-//! What the contact gives: forces of patches, wheels and the wheelset, and how a wheel stands.
+//! Results of the contact: forces on patches, wheels and the wheelset, and the state of each wheel.
 
-use crate::creep::creepage::{CreepForces, Creepage};
+use crate::creep::{CreepForces, Creepage};
 
-/// How a wheel stands, the later the worse.
+/// State of a wheel on its rail, from harmless to worst.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default)]
+#[non_exhaustive]
 pub enum Status {
     /// No patch is loaded.
     #[default]
     Lifted,
-    /// Loaded on tread, flange or both.
+    /// The wheel is loaded on tread, flange or both.
     Rolling,
-    /// The flange is loaded beyond its steepest place: the wheel climbs.
+    /// The flange is loaded beyond its steepest point: the wheel climbs.
     Climbing,
-    /// The flange tip or what lies behind it runs on the rail.
+    /// The flange tip, or the wheel behind it, runs on the rail.
     PastTip,
-    /// The place lies outside the tables or the penetration beyond 2 mm: forces of the nearest edge.
+    /// The pose is outside the tables (the forces are those of their nearest edge), or the penetration exceeds
+    /// [`MAX_PENETRATION_M`](super::MAX_PENETRATION_M).
     OutsideTables,
-    /// A number of the motion is none or beyond 1e9: no forces.
+    /// A number of the motion is NaN or greater than 1e9 in magnitude: the forces are zero.
     NotFinite,
 }
 
-/// Forces of one patch on the wheel.
+/// Forces of the rail on one patch of the wheel.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[non_exhaustive]
 pub struct PatchForces {
-    /// Normal load, N; none when apart.
-    pub load: f64,
-    /// Normal penetration, m; negative when apart.
-    pub penetration: f64,
-    /// Tangent of the contact angle against the track plane: positive on a cone that widens to the flange.
+    /// Normal load, N; zero when wheel and rail are apart.
+    pub load_n: f64,
+    /// Normal penetration, m; negative when wheel and rail are apart.
+    pub penetration_m: f64,
+    /// Tangent of the contact angle against the track plane, positive on a cone that widens to the flange.
     pub slope: f64,
-    /// Semi-axes in the rolling direction and across, m.
-    pub semi_axes: [f64; 2],
+    /// Semi-axes `[a, b]` in the rolling direction and across, m.
+    pub semi_axes_m: [f64; 2],
     /// Rolling radius, m.
-    pub radius: f64,
-    /// Place on the wheel from the tread datum, field side positive, m.
-    pub s: f64,
-    /// Place from the wheelset's centre along x, y (right positive) and z, m.
-    pub point: [f64; 3],
-    /// Creepages in the axes of [`Creepage`]; the left wheel's are those of its mirror image.
+    pub rolling_radius_m: f64,
+    /// Lateral position on the wheel from the tread datum, field side positive, m.
+    pub wheel_y_m: f64,
+    /// Position from the wheelset's centre along x, y (right positive) and z, m.
+    pub position_m: [f64; 3],
+    /// Creepages in contact axes (see [`creep`](crate::creep)); the left wheel's are those of its mirror image.
     pub creepage: Creepage,
     /// Creep forces in the same axes.
     pub creep: CreepForces,
-    /// Power taken by friction, W.
-    pub loss: f64,
+    /// Power dissipated by friction, W.
+    pub dissipation_w: f64,
 }
 
 /// Forces of one rail on its wheel.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[non_exhaustive]
 pub struct WheelForces {
-    /// Tread, then flange.
+    /// The patch on the tread, then that on the flange.
     pub patches: [PatchForces; 2],
     /// Force in track axes, N.
-    pub force: [f64; 3],
+    pub force_n: [f64; 3],
     /// Moment about the wheelset's centre in track axes, N m.
-    pub moment: [f64; 3],
-    /// How the wheel stands.
+    pub moment_n_m: [f64; 3],
+    /// State of the wheel.
     pub status: Status,
-}
-
-impl PatchForces {
-    /// Contact angle against the track plane, rad.
-    pub fn angle(&self) -> f64 {
-        self.slope.atan()
-    }
-}
-
-impl WheelForces {
-    /// Derailment coefficient `Y/Q` for a wheel on side `sign` (right +1, left -1): positive when the
-    /// rail pushes the wheel inward; 0 for a lifted wheel.
-    pub fn derailment_coefficient(&self, sign: f64) -> f64 {
-        if self.force[2] < 0.0 {
-            sign * self.force[1] / self.force[2]
-        } else {
-            0.0
-        }
-    }
 }
 
 /// Forces of both rails on a wheelset.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[non_exhaustive]
 pub struct WheelsetForces {
-    /// The left wheel, then the right.
+    /// The left wheel, then the right wheel.
     pub wheels: [WheelForces; 2],
     /// Force in track axes, N.
-    pub force: [f64; 3],
+    pub force_n: [f64; 3],
     /// Moment about the centre in track axes, N m.
-    pub moment: [f64; 3],
-    /// The worse of the two wheels.
+    pub moment_n_m: [f64; 3],
+    /// The worse status of the two wheels.
     pub status: Status,
 }
 
+impl PatchForces {
+    /// Contact angle against the track plane, rad; sign as `slope`.
+    pub fn contact_angle_rad(&self) -> f64 {
+        self.slope.atan()
+    }
+}
+
+impl WheelsetForces {
+    /// Derailment coefficients `Y/Q` of the left and the right wheel, dimensionless: positive when the rail pushes
+    /// the wheel towards the track centre, zero for a lifted wheel.
+    pub fn derailment_coefficients(&self) -> [f64; 2] {
+        let coefficient = |wheel: &WheelForces, side: f64| {
+            if wheel.force_n[2] < 0.0 {
+                side * wheel.force_n[1] / wheel.force_n[2]
+            } else {
+                0.0
+            }
+        };
+        [
+            coefficient(&self.wheels[0], -1.0),
+            coefficient(&self.wheels[1], 1.0),
+        ]
+    }
+}
+
 impl WheelForces {
-    /// Turns the forces of the mirror image into those of the wheel itself.
+    /// Turns the forces on the mirror image of a wheel into those on the wheel itself.
     #[inline]
     pub(super) fn mirror(&mut self) {
-        self.force[1] = -self.force[1];
-        self.moment[0] = -self.moment[0];
-        self.moment[2] = -self.moment[2];
+        self.force_n[1] = -self.force_n[1];
+        self.moment_n_m[0] = -self.moment_n_m[0];
+        self.moment_n_m[2] = -self.moment_n_m[2];
         for patch in &mut self.patches {
-            patch.point[1] = -patch.point[1];
+            patch.position_m[1] = -patch.position_m[1];
         }
     }
 }

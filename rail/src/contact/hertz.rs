@@ -1,109 +1,131 @@
-//! Hertz: the ellipse of a smooth contact from its local curvatures.
+//! Hertz: stiffness and contact ellipse of two smooth elastic bodies from their curvatures.
 
 use crate::math::elliptic::complete;
 
-/// Elastic constants of wheel and rail, the same steel for both.
+/// Elastic constants, the same for wheel and rail.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Steel {
     /// Young's modulus, Pa.
-    pub young: f64,
-    /// Poisson's number, 0 to 0.5.
-    pub poisson: f64,
+    pub young_modulus_pa: f64,
+    /// Poisson's ratio, 0 to 0.5.
+    pub poisson_ratio: f64,
 }
 
 impl Default for Steel {
-    /// 210 GPa, 0.3: rail steel.
+    /// Rail steel: 210 GPa, 0.3.
     fn default() -> Self {
         Self {
-            young: 210e9,
-            poisson: 0.3,
+            young_modulus_pa: 210e9,
+            poisson_ratio: 0.3,
         }
     }
 }
 
 impl Steel {
     /// Shear modulus `E / (2 (1 + nu))`, Pa.
-    pub fn shear(&self) -> f64 {
-        self.young / (2.0 * (1.0 + self.poisson))
+    ///
+    /// ```
+    /// let steel = dashpot_rail::contact::Steel::default();
+    /// assert!((steel.shear_modulus_pa() / 80.77e9 - 1.0).abs() < 1e-4);
+    /// ```
+    pub fn shear_modulus_pa(&self) -> f64 {
+        self.young_modulus_pa / (2.0 * (1.0 + self.poisson_ratio))
     }
 
-    /// Plane modulus of the two bodies together, `E / (2 (1 - nu^2))`, Pa.
-    fn plane(&self) -> f64 {
-        self.young / (2.0 * (1.0 - self.poisson * self.poisson))
+    /// Contact modulus of the two bodies, `E* = E / (2 (1 - nu^2))`, Pa.
+    fn contact_modulus_pa(&self) -> f64 {
+        self.young_modulus_pa / (2.0 * (1.0 - self.poisson_ratio * self.poisson_ratio))
     }
 }
 
-/// What a contact's curvatures fix: `load = stiffness penetration^1.5`, `semi-axis = factor sqrt(penetration)`.
+/// A Hertz contact: `load = stiffness penetration^1.5`, `semi-axis = factor sqrt(penetration)`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Hertz {
-    /// Load over penetration to 1.5, N/m^1.5.
-    pub stiffness: f64,
-    /// Semi-axis in the rolling direction over the root of the penetration, m^0.5.
-    pub rolling: f64,
-    /// Semi-axis across over the root of the penetration, m^0.5.
-    pub across: f64,
+    /// Load over penetration to the power 1.5, N/m^1.5.
+    pub stiffness_n_per_m_1_5: f64,
+    /// Semi-axis `a`, in the rolling direction, over the square root of the penetration, m^0.5.
+    pub a_factor_m_0_5: f64,
+    /// Semi-axis `b`, across, over the square root of the penetration, m^0.5.
+    pub b_factor_m_0_5: f64,
 }
 
 impl Hertz {
-    /// The contact of relative curvatures `1/R` in the rolling direction and across, 1/m, both positive.
+    /// The contact of two bodies with relative curvatures `1/R` in the rolling direction and across, 1/m.
     ///
-    /// With `A + B` half their sum and `k` the least over the greatest semi-axis `a`:
+    /// With `A + B` half their sum, `a` the major semi-axis and `k` minor over major:
     /// `a^3 = 3 N E(k) / (2 pi k^2 E* (A + B))`, penetration `3 N K(k) / (2 pi a E*)`,
     /// `B / A = (E / k^2 - K) / (K - E)` (Johnson, Contact Mechanics, 1985, 4.26).
-    pub fn new(steel: &Steel, rolling: f64, across: f64) -> Self {
+    /// Without two positive curvatures there is no Hertz contact: stiffness and semi-axes are zero.
+    ///
+    /// ```
+    /// use dashpot_rail::contact::{Hertz, Steel};
+    /// // A wheel of 0.625 m radius on a rail head of R 300, 101.34 kN.
+    /// let hertz = Hertz::new(&Steel::default(), 1.0 / 0.625, 1.0 / 0.300);
+    /// let [a_m, b_m] = hertz.semi_axes_m(hertz.penetration_m(101_340.0));
+    /// assert!((a_m - 8.340e-3).abs() < 1e-6 && (b_m - 5.119e-3).abs() < 1e-6);
+    /// ```
+    pub fn new(steel: &Steel, rolling_per_m: f64, across_per_m: f64) -> Self {
+        let (rolling, across) = (rolling_per_m, across_per_m);
+        if !(rolling > 0.0 && across > 0.0 && rolling.is_finite() && across.is_finite()) {
+            return Self {
+                stiffness_n_per_m_1_5: 0.0,
+                a_factor_m_0_5: 0.0,
+                b_factor_m_0_5: 0.0,
+            };
+        }
         let half_sum = 0.5 * (rolling + across);
         let k = axis_ratio(rolling.max(across) / rolling.min(across));
         let (first, second) = complete(k);
         let pi = std::f64::consts::PI;
-        // a = long load^(1/3), penetration = depth load^(2/3).
-        let plane = steel.plane();
-        let long = (3.0 * second / (2.0 * pi * k * k * plane * half_sum)).cbrt();
-        let depth = 3.0 * first / (2.0 * pi * long * plane);
+        // Major semi-axis = major load^(1/3), penetration = depth load^(2/3).
+        let modulus = steel.contact_modulus_pa();
+        let major = (3.0 * second / (2.0 * pi * k * k * modulus * half_sum)).cbrt();
+        let depth = 3.0 * first / (2.0 * pi * major * modulus);
         let stiffness = depth.powf(-1.5);
-        let greatest = long * stiffness.cbrt();
-        let (along, aside) = if rolling > across {
-            (k * greatest, greatest)
+        let major_factor = major * stiffness.cbrt();
+        let (a, b) = if rolling > across {
+            (k * major_factor, major_factor)
         } else {
-            (greatest, k * greatest)
+            (major_factor, k * major_factor)
         };
         Self {
-            stiffness,
-            rolling: along,
-            across: aside,
+            stiffness_n_per_m_1_5: stiffness,
+            a_factor_m_0_5: a,
+            b_factor_m_0_5: b,
         }
     }
 
-    /// Load of a penetration, N; none when the bodies are apart.
-    pub fn load(&self, penetration: f64) -> f64 {
-        let p = penetration.max(0.0);
-        self.stiffness * p * p.sqrt()
+    /// Normal load at a penetration, N; zero when the bodies are apart.
+    pub fn load_n(&self, penetration_m: f64) -> f64 {
+        let p = penetration_m.max(0.0);
+        self.stiffness_n_per_m_1_5 * p * p.sqrt()
     }
 
-    /// Penetration under a load, m.
-    pub fn penetration(&self, load: f64) -> f64 {
-        (load.max(0.0) / self.stiffness).powf(2.0 / 3.0)
+    /// Penetration under a normal load, m.
+    pub fn penetration_m(&self, load_n: f64) -> f64 {
+        (load_n.max(0.0) / self.stiffness_n_per_m_1_5).powf(2.0 / 3.0)
     }
 
-    /// Semi-axes (rolling direction, across) at a penetration, m.
-    pub fn semi_axes(&self, penetration: f64) -> (f64, f64) {
-        let root = penetration.max(0.0).sqrt();
-        (self.rolling * root, self.across * root)
+    /// Semi-axes `[a, b]` (rolling direction, across) at a penetration, m; zero when the bodies are apart.
+    pub fn semi_axes_m(&self, penetration_m: f64) -> [f64; 2] {
+        let root = penetration_m.max(0.0).sqrt();
+        [self.a_factor_m_0_5 * root, self.b_factor_m_0_5 * root]
     }
 }
 
-/// Least over greatest semi-axis of a contact whose curvatures stand as `ratio` >= 1, by bisection.
+/// Minor over major semi-axis of a contact whose curvatures have the ratio `ratio` >= 1, by bisection.
 fn axis_ratio(ratio: f64) -> f64 {
     if ratio < 1.0 + 1e-9 {
         return 1.0;
     }
-    let curvatures = |k: f64| {
+    let curvature_ratio = |k: f64| {
         let (first, second) = complete(k);
         (second / (k * k) - first) / (first - second)
     };
     let (mut low, mut high) = (1e-5_f64, 1.0 - 1e-7);
     for _ in 0..60 {
         let middle = (low * high).sqrt();
-        if curvatures(middle) > ratio {
+        if curvature_ratio(middle) > ratio {
             low = middle;
         } else {
             high = middle;

@@ -1,19 +1,21 @@
-//! FASTSIM: Kalker's simplified theory, the reference here.
+//! FASTSIM, Kalker's simplified theory: the reference among the laws.
 
 use std::f64::consts::PI;
 
-use super::creepage::{CreepForces, CreepLaw, Creepage, LoadedContact};
+use super::creepage::Creepage;
+use super::law::{CreepForces, CreepLaw, LoadedContact};
 
 /// Kalker's FASTSIM (Vehicle System Dynamics 11, 1982, 1-13) with three flexibilities
 /// `L1 = 8a/(3 C11 G)`, `L2 = 8a/(3 C22 G)`, `L3 = pi a sqrt(a/b)/(4 C23 G)` and the parabolic
-/// traction bound `2 mu N / (pi a b) (1 - x^2/a^2 - y^2/b^2)`; midpoint rule in strips and along each.
+/// traction bound `2 mu N / (pi a b) (1 - x^2/a^2 - y^2/b^2)`; midpoint rule over the strips and along each.
 ///
-/// With `L1 != L2` full sliding points along `(C11 xi, C22 eta)`, not along the sliding itself.
+/// With `L1 != L2` the force of full sliding is against `(C11 xi, C22 eta)`, not against the sliding itself.
+/// Without elements or strips there is no force.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Fastsim {
-    /// Elements along each strip.
-    pub along: u32,
-    /// Strips.
+    /// Number of elements along each strip.
+    pub elements: u32,
+    /// Number of strips.
     pub strips: u32,
 }
 
@@ -21,19 +23,19 @@ impl Default for Fastsim {
     /// 80 x 81: within 0.3 % of the friction limit of a mesh four times finer each way.
     fn default() -> Self {
         Self {
-            along: 80,
+            elements: 80,
             strips: 81,
         }
     }
 }
 
 impl CreepLaw for Fastsim {
-    fn raw(&self, contact: &LoadedContact, creepage: &Creepage) -> CreepForces {
+    fn unlimited_forces(&self, contact: &LoadedContact, creepage: &Creepage) -> CreepForces {
         let &LoadedContact {
-            load,
-            a,
-            b,
-            shear,
+            load_n: load,
+            a_m: a,
+            b_m: b,
+            shear_modulus_pa: shear,
             kalker,
             friction,
         } = contact;
@@ -41,33 +43,33 @@ impl CreepLaw for Fastsim {
         let l2 = 8.0 * a / (3.0 * kalker.c22 * shear);
         let l3 = PI * a * (a / b).sqrt() / (4.0 * kalker.c23 * shear);
         let (rigid_x, rigid_y) = (creepage.longitudinal / l1, creepage.lateral / l2);
-        let spin = creepage.spin / l3;
+        let spin = creepage.spin_per_m / l3;
         let peak = 2.0 * friction * load / (PI * a * b);
         let width = 2.0 * b / f64::from(self.strips);
         let mut sum = CreepForces::default();
         for strip in 0..self.strips {
             let y = -b + (f64::from(strip) + 0.5) * width;
             let half = a * (1.0 - (y / b).powi(2)).max(0.0).sqrt();
-            let dx = 2.0 * half / f64::from(self.along);
-            // Traction at the leading edge is none; the first element's middle is half a step in.
+            let dx = 2.0 * half / f64::from(self.elements);
+            // The traction is zero at the leading edge, half a step before the middle of the first element.
             let (mut px, mut py, mut step) = (0.0, 0.0, 0.5 * dx);
-            for element in 0..self.along {
+            for element in 0..self.elements {
                 let x = half - (f64::from(element) + 0.5) * dx;
-                // Rigid slip is integrated exactly from the previous middle: linear in x.
+                // The rigid slip is linear in x: integrated exactly from the previous middle.
                 let middle = x + 0.5 * step;
                 px -= step * (rigid_x - spin * y);
                 py -= step * (rigid_y + spin * middle);
                 let bound = peak * (half * half - x * x) / (a * a);
                 let traction = (px * px + py * py).sqrt();
                 if traction > bound {
-                    let share = bound / traction;
-                    px *= share;
-                    py *= share;
+                    let factor = bound / traction;
+                    px *= factor;
+                    py *= factor;
                 }
                 let area = dx * width;
-                sum.longitudinal += px * area;
-                sum.lateral += py * area;
-                sum.moment += (x * py - y * px) * area;
+                sum.longitudinal_n += px * area;
+                sum.lateral_n += py * area;
+                sum.moment_n_m += (x * py - y * px) * area;
                 step = dx;
             }
         }

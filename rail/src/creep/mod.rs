@@ -1,8 +1,38 @@
-//! Creep forces: one law a file, all behind [`creepage::CreepLaw`].
+//! Creep forces: the tangential forces of rolling contact.
+//!
+//! [`Creepage`] and [`LoadedContact`] in, [`CreepForces`] out, by one of three laws behind [`CreepLaw`]:
+//!
+//! | law | cost | use |
+//! |---|---|---|
+//! | [`Fastsim`] | about a thousand times the others | reference |
+//! | [`Polach`] | closed form | large creepages, falling friction |
+//! | [`ShenHedrickElkins`] | closed form | small spin, flange forces |
+//!
+//! [`KalkerTable`] gives the coefficients of the linear theory ([`linear_forces`]), [`Friction`] the coefficient
+//! of friction over the sliding speed.
+//!
+//! Contact axes: 1 in the rolling direction, 2 along the common tangent to the field side, 3 into the rail. Forces act
+//! on the wheel; creepages are the velocity of the wheel's surface relative to the rail, divided by the speed.
+//!
+//! # To add a creep law
+//!
+//! Add a file to `rail/src/creep/` with a type that implements [`CreepLaw::unlimited_forces`]: the
+//! forces as its source states them. [`CreepLaw::forces`] limits them to friction and dissipation. Declare the file
+//! here, and add the law to `laws()` in `rail/tests/contact/common/mod.rs`: every test of the creep laws then runs
+//! on it, and `rail/tests/contact/laws.rs` measures its errors for `docs/contact.md`.
 
-pub mod creepage;
-pub mod fastsim;
-pub mod friction;
-pub mod kalker;
-pub mod polach;
-pub mod shen_hedrick_elkins;
+mod creepage;
+mod fastsim;
+mod friction;
+mod kalker;
+mod law;
+mod polach;
+mod shen_hedrick_elkins;
+
+pub use creepage::{Creepage, MAX_CREEPAGE};
+pub use fastsim::Fastsim;
+pub use friction::Friction;
+pub use kalker::{KalkerCoefficients, KalkerError, KalkerTable};
+pub use law::{CreepForces, CreepLaw, LoadedContact, linear_forces};
+pub use polach::Polach;
+pub use shen_hedrick_elkins::ShenHedrickElkins;

@@ -2,53 +2,54 @@
 
 use std::f64::consts::{FRAC_2_PI, FRAC_PI_4};
 
-use super::creepage::{CreepForces, CreepLaw, Creepage, LoadedContact, linear};
+use super::creepage::Creepage;
+use super::law::{CreepForces, CreepLaw, LoadedContact, linear_forces};
 
 /// Closed-form saturation with spin (Polach, A Fast Wheel-Rail Forces Calculation Computer Code,
 /// Vehicle System Dynamics Supplement 33, 1999, 728-739).
 ///
 /// `F = 2 mu N / pi (e / (1 + e^2) + atan e)`, `e = G pi a b c s_c / (4 mu N)`, with
-/// `s_c = hypot(xi, eta_c)` and `eta_c = eta + phi a` unless that is the lesser; the spin's own
-/// lateral force is `9/16 a mu N K (1 + 6.3 (1 - exp(-a/b))) phi / s_c`.
-/// The source gives no moment: the linear one, shortened like the force.
+/// `s_c = hypot(xi, eta_c)`, where `eta_c` is the greater in magnitude of `eta` and `eta + phi a`. The lateral force
+/// caused by spin is `9/16 a mu N K (1 + 6.3 (1 - exp(-a/b))) phi / s_c`.
+/// The source states no moment: here it is that of the linear theory, reduced by the same factor as the force.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Polach;
 
 impl CreepLaw for Polach {
     #[inline]
-    fn raw(&self, contact: &LoadedContact, creepage: &Creepage) -> CreepForces {
+    fn unlimited_forces(&self, contact: &LoadedContact, creepage: &Creepage) -> CreepForces {
         let &LoadedContact {
-            load,
-            a,
-            b,
-            shear,
+            load_n: load,
+            a_m: a,
+            b_m: b,
+            shear_modulus_pa: shear,
             kalker,
             friction,
         } = contact;
         let Creepage {
             longitudinal,
             lateral,
-            spin,
+            spin_per_m: spin,
         } = *creepage;
         let limit = friction * load;
         let with_spin = lateral + spin * a;
-        let across = if with_spin.abs() > lateral.abs() {
+        let modified_lateral = if with_spin.abs() > lateral.abs() {
             with_spin
         } else {
             lateral
         };
-        let modified = (longitudinal * longitudinal + across * across).sqrt();
+        let modified = (longitudinal * longitudinal + modified_lateral * modified_lateral).sqrt();
         if modified == 0.0 {
             return CreepForces::default();
         }
-        // Division and roots are the slow operations here: each once.
+        // Divisions and roots are the slow operations of this law: each is done once.
         let (per_limit, per_modified) = (1.0 / limit, 1.0 / modified);
-        let (along, aside) = (kalker.c11 * longitudinal, kalker.c22 * lateral);
-        let sliding = longitudinal * longitudinal + lateral * lateral;
-        let pull = along * along + aside * aside;
-        // Pure spin: the force it would scale has no direction.
-        let c = if sliding > 0.0 {
-            (pull / sliding).sqrt()
+        let (linear_x, linear_y) = (kalker.c11 * longitudinal, kalker.c22 * lateral);
+        let creepage_square = longitudinal * longitudinal + lateral * lateral;
+        let linear_square = linear_x * linear_x + linear_y * linear_y;
+        // In pure spin the force that `c` scales has no direction.
+        let c = if creepage_square > 0.0 {
+            (linear_square / creepage_square).sqrt()
         } else {
             0.0
         };
@@ -56,30 +57,31 @@ impl CreepLaw for Polach {
         let force = FRAC_2_PI * limit * (e / (1.0 + e * e) + e.atan());
         let shape = 1.0 + 6.3 * (1.0 - (-a / b).exp());
         let stiffness = 8.0 / 3.0 * shear * b * (a * b).sqrt() * kalker.c23;
-        let e_m = stiffness * across.abs() * per_limit / shape;
-        let share = 1.0 / (e_m * e_m + 1.0);
-        let d = 1.0 - 2.0 * share;
+        let e_m = stiffness * modified_lateral.abs() * per_limit / shape;
+        let reciprocal = 1.0 / (e_m * e_m + 1.0);
+        let d = 1.0 - 2.0 * reciprocal;
         // (1 - d^2)^1.5
-        let rest = (2.0 * e_m * share).powi(3);
-        let k_m = e_m * (d * d * (d * (1.0 / 3.0) - 0.5) + 1.0 / 6.0) - rest * (1.0 / 3.0);
-        // K is negative: the spin pushes against its own sense.
+        let power = (2.0 * e_m * reciprocal).powi(3);
+        let k_m = e_m * (d * d * (d * (1.0 / 3.0) - 0.5) + 1.0 / 6.0) - power * (1.0 / 3.0);
+        // K is negative: positive spin causes a negative lateral force.
         let spin_force = 9.0 / 16.0 * a * limit * k_m * shape * spin * per_modified;
-        let raw = CreepForces {
-            longitudinal: -force * longitudinal * per_modified,
-            lateral: -force * lateral * per_modified + spin_force,
-            moment: 0.0,
+        let saturated = CreepForces {
+            longitudinal_n: -force * longitudinal * per_modified,
+            lateral_n: -force * lateral * per_modified + spin_force,
+            moment_n_m: 0.0,
         };
-        let linear = linear(contact, creepage);
-        let square = |f: &CreepForces| f.longitudinal * f.longitudinal + f.lateral * f.lateral;
-        let (whole, part) = (square(&linear), square(&raw));
-        let share = if whole > part {
-            (part / whole).sqrt()
+        let linear = linear_forces(contact, creepage);
+        let square =
+            |f: &CreepForces| f.longitudinal_n * f.longitudinal_n + f.lateral_n * f.lateral_n;
+        let (of_linear, of_saturated) = (square(&linear), square(&saturated));
+        let factor = if of_linear > of_saturated {
+            (of_saturated / of_linear).sqrt()
         } else {
             1.0
         };
         CreepForces {
-            moment: linear.moment * share,
-            ..raw
+            moment_n_m: linear.moment_n_m * factor,
+            ..saturated
         }
     }
 }

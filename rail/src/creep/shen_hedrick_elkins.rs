@@ -1,30 +1,31 @@
 //! The creep law of Shen, Hedrick and Elkins.
 
-use super::creepage::{CreepForces, CreepLaw, Creepage, LoadedContact, linear};
+use super::creepage::Creepage;
+use super::law::{CreepForces, CreepLaw, LoadedContact, linear_forces};
 
-/// Kalker's linear forces, shortened together by Vermeulen and Johnson's cubic
+/// Kalker's linear forces, reduced by the cubic of Vermeulen and Johnson
 /// `mu N (f - f^2/3 + f^3/27)` with `f = |F linear| / (mu N)` up to 3
 /// (Shen, Hedrick, Elkins, Vehicle System Dynamics 12, 1983, 79-83).
 ///
-/// The moment shrinks by the same share, so the linear theory's dissipation keeps its sign.
-/// Full sliding points along `(C11 xi, C22 eta)`, not along the sliding itself.
+/// The moment is reduced by the same factor, so that the dissipation keeps the sign of the linear theory.
+/// The force of full sliding is against `(C11 xi, C22 eta)`, not against the sliding itself.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ShenHedrickElkins;
 
 impl CreepLaw for ShenHedrickElkins {
     #[inline]
-    fn raw(&self, contact: &LoadedContact, creepage: &Creepage) -> CreepForces {
-        let forces = linear(contact, creepage);
-        let f = forces.magnitude() / (contact.friction * contact.load);
-        let share = if f < 3.0 {
+    fn unlimited_forces(&self, contact: &LoadedContact, creepage: &Creepage) -> CreepForces {
+        let forces = linear_forces(contact, creepage);
+        let f = forces.magnitude_n() / (contact.friction * contact.load_n);
+        let factor = if f < 3.0 {
             1.0 + f * (f * (1.0 / 27.0) - 1.0 / 3.0)
         } else {
             1.0 / f
         };
         CreepForces {
-            longitudinal: forces.longitudinal * share,
-            lateral: forces.lateral * share,
-            moment: forces.moment * share,
+            longitudinal_n: forces.longitudinal_n * factor,
+            lateral_n: forces.lateral_n * factor,
+            moment_n_m: forces.moment_n_m * factor,
         }
     }
 }

@@ -1,56 +1,117 @@
 //! Rolling radius difference and equivalent conicity (EN 15302).
 
-use crate::contact::pair::Pair;
+use crate::contact::Pair;
 
-/// Lateral distance of the contact points, by EN 15302 for 1435 mm gauge, m.
-pub const CONTACT_DISTANCE: f64 = 1.5;
+/// Lateral distance of the contact points, by EN 15302 for a gauge of 1435 mm, m.
+pub const CONTACT_DISTANCE_M: f64 = 1.5;
 
-/// Rolling radius difference over lateral shift, linear between evenly spaced points.
-#[derive(Debug, Clone)]
-pub struct RollingRadius {
-    /// Lateral shifts at the rails' top, rising and even, m.
-    pub lateral: Vec<f64>,
-    /// Right less left rolling radius, m.
-    pub difference: Vec<f64>,
-    /// Integral of the difference from the first shift to each, m^2.
-    potential: Vec<f64>,
+/// Why samples do not make a rolling radius difference function.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum RollingRadiusError {
+    /// There are fewer than two samples, or not as many differences as shifts.
+    #[error(
+        "samples: {shifts} shifts and {differences} differences, allowed: two or more, as many of each"
+    )]
+    Length {
+        /// Number of shifts.
+        shifts: usize,
+        /// Number of differences.
+        differences: usize,
+    },
+    /// A sample is NaN or infinite, or its shift is not where even spacing puts it.
+    #[error(
+        "sample {index}: shift {lateral_m} m, difference {difference_m} m; allowed: finite, shifts rising evenly"
+    )]
+    Sample {
+        /// Index of the sample, from 0.
+        index: usize,
+        /// Its lateral shift, m.
+        lateral_m: f64,
+        /// Its difference, m.
+        difference_m: f64,
+    },
 }
 
-impl RollingRadius {
-    /// The broken line through `difference` at the even, rising shifts `lateral`, two or more.
-    pub fn new(lateral: Vec<f64>, difference: Vec<f64>) -> Self {
-        assert!(lateral.len() >= 2 && lateral.len() == difference.len());
-        let mut potential = vec![0.0];
+/// Rolling radius difference over the lateral shift of the wheelset, linear between evenly spaced samples.
+///
+/// ```
+/// use dashpot_rail::indices::RollingRadiusDifference;
+/// // Wheels with cones of 0.05: the difference is 2 * 0.05 * shift.
+/// let cone = RollingRadiusDifference::from_fn(10e-3, 400, |lateral_m| 0.1 * lateral_m)?;
+/// let conicity = cone.equivalent_conicity(3e-3, 0.46);
+/// assert!((conicity.unwrap_or(0.0) - 0.05).abs() < 1e-6);
+/// # Ok::<(), dashpot_rail::indices::RollingRadiusError>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct RollingRadiusDifference {
+    lateral: Vec<f64>,
+    difference: Vec<f64>,
+    /// Integral of the difference from the first shift to each shift, m^2.
+    integral: Vec<f64>,
+}
+
+impl RollingRadiusDifference {
+    /// The function through `difference_m` (right less left rolling radius, m) at the evenly rising shifts
+    /// `lateral_m` (at the top of the rails, right positive, m).
+    ///
+    /// # Errors
+    /// Fewer than two samples, vectors of different lengths, a number that is not finite, shifts that do not rise evenly.
+    pub fn new(lateral_m: Vec<f64>, difference_m: Vec<f64>) -> Result<Self, RollingRadiusError> {
+        check(&lateral_m, &difference_m)?;
+        let (lateral, difference) = (lateral_m, difference_m);
+        let mut integral = vec![0.0];
         let mut sum = 0.0;
         for i in 1..lateral.len() {
             sum += 0.5 * (difference[i] + difference[i - 1]) * (lateral[i] - lateral[i - 1]);
-            potential.push(sum);
+            integral.push(sum);
         }
-        Self {
+        Ok(Self {
             lateral,
             difference,
-            potential,
-        }
-    }
-
-    /// The rigid wheelset of `pair` between `-reach` and `reach`, `steps` cells.
-    pub fn of(pair: &Pair, reach: f64, steps: usize) -> Self {
-        let mut room = Vec::new();
-        Self::from_fn(reach, steps, |y| {
-            pair.rigid(y, 0.0, &mut room).rolling_radius_difference()
+            integral,
         })
     }
 
-    /// Any function of the shift.
-    pub fn from_fn(reach: f64, steps: usize, mut difference: impl FnMut(f64) -> f64) -> Self {
-        let lateral: Vec<f64> = (0..=steps)
-            .map(|i| reach * (2.0 * i as f64 / steps as f64 - 1.0))
+    /// That of the rigid wheelset of `pair`, without yaw, between the shifts `-reach_m` and `reach_m` in `cells` cells.
+    ///
+    /// # Errors
+    /// As [`RollingRadiusDifference::new`]: `reach_m` is not positive, or there are no cells.
+    pub fn of(pair: &Pair, reach_m: f64, cells: usize) -> Result<Self, RollingRadiusError> {
+        let mut scratch = Vec::new();
+        Self::from_fn(reach_m, cells, |lateral_m| {
+            pair.rigid_contact(lateral_m, 0.0, &mut scratch)
+                .rolling_radius_difference_m()
+        })
+    }
+
+    /// That of any function of the shift, both in m, sampled between `-reach_m` and `reach_m` in `cells` cells.
+    ///
+    /// # Errors
+    /// As [`RollingRadiusDifference::new`]: `reach_m` is not positive, or there are no cells.
+    pub fn from_fn(
+        reach_m: f64,
+        cells: usize,
+        mut difference_m: impl FnMut(f64) -> f64,
+    ) -> Result<Self, RollingRadiusError> {
+        let lateral: Vec<f64> = (0..=cells)
+            .map(|i| reach_m * (2.0 * i as f64 / cells as f64 - 1.0))
             .collect();
-        let difference = lateral.iter().map(|&y| difference(y)).collect();
+        let difference = lateral.iter().map(|&y| difference_m(y)).collect();
         Self::new(lateral, difference)
     }
 
-    /// Cell of `lateral` and the share within it, held at the ends.
+    /// The shifts of the samples, m.
+    pub fn lateral_m(&self) -> &[f64] {
+        &self.lateral
+    }
+
+    /// The differences of the samples, right less left rolling radius, m.
+    pub fn difference_m(&self) -> &[f64] {
+        &self.difference
+    }
+
+    /// Cell of `lateral` and the position within it from 0 to 1, limited to the ends.
     fn locate(&self, lateral: f64) -> (usize, f64) {
         let last = self.lateral.len() - 1;
         let step = (self.lateral[last] - self.lateral[0]) / last as f64;
@@ -59,103 +120,139 @@ impl RollingRadius {
         (i, x - i as f64)
     }
 
-    /// Difference at `lateral`, held at the ends, m.
-    pub fn at(&self, lateral: f64) -> f64 {
-        let (i, share) = self.locate(lateral);
-        self.difference[i] + share * (self.difference[i + 1] - self.difference[i])
+    /// Difference at the shift `lateral_m`, m; beyond the ends that of the nearest end.
+    pub fn at(&self, lateral_m: f64) -> f64 {
+        let (i, t) = self.locate(lateral_m);
+        self.difference[i] + t * (self.difference[i + 1] - self.difference[i])
     }
 
-    /// Shift at which the wheelset rolls straight, nearest to the middle, m; none when there is none.
-    pub fn rolling_line(&self) -> Option<f64> {
+    /// Shift at which the wheelset rolls straight, m, the nearest to the centre; `None` when there is no such shift.
+    pub fn rolling_line_m(&self) -> Option<f64> {
         (0..self.lateral.len() - 1)
             .filter_map(|i| {
                 let (d0, d1) = (self.difference[i], self.difference[i + 1]);
                 let crosses = d0 <= 0.0 && d1 >= 0.0;
-                let share = if d1 > d0 { -d0 / (d1 - d0) } else { 0.5 };
-                crosses.then(|| self.lateral[i] + share * (self.lateral[i + 1] - self.lateral[i]))
+                let t = if d1 > d0 { -d0 / (d1 - d0) } else { 0.5 };
+                crosses.then(|| self.lateral[i] + t * (self.lateral[i + 1] - self.lateral[i]))
             })
             .min_by(|a, b| a.abs().total_cmp(&b.abs()))
     }
 
-    /// Equivalent conicity of the motion between two turning points `2 amplitude` apart.
+    /// Equivalent conicity, dimensionless, of the motion between two turning points `2 amplitude_m` apart, for wheels
+    /// of the nominal radius `radius_m`.
     ///
-    /// The free wheelset's path obeys `y'' = -difference / (e r)` (EN 15302); its first integral gives the
-    /// wavelength `L`, and the cone with the same one has `tan g = 2 pi^2 e r / L^2`.
-    /// None when the path does not turn back within the function's reach.
-    pub fn conicity(&self, amplitude: f64, radius: f64) -> Option<f64> {
-        let centre = self.rolling_line()?;
-        // The other turning point: equal potential on both sides, found for the left end by bisection.
-        let reach = |left: f64| -> Option<f64> {
-            let end = self.lateral[self.lateral.len() - 1];
-            let rest = |right: f64| self.integral(left, right);
-            if rest(end) <= 0.0 {
-                return None;
-            }
-            let (mut low, mut high) = (centre, end);
-            for _ in 0..60 {
-                let middle = 0.5 * (low + high);
-                if rest(middle) > 0.0 {
-                    high = middle;
-                } else {
-                    low = middle;
-                }
-            }
-            Some(0.5 * (low + high))
-        };
+    /// The path of the free wheelset obeys `y'' = -difference / (e r)` (EN 15302); its first integral gives the
+    /// wavelength `L`, and the cone with the same wavelength has `tan g = 2 pi^2 e r / L^2`.
+    /// `None` when the path does not turn back within the samples, or a number is not positive.
+    pub fn equivalent_conicity(&self, amplitude_m: f64, radius_m: f64) -> Option<f64> {
+        if !(amplitude_m > 0.0 && radius_m > 0.0) {
+            return None;
+        }
+        let centre = self.rolling_line_m()?;
+        let (left, right) = self.turning_points(centre, 2.0 * amplitude_m)?;
+        if ((right - left) / (2.0 * amplitude_m) - 1.0).abs() > 1e-6 {
+            return None;
+        }
+        let wavelength = 2.0
+            * (self.quarter_wave(centre, left) + self.quarter_wave(centre, right))
+            * (CONTACT_DISTANCE_M * radius_m / 2.0).sqrt();
+        let tau = std::f64::consts::TAU;
+        Some(0.5 * CONTACT_DISTANCE_M * radius_m * (tau / wavelength).powi(2))
+    }
+
+    /// Left and right turning point of the motion about `centre` whose distance is nearest to `distance`, by bisection.
+    fn turning_points(&self, centre: f64, distance: f64) -> Option<(f64, f64)> {
         let (mut low, mut high) = (0.0, centre - self.lateral[0]);
         let mut turning = None;
         for _ in 0..60 {
             let half = 0.5 * (low + high);
-            match reach(centre - half) {
-                Some(right) if right - (centre - half) < 2.0 * amplitude => {
-                    low = half;
-                    turning = Some((centre - half, right));
-                }
+            let left = centre - half;
+            match self.right_turning_point(centre, left) {
                 Some(right) => {
-                    high = half;
-                    turning = Some((centre - half, right));
+                    turning = Some((left, right));
+                    if right - left < distance {
+                        low = half;
+                    } else {
+                        high = half;
+                    }
                 }
                 None => high = half,
             }
         }
-        let (left, right) = turning?;
-        if ((right - left) / (2.0 * amplitude) - 1.0).abs() > 1e-6 {
-            return None;
-        }
-        let wavelength = 2.0
-            * (self.quarter(centre, left) + self.quarter(centre, right))
-            * (CONTACT_DISTANCE * radius / 2.0).sqrt();
-        let tau = std::f64::consts::TAU;
-        Some(0.5 * CONTACT_DISTANCE * radius * (tau / wavelength).powi(2))
+        turning
     }
 
-    /// Integral of the difference from `from` to `to`, exact for the broken line.
+    /// The turning point to the right of `centre` of a motion that turns at `left`: the difference integrates to zero
+    /// between the two. `None` when it lies beyond the samples.
+    fn right_turning_point(&self, centre: f64, left: f64) -> Option<f64> {
+        let end = self.lateral[self.lateral.len() - 1];
+        if self.integral(left, end) <= 0.0 {
+            return None;
+        }
+        let (mut low, mut high) = (centre, end);
+        for _ in 0..60 {
+            let middle = 0.5 * (low + high);
+            if self.integral(left, middle) > 0.0 {
+                high = middle;
+            } else {
+                low = middle;
+            }
+        }
+        Some(0.5 * (low + high))
+    }
+
+    /// Integral of the difference from `from` to `to`, m^2, exact for the piecewise linear function.
     fn integral(&self, from: f64, to: f64) -> f64 {
         let primitive = |lateral: f64| {
-            let (i, share) = self.locate(lateral);
+            let (i, t) = self.locate(lateral);
             let step = self.lateral[i + 1] - self.lateral[i];
             let (d0, d1) = (self.difference[i], self.difference[i + 1]);
-            self.potential[i] + step * share * (d0 + 0.5 * share * (d1 - d0))
+            self.integral[i] + step * t * (d0 + 0.5 * t * (d1 - d0))
         };
         primitive(to) - primitive(from)
     }
 
-    /// Integral of `dy / sqrt(potential(turn) - potential(y))` from `centre` to `turn`;
-    /// `y = turn - (turn - centre) p^2` removes the pole at the turning point.
-    fn quarter(&self, centre: f64, turn: f64) -> f64 {
+    /// Integral of `dy / sqrt(integral(y, turn))` from `centre` to `turn`;
+    /// the substitution `y = turn - (turn - centre) p^2` removes the singularity at the turning point.
+    fn quarter_wave(&self, centre: f64, turn: f64) -> f64 {
         const POINTS: usize = 2000;
         let span = turn - centre;
-        let each = 2.0 * span.abs() / (POINTS * POINTS) as f64;
+        let weight = 2.0 * span.abs() / (POINTS * POINTS) as f64;
         (0..POINTS)
             .map(|i| i as f64 + 0.5)
             .map(|i| {
-                let height = self.integral(turn - span * (i / POINTS as f64).powi(2), turn);
-                if height > 0.0 {
-                    each * i / height.sqrt()
+                let integral = self.integral(turn - span * (i / POINTS as f64).powi(2), turn);
+                if integral > 0.0 {
+                    weight * i / integral.sqrt()
                 } else {
                     0.0
                 }
             })
             .sum()
     }
+}
+
+/// Checks the samples of [`RollingRadiusDifference::new`].
+fn check(lateral: &[f64], difference: &[f64]) -> Result<(), RollingRadiusError> {
+    let (shifts, differences) = (lateral.len(), difference.len());
+    if shifts < 2 || shifts != differences {
+        return Err(RollingRadiusError::Length {
+            shifts,
+            differences,
+        });
+    }
+    let step = (lateral[shifts - 1] - lateral[0]) / (shifts - 1) as f64;
+    for (index, (&lateral_m, &difference_m)) in lateral.iter().zip(difference).enumerate() {
+        let even = lateral[0] + step * index as f64;
+        // The tolerance is for rounding errors.
+        let fits = step > 0.0 && (lateral_m - even).abs() <= 1e-6 * step;
+        if !(fits && difference_m.is_finite()) {
+            return Err(RollingRadiusError::Sample {
+                index,
+                lateral_m,
+                difference_m,
+            });
+        }
+    }
+    Ok(())
 }

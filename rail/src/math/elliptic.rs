@@ -2,7 +2,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-/// `K` and `E` of the modulus whose complement is `k1`, 0 < `k1` <= 1 (`k1` = least over greatest semi-axis).
+/// `K` and `E` for the complementary modulus `k1`, 0 < `k1` <= 1: for an ellipse, its minor over its major semi-axis.
 pub fn complete(k1: f64) -> (f64, f64) {
     let (mut a, mut b) = (1.0, k1);
     let mut sum = 0.5 * (1.0 - k1 * k1);

@@ -1,4 +1,4 @@
 //! Numerical tools of this crate.
 
-pub mod elliptic;
-pub mod spline;
+pub(crate) mod elliptic;
+pub(crate) mod spline;

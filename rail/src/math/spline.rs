@@ -5,20 +5,20 @@
 pub struct Spline {
     knots: Vec<f64>,
     values: Vec<f64>,
-    seconds: Vec<f64>,
+    second_derivatives: Vec<f64>,
 }
 
 impl Spline {
     /// The natural spline that minimises `integral (f - v)^2 + lambda integral f''^2` (Reinsch 1967),
-    /// each value weighted by the length it stands for; `lambda = 0` interpolates.
+    /// each value weighted by half the distance between its neighbours; `lambda = 0` interpolates.
     ///
-    /// Waves of length `L` along the knots keep the share `1 / (1 + lambda (2 pi / L)^4)`.
-    /// `knots` must rise strictly and have at least three members.
+    /// The amplitude of waves of length `L` along the knots is multiplied by `1 / (1 + lambda (2 pi / L)^4)`.
+    /// The caller ensures that there are three or more `knots` and that they rise strictly.
     pub fn fit(knots: &[f64], values: &[f64], lambda: f64) -> Self {
         let n = knots.len();
         assert!(n >= 3 && values.len() == n, "a spline needs three knots");
         let h: Vec<f64> = knots.windows(2).map(|pair| pair[1] - pair[0]).collect();
-        let stands_for = |i: usize| {
+        let weight = |i: usize| {
             let before = if i > 0 { h[i - 1] } else { 0.0 };
             let after = if i < n - 1 { h[i] } else { 0.0 };
             0.5 * (before + after)
@@ -27,12 +27,12 @@ impl Spline {
         let column = |j: usize| [1.0 / h[j], -(1.0 / h[j] + 1.0 / h[j + 1]), 1.0 / h[j + 1]];
         let m = n - 2;
         let (mut diagonal, mut first, mut second) = (vec![0.0; m], vec![0.0; m], vec![0.0; m]);
-        let mut right = vec![0.0; m];
+        let mut right_hand_side = vec![0.0; m];
         for j in 0..m {
             let q = column(j);
             let product = |other: [f64; 3], shift: usize| -> f64 {
                 (shift..3)
-                    .map(|k| q[k] * other[k - shift] / stands_for(j + k))
+                    .map(|k| q[k] * other[k - shift] / weight(j + k))
                     .sum()
             };
             diagonal[j] = (h[j] + h[j + 1]) / 3.0 + lambda * product(q, 0);
@@ -42,25 +42,25 @@ impl Spline {
             if j + 2 < m {
                 second[j] = lambda * product(column(j + 2), 2);
             }
-            right[j] = (0..3).map(|k| q[k] * values[j + k]).sum();
+            right_hand_side[j] = (0..3).map(|k| q[k] * values[j + k]).sum();
         }
-        let inner = solve_pentadiagonal(diagonal, first, second, right);
-        let mut seconds = vec![0.0; n];
-        seconds[1..=m].copy_from_slice(&inner);
-        let mut smooth = values.to_vec();
+        let inner = solve_pentadiagonal(diagonal, first, second, right_hand_side);
+        let mut second_derivatives = vec![0.0; n];
+        second_derivatives[1..=m].copy_from_slice(&inner);
+        let mut smoothed = values.to_vec();
         for (j, gamma) in inner.iter().enumerate() {
             for (k, q) in column(j).iter().enumerate() {
-                smooth[j + k] -= lambda * q * gamma / stands_for(j + k);
+                smoothed[j + k] -= lambda * q * gamma / weight(j + k);
             }
         }
         Self {
             knots: knots.to_vec(),
-            values: smooth,
-            seconds,
+            values: smoothed,
+            second_derivatives,
         }
     }
 
-    /// Value, first and second derivative at `t`; beyond the ends the last cubic goes on.
+    /// Value, first and second derivative at `t`; beyond the ends the outermost cubic is extrapolated.
     pub fn at(&self, t: f64) -> [f64; 3] {
         let last = self.knots.len() - 2;
         let i = self
@@ -70,7 +70,7 @@ impl Spline {
             .min(last);
         let h = self.knots[i + 1] - self.knots[i];
         let (right, left) = ((t - self.knots[i]) / h, (self.knots[i + 1] - t) / h);
-        let (m0, m1) = (self.seconds[i], self.seconds[i + 1]);
+        let (m0, m1) = (self.second_derivatives[i], self.second_derivatives[i + 1]);
         let value = left * self.values[i]
             + right * self.values[i + 1]
             + h * h / 6.0 * ((left.powi(3) - left) * m0 + (right.powi(3) - right) * m1);
@@ -80,7 +80,7 @@ impl Spline {
     }
 }
 
-/// Solves a symmetric positive definite system with two bands beside the diagonal.
+/// Solves a symmetric positive definite system with diagonal `d`, first and second upper band `e` and `f`, and right-hand side `b`.
 fn solve_pentadiagonal(
     mut d: Vec<f64>,
     mut e: Vec<f64>,
@@ -130,9 +130,9 @@ mod tests {
         assert!((second / (k * k) + (k * 10.012).sin()).abs() < 3e-3);
         for lambda in [0.001, 0.01, 0.1] {
             let smooth = Spline::fit(&knots, &values, lambda);
-            let share = smooth.at(10.5)[0] / (k * 10.5).sin();
+            let gain = smooth.at(10.5)[0] / (k * 10.5).sin();
             let formula = 1.0 / (1.0 + lambda * k.powi(4));
-            assert!((share - formula).abs() < 1e-3, "{share} {formula}");
+            assert!((gain - formula).abs() < 1e-3, "{gain} {formula}");
         }
     }
 }

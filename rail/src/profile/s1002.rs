@@ -1,11 +1,11 @@
 //! The wheel profile S1002 (EN 13715) from its definition.
 
-use super::{Profile, STEP};
+use super::{Profile, SAMPLE_SPACING_M};
 
-/// Distance from the flange back to the tread datum, m (EN 13715).
-pub const FLANGE_BACK_TO_DATUM: f64 = 0.070;
+/// Distance from the back of the flange to the tread datum, m (EN 13715).
+pub const FLANGE_BACK_TO_DATUM_M: f64 = 0.070;
 
-/// Ends of the sections A to H towards the flange, mm from the tread datum.
+/// Ends of the sections A to H on the side of the flange, mm from the tread datum.
 pub const JOINTS_MM: [f64; 8] = [
     32.157_96,
     -26.0,
@@ -17,6 +17,7 @@ pub const JOINTS_MM: [f64; 8] = [
     -70.0,
 ];
 
+/// Coefficients of section B by rising power of the position in mm.
 const B: [f64; 9] = [
     0.0,
     -3.358_537_058e-2,
@@ -28,6 +29,7 @@ const B: [f64; 9] = [
     -5.957_839_843e-12,
     2.646_656_573e-13,
 ];
+/// Coefficients of section C by rising power of the position in mm.
 const C: [f64; 8] = [
     -4.320_221_063e3,
     -1.038_384_026e3,
@@ -39,8 +41,11 @@ const C: [f64; 8] = [
     -2.252_755_540e-7,
 ];
 
-/// Depth in mm of `section` (0 is A, 7 is H) at `s` mm from the tread datum, down positive.
-pub fn section_mm(section: usize, s: f64) -> f64 {
+/// Depth of one section at `s_mm` from the tread datum, mm, down positive.
+///
+/// `section` counts from 0 (A) to 7 (H); greater numbers are H too.
+pub fn section_mm(section: usize, s_mm: f64) -> f64 {
+    let s = s_mm;
     let polynomial = |c: &[f64]| c.iter().rev().fold(0.0, |sum, c| sum * s + c);
     let arc = |radius: f64, centre: f64| (radius * radius - (s - centre).powi(2)).max(0.0).sqrt();
     match section {
@@ -55,21 +60,27 @@ pub fn section_mm(section: usize, s: f64) -> f64 {
     }
 }
 
-/// Depth in mm at `s` mm from the tread datum, -70 to 60.
-pub fn depth_mm(s: f64) -> f64 {
-    let section = JOINTS_MM.iter().position(|&end| s > end).unwrap_or(7);
-    section_mm(section, s)
+/// Depth at `s_mm` from the tread datum (-70 to 60 mm, field side positive), mm, down positive.
+///
+/// ```
+/// // The flange is 28 mm high; its tip lies 55 mm from the tread datum.
+/// let tip_mm = dashpot_rail::profile::s1002::depth_mm(-55.0);
+/// assert!((tip_mm - 28.0).abs() < 1e-9);
+/// ```
+pub fn depth_mm(s_mm: f64) -> f64 {
+    let section = JOINTS_MM.iter().position(|&end| s_mm > end).unwrap_or(7);
+    section_mm(section, s_mm)
 }
 
-/// The profile from 0.05 mm beside the flange back (where the tangent is upright) to the field end.
+/// The profile from 0.05 mm beside the back of the flange, where the tangent is vertical, to the field side.
 pub fn profile() -> Profile {
-    let mut places = Vec::new();
+    let mut points = Vec::new();
     let mut s = -69.95;
     let slope = |s: f64| (depth_mm(s + 1e-6) - depth_mm(s - 1e-6)) / 2e-6;
     while s < 60.0 {
-        places.push([s * 1e-3, depth_mm(s) * 1e-3]);
-        s += 1e3 * STEP / 1.0_f64.hypot(slope(s));
+        points.push([s * 1e-3, depth_mm(s) * 1e-3]);
+        s += 1e3 * SAMPLE_SPACING_M / 1.0_f64.hypot(slope(s));
     }
-    places.push([60e-3, depth_mm(60.0) * 1e-3]);
-    Profile::through("S1002", &places, 0.0)
+    points.push([60e-3, depth_mm(60.0) * 1e-3]);
+    Profile::resampled("S1002", &points, 0.0)
 }

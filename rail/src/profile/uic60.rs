@@ -1,52 +1,61 @@
-//! The rail head UIC 60 (60E1, EN 13674-1) from its definition: tangent arcs on an upright axis.
+//! The rail head UIC 60 (60E1, EN 13674-1) from its definition: tangent arcs about a vertical axis of symmetry.
 
-use super::{Profile, STEP};
+use super::{Profile, SAMPLE_SPACING_M};
 
 /// Radii of the head from the top to the side, mm.
 pub const RADII_MM: [f64; 3] = [300.0, 80.0, 13.0];
-/// Lateral places of the joints R300-R80 and R80-R13, mm.
+/// Lateral positions of the joints R 300 to R 80 and R 80 to R 13, mm.
 pub const JOINTS_MM: [f64; 2] = [10.499_79, 25.988_03];
-/// Slope of the side: 1 across on 20 down.
-const SIDE: f64 = 1.0 / 20.0;
-/// The side is kept down to this depth, mm: below it the head turns under.
-const DEEPEST_MM: f64 = 36.0;
+/// Inclination of the side of the head: 1 across on 20 down.
+const SIDE_INCLINATION: f64 = 1.0 / 20.0;
+/// Depth at which the profile ends, mm: below it the side turns back towards the web.
+const MAX_DEPTH_MM: f64 = 36.0;
 
-/// Place (lateral, depth), mm, at `arc` mm from the top along the field half.
-pub fn place_mm(arc: f64) -> [f64; 2] {
-    let [mut y, mut z, mut angle, mut left] = [0.0, 0.0, 0.0, arc];
-    let upright = (1.0 / SIDE).atan();
+/// Lateral position and depth at the arc length `arc_mm` from the top along the field half, mm.
+///
+/// ```
+/// // EN 13674-1: R 300 ends 10.5 mm from the middle, 0.18 mm down.
+/// let [y_mm, z_mm] = dashpot_rail::profile::uic60::position_mm(10.502);
+/// assert!((y_mm - 10.4998).abs() < 1e-3 && (z_mm - 0.1838).abs() < 1e-4);
+/// ```
+pub fn position_mm(arc_mm: f64) -> [f64; 2] {
+    let [mut y, mut z, mut angle, mut remaining] = [0.0, 0.0, 0.0, arc_mm];
+    let side_angle = (1.0 / SIDE_INCLINATION).atan();
     for (i, radius) in RADII_MM.into_iter().enumerate() {
         let centre_y = y - radius * f64::sin(angle);
         let end = match JOINTS_MM.get(i) {
             Some(joint) => ((joint - centre_y) / radius).asin(),
-            None => upright,
+            None => side_angle,
         };
-        let turn = (left / radius).min(end - angle);
+        let turn = (remaining / radius).min(end - angle);
         let next = angle + turn;
         y += radius * (next.sin() - angle.sin());
         z += radius * (angle.cos() - next.cos());
-        left -= turn * radius;
+        remaining -= turn * radius;
         angle = next;
-        if left <= 0.0 {
+        if remaining <= 0.0 {
             return [y, z];
         }
     }
-    [y + left * upright.cos(), z + left * upright.sin()]
+    [
+        y + remaining * side_angle.cos(),
+        z + remaining * side_angle.sin(),
+    ]
 }
 
-/// The profile from one side of the head to the other, top at the origin.
+/// The profile from one side of the head to the other, with its top at the origin.
 pub fn profile() -> Profile {
-    let step = 1e3 * STEP;
+    let step = 1e3 * SAMPLE_SPACING_M;
     let half: Vec<[f64; 2]> = (0..)
-        .map(|i| place_mm(f64::from(i) * step))
-        .take_while(|place| place[1] < DEEPEST_MM)
+        .map(|i| position_mm(f64::from(i) * step))
+        .take_while(|position| position[1] < MAX_DEPTH_MM)
         .map(|[y, z]| [y * 1e-3, z * 1e-3])
         .collect();
-    let places: Vec<[f64; 2]> = half[1..]
+    let points: Vec<[f64; 2]> = half[1..]
         .iter()
         .rev()
         .map(|[y, z]| [-y, *z])
         .chain(half.iter().copied())
         .collect();
-    Profile::through("UIC 60", &places, 0.0)
+    Profile::resampled("UIC 60", &points, 0.0)
 }

@@ -1,37 +1,36 @@
 //! Rolling radius difference and equivalent conicity against closed forms and another integration.
 
-use dashpot_rail::contact::pair::{Installation, Pair};
-use dashpot_rail::indices::conicity::{CONTACT_DISTANCE, RollingRadius};
-use dashpot_rail::profile::Profile;
-use dashpot_rail::profile::uic60;
+use dashpot_rail::contact::{Installation, Pair};
+use dashpot_rail::indices::{CONTACT_DISTANCE_M, RollingRadiusDifference, RollingRadiusError};
+use dashpot_rail::profile::{Profile, uic60};
 
 const RADIUS: f64 = 0.46;
 
 #[test]
 fn a_cone_has_its_own_conicity_at_every_amplitude() {
-    let cone = RollingRadius::from_fn(10e-3, 400, |y| 2.0 * 0.05 * y);
+    let cone = RollingRadiusDifference::from_fn(10e-3, 400, |y| 2.0 * 0.05 * y).unwrap();
     for amplitude in [0.2e-3, 1e-3, 3e-3, 9.9e-3] {
-        let conicity = cone.conicity(amplitude, RADIUS).unwrap();
+        let conicity = cone.equivalent_conicity(amplitude, RADIUS).unwrap();
         assert!((conicity - 0.05).abs() < 1e-6, "{conicity}");
     }
-    assert_eq!(cone.conicity(10.2e-3, RADIUS), None);
+    assert_eq!(cone.equivalent_conicity(10.2e-3, RADIUS), None);
 }
 
 #[test]
 fn a_shifted_cone_swings_about_its_own_line() {
-    let cone = RollingRadius::from_fn(10e-3, 400, |y| 2.0 * 0.1 * (y - 1.3e-3));
-    assert!((cone.rolling_line().unwrap() - 1.3e-3).abs() < 1e-12);
-    assert!((cone.conicity(3e-3, RADIUS).unwrap() - 0.1).abs() < 1e-6);
+    let cone = RollingRadiusDifference::from_fn(10e-3, 400, |y| 2.0 * 0.1 * (y - 1.3e-3)).unwrap();
+    assert!((cone.rolling_line_m().unwrap() - 1.3e-3).abs() < 1e-12);
+    assert!((cone.equivalent_conicity(3e-3, RADIUS).unwrap() - 0.1).abs() < 1e-6);
 }
 
 #[test]
 fn a_step_has_the_wavelength_of_falling_to_and_fro() {
     // Constant difference c either side: quarter wave sqrt(2 A e r / c), so tan g = pi^2 c / (16 A).
     let c = 0.4e-3;
-    let step = RollingRadius::from_fn(10e-3, 20_000, |y| c * y.signum());
+    let step = RollingRadiusDifference::from_fn(10e-3, 20_000, |y| c * y.signum()).unwrap();
     for amplitude in [1e-3, 4e-3] {
         let expected = std::f64::consts::PI.powi(2) * c / (16.0 * amplitude);
-        let conicity = step.conicity(amplitude, RADIUS).unwrap();
+        let conicity = step.equivalent_conicity(amplitude, RADIUS).unwrap();
         assert!(
             (conicity / expected - 1.0).abs() < 1e-3,
             "{conicity} {expected}"
@@ -43,12 +42,12 @@ fn a_step_has_the_wavelength_of_falling_to_and_fro() {
 fn a_cubic_has_the_period_of_its_oscillator() {
     // y'' = -k y^3 from A: quarter wave 1.854074677 / (A sqrt k), half the lemniscate's complete integral.
     let k3 = 2000.0;
-    let cubic = RollingRadius::from_fn(10e-3, 4000, |y| k3 * y.powi(3));
+    let cubic = RollingRadiusDifference::from_fn(10e-3, 4000, |y| k3 * y.powi(3)).unwrap();
     let amplitude = 5e-3;
-    let k = k3 / (CONTACT_DISTANCE * RADIUS);
+    let k = k3 / (CONTACT_DISTANCE_M * RADIUS);
     let wave = 4.0 * 1.854_074_677 / (amplitude * k.sqrt());
-    let expected = 0.5 * CONTACT_DISTANCE * RADIUS * (std::f64::consts::TAU / wave).powi(2);
-    let conicity = cubic.conicity(amplitude, RADIUS).unwrap();
+    let expected = 0.5 * CONTACT_DISTANCE_M * RADIUS * (std::f64::consts::TAU / wave).powi(2);
+    let conicity = cubic.equivalent_conicity(amplitude, RADIUS).unwrap();
     assert!(
         (conicity / expected - 1.0).abs() < 1e-5,
         "{conicity} {expected}"
@@ -58,14 +57,14 @@ fn a_cubic_has_the_period_of_its_oscillator() {
 #[test]
 fn the_standard_pair_has_the_known_conicity_and_its_path_the_same_wave() {
     let pair = Pair::standard(Installation::default()).unwrap();
-    let rolling = RollingRadius::of(&pair, 10e-3, 1600);
+    let rolling = RollingRadiusDifference::of(&pair, 10e-3, 1600).unwrap();
     // S1002 on UIC 60 at 1:40, 1435 mm, 1360 mm: 0.17 to 0.18 at 3 mm in the literature (0.18 with two digits).
-    let conicity = rolling.conicity(3e-3, 0.625).unwrap();
+    let conicity = rolling.equivalent_conicity(3e-3, 0.625).unwrap();
     println!("conicity at 3 mm: {conicity:.4}");
     assert!((0.165..0.185).contains(&conicity), "{conicity}");
     // The path itself, by Runge and Kutta's steps along the track.
     for amplitude in [2e-3, 3e-3, 5.5e-3] {
-        let bend = |y: f64| -rolling.at(y) / (CONTACT_DISTANCE * 0.625);
+        let bend = |y: f64| -rolling.at(y) / (CONTACT_DISTANCE_M * 0.625);
         let (mut y, mut slope, mut x) = (-amplitude, 0.0, 0.0);
         let h = 2e-3;
         let half = loop {
@@ -81,8 +80,8 @@ fn the_standard_pair_has_the_known_conicity_and_its_path_the_same_wave() {
             slope = next;
             x += h;
         };
-        let expected = 0.5 * CONTACT_DISTANCE * 0.625 * (std::f64::consts::PI / half).powi(2);
-        let conicity = rolling.conicity(amplitude, 0.625).unwrap();
+        let expected = 0.5 * CONTACT_DISTANCE_M * 0.625 * (std::f64::consts::PI / half).powi(2);
+        let conicity = rolling.equivalent_conicity(amplitude, 0.625).unwrap();
         assert!(
             (conicity / expected - 1.0).abs() < 2e-3,
             "{amplitude}: {conicity} {expected}"
@@ -90,7 +89,7 @@ fn the_standard_pair_has_the_known_conicity_and_its_path_the_same_wave() {
     }
     // Right and left are the same wheel.
     for i in 0..=800 {
-        let (a, b) = (rolling.difference[i], rolling.difference[1600 - i]);
+        let (a, b) = (rolling.difference_m()[i], rolling.difference_m()[1600 - i]);
         assert!((a + b).abs() < 1e-6, "{a} {b}");
     }
 }
@@ -98,7 +97,7 @@ fn the_standard_pair_has_the_known_conicity_and_its_path_the_same_wave() {
 /// A cone of 1:40 with a straight flange face of 70 degrees and a round tip, as readings each half millimetre.
 fn cone() -> Profile {
     let face = 70_f64.to_radians().tan();
-    let places: Vec<[f64; 2]> = (-132..=120)
+    let points: Vec<[f64; 2]> = (-132..=120)
         .map(|i| f64::from(i) * 0.5)
         .map(|s| {
             let z = if s > -36.0 {
@@ -112,7 +111,7 @@ fn cone() -> Profile {
             [s * 1e-3, z * 1e-3]
         })
         .collect();
-    Profile::through("cone", &places, 0.0)
+    Profile::through("cone", &points, 0.0).unwrap()
 }
 
 #[test]
@@ -122,15 +121,19 @@ fn a_cone_on_the_round_head_rolls_on_the_point_of_equal_slope() {
         ..Installation::default()
     };
     let pair = Pair::new(cone(), &uic60::profile(), installation).unwrap();
-    let mut room = Vec::new();
+    let mut scratch = Vec::new();
     for shift in [-4e-3, -1e-3, 0.0, 2e-3, 4e-3] {
-        let contact = pair.rigid(shift, 0.0, &mut room);
+        let contact = pair.rigid_contact(shift, 0.0, &mut scratch);
         for (side, sign) in contact.sides.iter().zip([-1.0, 1.0]) {
             // The cone touches R 300 where the head has its slope: 300 sin(g) from the rail's middle.
-            let slope = (1.0_f64 / 40.0).atan() - sign * contact.roll;
+            let slope = (1.0_f64 / 40.0).atan() - sign * contact.roll_rad;
             let middle = 0.5 * 1.435 + 35.984e-3;
             let y = middle - 0.3 * slope.sin();
-            assert!((side.y - y).abs() < 0.05e-3, "{shift}: {} {y}", side.y);
+            assert!(
+                (side.track_y_m - y).abs() < 0.05e-3,
+                "{shift}: {} {y}",
+                side.track_y_m
+            );
             assert!(
                 (side.slope + slope.tan()).abs() < 2e-6,
                 "{shift}: {}",
@@ -139,12 +142,38 @@ fn a_cone_on_the_round_head_rolls_on_the_point_of_equal_slope() {
         }
         // To the first order of the small angles a cone's radius difference is 2 g y / (1 - g R / e),
         // with e the half distance of the points: the shift of the points on the heads included.
-        let e = contact.sides[1].y;
+        let e = contact.sides[1].track_y_m;
         let expected = 2.0 / 40.0 * shift / (1.0 - 0.3 / 40.0 / e);
-        let found = contact.rolling_radius_difference();
+        let found = contact.rolling_radius_difference_m();
         assert!(
             (found - expected).abs() < 0.005 * expected.abs() + 1e-8,
             "{shift}: {found} {expected}"
         );
+    }
+}
+
+#[test]
+fn samples_that_make_no_function_are_refused() {
+    let length = RollingRadiusDifference::new(vec![0.0], vec![0.0]).unwrap_err();
+    assert!(matches!(
+        length,
+        RollingRadiusError::Length { shifts: 1, .. }
+    ));
+    for (lateral_m, difference_m, wrong) in [
+        (vec![0.0, 1e-3, 3e-3], vec![0.0; 3], 1),
+        (vec![0.0, -1e-3, -2e-3], vec![0.0; 3], 0),
+        (vec![0.0, 1e-3, 2e-3], vec![0.0, 0.0, f64::NAN], 2),
+    ] {
+        let error = RollingRadiusDifference::new(lateral_m, difference_m).unwrap_err();
+        assert!(
+            matches!(error, RollingRadiusError::Sample { index, .. } if index == wrong),
+            "{error}"
+        );
+    }
+    assert!(RollingRadiusDifference::from_fn(0.0, 10, |y| y).is_err());
+    assert!(RollingRadiusDifference::from_fn(1e-3, 0, |y| y).is_err());
+    let cone = RollingRadiusDifference::from_fn(10e-3, 400, |y| 0.1 * y).unwrap();
+    for (amplitude_m, radius_m) in [(0.0, RADIUS), (f64::NAN, RADIUS), (3e-3, -1.0)] {
+        assert_eq!(cone.equivalent_conicity(amplitude_m, radius_m), None);
     }
 }

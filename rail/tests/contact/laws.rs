@@ -5,35 +5,22 @@
 use std::fmt::Write;
 use std::path::Path;
 
-use dashpot_rail::contact::hertz::Steel;
-use dashpot_rail::contact::pair::{Installation, Pair, Place};
-use dashpot_rail::contact::table::{Grid, Tables};
-use dashpot_rail::creep::creepage::{CreepLaw, Creepage, LoadedContact, linear};
-use dashpot_rail::creep::fastsim::Fastsim;
-use dashpot_rail::creep::kalker::KalkerTable;
-use dashpot_rail::creep::polach::Polach;
-use dashpot_rail::creep::shen_hedrick_elkins::ShenHedrickElkins;
+use crate::common::{laws, tables};
+use dashpot_rail::contact::WheelPose;
+use dashpot_rail::creep::{CreepLaw, Creepage, Fastsim, KalkerTable, LoadedContact, linear_forces};
 
 const BEGIN: &str = "<!-- measured: begin -->";
 const END: &str = "<!-- measured: end -->";
-const CURVE: &str = include_str!("../../../data/contact/creep_curve.csv");
+const CURVE: &str = include_str!("../../data/creep_curve.csv");
 
-fn laws() -> [(&'static str, Box<dyn CreepLaw>); 3] {
-    [
-        ("FASTSIM 80 x 81", Box::new(Fastsim::default())),
-        ("Polach", Box::new(Polach)),
-        ("Shen-Hedrick-Elkins", Box::new(ShenHedrickElkins)),
-    ]
-}
-
-fn contact(ratio: f64, shear: f64, poisson: f64, friction: f64) -> LoadedContact {
+fn contact(ratio: f64, shear_modulus_pa: f64, poisson_ratio: f64, friction: f64) -> LoadedContact {
     let area = 6.304e-3 * 12.61e-3;
     LoadedContact {
-        load: 106_700.0,
-        a: (area * ratio).sqrt(),
-        b: (area / ratio).sqrt(),
-        shear,
-        kalker: KalkerTable::new(poisson).at(ratio),
+        load_n: 106_700.0,
+        a_m: (area * ratio).sqrt(),
+        b_m: (area / ratio).sqrt(),
+        shear_modulus_pa,
+        kalker: KalkerTable::new(poisson_ratio).unwrap().at(ratio),
         friction,
     }
 }
@@ -41,8 +28,8 @@ fn contact(ratio: f64, shear: f64, poisson: f64, friction: f64) -> LoadedContact
 /// Greatest distance from exact theory over its value, pure longitudinal.
 fn from_exact(law: &dyn CreepLaw) -> f64 {
     let contact = LoadedContact {
-        a: 6.304e-3,
-        b: 12.61e-3,
+        a_m: 6.304e-3,
+        b_m: 12.61e-3,
         ..contact(0.5, 82e9, 0.28, 0.33)
     };
     CURVE
@@ -56,7 +43,7 @@ fn from_exact(law: &dyn CreepLaw) -> f64 {
                 longitudinal,
                 ..Creepage::default()
             };
-            (law.forces(&contact, &creepage).longitudinal / exact + 1.0).abs()
+            (law.forces(&contact, &creepage).longitudinal_n / exact + 1.0).abs()
         })
         .fold(0.0, f64::max)
 }
@@ -65,19 +52,19 @@ fn from_exact(law: &dyn CreepLaw) -> f64 {
 /// to ten times what slides in linear theory, in eight directions, spin as `phi sqrt(ab)` over sliding creepage.
 fn from_fastsim(law: &dyn CreepLaw, spins: &[f64]) -> (f64, f64) {
     let fine = Fastsim {
-        along: 200,
+        elements: 200,
         strips: 201,
     };
     let (mut squares, mut count, mut worst) = (0.0, 0.0, 0.0_f64);
     for ratio in [0.3, 0.5, 1.0, 2.0] {
         let contact = contact(ratio, 80.77e9, 0.3, 0.4);
-        let arm = (contact.a * contact.b).sqrt();
-        let limit = contact.load * contact.friction;
+        let arm = (contact.a_m * contact.b_m).sqrt();
+        let limit = contact.load_n * contact.friction;
         let one = Creepage {
             longitudinal: 1.0,
             ..Creepage::default()
         };
-        let sliding = limit / linear(&contact, &one).magnitude();
+        let sliding = limit / linear_forces(&contact, &one).magnitude_n();
         for step in 0..7 {
             let size = sliding * 10f64.powf(-2.0 + 0.5 * f64::from(step));
             for turn in 0..8 {
@@ -86,14 +73,15 @@ fn from_fastsim(law: &dyn CreepLaw, spins: &[f64]) -> (f64, f64) {
                     let creepage = Creepage {
                         longitudinal: size * angle.cos(),
                         lateral: size * angle.sin(),
-                        spin: spin * sliding / arm,
+                        spin_per_m: spin * sliding / arm,
                     };
                     let (a, b) = (
                         law.forces(&contact, &creepage),
                         fine.forces(&contact, &creepage),
                     );
-                    let off =
-                        (a.longitudinal - b.longitudinal).hypot(a.lateral - b.lateral) / limit;
+                    let off = (a.longitudinal_n - b.longitudinal_n)
+                        .hypot(a.lateral_n - b.lateral_n)
+                        / limit;
                     squares += off * off;
                     count += 1.0;
                     worst = worst.max(off);
@@ -104,15 +92,14 @@ fn from_fastsim(law: &dyn CreepLaw, spins: &[f64]) -> (f64, f64) {
     (f64::sqrt(squares / count), worst)
 }
 
-/// Share of `n` in a sequence that fills the unit interval evenly.
+/// Member `n` of a sequence that fills the unit interval evenly.
 fn even(n: usize, irrational: f64) -> f64 {
     (n as f64 * irrational).fract()
 }
 
-/// RMS and greatest errors of the tables at even places within 10 mm, 10 mrad roll, 30 mrad yaw.
+/// RMS and greatest errors of the tables at evenly spread poses within 10 mm, 10 mrad roll, 30 mrad yaw.
 fn table_errors() -> Vec<(&'static str, f64, f64)> {
-    let pair = Pair::standard(Installation::default()).unwrap();
-    let tables = Tables::new(pair, Steel::default(), Grid::default());
+    let tables = tables();
     let names = [
         "penetration, um",
         "rolling radius, um",
@@ -123,26 +110,28 @@ fn table_errors() -> Vec<(&'static str, f64, f64)> {
     let mut errors: Vec<(&str, f64, f64)> = names.map(|name| (name, 0.0, 0.0)).to_vec();
     let mut count = 0.0;
     for n in 0..1500 {
-        let place = Place {
-            lateral: -10e-3 + 20e-3 * even(n, 0.618_033_988),
-            roll: 10e-3 * (2.0 * even(n, 0.414_213_562) - 1.0),
-            yaw: 0.03 * (2.0 * even(n, 0.732_050_807) - 1.0),
+        let pose = WheelPose {
+            lateral_m: -10e-3 + 20e-3 * even(n, 0.618_033_988),
+            roll_rad: 10e-3 * (2.0 * even(n, 0.414_213_562) - 1.0),
+            yaw_rad: 0.03 * (2.0 * even(n, 0.732_050_807) - 1.0),
         };
-        let (read, inside) = tables.at(&place);
+        let (read, inside) = tables.at(&pose);
         assert!(inside);
-        let computed = tables.computed(&place);
-        let summit = computed[0].rise.max(computed[1].rise);
+        let computed = tables.computed(&pose);
+        let summit = computed[0]
+            .interpenetration_m
+            .max(computed[1].interpenetration_m);
         for (r, c) in read.iter().zip(&computed) {
-            // A patch further than 0.3 mm above the other carries nothing beside it.
-            if c.share < 0.5 || c.rise < summit - 0.3e-3 {
+            // A patch 0.3 mm or more above the other one carries no load.
+            if c.load_fraction < 0.5 || c.interpenetration_m < summit - 0.3e-3 {
                 continue;
             }
             let cos = 1.0 / (1.0 + c.slope * c.slope).sqrt();
             let off = [
-                (r.rise - c.rise) * cos * 1e6,
-                (r.z - c.z) * 1e6,
+                (r.interpenetration_m - c.interpenetration_m) * cos * 1e6,
+                (r.wheel_z_m - c.wheel_z_m) * 1e6,
                 (r.slope.atan() - c.slope.atan()) * 1e3,
-                (r.stiffness / c.stiffness - 1.0) * 1e2,
+                (r.hertz.stiffness_n_per_m_1_5 / c.hertz.stiffness_n_per_m_1_5 - 1.0) * 1e2,
                 (r.kalker.c22 / c.kalker.c22 - 1.0) * 1e2,
             ];
             for (error, off) in errors.iter_mut().zip(off) {

@@ -3,10 +3,12 @@
 mod common;
 mod conicity;
 mod creep;
+mod fastsim;
 mod geometry;
 mod laws;
 mod normal;
 mod profiles;
 mod published;
 mod safety;
+mod tables;
 mod wheelset;

@@ -1,9 +1,8 @@
 //! Profiles against their definitions, the standards' figures, and texts of every wrong kind.
 
-use dashpot_rail::contact::pair::{Installation, Pair};
+use dashpot_rail::contact::{Installation, Pair};
 use dashpot_rail::profile::measured::{self, ProfileError};
-use dashpot_rail::profile::{Body, Profile};
-use dashpot_rail::profile::{s1002, uic60};
+use dashpot_rail::profile::{Body, CurveError, Profile, s1002, uic60};
 
 #[test]
 fn s1002_sections_join() {
@@ -38,13 +37,16 @@ fn uic60_joints_lie_where_the_standard_says() {
     for (y, depth) in [(10.499_79, 0.183_80), (25.988_03, 2.253_20)] {
         let arc = (0..4_000_000)
             .map(|i| f64::from(i) * 1e-5)
-            .find(|&arc| uic60::place_mm(arc)[0] >= y)
+            .find(|&arc| uic60::position_mm(arc)[0] >= y)
             .unwrap();
-        let place = uic60::place_mm(arc);
-        assert!((place[1] - depth).abs() < 1e-5, "{place:?} for {depth}");
+        let position = uic60::position_mm(arc);
+        assert!(
+            (position[1] - depth).abs() < 1e-5,
+            "{position:?} for {depth}"
+        );
     }
     // EN 13674-1: the head is 72 mm wide where R 13 ends, 14.3 mm down.
-    let side = uic60::place_mm(10.502_0 + 15.7 + 19.0);
+    let side = uic60::position_mm(10.502_0 + 15.7 + 19.0);
     let width = 2.0 * (side[0] - (side[1] - 14.26) / 20.0);
     assert!((width - 72.0).abs() < 2e-3, "{width}");
 }
@@ -54,18 +56,18 @@ fn splines_follow_the_definitions_with_their_curvatures() {
     let wheel = s1002::profile();
     for i in -6900..6000 {
         let s = f64::from(i) * 0.01;
-        let off = wheel.at(s * 1e-3).z * 1e3 - s1002::depth_mm(s);
+        let off = wheel.at(s * 1e-3).z_m * 1e3 - s1002::depth_mm(s);
         // Linear between samples 0.1 mm apart: h^2 / 8 R, steep on the back of the flange.
         assert!(off.abs() < 2e-3, "{s}: {off} mm");
     }
-    for sample in &wheel.points {
-        let off = sample.z * 1e3 - s1002::depth_mm(sample.y * 1e3);
+    for sample in wheel.points() {
+        let off = sample.z_m * 1e3 - s1002::depth_mm(sample.y_m * 1e3);
         assert!(
-            off.abs() < 1e-4 || sample.y < -0.068,
+            off.abs() < 1e-4 || sample.y_m < -0.068,
             "{sample:?}: {off} mm"
         );
     }
-    let radius = |profile: &Profile, y: f64| 1e3 / profile.at(y * 1e-3).curvature;
+    let radius = |profile: &Profile, y: f64| 1e3 / profile.at(y * 1e-3).curvature_per_m;
     for (profile, y, expected) in [
         (&wheel, 45.0, f64::INFINITY),
         (&wheel, -37.0, 13.0),
@@ -86,7 +88,7 @@ fn splines_follow_the_definitions_with_their_curvatures() {
 }
 
 fn parsed(text: &str) -> Result<Profile, ProfileError> {
-    measured::parse("wheel", text, Body::Wheel, measured::DEFAULT_SMOOTHING)
+    measured::parse("wheel", text, Body::Wheel, measured::DEFAULT_SMOOTHING_M)
 }
 
 /// S1002 each 0.5 mm with two decimals, as a profile gauge writes it.
@@ -110,10 +112,10 @@ fn a_gauge_s_file_gives_the_profile_back() {
     let (mut worst, mut squares, mut count) = (0.0_f64, 0.0, 0.0);
     for i in -350..550 {
         let s = f64::from(i) * 0.1;
-        let z = wheel.at(s * 1e-3).z * 1e3;
+        let z = wheel.at(s * 1e-3).z_m * 1e3;
         worst = worst.max((z - s1002::depth_mm(s)).abs());
         if (-20.0..30.0).contains(&s) {
-            let off = wheel.at(s * 1e-3).curvature - truth.at(s * 1e-3).curvature;
+            let off = wheel.at(s * 1e-3).curvature_per_m - truth.at(s * 1e-3).curvature_per_m;
             squares += off * off;
             count += 1.0;
         }
@@ -125,7 +127,7 @@ fn a_gauge_s_file_gives_the_profile_back() {
     let mut rows = readings(2);
     rows.reverse();
     let reversed = parsed(&text(&rows)).unwrap();
-    assert_eq!(reversed.points, wheel.points);
+    assert_eq!(reversed.points(), wheel.points());
 }
 
 #[test]
@@ -187,19 +189,19 @@ fn wrong_texts_say_what_where_and_what_is_allowed() {
     for (kind, text, expected) in cases {
         let error = parsed(&text).unwrap_err();
         let cell = error.cell();
-        let place = cell.map_or_else(String::new, |(line, column)| {
+        let location = cell.map_or_else(String::new, |(line, column)| {
             format!(":{line}: column {column}: ")
         });
-        let message = format!("{place}{error}");
+        let message = format!("{location}{error}");
         for part in expected {
             assert!(message.contains(part), "{kind}: {message}");
         }
     }
     let head: Vec<(f64, f64)> = uic60::profile()
-        .points
+        .points()
         .iter()
         .step_by(5)
-        .map(|p| (p.y * 1e3, -p.z * 1e3))
+        .map(|p| (p.y_m * 1e3, -p.z_m * 1e3))
         .collect();
     let upside_down = measured::parse("rail", &text(&head), Body::Rail, 0.0);
     assert_eq!(upside_down.unwrap_err(), ProfileError::HeadDown);
@@ -210,14 +212,14 @@ fn impossible_installations_are_refused() {
     for (installation, part) in [
         (
             Installation {
-                gauge: 1.0,
+                gauge_m: 1.0,
                 ..Installation::default()
             },
             "gauge less back-to-back",
         ),
         (
             Installation {
-                wheel_radius: f64::NAN,
+                wheel_radius_m: f64::NAN,
                 ..Installation::default()
             },
             "wheel radius",
@@ -236,4 +238,49 @@ fn impossible_installations_are_refused() {
             "{message}"
         );
     }
+}
+
+#[test]
+fn points_that_make_no_curve_are_refused() {
+    let arc = |scale: f64| -> Vec<[f64; 2]> {
+        let y = (0..50).map(|i| f64::from(i) * scale);
+        y.map(|y| [y, 10.0 * y * y]).collect()
+    };
+    let refused = |points: &[[f64; 2]], smoothing_m| {
+        Profile::through("arc", points, smoothing_m).unwrap_err()
+    };
+    let good = arc(1e-3);
+    assert_eq!(
+        refused(&good[..2], 0.0),
+        CurveError::TooFewPoints { found: 2 }
+    );
+    let mut back = good.clone();
+    back[7][0] = back[6][0];
+    assert!(matches!(
+        refused(&back, 0.0),
+        CurveError::Point { index: 7, .. }
+    ));
+    let mut nan = good.clone();
+    nan[0][1] = f64::NAN;
+    assert!(matches!(
+        refused(&nan, 0.0),
+        CurveError::Point { index: 0, .. }
+    ));
+    // Millimetres in place of metres.
+    assert!(matches!(
+        refused(&arc(1.0), 0.0),
+        CurveError::TooLong { .. }
+    ));
+    for smoothing_m in [-1e-3, f64::NAN] {
+        assert!(matches!(
+            refused(&good, smoothing_m),
+            CurveError::Smoothing { .. }
+        ));
+    }
+    let text = text(&readings(2));
+    let error = measured::parse("wheel", &text, Body::Wheel, f64::NAN).unwrap_err();
+    assert!(
+        matches!(error, ProfileError::Curve(CurveError::Smoothing { .. })),
+        "{error}"
+    );
 }

@@ -2,22 +2,21 @@
 //!
 //! Polach: the subroutine of the 1999 paper evaluated in Python in the form two public codes give it,
 //! leo-bart/mbs-flex-rail (from the FORTRAN) and wangjianbin123/OpenVSD. Both agree with these numbers
-//! but for one thing each: the first takes the lesser of the lateral creepages with and without spin,
-//! by which pure spin would give no force; the second counts the spin's force the other way, against
+//! except in one respect each: the first takes the lesser of the lateral creepages with and without spin,
+//! by which pure spin would cause no force; in the second the force of the spin has the opposite sign, against
 //! Kalker's linear theory. Shen, Hedrick and Elkins: `mu N (1 - (1 - f / 3)^3)` in Python.
 
-use dashpot_rail::creep::creepage::{CreepForces, CreepLaw, Creepage, LoadedContact};
-use dashpot_rail::creep::kalker::Coefficients;
-use dashpot_rail::creep::polach::Polach;
-use dashpot_rail::creep::shen_hedrick_elkins::ShenHedrickElkins;
+use dashpot_rail::creep::{
+    CreepForces, CreepLaw, Creepage, KalkerCoefficients, LoadedContact, Polach, ShenHedrickElkins,
+};
 
 const CONTACTS: [LoadedContact; 2] = [
     LoadedContact {
-        load: 80e3,
-        a: 6e-3,
-        b: 4e-3,
-        shear: 82e9,
-        kalker: Coefficients {
+        load_n: 80e3,
+        a_m: 6e-3,
+        b_m: 4e-3,
+        shear_modulus_pa: 82e9,
+        kalker: KalkerCoefficients {
             c11: 4.62,
             c22: 4.31,
             c23: 1.85,
@@ -26,11 +25,11 @@ const CONTACTS: [LoadedContact; 2] = [
         friction: 0.3,
     },
     LoadedContact {
-        load: 50e3,
-        a: 2e-3,
-        b: 7e-3,
-        shear: 80e9,
-        kalker: Coefficients {
+        load_n: 50e3,
+        a_m: 2e-3,
+        b_m: 7e-3,
+        shear_modulus_pa: 80e9,
+        kalker: KalkerCoefficients {
             c11: 3.5,
             c22: 2.7,
             c23: 0.7,
@@ -62,20 +61,28 @@ const ROWS: [Row; 14] = [
 ];
 
 #[test]
-fn the_cheap_laws_give_the_forces_of_other_transcriptions() {
+fn the_closed_form_laws_agree_with_other_transcriptions() {
     for (contact, [longitudinal, lateral, spin], polach, she) in ROWS {
         let contact = &CONTACTS[contact];
         let creepage = Creepage {
             longitudinal,
             lateral,
-            spin,
+            spin_per_m: spin,
         };
         let compare = |name: &str, forces: CreepForces, [x, y]: [f64; 2]| {
             // The numbers are rounded to a millionth of a newton.
-            let off = (forces.longitudinal - x).hypot(forces.lateral - y);
+            let off = (forces.longitudinal_n - x).hypot(forces.lateral_n - y);
             assert!(off < 2e-6, "{name} {creepage:?}: {forces:?} for {x} {y}");
         };
-        compare("Polach", Polach.raw(contact, &creepage), polach);
-        compare("she", ShenHedrickElkins.raw(contact, &creepage), she);
+        compare(
+            "Polach",
+            Polach.unlimited_forces(contact, &creepage),
+            polach,
+        );
+        compare(
+            "she",
+            ShenHedrickElkins.unlimited_forces(contact, &creepage),
+            she,
+        );
     }
 }

@@ -1,10 +1,8 @@
 //! What the forces on a wheelset keep everywhere: energy, mirror image, finite numbers, a status.
 
-use crate::common::{LEVEL, polach, rolling, settle};
-use dashpot_rail::contact::forces::Status;
-use dashpot_rail::contact::motion::{Motion, Rail};
-use dashpot_rail::contact::wheelset::WheelsetContact;
-use dashpot_rail::creep::creepage::CreepLaw;
+use crate::common::{LEVEL, at_height_under_load, polach, rolling};
+use dashpot_rail::contact::{Motion, RailDisplacement, Status, WheelsetContact};
+use dashpot_rail::creep::CreepLaw;
 use proptest::prelude::*;
 
 #[test]
@@ -13,11 +11,11 @@ fn flange_climbing_ends_past_the_tip_with_a_status() {
     let mut seen = Vec::new();
     for i in 0..=700 {
         let lateral = f64::from(i) * 0.1e-3;
-        let motion = settle(
+        let motion = at_height_under_load(
             contact,
             &Motion {
-                lateral,
-                roll: -lateral * 0.2,
+                lateral_m: lateral,
+                roll_rad: -lateral * 0.2,
                 ..rolling(10.0)
             },
             100e3,
@@ -25,9 +23,9 @@ fn flange_climbing_ends_past_the_tip_with_a_status() {
         let forces = contact.forces(&motion, &LEVEL);
         assert!(
             forces
-                .force
+                .force_n
                 .iter()
-                .chain(&forces.moment)
+                .chain(&forces.moment_n_m)
                 .all(|x| x.is_finite())
         );
         if seen.last() != Some(&forces.wheels[1].status) {
@@ -38,13 +36,13 @@ fn flange_climbing_ends_past_the_tip_with_a_status() {
     assert!(seen.contains(&Status::Climbing), "{seen:?}");
     assert_eq!(seen.last(), Some(&Status::OutsideTables), "{seen:?}");
     let over = Motion {
-        lateral: 62e-3,
-        vertical: -27.9e-3,
+        lateral_m: 62e-3,
+        vertical_m: -27.9e-3,
         ..rolling(10.0)
     };
     let wide = Motion {
-        lateral: 66e-3,
-        vertical: -27.95e-3,
+        lateral_m: 66e-3,
+        vertical_m: -27.95e-3,
         ..over
     };
     assert!(contact.forces(&over, &LEVEL).wheels[1].status >= Status::Climbing);
@@ -58,107 +56,119 @@ fn flange_climbing_ends_past_the_tip_with_a_status() {
 fn lifted_standing_and_lost_wheelsets() {
     let contact = polach();
     let lifted = Motion {
-        vertical: -5e-3,
+        vertical_m: -5e-3,
         ..rolling(20.0)
     };
     let forces = contact.forces(&lifted, &LEVEL);
     assert_eq!(forces.status, Status::Lifted);
-    assert_eq!((forces.force, forces.moment), ([0.0; 3], [0.0; 3]));
-    assert_eq!(forces.wheels[0].derailment_coefficient(-1.0), 0.0);
-    let standing = settle(contact, &Motion::default(), 206e3);
+    assert_eq!((forces.force_n, forces.moment_n_m), ([0.0; 3], [0.0; 3]));
+    assert_eq!(forces.derailment_coefficients(), [0.0; 2]);
+    let standing = at_height_under_load(contact, &Motion::default(), 206e3);
     let forces = contact.forces(&standing, &LEVEL);
     assert!(
-        forces.force[0] == 0.0 && forces.force[1].abs() < 1e-6,
+        forces.force_n[0] == 0.0 && forces.force_n[1].abs() < 1e-6,
         "{forces:?}"
     );
     // Pushed at 1 mm/s while standing, friction drags against it, within its limit.
     let pushed = Motion {
-        lateral_rate: 1e-3,
+        lateral_velocity_m_per_s: 1e-3,
         ..standing
     };
-    let drag = contact.forces(&pushed, &LEVEL).force[1];
+    let drag = contact.forces(&pushed, &LEVEL).force_n[1];
     assert!(drag < 0.0 && drag > -0.4 * 206e3 * 1.001, "{drag}");
-    for strange in [
+    for not_accepted in [
         Motion {
-            yaw: f64::NAN,
+            yaw_rad: f64::NAN,
             ..standing
         },
         Motion {
-            speed: f64::INFINITY,
+            speed_m_per_s: f64::INFINITY,
             ..standing
         },
         Motion {
-            vertical: 1e300,
+            vertical_m: 1e300,
             ..standing
         },
     ] {
-        let forces = contact.forces(&strange, &LEVEL);
+        let forces = contact.forces(&not_accepted, &LEVEL);
         assert_eq!(forces.status, Status::NotFinite);
-        assert_eq!(forces.force, [0.0; 3]);
+        assert_eq!(forces.force_n, [0.0; 3]);
     }
 }
 
-fn power_is_taken<L: CreepLaw>(contact: &WheelsetContact<L>, motion: &Motion, rails: &[Rail; 2]) {
+fn power_is_taken<L: CreepLaw>(
+    contact: &WheelsetContact<L>,
+    motion: &Motion,
+    rails: &[RailDisplacement; 2],
+) {
     let forces = contact.forces(motion, rails);
     let mut friction_power = 0.0;
     let mut normal_power = 0.0;
     for (side, wheel) in forces.wheels.iter().enumerate() {
         assert!(
             wheel
-                .force
+                .force_n
                 .iter()
-                .chain(&wheel.moment)
+                .chain(&wheel.moment_n_m)
                 .all(|x| x.is_finite()),
             "{motion:?} {wheel:?}"
         );
         for patch in &wheel.patches {
             assert!(
-                patch.loss >= -1e-9 * (1.0 + patch.load),
+                patch.dissipation_w >= -1e-9 * (1.0 + patch.load_n),
                 "{motion:?} {patch:?}"
             );
             assert!(
-                patch.creep.magnitude() <= 0.4 * patch.load * (1.0 + 1e-9),
+                patch.creep.magnitude_n() <= 0.4 * patch.load_n * (1.0 + 1e-9),
                 "{patch:?}"
             );
-            friction_power += patch.loss;
-            if patch.load > 0.0 {
+            friction_power += patch.dissipation_w;
+            if patch.load_n > 0.0 {
                 // Normal force times the speed of its own point, all by hand in track axes.
                 let mirror = if side == 0 { -1.0 } else { 1.0 };
-                let normal = [0.0, -mirror * patch.angle().sin(), -patch.angle().cos()];
-                let (sr, cr) = motion.roll.sin_cos();
-                let (sy, cy) = motion.yaw.sin_cos();
+                let normal = [
+                    0.0,
+                    -mirror * patch.contact_angle_rad().sin(),
+                    -patch.contact_angle_rad().cos(),
+                ];
+                let (sr, cr) = motion.roll_rad.sin_cos();
+                let (sy, cy) = motion.yaw_rad.sin_cos();
                 let axle = [-sy, cy * cr, cy * sr];
                 let turn = [
-                    motion.roll_rate - motion.rotation * axle[0],
-                    -motion.rotation * axle[1],
-                    motion.yaw_rate - motion.rotation * axle[2],
+                    motion.roll_rate_rad_per_s - motion.rotation_rad_per_s * axle[0],
+                    -motion.rotation_rad_per_s * axle[1],
+                    motion.yaw_rate_rad_per_s - motion.rotation_rad_per_s * axle[2],
                 ];
-                let p = patch.point;
+                let p = patch.position_m;
                 let v = [
-                    motion.speed + turn[1] * p[2] - turn[2] * p[1],
-                    motion.lateral_rate + turn[2] * p[0] - turn[0] * p[2],
-                    motion.vertical_rate + turn[0] * p[1] - turn[1] * p[0],
+                    motion.speed_m_per_s + turn[1] * p[2] - turn[2] * p[1],
+                    motion.lateral_velocity_m_per_s + turn[2] * p[0] - turn[0] * p[2],
+                    motion.vertical_velocity_m_per_s + turn[0] * p[1] - turn[1] * p[0],
                 ];
-                normal_power += patch.load * (0..3).map(|k| normal[k] * v[k]).sum::<f64>();
+                normal_power += patch.load_n * (0..3).map(|k| normal[k] * v[k]).sum::<f64>();
             }
         }
     }
     // The same power from the resultants on the moving body.
-    let (sr, cr) = motion.roll.sin_cos();
-    let (sy, cy) = motion.yaw.sin_cos();
+    let (sr, cr) = motion.roll_rad.sin_cos();
+    let (sy, cy) = motion.yaw_rad.sin_cos();
     let turn = [
-        motion.roll_rate + motion.rotation * sy,
-        -motion.rotation * cy * cr,
-        motion.yaw_rate - motion.rotation * cy * sr,
+        motion.roll_rate_rad_per_s + motion.rotation_rad_per_s * sy,
+        -motion.rotation_rad_per_s * cy * cr,
+        motion.yaw_rate_rad_per_s - motion.rotation_rad_per_s * cy * sr,
     ];
-    let v = [motion.speed, motion.lateral_rate, motion.vertical_rate];
+    let v = [
+        motion.speed_m_per_s,
+        motion.lateral_velocity_m_per_s,
+        motion.vertical_velocity_m_per_s,
+    ];
     let whole: f64 = (0..3)
-        .map(|k| forces.force[k] * v[k] + forces.moment[k] * turn[k])
+        .map(|k| forces.force_n[k] * v[k] + forces.moment_n_m[k] * turn[k])
         .sum();
     let scale: f64 = (0..3)
-        .map(|k| (forces.force[k] * v[k]).abs() + (forces.moment[k] * turn[k]).abs())
+        .map(|k| (forces.force_n[k] * v[k]).abs() + (forces.moment_n_m[k] * turn[k]).abs())
         .sum();
-    if motion.speed.abs() > 5.0 && forces.status <= Status::Climbing {
+    if motion.speed_m_per_s.abs() > 5.0 && forces.status <= Status::Climbing {
         // Creepages are taken over hypot(V, 0.05 m/s): 5e-5 at 5 m/s.
         assert!(
             (whole - normal_power + friction_power).abs() < 1e-4 * scale + 1e-3,
@@ -186,19 +196,25 @@ fn motions() -> impl Strategy<Value = Motion> {
     )
         .prop_map(
             |(
-                (speed, lateral, vertical, roll, yaw),
-                (lateral_rate, vertical_rate, roll_rate, slip, yaw_rate),
+                (speed_m_per_s, lateral_m, vertical_m, roll_rad, yaw_rad),
+                (
+                    lateral_velocity_m_per_s,
+                    vertical_velocity_m_per_s,
+                    roll_rate_rad_per_s,
+                    slip,
+                    yaw_rate_rad_per_s,
+                ),
             )| Motion {
-                speed,
-                lateral,
-                vertical,
-                roll,
-                yaw,
-                lateral_rate,
-                vertical_rate,
-                roll_rate,
-                rotation: slip * speed / 0.625,
-                yaw_rate,
+                speed_m_per_s,
+                lateral_m,
+                vertical_m,
+                roll_rad,
+                yaw_rad,
+                lateral_velocity_m_per_s,
+                vertical_velocity_m_per_s,
+                roll_rate_rad_per_s,
+                rotation_rad_per_s: slip * speed_m_per_s / 0.625,
+                yaw_rate_rad_per_s,
             },
         )
 }
@@ -222,20 +238,20 @@ proptest! {
 
     #[test]
     fn the_mirror_image_has_mirrored_forces(motion in motions(), left in -5e-3..5e-3_f64, right in -5e-3..5e-3_f64, down in -1e-3..1e-3_f64) {
-        let rail = |lateral: f64, vertical: f64| Rail { lateral, vertical, lateral_rate: 10.0 * lateral, vertical_rate: vertical };
+        let rail = |lateral: f64, vertical: f64| RailDisplacement { lateral_m: lateral, vertical_m: vertical, lateral_velocity_m_per_s: 10.0 * lateral, vertical_velocity_m_per_s: vertical };
         let rails = [rail(left, down), rail(right, 0.0)];
         let image = Motion {
-            lateral: -motion.lateral, roll: -motion.roll, yaw: -motion.yaw,
-            lateral_rate: -motion.lateral_rate, roll_rate: -motion.roll_rate, yaw_rate: -motion.yaw_rate,
+            lateral_m: -motion.lateral_m, roll_rad: -motion.roll_rad, yaw_rad: -motion.yaw_rad,
+            lateral_velocity_m_per_s: -motion.lateral_velocity_m_per_s, roll_rate_rad_per_s: -motion.roll_rate_rad_per_s, yaw_rate_rad_per_s: -motion.yaw_rate_rad_per_s,
             ..motion
         };
         let image_rails = [rail(-right, 0.0), rail(-left, down)];
         let (here, there) = (polach().forces(&motion, &rails), polach().forces(&image, &image_rails));
-        let scale = 1e-9 * (1.0 + here.force.iter().chain(&here.moment).map(|x| x.abs()).sum::<f64>());
+        let scale = 1e-9 * (1.0 + here.force_n.iter().chain(&here.moment_n_m).map(|x| x.abs()).sum::<f64>());
         for k in 0..3 {
             let force_sign = if k == 1 { -1.0 } else { 1.0 };
-            prop_assert!((here.force[k] - force_sign * there.force[k]).abs() <= scale);
-            prop_assert!((here.moment[k] + force_sign * there.moment[k]).abs() <= scale);
+            prop_assert!((here.force_n[k] - force_sign * there.force_n[k]).abs() <= scale);
+            prop_assert!((here.moment_n_m[k] + force_sign * there.moment_n_m[k]).abs() <= scale);
         }
         prop_assert_eq!(here.wheels[0].status, there.wheels[1].status);
     }
@@ -244,14 +260,14 @@ proptest! {
     fn no_number_makes_it_panic(numbers in prop::collection::vec(anything(), 14)) {
         let n = &numbers;
         let motion = Motion {
-            speed: n[0], lateral: n[1], vertical: n[2], roll: n[3], yaw: n[4],
-            lateral_rate: n[5], vertical_rate: n[6], roll_rate: n[7], rotation: n[8], yaw_rate: n[9],
+            speed_m_per_s: n[0], lateral_m: n[1], vertical_m: n[2], roll_rad: n[3], yaw_rad: n[4],
+            lateral_velocity_m_per_s: n[5], vertical_velocity_m_per_s: n[6], roll_rate_rad_per_s: n[7], rotation_rad_per_s: n[8], yaw_rate_rad_per_s: n[9],
         };
-        let rail = Rail { lateral: n[10], vertical: n[11], lateral_rate: n[12], vertical_rate: n[13] };
-        let forces = polach().forces(&motion, &[rail, Rail::default()]);
-        prop_assert!(forces.force.iter().chain(&forces.moment).all(|x| x.is_finite()), "{:?}", forces);
+        let rail = RailDisplacement { lateral_m: n[10], vertical_m: n[11], lateral_velocity_m_per_s: n[12], vertical_velocity_m_per_s: n[13] };
+        let forces = polach().forces(&motion, &[rail, RailDisplacement::default()]);
+        prop_assert!(forces.force_n.iter().chain(&forces.moment_n_m).all(|x| x.is_finite()), "{:?}", forces);
         for patch in forces.wheels.iter().flat_map(|wheel| wheel.patches) {
-            prop_assert!(patch.loss.is_finite() && patch.load.is_finite(), "{:?}", patch);
+            prop_assert!(patch.dissipation_w.is_finite() && patch.load_n.is_finite(), "{:?}", patch);
         }
     }
 }

@@ -1,22 +1,17 @@
 //! Forces on a wheelset: statics, steering, small creepages, continuity, direction, law against law.
 
-use crate::common::{LEVEL, polach, rolling, settle, tables};
-use dashpot_rail::contact::forces::{Status, WheelsetForces};
-use dashpot_rail::contact::hertz::{Hertz, Steel};
-use dashpot_rail::contact::motion::Motion;
-use dashpot_rail::contact::wheelset::WheelsetContact;
-use dashpot_rail::creep::fastsim::Fastsim;
-use dashpot_rail::creep::friction::Friction;
-use dashpot_rail::creep::shen_hedrick_elkins::ShenHedrickElkins;
+use crate::common::{LEVEL, at_height_under_load, polach, rolling, tables};
+use dashpot_rail::contact::{Hertz, Motion, Status, Steel, WheelsetContact, WheelsetForces};
+use dashpot_rail::creep::{Fastsim, Friction, KalkerTable, ShenHedrickElkins};
 
 #[test]
 fn a_centred_wheelset_stands_level_on_hertz_s_penetration() {
     let load = 206e3;
-    let motion = settle(polach(), &rolling(20.0), load);
+    let motion = at_height_under_load(polach(), &rolling(20.0), load);
     let forces = polach().forces(&motion, &LEVEL);
     assert_eq!(forces.status, Status::Rolling);
-    assert!((forces.force[2] + load).abs() < 1.0);
-    assert!(forces.force[1].abs() < 1e-6 * load, "{forces:?}");
+    assert!((forces.force_n[2] + load).abs() < 1.0);
+    assert!(forces.force_n[1].abs() < 1e-6 * load, "{forces:?}");
     let patch = &forces.wheels[1].patches[0];
     // The contact angle is 1.9 degrees there; the curvatures are the tread's own, 0.94 per m across.
     let steel = Steel::default();
@@ -24,13 +19,17 @@ fn a_centred_wheelset_stands_level_on_hertz_s_penetration() {
         .pair()
         .patches(&Default::default(), 1e-5, &mut Vec::new())
         .tread
-        .curvature;
-    let hertz = Hertz::new(&steel, patch.angle().cos() / patch.radius, across);
+        .curvature_per_m;
+    let hertz = Hertz::new(
+        &steel,
+        patch.contact_angle_rad().cos() / patch.rolling_radius_m,
+        across,
+    );
     assert!(
-        (hertz.load(patch.penetration) / patch.load - 1.0).abs() < 1e-5,
+        (hertz.load_n(patch.penetration_m) / patch.load_n - 1.0).abs() < 1e-5,
         "{patch:?}"
     );
-    let vertical = patch.load * patch.angle().cos();
+    let vertical = patch.load_n * patch.contact_angle_rad().cos();
     assert!((vertical - load / 2.0).abs() < 0.02 * load, "{vertical}");
 }
 
@@ -39,27 +38,27 @@ fn a_shifted_wheelset_is_steered_back_and_yaw_meets_friction() {
     // Rolling freely at V / r, a shift right makes the right wheel the larger: its surface runs
     // backwards over the rail, pushing forward, the left one back; the moment turns the nose left.
     let contact = polach();
-    let motion = settle(
+    let motion = at_height_under_load(
         contact,
         &Motion {
-            lateral: 3e-3,
+            lateral_m: 3e-3,
             ..rolling(20.0)
         },
         206e3,
     );
     let forces = contact.forces(&motion, &LEVEL);
-    assert!(forces.moment[2] < 0.0, "{forces:?}");
+    assert!(forces.moment_n_m[2] < 0.0, "{forces:?}");
     // Yawed right and carried straight on, both wheels slide left over the rails and are pushed right.
-    let motion = settle(
+    let motion = at_height_under_load(
         contact,
         &Motion {
-            yaw: 5e-3,
+            yaw_rad: 5e-3,
             ..rolling(20.0)
         },
         206e3,
     );
     let forces = contact.forces(&motion, &LEVEL);
-    assert!(forces.force[1] > 0.3 * 0.4 * 206e3, "{forces:?}");
+    assert!(forces.force_n[1] > 0.3 * 0.4 * 206e3, "{forces:?}");
     // At 5 mrad the lateral creepage is 5e-3: nearly all of friction.
     for wheel in &forces.wheels {
         assert!(
@@ -73,40 +72,42 @@ fn a_shifted_wheelset_is_steered_back_and_yaw_meets_friction() {
 fn small_creepages_give_kalker_s_forces_on_the_whole_wheelset() {
     // Both wheels turned 0.002 % too fast: twice G a b C11 xi, by hand from the patch's own ellipse.
     let contact = polach();
-    let slow = settle(contact, &rolling(20.0), 206e3);
-    let radius = contact.forces(&slow, &LEVEL).wheels[1].patches[0].radius;
-    let at = |share: f64| {
+    let slow = at_height_under_load(contact, &rolling(20.0), 206e3);
+    let radius = contact.forces(&slow, &LEVEL).wheels[1].patches[0].rolling_radius_m;
+    let at = |ratio: f64| {
         let motion = Motion {
-            rotation: 20.0 / radius * share,
+            rotation_rad_per_s: 20.0 / radius * ratio,
             ..slow
         };
         contact.forces(&motion, &LEVEL)
     };
     let (less, more) = (at(1.0 - 1e-6), at(1.0 + 1e-6));
     let patch = &less.wheels[1].patches[0];
-    let k = dashpot_rail::creep::kalker::KalkerTable::new(0.3)
-        .at(patch.semi_axes[0] / patch.semi_axes[1]);
-    let expected = 2.0 * 80.769_230_769e9 * patch.semi_axes[0] * patch.semi_axes[1] * k.c11 * 2e-6;
-    let pull = more.force[0] - less.force[0];
+    let k = KalkerTable::new(0.3)
+        .unwrap()
+        .at(patch.semi_axes_m[0] / patch.semi_axes_m[1]);
+    let expected =
+        2.0 * 80.769_230_769e9 * patch.semi_axes_m[0] * patch.semi_axes_m[1] * k.c11 * 2e-6;
+    let pull = more.force_n[0] - less.force_n[0];
     // Spin takes part of the adhesion of Polach's law even here.
     assert!((pull / expected - 1.0).abs() < 0.25, "{pull} {expected}");
     let she = WheelsetContact::new(
         tables().clone(),
         ShenHedrickElkins,
         Friction {
-            at_rest: 1e3,
+            static_coefficient: 1e3,
             ..Friction::default()
         },
     );
-    let of_she = |share: f64| {
+    let of_she = |ratio: f64| {
         she.forces(
             &Motion {
-                rotation: 20.0 / radius * share,
+                rotation_rad_per_s: 20.0 / radius * ratio,
                 ..slow
             },
             &LEVEL,
         )
-        .force[0]
+        .force_n[0]
     };
     let pull = of_she(1.0 + 1e-6) - of_she(1.0 - 1e-6);
     assert!((pull / expected - 1.0).abs() < 1e-3, "{pull} {expected}");
@@ -122,23 +123,23 @@ fn two_point_contact_is_continuous() {
     for i in 0..9000 {
         let lateral = -1e-3 + f64::from(i) * step;
         let motion = Motion {
-            lateral,
-            vertical: -0.3e-3,
-            yaw: 4e-3,
+            lateral_m: lateral,
+            vertical_m: -0.3e-3,
+            yaw_rad: 4e-3,
             ..rolling(20.0)
         };
         let forces = contact.forces(&motion, &LEVEL);
         let right = &forces.wheels[1];
-        if right.patches.iter().all(|patch| patch.load > 1e3) {
+        if right.patches.iter().all(|patch| patch.load_n > 1e3) {
             both += 1;
         }
         if let Some(last) = last {
             let jump = (0..3)
-                .map(|k| (right.force[k] - last.wheels[1].force[k]).powi(2))
+                .map(|k| (right.force_n[k] - last.wheels[1].force_n[k]).powi(2))
                 .sum::<f64>()
                 .sqrt();
             // The stiffest contact, a flange face at 1.4e9 N/m, moves 1.4 kN per um.
-            let load = right.patches.iter().map(|patch| patch.load).sum::<f64>();
+            let load = right.patches.iter().map(|patch| patch.load_n).sum::<f64>();
             worst = worst.max(jump / (load + 20e3));
         }
         last = Some(forces);
@@ -159,24 +160,24 @@ fn reverse_running_is_forward_running_seen_from_the_other_end() {
     // Half a turn about the vertical axis: x and y change sign, and left with right.
     let contact = polach();
     let motion = Motion {
-        speed: 15.0,
-        lateral: 2e-3,
-        vertical: -0.05e-3,
-        roll: 0.3e-3,
-        yaw: 3e-3,
-        lateral_rate: 0.02,
-        vertical_rate: 0.001,
-        roll_rate: 0.01,
-        rotation: 15.01 / 0.625,
-        yaw_rate: 0.05,
+        speed_m_per_s: 15.0,
+        lateral_m: 2e-3,
+        vertical_m: -0.05e-3,
+        roll_rad: 0.3e-3,
+        yaw_rad: 3e-3,
+        lateral_velocity_m_per_s: 0.02,
+        vertical_velocity_m_per_s: 0.001,
+        roll_rate_rad_per_s: 0.01,
+        rotation_rad_per_s: 15.01 / 0.625,
+        yaw_rate_rad_per_s: 0.05,
     };
     let turned = Motion {
-        speed: -15.0,
-        lateral: -2e-3,
-        roll: -0.3e-3,
-        lateral_rate: -0.02,
-        roll_rate: -0.01,
-        rotation: -motion.rotation,
+        speed_m_per_s: -15.0,
+        lateral_m: -2e-3,
+        roll_rad: -0.3e-3,
+        lateral_velocity_m_per_s: -0.02,
+        roll_rate_rad_per_s: -0.01,
+        rotation_rad_per_s: -motion.rotation_rad_per_s,
         ..motion
     };
     let (there, back) = (
@@ -186,11 +187,11 @@ fn reverse_running_is_forward_running_seen_from_the_other_end() {
     for k in 0..3 {
         let sign = if k < 2 { -1.0 } else { 1.0 };
         assert!(
-            (there.force[k] - sign * back.force[k]).abs() < 1e-6 * 200e3,
+            (there.force_n[k] - sign * back.force_n[k]).abs() < 1e-6 * 200e3,
             "{there:?} {back:?}"
         );
         assert!(
-            (there.moment[k] - sign * back.moment[k]).abs() < 1e-6 * 200e3,
+            (there.moment_n_m[k] - sign * back.moment_n_m[k]).abs() < 1e-6 * 200e3,
             "{there:?} {back:?}"
         );
     }
@@ -199,9 +200,9 @@ fn reverse_running_is_forward_running_seen_from_the_other_end() {
 #[test]
 fn the_step_gives_the_same_bits_again() {
     let motion = Motion {
-        lateral: 6.6e-3,
-        vertical: -0.2e-3,
-        yaw: 8e-3,
+        lateral_m: 6.6e-3,
+        vertical_m: -0.2e-3,
+        yaw_rad: 8e-3,
         ..rolling(27.0)
     };
     assert_eq!(
@@ -211,22 +212,22 @@ fn the_step_gives_the_same_bits_again() {
 }
 
 /// Distance of Polach's and of Shen, Hedrick and Elkins' wheelset force from FASTSIM's, over friction.
-fn from_fastsim(lateral: f64, yaw: f64) -> [f64; 2] {
+fn from_fastsim(lateral_m: f64, yaw_rad: f64) -> [f64; 2] {
     let fastsim = WheelsetContact::new(tables().clone(), Fastsim::default(), Friction::default());
     let she = WheelsetContact::new(tables().clone(), ShenHedrickElkins, Friction::default());
-    let motion = settle(
+    let motion = at_height_under_load(
         polach(),
         &Motion {
-            lateral,
-            yaw,
+            lateral_m,
+            yaw_rad,
             ..rolling(20.0)
         },
         206e3,
     );
-    let exact = fastsim.forces(&motion, &LEVEL).force;
+    let exact = fastsim.forces(&motion, &LEVEL).force_n;
     [
-        polach().forces(&motion, &LEVEL).force,
-        she.forces(&motion, &LEVEL).force,
+        polach().forces(&motion, &LEVEL).force_n,
+        she.forces(&motion, &LEVEL).force_n,
     ]
     .map(|forces| {
         let off = (0..3)
@@ -238,7 +239,7 @@ fn from_fastsim(lateral: f64, yaw: f64) -> [f64; 2] {
 }
 
 #[test]
-fn fastsim_and_the_cheap_laws_agree_on_the_treads_and_part_on_the_flange() {
+fn fastsim_and_the_closed_form_laws_agree_on_the_treads_and_differ_on_the_flange() {
     let tread = from_fastsim(3e-3, 2e-3);
     let flange = from_fastsim(6.4e-3, 6e-3);
     println!("tread {tread:.3?}, flange {flange:.3?} of friction");

@@ -10,9 +10,8 @@ use crate::error::{Failure, Outcome};
 use crate::files::input;
 use crate::files::output::write_folder;
 use crate::files::profile;
-use dashpot_rail::contact::geometry::RigidContact;
-use dashpot_rail::contact::pair::{Installation, Pair};
-use dashpot_rail::indices::conicity::RollingRadius;
+use dashpot_rail::contact::{Installation, Pair, RigidContact};
+use dashpot_rail::indices::RollingRadiusDifference;
 use dashpot_rail::profile::measured;
 use dashpot_rail::profile::{Body, Profile};
 use dashpot_rail::profile::{s1002, uic60};
@@ -36,25 +35,25 @@ pub struct ContactArguments {
     #[arg(long, default_value = "uic60", value_name = "NAME|FILE")]
     pub rail: String,
     /// Track gauge, m.
-    #[arg(long, default_value_t = Installation::default().gauge)]
+    #[arg(long, default_value_t = Installation::default().gauge_m)]
     pub gauge_m: f64,
     /// Depth below the rails' top at which the gauge is measured, m.
-    #[arg(long, default_value_t = Installation::default().gauge_depth)]
+    #[arg(long, default_value_t = Installation::default().gauge_depth_m)]
     pub gauge_depth_m: f64,
     /// Distance of the flange backs, m.
-    #[arg(long, default_value_t = Installation::default().back_to_back)]
+    #[arg(long, default_value_t = Installation::default().back_to_back_m)]
     pub back_to_back_m: f64,
     /// Distance from the flange back to the tread datum, m.
-    #[arg(long, default_value_t = Installation::default().back_to_datum)]
+    #[arg(long, default_value_t = Installation::default().back_to_datum_m)]
     pub back_to_datum_m: f64,
     /// Wheel radius at the tread datum, m.
-    #[arg(long, default_value_t = Installation::default().wheel_radius)]
+    #[arg(long, default_value_t = Installation::default().wheel_radius_m)]
     pub wheel_radius_m: f64,
     /// Rail inclination: 0.025 is 1:40.
     #[arg(long, default_value_t = Installation::default().inclination)]
     pub inclination: f64,
     /// Wavelength halved by the smoothing of profiles from files, m; 0 goes through every point.
-    #[arg(long, default_value_t = measured::DEFAULT_SMOOTHING)]
+    #[arg(long, default_value_t = measured::DEFAULT_SMOOTHING_M)]
     pub smoothing_m: f64,
     /// Folder the plots are written to.
     #[arg(long, default_value = "contact-plots", value_name = "FOLDER")]
@@ -69,13 +68,13 @@ pub struct ContactArguments {
 
 /// Greatest lateral shift evaluated, m.
 const REACH: f64 = 0.012;
-/// Cells of the rolling radius difference over both sides, each 25 um: jumps are placed within it.
+/// Cells of the rolling radius difference from left to right: 25 um each, which locates its jumps as well.
 const CELLS: usize = 960;
 
-/// Prints the geometry of the pair asked for and draws it.
+/// Prints and draws the contact geometry of the given profiles.
 ///
 /// # Errors
-/// A profile or a distance is refused, or a plot cannot be written.
+/// A profile or a distance is not valid, or a plot cannot be written.
 pub fn run(arguments: &ContactArguments) -> Outcome<()> {
     let smoothing = arguments.smoothing_m;
     if !(0.0..=0.05).contains(&smoothing) {
@@ -102,26 +101,27 @@ pub fn run(arguments: &ContactArguments) -> Outcome<()> {
         smoothing,
     )?;
     let installation = Installation {
-        wheel_radius: arguments.wheel_radius_m,
-        back_to_back: arguments.back_to_back_m,
-        back_to_datum: arguments.back_to_datum_m,
-        gauge: arguments.gauge_m,
-        gauge_depth: arguments.gauge_depth_m,
+        wheel_radius_m: arguments.wheel_radius_m,
+        back_to_back_m: arguments.back_to_back_m,
+        back_to_datum_m: arguments.back_to_datum_m,
+        gauge_m: arguments.gauge_m,
+        gauge_depth_m: arguments.gauge_depth_m,
         inclination: arguments.inclination,
     };
     let pair = Pair::new(wheel, &rail, installation)?;
-    let mut room = Vec::new();
+    let mut scratch = Vec::new();
     let contacts: Vec<RigidContact> = (0..=CELLS)
         .map(|i| REACH * (2.0 * i as f64 / CELLS as f64 - 1.0))
-        .map(|shift| pair.rigid(shift, 0.0, &mut room))
+        .map(|shift| pair.rigid_contact(shift, 0.0, &mut scratch))
         .collect();
-    let rolling = RollingRadius::new(
-        contacts.iter().map(|c| c.lateral).collect(),
+    let rolling = RollingRadiusDifference::new(
+        contacts.iter().map(|c| c.lateral_m).collect(),
         contacts
             .iter()
-            .map(RigidContact::rolling_radius_difference)
+            .map(RigidContact::rolling_radius_difference_m)
             .collect(),
-    );
+    )
+    .map_err(|error| Failure::new(error.to_string()))?;
     let plots = if arguments.no_plots {
         Vec::new()
     } else {
@@ -151,19 +151,19 @@ fn profile(
     )))
 }
 
-/// Writes the plots into `folder` and tells their paths.
+/// Writes the plots into `folder` and returns their paths.
 fn draw(
     folder: &Path,
     pair: &Pair,
     contacts: &[RigidContact],
-    rolling: &RollingRadius,
+    rolling: &RollingRadiusDifference,
 ) -> Outcome<Vec<String>> {
     // A line each half millimetre up to 8 mm, where the flange face is reached.
     let lines: Vec<RigidContact> = contacts
         .iter()
         .copied()
         .step_by(20)
-        .filter(|c| c.lateral.abs() < 8.1e-3)
+        .filter(|c| c.lateral_m.abs() < 8.1e-3)
         .collect();
     write_folder(
         folder,

@@ -7,37 +7,42 @@ use crate::error::Outcome;
 use crate::report::plot::style::{
     BLUE_LINE, FINE, INK, LINE, RED_LINE, axes, draw, extent, failed, letters,
 };
-use dashpot_rail::contact::geometry::RigidContact;
-use dashpot_rail::contact::pair::Pair;
-use dashpot_rail::indices::conicity::RollingRadius;
+use dashpot_rail::contact::{Pair, RigidContact};
+use dashpot_rail::indices::RollingRadiusDifference;
 
 /// Wheel over rail with lines between the points that touch at each lateral shift in `contacts`.
 ///
 /// # Errors
 /// The drawing fails.
 pub fn contact_points(pair: &Pair, contacts: &[RigidContact]) -> Outcome<String> {
-    /// The wheel is drawn lifted by this, mm, to leave room for the lines.
+    /// The wheel is drawn lifted by this, mm, to leave space for the lines.
     const LIFT: f64 = 30.0;
-    /// What margins, labels and the title take of the sheet, pixels.
-    const AROUND: [f64; 2] = [88.0, 90.0];
-    let datum = pair.installation.datum() * 1e3;
+    /// Width and height of margins, labels and title, pixels.
+    const MARGINS: [f64; 2] = [88.0, 90.0];
+    let datum = pair.installation().datum_offset_m() * 1e3;
     let wheel = || {
-        pair.wheel
-            .points
+        pair.wheel()
+            .points()
             .iter()
-            .map(move |p| (p.y * 1e3 + datum, LIFT - p.z * 1e3))
+            .map(move |p| (p.y_m * 1e3 + datum, LIFT - p.z_m * 1e3))
     };
-    let rail = || pair.rail.points.iter().map(|p| (p.y * 1e3, -p.z * 1e3));
+    let rail = || {
+        pair.rail()
+            .points()
+            .iter()
+            .map(|p| (p.y_m * 1e3, -p.z_m * 1e3))
+    };
     let x = extent(wheel().chain(rail()).map(|p| p.0));
     let y = extent(wheel().chain(rail()).map(|p| p.1));
-    // One millimetre is as long upward as across.
+    // Both axes have the same scale.
     let width = 1000;
-    let scale = (f64::from(width) - AROUND[0]) / (x.end - x.start);
-    let height = (scale * (y.end - y.start) + AROUND[1]).round() as u32;
+    let scale = (f64::from(width) - MARGINS[0]) / (x.end - x.start);
+    let height = (scale * (y.end - y.start) + MARGINS[1]).round() as u32;
     draw(width, height, |area| {
         let title = format!(
             "Contact points, right side: {} on {}",
-            pair.wheel.name, pair.rail.name
+            pair.wheel().name(),
+            pair.rail().name()
         );
         let mut chart = axes!(
             area,
@@ -50,21 +55,23 @@ pub fn contact_points(pair: &Pair, contacts: &[RigidContact]) -> Outcome<String>
         );
         let greatest = contacts
             .iter()
-            .fold(1e-9, |most: f64, c| most.max(c.lateral.abs()));
+            .fold(1e-9, |most: f64, c| most.max(c.lateral_m.abs()));
         for contact in contacts {
             let side = &contact.sides[1];
-            let share = contact.lateral / greatest;
-            let colour = if share < -1e-9 {
+            let relative_shift = contact.lateral_m / greatest;
+            let colour = if relative_shift < -1e-9 {
                 BLUE_LINE
-            } else if share > 1e-9 {
+            } else if relative_shift > 1e-9 {
                 RED_LINE
             } else {
                 INK
             };
-            let style = colour.mix(0.45 + 0.55 * share.abs()).stroke_width(FINE);
-            let top = (side.s * 1e3 + datum, LIFT - side.z * 1e3);
-            let rail_depth = pair.rail.at(side.y).z;
-            let bottom = (side.y * 1e3, -rail_depth * 1e3);
+            let style = colour
+                .mix(0.45 + 0.55 * relative_shift.abs())
+                .stroke_width(FINE);
+            let top = (side.wheel_y_m * 1e3 + datum, LIFT - side.wheel_z_m * 1e3);
+            let rail_depth = pair.rail().at(side.track_y_m).z_m;
+            let bottom = (side.track_y_m * 1e3, -rail_depth * 1e3);
             chart
                 .draw_series(LineSeries::new([top, bottom], style))
                 .map_err(failed)?;
@@ -79,16 +86,16 @@ pub fn contact_points(pair: &Pair, contacts: &[RigidContact]) -> Outcome<String>
         chart
             .draw_series(LineSeries::new(rail(), outline))
             .map_err(failed)?;
-        let mut told = (f64::MAX, f64::MAX);
+        let mut last_label = (f64::MAX, f64::MAX);
         for contact in contacts {
-            let shift = contact.lateral * 1e3;
+            let shift = contact.lateral_m * 1e3;
             let side = &contact.sides[1];
-            let at = (side.s * 1e3 + datum, LIFT - side.z * 1e3);
+            let at = (side.wheel_y_m * 1e3 + datum, LIFT - side.wheel_z_m * 1e3);
             let whole = (shift - shift.round()).abs() < 1e-6;
-            if !whole || (at.0 - told.0).hypot(at.1 - told.1) < 2.4 {
+            if !whole || (at.0 - last_label.0).hypot(at.1 - last_label.1) < 2.4 {
                 continue;
             }
-            told = at;
+            last_label = at;
             // Beside the wheel's surface, along its normal.
             let (across, up) = (side.slope.atan().sin(), side.slope.atan().cos());
             let away = 15.0 * f64::from(FINE);
@@ -105,7 +112,7 @@ pub fn contact_points(pair: &Pair, contacts: &[RigidContact]) -> Outcome<String>
                 ))
                 .map_err(failed)?;
         }
-        // In the free space of the rail's head, whatever the profile.
+        // Inside the rail's head, where every profile leaves space.
         let middle = 0.5
             * (rail().map(|p| p.0).fold(f64::MAX, f64::min)
                 + rail().map(|p| p.0).fold(f64::MIN, f64::max));
@@ -137,13 +144,14 @@ pub fn contact_points(pair: &Pair, contacts: &[RigidContact]) -> Outcome<String>
 pub fn rolling_radius(pair: &Pair, contacts: &[RigidContact]) -> Outcome<String> {
     let title = format!(
         "Rolling radius difference, right less left: {} on {}",
-        pair.wheel.name, pair.rail.name
+        pair.wheel().name(),
+        pair.rail().name()
     );
     draw(1000, 760, |area| {
         let (upper, lower) = area.split_vertically(380 * FINE);
-        let shift = |c: &RigidContact| c.lateral * 1e3;
+        let shift = |c: &RigidContact| c.lateral_m * 1e3;
         let x = extent(contacts.iter().map(shift));
-        let difference = |c: &RigidContact| c.rolling_radius_difference() * 1e3;
+        let difference = |c: &RigidContact| c.rolling_radius_difference_m() * 1e3;
         let mut chart = axes!(
             &upper,
             title,
@@ -198,21 +206,27 @@ pub fn rolling_radius(pair: &Pair, contacts: &[RigidContact]) -> Outcome<String>
     })
 }
 
-/// Equivalent conicity over the amplitude, with the value at 3 mm told.
+/// Equivalent conicity over the amplitude, with the value at 3 mm as text.
 ///
 /// # Errors
 /// The drawing fails.
-pub fn conicity(pair: &Pair, rolling: &RollingRadius, reach: f64) -> Outcome<String> {
-    let radius = pair.installation.wheel_radius;
+pub fn conicity(pair: &Pair, rolling: &RollingRadiusDifference, reach: f64) -> Outcome<String> {
+    let radius = pair.installation().wheel_radius_m;
     let title = format!(
         "Equivalent conicity (EN 15302): {} on {}",
-        pair.wheel.name, pair.rail.name
+        pair.wheel().name(),
+        pair.rail().name()
     );
     draw(1000, 620, |area| {
         let points: Vec<(f64, f64)> = (1..=400)
             .map(|i| reach * f64::from(i) / 400.0)
             .filter(|amplitude| *amplitude >= 0.5e-3)
-            .filter_map(|amplitude| Some((amplitude * 1e3, rolling.conicity(amplitude, radius)?)))
+            .filter_map(|amplitude| {
+                Some((
+                    amplitude * 1e3,
+                    rolling.equivalent_conicity(amplitude, radius)?,
+                ))
+            })
             .collect();
         let highest = points.iter().fold(0.05, |most: f64, p| most.max(p.1));
         let mut chart = axes!(
@@ -227,7 +241,7 @@ pub fn conicity(pair: &Pair, rolling: &RollingRadius, reach: f64) -> Outcome<Str
         chart
             .draw_series(LineSeries::new(points, BLUE_LINE.stroke_width(LINE)))
             .map_err(failed)?;
-        if let Some(value) = rolling.conicity(3e-3, radius) {
+        if let Some(value) = rolling.equivalent_conicity(3e-3, radius) {
             let fine = FINE as i32;
             let style = letters(16, &RED_LINE);
             chart

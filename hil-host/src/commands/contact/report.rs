@@ -1,12 +1,11 @@
-//! What `dashpot contact` tells of a pair: conicity and the rigid wheelset over its shift.
+//! The report of `dashpot contact`: equivalent conicity, and the rigid wheelset over its lateral shift.
 
 use std::io::{self, Write};
 
 use serde::Serialize;
 
-use dashpot_rail::contact::geometry::RigidContact;
-use dashpot_rail::contact::pair::Pair;
-use dashpot_rail::indices::conicity::RollingRadius;
+use dashpot_rail::contact::{Pair, RigidContact};
+use dashpot_rail::indices::RollingRadiusDifference;
 
 #[derive(Serialize)]
 struct Conicity {
@@ -39,21 +38,21 @@ pub(super) struct Report {
     plots: Vec<String>,
 }
 
-/// What the pair does: `contacts` at lateral shifts from side to side, and the files drawn.
+/// The report on `pair`: `contacts` at lateral shifts from left to right, and the files of the plots.
 pub(super) fn report(
     pair: &Pair,
     contacts: &[RigidContact],
-    rolling: &RollingRadius,
+    rolling: &RollingRadiusDifference,
     plots: Vec<String>,
 ) -> Report {
-    let installation = &pair.installation;
-    let conicity = |amplitude| rolling.conicity(amplitude, installation.wheel_radius);
+    let installation = pair.installation();
+    let conicity = |amplitude| rolling.equivalent_conicity(amplitude, installation.wheel_radius_m);
     Report {
-        wheel: pair.wheel.name.clone(),
-        rail: pair.rail.name.clone(),
-        gauge_m: installation.gauge,
-        back_to_back_m: installation.back_to_back,
-        wheel_radius_m: installation.wheel_radius,
+        wheel: pair.wheel().name().to_owned(),
+        rail: pair.rail().name().to_owned(),
+        gauge_m: installation.gauge_m,
+        back_to_back_m: installation.back_to_back_m,
+        wheel_radius_m: installation.wheel_radius_m,
         rail_inclination: installation.inclination,
         conicity_at_3mm: conicity(3e-3),
         conicity: (1..=16)
@@ -67,13 +66,13 @@ pub(super) fn report(
             .iter()
             .step_by(40)
             .map(|c| Shift {
-                lateral_shift_m: c.lateral,
-                rolling_radius_difference_m: c.rolling_radius_difference(),
-                roll_rad: c.roll,
+                lateral_shift_m: c.lateral_m,
+                rolling_radius_difference_m: c.rolling_radius_difference_m(),
+                roll_rad: c.roll_rad,
                 contact_angle_left_rad: -c.sides[0].slope.atan(),
                 contact_angle_right_rad: -c.sides[1].slope.atan(),
-                wheel_place_left_m: c.sides[0].s,
-                wheel_place_right_m: c.sides[1].s,
+                wheel_place_left_m: c.sides[0].wheel_y_m,
+                wheel_place_right_m: c.sides[1].wheel_y_m,
             })
             .collect(),
         plots,

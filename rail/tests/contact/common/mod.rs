@@ -1,25 +1,29 @@
-//! The default pair's tables and wheelsets that stand and roll on them.
-
-// Each test binary uses its own share of these.
-#![allow(dead_code)]
+//! Tables of the default pair, wheelsets that stand and roll on them, and the list of creep laws.
 
 use std::sync::OnceLock;
 
-use dashpot_rail::contact::hertz::Steel;
-use dashpot_rail::contact::motion::{Motion, Rail};
-use dashpot_rail::contact::pair::{Installation, Pair};
-use dashpot_rail::contact::table::{Grid, Tables};
-use dashpot_rail::contact::wheelset::WheelsetContact;
-use dashpot_rail::creep::creepage::CreepLaw;
-use dashpot_rail::creep::friction::Friction;
-use dashpot_rail::creep::polach::Polach;
+use dashpot_rail::contact::{
+    Grid, Installation, Motion, Pair, RailDisplacement, Steel, Tables, WheelsetContact,
+};
+use dashpot_rail::creep::{
+    CreepLaw, Fastsim, Friction, KalkerTable, LoadedContact, Polach, ShenHedrickElkins,
+};
 
 pub fn tables() -> &'static Tables {
     static TABLES: OnceLock<Tables> = OnceLock::new();
     TABLES.get_or_init(|| {
         let pair = Pair::standard(Installation::default()).unwrap();
-        Tables::new(pair, Steel::default(), Grid::default())
+        Tables::new(pair, Steel::default(), Grid::default()).unwrap()
     })
+}
+
+/// Every creep law, by the name it has in docs/contact.md.
+pub fn laws() -> [(&'static str, Box<dyn CreepLaw>); 3] {
+    [
+        ("FASTSIM 80 x 81", Box::new(Fastsim::default())),
+        ("Polach", Box::new(Polach)),
+        ("Shen-Hedrick-Elkins", Box::new(ShenHedrickElkins)),
+    ]
 }
 
 pub fn polach() -> &'static WheelsetContact<Polach> {
@@ -27,38 +31,55 @@ pub fn polach() -> &'static WheelsetContact<Polach> {
     CONTACT.get_or_init(|| WheelsetContact::new(tables().clone(), Polach, Friction::default()))
 }
 
-pub const LEVEL: [Rail; 2] = [Rail {
-    lateral: 0.0,
-    vertical: 0.0,
-    lateral_rate: 0.0,
-    vertical_rate: 0.0,
+/// Both rails in their nominal position.
+pub const LEVEL: [RailDisplacement; 2] = [RailDisplacement {
+    lateral_m: 0.0,
+    vertical_m: 0.0,
+    lateral_velocity_m_per_s: 0.0,
+    vertical_velocity_m_per_s: 0.0,
 }; 2];
 
-/// Depth of the centre at which the rails carry `load`, by bisection.
-pub fn settle<L: CreepLaw>(contact: &WheelsetContact<L>, motion: &Motion, load: f64) -> Motion {
+/// `motion` at the height at which the rails carry `load_n`, by bisection.
+pub fn at_height_under_load<L: CreepLaw>(
+    contact: &WheelsetContact<L>,
+    motion: &Motion,
+    load_n: f64,
+) -> Motion {
     let (mut low, mut high) = (-40e-3, 1e-3);
     for _ in 0..60 {
         let middle = 0.5 * (low + high);
         let motion = Motion {
-            vertical: middle,
+            vertical_m: middle,
             ..*motion
         };
-        if -contact.forces(&motion, &LEVEL).force[2] < load {
+        if -contact.forces(&motion, &LEVEL).force_n[2] < load_n {
             low = middle;
         } else {
             high = middle;
         }
     }
     Motion {
-        vertical: high,
+        vertical_m: high,
         ..*motion
     }
 }
 
-pub fn rolling(speed: f64) -> Motion {
+pub fn rolling(speed_m_per_s: f64) -> Motion {
     Motion {
-        speed,
-        rotation: speed / 0.625,
+        speed_m_per_s,
+        rotation_rad_per_s: speed_m_per_s / 0.625,
         ..Motion::default()
+    }
+}
+
+/// A contact of steel with G 82 GPa and Poisson's ratio 0.28.
+pub fn contact(load_n: f64, a: f64, b: f64, friction: f64) -> LoadedContact {
+    LoadedContact {
+        load_n,
+        a_m: a,
+        b_m: b,
+        shear_modulus_pa: 82e9,
+        kalker: KalkerTable::new(0.28).unwrap().at(a / b),
+        friction,
     }
 }

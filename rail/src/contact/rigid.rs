@@ -1,0 +1,127 @@
+//! Contact of rigid bodies: the deepest point of a wheel, and a wheelset standing on both rails.
+
+use super::pair::Pair;
+use super::patches::Patch;
+use super::silhouette::{SilhouettePoint, WheelPose};
+
+/// A wheelset standing on both rails without penetration.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub struct RigidContact {
+    /// Lateral shift at the height of the top of the rails, right positive, m.
+    pub lateral_m: f64,
+    /// Roll, right side down positive, rad.
+    pub roll_rad: f64,
+    /// Depth of the wheelset's centre below its height with the tread datum at the rail's top, m.
+    pub vertical_m: f64,
+    /// Contact points of the left wheel (as its mirror image on the right side) and of the right wheel.
+    pub sides: [Patch; 2],
+}
+
+impl RigidContact {
+    /// Rolling radius of the right wheel less that of the left wheel, m.
+    pub fn rolling_radius_difference_m(&self) -> f64 {
+        self.sides[1].wheel_z_m - self.sides[0].wheel_z_m
+    }
+}
+
+impl Pair {
+    /// The contact points of a rigid wheelset, shifted and yawed, that stands on two rails.
+    ///
+    /// The roll solves `z_right - z_left + 2 e sin(roll) = 0` with the interpenetrations `z` and the offset `e` of
+    /// the tread datum, by the secant method. `scratch` is working memory that is overwritten.
+    ///
+    /// ```
+    /// use dashpot_rail::contact::{Installation, Pair};
+    /// let pair = Pair::standard(Installation::default())?;
+    /// let contact = pair.rigid_contact(3e-3, 0.0, &mut Vec::new());
+    /// // A shift to the right makes the right rolling radius the greater one.
+    /// assert!((contact.rolling_radius_difference_m() - 0.977e-3).abs() < 1e-5);
+    /// # Ok::<(), dashpot_rail::contact::PairError>(())
+    /// ```
+    pub fn rigid_contact(
+        &self,
+        lateral_m: f64,
+        yaw_rad: f64,
+        scratch: &mut Vec<SilhouettePoint>,
+    ) -> RigidContact {
+        let datum = self.installation().datum_offset_m();
+        let mut sides_at = |roll: f64| {
+            let narrowing = datum * (yaw_rad.cos() * roll.cos() - 1.0);
+            let mut side = |sign: f64| {
+                let pose = WheelPose {
+                    lateral_m: sign * lateral_m + narrowing,
+                    roll_rad: sign * roll,
+                    yaw_rad: sign * yaw_rad,
+                };
+                self.deepest(&pose, scratch)
+            };
+            let sides = [side(-1.0), side(1.0)];
+            let residual = sides[1].interpenetration_m - sides[0].interpenetration_m
+                + 2.0 * datum * yaw_rad.cos() * roll.sin();
+            (sides, residual)
+        };
+        let mut roll = 0.0;
+        let (mut sides, mut residual) = sides_at(roll);
+        let mut slope = 2.0 * datum;
+        for _ in 0..30 {
+            let next = roll - residual / slope;
+            let (next_sides, next_residual) = sides_at(next);
+            let secant = (next_residual - residual) / (next - roll);
+            (roll, residual, sides) = (next, next_residual, next_sides);
+            if residual.abs() < 1e-10 || !secant.is_finite() {
+                break;
+            }
+            // Where the contact jumps the residual has a kink; bounds on the slope keep the step reasonable.
+            slope = secant.clamp(datum, 4.0 * datum);
+        }
+        RigidContact {
+            lateral_m,
+            roll_rad: roll,
+            vertical_m: -0.5 * (sides[0].interpenetration_m + sides[1].interpenetration_m),
+            sides,
+        }
+    }
+
+    /// The deepest point of one wheel at `pose`, both bodies being rigid; `scratch` is overwritten.
+    pub fn deepest(&self, pose: &WheelPose, scratch: &mut Vec<SilhouettePoint>) -> Patch {
+        self.silhouette(pose, scratch);
+        let deepest = (0..scratch.len()).max_by(|&i, &j| {
+            scratch[i]
+                .interpenetration_m
+                .total_cmp(&scratch[j].interpenetration_m)
+        });
+        let Some(deepest) = deepest else {
+            return self.absent();
+        };
+        let at = |i: usize| self.quantities(&scratch[i]);
+        let values = at(deepest);
+        if deepest == 0 || deepest + 1 == scratch.len() {
+            return Patch::from_quantities(values);
+        }
+        Patch::from_quantities(vertex(at(deepest - 1), values, at(deepest + 1)))
+    }
+}
+
+/// The quantities of a patch at the vertex of the parabola through three neighbouring interpenetrations.
+fn vertex(before: [f64; 6], deepest: [f64; 6], after: [f64; 6]) -> [f64; 6] {
+    let mut values = deepest;
+    let (x0, x2) = (before[3] - values[3], after[3] - values[3]);
+    let (f0, f2) = (before[0] - values[0], after[0] - values[0]);
+    let quadratic = (f0 / x0 - f2 / x2) / (x0 - x2);
+    let linear = f0 / x0 - quadratic * x0;
+    if quadratic < 0.0 {
+        let x = (-0.5 * linear / quadratic).clamp(x0.min(x2), x0.max(x2));
+        let top = values[0] + 0.5 * linear * x;
+        let (neighbour, distance) = if x * x2 > 0.0 {
+            (after, x2)
+        } else {
+            (before, x0)
+        };
+        for (value, neighbour) in values.iter_mut().zip(neighbour) {
+            *value += x / distance * (neighbour - *value);
+        }
+        values[0] = top;
+    }
+    values
+}

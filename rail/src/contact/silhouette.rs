@@ -1,0 +1,106 @@
+//! The silhouette of a turned wheel over its rail: how deep each of its points lies below the rail's surface.
+
+use super::pair::Pair;
+use crate::profile::ProfilePoint;
+
+/// Position and attitude of one wheel over its rail, for the right side.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct WheelPose {
+    /// Shift of the wheel towards the field side from its centred position over the rail, m.
+    pub lateral_m: f64,
+    /// Roll, field side down positive, rad.
+    pub roll_rad: f64,
+    /// Yaw, nose to the field side positive, rad.
+    pub yaw_rad: f64,
+}
+
+/// One point of the wheel's silhouette over the rail.
+#[derive(Debug, Clone, Copy)]
+#[non_exhaustive]
+pub struct SilhouettePoint {
+    /// Index of the point in the wheel's profile.
+    pub index: usize,
+    /// Lateral position from the track centre, m.
+    pub track_y_m: f64,
+    /// Depth of the wheel below the rail's surface when the tread datum is at the height of the rail's top, m.
+    pub interpenetration_m: f64,
+    /// `dz/dy` of the wheel's surface across the track.
+    pub slope: f64,
+    /// Curvature of the rail less that of the wheel, 1/m.
+    pub curvature_per_m: f64,
+}
+
+impl Pair {
+    /// Fills `silhouette` with the points of the wheel over the rail at `pose`.
+    ///
+    /// The silhouette is seen along the rail, of the body of revolution turned by the yaw and then rolled about
+    /// the rail's direction. A circle of radius `r` and slope `t = dr/ds` touches it `r t tan(yaw)` behind
+    /// the axle, `r t tan(yaw) sin(yaw)` inward and `r sqrt(1 - t^2 tan(yaw)^2)` below it. This is exact for
+    /// this order of turns.
+    pub fn silhouette(&self, pose: &WheelPose, silhouette: &mut Vec<SilhouettePoint>) {
+        silhouette.clear();
+        let (sin_roll, cos_roll) = pose.roll_rad.sin_cos();
+        let (sin_yaw, cos_yaw) = pose.yaw_rad.sin_cos();
+        let datum = self.installation().datum_offset_m();
+        let radius = self.installation().wheel_radius_m;
+        let (tan_roll, tan_yaw) = (sin_roll / cos_roll, sin_yaw / cos_yaw);
+        let mut rail = Cursor {
+            points: self.rail().points(),
+            slopes: &self.rail_slopes,
+            i: 0,
+        };
+        for (index, point) in self.wheel().points().iter().enumerate() {
+            let r = radius + point.z_m;
+            let slope = self.wheel_slopes[index];
+            let sin_behind = slope * tan_yaw;
+            let cos_behind = (1.0 - sin_behind * sin_behind).max(0.01).sqrt();
+            let across = point.y_m * cos_yaw - r * sin_behind * sin_yaw;
+            let down = r * cos_behind - radius;
+            let y = datum + pose.lateral_m + across * cos_roll - down * sin_roll;
+            let z = across * sin_roll + down * cos_roll;
+            let unrolled_slope = slope / (cos_yaw * cos_behind);
+            if let Some((rail_z, rail_curvature)) = rail.at(y) {
+                silhouette.push(SilhouettePoint {
+                    index,
+                    track_y_m: y,
+                    interpenetration_m: z - rail_z,
+                    slope: (unrolled_slope + tan_roll) / (1.0 - unrolled_slope * tan_roll),
+                    curvature_per_m: rail_curvature - point.curvature_per_m,
+                });
+            }
+        }
+    }
+}
+
+/// Reads a profile at positions that mostly rise, without searching it from the start.
+struct Cursor<'a> {
+    points: &'a [ProfilePoint],
+    slopes: &'a [f64],
+    i: usize,
+}
+
+impl Cursor<'_> {
+    /// Depth (cubic between the tangents of the samples) and curvature at `y`; `None` beyond the ends.
+    fn at(&mut self, y: f64) -> Option<(f64, f64)> {
+        let points = self.points;
+        if !(points[0].y_m..=points[points.len() - 1].y_m).contains(&y) {
+            return None;
+        }
+        while self.i > 0 && points[self.i].y_m > y {
+            self.i -= 1;
+        }
+        while self.i + 2 < points.len() && points[self.i + 1].y_m < y {
+            self.i += 1;
+        }
+        let (p, q) = (&points[self.i], &points[self.i + 1]);
+        let h = q.y_m - p.y_m;
+        let t = (y - p.y_m) / h;
+        let (m0, m1) = (self.slopes[self.i] * h, self.slopes[self.i + 1] * h);
+        let dz = q.z_m - p.z_m;
+        let z = p.z_m + t * (m0 + t * (3.0 * dz - 2.0 * m0 - m1 + t * (m0 + m1 - 2.0 * dz)));
+        Some((
+            z,
+            p.curvature_per_m + t * (q.curvature_per_m - p.curvature_per_m),
+        ))
+    }
+}

@@ -1,0 +1,136 @@
+//! What a creep law is, and what holds for the forces of every law.
+
+use super::creepage::Creepage;
+use super::kalker::KalkerCoefficients;
+
+/// One loaded contact as the creep laws need it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LoadedContact {
+    /// Normal load, N.
+    pub load_n: f64,
+    /// Semi-axis in the rolling direction, m.
+    pub a_m: f64,
+    /// Semi-axis across, m.
+    pub b_m: f64,
+    /// Shear modulus, Pa.
+    pub shear_modulus_pa: f64,
+    /// Kalker's coefficients of the ellipse.
+    pub kalker: KalkerCoefficients,
+    /// Friction coefficient at this sliding speed, dimensionless.
+    pub friction: f64,
+}
+
+/// Creep forces on the wheel, in [contact axes](crate::creep).
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct CreepForces {
+    /// Force in the rolling direction, N.
+    pub longitudinal_n: f64,
+    /// Force along the common tangent to the field side, N.
+    pub lateral_n: f64,
+    /// Spin moment, about axis 3, N m.
+    pub moment_n_m: f64,
+}
+
+impl CreepForces {
+    /// Magnitude of the force, N.
+    pub fn magnitude_n(&self) -> f64 {
+        (self.longitudinal_n * self.longitudinal_n + self.lateral_n * self.lateral_n).sqrt()
+    }
+
+    /// Dissipated power over the speed, N: `-(Fx xi + Fy eta + M phi)`, positive when energy is dissipated.
+    pub fn dissipation_n(&self, creepage: &Creepage) -> f64 {
+        -(self.longitudinal_n * creepage.longitudinal
+            + self.lateral_n * creepage.lateral
+            + self.moment_n_m * creepage.spin_per_m)
+    }
+}
+
+/// A law of creep forces.
+///
+/// ```
+/// use dashpot_rail::creep::{CreepLaw, Creepage, KalkerTable, LoadedContact, ShenHedrickElkins};
+/// let contact = LoadedContact {
+///     load_n: 106.7e3,
+///     a_m: 6.304e-3,
+///     b_m: 12.61e-3,
+///     shear_modulus_pa: 82e9,
+///     kalker: KalkerTable::new(0.28)?.at(0.5),
+///     friction: 0.33,
+/// };
+/// let braking = Creepage { longitudinal: 1.6e-3, ..Creepage::default() };
+/// let forces = ShenHedrickElkins.forces(&contact, &braking);
+/// // Exact theory gives 27.57 kN.
+/// assert!((forces.longitudinal_n / -27.57e3 - 1.0).abs() < 0.05);
+/// # Ok::<(), dashpot_rail::creep::KalkerError>(())
+/// ```
+pub trait CreepLaw: Send + Sync {
+    /// Forces as the source of the law states them. Load, semi-axes and friction are positive, the creepage is finite.
+    fn unlimited_forces(&self, contact: &LoadedContact, creepage: &Creepage) -> CreepForces;
+
+    /// Forces within friction that dissipate energy; zero unless load, friction and semi-axes are positive and finite.
+    fn forces(&self, contact: &LoadedContact, creepage: &Creepage) -> CreepForces {
+        let limit = contact.friction * contact.load_n;
+        let area = contact.a_m * contact.b_m;
+        // Positive products of positive factors: two negative ones are refused.
+        let loaded = contact.load_n > 0.0 && limit > 0.0 && limit.is_finite();
+        if !(loaded && contact.a_m > 0.0 && area > 0.0 && area.is_finite()) {
+            return CreepForces::default();
+        }
+        let creepage = creepage.bounded();
+        passive(
+            contact,
+            &creepage,
+            self.unlimited_forces(contact, &creepage),
+        )
+    }
+}
+
+/// Forces of Kalker's linear theory: `Fx = -G ab C11 xi`, `Fy = -G ab C22 eta - G (ab)^1.5 C23 phi`,
+/// `M = G (ab)^1.5 C23 eta - G (ab)^2 C33 phi`.
+#[inline]
+pub fn linear_forces(contact: &LoadedContact, creepage: &Creepage) -> CreepForces {
+    let area = contact.a_m * contact.b_m;
+    let stiffness = contact.shear_modulus_pa * area;
+    let mean_radius = area.sqrt();
+    let k = &contact.kalker;
+    CreepForces {
+        longitudinal_n: -stiffness * k.c11 * creepage.longitudinal,
+        lateral_n: -stiffness
+            * (k.c22 * creepage.lateral + mean_radius * k.c23 * creepage.spin_per_m),
+        moment_n_m: stiffness
+            * mean_radius
+            * (k.c23 * creepage.lateral - mean_radius * k.c33 * creepage.spin_per_m),
+    }
+}
+
+/// Limits the force to friction, and the moment to that of full spin under Hertz pressure (`3 pi / 16 mu N r` for a
+/// circle, here with the major semi-axis). Power that would be generated is then removed, first from the moment, then from
+/// the force along the sliding.
+#[inline]
+fn passive(contact: &LoadedContact, creepage: &Creepage, mut forces: CreepForces) -> CreepForces {
+    let limit = contact.friction * contact.load_n;
+    let square =
+        forces.longitudinal_n * forces.longitudinal_n + forces.lateral_n * forces.lateral_n;
+    if square > limit * limit {
+        let factor = limit / square.sqrt();
+        forces.longitudinal_n *= factor;
+        forces.lateral_n *= factor;
+    }
+    let moment_limit = 3.0 * std::f64::consts::PI / 16.0 * limit * contact.a_m.max(contact.b_m);
+    forces.moment_n_m = forces.moment_n_m.max(-moment_limit).min(moment_limit);
+    let mut generated = -forces.dissipation_n(creepage);
+    if generated > 0.0 && creepage.spin_per_m != 0.0 {
+        forces.moment_n_m = (forces.moment_n_m - generated / creepage.spin_per_m)
+            .max(-moment_limit)
+            .min(moment_limit);
+        generated = -forces.dissipation_n(creepage);
+    }
+    if generated > 0.0 {
+        let square = creepage.longitudinal.powi(2) + creepage.lateral.powi(2);
+        if square > 0.0 {
+            forces.longitudinal_n -= generated * creepage.longitudinal / square;
+            forces.lateral_n -= generated * creepage.lateral / square;
+        }
+    }
+    forces
+}
