@@ -24,8 +24,26 @@ pub(crate) const KNOTS_PER_BIN: usize = 2;
 /// Doublings of the reach from the first knot to the end of the bins.
 pub(crate) const DOUBLINGS: u32 = 1 << (BIN_BITS - BIN_FRACTION_BITS);
 
-/// A power of two, so that masked indices are within bounds.
-const _: () = assert!((2 * PIECES).is_power_of_two() && 2 * PIECES <= 256);
+const _: () = {
+    assert!(
+        PIECES >= 64,
+        "docs/numerics.md promises an accuracy that fewer pieces do not reach"
+    );
+    assert!(
+        (2 * PIECES).is_power_of_two(),
+        "an index is masked to be within bounds"
+    );
+    assert!(2 * PIECES <= 256, "a bin names a piece by a byte");
+    assert!(KNOTS_PER_BIN == 2, "the step compares with two knots");
+    assert!(
+        BIN_FRACTION_BITS < BIN_BITS,
+        "a bin is a part of a doubling"
+    );
+    assert!(
+        size_of::<Piece<f32>>() == 64,
+        "the address of a piece takes one shift"
+    );
+};
 
 /// Parts in which bins are set.
 pub(crate) const INDEX_SLICES: usize = 2 * BINS / BINS_PER_SLICE;

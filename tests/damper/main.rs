@@ -11,6 +11,7 @@ mod integrity;
 mod maxwell;
 mod offset;
 mod oil;
+mod parameters;
 mod properties;
 mod published;
 mod random_dampers;

@@ -103,7 +103,7 @@ impl Damper<f32> {
 
 #[cfg(test)]
 mod tests {
-    use super::WORDS;
+    use super::{PIECES, WORDS};
     use crate::Damper;
 
     /// Words that are all different and none of them NaN: 1.0 and the numbers after it.
@@ -121,7 +121,10 @@ mod tests {
             assert_eq!(damper.step_s().to_bits(), words[3]);
             assert_eq!((0.5 * damper.force_limit_n()).to_bits(), words[7]);
             assert_eq!(damper.revision(), words[9] as u32);
-            assert_eq!(damper.table.pieces[127].knot.to_bits(), words[WORDS - 1]);
+            assert_eq!(
+                damper.table.pieces[2 * PIECES - 1].knot.to_bits(),
+                words[WORDS - 1]
+            );
         };
     }
 
