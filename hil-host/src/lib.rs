@@ -3,7 +3,6 @@
 #![warn(missing_docs)]
 
 pub mod commands;
-pub mod error;
 pub mod files;
 pub mod realtime;
 pub mod report;

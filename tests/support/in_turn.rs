@@ -5,8 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 use std::time::Duration;
 
-use dashpot_hil::error::Outcome;
-use dashpot_hil::target::pil::{Link, Patience, Qemu};
+use dashpot_hil::target::pil::{Link, LinkError, Patience, Qemu};
 use xtask::processor::CORTEX_M7;
 use xtask::tools::{ARM_GCC, QEMU, have, have_target};
 
@@ -71,7 +70,7 @@ impl InTurn {
 }
 
 impl Link for InTurn {
-    fn send(&mut self, bytes: &[u8]) -> Outcome<()> {
+    fn send(&mut self, bytes: &[u8]) -> Result<(), LinkError> {
         self.sent += 1;
         if self.resets.contains(&self.sent) {
             self.emulator.reset_target()?;
@@ -90,7 +89,7 @@ impl Link for InTurn {
         Ok(())
     }
 
-    fn receive(&mut self, buffer: &mut [u8], _: Duration) -> Outcome<usize> {
+    fn receive(&mut self, buffer: &mut [u8], _: Duration) -> Result<usize, LinkError> {
         let count = buffer.len().min(self.answers.len());
         for (place, byte) in buffer.iter_mut().zip(self.answers.drain(..count)) {
             *place = byte;

@@ -6,10 +6,11 @@ use dashpot_core::Damper;
 use serde::Serialize;
 
 use super::step_size::StepSize;
-use super::{DamperArguments, Format, Scalar, print_report_beside};
-use crate::error::{Failure, Outcome};
+use super::{DamperArguments, Format, print_report_beside};
+use crate::commands::failure::{Failure, Outcome};
 use crate::files::input::is_standard_stream;
 use crate::files::output::{self, is_replaceable, write_bytes, write_together};
+use crate::study::Scalar;
 use crate::target::export::{Provenance, Word, c_header, c_source, rust_source};
 
 /// Language of the exported source.
@@ -80,7 +81,7 @@ struct Report {
     /// Beside a C source that is a file.
     #[serde(skip_serializing_if = "Option::is_none")]
     header: Option<String>,
-    scalar: &'static str,
+    scalar: Scalar,
     step_s: f64,
     revision: u32,
     damper_bytes: usize,
@@ -145,7 +146,7 @@ fn export<T: Word>(arguments: &ExportArguments) -> Outcome<Report> {
     let provenance = Provenance {
         damper: &arguments.damper.damper,
         step_us: arguments.step_us.us(),
-        command: &command_line(arguments, T::NAME, constant),
+        command: &command_line(arguments, constant),
     };
     let path = &arguments.output;
     let header = (arguments.lang == Language::C && is_replaceable(path))
@@ -168,7 +169,7 @@ fn export<T: Word>(arguments: &ExportArguments) -> Outcome<Report> {
         name,
         output: output::name(path).display().to_string(),
         header: header.map(|header| header.display().to_string()),
-        scalar: T::NAME,
+        scalar: T::SCALAR,
         step_s,
         revision: damper.revision(),
         damper_bytes: size_of::<Damper<T>>(),
@@ -190,15 +191,16 @@ fn header_beside(source: &Path) -> Outcome<PathBuf> {
 }
 
 /// The command line with every default written out.
-fn command_line(arguments: &ExportArguments, scalar: &str, name: &str) -> String {
+fn command_line(arguments: &ExportArguments, name: &str) -> String {
     let mut line = format!("dashpot export --damper '{}'", arguments.damper.damper);
     for assignment in &arguments.damper.overrides {
         line.push_str(&format!(" --set '{assignment}'"));
     }
     line.push_str(&format!(
-        " --lang {} --step-us {} --scalar {scalar} --name {name} --output '{}'",
+        " --lang {} --step-us {} --scalar {} --name {name} --output '{}'",
         arguments.lang.name(),
         arguments.step_us,
+        arguments.scalar,
         arguments.output.display()
     ));
     line

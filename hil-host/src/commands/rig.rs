@@ -8,7 +8,7 @@ use serde::Serialize;
 
 use super::step_size::StepSize;
 use super::{DamperArguments, Format, print_report};
-use crate::error::Outcome;
+use crate::commands::failure::Outcome;
 use crate::files::output::write_folder;
 use crate::report::plot::curves::Curve;
 use crate::report::plot::loops;
@@ -77,7 +77,7 @@ pub fn run(arguments: &RigArguments) -> Outcome<()> {
         amplitude_m: arguments.amplitude_m,
         frequency_hz: arguments.frequency_hz,
     };
-    let cycle = bench_test::settle(&damper, motion, arguments.step_us.seconds())?;
+    let cycle = bench_test::run_until_periodic(&damper, motion, arguments.step_us.seconds())?;
     let indices = cycle.indices();
     let published = is_nominal(&motion)
         .then(nominal_characteristic)
@@ -145,7 +145,7 @@ fn draw(
         );
     }
     let drawing = sheet(Layout::row(panels.len(), 640, 480), &panels)?;
-    write_folder(folder, &[("force-loops.svg", drawing)])
+    Ok(write_folder(folder, &[("force-loops.svg", drawing)])?)
 }
 
 /// Whether the motion is that of Table 5.

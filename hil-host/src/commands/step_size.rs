@@ -3,7 +3,7 @@
 use std::fmt;
 use std::str::FromStr;
 
-use crate::error::{Failure, Outcome};
+use crate::commands::failure::{Failure, Outcome};
 
 /// Shortest and longest step (us), as the core builds dampers for.
 const SHORTEST_US: f64 = 1.0;

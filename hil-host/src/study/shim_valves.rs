@@ -4,8 +4,8 @@ use dashpot_core::characteristic::ShimPackValve;
 use dashpot_core::parameters::{Hydraulics, Valve};
 use dashpot_core::shim::Pack;
 
-use crate::error::Outcome;
-use crate::study::published::{self, Deflection, deflections};
+use super::StudyError;
+use super::published::{self, Deflection, deflections};
 
 /// One of the places of a shim-pack valve in a damper.
 pub struct Place {
@@ -59,7 +59,7 @@ impl Place {
     ///
     /// # Errors
     /// A pack that disc theory does not hold for.
-    pub fn pack(&self, hydraulics: &Hydraulics) -> Outcome<Option<Pack>> {
+    pub fn pack(&self, hydraulics: &Hydraulics) -> Result<Option<Pack>, StudyError> {
         let valve = self.valve_of(hydraulics);
         if valve.shims_m.is_empty() {
             return Ok(None);
@@ -71,7 +71,7 @@ impl Place {
     ///
     /// # Errors
     /// As [`Place::pack`].
-    pub fn theory_m_per_pa(&self, hydraulics: &Hydraulics) -> Outcome<Option<f64>> {
+    pub fn theory_m_per_pa(&self, hydraulics: &Hydraulics) -> Result<Option<f64>, StudyError> {
         let edge = self.valve_of(hydraulics).free_radius_m;
         let pack = self.pack(hydraulics)?;
         Ok(pack.map(|pack| pack.compliance_m_per_pa(edge)))
@@ -81,7 +81,7 @@ impl Place {
     ///
     /// # Errors
     /// The table in the program is not as it was shipped.
-    pub fn published(&self) -> Outcome<Vec<Deflection>> {
+    pub fn published(&self) -> Result<Vec<Deflection>, StudyError> {
         deflections(self.published)
     }
 }
@@ -96,8 +96,8 @@ pub fn theory_over_published(theory_m_per_pa: f64, published: &[Deflection]) -> 
 ///
 /// # Errors
 /// As [`Place::pack`] and [`Place::published`].
-pub fn erratum(paper: &Hydraulics) -> Outcome<String> {
-    let ratio = |place: &Place| -> Outcome<String> {
+pub fn erratum(paper: &Hydraulics) -> Result<String, StudyError> {
+    let ratio = |place: &Place| -> Result<String, StudyError> {
         let theory = place.theory_m_per_pa(paper)?;
         let published = place.published()?;
         let ratio = theory.and_then(|theory| theory_over_published(theory, &published));

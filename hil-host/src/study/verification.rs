@@ -3,9 +3,9 @@
 use dashpot_core::{DamperParameters, Real};
 use serde::Serialize;
 
-use crate::error::{Failure, Outcome};
+use super::StudyError;
+use super::replay::{Tick, rounding_s};
 use crate::files::recording::Sample;
-use crate::study::replay::{Tick, rounding_s};
 use dashpot_reference::damper::Reference;
 
 /// Deviation of one fixed step from the reference on one motion.
@@ -53,7 +53,7 @@ pub fn fixed_step_forces<T: Real>(
     parameters: &DamperParameters,
     step_s: f64,
     displacements_m: &[f64],
-) -> Outcome<FixedStep> {
+) -> Result<FixedStep, StudyError> {
     let damper = parameters.build::<T>(step_s)?;
     let start = displacements_m.first().copied().unwrap_or(0.0);
     let mut state = damper.at_rest(T::from_f64(start));
@@ -75,7 +75,7 @@ pub fn reference_forces(
     parameters: &DamperParameters,
     step_s: f64,
     displacements_m: &[f64],
-) -> Outcome<Vec<f64>> {
+) -> Result<Vec<f64>, StudyError> {
     let times: Vec<f64> = (0..displacements_m.len())
         .map(|tick| tick as f64 * step_s)
         .collect();
@@ -94,7 +94,7 @@ pub fn reference_forces_on_recording(
     step_s: f64,
     samples: &[Sample],
     ticks: &[Tick],
-) -> Outcome<Vec<f64>> {
+) -> Result<Vec<f64>, StudyError> {
     let Some(start_s) = ticks.first().map(|tick| tick.time_s) else {
         return Ok(Vec::new());
     };
@@ -122,22 +122,18 @@ pub fn reference_forces_on_recording(
 ///
 /// # Errors
 /// Different lengths, or a reference force that is zero throughout.
-pub fn deviation(step_s: f64, forces: &[f64], reference: &[f64]) -> Outcome<Deviation> {
+pub fn deviation(step_s: f64, forces: &[f64], reference: &[f64]) -> Result<Deviation, StudyError> {
     if forces.len() != reference.len() {
-        return Err(Failure::new(format!(
-            "{} forces against {} of the reference",
-            forces.len(),
-            reference.len()
-        )));
+        return Err(StudyError::Lengths {
+            forces: forces.len(),
+            references: reference.len(),
+        });
     }
     let count = reference.len().max(1) as f64;
     let rms = |sum: f64| (sum / count).sqrt();
     let peak = reference.iter().fold(0.0_f64, |peak, f| peak.max(f.abs()));
     if peak == 0.0 {
-        return Err(Failure::new(
-            "the reference force is zero throughout: the motion stays within the clearance, there is \
-             nothing to compare",
-        ));
+        return Err(StudyError::NoForce);
     }
     let errors = || forces.iter().zip(reference).map(|(f, r)| f - r);
     let largest = errors().fold(0.0_f64, |largest, error| largest.max(error.abs()));

@@ -1,8 +1,14 @@
 //! Runs of the budget on a clock that tells what it is told, and `dashpot budget` from outside.
 
 use std::cell::Cell;
-use std::process::{Command, Output};
+use std::path::Path;
 
+use assert_cmd::assert::Assert;
+
+use crate::common::{dashpot, error_of, json_of, text_of};
+
+use dashpot_hil::commands::failure::Failure;
+use dashpot_hil::realtime::RealtimeError;
 use dashpot_hil::realtime::budget::{Length, Run, free, paced};
 use dashpot_hil::realtime::pacing::{Clock, Pacer};
 
@@ -97,7 +103,7 @@ fn a_free_run_stops_at_the_first_tick_above_the_limit() {
     );
     assert_eq!(run.ticks, 8);
     assert_eq!(spans(&run), [("single", 8, 49_970.0, 7)]);
-    let message = run.verdict(false).unwrap_err().to_string();
+    let message = message(run.verdict(false));
     assert_eq!(
         message,
         "stopped: tick 7, 0.007000 s along the motion, took 50.0 us, allowed by --stop-above-ns: 40.0 us"
@@ -120,7 +126,7 @@ fn a_paced_run_counts_misses_and_fails_on_them_when_asked() {
         ]
     );
     assert!(run.verdict(false).is_ok());
-    let message = run.verdict(true).unwrap_err().to_string();
+    let message = message(run.verdict(true));
     assert_eq!(
         message,
         "3 of 20 deadlines missed, allowed by --fail-on-miss: none"
@@ -139,17 +145,18 @@ fn a_paced_run_lasts_as_many_ticks_as_its_time_holds_and_stops_at_a_limit() {
     assert!((stop.time_s - 0.012).abs() < 1e-12);
 }
 
-fn dashpot(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_dashpot"))
-        .arg("budget")
-        .args(arguments)
-        .output()
-        .unwrap()
+/// What the command says of a run that is not as asked.
+fn message(verdict: Result<(), RealtimeError>) -> String {
+    Failure::from(verdict.unwrap_err()).to_string()
+}
+
+fn budget(arguments: &[&str]) -> Assert {
+    dashpot(&[&["budget"], arguments].concat(), Path::new("."))
 }
 
 fn json(arguments: &[&str]) -> serde_json::Value {
-    let output = dashpot(&[arguments, &["--format", "json"]].concat());
-    serde_json::from_slice(&output.stdout).unwrap()
+    let output = budget(&[arguments, &["--format", "json"]].concat());
+    json_of(&output)
 }
 
 #[test]
@@ -181,7 +188,7 @@ fn the_report_has_its_keys() {
 
 #[test]
 fn text_scales_its_units_and_says_what_is_not_told() {
-    let text = String::from_utf8(dashpot(&["--steps", "50"]).stdout).unwrap();
+    let text = text_of(&budget(&["--steps", "50"]));
     assert!(text.contains("tick 1.00 ms"), "{text}");
     assert!(text.contains("p99 -, p99.9 -, p99.99 -"), "{text}");
     assert!(
@@ -206,11 +213,10 @@ fn a_run_that_is_not_as_asked_is_reported_and_fails() {
             "missed_deadlines",
         ),
     ] {
-        let output = dashpot(&[&crowd[..], arguments, &["--format", "json"]].concat());
-        let message = String::from_utf8(output.stderr).unwrap();
-        assert_eq!(output.status.code(), Some(1), "{message}");
+        let output = budget(&[&crowd[..], arguments, &["--format", "json"]].concat()).code(1);
+        let message = error_of(&output);
         assert!(message.contains(part), "{message}");
-        let report: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+        let report = json_of(&output);
         assert!(!report[key].is_null(), "{report}");
     }
 }
@@ -235,9 +241,8 @@ fn wrong_options_say_what_is_allowed() {
             "no core this process may use, allowed: ",
         ),
     ] {
-        let output = dashpot(arguments);
-        let message = String::from_utf8(output.stderr).unwrap();
-        assert_eq!(output.status.code(), Some(code), "{arguments:?}: {message}");
+        let output = budget(arguments).code(code);
+        let message = error_of(&output);
         assert!(message.contains(part), "{arguments:?}: {message}");
     }
 }

@@ -3,6 +3,7 @@
 use crate::common::{dashpot, error_of};
 use crate::link_common::{Rig, TICKS};
 use crate::pil_common::built;
+use predicates::str::contains;
 use serde_json::json;
 
 #[test]
@@ -202,23 +203,22 @@ fn wrong_use_is_refused_before_the_target_is_asked() {
     ] {
         // Nobody listens at this port.
         let line = ["link", "--link", "tcp:localhost:1"];
-        let output = dashpot(&[&line[..], action].concat(), folder.path());
+        let output = dashpot(&[&line[..], action].concat(), folder.path()).code(2);
         let error = error_of(&output);
-        assert_eq!(output.status.code(), Some(2), "{action:?}: {error}");
         assert!(error.contains(part), "{action:?}: {error}");
     }
-    let output = dashpot(&["link", "hello"], folder.path());
-    assert_eq!(output.status.code(), Some(2));
-    assert!(error_of(&output).contains("--link <LINK>"));
+    dashpot(&["link", "hello"], folder.path())
+        .code(2)
+        .stderr(contains("--link <LINK>"));
 }
 
 #[test]
 fn a_target_that_is_not_there_is_a_failure() {
     let folder = tempfile::tempdir().unwrap();
-    let output = dashpot(
+    dashpot(
         &["link", "--link", "tcp:localhost:1", "hello"],
         folder.path(),
-    );
-    assert_eq!(output.status.code(), Some(1));
-    assert!(error_of(&output).contains("tcp:localhost:1: cannot connect"));
+    )
+    .code(1)
+    .stderr(contains("tcp:localhost:1: cannot connect"));
 }

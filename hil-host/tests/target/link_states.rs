@@ -1,5 +1,7 @@
 //! `dashpot link save` and `restore`: the states of a bank in a file.
 
+use assert_cmd::assert::OutputAssertExt;
+
 use crate::common::files_in;
 use crate::link_common::Rig;
 use serde_json::json;
@@ -134,16 +136,12 @@ fn a_file_that_is_none_is_told_where() {
 #[test]
 fn standard_streams_carry_states() {
     let rig = moved();
-    let saved = rig.output(&["save", "--output", "-"]);
-    assert!(saved.status.success(), "{saved:?}");
-    let told = String::from_utf8(saved.stderr).unwrap();
-    assert_eq!(told, "3 states of tick 80 in standard output\n");
-    rig.write("a.toml", &saved.stdout);
+    let saved = rig.output(&["save", "--output", "-"]).success();
+    let saved = saved.stderr("3 states of tick 80 in standard output\n");
+    rig.write("a.toml", &saved.get_output().stdout);
     let input = std::fs::File::open(rig.folder.path().join("a.toml")).unwrap();
-    let restored = rig
-        .command(&["restore", "--input", "-"])
+    rig.command(&["restore", "--input", "-"])
         .stdin(input)
-        .output()
-        .unwrap();
-    assert!(restored.status.success(), "{restored:?}");
+        .assert()
+        .success();
 }

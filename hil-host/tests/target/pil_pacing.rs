@@ -6,9 +6,8 @@ use std::time::Duration;
 
 use crate::pil_common::{PATIENCE, built, desk, motion};
 use dashpot_core::link::{FrameReader, Header, REQUEST_BYTES, Request};
-use dashpot_hil::error::Outcome;
 use dashpot_hil::realtime::pacing::{Clock, Pacer};
-use dashpot_hil::target::pil::{Client, Desk, Event, Link, Pace, Report, Session};
+use dashpot_hil::target::pil::{Client, Desk, Event, Link, LinkError, Pace, Report, Session};
 
 /// Time moves by sleeping and by hand.
 #[derive(Clone, Default)]
@@ -32,7 +31,7 @@ struct Slow {
 }
 
 impl Link for Slow {
-    fn send(&mut self, bytes: &[u8]) -> Outcome<()> {
+    fn send(&mut self, bytes: &[u8]) -> Result<(), LinkError> {
         let mut reader = FrameReader::<REQUEST_BYTES>::new();
         for byte in bytes {
             if let Some(Ok(message)) = reader.push(*byte) {
@@ -48,7 +47,7 @@ impl Link for Slow {
         }
         self.desk.send(bytes)
     }
-    fn receive(&mut self, buffer: &mut [u8], timeout: Duration) -> Outcome<usize> {
+    fn receive(&mut self, buffer: &mut [u8], timeout: Duration) -> Result<usize, LinkError> {
         self.desk.receive(buffer, timeout)
     }
 }

@@ -1,17 +1,20 @@
 //! `dashpot budget`: time per step on this host, free running or in real ticks.
 
+mod bench;
 mod report;
 
 use std::path::Path;
 use std::time::SystemTime;
 
-use dashpot_core::{Damper, Real};
+use dashpot_core::Damper;
 
-use super::{DamperArguments, Format, RealtimeArguments, Scalar, print_report};
-use crate::error::Outcome;
-use crate::realtime::budget::{Bench, Length, free, paced};
+use super::{DamperArguments, Format, RealtimeArguments, print_report};
+use crate::commands::failure::Outcome;
+use crate::realtime::budget::{Length, free, paced};
 use crate::realtime::pacing::{MonotonicClock, Pacer, overhead_ns};
 use crate::realtime::timing::Machine;
+use crate::study::{NamedScalar, Scalar};
+use bench::Bench;
 use report::{Report, Setting, print};
 
 /// Time per step on this host: histogram, percentiles, worst case, missed deadlines.
@@ -77,12 +80,12 @@ impl BudgetArguments {
 /// `--stop-above-ns`, or a deadline was missed under `--fail-on-miss`.
 pub fn run(arguments: &BudgetArguments) -> Outcome<()> {
     match arguments.scalar {
-        Scalar::F32 => measure::<f32>(arguments, "f32"),
-        Scalar::F64 => measure::<f64>(arguments, "f64"),
+        Scalar::F32 => measure::<f32>(arguments),
+        Scalar::F64 => measure::<f64>(arguments),
     }
 }
 
-fn measure<T: Real>(arguments: &BudgetArguments, scalar: &'static str) -> Outcome<()> {
+fn measure<T: NamedScalar>(arguments: &BudgetArguments) -> Outcome<()> {
     let step_s = 1.0 / f64::from(arguments.rate_hz.unwrap_or(1000));
     let damper: Damper<T> = arguments.damper.load()?.build(step_s)?;
     let mut bench = Bench::new(damper, arguments.dampers, step_s);
@@ -107,7 +110,7 @@ fn measure<T: Real>(arguments: &BudgetArguments, scalar: &'static str) -> Outcom
     let setting = Setting {
         mode,
         damper: arguments.damper.damper.clone(),
-        scalar,
+        scalar: T::SCALAR,
         dampers: arguments.dampers,
         step_s,
         clock_overhead_ns,
@@ -115,5 +118,5 @@ fn measure<T: Real>(arguments: &BudgetArguments, scalar: &'static str) -> Outcom
         machine,
     };
     print_report(arguments.format, &Report::new(setting, &run), print)?;
-    run.verdict(arguments.fail_on_miss)
+    Ok(run.verdict(arguments.fail_on_miss)?)
 }

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use dashpot_core::parameters::{DamperParameters, Element, Hydraulics};
 
 use super::results::Bench;
-use crate::error::Outcome;
+use crate::commands::failure::Outcome;
 use crate::study::shim_valves;
 
 /// A number without zeros at its end, to four digits behind the point.
@@ -137,7 +137,7 @@ pub(super) fn relief(benches: &[Bench]) -> String {
 /// As [`shim_valves::erratum`].
 pub(super) fn erratum(benches: &[Bench]) -> Outcome<String> {
     match benches.first().and_then(hydraulics) {
-        Some(paper) => shim_valves::erratum(paper),
+        Some(paper) => Ok(shim_valves::erratum(paper)?),
         None => Ok(String::new()),
     }
 }

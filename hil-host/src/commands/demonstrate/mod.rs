@@ -13,7 +13,7 @@ use std::path::PathBuf;
 use serde::Serialize;
 
 use super::{Format, print_report_beside, progress};
-use crate::error::Outcome;
+use crate::commands::failure::Outcome;
 use crate::files::output::{self, write_bytes};
 use results::Accuracy;
 

@@ -4,8 +4,9 @@ use std::fmt::Write as _;
 
 use super::results::{Accuracy, Bench, Demonstration, LOOP_FREQUENCY_HZ};
 use super::{description, figures};
-use crate::error::Outcome;
+use crate::commands::failure::Outcome;
 use crate::report::page::{built, document, figure, footer, tiles};
+use crate::study::Scalar;
 use crate::study::bench_test::Harmonic;
 use crate::study::published::nominal_indices;
 
@@ -93,7 +94,7 @@ fn lead(shown: &Demonstration) -> String {
 
 /// The headline: accuracy and cost on the target's precision.
 fn headline(shown: &Demonstration) -> String {
-    let worst = |step_s: f64, scalar: &str| {
+    let worst = |step_s: f64, scalar: Scalar| {
         shown
             .accuracy
             .iter()
@@ -102,8 +103,8 @@ fn headline(shown: &Demonstration) -> String {
                 (nrmse.max(row.nrmse), cost.max(row.median_ns_per_step))
             })
     };
-    let (slow, fast) = (worst(1e-3, "f32"), worst(1e-4, "f32"));
-    let fast_double = worst(1e-4, "f64");
+    let (slow, fast) = (worst(1e-3, Scalar::F32), worst(1e-4, Scalar::F32));
+    let fast_double = worst(1e-4, Scalar::F64);
     tiles(&[
         (
             power_of_ten(slow.0),

@@ -4,8 +4,9 @@ use dashpot_core::DamperParameters;
 use dashpot_core::characteristic::Characteristic;
 use serde::Serialize;
 
-use crate::error::Outcome;
+use crate::commands::failure::Outcome;
 use crate::files::damper;
+use crate::study::Scalar;
 use crate::study::bench_test::{self, Cycle, Harmonic, Indices};
 use crate::study::verification::{deviation, fixed_step_forces, nrmse_limit, reference_forces};
 
@@ -26,8 +27,8 @@ pub(super) const LOOP_FREQUENCY_HZ: f64 = 1.5;
 pub struct Accuracy {
     /// Preset.
     pub damper: &'static str,
-    /// `f32` or `f64`.
-    pub scalar: &'static str,
+    /// The step's scalar.
+    pub scalar: Scalar,
     /// Step (s).
     pub step_s: f64,
     /// rms of the error over rms of the force (1).
@@ -122,7 +123,9 @@ impl Demonstration {
             median_ns_per_step::<f64>(damper, step_s, &displacements_m)?,
         ];
         for ((scalar, fixed), median_ns_per_step) in
-            [("f32", &single), ("f64", &double)].into_iter().zip(costs)
+            [(Scalar::F32, &single), (Scalar::F64, &double)]
+                .into_iter()
+                .zip(costs)
         {
             let deviation = deviation(step_s, &fixed.forces_n, &reference_n)?;
             self.accuracy.push(Accuracy {
@@ -130,7 +133,7 @@ impl Demonstration {
                 scalar,
                 step_s,
                 nrmse: deviation.nrmse,
-                nrmse_limit: nrmse_limit(step_s, scalar == "f32"),
+                nrmse_limit: nrmse_limit(step_s, scalar == Scalar::F32),
                 largest_error_over_peak: deviation.largest_error_over_peak,
                 median_ns_per_step,
             });
@@ -156,14 +159,14 @@ fn bench(name: &'static str, damper: &DamperParameters) -> Outcome<Bench> {
                 amplitude_m,
                 frequency_hz: LOOP_FREQUENCY_HZ,
             };
-            bench_test::settle(damper, motion, 1e-3)
+            bench_test::run_until_periodic(damper, motion, 1e-3)
         })
-        .collect::<Outcome<_>>()?;
+        .collect::<Result<_, _>>()?;
     Ok(Bench {
         damper: name,
         parameters: damper.clone(),
         characteristic: Characteristic::new(damper)?,
         loops,
-        table_5: bench_test::settle(damper, Harmonic::TABLE_5, 1e-4)?.indices(),
+        table_5: bench_test::run_until_periodic(damper, Harmonic::TABLE_5, 1e-4)?.indices(),
     })
 }

@@ -10,8 +10,8 @@ use serde::Serialize;
 use super::LinkArguments;
 use super::places;
 use super::target::Target;
-use crate::commands::counted;
-use crate::error::Outcome;
+use crate::commands::failure::Outcome;
+use crate::commands::print::counted;
 
 /// Change the clearance of the damper in a place at once; its state keeps the force.
 #[derive(Debug, Clone, clap::Args)]

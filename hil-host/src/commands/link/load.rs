@@ -9,8 +9,9 @@ use serde::Serialize;
 use super::LinkArguments;
 use super::places::{Places, named};
 use super::target::{Target, step_in_words};
+use crate::commands::failure::{Failure, Outcome};
 use crate::commands::step_size::StepSize;
-use crate::error::{Failure, Outcome};
+use crate::files::FileError;
 use crate::files::damper;
 use crate::files::input;
 
@@ -54,7 +55,7 @@ impl LoadArguments {
             let name = input::name(path);
             let damper = Damper::<f32>::from_image(&input::read(path)?).map_err(|error| {
                 let allowed = "allowed: what `dashpot export --lang bin` writes in f32";
-                Failure::in_file(&name, format!("{error}; {allowed}"))
+                FileError::in_file(&name, format!("{error}; {allowed}"))
             })?;
             return Ok((name.display().to_string(), Source::Image(Box::new(damper))));
         }

@@ -6,8 +6,6 @@ mod inspect;
 mod load;
 mod places;
 mod saved;
-mod state_file;
-mod status_bits;
 mod target;
 mod telemetry;
 mod watch;
@@ -16,9 +14,10 @@ use std::io::{self, Write};
 
 use serde::Serialize;
 
+use super::arguments::Format;
 use super::line::LineArguments;
-use super::{Format, print_report};
-use crate::error::Outcome;
+use super::print::print_report;
+use crate::commands::failure::Outcome;
 use change::{LossOfLinkArguments, SetArguments};
 use drive::DisplacementArguments;
 use load::LoadArguments;

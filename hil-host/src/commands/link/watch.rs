@@ -10,8 +10,9 @@ use super::LinkArguments;
 use super::places::Places;
 use super::target::Target;
 use super::telemetry::{PlaceSample, take};
-use crate::commands::{Format, counted};
-use crate::error::{Failure, Outcome};
+use crate::commands::arguments::Format;
+use crate::commands::failure::{Failure, Outcome};
+use crate::commands::print::counted;
 use crate::files::input::STANDARD_STREAM;
 use crate::files::output::cannot_write;
 

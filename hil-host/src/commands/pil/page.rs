@@ -3,7 +3,7 @@
 use super::figures;
 use super::history::History;
 use super::report::Found;
-use crate::error::Outcome;
+use crate::commands::failure::Outcome;
 use crate::realtime::timing::{optional_span, span};
 use crate::report::page::{document, escaped, figure, footer, tiles};
 

@@ -4,8 +4,8 @@ use std::io::{self, Write};
 
 use serde::Serialize;
 
-use crate::commands::counted;
 use crate::commands::gap_report::write_gaps;
+use crate::commands::print::counted;
 use crate::files::recording::Gaps;
 use crate::realtime::timing::{optional_span, span};
 use crate::target::pil::{FaultCounts, Report};

@@ -9,7 +9,7 @@ use dashpot_core::characteristic::Characteristic;
 use dashpot_core::parameters::Element;
 
 use super::{DamperArguments, Format, print_report};
-use crate::error::{Failure, Outcome};
+use crate::commands::failure::{Failure, Outcome};
 use crate::files::damper;
 use crate::study::shim_valves::{PLACES, erratum};
 use report::{Report, ValveReport, print, valve_report};

@@ -7,7 +7,7 @@ use dashpot_core::parameters::Hydraulics;
 use plotters::prelude::SeriesLabelPosition;
 
 use super::report::{ValveReport, radii};
-use crate::error::Outcome;
+use crate::commands::failure::Outcome;
 use crate::files::output::write_folder;
 use crate::report::plot::curves::{Curve, ramp};
 use crate::report::plot::sheet::{Layout, Panel, Scale, sheet};
@@ -52,7 +52,7 @@ pub(super) fn draw(
             drawings.push((name, sheet(layout, &panels)?));
         }
     }
-    write_folder(folder, &drawings)
+    Ok(write_folder(folder, &drawings)?)
 }
 
 /// Edge lift over pressure: the disc theory, the published table and what the damper works with.

@@ -7,7 +7,7 @@ use dashpot_core::parameters::{Hydraulics, Valve};
 use dashpot_core::shim::{Pack, edge_compliance_m_per_pa};
 use serde::Serialize;
 
-use crate::error::Outcome;
+use crate::commands::failure::Outcome;
 use crate::study::published::Deflection;
 use crate::study::shim_valves::{Place, theory_over_published};
 

@@ -5,7 +5,7 @@ mod figure;
 
 pub(crate) use figure::{Figure, panel};
 
-use crate::error::Outcome;
+use crate::report::DrawError;
 
 const STYLE: &str = include_str!("page.css");
 
@@ -32,7 +32,7 @@ pub(crate) fn tiles(tiles: &[(String, String)]) -> String {
 ///
 /// # Errors
 /// The drawing fails.
-pub(crate) fn figure(figure: &Figure, caption: &str) -> Outcome<String> {
+pub(crate) fn figure(figure: &Figure, caption: &str) -> Result<String, DrawError> {
     // Sized by the page; inline SVG has its namespace from HTML.
     let inline = |svg: String, class: &str| {
         svg.replacen(" xmlns=\"http://www.w3.org/2000/svg\"", "", 1)

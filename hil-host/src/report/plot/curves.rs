@@ -4,7 +4,7 @@ use plotters::coord::ranged1d::Ranged;
 use plotters::prelude::*;
 
 use super::style::{FINE, failed};
-use crate::error::Outcome;
+use crate::report::DrawError;
 
 /// How a curve is drawn.
 #[derive(Clone, Copy)]
@@ -105,7 +105,10 @@ impl Curve {
     ///
     /// # Errors
     /// The drawing fails.
-    pub(crate) fn draw<'a, 'b: 'a, X, Y>(&self, chart: &mut Chart<'a, 'b, X, Y>) -> Outcome<()>
+    pub(crate) fn draw<'a, 'b: 'a, X, Y>(
+        &self,
+        chart: &mut Chart<'a, 'b, X, Y>,
+    ) -> Result<(), DrawError>
     where
         X: Ranged<ValueType = f64> + 'a,
         Y: Ranged<ValueType = f64> + 'a,

@@ -6,7 +6,7 @@ use plotters::prelude::*;
 
 use super::curves::Curve;
 use super::style::{Area, Digits, FINE, INK, axes, draw, extent, failed, letters, span};
-use crate::error::Outcome;
+use crate::report::DrawError;
 
 /// Room above and below the curves on a scale of decades, as a ratio.
 const DECADE_ROOM: f64 = 1.6;
@@ -68,7 +68,7 @@ impl Layout {
 ///
 /// # Errors
 /// The drawing fails.
-pub(crate) fn sheet(layout: Layout, panels: &[Panel]) -> Outcome<String> {
+pub(crate) fn sheet(layout: Layout, panels: &[Panel]) -> Result<String, DrawError> {
     let rows = panels.len().div_ceil(layout.columns);
     draw(layout.width, layout.row_height * rows as u32, |area| {
         let cells = area.split_evenly((rows, layout.columns));
@@ -107,7 +107,7 @@ macro_rules! draw_on {
     }};
 }
 
-fn draw_panel(area: &Area<'_>, panel: &Panel) -> Outcome<()> {
+fn draw_panel(area: &Area<'_>, panel: &Panel) -> Result<(), DrawError> {
     let abscissas = panel.curves.iter().flat_map(Curve::abscissas);
     let ordinates = || panel.curves.iter().flat_map(Curve::ordinates);
     let x = if panel.sides {

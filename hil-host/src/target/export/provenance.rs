@@ -35,7 +35,7 @@ impl Provenance<'_> {
             one_line(self.damper),
             self.step_us,
             1e3 / self.step_us,
-            T::NAME,
+            T::SCALAR,
             damper.revision(),
             size_of::<DamperState<T>>(),
             one_line(self.command),

@@ -2,12 +2,12 @@
 
 use std::fmt::LowerHex;
 
-use dashpot_core::{Damper, Real};
+use dashpot_core::Damper;
+
+use crate::study::NamedScalar;
 
 /// A scalar whose dampers are written as words or as bytes.
-pub trait Word: Real {
-    /// Name of the type.
-    const NAME: &'static str;
+pub trait Word: NamedScalar {
     /// The words of a damper, as literals.
     fn literals(damper: &Damper<Self>) -> Vec<String>;
     /// The bytes of a damper, as firmware and the C library check them.
@@ -15,7 +15,6 @@ pub trait Word: Real {
 }
 
 impl Word for f32 {
-    const NAME: &'static str = "f32";
     fn literals(damper: &Damper<f32>) -> Vec<String> {
         damper.to_words().map(|word| literal(word, 8)).into()
     }
@@ -25,7 +24,6 @@ impl Word for f32 {
 }
 
 impl Word for f64 {
-    const NAME: &'static str = "f64";
     fn literals(damper: &Damper<f64>) -> Vec<String> {
         damper.to_words().map(|word| literal(word, 16)).into()
     }

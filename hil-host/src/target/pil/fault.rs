@@ -7,8 +7,7 @@ use std::time::{Duration, Instant};
 use fastrand::Rng;
 use serde::Serialize;
 
-use super::Link;
-use crate::error::{Failure, Outcome};
+use super::{Link, LinkError};
 
 /// Probability of each fault per frame (1), both ways.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -105,11 +104,9 @@ impl<L: Link> FaultyLink<L> {
     ///
     /// # Errors
     /// Resets are asked of a link that cannot reset its target.
-    pub fn new(link: L, rates: FaultRates, seed: u64) -> Outcome<Self> {
+    pub fn new(link: L, rates: FaultRates, seed: u64) -> Result<Self, LinkError> {
         if rates.reset > 0.0 && !link.can_reset() {
-            return Err(Failure::wrong_use(
-                "fault `reset`: this link cannot reset its target; `--link qemu` can",
-            ));
+            return Err(LinkError::ResetFaults);
         }
         Ok(Self {
             link,
@@ -190,7 +187,7 @@ impl<L: Link> FaultyLink<L> {
 
 impl<L: Link> Link for FaultyLink<L> {
     /// Takes `bytes` as one frame.
-    fn send(&mut self, bytes: &[u8]) -> Outcome<()> {
+    fn send(&mut self, bytes: &[u8]) -> Result<(), LinkError> {
         if bytes.is_empty() {
             return Ok(());
         }
@@ -204,7 +201,7 @@ impl<L: Link> Link for FaultyLink<L> {
         Ok(())
     }
 
-    fn receive(&mut self, buffer: &mut [u8], timeout: Duration) -> Outcome<usize> {
+    fn receive(&mut self, buffer: &mut [u8], timeout: Duration) -> Result<usize, LinkError> {
         let deadline = Instant::now() + timeout;
         while self.ready.is_empty() {
             let left = deadline.saturating_duration_since(Instant::now());
@@ -227,7 +224,7 @@ impl<L: Link> Link for FaultyLink<L> {
         Ok(self.hand_over(buffer))
     }
 
-    fn reset_target(&mut self) -> Outcome<()> {
+    fn reset_target(&mut self) -> Result<(), LinkError> {
         self.partial.clear();
         self.link.reset_target()
     }
