@@ -3,6 +3,7 @@
 pub mod bench_test;
 mod error;
 pub mod excitation;
+pub mod promise;
 pub mod published;
 pub mod replay;
 mod scalar;

@@ -3,7 +3,9 @@
 use std::path::Path;
 use std::sync::LazyLock;
 
+use dashpot_hil::study::Scalar;
 use dashpot_hil::study::excitation::Excitation;
+use dashpot_hil::study::promise::PROMISES;
 
 use crate::common::{dashpot, error_of, json_of, text_of};
 
@@ -15,13 +17,15 @@ static SHOWN: LazyLock<(String, String)> = LazyLock::new(|| {
     (text_of(&output), page)
 });
 
-/// The project's accuracy limits.
+/// The accuracy promised.
 fn check_limit(row: &serde_json::Value) {
-    let limit = match (row["step_s"].as_f64().unwrap() < 5e-4, &row["scalar"]) {
-        (false, _) => 1e-3,
-        (true, scalar) if scalar == "f32" => 6e-5,
-        (true, _) => 3e-5,
+    let scalar = if row["scalar"] == "f32" {
+        Scalar::F32
+    } else {
+        Scalar::F64
     };
+    let step_s = row["step_s"].as_f64().unwrap();
+    let limit = PROMISES[0].nrmse(step_s, scalar).unwrap();
     assert_eq!(row["nrmse_limit"].as_f64(), Some(limit));
     let nrmse = row["nrmse"].as_f64().unwrap();
     assert!(nrmse > 0.0 && nrmse < limit, "{row}");

@@ -8,7 +8,8 @@ use crate::commands::failure::Outcome;
 use crate::files::damper;
 use crate::study::Scalar;
 use crate::study::bench_test::{self, Cycle, Harmonic, Indices};
-use crate::study::verification::{deviation, fixed_step_forces, nrmse_limit, reference_forces};
+use crate::study::promise::{Promise, relaxation_time_s};
+use crate::study::verification::{deviation, fixed_step_forces, reference_forces};
 
 use super::cost::median_ns_per_step;
 
@@ -33,8 +34,8 @@ pub struct Accuracy {
     pub step_s: f64,
     /// rms of the error over rms of the force (1).
     pub nrmse: f64,
-    /// The project's limit for it (1).
-    pub nrmse_limit: f64,
+    /// The promised limit for it (1), where there is one.
+    pub nrmse_limit: Option<f64>,
     /// Largest error over largest force (1).
     pub largest_error_over_peak: f64,
     /// Median cost of a step, unpaced (ns).
@@ -42,9 +43,9 @@ pub struct Accuracy {
 }
 
 impl Accuracy {
-    /// Whether the error is above the project's limit.
+    /// Whether the error is above the promised limit.
     pub fn over_limit(&self) -> bool {
-        self.nrmse > self.nrmse_limit
+        self.nrmse_limit.is_some_and(|limit| self.nrmse > limit)
     }
 }
 
@@ -116,6 +117,8 @@ impl Demonstration {
     fn ride(&mut self, name: &'static str, damper: &DamperParameters, step_s: f64) -> Outcome<()> {
         let displacements_m = super::recording::at_ticks(step_s)?;
         let reference_n = reference_forces(damper, step_s, &displacements_m)?;
+        let relaxation_s = relaxation_time_s(damper, step_s, &displacements_m, &reference_n);
+        let promise = Promise::of(relaxation_s);
         let single = fixed_step_forces::<f32>(damper, step_s, &displacements_m)?;
         let double = fixed_step_forces::<f64>(damper, step_s, &displacements_m)?;
         let costs = [
@@ -133,7 +136,7 @@ impl Demonstration {
                 scalar,
                 step_s,
                 nrmse: deviation.nrmse,
-                nrmse_limit: nrmse_limit(step_s, scalar == Scalar::F32),
+                nrmse_limit: promise.and_then(|promise| promise.nrmse(step_s, scalar)),
                 largest_error_over_peak: deviation.largest_error_over_peak,
                 median_ns_per_step,
             });
