@@ -45,7 +45,7 @@ fn main() -> ExitCode {
         // As clap's own for an option it refuses.
         Kind::WrongUse => 2,
     };
-    // Nobody to tell when standard error is closed.
+    // Nothing can be done when standard error is closed.
     let _ = writeln!(std::io::stderr(), "error: {failure}");
     ExitCode::from(code)
 }

@@ -8,7 +8,7 @@ use dashpot_hil::study::promise::PROMISES;
 
 use crate::accuracy::{DAMPERS, STEPS_S};
 
-/// A row is at most the measured error over this share, so one looser than needed fails.
+/// A row is at most the measured error over this fraction, so one looser than needed fails.
 pub const LEAST_USE: f64 = 0.5;
 
 /// A blessed row over the measured error.

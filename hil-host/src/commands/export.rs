@@ -74,7 +74,7 @@ pub struct ExportArguments {
 #[derive(Serialize)]
 struct Report {
     damper: String,
-    /// Of the constant; bytes alone have none.
+    /// Of the constant; `None` for bytes alone.
     #[serde(skip_serializing_if = "Option::is_none")]
     name: Option<String>,
     output: String,

@@ -17,7 +17,7 @@ use crate::study::bench_test::{HIGHEST_FREQUENCY_HZ, LARGEST_AMPLITUDE_M};
 use crate::target::export::ExportError;
 use crate::target::pil::{EmulatorError, LinkError, SessionError};
 
-/// A failure with a message that names the place and what is allowed there.
+/// A failure with a message that names what failed, where, and what is allowed there.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Failure {
     kind: Kind,
@@ -29,9 +29,9 @@ pub struct Failure {
 pub enum Kind {
     /// A file, the system or a result is not as it must be.
     Failed,
-    /// The caller asked for something that is not allowed: an option's value, or options together.
+    /// Something is requested that is not allowed: an option's value, or options together.
     WrongUse,
-    /// Whoever read the output has left: nothing is wrong, and nobody needs a message.
+    /// The reader of the output has left: nothing is wrong, and no message is needed.
     ReaderGone,
 }
 
@@ -47,7 +47,7 @@ impl Failure {
         }
     }
 
-    /// Something asked for that is not allowed; `message` names the option and what is allowed.
+    /// A request that is not allowed; `message` names the option and what is allowed.
     pub fn wrong_use(message: impl Into<String>) -> Self {
         Self {
             kind: Kind::WrongUse,

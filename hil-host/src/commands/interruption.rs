@@ -40,7 +40,7 @@ pub fn clean_up() -> Outcome<()> {
     Ok(())
 }
 
-/// The signals that this process ignores, signal n as bit n - 1; none where the system does not tell.
+/// The signals that this process ignores, signal n as bit n - 1; 0 where the system does not report them.
 #[cfg(unix)]
 fn ignored_signals() -> u64 {
     std::fs::read_to_string("/proc/self/status")

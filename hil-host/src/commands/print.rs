@@ -21,7 +21,7 @@ pub(super) fn counted(count: u64, what: &str) -> String {
     format!("{count} {what}{}", if count == 1 { "" } else { "s" })
 }
 
-/// Prints `report` on standard output in the format asked for: what `text` writes, or one JSON object.
+/// Prints `report` on standard output in `format`: what `text` writes, or one JSON object.
 /// A reader that has left, such as `head`, is no failure.
 ///
 /// # Errors

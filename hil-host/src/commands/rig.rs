@@ -108,7 +108,7 @@ pub fn run(arguments: &RigArguments) -> Outcome<()> {
 }
 
 /// Writes the loops of a cycle called `name` into `folder`, with the largest forces measured where they
-/// are published, and tells their path.
+/// are published; returns their path.
 fn draw(
     folder: &Path,
     name: &str,
@@ -135,7 +135,7 @@ fn draw(
         }
     }
     let mut panels = loops::panels(displacement, velocity, None);
-    // A loop has room within.
+    // The middle of a loop is empty.
     panels[0].legend = Some(SeriesLabelPosition::MiddleMiddle);
     for (panel, over) in panels.iter_mut().zip(["displacement", "velocity"]) {
         panel.title = format!(

@@ -31,11 +31,11 @@ impl StepSize {
             .then_some(Self { us })
     }
 
-    /// The step that a target tells in single precision (s), which stands for the shortest decimal that
+    /// The step that a target reports in single precision (s), which stands for the shortest decimal that
     /// rounds to it; `None` outside 1 us to 20 ms.
     pub fn from_target(step_s: f32) -> Option<Self> {
         let decimal: f64 = step_s.to_string().parse().ok()?;
-        // Free of the rounding of the product: nobody asks for less than a picosecond.
+        // Free of the rounding of the product, to the picosecond.
         Self::from_us((decimal * 1e12).round() / 1e6)
     }
 

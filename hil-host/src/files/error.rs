@@ -84,7 +84,7 @@ impl FileError {
         }
     }
 
-    /// Whether the file was a pipe that nobody reads any more: nothing is wrong with it.
+    /// Whether the file was a pipe whose reader has left: nothing is wrong with it.
     pub fn is_broken_pipe(&self) -> bool {
         matches!(self, Self::Write { source, .. } if source.kind() == io::ErrorKind::BrokenPipe)
     }

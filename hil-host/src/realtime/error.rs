@@ -20,9 +20,9 @@ pub enum RealtimeError {
         listed(allowed)
     )]
     Core {
-        /// The core asked for.
+        /// The requested core.
         core: usize,
-        /// The cores there are for this process.
+        /// The cores that the process may use.
         allowed: Vec<usize>,
     },
     /// The system refused a real-time option.

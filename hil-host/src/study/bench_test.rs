@@ -75,7 +75,7 @@ pub struct Cycle {
     pub displacements_m: Vec<f64>,
     /// Forces (N) at them.
     pub forces_n: Vec<f64>,
-    /// Step used (s): the one asked for, shortened to a whole number of steps a cycle.
+    /// Step used (s): the requested one, shortened to a whole number of steps a cycle.
     pub step_s: f64,
     /// Cycles run until the force was periodic.
     pub cycles: usize,

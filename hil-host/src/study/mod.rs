@@ -1,4 +1,4 @@
-//! What is asked of a damper: replay of a recording, bench test, verification against the reference.
+//! Studies of a damper: replay of a recording, bench test, verification against the reference.
 
 pub mod bench_test;
 mod error;

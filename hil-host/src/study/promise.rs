@@ -22,7 +22,7 @@ pub struct Promise {
     pub nrmse_10_khz_f32: f64,
 }
 
-/// The promises, the longest relaxation time first; there is none for times below the last.
+/// The promises, the longest relaxation time first; there is no promise below the last.
 pub const PROMISES: [Promise; 2] = [
     Promise {
         least_relaxation_time_s: 3e-3,

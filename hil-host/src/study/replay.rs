@@ -75,8 +75,8 @@ impl TickGrid {
         let displacement_m = if time_s + slack_s >= after.time_s {
             after.displacement_m
         } else {
-            let share = (time_s - before.time_s) / (after.time_s - before.time_s);
-            before.displacement_m + share * (after.displacement_m - before.displacement_m)
+            let fraction = (time_s - before.time_s) / (after.time_s - before.time_s);
+            before.displacement_m + fraction * (after.displacement_m - before.displacement_m)
         };
         Ok(Some(Tick {
             time_s,

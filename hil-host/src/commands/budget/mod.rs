@@ -63,7 +63,7 @@ pub struct BudgetArguments {
 }
 
 impl BudgetArguments {
-    /// How long the run lasts, `ticks` when not told.
+    /// How long the run lasts, `ticks` when no option says it.
     fn length(&self, ticks: u64) -> Length {
         match (self.steps, self.duration_s) {
             (_, Some(duration_s)) => Length::Nanoseconds(duration_s * 1_000_000_000),

@@ -1,4 +1,4 @@
-//! What `dashpot budget` tells of a run.
+//! The report of `dashpot budget`.
 
 use std::io::{self, Write};
 

@@ -78,14 +78,14 @@ pub struct Demonstration {
     pub(super) benches: Vec<Bench>,
 }
 
-/// Pieces of work [`run`] tells of.
+/// Pieces of work that [`run`] reports.
 pub const WORK: u64 = (DAMPERS.len() * (STEPS_S.len() + 1)) as u64;
 
-/// Runs the demonstration; `tell` hears what is about to be done and how many pieces are done.
+/// Runs the demonstration; `report` receives what is done next and how many pieces are done.
 ///
 /// # Errors
 /// A preset, the recording or the reference fails.
-pub fn run(mut tell: impl FnMut(String, u64)) -> Outcome<Demonstration> {
+pub fn run(mut report: impl FnMut(String, u64)) -> Outcome<Demonstration> {
     let samples = super::recording::shipped()?;
     let duration_s = match (samples.first(), samples.last()) {
         (Some(first), Some(last)) => last.time_s - first.time_s,
@@ -99,14 +99,14 @@ pub fn run(mut tell: impl FnMut(String, u64)) -> Outcome<Demonstration> {
         benches: Vec::new(),
     };
     let mut pieces = 0..;
-    let mut tell = |work| tell(work, pieces.next().unwrap_or(WORK));
+    let mut report = |work| report(work, pieces.next().unwrap_or(WORK));
     for name in DAMPERS {
         let damper = damper::load(name, &[])?;
         for step_s in STEPS_S {
-            tell(format!("{name}: ride at {:.0} kHz", 1e-3 / step_s));
+            report(format!("{name}: ride at {:.0} kHz", 1e-3 / step_s));
             shown.ride(name, &damper, step_s)?;
         }
-        tell(format!("{name}: bench"));
+        report(format!("{name}: bench"));
         shown.benches.push(bench(name, &damper)?);
     }
     Ok(shown)

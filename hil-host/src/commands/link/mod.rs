@@ -1,4 +1,4 @@
-//! `dashpot link`: a target asked by hand, one action a run.
+//! `dashpot link`: requests to a target by hand, one action a run.
 
 mod change;
 mod drive;
@@ -112,7 +112,7 @@ pub fn run(arguments: &LinkArguments) -> Outcome<()> {
 }
 
 impl LinkArguments {
-    /// Prints a result in the format asked for.
+    /// Prints a result in the requested format.
     fn print<R: Serialize>(
         &self,
         report: &R,

@@ -138,7 +138,7 @@ pub(super) fn run(telemetry: &TelemetryArguments, link: &LinkArguments) -> Outco
         samples: path.is_none().then(Vec::new),
         output: path.map(|path| output::name(path).display().to_string()),
     };
-    // The file is begun first: samples taken from a target cannot be taken again.
+    // The file is opened first: samples taken from a target cannot be taken again.
     write_whole_if::<Failure>(path, |file| {
         let mut rows = file.map(|(path, file)| (path, csv::Writer::from_writer(file)));
         if let Some((path, rows)) = &mut rows {

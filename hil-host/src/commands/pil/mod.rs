@@ -108,13 +108,13 @@ pub fn run(arguments: &PilArguments) -> Outcome<()> {
         .collect::<Result<_, _>>()?;
     let recording = Recording::open(&arguments.input)?;
     let mut found = None;
-    // Both files are begun before the run, so that one that cannot be written costs no run.
+    // Both files are opened before the run, so that a file that cannot be written costs no run.
     write_whole_if::<Failure>(arguments.page.as_deref(), |page| {
         let mut history = None;
         write_whole_if::<Failure>(arguments.output.as_deref(), |file| {
-            let (ran, kept) = drive(arguments, &parameters, recording, file)?;
-            found = Some(ran);
-            history = Some(kept);
+            let (run, run_history) = drive(arguments, &parameters, recording, file)?;
+            found = Some(run);
+            history = Some(run_history);
             Ok(())
         })?;
         if let (Some((path, page)), Some(found), Some(history)) = (page, &found, &history) {

@@ -120,7 +120,7 @@ fn summary(found: &Found) -> Markup {
         div.wide {
             table {
                 @for (name, result) in found.lines() {
-                    tr { td { (name) } td.told { (result) } }
+                    tr { td { (name) } td.text { (result) } }
                 }
             }
         }

@@ -151,7 +151,7 @@ fn set(tree: &mut toml::Table, assignment: &str) -> Result<(), DamperError> {
             .as_table_mut()
             .ok_or_else(|| wrong(format!("`{key}` is not a table")))?;
     }
-    // An integer where the file has a float, or none yet, is meant as a number all the same.
+    // An integer is a number too, whether the file has a float there or nothing.
     let value = match value {
         toml::Value::Integer(number) => toml::Value::Float(number as f64),
         other => other,

@@ -8,7 +8,7 @@ const ACCEPTED: &str = "accepted is UTF-8 text with a header that names time_s a
                         separated by commas, numbers with a decimal point";
 
 /// What is wrong with the text of a recording; the file, and the line and column where there is one, are
-/// told by [`FileError`](crate::files::FileError).
+/// in [`FileError`](crate::files::FileError).
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum RecordingError {

@@ -71,7 +71,7 @@ fn stop(tick: u64, step_s: f64, work_ns: f64, limit_ns: Option<u64>) -> Option<S
 }
 
 impl Run {
-    /// Whether the run is as it was asked to be.
+    /// Whether the run met its limits.
     ///
     /// # Errors
     /// It was stopped, or with `fail_on_miss` a deadline was missed.

@@ -1,4 +1,4 @@
-//! What makes a thread real-time, each asked of the system and refused with a reason.
+//! Options that make a thread real-time; each is requested from the system, which may refuse it.
 
 use std::fmt;
 

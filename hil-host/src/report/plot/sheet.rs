@@ -8,8 +8,8 @@ use super::curves::Curve;
 use super::style::{Area, Digits, FINE, INK, axes, draw, extent, failed, letters, span};
 use crate::report::DrawError;
 
-/// Room above and below the curves on a scale of decades, as a ratio.
-const DECADE_ROOM: f64 = 1.6;
+/// Margin above and below the curves on a scale of decades, as a ratio.
+const DECADE_MARGIN: f64 = 1.6;
 
 /// How a panel's vertical axis is divided.
 #[derive(Clone, Copy)]
@@ -92,10 +92,10 @@ macro_rules! draw_on {
         for curve in &$panel.curves {
             curve.draw(&mut chart)?;
         }
-        if let Some(place) = &$panel.legend {
+        if let Some(position) = &$panel.legend {
             chart
                 .configure_series_labels()
-                .position(place.clone())
+                .position(position.clone())
                 .label_font(letters(14, &INK))
                 .legend_area_size(30 * FINE)
                 .margin(8 * FINE)
@@ -129,7 +129,7 @@ fn draw_panel(area: &Area<'_>, panel: &Panel) -> Result<(), DrawError> {
         }
         Scale::Decades => {
             let y = span(ordinates());
-            let y = y.start / DECADE_ROOM..y.end * DECADE_ROOM;
+            let y = y.start / DECADE_MARGIN..y.end * DECADE_MARGIN;
             draw_on!(area, panel, x, y.log_scale(), (x_digits, Digits::OfDecade));
         }
     }
@@ -142,7 +142,7 @@ fn from_zero(range: Range<f64>) -> Range<f64> {
     if nearly { 0.0..range.end } else { range }
 }
 
-/// Digits behind the point that tell labels of an axis apart.
+/// Digits behind the point that make the labels of an axis differ.
 fn digits(range: &Range<f64>) -> Digits {
     let apart = (range.end - range.start).max(1e-12) / 6.0;
     Digits::Behind((-apart.log10().floor()).clamp(0.0, 6.0) as usize)

@@ -124,6 +124,6 @@ pub(crate) fn span(values: impl Iterator<Item = f64>) -> Range<f64> {
 /// Least and greatest of `values`, widened by a twentieth.
 pub(crate) fn extent(values: impl Iterator<Item = f64>) -> Range<f64> {
     let Range { start, end } = span(values);
-    let room = 0.05 * (end - start).max(1e-6);
-    start - room..end + room
+    let margin = 0.05 * (end - start).max(1e-6);
+    start - margin..end + margin
 }

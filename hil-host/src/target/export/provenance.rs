@@ -8,7 +8,7 @@ use super::Word;
 pub struct Provenance<'a> {
     /// Preset or file the damper came from.
     pub damper: &'a str,
-    /// Step as asked for (us).
+    /// The requested step (us).
     pub step_us: f64,
     /// Command line that makes the file again.
     pub command: &'a str,

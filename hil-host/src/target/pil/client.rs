@@ -55,7 +55,7 @@ pub struct LinkFaults {
     pub corrupt_requests: u64,
     /// Answers received broken.
     pub corrupt_answers: u64,
-    /// Answers to requests no longer asked.
+    /// Answers to earlier requests.
     pub stale_answers: u64,
     /// Sessions that the target no longer knew, as after a reset.
     pub lost_sessions: u64,

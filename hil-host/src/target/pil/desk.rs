@@ -59,8 +59,8 @@ impl<const N: usize> Link for Desk<N> {
 
     fn receive(&mut self, buffer: &mut [u8], _: Duration) -> Result<usize, LinkError> {
         let count = buffer.len().min(self.answers.len());
-        for (place, byte) in buffer.iter_mut().zip(self.answers.drain(..count)) {
-            *place = byte;
+        for (slot, byte) in buffer.iter_mut().zip(self.answers.drain(..count)) {
+            *slot = byte;
         }
         Ok(count)
     }

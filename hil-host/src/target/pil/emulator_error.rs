@@ -1,4 +1,4 @@
-//! Why there is no emulator.
+//! Why the emulator does not run.
 
 use std::io;
 use std::path::PathBuf;
@@ -7,7 +7,7 @@ use std::process::ExitStatus;
 use super::qemu::EMULATOR;
 use crate::files::FileError;
 
-/// Why there is no emulator, or none any more.
+/// Why the emulator did not start, or no longer runs.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum EmulatorError {

@@ -38,7 +38,7 @@ impl FromStr for FaultRates {
             let (kind, rate) = part
                 .split_once('=')
                 .ok_or_else(|| format!("`{part}` is not KIND=PROBABILITY"))?;
-            let place = match kind {
+            let slot = match kind {
                 "drop" => &mut rates.drop,
                 "corrupt" => &mut rates.corrupt,
                 "delay" => &mut rates.delay,
@@ -47,7 +47,7 @@ impl FromStr for FaultRates {
                 "reset" => &mut rates.reset,
                 _ => return Err(format!("`{kind}` is no fault; allowed: {KINDS}")),
             };
-            *place = match rate.parse() {
+            *slot = match rate.parse() {
                 Ok(rate) if (0.0..=0.5).contains(&rate) => rate,
                 _ => return Err(format!("{kind}: `{rate}` is not within 0 to 0.5")),
             };
@@ -103,7 +103,7 @@ impl<L: Link> FaultyLink<L> {
     /// Wraps `link`.
     ///
     /// # Errors
-    /// Resets are asked of a link that cannot reset its target.
+    /// `rates` has resets, and the link cannot reset its target.
     pub fn new(link: L, rates: FaultRates, seed: u64) -> Result<Self, LinkError> {
         if rates.reset > 0.0 && !link.can_reset() {
             return Err(LinkError::ResetFaults);
@@ -153,8 +153,8 @@ impl<L: Link> FaultyLink<L> {
             Some(1) => {
                 counts.corrupted += 1;
                 let mut frame = frame;
-                let place = self.random.usize(..frame.len());
-                frame[place] ^= 1 << self.random.u32(..8);
+                let index = self.random.usize(..frame.len());
+                frame[index] ^= 1 << self.random.u32(..8);
                 arriving.push(frame);
             }
             Some(2) => {
@@ -178,8 +178,8 @@ impl<L: Link> FaultyLink<L> {
 
     fn hand_over(&mut self, buffer: &mut [u8]) -> usize {
         let count = buffer.len().min(self.ready.len());
-        for (place, byte) in buffer.iter_mut().zip(self.ready.drain(..count)) {
-            *place = byte;
+        for (slot, byte) in buffer.iter_mut().zip(self.ready.drain(..count)) {
+            *slot = byte;
         }
         count
     }

@@ -50,7 +50,7 @@ pub enum LinkError {
     /// The target said no.
     #[error("{}", Sentence(*.0))]
     Refused(Refusal),
-    /// An answer that is none of this protocol.
+    /// An answer that does not belong to this protocol.
     #[error("the target answers in another protocol")]
     Unreadable,
     /// The target's dampers are not in single precision.

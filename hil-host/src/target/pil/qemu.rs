@@ -34,7 +34,7 @@ impl Qemu {
     /// Starts the emulator with `image`, an ELF file for Arm.
     ///
     /// # Errors
-    /// The image is none, the emulator is not installed or ends at once.
+    /// The file is not an image, the emulator is not installed or ends at once.
     pub fn start(image: &Path) -> Result<Self, LinkError> {
         Self::start_with_outputs(image, None)
     }

@@ -47,7 +47,7 @@ impl<L: Link> Session<L> {
 
     /// Drives every damper of the target with `motion` (m), one displacement a tick until it ends, damper i
     /// i ticks behind the first, as wheelsets run over the same track. `dampers` is one for all places or
-    /// one for each; ticks are sent as `pace` has it. `sink` is told every tick once it is done.
+    /// one for each; ticks are sent as `pace` has it. `sink` receives the record of every tick.
     ///
     /// # Errors
     /// Dampers that do not fit the target, `motion`'s, `sink`'s, or a target that is lost and does not
@@ -94,7 +94,7 @@ impl<L: Link> Session<L> {
         })
     }
 
-    /// One tick on both sides, compared and told.
+    /// One tick on both sides: compared, and its record handed to `sink`.
     fn tick<C: Clock, E: From<SessionError>>(
         &mut self,
         host: &mut Mirror<'_>,

@@ -20,7 +20,7 @@ impl Tcp {
     /// Connects to `HOST:PORT`.
     ///
     /// # Errors
-    /// The address is none, or nobody listens there.
+    /// The address is not valid, or nothing listens there.
     pub fn connect(address: &str) -> Result<Self, LinkError> {
         let name = format!("tcp:{address}");
         let failed = |error| LinkError::line(&name, "cannot connect: ", error);
@@ -80,7 +80,7 @@ impl Link for Tcp {
     }
 
     fn receive(&mut self, buffer: &mut [u8], timeout: Duration) -> Result<usize, LinkError> {
-        // A timeout of 0 would be none; a whole millisecond keeps the setting from changing often.
+        // A timeout of zero would mean that there is no timeout; a whole millisecond keeps the setting from changing often.
         let timeout = Duration::from_millis(timeout.as_millis().max(1) as u64);
         if self.timeout != Some(timeout) {
             self.stream
