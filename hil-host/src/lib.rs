@@ -1,4 +1,4 @@
-//! Desk host of the Dashpot damper: replay, bench test, verification, processor in the loop.
+#![doc = include_str!("../README.md")]
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
 

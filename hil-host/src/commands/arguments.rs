@@ -19,12 +19,20 @@ pub enum Format {
     Json,
 }
 
+/// The help of an option that names a damper, with `more`.
+pub(super) fn damper_help(more: &str) -> String {
+    let presets = damper::PRESETS.map(|(preset, _)| format!("`{preset}`"));
+    format!(
+        "Preset ({}) or TOML file, `-` for standard input{more}",
+        presets.join(", ")
+    )
+}
+
 /// Which damper a command works on.
 #[derive(Debug, Clone, clap::Args)]
 pub struct DamperArguments {
-    /// Preset (`paper`, `in-service`, `reduced-vertical`, `reduced-lateral`) or TOML file, `-` for standard
-    /// input.
-    #[arg(long, default_value = "paper", value_name = "NAME|FILE")]
+    /// A preset or a file.
+    #[arg(help = damper_help(""), long, default_value = "paper", value_name = "NAME|FILE")]
     pub damper: String,
     /// Overrides a key of the damper: table.key=value, such as mount.clearance_m=1e-3.
     #[arg(long = "set", value_name = "KEY=VALUE")]

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use dashpot_core::Damper;
 use serde::Serialize;
 
-use super::step_size::StepSize;
+use super::step_size::{self, StepSize};
 use super::{DamperArguments, Format, print_report_beside};
 use crate::commands::failure::{Failure, Outcome};
 use crate::files::input::is_standard_stream;
@@ -49,8 +49,8 @@ pub struct ExportArguments {
     /// Language of the source.
     #[arg(long, value_enum)]
     lang: Language,
-    /// Step the damper is built for, us; 1 to 20000, fractions allowed.
-    #[arg(
+    /// The step, us.
+    #[arg(help = step_size::help("Step the damper is built for", ""), 
         long,
         default_value = "1000",
         value_name = "US",

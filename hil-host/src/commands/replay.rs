@@ -7,7 +7,7 @@ use dashpot_core::{DamperParameters, Real};
 use serde::Serialize;
 
 use super::gap_report::write_gaps;
-use super::step_size::StepSize;
+use super::step_size::{self, StepSize};
 use super::{
     DamperArguments, Format, RealtimeArguments, counted, nearest_nanosecond, print_report_beside,
     progress, streams,
@@ -40,8 +40,8 @@ pub struct ReplayArguments {
     /// Force over time, CSV; a file is written whole or not at all, `-` is standard output.
     #[arg(long, value_name = "FILE")]
     output: PathBuf,
-    /// Step, us; 1 to 20000, fractions allowed.
-    #[arg(
+    /// The step, us.
+    #[arg(help = step_size::help("Step", ""), 
         long,
         default_value = "1000",
         value_name = "US",

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use plotters::prelude::SeriesLabelPosition;
 use serde::Serialize;
 
-use super::step_size::StepSize;
+use super::step_size::{self, StepSize};
 use super::{DamperArguments, Format, print_report};
 use crate::commands::failure::Outcome;
 use crate::files::output::write_folder;
@@ -37,8 +37,8 @@ pub struct RigArguments {
     /// Frequency of the motion, Hz.
     #[arg(long, default_value_t = Harmonic::TABLE_5.frequency_hz, value_name = "HZ")]
     pub frequency_hz: f64,
-    /// Step, us; 1 to 20000, fractions allowed; shortened to a whole number of steps a cycle.
-    #[arg(long, default_value = "100", value_name = "US")]
+    /// The step, us.
+    #[arg(help = step_size::help("Step", "; shortened to a whole number of steps a cycle"), long, default_value = "100", value_name = "US")]
     pub step_us: StepSize,
     /// Folder the loops of force over displacement and velocity are written to, as force-loops.svg; none
     /// when not given.

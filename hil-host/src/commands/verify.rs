@@ -7,7 +7,7 @@ use std::rc::Rc;
 use serde::Serialize;
 
 use super::gap_report::write_gaps;
-use super::step_size::StepSize;
+use super::step_size::{self, StepSize};
 use super::{DamperArguments, Format, counted, print_report, progress};
 use crate::commands::failure::{Failure, Outcome};
 use crate::files::input;
@@ -33,8 +33,8 @@ pub struct VerifyArguments {
     /// Recorded motion, CSV with columns time_s,displacement_m; `-` for standard input.
     #[arg(long, value_name = "FILE")]
     input: PathBuf,
-    /// Step to verify, us; 1 to 20000, fractions allowed; may be given several times.
-    #[arg(long, default_values = ["1000", "500", "100"], value_name = "US", allow_negative_numbers = true)]
+    /// Steps, us.
+    #[arg(help = step_size::help("Step to verify", "; may be given several times"), long, default_values = ["1000", "500", "100"], value_name = "US", allow_negative_numbers = true)]
     step_us: Vec<StepSize>,
     /// Fail when an NRMSE on ticks is above this.
     #[arg(long, value_name = "NRMSE", value_parser = positive, allow_negative_numbers = true)]

@@ -3,6 +3,7 @@
 mod bench;
 mod report;
 
+use std::ops::RangeInclusive;
 use std::path::Path;
 use std::time::SystemTime;
 
@@ -11,7 +12,7 @@ use dashpot_core::Damper;
 use super::{DamperArguments, Format, RealtimeArguments, print_report};
 use crate::commands::failure::Outcome;
 use crate::realtime::budget::{Length, free, paced};
-use crate::realtime::pacing::{MonotonicClock, Pacer, overhead_ns};
+use crate::realtime::pacing::{MonotonicClock, Pacer, RATE_RANGE_HZ, overhead_ns};
 use crate::realtime::timing::Machine;
 use crate::study::{NamedScalar, Scalar};
 use bench::Bench;
@@ -47,7 +48,7 @@ pub struct BudgetArguments {
     #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=10_000))]
     dampers: u32,
     /// Run in real ticks at this rate, Hz; free running, built for 1000 Hz, when not given.
-    #[arg(long, value_parser = clap::value_parser!(u32).range(1000..=10_000))]
+    #[arg(long, value_parser = clap::value_parser!(u32).range(rates_hz()))]
     rate_hz: Option<u32>,
     /// Stop at the first tick whose work takes longer, ns; report it and exit with 1.
     #[arg(long, value_name = "NS", value_parser = clap::value_parser!(u64).range(1..))]
@@ -60,6 +61,11 @@ pub struct BudgetArguments {
     /// How results are printed.
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
+}
+
+/// Rates that ticks can be paced at (Hz), as clap takes a range.
+fn rates_hz() -> RangeInclusive<i64> {
+    i64::from(*RATE_RANGE_HZ.start())..=i64::from(*RATE_RANGE_HZ.end())
 }
 
 impl BudgetArguments {

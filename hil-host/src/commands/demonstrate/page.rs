@@ -2,7 +2,7 @@
 
 use maud::{Markup, html};
 
-use super::results::{Accuracy, Bench, Demonstration, LOOP_FREQUENCY_HZ, Ride};
+use super::results::{Accuracy, Bench, Demonstration, LOOP_FREQUENCY_HZ, Ride, STEPS_S};
 use super::{description, figures};
 use crate::commands::failure::Outcome;
 use crate::report::DrawError;
@@ -79,20 +79,24 @@ fn headline(shown: &Demonstration) -> Markup {
                 (nrmse.max(row.nrmse), cost.max(row.median_ns_per_step))
             })
     };
-    let (slow, fast) = (worst(1e-3, Scalar::F32), worst(1e-4, Scalar::F32));
-    let fast_double = worst(1e-4, Scalar::F64);
+    let [slow_s, fast_s] = STEPS_S;
+    let (slow, fast) = (worst(slow_s, Scalar::F32), worst(fast_s, Scalar::F32));
+    let fast_double = worst(fast_s, Scalar::F64);
     tiles(&[
         (
             power_of_ten(slow.0),
-            "rms error over rms force at 1 kHz, single precision, the worse of both dampers".into(),
+            format!(
+                "rms error over rms force at {} kHz, single precision, the worse of both dampers",
+                rate_khz(slow_s)
+            ),
         ),
         (
             power_of_ten(fast.0),
-            "the same at 10 kHz, single precision".into(),
+            format!("the same at {} kHz, single precision", rate_khz(fast_s)),
         ),
         (
             power_of_ten(fast_double.0),
-            "the same at 10 kHz, double precision".into(),
+            format!("the same at {} kHz, double precision", rate_khz(fast_s)),
         ),
         (
             html! { (format!("{:.0} ns", slow.1.max(fast.1))) },
@@ -102,6 +106,11 @@ fn headline(shown: &Demonstration) -> Markup {
             ),
         ),
     ])
+}
+
+/// Rate of a step, to the kilohertz.
+fn rate_khz(step_s: f64) -> String {
+    format!("{:.0}", 1e-3 / step_s)
 }
 
 /// `1.2 × 10⁻⁴` in HTML.
@@ -131,7 +140,7 @@ fn accuracy_table(rows: &[Accuracy]) -> Markup {
                 @for row in rows {
                     tr.over[row.over_limit()] {
                         td { (row.damper) }
-                        td { (format!("{:.0}", 1e-3 / row.step_s)) }
+                        td { (rate_khz(row.step_s)) }
                         td { (row.scalar) }
                         td { (power_of_ten(row.nrmse)) }
                         td { @if let Some(limit) = row.nrmse_limit { (power_of_ten(limit)) } }
@@ -151,15 +160,15 @@ fn accuracy_table(rows: &[Accuracy]) -> Markup {
 fn ride_figures(ride: &Ride) -> Result<Markup, DrawError> {
     let (from_s, to_s) = figures::WINDOW_S;
     let force = html! {
-        "Computed force, " (from_s) " to " (to_s) " s of the made ride: fixed step at 1 kHz in single precision over \
+        "Computed force, " (from_s) " to " (to_s) " s of the made ride: fixed step at " (rate_khz(ride.step_s)) " kHz in single precision over \
          the reference."
     };
     let error = html! {
         "Error of that fixed step over the whole made ride: fixed step less reference, in newtons."
     };
     let loops = html! {
-        "Computed force over displacement (first) and velocity (second) along the whole made ride, 1 kHz, single \
-         precision."
+        "Computed force over displacement (first) and velocity (second) along the whole made ride, "
+        (rate_khz(ride.step_s)) " kHz, single precision."
     };
     Ok(html! {
         h3 { (ride.damper) " on the made ride" }

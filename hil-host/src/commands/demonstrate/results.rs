@@ -17,7 +17,7 @@ use super::cost::median_ns_per_step;
 const DAMPERS: [&str; 2] = ["paper", "in-service"];
 
 /// Steps shown (s): 1 and 10 kHz.
-const STEPS_S: [f64; 2] = [1e-3, 1e-4];
+pub(super) const STEPS_S: [f64; 2] = [1e-3, 1e-4];
 
 /// Amplitudes of the bench loops (m), at [`LOOP_FREQUENCY_HZ`].
 pub(super) const LOOP_AMPLITUDES_M: [f64; 4] = [1e-3, 2.5e-3, 5e-3, 10e-3];

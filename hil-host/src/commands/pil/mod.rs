@@ -11,6 +11,7 @@ use std::path::{Path, PathBuf};
 
 use dashpot_core::{Damper, DamperParameters};
 
+use super::arguments::damper_help;
 use super::line::LineArguments;
 use super::step_size::StepSize;
 use super::{Format, RealtimeArguments, print_report_beside, progress, streams};
@@ -53,9 +54,8 @@ An emulator of your own for --link tcp:localhost:5555, without Nagle's delay:
 
 Exit code 1 when a force differs; the files are written all the same.")]
 pub struct PilArguments {
-    /// Preset (`paper`, `in-service`, `reduced-vertical`, `reduced-lateral`) or TOML file, `-` for standard
-    /// input; once for all places of the target, or once for each.
-    #[arg(long = "damper", default_value = "paper", value_name = "NAME|FILE")]
+    /// Presets or files.
+    #[arg(help = damper_help("; once for all places of the target, or once for each"), long = "damper", default_value = "paper", value_name = "NAME|FILE")]
     dampers: Vec<String>,
     /// Overrides a key of every damper: table.key=value, such as mount.clearance_m=1e-3.
     #[arg(long = "set", value_name = "KEY=VALUE")]

@@ -17,12 +17,10 @@ use crate::study::shim_valves::{VALVE_LOCATIONS, ValveLocation};
 
 /// Steps of pressure in a curve.
 const STEPS: u32 = 200;
-/// End of the published tables (MPa), the least end of a curve.
-const LEAST_END_MPA: f64 = 10.0;
-
-/// Pressures drawn (MPa): from zero to the end of the published tables or to twice the preload.
-fn pressures_mpa(preload_pa: f64) -> impl Iterator<Item = f64> {
-    let end_mpa = LEAST_END_MPA.max(2e-6 * preload_pa);
+/// Pressures drawn (MPa): from zero to the end of the published table or to twice the preload.
+fn pressures_mpa(report: &ValveReport) -> impl Iterator<Item = f64> + use<> {
+    let table_end_pa = report.pressures.last().map_or(0.0, |row| row.pressure_pa);
+    let end_mpa = 1e-6 * table_end_pa.max(2.0 * report.preload_pa);
     (0..=STEPS).map(move |i| end_mpa * f64::from(i) / f64::from(STEPS))
 }
 
@@ -59,7 +57,7 @@ pub(super) fn draw(
 fn lift(location: &ValveLocation, report: &ValveReport) -> Panel {
     let line = |m_per_pa: f64, preload_pa: f64| {
         let lift_mm = move |mpa: f64| (mpa * 1e6 - preload_pa) * m_per_pa * 1e3;
-        let pressures = pressures_mpa(report.preload_pa);
+        let pressures = pressures_mpa(report);
         // The logarithm of a closed valve's lift does not exist, and that of one about to open is rounding.
         let open = pressures.filter(move |mpa| mpa * 1e6 > 1.01 * preload_pa && *mpa > 0.0);
         open.map(move |mpa| (mpa, lift_mm(mpa)))
@@ -149,7 +147,7 @@ fn deflection(
 
 /// Flow over pressure with the lift the damper works with.
 fn flow(location: &ValveLocation, report: &ValveReport, characteristic: &Characteristic) -> Panel {
-    let points = pressures_mpa(report.preload_pa).map(|mpa| {
+    let points = pressures_mpa(report).map(|mpa| {
         let flow = characteristic.valve_flow_m3_per_s(location.valve, mpa * 1e6);
         (mpa, flow.unwrap_or(0.0) * 1e6)
     });
