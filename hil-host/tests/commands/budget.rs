@@ -1,4 +1,4 @@
-//! Runs of the budget on a clock that tells what it is told, and `dashpot budget` from outside.
+//! Runs of the budget on a simulated clock, and `dashpot budget` from outside.
 
 use std::cell::Cell;
 use std::path::Path;
@@ -13,9 +13,9 @@ use dashpot_hil::realtime::budget::{Length, Run, free, paced};
 use dashpot_hil::realtime::pacing::{Clock, Pacer};
 
 /// Time moves by the work of the ticks and by sleeping.
-struct Told<'a>(&'a Cell<u64>);
+struct SimulatedClock<'a>(&'a Cell<u64>);
 
-impl Clock for Told<'_> {
+impl Clock for SimulatedClock<'_> {
     fn now_ns(&self) -> u64 {
         self.0.get()
     }
@@ -34,22 +34,22 @@ fn work_ns(number: u64) -> u64 {
 }
 
 /// Runs a budget whose ticks take [`work_ns`], the first tick number 0 of all passes together.
-fn on_told_clock(run: impl FnOnce(Told<'_>, &mut dyn FnMut()) -> Run) -> Run {
+fn on_simulated_clock(run: impl FnOnce(SimulatedClock<'_>, &mut dyn FnMut()) -> Run) -> Run {
     let now_ns = Cell::new(0);
     let mut number = 0;
     let mut tick = || {
         now_ns.set(now_ns.get() + work_ns(number));
         number += 1;
     };
-    run(Told(&now_ns), &mut tick)
+    run(SimulatedClock(&now_ns), &mut tick)
 }
 
 fn free_run(length: Length, stop_above_ns: Option<u64>) -> Run {
-    on_told_clock(|clock, tick| free(&clock, 30, 1e-3, length, stop_above_ns, tick))
+    on_simulated_clock(|clock, tick| free(&clock, 30, 1e-3, length, stop_above_ns, tick))
 }
 
 fn paced_run(length: Length, stop_above_ns: Option<u64>) -> Run {
-    on_told_clock(|clock, tick| {
+    on_simulated_clock(|clock, tick| {
         let pacer = Pacer::with_clock(1e-3, clock).unwrap();
         paced(pacer, length, stop_above_ns, tick)
     })
@@ -85,7 +85,7 @@ fn a_free_run_knows_the_tick_of_its_worst_case() {
 }
 
 #[test]
-fn a_free_run_lasts_as_long_as_it_is_told() {
+fn a_free_run_lasts_as_long_as_it_is_reported() {
     // Half of 3.1 ms for ticks alone: tick 12 ends it. Then half for batches of 10 us.
     let run = free_run(Length::Nanoseconds(3_100_000), None);
     let counts: Vec<u64> = run.series.iter().map(|s| s.spans.count()).collect();

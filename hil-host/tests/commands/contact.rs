@@ -12,7 +12,7 @@ fn contact(arguments: &[&str]) -> Assert {
 }
 
 #[test]
-fn the_default_pair_is_told_and_drawn() {
+fn the_default_pair_is_reported_and_drawn() {
     let folder = tempfile::tempdir().unwrap();
     let plots = folder.path().join("plots");
     let output = contact(&["--format", "json", "--plots", plots.to_str().unwrap()]).success();
@@ -49,7 +49,7 @@ fn the_default_pair_is_told_and_drawn() {
 }
 
 #[test]
-fn text_tells_conicity_over_amplitude() {
+fn text_reports_conicity_over_amplitude() {
     let output = contact(&["--no-plots"]);
     let text = text_of(&output);
     assert!(text.contains("S1002 on UIC 60, rails 1:40"), "{text}");

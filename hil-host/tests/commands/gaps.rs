@@ -1,4 +1,4 @@
-//! Gaps of a recording, counted while it is read and told by the commands.
+//! Gaps of a recording, counted while it is read and reported by the commands.
 
 use std::io::Cursor;
 use std::path::Path;
@@ -62,7 +62,7 @@ fn an_even_or_jittering_recording_has_none() {
 
 /// The shipped recording has one gap of about 40 ms after 2 s, as its header says.
 #[test]
-fn the_commands_tell_gaps() {
+fn the_commands_reports_gaps() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     let ride = "data/excitations/ride_made.csv";
     let folder = tempfile::tempdir().unwrap();

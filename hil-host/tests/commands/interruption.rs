@@ -20,7 +20,7 @@ struct Waiting {
 }
 
 impl Waiting {
-    /// Started by `shell` in `folder`, which is told the command as `"$@"`.
+    /// Started by `shell` in `folder`, which receives the command as `"$@"`.
     fn start(shell: &str, folder: &Path) -> Self {
         let pipe = folder.join("pipe");
         assert!(

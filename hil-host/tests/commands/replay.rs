@@ -192,14 +192,17 @@ fn energy_is_of_the_motion_followed() {
             .sum();
         assert!(energy > 1.0, "the damper is felt: {forces:?}");
         let report = json_of(&output);
-        let told = report["energy_j"].as_f64().unwrap();
-        assert!((told / energy - 1.0).abs() < 1e-6, "{told} {energy}");
+        let reported = report["energy_j"].as_f64().unwrap();
+        assert!(
+            (reported / energy - 1.0).abs() < 1e-6,
+            "{reported} {energy}"
+        );
         assert_eq!(report["limited_inputs"], 1);
     }
 }
 
 #[test]
-fn held_and_limited_input_is_told() {
+fn held_and_limited_input_is_reported() {
     // 1e39 is infinite in single precision.
     let motion = b"time_s,displacement_m\n5,0\n5.001,1e39\n5.002,0\n5.003,9\n5.004,0.001\n";
     let (output, _) = replay_of(motion, &["--format", "json"]);

@@ -107,8 +107,8 @@ fn the_published_damper_is_as_the_reference_has_it() {
     let coefficient = 0.5 * (extension + compression) / peak;
     assert!((value("damping_coefficient_n_s_per_m") / coefficient - 1.0).abs() < 1e-12);
     // A progressive force, between v and v^1.5, gives less than pi F A and more than 0.9 of it.
-    let share = value("energy_per_cycle_j") / (PI * 0.5 * (extension + compression) * 24.875e-3);
-    assert!((0.9..1.0).contains(&share), "{share}");
+    let fraction = value("energy_per_cycle_j") / (PI * 0.5 * (extension + compression) * 24.875e-3);
+    assert!((0.9..1.0).contains(&fraction), "{fraction}");
 }
 
 #[test]

@@ -26,9 +26,12 @@ fn theory_stands_beside_the_published_deflections() {
     for (valve, (cw, theory, published, ce, edge, ratio)) in
         report["valves"].as_array().unwrap().iter().zip(expected)
     {
-        let near = |value: &serde_json::Value, expected: f64, share: f64| {
+        let near = |value: &serde_json::Value, expected: f64, fraction: f64| {
             let value = value.as_f64().unwrap();
-            assert!((value / expected - 1.0).abs() < share, "{value} {expected}");
+            assert!(
+                (value / expected - 1.0).abs() < fraction,
+                "{value} {expected}"
+            );
         };
         let radii = valve["pack"]["cw"].as_array().unwrap();
         assert!(radii[0]["cw_m6_per_n"].as_f64().unwrap().abs() < 1e-4 * cw);
@@ -38,8 +41,8 @@ fn theory_stands_beside_the_published_deflections() {
             theory * 1e-9,
             2e-4,
         );
-        let told = valve["theory_over_published"].as_f64().unwrap();
-        assert!((told - ratio).abs() < 0.5, "{told} {ratio}");
+        let reported = valve["theory_over_published"].as_f64().unwrap();
+        assert!((reported - ratio).abs() < 0.5, "{reported} {ratio}");
         for row in valve["pressures"].as_array().unwrap() {
             let pressure = row["pressure_pa"].as_f64().unwrap();
             near(&row["theory_uniform_m"], theory * 1e-9 * pressure, 2e-4);

@@ -102,7 +102,7 @@ fn the_reference_on_the_recording_is_that_on_a_grid_that_holds_all_stamps() {
 }
 
 #[test]
-fn input_that_the_damper_did_not_follow_is_told() {
+fn input_that_the_damper_did_not_follow_is_reported() {
     let output = verify(
         "time_s,displacement_m\n0,0\n0.001,0.005\n0.01,0\n",
         &["--step-us", "1000"],

@@ -35,15 +35,15 @@ fn every_damper_has_its_own_samples_of_the_same_ticks() {
     let last = u64::from(4 * TICKS);
     let expected: Vec<u64> = (last - 63..=last).collect();
     for place in [1, 0] {
-        let told = rig.json(&["telemetry", "--place", &place.to_string()]);
-        let samples = told["samples"].as_array().unwrap();
+        let reported = rig.json(&["telemetry", "--place", &place.to_string()]);
+        let samples = reported["samples"].as_array().unwrap();
         assert_eq!(ticks(samples), expected);
         assert!(samples.iter().all(|of| of["place"] == place));
         let displacement_m = samples[63]["displacement_m"].as_f64().unwrap();
         assert!((displacement_m - 0.002).abs() < 1e-8, "{displacement_m}");
         let overwritten = last - 64;
         assert_eq!(
-            told["places"],
+            reported["places"],
             json!([{"place": place, "taken": 64, "overwritten": overwritten}])
         );
     }
@@ -64,9 +64,9 @@ fn every_damper_has_its_own_samples_of_the_same_ticks() {
 fn samples_go_to_a_file() {
     let rig = running();
     rig.text(&["stop"]);
-    let told = rig.json(&["telemetry", "--output", "samples.csv"]);
-    assert_eq!(told["output"], "samples.csv");
-    assert_eq!(told["samples"], Value::Null);
+    let reported = rig.json(&["telemetry", "--output", "samples.csv"]);
+    assert_eq!(reported["output"], "samples.csv");
+    assert_eq!(reported["samples"], Value::Null);
     let text = rig.read("samples.csv");
     let mut rows = csv::Reader::from_reader(text.as_bytes());
     let header: Vec<&str> = rows.headers().unwrap().iter().collect();

@@ -68,8 +68,11 @@ fn a_session_number_that_is_open_is_passed_over() {
     // The first has lost its session to the second, and takes the target back.
     let lost = first.request(&Request::Status);
     assert!(matches!(lost, Err(LinkError::SessionLost)));
-    let told = LinkError::SessionLost.to_string();
-    assert!(told.contains("another program said hello"), "{told}");
+    let reported = LinkError::SessionLost.to_string();
+    assert!(
+        reported.contains("another program said hello"),
+        "{reported}"
+    );
     first.hello().unwrap();
     first.request(&Request::Status).unwrap();
 }
@@ -96,8 +99,8 @@ fn every_refusal_has_a_sentence() {
         (Refusal::LinkLost, "lost the link"),
         (Refusal::Corrupted(3), "place 3 was damaged"),
     ] {
-        let told = LinkError::Refused(refusal).to_string();
-        assert!(told.contains(part), "{refusal:?}: {told}");
-        assert!(!told.contains(&format!("{refusal:?}")), "{told}");
+        let reported = LinkError::Refused(refusal).to_string();
+        assert!(reported.contains(part), "{refusal:?}: {reported}");
+        assert!(!reported.contains(&format!("{refusal:?}")), "{reported}");
     }
 }

@@ -151,7 +151,7 @@ fn the_page_shows_each_place_and_the_results() {
 }
 
 #[test]
-fn a_paced_run_tells_missed_deadlines() {
+fn a_paced_run_reports_missed_deadlines() {
     let folder = tempfile::tempdir().unwrap();
     let options = [
         "--paced", "--ticks", "30", "--output", "-", "--page", "run.html", "--format", "json",

@@ -1,4 +1,4 @@
-//! Paced ticks on a clock that tells what it is told.
+//! Paced ticks on a simulated clock.
 
 use std::cell::Cell;
 use std::rc::Rc;
@@ -11,9 +11,9 @@ use dashpot_hil::target::pil::{Client, Desk, Event, Link, LinkError, Pace, Repor
 
 /// Time moves by sleeping and by hand.
 #[derive(Clone, Default)]
-struct Told(Rc<Cell<u64>>);
+struct SimulatedClock(Rc<Cell<u64>>);
 
-impl Clock for Told {
+impl Clock for SimulatedClock {
     fn now_ns(&self) -> u64 {
         self.0.get()
     }
@@ -25,7 +25,7 @@ impl Clock for Told {
 /// A desk that takes 300 us for each step, 1.9 ms for step 5.
 struct Slow {
     desk: Desk<3>,
-    clock: Told,
+    clock: SimulatedClock,
     /// When each step was sent (ns).
     sent_ns: Rc<std::cell::RefCell<Vec<u64>>>,
 }
@@ -59,8 +59,8 @@ struct Ran {
     late: Vec<u32>,
 }
 
-fn run(pace: impl FnOnce(Told) -> Pace<Told>) -> Ran {
-    let clock = Told::default();
+fn run(pace: impl FnOnce(SimulatedClock) -> Pace<SimulatedClock>) -> Ran {
+    let clock = SimulatedClock::default();
     let link = Slow {
         desk: desk(),
         clock: clock.clone(),

@@ -77,20 +77,25 @@ fn every_tick_tells_what_happened_in_it() {
             .unwrap();
     let link = FaultyLink::new(desk(), rates, 2).unwrap();
     let mut session = Session::open(Client::new(link, PATIENCE, 40)).unwrap();
-    let mut told: Vec<Vec<Event>> = Vec::new();
+    let mut reported: Vec<Vec<Event>> = Vec::new();
     let report = session
         .run(
             &[built("paper")],
             motion(1000),
             &mut Pace::default(),
             |record| {
-                told.push(record.events.to_vec());
+                reported.push(record.events.to_vec());
                 Ok(())
             },
         )
         .unwrap();
     let made = session.link().faults_made();
-    let ticks_with = |event| told.iter().filter(|events| events.contains(&event)).count() as u64;
+    let ticks_with = |event| {
+        reported
+            .iter()
+            .filter(|events| events.contains(&event))
+            .count() as u64
+    };
     for (event, most) in [
         (Event::Drop, made.dropped),
         (Event::Corrupt, made.corrupted),
@@ -105,7 +110,7 @@ fn every_tick_tells_what_happened_in_it() {
         assert!(ticks > 0 && ticks <= most, "{event}: {ticks} of {most}");
     }
     assert_eq!(ticks_with(Event::Late) + ticks_with(Event::Mismatch), 0);
-    assert!(told.iter().any(Vec::is_empty));
+    assert!(reported.iter().any(Vec::is_empty));
 }
 
 #[test]

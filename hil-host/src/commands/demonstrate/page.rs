@@ -138,7 +138,7 @@ fn accuracy_table(rows: &[Accuracy]) -> Markup {
                     th { "median cost," br; "ns a step" }
                 }
                 @for row in rows {
-                    tr.over[row.over_limit()] {
+                    tr class=[row.over_limit().then_some("over")] {
                         td { (row.damper) }
                         td { (rate_khz(row.step_s)) }
                         td { (row.scalar) }

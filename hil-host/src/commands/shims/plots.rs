@@ -17,27 +17,28 @@ use crate::study::shim_valves::{VALVE_LOCATIONS, ValveLocation};
 
 /// Steps of pressure in a curve.
 const STEPS: u32 = 200;
-/// Pressures drawn (MPa): from zero to the end of the published table or to twice the preload.
-fn pressures_mpa(report: &ValveReport) -> impl Iterator<Item = f64> + use<> {
-    let table_end_pa = report.pressures.last().map_or(0.0, |row| row.pressure_pa);
-    let end_mpa = 1e-6 * table_end_pa.max(2.0 * report.preload_pa);
+/// Pressures drawn (MPa): from zero to the end of the published tables or to twice the preload.
+fn pressures_mpa(tables_end_pa: f64, preload_pa: f64) -> impl Iterator<Item = f64> {
+    let end_mpa = 1e-6 * tables_end_pa.max(2.0 * preload_pa);
     (0..=STEPS).map(move |i| end_mpa * f64::from(i) / f64::from(STEPS))
 }
 
-/// Writes the plots into `folder` ; returns their paths.
+/// Writes the plots into `folder`; returns their paths.
 pub(super) fn draw(
     folder: &Path,
     hydraulics: &Hydraulics,
     valves: &[ValveReport],
     characteristic: &Characteristic,
 ) -> Outcome<Vec<String>> {
+    let pressures_pa = valves.iter().flat_map(|valve| &valve.pressures);
+    let tables_end_pa = pressures_pa.fold(0.0, |end: f64, row| end.max(row.pressure_pa));
     let mut lifts = Vec::new();
     let mut deflections = Vec::new();
     let mut flows = Vec::new();
     for (location, report) in VALVE_LOCATIONS.iter().zip(valves) {
-        lifts.push(lift(location, report));
+        lifts.push(lift(location, report, tables_end_pa));
         deflections.extend(deflection(location, report, hydraulics)?);
-        flows.push(flow(location, report, characteristic));
+        flows.push(flow(location, report, characteristic, tables_end_pa));
     }
     let mut drawings = Vec::new();
     for (name, panels) in [
@@ -54,10 +55,10 @@ pub(super) fn draw(
 }
 
 /// Edge lift over pressure: the disc theory, the published table and what the damper works with.
-fn lift(location: &ValveLocation, report: &ValveReport) -> Panel {
+fn lift(location: &ValveLocation, report: &ValveReport, tables_end_pa: f64) -> Panel {
     let line = |m_per_pa: f64, preload_pa: f64| {
         let lift_mm = move |mpa: f64| (mpa * 1e6 - preload_pa) * m_per_pa * 1e3;
-        let pressures = pressures_mpa(report);
+        let pressures = pressures_mpa(tables_end_pa, report.preload_pa);
         // The logarithm of a closed valve's lift does not exist, and that of one about to open is rounding.
         let open = pressures.filter(move |mpa| mpa * 1e6 > 1.01 * preload_pa && *mpa > 0.0);
         open.map(move |mpa| (mpa, lift_mm(mpa)))
@@ -146,8 +147,13 @@ fn deflection(
 }
 
 /// Flow over pressure with the lift the damper works with.
-fn flow(location: &ValveLocation, report: &ValveReport, characteristic: &Characteristic) -> Panel {
-    let points = pressures_mpa(report).map(|mpa| {
+fn flow(
+    location: &ValveLocation,
+    report: &ValveReport,
+    characteristic: &Characteristic,
+    tables_end_pa: f64,
+) -> Panel {
+    let points = pressures_mpa(tables_end_pa, report.preload_pa).map(|mpa| {
         let flow = characteristic.valve_flow_m3_per_s(location.valve, mpa * 1e6);
         (mpa, flow.unwrap_or(0.0) * 1e6)
     });

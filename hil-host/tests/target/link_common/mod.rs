@@ -1,6 +1,6 @@
 //! `dashpot link` against a target on the desk that steps by itself.
 
-// Each test binary uses its own share of these.
+// Each test binary uses a part of these.
 #![allow(dead_code)]
 
 use std::process::Command;

@@ -1,6 +1,6 @@
 //! A target on the desk, and the motion that drives it.
 
-// Each test binary uses its own share of these.
+// Each test binary uses a part of these.
 #![allow(dead_code)]
 
 use std::collections::VecDeque;
