@@ -2,7 +2,7 @@
 //!
 //! To add a command, write a file here with its options, a `clap::Args` whose `after_help` has an example, and a
 //! `run` that takes them; then add it to [`Command`]. Options that several commands have are in [`arguments`],
-//! the printing of a report as text or JSON in [`print`], messages and exit codes in [`failure`].
+//! the printing of a report as text or JSON in [`mod@print`], messages and exit codes in [`failure`].
 
 pub mod arguments;
 pub mod budget;
