@@ -6,9 +6,10 @@ use std::path::Path;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use dashpot_core::Damper;
+use dashpot_hil::files::FileError;
 use dashpot_hil::files::damper;
 use dashpot_hil::files::recording::Recording;
-use dashpot_hil::study::replay::{Ticks, replay};
+use dashpot_hil::study::replay::{TickGrid, replay};
 
 const ROWS: u32 = 100_000;
 const STEP_S: f64 = 1e-3;
@@ -29,9 +30,8 @@ fn replays(criterion: &mut Criterion) {
         let source = Box::new(Cursor::new(text.clone()));
         Recording::read(Path::new("bench.csv"), source).expect("a recording")
     };
-    let damper: Damper<f32> = damper::load("in-service", &[])
-        .and_then(|parameters| Ok(parameters.build(STEP_S)?))
-        .expect("a preset");
+    let parameters = damper::load("in-service", &[]).expect("a preset");
+    let damper: Damper<f32> = parameters.build(STEP_S).expect("a preset");
     let mut group = criterion.benchmark_group("replay, a row");
     group.throughput(Throughput::Elements(u64::from(ROWS)));
     group.bench_function("read", |bencher| {
@@ -44,7 +44,7 @@ fn replays(criterion: &mut Criterion) {
     });
     group.bench_function("read, ticks", |bencher| {
         bencher.iter(|| {
-            let mut ticks = Ticks::new(open(), STEP_S).expect("a row");
+            let mut ticks = TickGrid::new(open(), STEP_S).expect("a row");
             while let Some(tick) = ticks.next_tick().expect("a row") {
                 black_box(tick);
             }
@@ -52,10 +52,10 @@ fn replays(criterion: &mut Criterion) {
     });
     group.bench_function("read, ticks, step", |bencher| {
         bencher.iter(|| {
-            let mut ticks = Ticks::new(open(), STEP_S).expect("a row");
+            let mut ticks = TickGrid::new(open(), STEP_S).expect("a row");
             replay(&damper, &mut ticks, None, |_, force, _| {
                 black_box(force);
-                Ok(())
+                Ok::<_, FileError>(())
             })
             .expect("a row")
         });

@@ -1,9 +1,8 @@
-//! Desk host of the Dashpot damper: replay, bench test, verification, processor in the loop.
+#![doc = include_str!("../README.md")]
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
 
 pub mod commands;
-pub mod error;
 pub mod files;
 pub mod realtime;
 pub mod report;

@@ -3,19 +3,11 @@
 use std::io::Write;
 use std::process::ExitCode;
 
-use clap::{Parser, Subcommand};
-use dashpot_hil::commands::budget::{self, BudgetArguments};
-use dashpot_hil::commands::contact::{self, ContactArguments};
+use clap::Parser;
+use dashpot_hil::commands::Command;
 use dashpot_hil::commands::demonstrate::{self, DemonstrateArguments};
-use dashpot_hil::commands::export::{self, ExportArguments};
+use dashpot_hil::commands::failure::Kind;
 use dashpot_hil::commands::interruption;
-use dashpot_hil::commands::link::{self, LinkArguments};
-use dashpot_hil::commands::pil::{self, PilArguments};
-use dashpot_hil::commands::replay::{self, ReplayArguments};
-use dashpot_hil::commands::rig::{self, RigArguments};
-use dashpot_hil::commands::shims::{self, ShimsArguments};
-use dashpot_hil::commands::verify::{self, VerifyArguments};
-use dashpot_hil::error::{Kind, Outcome};
 
 /// Desk host of the Dashpot damper. Without a command: the demonstration on a made ride.
 #[derive(Parser)]
@@ -38,22 +30,12 @@ struct Cli {
     command: Option<Command>,
 }
 
-#[derive(Subcommand)]
-enum Command {
-    Replay(ReplayArguments),
-    Rig(RigArguments),
-    Verify(VerifyArguments),
-    Shims(ShimsArguments),
-    Budget(BudgetArguments),
-    Export(ExportArguments),
-    Contact(ContactArguments),
-    Pil(PilArguments),
-    Link(LinkArguments),
-}
-
 fn main() -> ExitCode {
     let cli = Cli::parse();
-    let outcome = interruption::clean_up().and_then(|()| run(&cli));
+    let outcome = interruption::clean_up().and_then(|()| match &cli.command {
+        None => demonstrate::run(&cli.demonstration),
+        Some(command) => command.run(),
+    });
     let Err(failure) = outcome else {
         return ExitCode::SUCCESS;
     };
@@ -63,22 +45,7 @@ fn main() -> ExitCode {
         // As clap's own for an option it refuses.
         Kind::WrongUse => 2,
     };
-    // Nobody to tell when standard error is closed.
+    // Nothing can be done when standard error is closed.
     let _ = writeln!(std::io::stderr(), "error: {failure}");
     ExitCode::from(code)
-}
-
-fn run(cli: &Cli) -> Outcome<()> {
-    match &cli.command {
-        None => demonstrate::run(&cli.demonstration),
-        Some(Command::Replay(arguments)) => replay::run(arguments),
-        Some(Command::Rig(arguments)) => rig::run(arguments),
-        Some(Command::Verify(arguments)) => verify::run(arguments),
-        Some(Command::Shims(arguments)) => shims::run(arguments),
-        Some(Command::Budget(arguments)) => budget::run(arguments),
-        Some(Command::Export(arguments)) => export::run(arguments),
-        Some(Command::Contact(arguments)) => contact::run(arguments),
-        Some(Command::Pil(arguments)) => pil::run(arguments),
-        Some(Command::Link(arguments)) => link::run(arguments),
-    }
 }

@@ -2,7 +2,7 @@
 
 use std::error::Error;
 
-/// A law without a solution, a motion that is none, or a tolerance that was not reached.
+/// A law without a solution, a motion that is not one, or a tolerance that was not reached.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ReferenceError {

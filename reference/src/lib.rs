@@ -5,6 +5,7 @@
 #![warn(missing_docs)]
 
 pub mod damper;
+pub mod deviation;
 mod error;
 
 pub use error::ReferenceError;

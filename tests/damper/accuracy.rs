@@ -9,6 +9,7 @@ use dashpot::tolerance::{FILE, LEAST_USE, SLACK, Tolerance, required, rows, to_t
 use dashpot::{damper, document};
 use dashpot_core::characteristic::{Characteristic, Corner};
 use dashpot_hil::study::excitation::Excitation;
+use dashpot_hil::study::promise::{PROMISES, Promise};
 
 type Found = HashMap<(&'static str, &'static str), Errors>;
 
@@ -139,6 +140,32 @@ fn document_part(found: &Found) -> String {
         .expect("text grows");
     }
     text
+}
+
+/// The promised limits of docs/numerics.md.
+fn promise_part() -> String {
+    let [long, short] = PROMISES;
+    assert_eq!(
+        (long.nrmse_10_khz_f64, long.nrmse_10_khz_f32),
+        (short.nrmse_10_khz_f64, short.nrmse_10_khz_f32)
+    );
+    let ms = |promise: Promise| promise.least_relaxation_time_s * 1e3;
+    format!(
+        "| relaxation time | 1 kHz | 10 kHz |\n|---|---|---|\n\
+         | {} ms or more | {:e} | {:e} in `f64`, {:e} in `f32` |\n| {} to {} ms | {:e} | the same |\n",
+        ms(long),
+        long.nrmse_1_khz,
+        long.nrmse_10_khz_f64,
+        long.nrmse_10_khz_f32,
+        ms(short),
+        ms(long),
+        short.nrmse_1_khz
+    )
+}
+
+#[test]
+fn the_document_has_the_promised_limits() {
+    document::compare_part("docs/numerics.md", "promise", &promise_part());
 }
 
 #[test]

@@ -3,6 +3,7 @@
 use dashpot::bench_test::settled_force;
 use dashpot::damper;
 use dashpot_core::{Damper, DamperParameters, DamperState, Real};
+use dashpot_reference::deviation::{errors, root_mean_square};
 use proptest::prelude::*;
 
 const STEP_S: f64 = 1e-3;
@@ -159,12 +160,8 @@ fn error(parameters: &DamperParameters, step_s: f64, motion: impl Fn(f64) -> f64
     };
     let (coarse, fine) = (forces(step_s), forces(FINE_S));
     let every = (step_s / FINE_S).round() as usize;
-    let square: f64 = coarse
-        .iter()
-        .zip(fine.iter().step_by(every))
-        .map(|(coarse, fine)| (coarse - fine).powi(2))
-        .sum();
-    (square / coarse.len() as f64).sqrt()
+    let fine: Vec<f64> = fine.into_iter().step_by(every).collect();
+    root_mean_square(errors(&coarse, &fine))
 }
 
 /// Mean order over three halvings from `largest_s`.

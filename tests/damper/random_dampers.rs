@@ -8,23 +8,23 @@ use std::ops::Range;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use dashpot::accuracy::{STEPS_S, nrmse, stepped};
+use dashpot::accuracy::{STEPS_S, stepped};
 use dashpot_core::characteristic::{Characteristic, Corner};
 use dashpot_core::parameters::{
     Element, Geometry, Hydraulics, Leakage, Limits, Mount, Oil, OilColumn, Orifice, Reduced,
     Relief, Reservoir, Seal, TwoChamber, Valve, Valves,
 };
 use dashpot_core::{Damper, DamperParameters};
+use dashpot_hil::study::Scalar;
+use dashpot_hil::study::promise::{LEAST_RMS_FORCE, Promise, relaxation_time_s};
 use dashpot_reference::damper::Reference;
+use dashpot_reference::deviation::{largest_magnitude, nrmse_above};
 
 /// Dampers tried.
 const NUMBERS: Range<u64> = 0..48;
 
 /// Least share of them that the promise covers.
 const COVERED: f64 = 0.8;
-
-/// Share of the force limit; an rms force below it counts as this.
-const LOW_FORCE: f64 = 0.01;
 
 /// What an NRMSE is of, in the order of [`Case::nrmse`].
 const COLUMNS: [&str; 4] = ["1 kHz f64", "1 kHz f32", "10 kHz f64", "10 kHz f32"];
@@ -200,7 +200,7 @@ fn motion(random: &mut Random) -> Box<dyn Fn(f64) -> f64> {
 /// What a damper did at each step of [`STEPS_S`].
 struct Case {
     number: u64,
-    /// Relaxation time: rms force over rms velocity and series stiffness (s).
+    /// Relaxation time (s), of the last step.
     relaxation_s: f64,
     /// NRMSE for each step size in `f64` and in `f32`.
     nrmse: [[f64; 2]; 2],
@@ -229,12 +229,7 @@ fn measure(number: u64) -> Result<Case, String> {
         let reference = Reference::new(&parameters)
             .and_then(|mut reference| reference.forces(&times, &displacements))
             .map_err(|failure| format!("{failure}"))?;
-        let square = |values: &mut dyn Iterator<Item = f64>| {
-            let (sum, count) = values.fold((0.0, 0.0), |(sum, n), v| (sum + v * v, n + 1.0));
-            f64::sqrt(sum / count)
-        };
-        let force = square(&mut reference.iter().copied());
-        if force == 0.0 {
+        if largest_magnitude(reference.iter().copied()) == 0.0 {
             return Err("the motion stays within the clearance".into());
         }
         let beyond = |corner: f64| reference.iter().any(|force| force / corner >= 1.0 - 1e-9);
@@ -244,11 +239,7 @@ fn measure(number: u64) -> Result<Case, String> {
                 .filter(|(_, at)| beyond(*at))
                 .map(|(corner, _)| corner),
         );
-        let velocity = square(&mut displacements.windows(2).map(|x| (x[1] - x[0]) / step_s));
-        let seat = parameters.mount.seat_stiffness_n_per_m;
-        let compliance =
-            1.0 / parameters.mount.stiffness_n_per_m + seat.map_or(0.0, |seat| 1.0 / seat);
-        case.relaxation_s = force / velocity * compliance;
+        case.relaxation_s = relaxation_time_s(&parameters, step_s, &displacements, &reference);
         let stepped = [
             stepped::<f64>(&parameters, step_s, &displacements),
             stepped::<f32>(&parameters, step_s, &displacements),
@@ -256,22 +247,21 @@ fn measure(number: u64) -> Result<Case, String> {
         let built: Damper<f64> = parameters
             .build(step_s)
             .map_err(|error| error.to_string())?;
-        let share = (force / (LOW_FORCE * built.force_limit_n())).min(1.0);
-        *found = stepped.map(|forces| share * nrmse(&forces, &reference));
+        let least_rms_n = LEAST_RMS_FORCE * built.force_limit_n();
+        *found = stepped.map(|forces| nrmse_above(&forces, &reference, least_rms_n));
     }
     Ok(case)
 }
 
-/// The promise of docs/numerics.md: NRMSE allowed at 1 kHz and 10 kHz in `f64` and `f32`.
+/// NRMSE promised for each step of [`STEPS_S`] in `f64` and in `f32`, where there is a promise.
 fn promised(relaxation_s: f64) -> Option<[[f64; 2]; 2]> {
-    let fast = [3e-5, 6e-5];
-    if relaxation_s >= 3e-3 {
-        Some([[1e-3; 2], fast])
-    } else if relaxation_s >= 1.5e-3 {
-        Some([[3e-3; 2], fast])
-    } else {
-        None
-    }
+    let promise = Promise::of(relaxation_s)?;
+    let nrmse = |step_s, scalar| {
+        promise
+            .nrmse(step_s, scalar)
+            .expect("a step of 1 ms at most")
+    };
+    Some(STEPS_S.map(|step_s| [Scalar::F64, Scalar::F32].map(|scalar| nrmse(step_s, scalar))))
 }
 
 fn numbers() -> Range<u64> {

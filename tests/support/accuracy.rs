@@ -7,6 +7,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use dashpot_core::{Damper, DamperParameters, Real};
 use dashpot_hil::study::excitation::Excitation;
 use dashpot_reference::damper::Reference;
+use dashpot_reference::deviation::nrmse;
 
 use crate::damper;
 
@@ -55,18 +56,6 @@ impl Errors {
         let largest = self.largest_force_n[usize::from(corner_n < 0.0)];
         largest >= (1.0 - 1e-9) * corner_n.abs()
     }
-}
-
-/// Root of the mean square difference over the root mean square of `expected`, the first sample
-/// (rest) left out.
-pub fn nrmse(actual: &[f64], expected: &[f64]) -> f64 {
-    assert_eq!(actual.len(), expected.len());
-    let (mut error, mut scale) = (0.0, 0.0);
-    for (actual, expected) in actual.iter().zip(expected).skip(1) {
-        error += (actual - expected).powi(2);
-        scale += expected * expected;
-    }
-    (error / scale).sqrt()
 }
 
 /// Displacements of the excitation rounded to `f32`, so that both scalars and the reference are

@@ -76,14 +76,14 @@ pub fn settled_cycle(parameters: &DamperParameters, motion: Harmonic, step_s: f6
         in_phase += force * libm::sin(phase(tick));
         in_quadrature += force * libm::cos(phase(tick));
     }
-    let share = 2.0 / (cycle as f64 * motion.amplitude_m);
+    let scale = 2.0 / (cycle as f64 * motion.amplitude_m);
     let angular = TAU * motion.frequency_hz;
     Indices {
         max_extension_force_n: largest,
         max_compression_force_n: -smallest,
         energy_per_cycle_j: energy,
-        storage_stiffness_n_per_m: share * in_phase,
-        dynamic_damping_n_s_per_m: share * in_quadrature / angular,
+        storage_stiffness_n_per_m: scale * in_phase,
+        dynamic_damping_n_s_per_m: scale * in_quadrature / angular,
         velocity_m_per_s: angular * motion.amplitude_m,
     }
 }

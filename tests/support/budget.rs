@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use crate::document;
 
-/// A limit is at most the measured figure over this share, so one looser than needed fails.
+/// A limit is at most the measured figure over this fraction, so one looser than needed fails.
 const LEAST_USE: f64 = 0.8;
 
 /// Measured figures by name.
@@ -54,7 +54,7 @@ impl Budget {
     /// What is wrong with the figures of a column: above the limit, far below it, without a row; or a row
     /// without a figure.
     pub fn complaints(&self, column: &str, figures: &[(String, f64)]) -> Vec<String> {
-        let Some(place) = self.columns.iter().position(|name| name == column) else {
+        let Some(column) = self.columns.iter().position(|name| name == column) else {
             return vec![format!("{}: no column {column}", self.path)];
         };
         let mut found = Vec::new();
@@ -63,7 +63,7 @@ impl Budget {
             match self.rows.iter().find(|(row, _)| row == name) {
                 None => found.push(format!("{name}: {value} has no row in {path}")),
                 Some((_, limits)) => {
-                    let limit = limits[place];
+                    let limit = limits[column];
                     if *value > limit {
                         found.push(format!(
                             "{column}: {name}: {value} is above the {limit} allowed"
@@ -87,7 +87,7 @@ impl Budget {
     /// Gives every figure of a column that breaks its limit, or is far below it, a new one: itself, rounded
     /// up to two digits.
     pub fn adapt(&mut self, column: &str, figures: &[(String, f64)]) {
-        let Some(place) = self.columns.iter().position(|name| name == column) else {
+        let Some(column) = self.columns.iter().position(|name| name == column) else {
             return;
         };
         self.rows
@@ -99,9 +99,9 @@ impl Budget {
                     .rows
                     .push((name.clone(), vec![limit; self.columns.len()])),
                 Some((_, limits))
-                    if *value > limits[place] || *value < LEAST_USE * limits[place] =>
+                    if *value > limits[column] || *value < LEAST_USE * limits[column] =>
                 {
-                    limits[place] = limit;
+                    limits[column] = limit;
                 }
                 Some(_) => {}
             }

@@ -1,12 +1,11 @@
-//! The firmware under QEMU, asked and answered in turn.
+//! The firmware under QEMU, one request and one answer at a time.
 
 use std::collections::VecDeque;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 use std::time::Duration;
 
-use dashpot_hil::error::Outcome;
-use dashpot_hil::target::pil::{Link, Patience, Qemu};
+use dashpot_hil::target::pil::{Link, LinkError, Patience, Qemu};
 use xtask::processor::CORTEX_M7;
 use xtask::tools::{ARM_GCC, QEMU, have, have_target};
 
@@ -20,7 +19,7 @@ const STUCK: Duration = Duration::from_secs(300);
 /// Of a target that counts its own ticks: a tick has time for a hundred.
 pub const MOST_ANSWERS: u32 = 1_000_000;
 
-/// The folder of the images; none, said loudly, where they cannot be built.
+/// The folder of the images; `None`, with a message, where they cannot be built.
 pub fn images() -> Option<PathBuf> {
     static IMAGES: OnceLock<Option<PathBuf>> = OnceLock::new();
     let build = || {
@@ -35,7 +34,7 @@ pub fn images() -> Option<PathBuf> {
     IMAGES.get_or_init(build).clone()
 }
 
-/// An emulator that is asked and answers in turn, so that a run is the same on a fast machine and a slow
+/// An emulator with one request and one answer at a time, so that a run is the same on a fast machine and a slow
 /// one: every whole frame has one answer, and sending waits for all of them.
 pub struct InTurn {
     emulator: Qemu,
@@ -59,7 +58,7 @@ impl InTurn {
         }
     }
 
-    /// Frames that end within `bytes`; two zeros in a row hold none.
+    /// Frames that end within `bytes`; two zeros in a row hold no frame.
     fn frames(&mut self, bytes: &[u8]) -> usize {
         let ends = bytes.iter().filter(|byte| {
             let ends = **byte == 0 && self.partial;
@@ -71,7 +70,7 @@ impl InTurn {
 }
 
 impl Link for InTurn {
-    fn send(&mut self, bytes: &[u8]) -> Outcome<()> {
+    fn send(&mut self, bytes: &[u8]) -> Result<(), LinkError> {
         self.sent += 1;
         if self.resets.contains(&self.sent) {
             self.emulator.reset_target()?;
@@ -90,10 +89,10 @@ impl Link for InTurn {
         Ok(())
     }
 
-    fn receive(&mut self, buffer: &mut [u8], _: Duration) -> Outcome<usize> {
+    fn receive(&mut self, buffer: &mut [u8], _: Duration) -> Result<usize, LinkError> {
         let count = buffer.len().min(self.answers.len());
-        for (place, byte) in buffer.iter_mut().zip(self.answers.drain(..count)) {
-            *place = byte;
+        for (slot, byte) in buffer.iter_mut().zip(self.answers.drain(..count)) {
+            *slot = byte;
         }
         Ok(count)
     }

@@ -17,8 +17,8 @@ impl LookUp {
     pub fn new(reference: &Reference, velocity_m_per_s: f64, step_s: f64) -> Self {
         let forces_n = (0..=2 * Self::HALF)
             .map(|index| {
-                let share = index as f64 / Self::HALF as f64 - 1.0;
-                reference.static_force(share * velocity_m_per_s) as f32
+                let fraction = index as f64 / Self::HALF as f64 - 1.0;
+                reference.static_force(fraction * velocity_m_per_s) as f32
             })
             .collect();
         Self {
@@ -30,11 +30,11 @@ impl LookUp {
 
     /// Force (N) at the displacement (m) of the tick, linear between entries, held beyond the ends.
     pub fn step(&mut self, x: f32) -> f32 {
-        let place = (x - self.last) * self.scale + Self::HALF as f32;
+        let position = (x - self.last) * self.scale + Self::HALF as f32;
         self.last = x;
-        let place = place.clamp(0.0, 2.0 * Self::HALF as f32 - 1.0);
-        let index = place as usize;
-        let share = place - index as f32;
-        self.forces_n[index] + share * (self.forces_n[index + 1] - self.forces_n[index])
+        let position = position.clamp(0.0, 2.0 * Self::HALF as f32 - 1.0);
+        let index = position as usize;
+        let fraction = position - index as f32;
+        self.forces_n[index] + fraction * (self.forces_n[index + 1] - self.forces_n[index])
     }
 }

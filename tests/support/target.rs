@@ -144,8 +144,8 @@ pub fn first_line(image: &Path, processor: &Processor, shift: u32, arguments: &[
     line
 }
 
-/// Every experiment, with a share of the steps.
-pub fn experiments(share: f64) -> Vec<Experiment> {
+/// Every experiment, with a fraction of the steps.
+pub fn experiments(fraction: f64) -> Vec<Experiment> {
     let build = |preset| damper(preset, &[]).build(STEP_S).expect("a preset");
     let mut all = Vec::new();
     for (element, preset, bank) in ELEMENTS {
@@ -156,7 +156,7 @@ pub fn experiments(share: f64) -> Vec<Experiment> {
                 element,
                 excitation,
                 bank,
-                steps: (steps * share) as u32,
+                steps: (steps * fraction) as u32,
                 damper: build(preset),
                 other: build("reduced-lateral"),
                 motion_m: motion_m.iter().map(|x| (*x as f32).to_le_bytes()).collect(),

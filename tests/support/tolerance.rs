@@ -3,9 +3,12 @@
 //! Its rows are in `tolerance.csv`. `DASHPOT_BLESS=1` writes them anew at [`SLACK`] times the measured
 //! error; no row, blessed or not, may exceed [`required`].
 
+use dashpot_hil::study::Scalar;
+use dashpot_hil::study::promise::PROMISES;
+
 use crate::accuracy::{DAMPERS, STEPS_S};
 
-/// A row is at most the measured error over this share, so one looser than needed fails.
+/// A row is at most the measured error over this fraction, so one looser than needed fails.
 pub const LEAST_USE: f64 = 0.5;
 
 /// A blessed row over the measured error.
@@ -25,17 +28,19 @@ pub struct Tolerance {
     pub nrmse: [[f64; 2]; 2],
 }
 
-/// NRMSE the product requires at step size `step` of [`STEPS_S`], in `f64` and in `f32`: at 1 kHz 1e-3
-/// up to 14 MN/m and 3e-3 beyond, at 10 kHz 3e-5 and 6e-5.
+/// NRMSE the product promises at step size `step` of [`STEPS_S`], in `f64` and in `f32`.
 pub fn required(damper: &str, step: usize) -> [f64; 2] {
     assert!(DAMPERS.iter().any(|(name, _, _)| *name == damper));
-    if STEPS_S[step] < 5e-4 {
-        [3e-5, 6e-5]
-    } else if damper == "paper, Ke 40 MN/m" {
-        [3e-3, 3e-3]
+    let [usual, stiff] = &PROMISES;
+    let promise = if damper == "paper, Ke 40 MN/m" {
+        stiff
     } else {
-        [1e-3, 1e-3]
-    }
+        usual
+    };
+    [Scalar::F64, Scalar::F32].map(|scalar| {
+        let promised = promise.nrmse(STEPS_S[step], scalar);
+        promised.expect("a promise for every step of the table")
+    })
 }
 
 /// The rows.

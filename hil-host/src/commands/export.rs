@@ -5,11 +5,12 @@ use std::path::{Path, PathBuf};
 use dashpot_core::Damper;
 use serde::Serialize;
 
-use super::step_size::StepSize;
-use super::{DamperArguments, Format, Scalar, print_report_beside};
-use crate::error::{Failure, Outcome};
+use super::step_size::{self, StepSize};
+use super::{DamperArguments, Format, print_report_beside};
+use crate::commands::failure::{Failure, Outcome};
 use crate::files::input::is_standard_stream;
 use crate::files::output::{self, is_replaceable, write_bytes, write_together};
+use crate::study::Scalar;
 use crate::target::export::{Provenance, Word, c_header, c_source, rust_source};
 
 /// Language of the exported source.
@@ -48,8 +49,8 @@ pub struct ExportArguments {
     /// Language of the source.
     #[arg(long, value_enum)]
     lang: Language,
-    /// Step the damper is built for, us; 1 to 20000, fractions allowed.
-    #[arg(
+    /// The step, us.
+    #[arg(help = step_size::help("Step the damper is built for", ""), 
         long,
         default_value = "1000",
         value_name = "US",
@@ -73,14 +74,14 @@ pub struct ExportArguments {
 #[derive(Serialize)]
 struct Report {
     damper: String,
-    /// Of the constant; bytes alone have none.
+    /// Of the constant; `None` for bytes alone.
     #[serde(skip_serializing_if = "Option::is_none")]
     name: Option<String>,
     output: String,
     /// Beside a C source that is a file.
     #[serde(skip_serializing_if = "Option::is_none")]
     header: Option<String>,
-    scalar: &'static str,
+    scalar: Scalar,
     step_s: f64,
     revision: u32,
     damper_bytes: usize,
@@ -145,7 +146,7 @@ fn export<T: Word>(arguments: &ExportArguments) -> Outcome<Report> {
     let provenance = Provenance {
         damper: &arguments.damper.damper,
         step_us: arguments.step_us.us(),
-        command: &command_line(arguments, T::NAME, constant),
+        command: &command_line(arguments, constant),
     };
     let path = &arguments.output;
     let header = (arguments.lang == Language::C && is_replaceable(path))
@@ -168,7 +169,7 @@ fn export<T: Word>(arguments: &ExportArguments) -> Outcome<Report> {
         name,
         output: output::name(path).display().to_string(),
         header: header.map(|header| header.display().to_string()),
-        scalar: T::NAME,
+        scalar: Scalar::of::<T>(),
         step_s,
         revision: damper.revision(),
         damper_bytes: size_of::<Damper<T>>(),
@@ -190,15 +191,16 @@ fn header_beside(source: &Path) -> Outcome<PathBuf> {
 }
 
 /// The command line with every default written out.
-fn command_line(arguments: &ExportArguments, scalar: &str, name: &str) -> String {
+fn command_line(arguments: &ExportArguments, name: &str) -> String {
     let mut line = format!("dashpot export --damper '{}'", arguments.damper.damper);
     for assignment in &arguments.damper.overrides {
         line.push_str(&format!(" --set '{assignment}'"));
     }
     line.push_str(&format!(
-        " --lang {} --step-us {} --scalar {scalar} --name {name} --output '{}'",
+        " --lang {} --step-us {} --scalar {} --name {name} --output '{}'",
         arguments.lang.name(),
         arguments.step_us,
+        arguments.scalar,
         arguments.output.display()
     ));
     line

@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use super::counted;
 use crate::files::recording::{GAP_IN_MEDIANS, Gaps};
 
-/// Writes how many gaps the recording has and where the longest is; nothing where there is none.
+/// Writes how many gaps the recording has and where the longest is; nothing where there are no gaps.
 pub(super) fn write_gaps(out: &mut dyn Write, gaps: &Gaps) -> io::Result<()> {
     let (Some(longest), Some(median_s)) = (gaps.longest, gaps.median_interval_s) else {
         return Ok(());

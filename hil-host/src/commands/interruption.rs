@@ -1,7 +1,7 @@
 //! SIGINT, SIGTERM and SIGHUP: temporary files are deleted and child processes ended, then the process ends
 //! by the signal as it would have without this.
 
-use crate::error::{Failure, Outcome};
+use crate::commands::failure::{Failure, Outcome};
 
 /// Lets interruptions delete this process's temporary files and end its children from now on. A signal that
 /// the process was started to ignore, as `nohup` has it for SIGHUP, stays ignored.
@@ -40,7 +40,7 @@ pub fn clean_up() -> Outcome<()> {
     Ok(())
 }
 
-/// The signals that this process ignores, signal n as bit n - 1; none where the system does not tell.
+/// The signals that this process ignores, signal n as bit n - 1; 0 where the system does not report them.
 #[cfg(unix)]
 fn ignored_signals() -> u64 {
     std::fs::read_to_string("/proc/self/status")

@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use crate::error::Outcome;
+use crate::commands::failure::Outcome;
 use crate::target::pil::{Link, LinkChoice, Patience};
 
 /// Which line to a target, and how long to wait for answers.
@@ -28,7 +28,7 @@ impl LineArguments {
     /// # Errors
     /// As [`LinkChoice::open`].
     pub fn open(&self) -> Outcome<Box<dyn Link>> {
-        self.link.open(self.baud)
+        Ok(self.link.open(self.baud)?)
     }
 
     /// How long to wait for an answer, and how often to ask.

@@ -7,18 +7,19 @@ use dashpot_core::{DamperParameters, Real};
 use serde::Serialize;
 
 use super::gap_report::write_gaps;
-use super::step_size::StepSize;
+use super::step_size::{self, StepSize};
 use super::{
-    DamperArguments, Format, RealtimeArguments, Scalar, counted, nearest_nanosecond,
-    print_report_beside, progress,
+    DamperArguments, Format, RealtimeArguments, counted, nearest_nanosecond, print_report_beside,
+    progress, streams,
 };
-use crate::error::{Failure, Outcome};
+use crate::commands::failure::{Failure, Outcome};
 use crate::files::input;
 use crate::files::output::{self, cannot_write_rows, write_whole};
 use crate::files::recording::{Gaps, Recording};
 use crate::realtime::pacing::Pacer;
 use crate::realtime::timing::{Figures, optional_span, span};
-use crate::study::replay::{Summary, Ticks, replay};
+use crate::study::Scalar;
+use crate::study::replay::{Summary, TickGrid, replay};
 
 /// Force of a damper over a recorded motion.
 #[derive(Debug, Clone, clap::Args)]
@@ -39,8 +40,8 @@ pub struct ReplayArguments {
     /// Force over time, CSV; a file is written whole or not at all, `-` is standard output.
     #[arg(long, value_name = "FILE")]
     output: PathBuf,
-    /// Step, us; 1 to 20000, fractions allowed.
-    #[arg(
+    /// The step, us.
+    #[arg(help = step_size::help("Step", ""), 
         long,
         default_value = "1000",
         value_name = "US",
@@ -95,7 +96,7 @@ struct Realtime {
 pub fn run(arguments: &ReplayArguments) -> Outcome<()> {
     arguments.damper.refuse_same_input(&arguments.input)?;
     let parameters = arguments.damper.load()?;
-    output::refuse_input("--output", &arguments.output, &arguments.input)?;
+    streams::refuse_input("--output", &arguments.output, &arguments.input)?;
     let options = arguments
         .options
         .options_under("--realtime", arguments.realtime)?;
@@ -146,7 +147,7 @@ fn write<T: Real + Serialize>(
     let step_s = arguments.step_us.seconds();
     let damper = parameters.build::<T>(step_s)?;
     let bar = progress::bar(input::length(&arguments.input), "replay");
-    let mut ticks = Ticks::new(Recording::open(&arguments.input)?, step_s)?;
+    let mut ticks = TickGrid::new(Recording::open(&arguments.input)?, step_s)?;
     let mut summary = None;
     write_whole(&arguments.output, |file| {
         let failed = |error: csv::Error| cannot_write_rows(&arguments.output, error);

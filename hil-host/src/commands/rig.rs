@@ -6,9 +6,9 @@ use std::path::{Path, PathBuf};
 use plotters::prelude::SeriesLabelPosition;
 use serde::Serialize;
 
-use super::step_size::StepSize;
+use super::step_size::{self, StepSize};
 use super::{DamperArguments, Format, print_report};
-use crate::error::Outcome;
+use crate::commands::failure::Outcome;
 use crate::files::output::write_folder;
 use crate::report::plot::curves::Curve;
 use crate::report::plot::loops;
@@ -37,8 +37,8 @@ pub struct RigArguments {
     /// Frequency of the motion, Hz.
     #[arg(long, default_value_t = Harmonic::TABLE_5.frequency_hz, value_name = "HZ")]
     pub frequency_hz: f64,
-    /// Step, us; 1 to 20000, fractions allowed; shortened to a whole number of steps a cycle.
-    #[arg(long, default_value = "100", value_name = "US")]
+    /// The step, us.
+    #[arg(help = step_size::help("Step", "; shortened to a whole number of steps a cycle"), long, default_value = "100", value_name = "US")]
     pub step_us: StepSize,
     /// Folder the loops of force over displacement and velocity are written to, as force-loops.svg; none
     /// when not given.
@@ -77,7 +77,7 @@ pub fn run(arguments: &RigArguments) -> Outcome<()> {
         amplitude_m: arguments.amplitude_m,
         frequency_hz: arguments.frequency_hz,
     };
-    let cycle = bench_test::settle(&damper, motion, arguments.step_us.seconds())?;
+    let cycle = bench_test::run_until_periodic(&damper, motion, arguments.step_us.seconds())?;
     let indices = cycle.indices();
     let published = is_nominal(&motion)
         .then(nominal_characteristic)
@@ -108,7 +108,7 @@ pub fn run(arguments: &RigArguments) -> Outcome<()> {
 }
 
 /// Writes the loops of a cycle called `name` into `folder`, with the largest forces measured where they
-/// are published, and tells their path.
+/// are published; returns their path.
 fn draw(
     folder: &Path,
     name: &str,
@@ -135,7 +135,7 @@ fn draw(
         }
     }
     let mut panels = loops::panels(displacement, velocity, None);
-    // A loop has room within.
+    // The middle of a loop is empty.
     panels[0].legend = Some(SeriesLabelPosition::MiddleMiddle);
     for (panel, over) in panels.iter_mut().zip(["displacement", "velocity"]) {
         panel.title = format!(
@@ -145,7 +145,7 @@ fn draw(
         );
     }
     let drawing = sheet(Layout::row(panels.len(), 640, 480), &panels)?;
-    write_folder(folder, &[("force-loops.svg", drawing)])
+    Ok(write_folder(folder, &[("force-loops.svg", drawing)])?)
 }
 
 /// Whether the motion is that of Table 5.

@@ -3,13 +3,22 @@
 use std::fmt;
 use std::str::FromStr;
 
-use crate::error::{Failure, Outcome};
+use dashpot_core::parameters::STEP_RANGE_S;
 
-/// Shortest and longest step (us), as the core builds dampers for.
-const SHORTEST_US: f64 = 1.0;
-const LONGEST_US: f64 = 20_000.0;
+use super::failure::{Failure, Outcome};
 
-/// A step size of 1 us to 20 ms; fractions of a microsecond are allowed.
+/// Shortest and longest step (us).
+fn range_us() -> (f64, f64) {
+    (STEP_RANGE_S.start() * 1e6, STEP_RANGE_S.end() * 1e6)
+}
+
+/// The help of an option that takes a step size: `what` it is, the steps allowed, and `more`.
+pub(super) fn help(what: &str, more: &str) -> String {
+    let (shortest, longest) = range_us();
+    format!("{what}, us; {shortest} to {longest}, fractions allowed{more}")
+}
+
+/// A step size within [`STEP_RANGE_S`]; fractions of a microsecond are allowed.
 ///
 /// ```
 /// use dashpot_hil::commands::step_size::StepSize;
@@ -24,29 +33,30 @@ pub struct StepSize {
 }
 
 impl StepSize {
-    /// The step size of `us` (us); `None` outside 1 to 20000.
+    /// The step size of `us` (us); `None` outside [`STEP_RANGE_S`].
     pub fn from_us(us: f64) -> Option<Self> {
-        (SHORTEST_US..=LONGEST_US)
-            .contains(&us)
-            .then_some(Self { us })
+        let step = Self { us };
+        STEP_RANGE_S.contains(&step.seconds()).then_some(step)
     }
 
-    /// The step that a target tells in single precision (s), which stands for the shortest decimal that
-    /// rounds to it; `None` outside 1 us to 20 ms.
+    /// The step that a target reports in single precision (s), which stands for the shortest decimal that
+    /// rounds to it; `None` outside [`STEP_RANGE_S`].
     pub fn from_target(step_s: f32) -> Option<Self> {
         let decimal: f64 = step_s.to_string().parse().ok()?;
-        // Free of the rounding of the product: nobody asks for less than a picosecond.
+        // Free of the rounding of the product, to the picosecond.
         Self::from_us((decimal * 1e12).round() / 1e6)
     }
 
     /// As [`Self::from_target`], for building a target's dampers.
     ///
     /// # Errors
-    /// The step is outside 1 us to 20 ms.
+    /// The step is outside [`STEP_RANGE_S`].
     pub fn of_target(step_s: f32) -> Outcome<Self> {
         Self::from_target(step_s).ok_or_else(|| {
+            let (shortest_us, longest_us) = range_us();
             Failure::new(format!(
-                "the target steps {step_s} s; allowed: 1 us to 20 ms"
+                "the target steps {step_s} s; allowed: {shortest_us} us to {} ms",
+                longest_us * 1e-3
             ))
         })
     }
@@ -66,10 +76,10 @@ impl FromStr for StepSize {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        text.parse()
-            .ok()
-            .and_then(Self::from_us)
-            .ok_or_else(|| format!("allowed: {SHORTEST_US} to {LONGEST_US} us"))
+        text.parse().ok().and_then(Self::from_us).ok_or_else(|| {
+            let (shortest, longest) = range_us();
+            format!("allowed: {shortest} to {longest} us")
+        })
     }
 }
 

@@ -7,12 +7,13 @@ use std::rc::Rc;
 use serde::Serialize;
 
 use super::gap_report::write_gaps;
-use super::step_size::StepSize;
+use super::step_size::{self, StepSize};
 use super::{DamperArguments, Format, counted, print_report, progress};
-use crate::error::{Failure, Outcome};
+use crate::commands::failure::{Failure, Outcome};
 use crate::files::input;
 use crate::files::recording::{Gaps, Recording};
-use crate::study::replay::Ticks;
+use crate::study::Scalar;
+use crate::study::replay::TickGrid;
 use crate::study::verification::{
     Deviation, deviation, fixed_step_forces, reference_forces, reference_forces_on_recording,
 };
@@ -32,8 +33,8 @@ pub struct VerifyArguments {
     /// Recorded motion, CSV with columns time_s,displacement_m; `-` for standard input.
     #[arg(long, value_name = "FILE")]
     input: PathBuf,
-    /// Step to verify, us; 1 to 20000, fractions allowed; may be given several times.
-    #[arg(long, default_values = ["1000", "500", "100"], value_name = "US", allow_negative_numbers = true)]
+    /// Steps, us.
+    #[arg(help = step_size::help("Step to verify", "; may be given several times"), long, default_values = ["1000", "500", "100"], value_name = "US", allow_negative_numbers = true)]
     step_us: Vec<StepSize>,
     /// Fail when an NRMSE on ticks is above this.
     #[arg(long, value_name = "NRMSE", value_parser = positive, allow_negative_numbers = true)]
@@ -45,7 +46,7 @@ pub struct VerifyArguments {
 
 #[derive(Serialize)]
 struct Row {
-    scalar: &'static str,
+    scalar: Scalar,
     #[serde(skip)]
     step: StepSize,
     /// On ticks.
@@ -85,17 +86,17 @@ pub fn run(arguments: &VerifyArguments) -> Outcome<()> {
     let mut rows = Vec::new();
     for &step in &arguments.step_us {
         let step_s = step.seconds();
-        let ticks = Ticks::new(open()?, step_s)?.read_all()?;
+        let ticks = TickGrid::new(open()?, step_s)?.read_all()?;
         let displacements_m: Vec<f64> = ticks.iter().map(|tick| tick.displacement_m).collect();
         let on_ticks = reference_forces(&parameters, step_s, &displacements_m)?;
         let on_recording = reference_forces_on_recording(&parameters, step_s, &samples, &ticks)?;
         for (scalar, fixed) in [
             (
-                "f32",
+                Scalar::F32,
                 fixed_step_forces::<f32>(&parameters, step_s, &displacements_m)?,
             ),
             (
-                "f64",
+                Scalar::F64,
                 fixed_step_forces::<f64>(&parameters, step_s, &displacements_m)?,
             ),
         ] {

@@ -1,11 +1,11 @@
-//! What a command reads: a file by its name, or standard input for `-`.
+//! Reading: a file by its name, or standard input for `-`.
 
 use std::borrow::Cow;
 use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
 
-use crate::error::{Failure, Outcome};
+use super::FileError;
 
 /// Stands for standard input or standard output in place of a file; a file of this name is `./-`.
 pub const STANDARD_STREAM: &str = "-";
@@ -34,14 +34,15 @@ pub fn name(path: &Path) -> Cow<'_, Path> {
 ///
 /// # Errors
 /// There is no such file, it is a folder, or it may not be read.
-pub fn open(path: &Path) -> Outcome<Box<dyn Read>> {
+pub fn open(path: &Path) -> Result<Box<dyn Read>, FileError> {
     if is_standard_stream(path) {
         return Ok(Box::new(io::stdin().lock()));
     }
     let file = File::open(path).map_err(|error| cannot_read(path, error))?;
     let data = file.metadata().map_err(|error| cannot_read(path, error))?;
     if data.is_dir() {
-        return Err(cannot_read(path, "it is a folder"));
+        let folder = io::Error::new(io::ErrorKind::IsADirectory, "it is a folder");
+        return Err(cannot_read(path, folder));
     }
     Ok(Box::new(file))
 }
@@ -50,7 +51,7 @@ pub fn open(path: &Path) -> Outcome<Box<dyn Read>> {
 ///
 /// # Errors
 /// As [`open`].
-pub fn read(path: &Path) -> Outcome<Vec<u8>> {
+pub fn read(path: &Path) -> Result<Vec<u8>, FileError> {
     let mut bytes = Vec::new();
     open(path)?
         .read_to_end(&mut bytes)
@@ -62,9 +63,11 @@ pub fn read(path: &Path) -> Outcome<Vec<u8>> {
 ///
 /// # Errors
 /// As [`open`], or bytes that are not UTF-8.
-pub fn read_text(path: &Path) -> Outcome<String> {
-    String::from_utf8(read(path)?)
-        .map_err(|error| cannot_read(path, format!("not UTF-8 text: {}", error.utf8_error())))
+pub fn read_text(path: &Path) -> Result<String, FileError> {
+    String::from_utf8(read(path)?).map_err(|error| {
+        let reason = format!("not UTF-8 text: {}", error.utf8_error());
+        cannot_read(path, io::Error::new(io::ErrorKind::InvalidData, reason))
+    })
 }
 
 /// Bytes in the file at `path`, for a progress bar; 0 where that is not known.
@@ -75,25 +78,6 @@ pub fn length(path: &Path) -> u64 {
     std::fs::metadata(path).map_or(0, |data| data.len())
 }
 
-/// Refuses `-` for more than one of `inputs`, each an option and the file it names.
-///
-/// # Errors
-/// Two of them are `-`: standard input can be read once.
-pub fn refuse_second_standard_input(inputs: &[(&str, &Path)]) -> Outcome<()> {
-    let asked: Vec<&str> = inputs
-        .iter()
-        .filter(|(_, path)| is_standard_stream(path))
-        .map(|(option, _)| *option)
-        .collect();
-    if asked.len() > 1 {
-        return Err(Failure::wrong_use(format!(
-            "{}: `-` is standard input, which can be read for one of them only",
-            asked.join(" and ")
-        )));
-    }
-    Ok(())
-}
-
-fn cannot_read(path: &Path, error: impl std::fmt::Display) -> Failure {
-    Failure::in_file(&name(path), format!("cannot read: {error}"))
+fn cannot_read(path: &Path, error: io::Error) -> FileError {
+    FileError::read(&name(path), error)
 }

@@ -1,8 +1,13 @@
-//! What is read and written: damper files, recordings, profiles; files whole or not at all.
+//! What is read and written: damper files, recordings, profiles, saved states; files whole or not at all.
 
 pub mod damper;
+mod error;
 pub mod input;
 pub mod output;
 pub mod profile;
 pub mod recording;
+pub mod states;
+pub mod status_bits;
 pub mod temporary;
+
+pub use error::FileError;

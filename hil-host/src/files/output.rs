@@ -1,13 +1,13 @@
-//! What a command writes: files whole or not at all, or standard output for `-`.
+//! Writing: files whole or not at all, or standard output for `-`.
 
 use std::borrow::Cow;
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
-use crate::error::{Failure, Outcome};
-use crate::files::input::is_standard_stream;
-use crate::files::temporary::Temporary;
+use super::FileError;
+use super::input::is_standard_stream;
+use super::temporary::Temporary;
 
 /// `path` as messages call it.
 pub fn name(path: &Path) -> Cow<'_, Path> {
@@ -18,33 +18,19 @@ pub fn name(path: &Path) -> Cow<'_, Path> {
     }
 }
 
-/// A failure to write `path`.
-pub fn cannot_write(path: &Path, error: impl Into<io::Error>) -> Failure {
-    Failure::in_writing(&name(path), error)
+/// `path` cannot be written.
+pub fn cannot_write(path: &Path, source: impl Into<io::Error>) -> FileError {
+    FileError::Write {
+        path: name(path).into_owned(),
+        source: source.into(),
+    }
 }
 
-/// A failure to write rows of CSV to `path`.
-pub fn cannot_write_rows(path: &Path, error: csv::Error) -> Failure {
+/// Rows of CSV cannot be written to `path`.
+pub fn cannot_write_rows(path: &Path, error: csv::Error) -> FileError {
     match error.into_kind() {
         csv::ErrorKind::Io(error) => cannot_write(path, error),
         other => cannot_write(path, io::Error::other(format!("{other:?}"))),
-    }
-}
-
-/// Refuses to write the file at `path`, as `option` asks, over the one at `input`.
-///
-/// # Errors
-/// Both are the same file.
-pub fn refuse_input(option: &str, path: &Path, input: &Path) -> Outcome<()> {
-    if is_standard_stream(path) || is_standard_stream(input) {
-        return Ok(());
-    }
-    match (path.canonicalize(), input.canonicalize()) {
-        (Ok(same), Ok(input)) if same == input => Err(Failure::wrong_use(format!(
-            "{option} {}: is the input too; give another output file",
-            path.display()
-        ))),
-        _ => Ok(()),
     }
 }
 
@@ -53,10 +39,10 @@ pub fn refuse_input(option: &str, path: &Path, input: &Path) -> Outcome<()> {
 ///
 /// # Errors
 /// As [`write_whole`].
-pub fn write_whole_if(
+pub fn write_whole_if<E: From<FileError>>(
     path: Option<&Path>,
-    write: impl FnOnce(Option<(&Path, &mut dyn Write)>) -> Outcome<()>,
-) -> Outcome<()> {
+    write: impl FnOnce(Option<(&Path, &mut dyn Write)>) -> Result<(), E>,
+) -> Result<(), E> {
     match path {
         Some(path) => write_whole(path, |file| write(Some((path, file)))),
         None => write(None),
@@ -69,7 +55,10 @@ pub fn write_whole_if(
 ///
 /// # Errors
 /// What `write` returns, or the folder cannot be written.
-pub fn write_whole(path: &Path, write: impl FnOnce(&mut dyn Write) -> Outcome<()>) -> Outcome<()> {
+pub fn write_whole<E: From<FileError>>(
+    path: &Path,
+    write: impl FnOnce(&mut dyn Write) -> Result<(), E>,
+) -> Result<(), E> {
     if is_standard_stream(path) {
         return write_through(path, io::stdout().lock(), write);
     }
@@ -78,7 +67,7 @@ pub fn write_whole(path: &Path, write: impl FnOnce(&mut dyn Write) -> Outcome<()
         let file = file.map_err(|error| cannot_write(path, error))?;
         return write_through(path, file, write);
     }
-    Written::new(path, write)?.rename()
+    Ok(Written::new(path, write)?.rename()?)
 }
 
 /// Whether `path` names a file that is or may be there, not standard output, a device or a pipe.
@@ -94,7 +83,10 @@ struct Written<'a> {
 }
 
 impl<'a> Written<'a> {
-    fn new(path: &'a Path, write: impl FnOnce(&mut dyn Write) -> Outcome<()>) -> Outcome<Self> {
+    fn new<E: From<FileError>>(
+        path: &'a Path,
+        write: impl FnOnce(&mut dyn Write) -> Result<(), E>,
+    ) -> Result<Self, E> {
         let failed = |error: io::Error| cannot_write(path, error);
         let old = std::fs::metadata(path).ok();
         let target = std::fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
@@ -103,8 +95,8 @@ impl<'a> Written<'a> {
             _ => Path::new("."),
         };
         if !folder.is_dir() {
-            let message = format!("cannot write: there is no folder {}", folder.display());
-            return Err(Failure::in_file(path, message));
+            let reason = format!("there is no folder {}", folder.display());
+            return Err(failed(io::Error::new(io::ErrorKind::NotFound, reason)).into());
         }
         let temporary = Temporary::new(folder).map_err(failed)?;
         let file = temporary.file().map_err(failed)?;
@@ -121,28 +113,29 @@ impl<'a> Written<'a> {
         })
     }
 
-    fn rename(self) -> Outcome<()> {
+    fn rename(self) -> Result<(), FileError> {
         self.temporary
             .rename(&self.target)
             .map_err(|error| cannot_write(self.path, error))
     }
 }
 
-fn write_through(
+fn write_through<E: From<FileError>>(
     path: &Path,
     writer: impl Write,
-    write: impl FnOnce(&mut dyn Write) -> Outcome<()>,
-) -> Outcome<()> {
+    write: impl FnOnce(&mut dyn Write) -> Result<(), E>,
+) -> Result<(), E> {
     let mut writer = BufWriter::new(writer);
     write(&mut writer)?;
-    writer.flush().map_err(|error| cannot_write(path, error))
+    let flushed = writer.flush();
+    Ok(flushed.map_err(|error| cannot_write(path, error))?)
 }
 
 /// Writes `bytes` to `path`, whole or not at all.
 ///
 /// # Errors
 /// The file cannot be written.
-pub fn write_bytes(path: &Path, bytes: &[u8]) -> Outcome<()> {
+pub fn write_bytes(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
     write_whole(path, |file| write_all(file, path, bytes))
 }
 
@@ -150,33 +143,34 @@ pub fn write_bytes(path: &Path, bytes: &[u8]) -> Outcome<()> {
 ///
 /// # Errors
 /// One cannot be written, or is there and not a file.
-pub fn write_together(files: &[(&Path, &[u8])]) -> Outcome<()> {
+pub fn write_together(files: &[(&Path, &[u8])]) -> Result<(), FileError> {
     let written: Vec<Written<'_>> = files
         .iter()
         .map(|&(path, bytes)| {
             if is_replaceable(path) {
                 Written::new(path, |file| write_all(file, path, bytes))
             } else {
-                Err(Failure::in_file(path, "cannot write: it is not a file"))
+                Err(cannot_write(path, io::Error::other("it is not a file")))
             }
         })
-        .collect::<Outcome<_>>()?;
+        .collect::<Result<_, _>>()?;
     written.into_iter().try_for_each(Written::rename)
 }
 
-fn write_all(file: &mut dyn Write, path: &Path, bytes: &[u8]) -> Outcome<()> {
+fn write_all(file: &mut dyn Write, path: &Path, bytes: &[u8]) -> Result<(), FileError> {
     file.write_all(bytes)
         .map_err(|error| cannot_write(path, error))
 }
 
-/// Writes each file, a name and its text, into `folder`, made where it is missing, and tells their
-/// paths.
+/// Writes each file, a name and its text, into `folder`, made where it is missing; the paths of the files.
 ///
 /// # Errors
 /// The folder cannot be made or a file not be written.
-pub fn write_folder(folder: &Path, files: &[(&str, String)]) -> Outcome<Vec<String>> {
-    std::fs::create_dir_all(folder)
-        .map_err(|error| Failure::in_file(folder, format!("cannot make the folder: {error}")))?;
+pub fn write_folder(folder: &Path, files: &[(&str, String)]) -> Result<Vec<String>, FileError> {
+    std::fs::create_dir_all(folder).map_err(|source| FileError::Folder {
+        path: folder.to_owned(),
+        source,
+    })?;
     files
         .iter()
         .map(|(name, text)| {

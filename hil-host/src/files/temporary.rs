@@ -9,8 +9,8 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use tempfile::{Builder, NamedTempFile};
 
-/// The temporary files there are. Whoever makes, renames or deletes one holds the lock meanwhile, so
-/// that an interruption meets each of them either listed or gone.
+/// The temporary files. A thread that makes, renames or deletes one holds the lock while it does, so
+/// that an interruption finds each of them either in the list or gone.
 static PATHS: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
 
 fn paths() -> MutexGuard<'static, BTreeSet<PathBuf>> {
@@ -50,13 +50,13 @@ impl Drop for Temporary {
         if let Some(file) = self.0.take() {
             let mut paths = paths();
             paths.remove(file.path());
-            // An error leaves nobody to tell.
+            // There is no one to report an error to.
             let _ = file.close();
         }
     }
 }
 
-/// Deletes all temporary files; none can be made while the guard returned lives.
+/// Deletes all temporary files; no file can be made while the returned guard lives.
 pub(crate) fn delete_all() -> impl Drop {
     let paths = paths();
     for path in &*paths {

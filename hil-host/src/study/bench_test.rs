@@ -1,17 +1,23 @@
-//! Bench test: a harmonic motion until the force repeats, and the indices of one settled cycle.
+//! Bench test: a harmonic motion until the force is periodic, and the indices of one periodic cycle.
 
 use std::f64::consts::TAU;
 
+use dashpot_core::parameters::STEP_RANGE_S;
 use dashpot_core::{DamperParameters, Status};
 use serde::Serialize;
 
-use crate::error::{Failure, Outcome};
+use super::StudyError;
 
-/// A cycle has settled when no force differs from the cycle before by more than this share of the peak.
-const SETTLED: f64 = 1e-9;
+/// The force is periodic when none differs from the cycle before by more than this fraction of the peak.
+const PERIODIC: f64 = 1e-9;
 
-/// A damper that has not settled by then does not.
+/// A force that is not periodic after so many cycles will not become so.
 const MOST_CYCLES: usize = 200;
+
+/// Largest amplitude of a harmonic motion (m).
+pub const LARGEST_AMPLITUDE_M: f64 = 1.0;
+/// Highest frequency of a harmonic motion (Hz).
+pub const HIGHEST_FREQUENCY_HZ: f64 = 1000.0;
 
 /// A harmonic motion `x = A sin(2 pi f t)` of the seats.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,22 +40,19 @@ impl Harmonic {
         TAU * self.frequency_hz * self.amplitude_m
     }
 
-    fn check(&self) -> Outcome<()> {
-        for (name, value, high, unit) in [
-            ("--amplitude-m", self.amplitude_m, 1.0, "m"),
-            ("--frequency-hz", self.frequency_hz, 1000.0, "Hz"),
-        ] {
-            if !(value > 0.0 && value <= high) {
-                return Err(Failure::wrong_use(format!(
-                    "{name}: {value}, allowed: above 0 and at most {high} {unit}"
-                )));
-            }
+    fn check(&self) -> Result<(), StudyError> {
+        let is_within = |value: f64, most: f64| value > 0.0 && value <= most;
+        if !is_within(self.amplitude_m, LARGEST_AMPLITUDE_M) {
+            return Err(StudyError::Amplitude(self.amplitude_m));
+        }
+        if !is_within(self.frequency_hz, HIGHEST_FREQUENCY_HZ) {
+            return Err(StudyError::Frequency(self.frequency_hz));
         }
         Ok(())
     }
 }
 
-/// Indices of one settled cycle.
+/// Indices of one periodic cycle.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Indices {
     /// Largest force in extension F_e (N).
@@ -64,7 +67,7 @@ pub struct Indices {
     pub damping_coefficient_n_s_per_m: f64,
 }
 
-/// One settled cycle: displacement (m) and force (N) at each step.
+/// One periodic cycle: displacement (m) and force (N) at each step.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Cycle {
     /// The motion.
@@ -73,42 +76,45 @@ pub struct Cycle {
     pub displacements_m: Vec<f64>,
     /// Forces (N) at them.
     pub forces_n: Vec<f64>,
-    /// Step used (s): the one asked for, shortened to a whole number of steps a cycle.
+    /// Step used (s): the requested one, shortened to a whole number of steps a cycle.
     pub step_s: f64,
-    /// Cycles run until the force repeated.
+    /// Cycles run until the force was periodic.
     pub cycles: usize,
 }
 
 /// Runs a damper in double precision through `motion` with steps of at most `step_s` (s) until the
-/// force repeats.
+/// force is periodic.
 ///
 /// # Errors
 /// A motion or step outside its range or faster than the damper's limit; a damper that does not build;
-/// a force that does not repeat.
+/// a force that does not become periodic.
 ///
 /// ```
 /// use dashpot_hil::files::damper;
 /// use dashpot_hil::study::bench_test;
 /// let damper = damper::load("reduced-vertical", &["mount.clearance_m=0.0".into()])?;
 /// let motion = bench_test::Harmonic { amplitude_m: 1e-3, frequency_hz: 1.0 };
-/// let indices = bench_test::settle(&damper, motion, 1e-4)?.indices();
+/// let indices = bench_test::run_until_periodic(&damper, motion, 1e-4)?.indices();
 /// // A spring K behind a damper C: C w A/sqrt(1 + (w C/K)^2).
 /// assert!((indices.max_extension_force_n / 750.65 - 1.0).abs() < 1e-4);
-/// # Ok::<(), dashpot_hil::error::Failure>(())
+/// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub fn settle(parameters: &DamperParameters, motion: Harmonic, step_s: f64) -> Outcome<Cycle> {
+pub fn run_until_periodic(
+    parameters: &DamperParameters,
+    motion: Harmonic,
+    step_s: f64,
+) -> Result<Cycle, StudyError> {
     motion.check()?;
-    if !(1e-6..=2e-2).contains(&step_s) {
-        return Err(Failure::wrong_use(format!(
-            "step: {step_s} s, allowed: 1e-6 to 2e-2 s"
-        )));
+    if !STEP_RANGE_S.contains(&step_s) {
+        return Err(StudyError::Step { step_s });
     }
     let period = 1.0 / motion.frequency_hz;
     let ticks = (period / step_s - 1e-9).ceil();
     if !(20.0..=2e7).contains(&ticks) {
-        return Err(Failure::wrong_use(format!(
-            "{ticks} steps of {step_s} s a cycle, allowed: 20 to 2e7; choose another step or frequency"
-        )));
+        return Err(StudyError::StepsPerCycle {
+            steps: ticks,
+            step_s,
+        });
     }
     let ticks = ticks as usize;
     let step_s = period / ticks as f64;
@@ -127,13 +133,12 @@ pub fn settle(parameters: &DamperParameters, motion: Harmonic, step_s: f64) -> O
             change = change.max((*force - before).abs());
         }
         if state.status().contains(Status::INPUT_LIMITED) {
-            return Err(Failure::wrong_use(format!(
-                "the motion reaches {:.3} m/s, allowed: limits.rate_m_per_s = {} m/s",
-                motion.peak_velocity_m_per_s(),
-                parameters.limits.rate_m_per_s
-            )));
+            return Err(StudyError::Velocity {
+                velocity_m_per_s: motion.peak_velocity_m_per_s(),
+                limit_m_per_s: parameters.limits.rate_m_per_s,
+            });
         }
-        if cycle > 1 && change <= SETTLED * peak {
+        if cycle > 1 && change <= PERIODIC * peak {
             return Ok(Cycle {
                 motion,
                 displacements_m: displacements,
@@ -143,10 +148,10 @@ pub fn settle(parameters: &DamperParameters, motion: Harmonic, step_s: f64) -> O
             });
         }
     }
-    Err(Failure::new(format!(
-        "the force does not repeat within {MOST_CYCLES} cycles of {} m at {} Hz",
-        motion.amplitude_m, motion.frequency_hz
-    )))
+    Err(StudyError::NotPeriodic {
+        cycles: MOST_CYCLES,
+        motion,
+    })
 }
 
 impl Cycle {

@@ -157,20 +157,20 @@ fn ramp(time_s: f64) -> f64 {
     let mut start = 0.0;
     for (velocity, duration) in STROKES {
         let length = 0.5 * velocity * duration;
-        // Displacement over the share of a stroke that has gone, 0 to 1.
-        let along = |share: f64| {
-            if share < 0.5 {
-                length * 2.0 * share * share
+        // Displacement over the fraction of a stroke that has gone, 0 to 1.
+        let along = |fraction: f64| {
+            if fraction < 0.5 {
+                length * 2.0 * fraction * fraction
             } else {
-                length * (1.0 - 2.0 * (1.0 - share) * (1.0 - share))
+                length * (1.0 - 2.0 * (1.0 - fraction) * (1.0 - fraction))
             }
         };
-        let share = (time_s - start) / duration;
-        if share < 1.0 {
-            return along(share);
+        let fraction = (time_s - start) / duration;
+        if fraction < 1.0 {
+            return along(fraction);
         }
-        if share < 2.0 {
-            return length - along(share - 1.0);
+        if fraction < 2.0 {
+            return length - along(fraction - 1.0);
         }
         start += 2.0 * duration;
     }

@@ -3,8 +3,8 @@
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
-use crate::error::{Failure, Outcome};
-use crate::study::bench_test::Indices;
+use super::StudyError;
+use super::bench_test::Indices;
 
 /// Table 2: piston extension valve.
 pub(crate) const TABLE_2: &str =
@@ -63,7 +63,7 @@ impl NominalIndex {
     ///
     /// # Errors
     /// A name that [`Indices`] does not have.
-    pub fn of(&self, indices: &Indices) -> Outcome<String> {
+    pub fn of(&self, indices: &Indices) -> Result<String, StudyError> {
         Ok(match self.index.as_str() {
             "damping coefficient" => format!("{:.2}", indices.damping_coefficient_n_s_per_m * 1e-3),
             "maximum extension force" => format!("{:.0}", indices.max_extension_force_n),
@@ -72,7 +72,7 @@ impl NominalIndex {
                 .asymmetry_rate
                 .map_or_else(|| "no force".into(), |rate| format!("{:.2}", rate * 1e2)),
             "energy per cycle" => format!("{:.2}", indices.energy_per_cycle_j),
-            other => return Err(Failure::new(format!("Table 5: unknown index {other}"))),
+            other => return Err(StudyError::Table5(format!("unknown index {other}"))),
         })
     }
 }
@@ -90,7 +90,7 @@ pub struct NominalCharacteristic {
 ///
 /// # Errors
 /// The table in the program is not as it was shipped.
-pub(crate) fn deflections(table: &str) -> Outcome<Vec<Deflection>> {
+pub(crate) fn deflections(table: &str) -> Result<Vec<Deflection>, StudyError> {
     rows(table)
 }
 
@@ -98,7 +98,7 @@ pub(crate) fn deflections(table: &str) -> Outcome<Vec<Deflection>> {
 ///
 /// # Errors
 /// The table in the program is not as it was shipped.
-pub fn nominal_indices() -> Outcome<Vec<NominalIndex>> {
+pub fn nominal_indices() -> Result<Vec<NominalIndex>, StudyError> {
     rows(TABLE_5)
 }
 
@@ -106,13 +106,13 @@ pub fn nominal_indices() -> Outcome<Vec<NominalIndex>> {
 ///
 /// # Errors
 /// The table in the program is not as it was shipped.
-pub fn nominal_characteristic() -> Outcome<NominalCharacteristic> {
+pub fn nominal_characteristic() -> Result<NominalCharacteristic, StudyError> {
     let rows = nominal_indices()?;
-    let column = |printed: fn(&NominalIndex) -> &str| -> Outcome<Indices> {
+    let column = |printed: fn(&NominalIndex) -> &str| -> Result<Indices, StudyError> {
         let of = |name: &str| {
             let row = rows.iter().find(|row| row.index == name);
             row.and_then(|row| printed(row).parse::<f64>().ok())
-                .ok_or_else(|| Failure::new(format!("Table 5: no number of the {name}")))
+                .ok_or_else(|| StudyError::Table5(format!("no number of the {name}")))
         };
         Ok(Indices {
             max_extension_force_n: of("maximum extension force")?,
@@ -128,9 +128,7 @@ pub fn nominal_characteristic() -> Outcome<NominalCharacteristic> {
     })
 }
 
-fn rows<T: DeserializeOwned>(table: &str) -> Outcome<Vec<T>> {
-    csv::Reader::from_reader(table.as_bytes())
-        .deserialize()
-        .collect::<Result<_, _>>()
-        .map_err(|error| Failure::new(format!("a published table: {error}")))
+fn rows<T: DeserializeOwned>(table: &str) -> Result<Vec<T>, StudyError> {
+    let mut reader = csv::Reader::from_reader(table.as_bytes());
+    Ok(reader.deserialize().collect::<Result<_, _>>()?)
 }

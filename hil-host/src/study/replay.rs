@@ -2,8 +2,8 @@
 
 use dashpot_core::{Damper, DamperState, Real, Status};
 
-use crate::error::{Failure, Outcome};
-use crate::files::recording::{Recording, Sample};
+use crate::files::FileError;
+use crate::files::recording::{MOST_TICKS, Recording, RecordingError, Sample};
 use crate::realtime::pacing::Pacer;
 
 /// One tick of a replay.
@@ -16,7 +16,7 @@ pub struct Tick {
 }
 
 /// The tick grid of a recording: starts at its first sample, ends within its last.
-pub struct Ticks {
+pub struct TickGrid {
     recording: Recording,
     step_s: f64,
     start_s: f64,
@@ -25,24 +25,21 @@ pub struct Ticks {
     after: Sample,
 }
 
-/// Ticks a recording may span: 24 hours at 10 kHz, so that one mistyped time does not fill a disk.
-const MOST_TICKS: f64 = 864e6;
-
 /// How far a sample meant for the tick at `time_s` (s) of steps of `step_s` (s) may lie from it by
 /// rounding (s).
 pub(crate) fn rounding_s(time_s: f64, step_s: f64) -> f64 {
     1e-9 * step_s + 4.0 * f64::EPSILON * time_s.abs()
 }
 
-impl Ticks {
+impl TickGrid {
     /// The grid of `step_s` (s) over `recording`.
     ///
     /// # Errors
     /// No readable row.
-    pub fn new(mut recording: Recording, step_s: f64) -> Outcome<Self> {
+    pub fn new(mut recording: Recording, step_s: f64) -> Result<Self, FileError> {
         let first = recording
             .next_sample()?
-            .ok_or_else(|| Failure::new("a recording has no row"))?;
+            .ok_or_else(|| recording.in_text(RecordingError::NoRow))?;
         Ok(Self {
             recording,
             step_s,
@@ -57,7 +54,7 @@ impl Ticks {
     ///
     /// # Errors
     /// A row that cannot be read, or a recording over 24 hours of 10 kHz ticks long.
-    pub fn next_tick(&mut self) -> Outcome<Option<Tick>> {
+    pub fn next_tick(&mut self) -> Result<Option<Tick>, FileError> {
         let offset_s = self.number as f64 * self.step_s;
         let time_s = self.start_s + offset_s;
         // A sample meant for a tick may lie a rounding before it.
@@ -67,11 +64,8 @@ impl Ticks {
                 return Ok(None);
             };
             if (next.time_s - self.start_s) / self.step_s > MOST_TICKS {
-                return Err(self.recording.in_time(format!(
-                    "{} s is more than {MOST_TICKS} ticks after the first sample; split the recording \
-                     or take a larger step",
-                    next.time_s
-                )));
+                let time_s = next.time_s;
+                return Err(self.recording.in_time(RecordingError::TooLong { time_s }));
             }
             self.before = self.after;
             self.after = next;
@@ -81,8 +75,8 @@ impl Ticks {
         let displacement_m = if time_s + slack_s >= after.time_s {
             after.displacement_m
         } else {
-            let share = (time_s - before.time_s) / (after.time_s - before.time_s);
-            before.displacement_m + share * (after.displacement_m - before.displacement_m)
+            let fraction = (time_s - before.time_s) / (after.time_s - before.time_s);
+            before.displacement_m + fraction * (after.displacement_m - before.displacement_m)
         };
         Ok(Some(Tick {
             time_s,
@@ -93,8 +87,8 @@ impl Ticks {
     /// All ticks left.
     ///
     /// # Errors
-    /// As [`Ticks::next_tick`].
-    pub fn read_all(mut self) -> Outcome<Vec<Tick>> {
+    /// As [`TickGrid::next_tick`].
+    pub fn read_all(mut self) -> Result<Vec<Tick>, FileError> {
         let mut ticks = Vec::new();
         while let Some(tick) = self.next_tick()? {
             ticks.push(tick);
@@ -105,8 +99,8 @@ impl Ticks {
     /// Displacements (m) at all ticks left.
     ///
     /// # Errors
-    /// As [`Ticks::next_tick`].
-    pub fn displacements_m(self) -> Outcome<Vec<f64>> {
+    /// As [`TickGrid::next_tick`].
+    pub fn displacements_m(self) -> Result<Vec<f64>, FileError> {
         let ticks = self.read_all()?;
         Ok(ticks.iter().map(|tick| tick.displacement_m).collect())
     }
@@ -165,12 +159,12 @@ impl Summary {
 ///
 /// # Errors
 /// What `ticks` or `sink` return.
-pub fn replay<T: Real>(
+pub fn replay<T: Real, E: From<FileError>>(
     damper: &Damper<T>,
-    ticks: &mut Ticks,
+    ticks: &mut TickGrid,
     mut pacer: Option<&mut Pacer>,
-    mut sink: impl FnMut(Tick, T, &Ticks) -> Outcome<()>,
-) -> Outcome<Summary> {
+    mut sink: impl FnMut(Tick, T, &TickGrid) -> Result<(), E>,
+) -> Result<Summary, E> {
     let mut state: Option<DamperState<T>> = None;
     let mut last: Option<(f64, f64)> = None;
     let mut summary = Summary::default();

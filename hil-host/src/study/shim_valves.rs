@@ -4,11 +4,11 @@ use dashpot_core::characteristic::ShimPackValve;
 use dashpot_core::parameters::{Hydraulics, Valve};
 use dashpot_core::shim::Pack;
 
-use crate::error::Outcome;
-use crate::study::published::{self, Deflection, deflections};
+use super::StudyError;
+use super::published::{self, Deflection, deflections};
 
-/// One of the places of a shim-pack valve in a damper.
-pub struct Place {
+/// Where a damper has a shim-pack valve.
+pub struct ValveLocation {
     /// Name for people.
     pub name: &'static str,
     /// Key of the damper file.
@@ -21,9 +21,9 @@ pub struct Place {
     published: &'static str,
 }
 
-/// The places.
-pub const PLACES: [Place; 3] = [
-    Place {
+/// The three locations.
+pub const VALVE_LOCATIONS: [ValveLocation; 3] = [
+    ValveLocation {
         name: "piston extension",
         section: "valves.piston_extension",
         valve: ShimPackValve::PistonExtension,
@@ -31,7 +31,7 @@ pub const PLACES: [Place; 3] = [
         table: 2,
         published: published::TABLE_2,
     },
-    Place {
+    ValveLocation {
         name: "piston compression",
         section: "valves.piston_compression",
         valve: ShimPackValve::PistonCompression,
@@ -39,7 +39,7 @@ pub const PLACES: [Place; 3] = [
         table: 3,
         published: published::TABLE_3,
     },
-    Place {
+    ValveLocation {
         name: "foot compression",
         section: "valves.foot_compression",
         valve: ShimPackValve::FootCompression,
@@ -49,7 +49,7 @@ pub const PLACES: [Place; 3] = [
     },
 ];
 
-impl Place {
+impl ValveLocation {
     /// The valve here.
     pub fn valve_of<'a>(&self, hydraulics: &'a Hydraulics) -> &'a Valve {
         (self.of)(hydraulics)
@@ -59,7 +59,7 @@ impl Place {
     ///
     /// # Errors
     /// A pack that disc theory does not hold for.
-    pub fn pack(&self, hydraulics: &Hydraulics) -> Outcome<Option<Pack>> {
+    pub fn pack(&self, hydraulics: &Hydraulics) -> Result<Option<Pack>, StudyError> {
         let valve = self.valve_of(hydraulics);
         if valve.shims_m.is_empty() {
             return Ok(None);
@@ -70,8 +70,8 @@ impl Place {
     /// Edge compliance (m/Pa) of the pack here by disc theory, uniform pressure.
     ///
     /// # Errors
-    /// As [`Place::pack`].
-    pub fn theory_m_per_pa(&self, hydraulics: &Hydraulics) -> Outcome<Option<f64>> {
+    /// As [`ValveLocation::pack`].
+    pub fn theory_m_per_pa(&self, hydraulics: &Hydraulics) -> Result<Option<f64>, StudyError> {
         let edge = self.valve_of(hydraulics).free_radius_m;
         let pack = self.pack(hydraulics)?;
         Ok(pack.map(|pack| pack.compliance_m_per_pa(edge)))
@@ -81,7 +81,7 @@ impl Place {
     ///
     /// # Errors
     /// The table in the program is not as it was shipped.
-    pub fn published(&self) -> Outcome<Vec<Deflection>> {
+    pub fn published(&self) -> Result<Vec<Deflection>, StudyError> {
         deflections(self.published)
     }
 }
@@ -95,15 +95,15 @@ pub fn theory_over_published(theory_m_per_pa: f64, published: &[Deflection]) -> 
 /// The first erratum of the source paper, with the figures of the damper published there.
 ///
 /// # Errors
-/// As [`Place::pack`] and [`Place::published`].
-pub fn erratum(paper: &Hydraulics) -> Outcome<String> {
-    let ratio = |place: &Place| -> Outcome<String> {
-        let theory = place.theory_m_per_pa(paper)?;
-        let published = place.published()?;
+/// As [`ValveLocation::pack`] and [`ValveLocation::published`].
+pub fn erratum(paper: &Hydraulics) -> Result<String, StudyError> {
+    let ratio = |location: &ValveLocation| -> Result<String, StudyError> {
+        let theory = location.theory_m_per_pa(paper)?;
+        let published = location.published()?;
         let ratio = theory.and_then(|theory| theory_over_published(theory, &published));
         Ok(ratio.map_or_else(|| "-".into(), |ratio| format!("{ratio:.0}")))
     };
-    let [extension, compression, foot] = &PLACES;
+    let [extension, compression, foot] = &VALVE_LOCATIONS;
     Ok(format!(
         "Tables 2-4 of the paper do not follow from its Table 1: the disc theory gives {}, {} and {} \
          times the tabulated deflections, and no bonded stack fits either.",

@@ -3,10 +3,11 @@
 use dashpot_core::{DamperParameters, Real};
 use serde::Serialize;
 
-use crate::error::{Failure, Outcome};
+use super::StudyError;
+use super::replay::{Tick, rounding_s};
 use crate::files::recording::Sample;
-use crate::study::replay::{Tick, rounding_s};
 use dashpot_reference::damper::Reference;
+use dashpot_reference::deviation::{errors, largest_magnitude, nrmse, root_mean_square};
 
 /// Deviation of one fixed step from the reference on one motion.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -23,16 +24,6 @@ pub struct Deviation {
     pub reference_rms_n: f64,
     /// Largest magnitude of the reference force (N).
     pub reference_peak_n: f64,
-}
-
-/// Largest [`Deviation::nrmse`] the fixed step may have, in `f32` where `single` and in `f64` else, for
-/// series stiffnesses up to 14 MN/m: 1e-3 at 1 kHz, 6e-5 and 3e-5 at 10 kHz.
-pub fn nrmse_limit(step_s: f64, single: bool) -> f64 {
-    match (step_s > 1.1e-4, single) {
-        (true, _) => 1e-3,
-        (false, true) => 6e-5,
-        (false, false) => 3e-5,
-    }
 }
 
 /// What the fixed step did with a motion.
@@ -53,7 +44,7 @@ pub fn fixed_step_forces<T: Real>(
     parameters: &DamperParameters,
     step_s: f64,
     displacements_m: &[f64],
-) -> Outcome<FixedStep> {
+) -> Result<FixedStep, StudyError> {
     let damper = parameters.build::<T>(step_s)?;
     let start = displacements_m.first().copied().unwrap_or(0.0);
     let mut state = damper.at_rest(T::from_f64(start));
@@ -75,7 +66,7 @@ pub fn reference_forces(
     parameters: &DamperParameters,
     step_s: f64,
     displacements_m: &[f64],
-) -> Outcome<Vec<f64>> {
+) -> Result<Vec<f64>, StudyError> {
     let times: Vec<f64> = (0..displacements_m.len())
         .map(|tick| tick as f64 * step_s)
         .collect();
@@ -94,12 +85,12 @@ pub fn reference_forces_on_recording(
     step_s: f64,
     samples: &[Sample],
     ticks: &[Tick],
-) -> Outcome<Vec<f64>> {
+) -> Result<Vec<f64>, StudyError> {
     let Some(start_s) = ticks.first().map(|tick| tick.time_s) else {
         return Ok(Vec::new());
     };
     let (mut times_s, mut displacements_m) = (Vec::new(), Vec::new());
-    let mut places = Vec::with_capacity(ticks.len());
+    let mut indices = Vec::with_capacity(ticks.len());
     let mut samples = samples.iter().peekable();
     for tick in ticks {
         // A sample that only rounding parts from the tick is the tick.
@@ -110,44 +101,36 @@ pub fn reference_forces_on_recording(
                 displacements_m.push(sample.displacement_m);
             }
         }
-        places.push(times_s.len());
+        indices.push(times_s.len());
         times_s.push(tick.time_s - start_s);
         displacements_m.push(tick.displacement_m);
     }
     let forces = Reference::new(parameters)?.forces(&times_s, &displacements_m)?;
-    Ok(places.into_iter().map(|place| forces[place]).collect())
+    Ok(indices.into_iter().map(|index| forces[index]).collect())
 }
 
 /// Deviation of `forces` from `reference` (N).
 ///
 /// # Errors
 /// Different lengths, or a reference force that is zero throughout.
-pub fn deviation(step_s: f64, forces: &[f64], reference: &[f64]) -> Outcome<Deviation> {
+pub fn deviation(step_s: f64, forces: &[f64], reference: &[f64]) -> Result<Deviation, StudyError> {
     if forces.len() != reference.len() {
-        return Err(Failure::new(format!(
-            "{} forces against {} of the reference",
-            forces.len(),
-            reference.len()
-        )));
+        return Err(StudyError::Lengths {
+            forces: forces.len(),
+            references: reference.len(),
+        });
     }
-    let count = reference.len().max(1) as f64;
-    let rms = |sum: f64| (sum / count).sqrt();
-    let peak = reference.iter().fold(0.0_f64, |peak, f| peak.max(f.abs()));
-    if peak == 0.0 {
-        return Err(Failure::new(
-            "the reference force is zero throughout: the motion stays within the clearance, there is \
-             nothing to compare",
-        ));
+    let reference_peak_n = largest_magnitude(reference.iter().copied());
+    if reference_peak_n == 0.0 {
+        return Err(StudyError::NoForce);
     }
-    let errors = || forces.iter().zip(reference).map(|(f, r)| f - r);
-    let largest = errors().fold(0.0_f64, |largest, error| largest.max(error.abs()));
-    let reference_rms_n = rms(reference.iter().map(|f| f * f).sum());
+    let largest_error_n = largest_magnitude(errors(forces, reference));
     Ok(Deviation {
         step_s,
-        nrmse: rms(errors().map(|error| error * error).sum()) / reference_rms_n,
-        largest_error_over_peak: largest / peak,
-        largest_error_n: largest,
-        reference_rms_n,
-        reference_peak_n: peak,
+        nrmse: nrmse(forces, reference),
+        largest_error_over_peak: largest_error_n / reference_peak_n,
+        largest_error_n,
+        reference_rms_n: root_mean_square(reference.iter().copied()),
+        reference_peak_n,
     })
 }

@@ -5,8 +5,8 @@ use std::io::{self, Read};
 use std::process::{Child, Command, ExitStatus};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-/// The children there are. Whoever starts or drops one holds the lock meanwhile, so that an interruption
-/// meets each of them either listed or gone.
+/// The running children. A thread that starts or drops one holds the lock while it does, so that an
+/// interruption finds each of them either in the list or ended.
 static CHILDREN: Mutex<Vec<Arc<Mutex<Child>>>> = Mutex::new(Vec::new());
 
 fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
@@ -61,7 +61,7 @@ fn end(child: &Mutex<Child>) {
     let _ = child.wait();
 }
 
-/// Ends all children; none can be started while the guard returned lives.
+/// Ends all children; no child can be started while the returned guard lives.
 #[cfg(unix)]
 pub(crate) fn end_all() -> impl Drop {
     let children = lock(&CHILDREN);

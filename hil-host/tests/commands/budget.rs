@@ -1,15 +1,21 @@
-//! Runs of the budget on a clock that tells what it is told, and `dashpot budget` from outside.
+//! Runs of the budget on a simulated clock, and `dashpot budget` from outside.
 
 use std::cell::Cell;
-use std::process::{Command, Output};
+use std::path::Path;
 
+use assert_cmd::assert::Assert;
+
+use crate::common::{dashpot, error_of, json_of, text_of};
+
+use dashpot_hil::commands::failure::Failure;
+use dashpot_hil::realtime::RealtimeError;
 use dashpot_hil::realtime::budget::{Length, Run, free, paced};
 use dashpot_hil::realtime::pacing::{Clock, Pacer};
 
 /// Time moves by the work of the ticks and by sleeping.
-struct Told<'a>(&'a Cell<u64>);
+struct SimulatedClock<'a>(&'a Cell<u64>);
 
-impl Clock for Told<'_> {
+impl Clock for SimulatedClock<'_> {
     fn now_ns(&self) -> u64 {
         self.0.get()
     }
@@ -28,22 +34,22 @@ fn work_ns(number: u64) -> u64 {
 }
 
 /// Runs a budget whose ticks take [`work_ns`], the first tick number 0 of all passes together.
-fn on_told_clock(run: impl FnOnce(Told<'_>, &mut dyn FnMut()) -> Run) -> Run {
+fn on_simulated_clock(run: impl FnOnce(SimulatedClock<'_>, &mut dyn FnMut()) -> Run) -> Run {
     let now_ns = Cell::new(0);
     let mut number = 0;
     let mut tick = || {
         now_ns.set(now_ns.get() + work_ns(number));
         number += 1;
     };
-    run(Told(&now_ns), &mut tick)
+    run(SimulatedClock(&now_ns), &mut tick)
 }
 
 fn free_run(length: Length, stop_above_ns: Option<u64>) -> Run {
-    on_told_clock(|clock, tick| free(&clock, 30, 1e-3, length, stop_above_ns, tick))
+    on_simulated_clock(|clock, tick| free(&clock, 30, 1e-3, length, stop_above_ns, tick))
 }
 
 fn paced_run(length: Length, stop_above_ns: Option<u64>) -> Run {
-    on_told_clock(|clock, tick| {
+    on_simulated_clock(|clock, tick| {
         let pacer = Pacer::with_clock(1e-3, clock).unwrap();
         paced(pacer, length, stop_above_ns, tick)
     })
@@ -79,7 +85,7 @@ fn a_free_run_knows_the_tick_of_its_worst_case() {
 }
 
 #[test]
-fn a_free_run_lasts_as_long_as_it_is_told() {
+fn a_free_run_lasts_as_long_as_it_is_reported() {
     // Half of 3.1 ms for ticks alone: tick 12 ends it. Then half for batches of 10 us.
     let run = free_run(Length::Nanoseconds(3_100_000), None);
     let counts: Vec<u64> = run.series.iter().map(|s| s.spans.count()).collect();
@@ -97,7 +103,7 @@ fn a_free_run_stops_at_the_first_tick_above_the_limit() {
     );
     assert_eq!(run.ticks, 8);
     assert_eq!(spans(&run), [("single", 8, 49_970.0, 7)]);
-    let message = run.verdict(false).unwrap_err().to_string();
+    let message = message(run.verdict(false));
     assert_eq!(
         message,
         "stopped: tick 7, 0.007000 s along the motion, took 50.0 us, allowed by --stop-above-ns: 40.0 us"
@@ -120,7 +126,7 @@ fn a_paced_run_counts_misses_and_fails_on_them_when_asked() {
         ]
     );
     assert!(run.verdict(false).is_ok());
-    let message = run.verdict(true).unwrap_err().to_string();
+    let message = message(run.verdict(true));
     assert_eq!(
         message,
         "3 of 20 deadlines missed, allowed by --fail-on-miss: none"
@@ -139,17 +145,18 @@ fn a_paced_run_lasts_as_many_ticks_as_its_time_holds_and_stops_at_a_limit() {
     assert!((stop.time_s - 0.012).abs() < 1e-12);
 }
 
-fn dashpot(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_dashpot"))
-        .arg("budget")
-        .args(arguments)
-        .output()
-        .unwrap()
+/// What the command says of a run that is not as asked.
+fn message(verdict: Result<(), RealtimeError>) -> String {
+    Failure::from(verdict.unwrap_err()).to_string()
+}
+
+fn budget(arguments: &[&str]) -> Assert {
+    dashpot(&[&["budget"], arguments].concat(), Path::new("."))
 }
 
 fn json(arguments: &[&str]) -> serde_json::Value {
-    let output = dashpot(&[arguments, &["--format", "json"]].concat());
-    serde_json::from_slice(&output.stdout).unwrap()
+    let output = budget(&[arguments, &["--format", "json"]].concat());
+    json_of(&output)
 }
 
 #[test]
@@ -181,7 +188,7 @@ fn the_report_has_its_keys() {
 
 #[test]
 fn text_scales_its_units_and_says_what_is_not_told() {
-    let text = String::from_utf8(dashpot(&["--steps", "50"]).stdout).unwrap();
+    let text = text_of(&budget(&["--steps", "50"]));
     assert!(text.contains("tick 1.00 ms"), "{text}");
     assert!(text.contains("p99 -, p99.9 -, p99.99 -"), "{text}");
     assert!(
@@ -206,11 +213,10 @@ fn a_run_that_is_not_as_asked_is_reported_and_fails() {
             "missed_deadlines",
         ),
     ] {
-        let output = dashpot(&[&crowd[..], arguments, &["--format", "json"]].concat());
-        let message = String::from_utf8(output.stderr).unwrap();
-        assert_eq!(output.status.code(), Some(1), "{message}");
+        let output = budget(&[&crowd[..], arguments, &["--format", "json"]].concat()).code(1);
+        let message = error_of(&output);
         assert!(message.contains(part), "{message}");
-        let report: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+        let report = json_of(&output);
         assert!(!report[key].is_null(), "{report}");
     }
 }
@@ -235,9 +241,8 @@ fn wrong_options_say_what_is_allowed() {
             "no core this process may use, allowed: ",
         ),
     ] {
-        let output = dashpot(arguments);
-        let message = String::from_utf8(output.stderr).unwrap();
-        assert_eq!(output.status.code(), Some(code), "{arguments:?}: {message}");
+        let output = budget(arguments).code(code);
+        let message = error_of(&output);
         assert!(message.contains(part), "{arguments:?}: {message}");
     }
 }

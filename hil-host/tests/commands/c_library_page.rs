@@ -6,6 +6,7 @@ use std::os::unix::fs::PermissionsExt;
 use std::path::Path;
 use std::process::Command;
 
+use crate::common::program;
 use xtask::run::repository;
 use xtask::tools::{ARM_GCC, ARM_LIBC, CMAKE, GCC, GXX, MAKE, PKG_CONFIG, QEMU, have, have_target};
 
@@ -43,7 +44,7 @@ fn stand_in_for_cargo(folder: &Path) {
     let path = folder.join("cargo");
     let script = format!(
         "#!/bin/sh\nif [ \"$1\" = run ]; then shift 3; exec '{}' \"$@\"; fi\nexec '{}' \"$@\"\n",
-        env!("CARGO_BIN_EXE_dashpot"),
+        program().display(),
         env!("CARGO"),
     );
     std::fs::write(&path, script).unwrap();

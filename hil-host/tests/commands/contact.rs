@@ -1,22 +1,22 @@
 //! `dashpot contact` from outside: its numbers, its plots, its failures.
 
-use std::process::{Command, Output, Stdio};
+use std::path::Path;
 
-fn dashpot(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_dashpot"))
-        .arg("contact")
-        .args(arguments)
-        .output()
-        .unwrap()
+use assert_cmd::assert::Assert;
+use predicates::str::contains;
+
+use crate::common::{dashpot, json_of, text_of};
+
+fn contact(arguments: &[&str]) -> Assert {
+    dashpot(&[&["contact"], arguments].concat(), Path::new("."))
 }
 
 #[test]
-fn the_default_pair_is_told_and_drawn() {
+fn the_default_pair_is_reported_and_drawn() {
     let folder = tempfile::tempdir().unwrap();
     let plots = folder.path().join("plots");
-    let output = dashpot(&["--format", "json", "--plots", plots.to_str().unwrap()]);
-    assert!(output.status.success(), "{output:?}");
-    let report: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let output = contact(&["--format", "json", "--plots", plots.to_str().unwrap()]).success();
+    let report = json_of(&output);
     let conicity = report["conicity_at_3mm"].as_f64().unwrap();
     assert!((0.165..0.185).contains(&conicity), "{conicity}");
     let centred = report["shifts"]
@@ -49,28 +49,11 @@ fn the_default_pair_is_told_and_drawn() {
 }
 
 #[test]
-fn text_tells_conicity_over_amplitude() {
-    let output = dashpot(&["--no-plots"]);
-    let text = String::from_utf8(output.stdout).unwrap();
+fn text_reports_conicity_over_amplitude() {
+    let output = contact(&["--no-plots"]);
+    let text = text_of(&output);
     assert!(text.contains("S1002 on UIC 60, rails 1:40"), "{text}");
     assert!(text.contains("           3.0     0.18"), "{text}");
-}
-
-#[test]
-fn a_reader_that_leaves_is_no_failure() {
-    for format in ["text", "json"] {
-        let mut child = Command::new(env!("CARGO_BIN_EXE_dashpot"))
-            .args(["contact", "--no-plots", "--format", format])
-            .stdout(Stdio::piped())
-            .stderr(Stdio::piped())
-            .spawn()
-            .unwrap();
-        // Gone before the first line: the geometry takes longer than this.
-        drop(child.stdout.take());
-        let output = child.wait_with_output().unwrap();
-        assert!(output.status.success(), "{format}: {output:?}");
-        assert!(output.stderr.is_empty(), "{format}: {output:?}");
-    }
 }
 
 #[test]
@@ -84,15 +67,14 @@ fn a_refused_profile_leaves_no_plots() {
         ("", "too few points: 0"),
     ] {
         std::fs::write(&file, text).unwrap();
-        let output = dashpot(&[
+        let output = contact(&[
             "--rail",
             file.to_str().unwrap(),
             "--plots",
             plots.to_str().unwrap(),
-        ]);
-        let message = String::from_utf8(output.stderr).unwrap();
-        assert_eq!(output.status.code(), Some(1), "{message}");
-        assert!(message.contains(part), "{message}");
-        assert!(output.stdout.is_empty() && !plots.exists());
+        ])
+        .code(1);
+        output.stdout("").stderr(contains(part));
+        assert!(!plots.exists());
     }
 }

@@ -1,34 +1,31 @@
 //! `dashpot` without a command from outside, and the recording it ships.
 
 use std::path::Path;
-use std::process::{Command, Output};
 use std::sync::LazyLock;
 
+use dashpot_hil::study::Scalar;
 use dashpot_hil::study::excitation::Excitation;
+use dashpot_hil::study::promise::PROMISES;
 
-fn dashpot(arguments: &[&str], folder: &Path) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_dashpot"))
-        .args(arguments)
-        .current_dir(folder)
-        .output()
-        .unwrap()
-}
+use crate::common::{dashpot, error_of, json_of, text_of};
 
 /// What the command prints for people, and its page.
 static SHOWN: LazyLock<(String, String)> = LazyLock::new(|| {
     let folder = tempfile::tempdir().unwrap();
     let output = dashpot(&[], folder.path());
     let page = std::fs::read_to_string(folder.path().join("dashpot-report.html")).unwrap();
-    (String::from_utf8(output.stdout).unwrap(), page)
+    (text_of(&output), page)
 });
 
-/// The project's accuracy limits.
+/// The accuracy promised.
 fn check_limit(row: &serde_json::Value) {
-    let limit = match (row["step_s"].as_f64().unwrap() < 5e-4, &row["scalar"]) {
-        (false, _) => 1e-3,
-        (true, scalar) if scalar == "f32" => 6e-5,
-        (true, _) => 3e-5,
+    let scalar = if row["scalar"] == "f32" {
+        Scalar::F32
+    } else {
+        Scalar::F64
     };
+    let step_s = row["step_s"].as_f64().unwrap();
+    let limit = PROMISES[0].nrmse(step_s, scalar).unwrap();
     assert_eq!(row["nrmse_limit"].as_f64(), Some(limit));
     let nrmse = row["nrmse"].as_f64().unwrap();
     assert!(nrmse > 0.0 && nrmse < limit, "{row}");
@@ -37,9 +34,8 @@ fn check_limit(row: &serde_json::Value) {
 #[test]
 fn the_page_is_whole_self_contained_and_accurate() {
     let folder = tempfile::tempdir().unwrap();
-    let output = dashpot(&["--format", "json"], folder.path());
-    assert!(output.status.success(), "{output:?}");
-    let report: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let output = dashpot(&["--format", "json"], folder.path()).success();
+    let report = json_of(&output);
     let rows = report["accuracy"].as_array().unwrap();
     assert_eq!(rows.len(), 8);
     for row in rows {
@@ -88,7 +84,7 @@ fn made_signals_are_called_made_and_measured_ones_measured() {
     for text in [report, page] {
         assert!(!text.contains("recorded"), "{text:.200}");
     }
-    let help = String::from_utf8(dashpot(&["--help"], Path::new(".")).stdout).unwrap();
+    let help = text_of(&dashpot(&["--help"], Path::new(".")));
     assert!(help.contains("made ride"), "{help}");
 }
 
@@ -114,9 +110,8 @@ fn the_page_tells_the_parameters_of_the_presets() {
 #[test]
 fn a_page_that_cannot_be_written_fails() {
     let folder = tempfile::tempdir().unwrap();
-    let output = dashpot(&["--output", "none/x.html"], folder.path());
-    assert_eq!(output.status.code(), Some(1));
-    let message = String::from_utf8(output.stderr).unwrap();
+    let output = dashpot(&["--output", "none/x.html"], folder.path()).code(1);
+    let message = error_of(&output);
     assert!(
         message.contains("none/x.html: cannot write: there is no folder none"),
         "{message}"

@@ -1,30 +1,19 @@
 //! `dashpot export` from outside; the exported file compiled for real.
 
-use std::process::{Command, Output};
+use std::path::Path;
+use std::process::Command;
 
+use assert_cmd::assert::OutputAssertExt;
 use dashpot_hil::study::excitation::Excitation;
 
-fn dashpot(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_dashpot"))
-        .args(arguments)
-        .output()
-        .unwrap()
-}
+use crate::common::{dashpot, text_of};
 
 #[test]
 fn the_exported_damper_steps_to_the_same_bits() {
     let folder = tempfile::tempdir().unwrap();
-    let file = folder.path().join("damper.rs");
-    let output = dashpot(&[
-        "export",
-        "--damper",
-        "in-service",
-        "--lang",
-        "rust",
-        "--output",
-        file.to_str().unwrap(),
-    ]);
-    assert!(output.status.success(), "{output:?}");
+    let arguments = ["export", "--damper", "in-service", "--lang", "rust"];
+    let files = ["--output", "damper.rs"];
+    dashpot(&[&arguments[..], &files].concat(), folder.path()).success();
     let manifest = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
     let core = manifest.parent().unwrap().join("core");
     std::fs::write(
@@ -60,13 +49,8 @@ fn the_exported_damper_steps_to_the_same_bits() {
         .arg(folder.path().join("Cargo.toml"))
         .env("CARGO_TARGET_DIR", folder.path().join("target"))
         .stdin(std::fs::File::open(&input).unwrap())
-        .output()
-        .unwrap();
-    assert!(
-        output.status.success(),
-        "{}",
-        String::from_utf8_lossy(&output.stderr)
-    );
+        .assert()
+        .success();
     let damper: dashpot_core::Damper<f32> = dashpot_hil::files::damper::load("in-service", &[])
         .unwrap()
         .build(1e-3)
@@ -76,8 +60,7 @@ fn the_exported_damper_steps_to_the_same_bits() {
         .iter()
         .map(|x| damper.step(&mut state, *x).to_bits())
         .collect();
-    let found: Vec<u32> = String::from_utf8(output.stdout)
-        .unwrap()
+    let found: Vec<u32> = text_of(&output)
         .lines()
         .map(|line| line.parse().unwrap())
         .collect();
@@ -96,8 +79,11 @@ fn exported(lang: &str, more: &[&str]) -> Vec<u8> {
         lang,
         "--output",
     ];
-    let output = dashpot(&[&arguments[..], &[file.to_str().unwrap()], more].concat());
-    assert!(output.status.success(), "{output:?}");
+    dashpot(
+        &[&arguments[..], &[file.to_str().unwrap()], more].concat(),
+        Path::new("."),
+    )
+    .success();
     std::fs::read(file).unwrap()
 }
 

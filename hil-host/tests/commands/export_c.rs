@@ -3,11 +3,14 @@
 use std::path::Path;
 use std::process::Command;
 
-use crate::common::{dashpot, error_of, files_in, json_of, text_of};
+use assert_cmd::assert::Assert;
+use predicates::str::contains;
+
+use crate::common::{dashpot, files_in, json_beside, json_of, text_of};
 
 const EXPORT: [&str; 5] = ["export", "--damper", "in-service", "--lang", "c"];
 
-fn export(more: &[&str], folder: &Path) -> std::process::Output {
+fn export(more: &[&str], folder: &Path) -> Assert {
     dashpot(&[&EXPORT[..], more].concat(), folder)
 }
 
@@ -32,8 +35,7 @@ const WARNINGS: [&str; 6] = [
 fn the_array_is_the_damper_in_c_and_cpp() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
-    let output = export(&["--name", "MY_DAMPER", "--output", "damper.c"], folder);
-    assert!(output.status.success(), "{output:?}");
+    export(&["--name", "MY_DAMPER", "--output", "damper.c"], folder).success();
     for file in ["damper.c", "damper.h"] {
         let text = std::fs::read_to_string(folder.join(file)).unwrap();
         for part in ["in-service", "1000 us", "--name MY_DAMPER", "do not edit"] {
@@ -49,8 +51,7 @@ fn the_array_is_the_damper_in_c_and_cpp() {
         "bin",
         "--output",
     ];
-    let output = dashpot(&[&arguments[..], &["damper.bin"]].concat(), folder);
-    assert!(output.status.success(), "{output:?}");
+    dashpot(&[&arguments[..], &["damper.bin"]].concat(), folder).success();
     let bytes = std::fs::read(bytes).unwrap();
 
     let print = "#include <stdio.h>\nint main(void) {\n\
@@ -87,9 +88,9 @@ fn the_report_names_the_header() {
         "{text}"
     );
     let output = export(&["--output", "b.c", "--format", "json"], folder.path());
-    assert_eq!(json_of(&output.stdout)["header"], "b.h");
+    assert_eq!(json_of(&output)["header"], "b.h");
     let output = export(&["--output", "-", "--format", "json"], folder.path());
-    let report = json_of(&output.stderr);
+    let report = json_beside(&output);
     assert_eq!(report.get("header"), None, "{report}");
     assert_eq!(files_in(folder.path()), ["a.cpp", "a.h", "b.c", "b.h"]);
 }
@@ -100,21 +101,15 @@ fn source_and_header_are_both_written_or_none() {
     let folder = folder.path();
     std::fs::write(folder.join("x.c"), "kept").unwrap();
     std::fs::create_dir(folder.join("x.h")).unwrap();
-    let output = export(&["--output", "x.c"], folder);
-    assert_eq!(output.status.code(), Some(1));
-    assert!(
-        error_of(&output).contains("x.h: cannot write: it is not a file"),
-        "{output:?}"
-    );
+    export(&["--output", "x.c"], folder)
+        .code(1)
+        .stderr(contains("x.h: cannot write: it is not a file"));
     assert_eq!(std::fs::read_to_string(folder.join("x.c")).unwrap(), "kept");
     assert_eq!(files_in(folder), ["x.c", "x.h"]);
 
-    let output = export(&["--output", "y.h"], folder);
-    assert_eq!(output.status.code(), Some(2));
-    assert!(
-        error_of(&output).contains("--output y.h: the header"),
-        "{output:?}"
-    );
+    export(&["--output", "y.h"], folder)
+        .code(2)
+        .stderr(contains("--output y.h: the header"));
     assert_eq!(files_in(folder), ["x.c", "x.h"]);
 }
 
@@ -129,9 +124,9 @@ fn names_that_headers_define_are_refused() {
         "lower",
         "",
     ] {
-        let output = export(&["--name", name, "--output", "x.c"], folder.path());
-        assert_eq!(output.status.code(), Some(2), "{name}");
-        assert!(error_of(&output).contains("allowed: "), "{output:?}");
+        export(&["--name", name, "--output", "x.c"], folder.path())
+            .code(2)
+            .stderr(contains("allowed: "));
     }
     assert!(files_in(folder.path()).is_empty());
 }

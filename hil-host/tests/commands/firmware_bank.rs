@@ -1,7 +1,8 @@
 //! The dampers linked into the firmware are what `dashpot export` makes today.
 
 use std::path::Path;
-use std::process::Command;
+
+use crate::common::dashpot;
 
 #[test]
 fn export_gives_the_bank_of_the_firmware_again() {
@@ -11,13 +12,9 @@ fn export_gives_the_bank_of_the_firmware_again() {
     for damper in ["in-service", "reduced-vertical", "reduced-lateral"] {
         // The file names its own path, so the export runs where that path is free.
         let file = format!("firmware/src/bank/{}.rs", damper.replace('-', "_"));
-        let output = Command::new(env!("CARGO_BIN_EXE_dashpot"))
-            .current_dir(folder.path())
-            .args(["export", "--damper", damper, "--lang", "rust", "--step-us"])
-            .args(["1000", "--output", &file])
-            .output()
-            .unwrap();
-        assert!(output.status.success(), "{output:?}");
+        let arguments = ["export", "--damper", damper, "--lang", "rust"];
+        let step = ["--step-us", "1000", "--output", &file];
+        dashpot(&[&arguments[..], &step].concat(), folder.path()).success();
         let exported = std::fs::read_to_string(folder.path().join(&file)).unwrap();
         let kept = std::fs::read_to_string(repository.join(&file)).unwrap();
         assert!(

@@ -1,9 +1,9 @@
-//! Gaps of a recording, counted while it is read and told by the commands.
+//! Gaps of a recording, counted while it is read and reported by the commands.
 
 use std::io::Cursor;
 use std::path::Path;
 
-use crate::common::{dashpot, error_of, json_of, text_of};
+use crate::common::{dashpot, json_of, text_of};
 use dashpot_hil::files::recording::{Gaps, Recording};
 
 fn gaps_at(times_s: &[f64]) -> Gaps {
@@ -62,7 +62,7 @@ fn an_even_or_jittering_recording_has_none() {
 
 /// The shipped recording has one gap of about 40 ms after 2 s, as its header says.
 #[test]
-fn the_commands_tell_gaps() {
+fn the_commands_reports_gaps() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     let ride = "data/excitations/ride_made.csv";
     let folder = tempfile::tempdir().unwrap();
@@ -72,14 +72,13 @@ fn the_commands_tell_gaps() {
         &["verify", "--step-us", "1000"],
     ] {
         let arguments = [command, &["--input", ride]].concat();
-        let output = dashpot(&arguments, &root);
-        assert!(output.status.success(), "{}", error_of(&output));
+        let output = dashpot(&arguments, &root).success();
         let text = text_of(&output);
         let expected = "warning: 1 gap in the recording, over 5 times the median interval of 0.002 s; \
                         the longest lasts 0.0422 s from 1.9979 s (before line 1009)";
         assert!(text.contains(expected), "{text}");
         let output = dashpot(&[&arguments[..], &["--format", "json"]].concat(), &root);
-        let gaps = &json_of(&output.stdout)["gaps"];
+        let gaps = &json_of(&output)["gaps"];
         assert_eq!(gaps["count"], 1);
         assert_eq!(gaps["longest"]["duration_s"], 0.0422);
     }

@@ -7,7 +7,7 @@ use std::os::unix::process::ExitStatusExt;
 use std::path::Path;
 use std::process::{Child, Command, ExitStatus, Stdio};
 
-use crate::common::files_in;
+use crate::common::{files_in, program};
 
 const SIGHUP: i32 = 1;
 const SIGINT: i32 = 2;
@@ -20,7 +20,7 @@ struct Waiting {
 }
 
 impl Waiting {
-    /// Started by `shell` in `folder`, which is told the command as `"$@"`.
+    /// Started by `shell` in `folder`, which receives the command as `"$@"`.
     fn start(shell: &str, folder: &Path) -> Self {
         let pipe = folder.join("pipe");
         assert!(
@@ -31,7 +31,9 @@ impl Waiting {
                 .success()
         );
         let mut child = Command::new("sh")
-            .args(["-c", shell, "sh", env!("CARGO_BIN_EXE_dashpot"), "replay"])
+            .args(["-c", shell, "sh"])
+            .arg(program())
+            .arg("replay")
             .args(["--input", "pipe", "--output", "out.csv"])
             .current_dir(folder)
             .stdout(Stdio::null())

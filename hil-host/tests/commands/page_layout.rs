@@ -6,6 +6,8 @@ use std::process::Command;
 use serde_json::Value;
 use xtask::tools::{CHROMIUM, have};
 
+use crate::common::dashpot;
+
 /// Frames of both widths, which measure themselves once loaded: the page's width, the figures shown,
 /// those wider than the page, and the smallest lettering in pixels.
 const FRAMES: &str = r#"<!DOCTYPE html><meta charset="utf-8"><body>
@@ -73,12 +75,7 @@ fn the_page_fits_a_phone_and_a_desk() {
         return;
     }
     let folder = tempfile::tempdir().unwrap();
-    let output = Command::new(env!("CARGO_BIN_EXE_dashpot"))
-        .args(["--output", "page.html"])
-        .current_dir(folder.path())
-        .output()
-        .unwrap();
-    assert!(output.status.success(), "{output:?}");
+    dashpot(&["--output", "page.html"], folder.path()).success();
     let found = measured(folder.path());
     for ((page, width), class) in found.iter().zip([390, 1280]).zip(["phone", "desk"]) {
         assert_eq!(page["page_width"], width, "scrolls sideways: {page}");

@@ -1,11 +1,14 @@
 //! `dashpot replay` as its users run it.
 
-use std::process::{Command, Output};
+use std::process::Command;
 
-use crate::common::{dashpot, error_of, files_in, json_of, text_of};
+use assert_cmd::assert::{Assert, OutputAssertExt};
+use predicates::str::contains;
+
+use crate::common::{dashpot, error_of, files_in, json_of, program, text_of};
 
 /// Runs a replay of `bytes`; returns its output and what is in the output file.
-fn replay_of(bytes: &[u8], more: &[&str]) -> (Output, Option<String>) {
+fn replay_of(bytes: &[u8], more: &[&str]) -> (Assert, Option<String>) {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("in.csv"), bytes).unwrap();
     let mut arguments = vec![
@@ -36,7 +39,7 @@ fn a_ramp_ends_at_damping_times_velocity() {
         b"\xef\xbb\xbf# a logger's comment\r\nname,displacement_m,time_s\r\na,0.0,10.0\r\nb,0.005,10.5\r\nc,0.01,11.0\r\n",
         &["--scalar", "f64", "--format", "json"],
     );
-    assert!(output.status.success(), "{}", error_of(&output));
+    let output = output.success();
     let written = written.unwrap();
     let mut lines = written.lines();
     assert_eq!(lines.next(), Some("time_s,displacement_m,force_n"));
@@ -49,7 +52,7 @@ fn a_ramp_ends_at_damping_times_velocity() {
     assert_eq!(last[0], 11.0);
     assert!((last[1] - 0.01).abs() < 1e-12);
     assert!((last[2] - 1200.0).abs() < 1e-3, "{last:?}");
-    let report = json_of(&output.stdout);
+    let report = json_of(&output);
     assert_eq!(report["ticks"], 1001);
     assert_eq!(report["input_limited"], false);
 }
@@ -91,7 +94,7 @@ fn bad_recordings_say_where_and_leave_no_output() {
     for (bytes, expected) in cases {
         let (output, written) = replay_of(bytes, &[]);
         let error = error_of(&output);
-        assert_eq!(output.status.code(), Some(1), "{error}");
+        output.code(1);
         assert_eq!(written, None, "{error}");
         for part in expected {
             assert!(error.contains(part), "`{error}` lacks `{part}`");
@@ -109,13 +112,11 @@ fn a_failed_replay_keeps_the_output_that_was_there() {
     .unwrap();
     std::fs::write(folder.path().join("out.csv"), "precious").unwrap();
     let arguments = ["replay", "--input", "in.csv", "--output", "out.csv"];
-    let output = dashpot(&arguments, folder.path());
-    assert_eq!(output.status.code(), Some(1));
+    dashpot(&arguments, folder.path()).code(1);
     let kept = std::fs::read_to_string(folder.path().join("out.csv")).unwrap();
     assert_eq!(kept, "precious");
     let onto_itself = ["replay", "--input", "in.csv", "--output", "in.csv"];
-    let output = dashpot(&onto_itself, folder.path());
-    assert!(error_of(&output).contains("is the input too"));
+    dashpot(&onto_itself, folder.path()).stderr(contains("is the input too"));
 }
 
 #[cfg(unix)]
@@ -128,7 +129,7 @@ fn a_pipe_is_written_to_and_a_link_followed() {
     std::fs::write(at("real.csv"), "old").unwrap();
     symlink("real.csv", at("link.csv")).unwrap();
     let arguments = ["replay", "--input", "in.csv", "--output", "link.csv"];
-    assert!(dashpot(&arguments, folder.path()).status.success());
+    dashpot(&arguments, folder.path()).success();
     assert!(
         std::fs::symlink_metadata(at("link.csv"))
             .unwrap()
@@ -147,7 +148,7 @@ fn a_pipe_is_written_to_and_a_link_followed() {
     let pipe = at("pipe");
     let reader = std::thread::spawn(move || std::fs::read_to_string(pipe).unwrap());
     let arguments = ["replay", "--input", "in.csv", "--output", "pipe"];
-    assert!(dashpot(&arguments, folder.path()).status.success());
+    dashpot(&arguments, folder.path()).success();
     assert!(std::fs::metadata(at("pipe")).unwrap().file_type().is_fifo());
     assert_eq!(reader.join().unwrap(), written);
 }
@@ -158,7 +159,7 @@ fn a_gap_is_crossed_in_a_straight_line() {
         b"time_s,displacement_m\n0,0\n0.001,0\n0.101,0.0001\n",
         &["--step-us", "10000"],
     );
-    assert!(output.status.success());
+    output.success();
     let rows: Vec<String> = written
         .unwrap()
         .lines()
@@ -178,7 +179,7 @@ fn energy_is_of_the_motion_followed() {
             b"time_s,displacement_m\n0,0\n0.001,1e20\n0.002,0.001\n0.003,0\n",
             &["--scalar", scalar, "--format", "json"],
         );
-        assert!(output.status.success(), "{}", error_of(&output));
+        let output = output.success();
         let forces: Vec<f64> = written
             .unwrap()
             .lines()
@@ -190,19 +191,22 @@ fn energy_is_of_the_motion_followed() {
             .map(|i| 0.5 * (forces[i] + forces[i - 1]) * (followed[i] - followed[i - 1]))
             .sum();
         assert!(energy > 1.0, "the damper is felt: {forces:?}");
-        let report = json_of(&output.stdout);
-        let told = report["energy_j"].as_f64().unwrap();
-        assert!((told / energy - 1.0).abs() < 1e-6, "{told} {energy}");
+        let report = json_of(&output);
+        let reported = report["energy_j"].as_f64().unwrap();
+        assert!(
+            (reported / energy - 1.0).abs() < 1e-6,
+            "{reported} {energy}"
+        );
         assert_eq!(report["limited_inputs"], 1);
     }
 }
 
 #[test]
-fn held_and_limited_input_is_told() {
+fn held_and_limited_input_is_reported() {
     // 1e39 is infinite in single precision.
     let motion = b"time_s,displacement_m\n5,0\n5.001,1e39\n5.002,0\n5.003,9\n5.004,0.001\n";
     let (output, _) = replay_of(motion, &["--format", "json"]);
-    let report = json_of(&output.stdout);
+    let report = json_of(&output);
     for (key, value) in [
         ("rejected_inputs", 2),
         ("held_inputs", 1),
@@ -232,7 +236,7 @@ fn held_and_limited_input_is_told() {
 fn limited_ticks_are_all_counted() {
     let motion = b"time_s,displacement_m\n0,0\n70,1000\n";
     let (output, _) = replay_of(motion, &["--format", "json"]);
-    assert_eq!(json_of(&output.stdout)["limited_inputs"], 70_000);
+    assert_eq!(json_of(&output)["limited_inputs"], 70_000);
 }
 
 /// A million rows in 4 MiB of heap, where holding them takes 16: the system refuses more.
@@ -256,21 +260,15 @@ fn a_million_rows_replay_in_bounded_memory() {
             .arg(format!(
                 "ulimit -c 0 && ulimit -d 4096 && exec \"$0\" {arguments}"
             ))
-            .arg(env!("CARGO_BIN_EXE_dashpot"))
+            .arg(program())
             .current_dir(folder.path())
-            .output()
-            .unwrap()
+            .assert()
     };
-    let output = limited("replay --input in.csv --output out.csv");
-    assert!(output.status.success(), "{}", error_of(&output));
+    limited("replay --input in.csv --output out.csv").success();
     let written = std::fs::read_to_string(folder.path().join("out.csv")).unwrap();
     assert_eq!(written.lines().count(), 1 + ROWS as usize);
     // The limit bites: verification keeps the whole recording.
-    let output = limited("verify --input in.csv");
-    assert!(!output.status.success());
-    assert!(
-        error_of(&output).contains("out of memory"),
-        "{}",
-        error_of(&output)
-    );
+    limited("verify --input in.csv")
+        .failure()
+        .stderr(contains("out of memory"));
 }

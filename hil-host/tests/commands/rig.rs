@@ -1,18 +1,18 @@
 //! The bench test against closed forms, and `dashpot rig` from outside.
 
 use std::f64::consts::{PI, TAU};
-use std::process::{Command, Output};
+use std::path::Path;
+
+use assert_cmd::assert::Assert;
+
+use crate::common::{dashpot, json_of, text_of};
 
 use dashpot_hil::files::damper;
-use dashpot_hil::study::bench_test::{Harmonic, settle};
+use dashpot_hil::study::bench_test::{Harmonic, run_until_periodic};
 use dashpot_reference::damper::Reference;
 
-fn dashpot(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_dashpot"))
-        .arg("rig")
-        .args(arguments)
-        .output()
-        .unwrap()
+fn rig(arguments: &[&str]) -> Assert {
+    dashpot(&[&["rig"], arguments].concat(), Path::new("."))
 }
 
 /// A linear damper C behind a spring K (Maxwell): `C' = C/(1 + (w tau)^2)`, `E = pi w C' A^2`,
@@ -30,7 +30,7 @@ fn the_reduced_damper_without_clearance_is_a_maxwell_element() {
             amplitude_m,
             frequency_hz,
         };
-        let found = settle(&damper, motion, 1e-4).unwrap().indices();
+        let found = run_until_periodic(&damper, motion, 1e-4).unwrap().indices();
         let w = TAU * frequency_hz;
         let ratio = 1.0 + (w * c / k).powi(2);
         let energy = PI * w * c / ratio * amplitude_m * amplitude_m;
@@ -60,7 +60,7 @@ fn within_the_clearance_nothing_is_felt() {
         amplitude_m: 0.4e-3,
         frequency_hz: 1.0,
     };
-    let found = settle(&damper, motion, 1e-4).unwrap().indices();
+    let found = run_until_periodic(&damper, motion, 1e-4).unwrap().indices();
     assert_eq!(found.max_extension_force_n, 0.0);
     assert_eq!(found.max_compression_force_n, 0.0);
     assert_eq!(found.energy_per_cycle_j, 0.0);
@@ -73,9 +73,8 @@ fn within_the_clearance_nothing_is_felt() {
 /// late, when the motion is past its fastest.
 #[test]
 fn the_published_damper_is_as_the_reference_has_it() {
-    let output = dashpot(&["--damper", "paper", "--format", "json"]);
-    assert!(output.status.success(), "{output:?}");
-    let report: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let output = rig(&["--damper", "paper", "--format", "json"]).success();
+    let report = json_of(&output);
     let value = |key: &str| report[key].as_f64().unwrap();
     let (extension, compression) = (
         value("max_extension_force_n"),
@@ -108,18 +107,18 @@ fn the_published_damper_is_as_the_reference_has_it() {
     let coefficient = 0.5 * (extension + compression) / peak;
     assert!((value("damping_coefficient_n_s_per_m") / coefficient - 1.0).abs() < 1e-12);
     // A progressive force, between v and v^1.5, gives less than pi F A and more than 0.9 of it.
-    let share = value("energy_per_cycle_j") / (PI * 0.5 * (extension + compression) * 24.875e-3);
-    assert!((0.9..1.0).contains(&share), "{share}");
+    let fraction = value("energy_per_cycle_j") / (PI * 0.5 * (extension + compression) * 24.875e-3);
+    assert!((0.9..1.0).contains(&fraction), "{fraction}");
 }
 
 #[test]
 fn text_stands_beside_the_paper_for_its_motion_only() {
-    let text = String::from_utf8(dashpot(&[]).stdout).unwrap();
+    let text = text_of(&rig(&[]));
     assert!(
         text.contains("paper simulation") && text.contains("12892"),
         "{text}"
     );
-    let text = String::from_utf8(dashpot(&["--frequency-hz", "1"]).stdout).unwrap();
+    let text = text_of(&rig(&["--frequency-hz", "1"]));
     assert!(
         !text.contains("paper simulation") && text.contains("energy per cycle"),
         "{text}"

@@ -1,17 +1,12 @@
 //! What `dashpot rig` shows beside its indices: the loops of the settled cycle and Table 5 of the paper.
 
 use std::path::Path;
-use std::process::Command;
+
+use crate::common::{dashpot, json_of};
 
 fn rig(arguments: &[&str], folder: &Path) -> serde_json::Value {
-    let output = Command::new(env!("CARGO_BIN_EXE_dashpot"))
-        .args(["rig", "--format", "json"])
-        .args(arguments)
-        .current_dir(folder)
-        .output()
-        .unwrap();
-    assert!(output.status.success(), "{output:?}");
-    serde_json::from_slice(&output.stdout).unwrap()
+    let arguments = [&["rig", "--format", "json"], arguments].concat();
+    json_of(&dashpot(&arguments, folder).success())
 }
 
 #[test]

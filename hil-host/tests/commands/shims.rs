@@ -1,22 +1,21 @@
 //! `dashpot shims` from outside: theory, tables, flow, plots, failures.
 
-use std::process::{Command, Output, Stdio};
+use std::path::Path;
 
-fn dashpot(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_dashpot"))
-        .arg("shims")
-        .args(arguments)
-        .output()
-        .unwrap()
+use assert_cmd::assert::Assert;
+
+use crate::common::{dashpot, error_of, json_of, text_of};
+
+fn shims(arguments: &[&str]) -> Assert {
+    dashpot(&[&["shims"], arguments].concat(), Path::new("."))
 }
 
 #[test]
 fn theory_stands_beside_the_published_deflections() {
     let folder = tempfile::tempdir().unwrap();
     let plots = folder.path().join("plots");
-    let output = dashpot(&["--format", "json", "--plots", plots.to_str().unwrap()]);
-    assert!(output.status.success(), "{output:?}");
-    let report: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let output = shims(&["--format", "json", "--plots", plots.to_str().unwrap()]).success();
+    let report = json_of(&output);
     // Cw at the edge and deflection under 1 MPa from the disc theory, the published rate, Ce and the
     // edge's circumference: figures of the paper and of its check by hand.
     let expected = [
@@ -27,9 +26,12 @@ fn theory_stands_beside_the_published_deflections() {
     for (valve, (cw, theory, published, ce, edge, ratio)) in
         report["valves"].as_array().unwrap().iter().zip(expected)
     {
-        let near = |value: &serde_json::Value, expected: f64, share: f64| {
+        let near = |value: &serde_json::Value, expected: f64, fraction: f64| {
             let value = value.as_f64().unwrap();
-            assert!((value / expected - 1.0).abs() < share, "{value} {expected}");
+            assert!(
+                (value / expected - 1.0).abs() < fraction,
+                "{value} {expected}"
+            );
         };
         let radii = valve["pack"]["cw"].as_array().unwrap();
         assert!(radii[0]["cw_m6_per_n"].as_f64().unwrap().abs() < 1e-4 * cw);
@@ -39,8 +41,8 @@ fn theory_stands_beside_the_published_deflections() {
             theory * 1e-9,
             2e-4,
         );
-        let told = valve["theory_over_published"].as_f64().unwrap();
-        assert!((told - ratio).abs() < 0.5, "{told} {ratio}");
+        let reported = valve["theory_over_published"].as_f64().unwrap();
+        assert!((reported - ratio).abs() < 0.5, "{reported} {ratio}");
         for row in valve["pressures"].as_array().unwrap() {
             let pressure = row["pressure_pa"].as_f64().unwrap();
             near(&row["theory_uniform_m"], theory * 1e-9 * pressure, 2e-4);
@@ -66,8 +68,7 @@ fn theory_stands_beside_the_published_deflections() {
 fn lift_plot(arguments: &[&str]) -> (String, Vec<String>) {
     let folder = tempfile::tempdir().unwrap();
     let plots = folder.path().to_str().unwrap();
-    let output = dashpot(&[arguments, &["--plots", plots]].concat());
-    assert!(output.status.success(), "{output:?}");
+    shims(&[arguments, &["--plots", plots]].concat()).success();
     let svg = std::fs::read_to_string(folder.path().join("shim-lift.svg")).unwrap();
     let lines = svg.lines().map(str::trim);
     let words = lines.filter(|line| !line.is_empty() && !line.starts_with('<'));
@@ -131,8 +132,8 @@ fn a_preload_leaves_the_scale_readable() {
 
 #[test]
 fn text_states_the_erratum() {
-    let output = dashpot(&["--no-plots"]);
-    let text = String::from_utf8(output.stdout).unwrap();
+    let output = shims(&["--no-plots"]);
+    let text = text_of(&output);
     assert!(text.contains("33, 41 and 30 times"), "{text}");
     assert!(text.contains("piston extension: clamped at 16.0 mm, free at 29.0 mm, 7 shims"));
     assert!(!text.contains("plots:"));
@@ -140,46 +141,24 @@ fn text_states_the_erratum() {
 
 #[test]
 fn another_pack_has_no_published_figures() {
-    let output = dashpot(&[
+    let output = shims(&[
         "--no-plots",
         "--format",
         "json",
         "--set",
         "valves.foot_compression.free_radius_m=0.012",
     ]);
-    let report: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let report = json_of(&output);
     assert!(report["valves"][2]["theory_over_published"].is_null());
     assert!(report["valves"][0]["theory_over_published"].is_f64());
 }
 
 #[test]
 fn a_reduced_damper_has_no_packs() {
-    let output = dashpot(&["--damper", "reduced-lateral", "--no-plots"]);
-    assert_eq!(output.status.code(), Some(1));
-    let message = String::from_utf8(output.stderr).unwrap();
+    let output = shims(&["--damper", "reduced-lateral", "--no-plots"]).code(1);
+    let message = error_of(&output);
     assert!(
         message.contains("reduced damper has no shim packs; allowed:"),
         "{message}"
     );
-}
-
-#[test]
-fn a_reader_that_has_left_is_no_failure() {
-    for command in [
-        &["shims", "--no-plots"][..],
-        &["shims", "--no-plots", "--format", "json"],
-        &["rig"],
-        &["budget", "--steps", "1000"],
-    ] {
-        let mut child = Command::new(env!("CARGO_BIN_EXE_dashpot"))
-            .args(command)
-            .stdout(Stdio::piped())
-            .stderr(Stdio::piped())
-            .spawn()
-            .unwrap();
-        drop(child.stdout.take());
-        let output = child.wait_with_output().unwrap();
-        assert!(output.status.success(), "{command:?}: {output:?}");
-        assert!(output.stderr.is_empty(), "{command:?}: {output:?}");
-    }
 }

@@ -2,7 +2,12 @@
 
 use std::path::Path;
 
-use crate::common::{command, dashpot, dashpot_reading, error_of, files_in, json_of, text_of};
+use assert_cmd::assert::OutputAssertExt;
+use predicates::str::contains;
+
+use crate::common::{
+    command, dashpot, dashpot_reading, error_of, files_in, json_beside, json_of, text_of,
+};
 
 const MOTION: &[u8] = b"time_s,displacement_m\n0,0\n0.001,0.001\n0.002,0.003\n0.003,0.002\n";
 
@@ -17,30 +22,28 @@ fn replay_reads_and_writes_streams() {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("in.csv"), MOTION).unwrap();
     let by_files = ["replay", "--input", "in.csv", "--output", "out.csv"];
-    assert!(dashpot(&by_files, folder.path()).status.success());
+    dashpot(&by_files, folder.path()).success();
     let expected = std::fs::read_to_string(folder.path().join("out.csv")).unwrap();
 
     let by_streams = [
         "replay", "--input", "-", "--output", "-", "--format", "json",
     ];
-    let output = dashpot_reading(MOTION, &by_streams, folder.path());
-    assert!(output.status.success(), "{}", error_of(&output));
+    let output = dashpot_reading(MOTION, &by_streams, folder.path()).success();
     assert_eq!(text_of(&output), expected);
     // The report leaves standard output to the data.
-    assert_eq!(json_of(&output.stderr)["ticks"], 4);
+    assert_eq!(json_beside(&output)["ticks"], 4);
     assert_eq!(files_in(folder.path()), ["in.csv", "out.csv"]);
 
-    let output = dashpot_reading(MOTION, &by_streams[..5], folder.path());
-    assert!(error_of(&output).contains("wrote standard output"));
+    dashpot_reading(MOTION, &by_streams[..5], folder.path())
+        .stderr(contains("wrote standard output"));
 }
 
 #[test]
 fn verify_reads_a_stream_for_all_its_steps() {
     let folder = tempfile::tempdir().unwrap();
     let arguments = ["verify", "--input", "-", "--format", "json"];
-    let output = dashpot_reading(MOTION, &arguments, folder.path());
-    assert!(output.status.success(), "{}", error_of(&output));
-    let report = json_of(&output.stdout);
+    let output = dashpot_reading(MOTION, &arguments, folder.path()).success();
+    let report = json_of(&output);
     assert_eq!(report["deviations"].as_array().unwrap().len(), 6);
 }
 
@@ -58,11 +61,10 @@ fn every_command_reads_its_damper_from_a_stream() {
         &["export", "--lang", "bin", "--output", "damper.bin"],
     ] {
         let all = [arguments, &["--damper", "-"]].concat();
-        let output = dashpot_reading(&damper, &all, folder.path());
-        assert!(output.status.success(), "{all:?}: {}", error_of(&output));
-        let output = dashpot_reading(b"[geometry]\nrod = 1\n", &all, folder.path());
-        assert_eq!(output.status.code(), Some(1), "{all:?}");
-        assert!(error_of(&output).contains("standard input: TOML parse error at line 2"));
+        dashpot_reading(&damper, &all, folder.path()).success();
+        dashpot_reading(b"[geometry]\nrod = 1\n", &all, folder.path())
+            .code(1)
+            .stderr(contains("standard input: TOML parse error at line 2"));
     }
 }
 
@@ -73,15 +75,14 @@ fn export_writes_a_stream() {
     for lang in ["rust", "c", "bin"] {
         let arguments = ["export", "--damper", "-", "--lang", lang, "--output"];
         let to_file = [&arguments[..], &["file"]].concat();
-        let output = dashpot_reading(&damper, &to_file, folder.path());
-        assert!(output.status.success(), "{}", error_of(&output));
+        dashpot_reading(&damper, &to_file, folder.path()).success();
         let to_stream = [&arguments[..], &["-"]].concat();
-        let output = dashpot_reading(&damper, &to_stream, folder.path());
-        assert!(output.status.success(), "{}", error_of(&output));
-        assert!(error_of(&output).contains("standard output: - for 1000 us"));
+        let output = dashpot_reading(&damper, &to_stream, folder.path())
+            .success()
+            .stderr(contains("standard output: - for 1000 us"));
         let written = std::fs::read(folder.path().join("file")).unwrap();
         if lang == "bin" {
-            assert_eq!(output.stdout, written);
+            assert_eq!(output.get_output().stdout, written);
         } else {
             // But for the command line in the comment.
             let written = String::from_utf8(written).unwrap();
@@ -95,11 +96,11 @@ fn export_writes_a_stream() {
 #[test]
 fn the_demonstration_writes_its_page_to_a_stream() {
     let folder = tempfile::tempdir().unwrap();
-    let output = dashpot(&["--output", "-"], folder.path());
-    assert!(output.status.success(), "{}", error_of(&output));
+    let output = dashpot(&["--output", "-"], folder.path())
+        .success()
+        .stderr(contains("page: standard output"));
     let page = text_of(&output);
     assert!(page.starts_with("<!DOCTYPE html>") && page.trim_end().ends_with("</html>"));
-    assert!(error_of(&output).contains("page: standard output"));
     assert!(files_in(folder.path()).is_empty());
 }
 
@@ -112,14 +113,13 @@ fn contact_reads_a_profile_from_a_stream() {
         rail.push_str(&format!("{y},{}\n", 30.0 * (y / 36.0).powi(4)));
     }
     let arguments = ["contact", "--no-plots", "--rail", "-"];
-    let output = dashpot_reading(rail.as_bytes(), &arguments, folder.path());
-    assert!(output.status.success(), "{}", error_of(&output));
+    let output = dashpot_reading(rail.as_bytes(), &arguments, folder.path()).success();
     assert!(
         text_of(&output).starts_with("S1002 on standard input"),
         "{output:?}"
     );
-    let output = dashpot_reading(b"0,0\n1,nan\n", &arguments, folder.path());
-    assert!(error_of(&output).contains("standard input:2: column z_mm"));
+    dashpot_reading(b"0,0\n1,nan\n", &arguments, folder.path())
+        .stderr(contains("standard input:2: column z_mm"));
 }
 
 #[test]
@@ -127,10 +127,10 @@ fn pil_reads_a_motion_from_a_stream() {
     let folder = tempfile::tempdir().unwrap();
     // The motion is looked at before the target is asked for.
     let arguments = ["pil", "--link", "qemu:no-such-image", "--input", "-"];
-    let output = dashpot_reading(b"a,b\n0,0\n", &arguments, folder.path());
-    assert!(error_of(&output).contains("standard input: column time_s is missing"));
-    let output = dashpot_reading(MOTION, &arguments, folder.path());
-    assert!(error_of(&output).contains("no-such-image: no firmware image there"));
+    dashpot_reading(b"a,b\n0,0\n", &arguments, folder.path())
+        .stderr(contains("standard input: column time_s is missing"));
+    dashpot_reading(MOTION, &arguments, folder.path())
+        .stderr(contains("no-such-image: no firmware image there"));
 }
 
 #[test]
@@ -154,8 +154,7 @@ fn one_stream_serves_one_option() {
             "--wheel and --rail",
         ),
     ] {
-        let output = dashpot_reading(b"", arguments, folder.path());
-        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+        let output = dashpot_reading(b"", arguments, folder.path()).code(2);
         let error = error_of(&output);
         assert!(error.contains(options), "{arguments:?}: {error}");
     }
@@ -167,11 +166,10 @@ fn a_file_called_minus_is_named_with_its_folder() {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("-"), MOTION).unwrap();
     let arguments = ["replay", "--input", "./-", "--output", "out.csv"];
-    let output = dashpot_reading(b"", &arguments, folder.path());
-    assert!(output.status.success(), "{}", error_of(&output));
+    dashpot_reading(b"", &arguments, folder.path()).success();
 }
 
-/// A reader that leaves, such as `head`: no failure, nothing said.
+/// A reader that leaves, such as `head`, is no failure and needs no message.
 #[test]
 fn data_whose_reader_has_left_is_no_failure() {
     let ride = "data/excitations/ride_made.csv";
@@ -183,12 +181,17 @@ fn data_whose_reader_has_left_is_no_failure() {
             "export", "--lang", "bin", "--output", "-", "--format", "json",
         ],
         &["--output", "-"],
+        &["shims", "--no-plots"],
+        &["shims", "--no-plots", "--format", "json"],
+        &["contact", "--no-plots"],
+        &["contact", "--no-plots", "--format", "json"],
+        &["rig"],
+        &["budget", "--steps", "1000"],
     ] {
         // Gone before the command starts, so that whatever it writes finds no reader.
         let (reader, writer) = std::io::pipe().unwrap();
         drop(reader);
-        let output = command(arguments, &root).stdout(writer).output().unwrap();
-        assert!(output.status.success(), "{arguments:?}: {output:?}");
-        assert!(output.stderr.is_empty(), "{arguments:?}: {output:?}");
+        let mut command = command(arguments, &root);
+        command.stdout(writer).assert().success().stderr("");
     }
 }

@@ -1,6 +1,6 @@
 //! `--step-us` takes fractions, in every command that has it.
 
-use crate::common::{dashpot, error_of, json_of};
+use crate::common::{dashpot, json_of};
 use dashpot_core::Damper;
 use dashpot_hil::commands::step_size::StepSize;
 use dashpot_hil::files::damper;
@@ -18,8 +18,7 @@ fn replay_steps_at_16_khz() {
     std::fs::write(folder.path().join("in.csv"), RAMP).unwrap();
     let arguments = ["replay", "--damper", "in-service", "--step-us", "62.5"];
     let files = ["--input", "in.csv", "--output", "out.csv"];
-    let output = dashpot(&[&arguments[..], &files].concat(), folder.path());
-    assert!(output.status.success(), "{}", error_of(&output));
+    dashpot(&[&arguments[..], &files].concat(), folder.path()).success();
     let written = std::fs::read_to_string(folder.path().join("out.csv")).unwrap();
     let rows: Vec<Vec<&str>> = written
         .lines()
@@ -44,8 +43,7 @@ fn export_builds_for_a_fraction() {
     let arguments = ["export", "--damper", "in-service", "--step-us", "62.5"];
     for (lang, file) in [("bin", "damper.bin"), ("rust", "damper.rs")] {
         let rest = ["--lang", lang, "--output", file];
-        let output = dashpot(&[&arguments[..], &rest].concat(), folder.path());
-        assert!(output.status.success(), "{}", error_of(&output));
+        dashpot(&[&arguments[..], &rest].concat(), folder.path()).success();
     }
     let bytes = std::fs::read(folder.path().join("damper.bin")).unwrap();
     assert_eq!(Damper::<f32>::from_image(&bytes), Ok(in_service(62.5e-6)));
@@ -63,13 +61,12 @@ fn verify_and_rig_take_a_fraction() {
     let output = dashpot(
         &[&verify[..], &["--format", "json"]].concat(),
         folder.path(),
-    );
-    assert!(output.status.success(), "{}", error_of(&output));
-    assert_eq!(json_of(&output.stdout)["deviations"][0]["step_s"], 62.5e-6);
+    )
+    .success();
+    assert_eq!(json_of(&output)["deviations"][0]["step_s"], 62.5e-6);
     let rig = ["rig", "--step-us", "312.5", "--frequency-hz", "1"];
-    let output = dashpot(&[&rig[..], &["--format", "json"]].concat(), folder.path());
-    assert!(output.status.success(), "{}", error_of(&output));
-    assert_eq!(json_of(&output.stdout)["step_s"], 312.5e-6);
+    let output = dashpot(&[&rig[..], &["--format", "json"]].concat(), folder.path()).success();
+    assert_eq!(json_of(&output)["step_s"], 312.5e-6);
 }
 
 /// A target tells its step in single precision.
@@ -77,8 +74,8 @@ fn verify_and_rig_take_a_fraction() {
 fn the_step_of_a_target_is_the_one_it_was_built_for() {
     for us in [1.0, 62.5, 100.0, 333.3333, 1000.0, 20_000.0] {
         let step = StepSize::from_us(us).unwrap();
-        let told = in_service(step.seconds()).step_s();
-        assert_eq!(StepSize::from_target(told), Some(step), "{told}");
+        let reported = in_service(step.seconds()).step_s();
+        assert_eq!(StepSize::from_target(reported), Some(step), "{reported}");
     }
     for step_s in [0.0, 0.9e-6, 0.021, f32::NAN, f32::INFINITY] {
         assert_eq!(StepSize::from_target(step_s), None);

@@ -3,10 +3,13 @@
 use std::io::Cursor;
 use std::path::Path;
 
+use assert_cmd::assert::Assert;
+use predicates::str::contains;
+
 use crate::common::{dashpot, error_of, json_of, text_of};
 use dashpot_hil::files::damper;
 use dashpot_hil::files::recording::Recording;
-use dashpot_hil::study::replay::Ticks;
+use dashpot_hil::study::replay::TickGrid;
 use dashpot_hil::study::verification::{reference_forces, reference_forces_on_recording};
 
 /// 5 mm at 1.4 Hz, sampled at the times (s).
@@ -19,7 +22,7 @@ fn sine(times_s: impl Iterator<Item = f64>) -> String {
     text
 }
 
-fn verify(recording: &str, more: &[&str]) -> std::process::Output {
+fn verify(recording: &str, more: &[&str]) -> Assert {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("in.csv"), recording).unwrap();
     let arguments = ["verify", "--damper", "paper", "--input", "in.csv"];
@@ -31,9 +34,8 @@ fn verify(recording: &str, more: &[&str]) -> std::process::Output {
 fn each_step_is_reported_and_can_fail() {
     let recording = sine((0..=500).map(|i| f64::from(i) * 2e-3));
     let more = ["--step-us", "1000", "--format", "json"];
-    let output = verify(&recording, &more);
-    assert!(output.status.success(), "{}", error_of(&output));
-    let report = json_of(&output.stdout);
+    let output = verify(&recording, &more).success();
+    let report = json_of(&output);
     let rows = report["deviations"].as_array().unwrap();
     assert_eq!(rows.len(), 2);
     for row in rows {
@@ -44,9 +46,9 @@ fn each_step_is_reported_and_can_fail() {
         assert!(apart.abs() < 1e-6, "{row}");
         assert_eq!(row["rejected_inputs"], 0);
     }
-    let output = verify(&recording, &[&more[..], &["--at-most", "1e-12"]].concat());
-    assert_eq!(output.status.code(), Some(1));
-    assert!(error_of(&output).contains("--at-most"));
+    verify(&recording, &[&more[..], &["--at-most", "1e-12"]].concat())
+        .code(1)
+        .stderr(contains("--at-most"));
 }
 
 /// Ticks of 8 ms pass over three samples of four: that error is seen against the recording only.
@@ -54,7 +56,7 @@ fn each_step_is_reported_and_can_fail() {
 fn what_ticks_leave_out_is_seen_on_the_recording() {
     let recording = sine((0..=500).map(|i| f64::from(i) * 2e-3));
     let output = verify(&recording, &["--step-us", "8000", "--format", "json"]);
-    for row in json_of(&output.stdout)["deviations"].as_array().unwrap() {
+    for row in json_of(&output)["deviations"].as_array().unwrap() {
         let value = |key: &str| row[key].as_f64().unwrap();
         assert!(value("nrmse_on_recording") > 1.05 * value("nrmse"), "{row}");
     }
@@ -74,7 +76,10 @@ fn the_reference_on_the_recording_is_that_on_a_grid_that_holds_all_stamps() {
     let ticks = |step_s: f64| {
         let source = Box::new(Cursor::new(recording.clone().into_bytes()));
         let recording = Recording::read(Path::new("in.csv"), source).unwrap();
-        Ticks::new(recording, step_s).unwrap().read_all().unwrap()
+        TickGrid::new(recording, step_s)
+            .unwrap()
+            .read_all()
+            .unwrap()
     };
     let samples = Recording::read(
         Path::new("in.csv"),
@@ -97,7 +102,7 @@ fn the_reference_on_the_recording_is_that_on_a_grid_that_holds_all_stamps() {
 }
 
 #[test]
-fn input_that_the_damper_did_not_follow_is_told() {
+fn input_that_the_damper_did_not_follow_is_reported() {
     let output = verify(
         "time_s,displacement_m\n0,0\n0.001,0.005\n0.01,0\n",
         &["--step-us", "1000"],

@@ -1,6 +1,9 @@
 //! An option that is wrong ends any command with exit code 2, a file that is wrong with 1; both leave no file.
 
-use crate::common::{dashpot, error_of, files_in};
+use predicates::prelude::PredicateBooleanExt;
+use predicates::str::{contains, starts_with};
+
+use crate::common::{dashpot, files_in};
 
 const MOTION: &str = "time_s,displacement_m\n0,0\n1,1\n";
 
@@ -13,30 +16,24 @@ const PIL: [&str; 5] = ["pil", "--input", "in.csv", "--link", "tcp:localhost:1"]
 const EXPORT: [&str; 3] = ["export", "--output", "damper"];
 
 /// Runs `command` with `options` beside a good recording, a file that is no damper and one that is neither.
-fn check(command: &[&str], options: &[&str], code: i32, part: &str) {
+fn check(command: &[&str], options: &[&str], code: i32, part: &'static str) {
     let folder = tempfile::tempdir().unwrap();
     let at = |name: &str| folder.path().join(name);
     std::fs::write(at("in.csv"), MOTION).unwrap();
     std::fs::write(at("bad.toml"), BAD_DAMPER).unwrap();
     std::fs::write(at("bad.csv"), "a,b\n0,0\n").unwrap();
-    let arguments = [command, options].concat();
-    let output = dashpot(&arguments, folder.path());
-    let error = error_of(&output);
-    assert_eq!(output.status.code(), Some(code), "{arguments:?}: {error}");
-    assert!(error.starts_with("error: "), "{arguments:?}: {error}");
-    assert!(
-        error.contains(part),
-        "{arguments:?}: `{error}` lacks `{part}`"
-    );
-    assert!(output.stdout.is_empty(), "{arguments:?}");
+    dashpot(&[command, options].concat(), folder.path())
+        .code(code)
+        .stdout("")
+        .stderr(starts_with("error: ").and(contains(part)));
     assert_eq!(files_in(folder.path()), ["bad.csv", "bad.toml", "in.csv"]);
 }
 
-fn wrong_use(command: &[&str], options: &[&str], part: &str) {
+fn wrong_use(command: &[&str], options: &[&str], part: &'static str) {
     check(command, options, 2, part);
 }
 
-fn failed(command: &[&str], options: &[&str], part: &str) {
+fn failed(command: &[&str], options: &[&str], part: &'static str) {
     check(command, options, 1, part);
 }
 

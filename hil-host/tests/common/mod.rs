@@ -1,52 +1,62 @@
 //! `dashpot` run as its users run it.
 
-// Each test binary uses its own share of these.
+// Each test binary uses a part of these.
 #![allow(dead_code)]
 
-use std::io::Write;
 use std::path::Path;
-use std::process::{Command, Output, Stdio};
+use std::process::Command;
 
-/// The command in `folder`, not yet started.
+use assert_cmd::assert::Assert;
+use assert_cmd::cargo::{cargo_bin, cargo_bin_cmd};
+
+/// The path of the command.
+pub fn program() -> &'static Path {
+    cargo_bin!("dashpot")
+}
+
+/// The command in `folder`, to be started by the test.
 pub fn command(arguments: &[&str], folder: &Path) -> Command {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_dashpot"));
+    let mut command = Command::new(program());
     command.args(arguments).current_dir(folder);
     command
 }
 
-/// What the command in `folder` wrote and how it ended.
-pub fn dashpot(arguments: &[&str], folder: &Path) -> Output {
-    command(arguments, folder).output().unwrap()
+/// The command in `folder`, ended.
+pub fn dashpot(arguments: &[&str], folder: &Path) -> Assert {
+    dashpot_reading(b"", arguments, folder)
 }
 
 /// As [`dashpot`], with `input` at its standard input.
-pub fn dashpot_reading(input: &[u8], arguments: &[&str], folder: &Path) -> Output {
-    let mut child = command(arguments, folder)
-        .stdin(Stdio::piped())
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .unwrap();
-    let mut stdin = child.stdin.take().unwrap();
-    std::thread::scope(|scope| {
-        // A command that ends early breaks the pipe; its output tells why.
-        scope.spawn(move || stdin.write_all(input));
-        child.wait_with_output().unwrap()
-    })
+pub fn dashpot_reading(input: &[u8], arguments: &[&str], folder: &Path) -> Assert {
+    let mut command = cargo_bin_cmd!("dashpot");
+    command
+        .args(arguments)
+        .current_dir(folder)
+        .write_stdin(input)
+        .assert()
 }
 
 /// What the command wrote to standard error.
-pub fn error_of(output: &Output) -> String {
-    String::from_utf8_lossy(&output.stderr).into_owned()
+pub fn error_of(ended: &Assert) -> String {
+    String::from_utf8_lossy(&ended.get_output().stderr).into_owned()
 }
 
 /// What the command wrote to standard output.
-pub fn text_of(output: &Output) -> String {
-    String::from_utf8_lossy(&output.stdout).into_owned()
+pub fn text_of(ended: &Assert) -> String {
+    String::from_utf8_lossy(&ended.get_output().stdout).into_owned()
 }
 
-/// The one JSON object of a report.
-pub fn json_of(bytes: &[u8]) -> serde_json::Value {
+/// The report of the command, the one JSON object on standard output.
+pub fn json_of(ended: &Assert) -> serde_json::Value {
+    json(&ended.get_output().stdout)
+}
+
+/// The report of a command whose data went to standard output: the one JSON object on standard error.
+pub fn json_beside(ended: &Assert) -> serde_json::Value {
+    json(&ended.get_output().stderr)
+}
+
+fn json(bytes: &[u8]) -> serde_json::Value {
     serde_json::from_slice(bytes).unwrap_or_else(|error| {
         panic!("{error} in `{}`", String::from_utf8_lossy(bytes));
     })

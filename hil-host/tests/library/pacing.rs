@@ -1,13 +1,13 @@
-//! The pacer on a clock that tells what it is told.
+//! The pacer on a simulated clock.
 
 use std::cell::Cell;
 
 use dashpot_hil::realtime::pacing::{Clock, Pacer};
 
 /// Time moves by sleeping, each sleep 5 us too long, and by hand.
-struct Told(Cell<u64>);
+struct SimulatedClock(Cell<u64>);
 
-impl Clock for Told {
+impl Clock for SimulatedClock {
     fn now_ns(&self) -> u64 {
         self.0.get()
     }
@@ -18,7 +18,7 @@ impl Clock for Told {
 
 #[test]
 fn lateness_does_not_add_up_and_an_overrun_misses() {
-    let mut pacer = Pacer::with_clock(1e-3, Told(Cell::new(700))).unwrap();
+    let mut pacer = Pacer::with_clock(1e-3, SimulatedClock(Cell::new(700))).unwrap();
     let mut late = Vec::new();
     for tick in 0..6 {
         let timing = pacer.wait(tick);
@@ -41,7 +41,9 @@ fn lateness_does_not_add_up_and_an_overrun_misses() {
 #[test]
 fn rates_out_of_range_are_refused() {
     for step_s in [99e-6, 1.001e-3, f64::NAN] {
-        let refusal = Pacer::with_clock(step_s, Told(Cell::new(0))).err().unwrap();
+        let refusal = Pacer::with_clock(step_s, SimulatedClock(Cell::new(0)))
+            .err()
+            .unwrap();
         assert!(refusal.to_string().contains("100 to 1000 us"), "{refusal}");
     }
 }

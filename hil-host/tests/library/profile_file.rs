@@ -1,4 +1,4 @@
-//! Profiles from files: what is wrong is told with file, line and column.
+//! Profiles from files: what is wrong is reported with file, line and column.
 
 use std::fmt::Write;
 
@@ -6,7 +6,7 @@ use dashpot_hil::files::profile;
 use dashpot_rail::profile::{Body, s1002};
 
 #[test]
-fn a_wrong_cell_is_told_with_file_line_and_column() {
+fn a_wrong_cell_is_reported_with_file_line_and_column() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("wheel.csv");
     let mut text = String::from("# a gauge\ny_mm,z_mm\n");
@@ -26,7 +26,7 @@ fn a_wrong_cell_is_told_with_file_line_and_column() {
 }
 
 #[test]
-fn a_missing_file_is_told_by_name() {
+fn a_missing_file_is_reported_by_name() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("none.csv");
     let error = profile::read(&path, Body::Rail, 0.0).unwrap_err();

@@ -1,4 +1,4 @@
-//! What a recording that is another kind of file is told to be.
+//! What is reported of a recording that is another kind of file.
 
 use std::io::Cursor;
 use std::path::Path;
@@ -19,7 +19,7 @@ fn utf_16(text: &str, bytes: fn(u16) -> [u8; 2]) -> Vec<u8> {
 }
 
 #[test]
-fn another_kind_of_file_is_told_by_name() {
+fn another_kind_of_file_is_reported_by_name() {
     let header = "time_s,displacement_m\n0,0\n";
     let with_mark = format!("\u{feff}{header}");
     let cases: [(&[u8], &str); 10] = [
@@ -75,7 +75,7 @@ fn another_kind_of_file_is_told_by_name() {
 }
 
 #[test]
-fn a_decimal_comma_under_an_accepted_header_is_told() {
+fn a_decimal_comma_under_an_accepted_header_is_reported() {
     let error = error_of(b"time_s,displacement_m\n0,0,0,001\n");
     assert!(
         error.contains("line 2: 4 cells where the header has 2; numbers with a decimal comma"),
@@ -117,7 +117,7 @@ fn lines_are_counted_as_an_editor_does() {
 
 /// A separator or a zero byte here and there does not make another kind of file.
 #[test]
-fn a_column_that_is_missing_is_told_as_such() {
+fn a_column_that_is_missing_is_reported_as_such() {
     assert!(error_of(b"\"\"\n0\n").contains("column time_s is missing"));
     for header in ["time_s,force_n", "time_s,x;m,y;m", "time_s,a\0b"] {
         let error = error_of(format!("{header}\n0,0\n").as_bytes());

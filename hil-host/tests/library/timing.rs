@@ -1,4 +1,4 @@
-//! Distributions of time spans beside sorted samples, their bins, and the machine they are told with.
+//! Distributions of time spans beside sorted samples, their bins, and the machine they are reported with.
 
 use std::fs;
 use std::path::Path;
@@ -30,7 +30,7 @@ fn percentiles_are_those_of_the_sorted_samples() {
         (longest, place as u64)
     );
     samples.sort_by(f64::total_cmp);
-    for (share, found) in [
+    for (fraction, found) in [
         (0.5, figures.p50_ns),
         (0.9, figures.p90_ns),
         (0.99, figures.p99_ns),
@@ -39,19 +39,19 @@ fn percentiles_are_those_of_the_sorted_samples() {
     ] {
         let (found, expected) = (
             found.unwrap(),
-            samples[(share * 200_000.0_f64).ceil() as usize - 1],
+            samples[(fraction * 200_000.0_f64).ceil() as usize - 1],
         );
         // Three significant digits.
         assert!(
             (found / expected - 1.0).abs() < 1e-3,
-            "{share}: {found} {expected}"
+            "{fraction}: {found} {expected}"
         );
     }
 }
 
 /// Ten spans are expected beyond p50 of 20, p90 of 100 and so on.
 #[test]
-fn a_percentile_is_told_only_when_ten_spans_lie_beyond_it() {
+fn a_percentile_is_reported_only_when_ten_spans_lie_beyond_it() {
     let carried = |count: usize| {
         let figures = of((0..count).map(|i| i as f64)).figures();
         [
@@ -109,7 +109,7 @@ fn machine(root: &Path, core: Option<usize>) -> Machine {
 }
 
 #[test]
-fn a_machine_is_told_by_its_files() {
+fn a_machine_is_reported_by_its_files() {
     let root = tempfile::tempdir().unwrap();
     let write = |path: &str, text: &str| {
         let path = root.path().join(path);
@@ -126,7 +126,7 @@ fn a_machine_is_told_by_its_files() {
         let path = format!("sys/devices/system/cpu/cpu{core}/cpufreq/scaling_governor");
         write(&path, governor);
     }
-    let told = machine(root.path(), None).to_string();
+    let reported = machine(root.path(), None).to_string();
     for part in [
         "processor Six Core 3000",
         "kernel 6.12.1-rt5",
@@ -134,7 +134,7 @@ fn a_machine_is_told_by_its_files() {
         "load average 0.50 1.25 2.00",
         "2026-01-01T12:00:00Z",
     ] {
-        assert!(told.contains(part), "{part}: {told}");
+        assert!(reported.contains(part), "{part}: {reported}");
     }
     let pinned = machine(root.path(), Some(1)).governor;
     assert_eq!(pinned.as_deref(), Some("powersave"));
@@ -144,14 +144,14 @@ fn a_machine_is_told_by_its_files() {
 fn what_a_machine_does_not_tell_is_unknown() {
     let root = tempfile::tempdir().unwrap();
     let empty = machine(root.path(), None);
-    let told = empty.to_string();
+    let reported = empty.to_string();
     for part in [
         "processor unknown",
         "kernel unknown",
         "governor unknown",
         "load average unknown",
     ] {
-        assert!(told.contains(part), "{part}: {told}");
+        assert!(reported.contains(part), "{part}: {reported}");
     }
     let json = serde_json::to_value(empty).unwrap();
     for key in ["processor", "kernel", "governor", "load_average"] {

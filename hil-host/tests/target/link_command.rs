@@ -3,10 +3,11 @@
 use crate::common::{dashpot, error_of};
 use crate::link_common::{Rig, TICKS};
 use crate::pil_common::built;
+use predicates::str::contains;
 use serde_json::json;
 
 #[test]
-fn hello_tells_who_answers() {
+fn hello_reports_who_answers() {
     let rig = Rig::new();
     let greeting = rig.json(&["hello"]);
     let bank = ["reduced-vertical", "in-service", "reduced-lateral"];
@@ -30,7 +31,7 @@ fn hello_tells_who_answers() {
 }
 
 #[test]
-fn status_is_told_by_name_and_cleared() {
+fn status_is_reported_by_name_and_cleared() {
     let rig = Rig::new();
     assert_eq!(rig.text(&["status"]).matches("none").count(), 3);
     rig.text(&["run", "--displacement-m", "0"]);
@@ -57,7 +58,7 @@ fn status_is_told_by_name_and_cleared() {
 }
 
 #[test]
-fn counters_and_outputs_are_told() {
+fn counters_and_outputs_are_reported() {
     let rig = Rig::new();
     rig.error(&["stop"], 1);
     let counters = rig.json(&["counters"]);
@@ -80,8 +81,8 @@ fn counters_and_outputs_are_told() {
 fn the_clearance_changes_live() {
     let rig = Rig::new();
     let before = rig.json(&["hello"]);
-    let told = rig.text(&["set", "--place", "1", "--clearance-m", "0.002"]);
-    assert_eq!(told, "place 1: clearance 0.002 m\n");
+    let reported = rig.text(&["set", "--place", "1", "--clearance-m", "0.002"]);
+    assert_eq!(reported, "place 1: clearance 0.002 m\n");
     let after = rig.json(&["hello"]);
     let same = |place: usize| before["revisions"][place] == after["revisions"][place];
     assert_eq!([0, 1, 2].map(same), [true, false, true]);
@@ -119,9 +120,9 @@ fn the_tick_runs_stops_and_says_when_it_cannot() {
 #[test]
 fn a_lost_link_makes_the_outputs_safe_until_run() {
     let rig = Rig::new();
-    let told = rig.text(&["loss-of-link", "--after-ticks", "50", "--output", "zero"]);
+    let reported = rig.text(&["loss-of-link", "--after-ticks", "50", "--output", "zero"]);
     assert_eq!(
-        told,
+        reported,
         "lost after 50 ticks without a displacement; outputs then: zero\n"
     );
     let run = ["run", "--displacement-m", "0"];
@@ -139,8 +140,8 @@ fn a_lost_link_makes_the_outputs_safe_until_run() {
     rig.text(&["stop"]);
     for output in ["hold", "ramp=7"] {
         let loss = ["loss-of-link", "--after-ticks", "1", "--output", output];
-        let told = rig.json(&loss);
-        assert_eq!(told, json!({"after_ticks": 1, "output": output}));
+        let reported = rig.json(&loss);
+        assert_eq!(reported, json!({"after_ticks": 1, "output": output}));
     }
 }
 
@@ -202,23 +203,22 @@ fn wrong_use_is_refused_before_the_target_is_asked() {
     ] {
         // Nobody listens at this port.
         let line = ["link", "--link", "tcp:localhost:1"];
-        let output = dashpot(&[&line[..], action].concat(), folder.path());
+        let output = dashpot(&[&line[..], action].concat(), folder.path()).code(2);
         let error = error_of(&output);
-        assert_eq!(output.status.code(), Some(2), "{action:?}: {error}");
         assert!(error.contains(part), "{action:?}: {error}");
     }
-    let output = dashpot(&["link", "hello"], folder.path());
-    assert_eq!(output.status.code(), Some(2));
-    assert!(error_of(&output).contains("--link <LINK>"));
+    dashpot(&["link", "hello"], folder.path())
+        .code(2)
+        .stderr(contains("--link <LINK>"));
 }
 
 #[test]
 fn a_target_that_is_not_there_is_a_failure() {
     let folder = tempfile::tempdir().unwrap();
-    let output = dashpot(
+    dashpot(
         &["link", "--link", "tcp:localhost:1", "hello"],
         folder.path(),
-    );
-    assert_eq!(output.status.code(), Some(1));
-    assert!(error_of(&output).contains("tcp:localhost:1: cannot connect"));
+    )
+    .code(1)
+    .stderr(contains("tcp:localhost:1: cannot connect"));
 }

@@ -12,9 +12,9 @@ fn a_damper_goes_where_it_is_not_yet() {
     let load = ["load", "--damper", "in-service"];
     let revision = built("in-service").revision();
     // The second place has it from the start.
-    let told = rig.text(&load);
+    let reported = rig.text(&load);
     assert_eq!(
-        told,
+        reported,
         format!(
             "in-service, revision {revision:#010x}\nloaded into places 0, 2\nskipped place 1: there already\n"
         )
@@ -33,12 +33,12 @@ fn a_damper_goes_where_it_is_not_yet() {
         "--place",
         "2",
     ];
-    let told = rig.json(&[&load[..], &other].concat());
-    assert_eq!(told["loaded"], json!([0, 2]));
+    let reported = rig.json(&[&load[..], &other].concat());
+    assert_eq!(reported["loaded"], json!([0, 2]));
     let revisions = &rig.json(&["hello"])["revisions"];
     assert_eq!(revisions[1], json!(revision));
-    assert_eq!(revisions[0], told["revision"]);
-    assert_eq!(revisions[2], told["revision"]);
+    assert_eq!(revisions[0], reported["revision"]);
+    assert_eq!(revisions[2], reported["revision"]);
 }
 
 #[test]
@@ -59,10 +59,10 @@ fn an_image_is_loaded_when_it_fits() {
     let rig = Rig::new();
     let paper = built("paper");
     rig.write("paper.bin", paper.to_image());
-    let told = rig.json(&["load", "--image", "paper.bin", "--place", "2"]);
+    let reported = rig.json(&["load", "--image", "paper.bin", "--place", "2"]);
     let report =
         json!({"damper": "paper.bin", "revision": paper.revision(), "loaded": [2], "skipped": []});
-    assert_eq!(told, report);
+    assert_eq!(reported, report);
 
     let parameters = damper::load("paper", &[]).unwrap();
     let half: Damper<f32> = parameters.build(5e-4).unwrap();

@@ -2,7 +2,7 @@
 
 use std::process::{Child, Stdio};
 
-use crate::common::files_in;
+use crate::common::{error_of, files_in, text_of};
 use crate::link_common::{Rig, TICKS};
 use serde_json::{Value, json};
 
@@ -35,15 +35,15 @@ fn every_damper_has_its_own_samples_of_the_same_ticks() {
     let last = u64::from(4 * TICKS);
     let expected: Vec<u64> = (last - 63..=last).collect();
     for place in [1, 0] {
-        let told = rig.json(&["telemetry", "--place", &place.to_string()]);
-        let samples = told["samples"].as_array().unwrap();
+        let reported = rig.json(&["telemetry", "--place", &place.to_string()]);
+        let samples = reported["samples"].as_array().unwrap();
         assert_eq!(ticks(samples), expected);
         assert!(samples.iter().all(|of| of["place"] == place));
         let displacement_m = samples[63]["displacement_m"].as_f64().unwrap();
         assert!((displacement_m - 0.002).abs() < 1e-8, "{displacement_m}");
         let overwritten = last - 64;
         assert_eq!(
-            told["places"],
+            reported["places"],
             json!([{"place": place, "taken": 64, "overwritten": overwritten}])
         );
     }
@@ -64,9 +64,9 @@ fn every_damper_has_its_own_samples_of_the_same_ticks() {
 fn samples_go_to_a_file() {
     let rig = running();
     rig.text(&["stop"]);
-    let told = rig.json(&["telemetry", "--output", "samples.csv"]);
-    assert_eq!(told["output"], "samples.csv");
-    assert_eq!(told["samples"], Value::Null);
+    let reported = rig.json(&["telemetry", "--output", "samples.csv"]);
+    assert_eq!(reported["output"], "samples.csv");
+    assert_eq!(reported["samples"], Value::Null);
     let text = rig.read("samples.csv");
     let mut rows = csv::Reader::from_reader(text.as_bytes());
     let header: Vec<&str> = rows.headers().unwrap().iter().collect();
@@ -81,8 +81,11 @@ fn samples_go_to_a_file() {
     }));
     // Taken once.
     let output = rig.output(&["telemetry", "--output", "-"]);
-    assert_eq!(output.stdout, b"place,tick,displacement_m,force_n,status\n");
-    assert!(String::from_utf8_lossy(&output.stderr).contains("wrote standard output"));
+    assert_eq!(
+        output.get_output().stdout,
+        b"place,tick,displacement_m,force_n,status\n"
+    );
+    assert!(String::from_utf8_lossy(&output.get_output().stderr).contains("wrote standard output"));
 }
 
 #[test]
@@ -109,9 +112,8 @@ fn samples_are_watched_as_they_come() {
         "--format",
         "json",
     ];
-    let output = rig.output(&watch);
-    assert!(output.status.success(), "{output:?}");
-    let text = String::from_utf8(output.stdout).unwrap();
+    let output = rig.output(&watch).success();
+    let text = text_of(&output);
     let samples: Vec<Value> = text
         .lines()
         .map(|line| serde_json::from_str(line).unwrap())
@@ -120,7 +122,7 @@ fn samples_are_watched_as_they_come() {
     let ticks = ticks(&samples);
     assert!(ticks.is_sorted_by(|a, b| a < b), "{ticks:?}");
     // 20 ticks pass with each request, whose answer has 8 samples.
-    let warnings = String::from_utf8(output.stderr).unwrap();
+    let warnings = error_of(&output);
     assert!(warnings.starts_with("warning: place 0: "), "{warnings}");
     assert!(warnings.contains("overwritten before they were taken"));
     let text = rig.text(&["watch", "--samples", "9"]);
@@ -135,9 +137,8 @@ fn samples_are_watched_as_they_come() {
 #[test]
 fn a_target_that_does_not_run_is_not_watched_for_ever() {
     let rig = Rig::new();
-    let output = rig.output(&["watch"]);
-    assert_eq!(output.status.code(), Some(1), "{output:?}");
-    let error = String::from_utf8(output.stderr).unwrap();
+    let output = rig.output(&["watch"]).code(1);
+    let error = error_of(&output);
     assert!(error.contains("does not run free, so no more samples come; `run` starts it"));
 }
 

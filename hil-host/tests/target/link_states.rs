@@ -1,5 +1,7 @@
 //! `dashpot link save` and `restore`: the states of a bank in a file.
 
+use assert_cmd::assert::OutputAssertExt;
+
 use crate::common::files_in;
 use crate::link_common::Rig;
 use serde_json::json;
@@ -16,8 +18,8 @@ fn moved() -> Rig {
 #[test]
 fn a_bank_goes_on_from_its_file_to_the_bit() {
     let rig = moved();
-    let told = rig.text(&["save", "--output", "a.toml"]);
-    assert_eq!(told, "3 states of tick 80 in a.toml\n");
+    let reported = rig.text(&["save", "--output", "a.toml"]);
+    assert_eq!(reported, "3 states of tick 80 in a.toml\n");
     let saved = rig.read("a.toml");
     let table: toml::Table = saved.parse().unwrap();
     let places = table["places"].as_array().unwrap();
@@ -30,8 +32,11 @@ fn a_bank_goes_on_from_its_file_to_the_bit() {
     rig.text(&["run", "--displacement-m", "0"]);
     rig.text(&["stop"]);
     assert_ne!(rig.json(&["hello"])["tick"], 80);
-    let told = rig.json(&["restore", "--input", "a.toml"]);
-    assert_eq!(told, json!({"file": "a.toml", "tick": 80, "dampers": 3}));
+    let reported = rig.json(&["restore", "--input", "a.toml"]);
+    assert_eq!(
+        reported,
+        json!({"file": "a.toml", "tick": 80, "dampers": 3})
+    );
     rig.text(&["save", "--output", "b.toml"]);
     assert_eq!(rig.read("b.toml"), saved);
 }
@@ -67,7 +72,7 @@ fn states_of_other_dampers_are_refused_before_they_are_sent() {
 }
 
 #[test]
-fn a_target_that_says_no_is_told_in_words() {
+fn a_target_that_says_no_is_reported_in_words() {
     let rig = moved();
     rig.text(&["save", "--output", "a.toml"]);
     // No step leaves such a force behind.
@@ -92,7 +97,7 @@ fn a_target_that_says_no_is_told_in_words() {
 }
 
 #[test]
-fn a_file_that_is_none_is_told_where() {
+fn a_file_that_is_none_is_reported_where() {
     let rig = moved();
     rig.text(&["save", "--output", "a.toml"]);
     let text = rig.read("a.toml");
@@ -134,16 +139,12 @@ fn a_file_that_is_none_is_told_where() {
 #[test]
 fn standard_streams_carry_states() {
     let rig = moved();
-    let saved = rig.output(&["save", "--output", "-"]);
-    assert!(saved.status.success(), "{saved:?}");
-    let told = String::from_utf8(saved.stderr).unwrap();
-    assert_eq!(told, "3 states of tick 80 in standard output\n");
-    rig.write("a.toml", &saved.stdout);
+    let saved = rig.output(&["save", "--output", "-"]).success();
+    let saved = saved.stderr("3 states of tick 80 in standard output\n");
+    rig.write("a.toml", &saved.get_output().stdout);
     let input = std::fs::File::open(rig.folder.path().join("a.toml")).unwrap();
-    let restored = rig
-        .command(&["restore", "--input", "-"])
+    rig.command(&["restore", "--input", "-"])
         .stdin(input)
-        .output()
-        .unwrap();
-    assert!(restored.status.success(), "{restored:?}");
+        .assert()
+        .success();
 }

@@ -2,15 +2,17 @@
 
 use crate::pil_common::{PATIENCE, built, desk, motion, ride};
 use dashpot_core::Damper;
-use dashpot_hil::error::{Kind, Outcome};
-use dashpot_hil::target::pil::{Client, Desk, FaultRates, FaultyLink, Link, Pace, Report, Session};
+use dashpot_hil::commands::failure::{Failure, Kind};
+use dashpot_hil::target::pil::{
+    Client, Desk, FaultRates, FaultyLink, Link, Pace, Report, Session, SessionError,
+};
 
 /// Runs `dampers` and keeps the forces of the target (N), tick by tick.
 fn forces(
     link: impl Link,
     dampers: &[Damper<f32>],
     ticks: usize,
-) -> Outcome<(Report, Vec<Vec<f32>>)> {
+) -> Result<(Report, Vec<Vec<f32>>), SessionError> {
     let mut session = Session::open(Client::new(link, PATIENCE, 40))?;
     let mut forces_n = Vec::new();
     let report = session.run(dampers, motion(ticks), &mut Pace::default(), |record| {
@@ -86,7 +88,7 @@ fn another_number_of_dampers_is_refused_before_the_target_is_touched() {
         let dampers = vec![built("paper"); count];
         let mut session = Session::open(Client::new(desk(), PATIENCE, 40)).unwrap();
         let refused = session.run(&dampers, motion(10), &mut Pace::default(), |_| Ok(()));
-        let refused = refused.unwrap_err();
+        let refused = Failure::from(refused.unwrap_err());
         assert_eq!(refused.kind(), Kind::WrongUse);
         assert_eq!(
             refused.to_string(),

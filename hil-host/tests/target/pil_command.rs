@@ -1,9 +1,11 @@
 //! `dashpot pil` against a target on the desk behind a TCP port: its files and its refusals.
 
 use std::path::Path;
-use std::process::Output;
 
-use crate::common::{dashpot, error_of, files_in, json_of, text_of};
+use assert_cmd::assert::Assert;
+use predicates::str::contains;
+
+use crate::common::{dashpot, files_in, json_beside, json_of, text_of};
 use crate::pil_common::{altered, desk, serve_tcp};
 use dashpot_core::link::Response;
 use dashpot_hil::target::pil::Link;
@@ -25,7 +27,7 @@ fn pil_with(
     target: impl FnOnce() -> Box<dyn Link> + Send + 'static,
     options: &[&str],
     folder: &Path,
-) -> Output {
+) -> Assert {
     recording(folder);
     let link = format!("tcp:{}", serve_tcp(target));
     // On a busy machine an answer may take long; it always comes.
@@ -39,7 +41,7 @@ fn pil_with(
     dashpot(&arguments, folder)
 }
 
-fn pil(options: &[&str], folder: &Path) -> Output {
+fn pil(options: &[&str], folder: &Path) -> Assert {
     pil_with(|| Box::new(desk()), options, folder)
 }
 
@@ -66,8 +68,8 @@ fn the_output_has_a_row_for_each_tick() {
     let output = pil(
         &[&THREE[..], &["--output", "out.csv"]].concat(),
         folder.path(),
-    );
-    assert!(output.status.success(), "{output:?}");
+    )
+    .success();
     let report = text_of(&output);
     assert!(report.starts_with(&format!(
         "{TICKS} ticks of 1000 us through paper, in-service, reduced-vertical on"
@@ -112,9 +114,9 @@ fn events_are_named_in_their_rows() {
     let output = pil(
         &[&faults[..], &["--output", "-", "--format", "json"]].concat(),
         folder.path(),
-    );
-    assert!(output.status.success(), "{output:?}");
-    let report = json_of(&output.stderr);
+    )
+    .success();
+    let report = json_beside(&output);
     let rows = rows(&text_of(&output));
     assert_eq!(rows.len(), TICKS);
     let named = rows.iter().filter(|row| row[16] == "duplicate").count() as u64;
@@ -127,9 +129,8 @@ fn events_are_named_in_their_rows() {
 fn the_page_shows_each_place_and_the_results() {
     let folder = tempfile::tempdir().unwrap();
     let options = [&THREE[..], &["--page", "run.html", "--format", "json"]].concat();
-    let output = pil(&options, folder.path());
-    assert!(output.status.success(), "{output:?}");
-    let report = json_of(&output.stdout);
+    let output = pil(&options, folder.path()).success();
+    let report = json_of(&output);
     assert_eq!(report["files"], serde_json::json!(["run.html"]));
     assert_eq!(
         report["dampers"],
@@ -150,14 +151,13 @@ fn the_page_shows_each_place_and_the_results() {
 }
 
 #[test]
-fn a_paced_run_tells_missed_deadlines() {
+fn a_paced_run_reports_missed_deadlines() {
     let folder = tempfile::tempdir().unwrap();
     let options = [
         "--paced", "--ticks", "30", "--output", "-", "--page", "run.html", "--format", "json",
     ];
-    let output = pil(&options, folder.path());
-    assert!(output.status.success(), "{output:?}");
-    let report = json_of(&output.stderr);
+    let output = pil(&options, folder.path()).success();
+    let report = json_beside(&output);
     let missed = report["pacing"]["missed_deadlines"].as_u64().unwrap();
     assert_eq!(report["pacing"]["response"]["count"], 30);
     let late = rows(&text_of(&output))
@@ -184,9 +184,9 @@ fn a_force_that_differs_fails_the_command_and_is_shown() {
         }))
     };
     let files = ["--output", "out.csv", "--page", "run.html"];
-    let output = pil_with(wrong, &files, folder.path());
-    assert_eq!(output.status.code(), Some(1), "{output:?}");
-    assert!(error_of(&output).contains("1 forces or status words and 0 states differ"));
+    pil_with(wrong, &files, folder.path())
+        .code(1)
+        .stderr(contains("1 forces or status words and 0 states differ"));
     assert_eq!(files_in(folder.path()), ["in.csv", "out.csv", "run.html"]);
     let text = std::fs::read_to_string(folder.path().join("out.csv")).unwrap();
     let differing: Vec<_> = rows(&text)
@@ -208,12 +208,11 @@ fn a_force_that_differs_fails_the_command_and_is_shown() {
 fn another_number_of_dampers_than_places_is_wrong_use() {
     let folder = tempfile::tempdir().unwrap();
     let files = ["--output", "out.csv", "--page", "run.html"];
-    let output = pil(&[&THREE[..4], &files].concat(), folder.path());
-    assert_eq!(output.status.code(), Some(2), "{output:?}");
-    assert!(
-        error_of(&output)
-            .contains("2 dampers, the target has 3 places; allowed: 1, for all places, or 3")
-    );
+    pil(&[&THREE[..4], &files].concat(), folder.path())
+        .code(2)
+        .stderr(contains(
+            "2 dampers, the target has 3 places; allowed: 1, for all places, or 3",
+        ));
     assert_eq!(files_in(folder.path()), ["in.csv"]);
 }
 
@@ -265,13 +264,9 @@ fn files_that_cannot_be_are_refused_before_the_target_is_asked() {
         recording(folder.path());
         // Nobody listens at this port.
         let command = ["pil", "--link", "tcp:localhost:1", "--input", "in.csv"];
-        let output = dashpot(&[&command[..], options].concat(), folder.path());
-        assert_eq!(output.status.code(), Some(code), "{options:?}: {output:?}");
-        assert!(
-            error_of(&output).contains(part),
-            "{options:?}: {}",
-            error_of(&output)
-        );
+        dashpot(&[&command[..], options].concat(), folder.path())
+            .code(code)
+            .stderr(contains(part));
         assert_eq!(files_in(folder.path()), ["in.csv"]);
     }
 }

@@ -59,9 +59,9 @@ fn the_emulator_ends_with_the_command() {
     command.env("PATH", format!("{}:{path}", folder.path().display()));
     let mut command = command.stderr(Stdio::null()).spawn().unwrap();
     let mut alive = File::open(at("alive")).unwrap();
-    let mut told = [0; 8];
-    alive.read_exact(&mut told).unwrap();
-    assert_eq!(&told, b"started\n");
+    let mut reported = [0; 8];
+    alive.read_exact(&mut reported).unwrap();
+    assert_eq!(&reported, b"started\n");
     terminate(&mut command);
     wait.write_all(b"\n").unwrap();
     // Ends when nobody is left to write.

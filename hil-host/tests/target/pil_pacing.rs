@@ -1,4 +1,4 @@
-//! Paced ticks on a clock that tells what it is told.
+//! Paced ticks on a simulated clock.
 
 use std::cell::Cell;
 use std::rc::Rc;
@@ -6,15 +6,14 @@ use std::time::Duration;
 
 use crate::pil_common::{PATIENCE, built, desk, motion};
 use dashpot_core::link::{FrameReader, Header, REQUEST_BYTES, Request};
-use dashpot_hil::error::Outcome;
 use dashpot_hil::realtime::pacing::{Clock, Pacer};
-use dashpot_hil::target::pil::{Client, Desk, Event, Link, Pace, Report, Session};
+use dashpot_hil::target::pil::{Client, Desk, Event, Link, LinkError, Pace, Report, Session};
 
 /// Time moves by sleeping and by hand.
 #[derive(Clone, Default)]
-struct Told(Rc<Cell<u64>>);
+struct SimulatedClock(Rc<Cell<u64>>);
 
-impl Clock for Told {
+impl Clock for SimulatedClock {
     fn now_ns(&self) -> u64 {
         self.0.get()
     }
@@ -26,13 +25,13 @@ impl Clock for Told {
 /// A desk that takes 300 us for each step, 1.9 ms for step 5.
 struct Slow {
     desk: Desk<3>,
-    clock: Told,
+    clock: SimulatedClock,
     /// When each step was sent (ns).
     sent_ns: Rc<std::cell::RefCell<Vec<u64>>>,
 }
 
 impl Link for Slow {
-    fn send(&mut self, bytes: &[u8]) -> Outcome<()> {
+    fn send(&mut self, bytes: &[u8]) -> Result<(), LinkError> {
         let mut reader = FrameReader::<REQUEST_BYTES>::new();
         for byte in bytes {
             if let Some(Ok(message)) = reader.push(*byte) {
@@ -48,7 +47,7 @@ impl Link for Slow {
         }
         self.desk.send(bytes)
     }
-    fn receive(&mut self, buffer: &mut [u8], timeout: Duration) -> Outcome<usize> {
+    fn receive(&mut self, buffer: &mut [u8], timeout: Duration) -> Result<usize, LinkError> {
         self.desk.receive(buffer, timeout)
     }
 }
@@ -60,8 +59,8 @@ struct Ran {
     late: Vec<u32>,
 }
 
-fn run(pace: impl FnOnce(Told) -> Pace<Told>) -> Ran {
-    let clock = Told::default();
+fn run(pace: impl FnOnce(SimulatedClock) -> Pace<SimulatedClock>) -> Ran {
+    let clock = SimulatedClock::default();
     let link = Slow {
         desk: desk(),
         clock: clock.clone(),

@@ -7,9 +7,9 @@ use dashpot_core::Status;
 use dashpot_core::link::{
     FrameReader, Header, PROTOCOL, REQUEST_BYTES, Refusal, Request, Response, ResponseFrame,
 };
-use dashpot_hil::error::{Failure, Outcome};
 use dashpot_hil::target::pil::{
-    Client, Desk, Event, FaultCounts, FaultRates, FaultyLink, Link, Pace, Report, Session, Tcp,
+    Client, Desk, Event, FaultCounts, FaultRates, FaultyLink, Link, LinkError, Pace, Report,
+    Session, SessionError, Tcp,
 };
 #[cfg(all(unix, feature = "serial"))]
 use {crate::pil_common::serve, dashpot_hil::target::pil::Serial, std::path::Path};
@@ -77,20 +77,25 @@ fn every_tick_tells_what_happened_in_it() {
             .unwrap();
     let link = FaultyLink::new(desk(), rates, 2).unwrap();
     let mut session = Session::open(Client::new(link, PATIENCE, 40)).unwrap();
-    let mut told: Vec<Vec<Event>> = Vec::new();
+    let mut reported: Vec<Vec<Event>> = Vec::new();
     let report = session
         .run(
             &[built("paper")],
             motion(1000),
             &mut Pace::default(),
             |record| {
-                told.push(record.events.to_vec());
+                reported.push(record.events.to_vec());
                 Ok(())
             },
         )
         .unwrap();
     let made = session.link().faults_made();
-    let ticks_with = |event| told.iter().filter(|events| events.contains(&event)).count() as u64;
+    let ticks_with = |event| {
+        reported
+            .iter()
+            .filter(|events| events.contains(&event))
+            .count() as u64
+    };
     for (event, most) in [
         (Event::Drop, made.dropped),
         (Event::Corrupt, made.corrupted),
@@ -105,7 +110,7 @@ fn every_tick_tells_what_happened_in_it() {
         assert!(ticks > 0 && ticks <= most, "{event}: {ticks} of {most}");
     }
     assert_eq!(ticks_with(Event::Late) + ticks_with(Event::Mismatch), 0);
-    assert!(told.iter().any(Vec::is_empty));
+    assert!(reported.iter().any(Vec::is_empty));
 }
 
 #[test]
@@ -123,7 +128,7 @@ fn all_faults_together_and_the_same_for_the_same_seed() {
     assert_ne!(drive(all, 1).1, drive(all, 2).1);
 }
 
-fn report_of(link: impl Link) -> Outcome<Report> {
+fn report_of(link: impl Link) -> Result<Report, SessionError> {
     let mut session = Session::open(Client::new(link, PATIENCE, 40))?;
     let dampers = [built("paper")];
     session.run(&dampers, motion(100), &mut Pace::default(), |_| Ok(()))
@@ -207,14 +212,13 @@ fn a_target_that_falls_silent_stops_the_run_with_the_reason() {
 fn a_target_reset_again_and_again_stops_the_run_with_the_reason() {
     struct Forgetful(Desk<3>);
     impl Link for Forgetful {
-        fn send(&mut self, bytes: &[u8]) -> Outcome<()> {
+        fn send(&mut self, bytes: &[u8]) -> Result<(), LinkError> {
             let mut reader = FrameReader::<REQUEST_BYTES>::new();
             let mut step = false;
             for byte in bytes {
                 if let Some(Ok(message)) = reader.push(*byte) {
                     let (_, request): (Header, Request<'_>) =
-                        postcard::from_bytes(message.bytes)
-                            .map_err(|e| Failure::new(e.to_string()))?;
+                        postcard::from_bytes(message.bytes).unwrap();
                     step = matches!(request, Request::Step { .. });
                 }
             }
@@ -223,7 +227,7 @@ fn a_target_reset_again_and_again_stops_the_run_with_the_reason() {
             }
             self.0.send(bytes)
         }
-        fn receive(&mut self, buffer: &mut [u8], timeout: Duration) -> Outcome<usize> {
+        fn receive(&mut self, buffer: &mut [u8], timeout: Duration) -> Result<usize, LinkError> {
             self.0.receive(buffer, timeout)
         }
     }

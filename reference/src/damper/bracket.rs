@@ -13,7 +13,7 @@ pub(super) fn increasing_root(low: f64, high: f64, function: impl Fn(f64) -> f64
         return b;
     }
     let mut width = b - a;
-    let mut kept = 0i32;
+    let mut retained = 0i32;
     for trial in 0..200 {
         let bisect = trial % 3 == 2 && {
             let slow = b - a > 0.5 * width;
@@ -34,16 +34,16 @@ pub(super) fn increasing_root(low: f64, high: f64, function: impl Fn(f64) -> f64
         }
         if value < 0.0 {
             (a, fa) = (middle, value);
-            if kept < 0 {
+            if retained < 0 {
                 fb *= 0.5;
             }
-            kept = -1;
+            retained = -1;
         } else {
             (b, fb) = (middle, value);
-            if kept > 0 {
+            if retained > 0 {
                 fa *= 0.5;
             }
-            kept = 1;
+            retained = 1;
         }
         if b - a <= 2.0 * f64::EPSILON * b.abs().max(a.abs()) {
             break;

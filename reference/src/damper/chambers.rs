@@ -39,7 +39,7 @@ impl TwoChambers {
 
     /// Piston velocity at working pressure `closed + above`.
     pub(super) fn velocity(&self, closed: f64, above: f64) -> f64 {
-        match self.share(closed, above) {
+        match self.split(closed, above) {
             Some((foot_excess, drop)) => self.through(drop, self.foot.closed_up_to(), foot_excess),
             None => {
                 let upstream =
@@ -58,7 +58,7 @@ impl TwoChambers {
 
     /// How a working pressure is shared between the foot valve (excess over its opening) and the
     /// piston (drop); `None` when the rod side boils.
-    fn share(&self, closed: f64, above: f64) -> Option<(f64, f64)> {
+    fn split(&self, closed: f64, above: f64) -> Option<(f64, f64)> {
         let Areas {
             extension,
             compression,
@@ -106,7 +106,7 @@ impl TwoChambers {
             })
             .collect();
         let closed = self.closed_up_to();
-        let boils = |above: f64| self.share(closed, above).is_none();
+        let boils = |above: f64| self.split(closed, above).is_none();
         let scan = |i: u32| (limit - closed).max(0.0) * (f64::from(i) / 400.0).powi(2);
         for i in 1..=400 {
             let (mut low, mut high) = (scan(i - 1), scan(i));

@@ -73,16 +73,16 @@ pub(super) fn with_esdirk<R>(
     first: Segment,
     work: impl FnOnce(&mut dyn Integrator) -> Result<R, ReferenceError>,
 ) -> Result<R, ReferenceError> {
-    let told = |source: DiffsolError| ReferenceError::Solver {
+    let in_setup = |source: DiffsolError| ReferenceError::Solver {
         place: String::new(),
         source: source.into(),
     };
     let shared = Rc::new(RefCell::new(first));
-    let mut problem = problem(&shared).map_err(told)?;
+    let mut problem = problem(&shared).map_err(in_setup)?;
     // counted over the whole motion, not a step; a run that stalls ends at the least step
     problem.ode_options.max_nonlinear_solver_failures = usize::MAX;
     problem.ode_options.min_timestep = 1e-18;
-    let solver = problem.esdirk34::<NalgebraLU<f64>>().map_err(told)?;
+    let solver = problem.esdirk34::<NalgebraLU<f64>>().map_err(in_setup)?;
     work(&mut Esdirk {
         solver,
         shared: Rc::clone(&shared),
@@ -91,7 +91,7 @@ pub(super) fn with_esdirk<R>(
     })
 }
 
-/// The solver, kept from segment to segment: setting it up costs more than a short segment.
+/// The solver, used for all segments: setting it up costs more than a short segment.
 struct Esdirk<'a, E, S> {
     solver: S,
     shared: Shared,
@@ -106,7 +106,7 @@ where
     S: OdeSolverMethod<'a, E, State = RkState<Vector>>,
 {
     fn advance(&mut self, segment: &Segment) -> Result<Arrival, ReferenceError> {
-        let place = |source: DiffsolError| ReferenceError::Solver {
+        let in_solution = |source: DiffsolError| ReferenceError::Solver {
             place: format!(
                 " (side {}, seat velocity {} m/s)",
                 segment.side, segment.speed
@@ -128,13 +128,13 @@ where
         }
         self.solver.set_state(state);
         loop {
-            let reason = self.solver.step().map_err(place)?;
+            let reason = self.solver.step().map_err(in_solution)?;
             let state = self.solver.state();
             self.natural_step = state.h;
             match reason {
                 OdeSolverStopReason::InternalTimestep => {}
                 OdeSolverStopReason::RootFound(clock, which) => {
-                    let end = self.solver.interpolate(clock).map_err(place)?;
+                    let end = self.solver.interpolate(clock).map_err(in_solution)?;
                     return Ok(Arrival {
                         state: [end[0], end[1], end[2]],
                         at_bound: which == 0,

@@ -3,9 +3,10 @@
 
 use crate::common::motions::Motion;
 use crate::common::radau::Radau;
-use crate::common::{dampers, motions, nrmse};
+use crate::common::{dampers, motions};
 use dashpot_core::DamperParameters;
 use dashpot_reference::damper::Reference;
+use dashpot_reference::deviation::nrmse;
 
 /// Deviates in [0, 1) from a fixed sequence.
 struct Sequence(u64);

@@ -1,17 +1,21 @@
 //! `dashpot budget`: time per step on this host, free running or in real ticks.
 
+mod bench;
 mod report;
 
+use std::ops::RangeInclusive;
 use std::path::Path;
 use std::time::SystemTime;
 
 use dashpot_core::{Damper, Real};
 
-use super::{DamperArguments, Format, RealtimeArguments, Scalar, print_report};
-use crate::error::Outcome;
-use crate::realtime::budget::{Bench, Length, free, paced};
-use crate::realtime::pacing::{MonotonicClock, Pacer, overhead_ns};
+use super::{DamperArguments, Format, RealtimeArguments, print_report};
+use crate::commands::failure::Outcome;
+use crate::realtime::budget::{Length, free, paced};
+use crate::realtime::pacing::{MonotonicClock, Pacer, RATE_RANGE_HZ, overhead_ns};
 use crate::realtime::timing::Machine;
+use crate::study::Scalar;
+use bench::Bench;
 use report::{Report, Setting, print};
 
 /// Time per step on this host: histogram, percentiles, worst case, missed deadlines.
@@ -44,7 +48,7 @@ pub struct BudgetArguments {
     #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=10_000))]
     dampers: u32,
     /// Run in real ticks at this rate, Hz; free running, built for 1000 Hz, when not given.
-    #[arg(long, value_parser = clap::value_parser!(u32).range(1000..=10_000))]
+    #[arg(long, value_parser = clap::value_parser!(u32).range(rates_hz()))]
     rate_hz: Option<u32>,
     /// Stop at the first tick whose work takes longer, ns; report it and exit with 1.
     #[arg(long, value_name = "NS", value_parser = clap::value_parser!(u64).range(1..))]
@@ -59,8 +63,13 @@ pub struct BudgetArguments {
     format: Format,
 }
 
+/// Rates that ticks can be paced at (Hz), as clap takes a range.
+fn rates_hz() -> RangeInclusive<i64> {
+    i64::from(*RATE_RANGE_HZ.start())..=i64::from(*RATE_RANGE_HZ.end())
+}
+
 impl BudgetArguments {
-    /// How long the run lasts, `ticks` when not told.
+    /// How long the run lasts, `ticks` when no option says it.
     fn length(&self, ticks: u64) -> Length {
         match (self.steps, self.duration_s) {
             (_, Some(duration_s)) => Length::Nanoseconds(duration_s * 1_000_000_000),
@@ -77,12 +86,12 @@ impl BudgetArguments {
 /// `--stop-above-ns`, or a deadline was missed under `--fail-on-miss`.
 pub fn run(arguments: &BudgetArguments) -> Outcome<()> {
     match arguments.scalar {
-        Scalar::F32 => measure::<f32>(arguments, "f32"),
-        Scalar::F64 => measure::<f64>(arguments, "f64"),
+        Scalar::F32 => measure::<f32>(arguments),
+        Scalar::F64 => measure::<f64>(arguments),
     }
 }
 
-fn measure<T: Real>(arguments: &BudgetArguments, scalar: &'static str) -> Outcome<()> {
+fn measure<T: Real>(arguments: &BudgetArguments) -> Outcome<()> {
     let step_s = 1.0 / f64::from(arguments.rate_hz.unwrap_or(1000));
     let damper: Damper<T> = arguments.damper.load()?.build(step_s)?;
     let mut bench = Bench::new(damper, arguments.dampers, step_s);
@@ -107,7 +116,7 @@ fn measure<T: Real>(arguments: &BudgetArguments, scalar: &'static str) -> Outcom
     let setting = Setting {
         mode,
         damper: arguments.damper.damper.clone(),
-        scalar,
+        scalar: Scalar::of::<T>(),
         dampers: arguments.dampers,
         step_s,
         clock_overhead_ns,
@@ -115,5 +124,5 @@ fn measure<T: Real>(arguments: &BudgetArguments, scalar: &'static str) -> Outcom
         machine,
     };
     print_report(arguments.format, &Report::new(setting, &run), print)?;
-    run.verdict(arguments.fail_on_miss)
+    Ok(run.verdict(arguments.fail_on_miss)?)
 }

@@ -1,4 +1,4 @@
-//! What `dashpot budget` tells of a run.
+//! The report of `dashpot budget`.
 
 use std::io::{self, Write};
 
@@ -7,13 +7,14 @@ use serde::Serialize;
 use crate::realtime::budget::{Run, Series, Stop};
 use crate::realtime::pacing::RealtimeOptions;
 use crate::realtime::timing::{Bin, Figures, Machine, optional_span, span};
+use crate::study::Scalar;
 
 /// What was run, and where.
 #[derive(Serialize)]
 pub(super) struct Setting {
     pub(super) mode: &'static str,
     pub(super) damper: String,
-    pub(super) scalar: &'static str,
+    pub(super) scalar: Scalar,
     pub(super) dampers: u32,
     pub(super) step_s: f64,
     pub(super) clock_overhead_ns: u64,

@@ -5,8 +5,8 @@ mod report;
 
 use std::path::{Path, PathBuf};
 
-use super::{Format, print_report};
-use crate::error::{Failure, Outcome};
+use super::{Format, print_report, streams};
+use crate::commands::failure::{Failure, Outcome};
 use crate::files::input;
 use crate::files::output::write_folder;
 use crate::files::profile;
@@ -82,7 +82,7 @@ pub fn run(arguments: &ContactArguments) -> Outcome<()> {
             "--smoothing-m: {smoothing}, allowed: 0 to 0.05 m"
         )));
     }
-    input::refuse_second_standard_input(&[
+    streams::refuse_second_standard_input(&[
         ("--wheel", Path::new(&arguments.wheel)),
         ("--rail", Path::new(&arguments.rail)),
     ])?;
@@ -144,7 +144,7 @@ fn profile(
     }
     let path = Path::new(name);
     if input::is_file_name(path) || path.exists() {
-        return profile::read(path, body, smoothing);
+        return Ok(profile::read(path, body, smoothing)?);
     }
     Err(Failure::wrong_use(format!(
         "{name}: no such profile, allowed: {known} or a file of two columns y_mm, z_mm"
@@ -165,12 +165,12 @@ fn draw(
         .step_by(20)
         .filter(|c| c.lateral_m.abs() < 8.1e-3)
         .collect();
-    write_folder(
+    Ok(write_folder(
         folder,
         &[
             ("contact-points.svg", plots::contact_points(pair, &lines)?),
             ("rolling-radius.svg", plots::rolling_radius(pair, contacts)?),
             ("conicity.svg", plots::conicity(pair, rolling, 8e-3)?),
         ],
-    )
+    )?)
 }

@@ -3,7 +3,7 @@
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-use crate::error::Outcome;
+use crate::report::DrawError;
 use crate::report::plot::style::{
     BLUE_LINE, FINE, INK, LINE, RED_LINE, axes, draw, extent, failed, letters,
 };
@@ -14,7 +14,7 @@ use dashpot_rail::indices::RollingRadiusDifference;
 ///
 /// # Errors
 /// The drawing fails.
-pub fn contact_points(pair: &Pair, contacts: &[RigidContact]) -> Outcome<String> {
+pub fn contact_points(pair: &Pair, contacts: &[RigidContact]) -> Result<String, DrawError> {
     /// The wheel is drawn lifted by this, mm, to leave space for the lines.
     const LIFT: f64 = 30.0;
     /// Width and height of margins, labels and title, pixels.
@@ -141,7 +141,7 @@ pub fn contact_points(pair: &Pair, contacts: &[RigidContact]) -> Outcome<String>
 ///
 /// # Errors
 /// The drawing fails.
-pub fn rolling_radius(pair: &Pair, contacts: &[RigidContact]) -> Outcome<String> {
+pub fn rolling_radius(pair: &Pair, contacts: &[RigidContact]) -> Result<String, DrawError> {
     let title = format!(
         "Rolling radius difference, right less left: {} on {}",
         pair.wheel().name(),
@@ -210,7 +210,11 @@ pub fn rolling_radius(pair: &Pair, contacts: &[RigidContact]) -> Outcome<String>
 ///
 /// # Errors
 /// The drawing fails.
-pub fn conicity(pair: &Pair, rolling: &RollingRadiusDifference, reach: f64) -> Outcome<String> {
+pub fn conicity(
+    pair: &Pair,
+    rolling: &RollingRadiusDifference,
+    reach: f64,
+) -> Result<String, DrawError> {
     let radius = pair.installation().wheel_radius_m;
     let title = format!(
         "Equivalent conicity (EN 15302): {} on {}",

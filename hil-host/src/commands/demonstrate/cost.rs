@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use dashpot_core::{DamperParameters, Real};
 
-use crate::error::Outcome;
+use crate::commands::failure::Outcome;
 use crate::realtime::timing::Distribution;
 
 /// Steps timed together: long against the clock's resolution, short against an interruption.

@@ -3,10 +3,10 @@
 use std::f64::consts::PI;
 
 use dashpot_core::parameters::{DamperParameters, Element, Hydraulics};
+use maud::{Markup, html};
 
 use super::results::Bench;
-use crate::error::Outcome;
-use crate::study::shim_valves;
+use crate::study::{StudyError, shim_valves};
 
 /// A number without zeros at its end, to four digits behind the point.
 fn number(value: f64) -> String {
@@ -22,7 +22,7 @@ fn hydraulics(bench: &Bench) -> Option<&Hydraulics> {
 }
 
 /// The first damper's build and what the others add to it.
-pub(super) fn damper(benches: &[Bench]) -> String {
+pub(super) fn damper(benches: &[Bench]) -> Markup {
     let built = benches.first().and_then(hydraulics).map(|hydraulics| {
         format!(
             ", {} mm piston and {} mm rod. A constant orifice of {} mm in the piston is open both ways",
@@ -31,25 +31,26 @@ pub(super) fn damper(benches: &[Bench]) -> String {
             number(hydraulics.orifice.diameter_m * 1e3)
         )
     });
-    let mut text = format!(
-        "<p>The secondary vertical damper of a locomotive: a twin-tube hydraulic damper{}; three packs of thin \
-         steel shims, one working in extension and two in compression, bend open under oil pressure. In \
-         series stand rubber bushes and, in service, the oil column with its entrained air, the seats and a \
-         clearance.</p>\n<p>",
-        built.unwrap_or_default()
-    );
-    for bench in benches {
-        let terms = in_service_terms(&bench.parameters).join(", ");
-        text += &if terms.is_empty() {
-            format!(
-                "<b>{}</b> is the published damper literally: no clearance, no in-service term. ",
-                bench.damper
-            )
-        } else {
-            format!("<b>{}</b> adds {terms}. ", bench.damper)
-        };
+    html! {
+        p {
+            "The secondary vertical damper of a locomotive: a twin-tube hydraulic damper" (built.unwrap_or_default())
+            "; three packs of thin steel shims, one working in extension and two in compression, bend open under oil \
+             pressure. In series stand rubber bushes and, in service, the oil column with its entrained air, the \
+             seats and a clearance."
+        }
+        p {
+            @for bench in benches {
+                @let terms = in_service_terms(&bench.parameters).join(", ");
+                b { (bench.damper) }
+                @if terms.is_empty() {
+                    " is the published damper literally: no clearance, no in-service term. "
+                } @else {
+                    " adds " (terms) ". "
+                }
+            }
+            "Displacement and force are positive in extension; every force is computed."
+        }
     }
-    text + "Displacement and force are positive in extension; every force is computed.</p>"
 }
 
 /// The terms that the published equations do not have, those that are on.
@@ -106,36 +107,38 @@ fn in_service_terms(parameters: &DamperParameters) -> Vec<String> {
 }
 
 /// A sentence for each relief valve: its opening pressure and the forces `P A + F_c` it opens at.
-pub(super) fn relief(benches: &[Bench]) -> String {
-    let mut text = String::new();
-    for bench in benches {
-        let Some(hydraulics) = hydraulics(bench) else {
-            continue;
-        };
-        let Some(relief) = &hydraulics.relief else {
-            continue;
-        };
-        let area_m2 = |diameter_m: f64| 0.25 * PI * diameter_m * diameter_m;
-        let piston_m2 = area_m2(hydraulics.geometry.piston_diameter_m);
-        let annulus_m2 = piston_m2 - area_m2(hydraulics.geometry.rod_diameter_m);
-        let friction_n = hydraulics.seal.as_ref().map_or(0.0, |seal| seal.friction_n);
-        let force_kn = |area_m2| 1e-3 * (relief.opening_pressure_pa * area_m2 + friction_n);
-        text += &format!(
-            " The relief valve of <b>{}</b> opens at {} MPa: {:.0} kN in extension, {:.0} kN in compression.",
-            bench.damper,
-            number(relief.opening_pressure_pa * 1e-6),
-            force_kn(annulus_m2),
-            force_kn(piston_m2)
-        );
+pub(super) fn relief(benches: &[Bench]) -> Markup {
+    html! {
+        @for bench in benches {
+            @if let Some((opening_mpa, [extension_kn, compression_kn])) = relief_opening(bench) {
+                " The relief valve of " b { (bench.damper) } " opens at " (number(opening_mpa)) " MPa: "
+                (format!("{extension_kn:.0}")) " kN in extension, " (format!("{compression_kn:.0}"))
+                " kN in compression."
+            }
+        }
     }
-    text
+}
+
+/// Pressure (MPa) that the relief valve opens at, and the forces (kN) in extension and in compression.
+fn relief_opening(bench: &Bench) -> Option<(f64, [f64; 2])> {
+    let hydraulics = hydraulics(bench)?;
+    let relief = hydraulics.relief.as_ref()?;
+    let area_m2 = |diameter_m: f64| 0.25 * PI * diameter_m * diameter_m;
+    let piston_m2 = area_m2(hydraulics.geometry.piston_diameter_m);
+    let annulus_m2 = piston_m2 - area_m2(hydraulics.geometry.rod_diameter_m);
+    let friction_n = hydraulics.seal.as_ref().map_or(0.0, |seal| seal.friction_n);
+    let force_kn = |area_m2| 1e-3 * (relief.opening_pressure_pa * area_m2 + friction_n);
+    Some((
+        relief.opening_pressure_pa * 1e-6,
+        [annulus_m2, piston_m2].map(force_kn),
+    ))
 }
 
 /// The first erratum of the source paper, with the figures of the first damper, which is the paper's.
 ///
 /// # Errors
 /// As [`shim_valves::erratum`].
-pub(super) fn erratum(benches: &[Bench]) -> Outcome<String> {
+pub(super) fn erratum(benches: &[Bench]) -> Result<String, StudyError> {
     match benches.first().and_then(hydraulics) {
         Some(paper) => shim_valves::erratum(paper),
         None => Ok(String::new()),

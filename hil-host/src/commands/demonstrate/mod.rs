@@ -13,7 +13,7 @@ use std::path::PathBuf;
 use serde::Serialize;
 
 use super::{Format, print_report_beside, progress};
-use crate::error::Outcome;
+use crate::commands::failure::Outcome;
 use crate::files::output::{self, write_bytes};
 use results::Accuracy;
 
@@ -70,12 +70,13 @@ fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
     for row in &report.accuracy {
         writeln!(
             out,
-            "  {:<12}{:>10.0}{:>11}{:>23.2e}{:>10.0e}{:>22.2e}{:>16.0}{}",
+            "  {:<12}{:>10.0}{:>11}{:>23.2e}{:>10}{:>22.2e}{:>16.0}{}",
             row.damper,
             1e-3 / row.step_s,
             row.scalar,
             row.nrmse,
-            row.nrmse_limit,
+            row.nrmse_limit
+                .map_or_else(|| "-".into(), |limit| format!("{limit:.0e}")),
             row.largest_error_over_peak,
             row.median_ns_per_step,
             if row.over_limit() { "  over" } else { "" }

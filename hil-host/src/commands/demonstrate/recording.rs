@@ -2,14 +2,14 @@
 
 use std::path::Path;
 
-use crate::error::Outcome;
+use crate::files::FileError;
 use crate::files::recording::{Recording, Sample};
-use crate::study::replay::Ticks;
+use crate::study::replay::TickGrid;
 
 const NAME: &str = "data/excitations/ride_made.csv";
 const RIDE: &[u8] = include_bytes!("../../../../data/excitations/ride_made.csv");
 
-fn open() -> Outcome<Recording> {
+fn open() -> Result<Recording, FileError> {
     Recording::read(Path::new(NAME), Box::new(RIDE))
 }
 
@@ -17,7 +17,7 @@ fn open() -> Outcome<Recording> {
 ///
 /// # Errors
 /// The file in the program is not as it was shipped.
-pub fn shipped() -> Outcome<Vec<Sample>> {
+pub fn shipped() -> Result<Vec<Sample>, FileError> {
     open()?.read_all()
 }
 
@@ -25,6 +25,6 @@ pub fn shipped() -> Outcome<Vec<Sample>> {
 ///
 /// # Errors
 /// As [`shipped`].
-pub fn at_ticks(step_s: f64) -> Outcome<Vec<f64>> {
-    Ticks::new(open()?, step_s)?.displacements_m()
+pub fn at_ticks(step_s: f64) -> Result<Vec<f64>, FileError> {
+    TickGrid::new(open()?, step_s)?.displacements_m()
 }

@@ -4,10 +4,12 @@ use dashpot_core::DamperParameters;
 use dashpot_core::characteristic::Characteristic;
 use serde::Serialize;
 
-use crate::error::Outcome;
+use crate::commands::failure::Outcome;
 use crate::files::damper;
+use crate::study::Scalar;
 use crate::study::bench_test::{self, Cycle, Harmonic, Indices};
-use crate::study::verification::{deviation, fixed_step_forces, nrmse_limit, reference_forces};
+use crate::study::promise::{Promise, relaxation_time_s};
+use crate::study::verification::{deviation, fixed_step_forces, reference_forces};
 
 use super::cost::median_ns_per_step;
 
@@ -15,7 +17,7 @@ use super::cost::median_ns_per_step;
 const DAMPERS: [&str; 2] = ["paper", "in-service"];
 
 /// Steps shown (s): 1 and 10 kHz.
-const STEPS_S: [f64; 2] = [1e-3, 1e-4];
+pub(super) const STEPS_S: [f64; 2] = [1e-3, 1e-4];
 
 /// Amplitudes of the bench loops (m), at [`LOOP_FREQUENCY_HZ`].
 pub(super) const LOOP_AMPLITUDES_M: [f64; 4] = [1e-3, 2.5e-3, 5e-3, 10e-3];
@@ -26,14 +28,14 @@ pub(super) const LOOP_FREQUENCY_HZ: f64 = 1.5;
 pub struct Accuracy {
     /// Preset.
     pub damper: &'static str,
-    /// `f32` or `f64`.
-    pub scalar: &'static str,
+    /// The step's scalar.
+    pub scalar: Scalar,
     /// Step (s).
     pub step_s: f64,
     /// rms of the error over rms of the force (1).
     pub nrmse: f64,
-    /// The project's limit for it (1).
-    pub nrmse_limit: f64,
+    /// The promised limit for it (1), where there is one.
+    pub nrmse_limit: Option<f64>,
     /// Largest error over largest force (1).
     pub largest_error_over_peak: f64,
     /// Median cost of a step, unpaced (ns).
@@ -41,9 +43,9 @@ pub struct Accuracy {
 }
 
 impl Accuracy {
-    /// Whether the error is above the project's limit.
+    /// Whether the error is above the promised limit.
     pub fn over_limit(&self) -> bool {
-        self.nrmse > self.nrmse_limit
+        self.nrmse_limit.is_some_and(|limit| self.nrmse > limit)
     }
 }
 
@@ -76,14 +78,14 @@ pub struct Demonstration {
     pub(super) benches: Vec<Bench>,
 }
 
-/// Pieces of work [`run`] tells of.
+/// Pieces of work that [`run`] reports.
 pub const WORK: u64 = (DAMPERS.len() * (STEPS_S.len() + 1)) as u64;
 
-/// Runs the demonstration; `tell` hears what is about to be done and how many pieces are done.
+/// Runs the demonstration; `report` receives what is done next and how many pieces are done.
 ///
 /// # Errors
 /// A preset, the recording or the reference fails.
-pub fn run(mut tell: impl FnMut(String, u64)) -> Outcome<Demonstration> {
+pub fn run(mut report: impl FnMut(String, u64)) -> Outcome<Demonstration> {
     let samples = super::recording::shipped()?;
     let duration_s = match (samples.first(), samples.last()) {
         (Some(first), Some(last)) => last.time_s - first.time_s,
@@ -97,14 +99,14 @@ pub fn run(mut tell: impl FnMut(String, u64)) -> Outcome<Demonstration> {
         benches: Vec::new(),
     };
     let mut pieces = 0..;
-    let mut tell = |work| tell(work, pieces.next().unwrap_or(WORK));
+    let mut report = |work| report(work, pieces.next().unwrap_or(WORK));
     for name in DAMPERS {
         let damper = damper::load(name, &[])?;
         for step_s in STEPS_S {
-            tell(format!("{name}: ride at {:.0} kHz", 1e-3 / step_s));
+            report(format!("{name}: ride at {:.0} kHz", 1e-3 / step_s));
             shown.ride(name, &damper, step_s)?;
         }
-        tell(format!("{name}: bench"));
+        report(format!("{name}: bench"));
         shown.benches.push(bench(name, &damper)?);
     }
     Ok(shown)
@@ -115,6 +117,8 @@ impl Demonstration {
     fn ride(&mut self, name: &'static str, damper: &DamperParameters, step_s: f64) -> Outcome<()> {
         let displacements_m = super::recording::at_ticks(step_s)?;
         let reference_n = reference_forces(damper, step_s, &displacements_m)?;
+        let relaxation_s = relaxation_time_s(damper, step_s, &displacements_m, &reference_n);
+        let promise = Promise::of(relaxation_s);
         let single = fixed_step_forces::<f32>(damper, step_s, &displacements_m)?;
         let double = fixed_step_forces::<f64>(damper, step_s, &displacements_m)?;
         let costs = [
@@ -122,7 +126,9 @@ impl Demonstration {
             median_ns_per_step::<f64>(damper, step_s, &displacements_m)?,
         ];
         for ((scalar, fixed), median_ns_per_step) in
-            [("f32", &single), ("f64", &double)].into_iter().zip(costs)
+            [(Scalar::F32, &single), (Scalar::F64, &double)]
+                .into_iter()
+                .zip(costs)
         {
             let deviation = deviation(step_s, &fixed.forces_n, &reference_n)?;
             self.accuracy.push(Accuracy {
@@ -130,7 +136,7 @@ impl Demonstration {
                 scalar,
                 step_s,
                 nrmse: deviation.nrmse,
-                nrmse_limit: nrmse_limit(step_s, scalar == "f32"),
+                nrmse_limit: promise.and_then(|promise| promise.nrmse(step_s, scalar)),
                 largest_error_over_peak: deviation.largest_error_over_peak,
                 median_ns_per_step,
             });
@@ -156,14 +162,14 @@ fn bench(name: &'static str, damper: &DamperParameters) -> Outcome<Bench> {
                 amplitude_m,
                 frequency_hz: LOOP_FREQUENCY_HZ,
             };
-            bench_test::settle(damper, motion, 1e-3)
+            bench_test::run_until_periodic(damper, motion, 1e-3)
         })
-        .collect::<Outcome<_>>()?;
+        .collect::<Result<_, _>>()?;
     Ok(Bench {
         damper: name,
         parameters: damper.clone(),
         characteristic: Characteristic::new(&damper.check()?),
         loops,
-        table_5: bench_test::settle(damper, Harmonic::TABLE_5, 1e-4)?.indices(),
+        table_5: bench_test::run_until_periodic(damper, Harmonic::TABLE_5, 1e-4)?.indices(),
     })
 }

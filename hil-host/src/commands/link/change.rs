@@ -10,8 +10,8 @@ use serde::Serialize;
 use super::LinkArguments;
 use super::places;
 use super::target::Target;
-use crate::commands::counted;
-use crate::error::Outcome;
+use crate::commands::failure::Outcome;
+use crate::commands::print::counted;
 
 /// Change the clearance of the damper in a place at once; its state keeps the force.
 #[derive(Debug, Clone, clap::Args)]
@@ -23,8 +23,14 @@ pub(super) struct SetArguments {
     /// Place of the bank, from 0.
     #[arg(long, value_parser = places::place())]
     place: u8,
-    /// Clearance 2a, the whole play, m; 0 to 0.1.
-    #[arg(long, value_name = "M", value_parser = clearance, allow_hyphen_values = true)]
+    /// Clearance 2a, the whole play, m.
+    #[arg(
+        help = format!("Clearance 2a, the whole play, m; 0 to {LARGEST_CLEARANCE_M}"),
+        long,
+        value_name = "M",
+        value_parser = clearance,
+        allow_hyphen_values = true
+    )]
     clearance_m: f32,
 }
 

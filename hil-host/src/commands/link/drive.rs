@@ -5,7 +5,7 @@ use serde::Serialize;
 
 use super::LinkArguments;
 use super::target::Target;
-use crate::error::Outcome;
+use crate::commands::failure::Outcome;
 
 /// Displacements of the dampers.
 #[derive(Debug, Clone, clap::Args)]

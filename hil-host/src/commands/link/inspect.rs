@@ -6,9 +6,9 @@ use dashpot_core::link::{Counters, Request, Response};
 use serde::Serialize;
 
 use super::LinkArguments;
-use super::status_bits::{self, StatusBit};
 use super::target::{Greeting, Target, step_in_words};
-use crate::error::Outcome;
+use crate::commands::failure::Outcome;
+use crate::files::status_bits::{self, StatusBit};
 
 /// `hello`.
 pub(super) fn hello(link: &LinkArguments) -> Outcome<()> {

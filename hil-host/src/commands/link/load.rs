@@ -9,8 +9,10 @@ use serde::Serialize;
 use super::LinkArguments;
 use super::places::{Places, named};
 use super::target::{Target, step_in_words};
+use crate::commands::arguments::damper_help;
+use crate::commands::failure::{Failure, Outcome};
 use crate::commands::step_size::StepSize;
-use crate::error::{Failure, Outcome};
+use crate::files::FileError;
 use crate::files::damper;
 use crate::files::input;
 
@@ -22,9 +24,9 @@ use crate::files::input;
   dashpot export --damper my.toml --lang bin --output my.bin
   dashpot link --link serial:/dev/ttyACM0 load --image my.bin --place 3")]
 pub(super) struct LoadArguments {
-    /// Preset (`paper`, `in-service`, `reduced-vertical`, `reduced-lateral`) or TOML file, `-` for standard
-    /// input; built for the target's step.
+    /// A preset or a file.
     #[arg(
+        help = damper_help("; built for the target's step"),
         long,
         value_name = "NAME|FILE",
         required_unless_present = "image",
@@ -54,7 +56,7 @@ impl LoadArguments {
             let name = input::name(path);
             let damper = Damper::<f32>::from_image(&input::read(path)?).map_err(|error| {
                 let allowed = "allowed: what `dashpot export --lang bin` writes in f32";
-                Failure::in_file(&name, format!("{error}; {allowed}"))
+                FileError::in_file(&name, format!("{error}; {allowed}"))
             })?;
             return Ok((name.display().to_string(), Source::Image(Box::new(damper))));
         }

@@ -1,4 +1,4 @@
-//! `dashpot link`: a target asked by hand, one action a run.
+//! `dashpot link`: requests to a target by hand, one action a run.
 
 mod change;
 mod drive;
@@ -6,8 +6,6 @@ mod inspect;
 mod load;
 mod places;
 mod saved;
-mod state_file;
-mod status_bits;
 mod target;
 mod telemetry;
 mod watch;
@@ -16,9 +14,10 @@ use std::io::{self, Write};
 
 use serde::Serialize;
 
+use super::arguments::Format;
 use super::line::LineArguments;
-use super::{Format, print_report};
-use crate::error::Outcome;
+use super::print::print_report;
+use crate::commands::failure::Outcome;
 use change::{LossOfLinkArguments, SetArguments};
 use drive::DisplacementArguments;
 use load::LoadArguments;
@@ -113,7 +112,7 @@ pub fn run(arguments: &LinkArguments) -> Outcome<()> {
 }
 
 impl LinkArguments {
-    /// Prints a result in the format asked for.
+    /// Prints a result in the requested format.
     fn print<R: Serialize>(
         &self,
         report: &R,

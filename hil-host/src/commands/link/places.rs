@@ -3,7 +3,7 @@
 use dashpot_core::link::MOST_DAMPERS;
 
 use super::target::Target;
-use crate::error::{Failure, Outcome};
+use crate::commands::failure::{Failure, Outcome};
 
 /// `--place`, as often as there are places to name.
 #[derive(Debug, Clone, clap::Args)]

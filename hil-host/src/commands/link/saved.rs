@@ -6,12 +6,13 @@ use dashpot_core::link::{Request, Response};
 use serde::Serialize;
 
 use super::LinkArguments;
-use super::state_file::BankState;
 use super::target::Target;
-use crate::commands::{counted, print_report_beside};
-use crate::error::{Failure, Outcome};
+use crate::commands::failure::{Failure, Outcome};
+use crate::commands::print::{counted, print_report_beside};
+use crate::files::FileError;
 use crate::files::input;
 use crate::files::output::{self, cannot_write, write_whole};
+use crate::files::states::BankState;
 
 /// Write the states of all dampers and the tick to a file.
 #[derive(Debug, Clone, clap::Args)]
@@ -54,14 +55,15 @@ pub(super) fn save(save: &SaveArguments, link: &LinkArguments) -> Outcome<()> {
         tick: 0,
         dampers: 0,
     };
-    write_whole(path, |file| {
+    write_whole::<Failure>(path, |file| {
         let bank = Target::open(&link.line)?.ask(&Request::Save, |response| match response {
             Response::Saved { tick, states } => BankState::from_bytes(tick, states),
             _ => None,
         })?;
         (report.tick, report.dampers) = (bank.tick, bank.places.len());
         file.write_all(bank.to_toml()?.as_bytes())
-            .map_err(|error| cannot_write(path, error))
+            .map_err(|error| cannot_write(path, error))?;
+        Ok(())
     })?;
     print_report_beside(path, link.format, &report, |out, report| {
         let (tick, file) = (report.tick, &report.file);
@@ -76,7 +78,7 @@ pub(super) fn restore(restore: &RestoreArguments, link: &LinkArguments) -> Outco
     let bank = BankState::read(path)?;
     let mut target = Target::open(&link.line)?;
     check(&bank, &target.greeting.revisions)
-        .map_err(|why| Failure::in_file(&input::name(path), why))?;
+        .map_err(|reason| FileError::in_file(&input::name(path), reason))?;
     target.order(&Request::Restore {
         tick: bank.tick,
         states: &bank.to_bytes(),

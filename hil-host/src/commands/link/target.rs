@@ -3,9 +3,9 @@
 use dashpot_core::link::{PROTOCOL, Reals, Request, Response};
 use serde::Serialize;
 
+use crate::commands::failure::{Failure, Outcome};
 use crate::commands::line::LineArguments;
 use crate::commands::step_size::StepSize;
-use crate::error::{Failure, Outcome};
 use crate::target::pil::{Client, Link, LinkError};
 
 /// A target that said hello.

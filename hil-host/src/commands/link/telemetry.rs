@@ -8,11 +8,11 @@ use serde::Serialize;
 
 use super::LinkArguments;
 use super::places::Places;
-use super::status_bits::{self, StatusBit};
 use super::target::Target;
-use crate::commands::{counted, print_report_beside};
-use crate::error::Outcome;
+use crate::commands::failure::{Failure, Outcome};
+use crate::commands::print::{counted, print_report_beside};
 use crate::files::output::{self, cannot_write_rows, write_whole_if};
+use crate::files::status_bits::{self, StatusBit};
 
 /// Answers that hold all the ticks a target keeps; what comes after those is newer than the question.
 const MOST_ANSWERS: usize = KEPT_TICKS / MOST_SAMPLES;
@@ -138,8 +138,8 @@ pub(super) fn run(telemetry: &TelemetryArguments, link: &LinkArguments) -> Outco
         samples: path.is_none().then(Vec::new),
         output: path.map(|path| output::name(path).display().to_string()),
     };
-    // The file is begun first: samples taken from a target cannot be taken again.
-    write_whole_if(path, |file| {
+    // The file is opened first: samples taken from a target cannot be taken again.
+    write_whole_if::<Failure>(path, |file| {
         let mut rows = file.map(|(path, file)| (path, csv::Writer::from_writer(file)));
         if let Some((path, rows)) = &mut rows {
             rows.write_record(["place", "tick", "displacement_m", "force_n", "status"])
@@ -167,10 +167,11 @@ pub(super) fn run(telemetry: &TelemetryArguments, link: &LinkArguments) -> Outco
                 samples.extend(all.map(|sample| PlaceSample::new(place, sample)));
             }
         }
-        rows.map_or(Ok(()), |(path, mut rows)| {
+        if let Some((path, mut rows)) = rows {
             rows.flush()
-                .map_err(|error| cannot_write_rows(path, error.into()))
-        })
+                .map_err(|error| cannot_write_rows(path, error.into()))?;
+        }
+        Ok(())
     })?;
     print_report_beside(path.unwrap_or(Path::new("")), link.format, &report, print)
 }

@@ -10,8 +10,9 @@ use super::LinkArguments;
 use super::places::Places;
 use super::target::Target;
 use super::telemetry::{PlaceSample, take};
-use crate::commands::{Format, counted};
-use crate::error::{Failure, Outcome};
+use crate::commands::arguments::Format;
+use crate::commands::failure::{Failure, Outcome};
+use crate::commands::print::counted;
 use crate::files::input::STANDARD_STREAM;
 use crate::files::output::cannot_write;
 
@@ -42,7 +43,7 @@ struct Watched {
 }
 
 impl Watched {
-    /// Takes new samples and tells of those lost since the last time.
+    /// Takes new samples and reports those lost since the last time.
     fn take(&mut self, target: &mut Target) -> Outcome<Vec<Sample>> {
         let taken = take(target, self.place)?;
         let before = self.overwritten.replace(taken.overwritten);
@@ -51,7 +52,7 @@ impl Watched {
             .saturating_sub(before.unwrap_or(taken.overwritten));
         if lost > 0 {
             let lost = counted(lost.into(), "sample");
-            // Nobody to tell when standard error is closed.
+            // Nothing can be done when standard error is closed.
             let _ = writeln!(
                 io::stderr(),
                 "warning: place {}: {lost} overwritten before they were taken",

@@ -13,7 +13,7 @@ use crate::report::plot::style::{AMBER_LINE, BLUE_LINE, PALE, RED_LINE};
 const MOST_BARS: u64 = 40;
 const TIME: &str = "time, s";
 
-/// A curve over time of what `envelope` kept, times `factor`.
+/// A curve over time of the samples in `envelope`, times `factor`.
 fn curve(history: &History, colour: RGBColor, envelope: &Envelope, factor: f64) -> Curve {
     let samples = envelope.samples();
     let points = samples.map(|(tick, value)| (history.time_s(tick), value * factor));

@@ -11,16 +11,17 @@ use std::path::{Path, PathBuf};
 
 use dashpot_core::{Damper, DamperParameters};
 
+use super::arguments::damper_help;
 use super::line::LineArguments;
 use super::step_size::StepSize;
-use super::{Format, RealtimeArguments, print_report_beside, progress};
-use crate::error::{Failure, Outcome};
+use super::{Format, RealtimeArguments, print_report_beside, progress, streams};
+use crate::commands::failure::{Failure, Outcome};
 use crate::files::damper;
 use crate::files::input;
 use crate::files::output::{self, cannot_write, write_whole_if};
 use crate::files::recording::Recording;
 use crate::realtime::pacing::Pacer;
-use crate::study::replay::Ticks;
+use crate::study::replay::TickGrid;
 use crate::target::pil::{Client, FaultRates, FaultyLink, Link, Pace, Session};
 use history::History;
 use report::{Found, print};
@@ -53,9 +54,8 @@ An emulator of your own for --link tcp:localhost:5555, without Nagle's delay:
 
 Exit code 1 when a force differs; the files are written all the same.")]
 pub struct PilArguments {
-    /// Preset (`paper`, `in-service`, `reduced-vertical`, `reduced-lateral`) or TOML file, `-` for standard
-    /// input; once for all places of the target, or once for each.
-    #[arg(long = "damper", default_value = "paper", value_name = "NAME|FILE")]
+    /// Presets or files.
+    #[arg(help = damper_help("; once for all places of the target, or once for each"), long = "damper", default_value = "paper", value_name = "NAME|FILE")]
     dampers: Vec<String>,
     /// Overrides a key of every damper: table.key=value, such as mount.clearance_m=1e-3.
     #[arg(long = "set", value_name = "KEY=VALUE")]
@@ -101,16 +101,20 @@ pub fn run(arguments: &PilArguments) -> Outcome<()> {
         .realtime
         .options_under("--paced", arguments.paced)?;
     let load = |name: &String| damper::load(name, &arguments.overrides);
-    let parameters: Vec<_> = arguments.dampers.iter().map(load).collect::<Outcome<_>>()?;
+    let parameters: Vec<_> = arguments
+        .dampers
+        .iter()
+        .map(load)
+        .collect::<Result<_, _>>()?;
     let recording = Recording::open(&arguments.input)?;
     let mut found = None;
-    // Both files are begun before the run, so that one that cannot be written costs no run.
-    write_whole_if(arguments.page.as_deref(), |page| {
+    // Both files are opened before the run, so that a file that cannot be written costs no run.
+    write_whole_if::<Failure>(arguments.page.as_deref(), |page| {
         let mut history = None;
-        write_whole_if(arguments.output.as_deref(), |file| {
-            let (ran, kept) = drive(arguments, &parameters, recording, file)?;
-            found = Some(ran);
-            history = Some(kept);
+        write_whole_if::<Failure>(arguments.output.as_deref(), |file| {
+            let (run, run_history) = drive(arguments, &parameters, recording, file)?;
+            found = Some(run);
+            history = Some(run_history);
             Ok(())
         })?;
         if let (Some((path, page)), Some(found), Some(history)) = (page, &found, &history) {
@@ -155,10 +159,10 @@ impl PilArguments {
             .iter()
             .map(|name| ("--damper", Path::new(name)));
         let inputs: Vec<_> = dampers.chain([("--input", self.input.as_path())]).collect();
-        input::refuse_second_standard_input(&inputs)?;
+        streams::refuse_second_standard_input(&inputs)?;
         for (option, path) in [("--output", &self.output), ("--page", &self.page)] {
             if let Some(path) = path {
-                output::refuse_input(option, path, &self.input)?;
+                streams::refuse_input(option, path, &self.input)?;
             }
         }
         match &self.output {
@@ -185,10 +189,10 @@ fn drive(
     let target = session.target();
     let step = StepSize::of_target(target.step_s)?;
     let step_s = step.seconds();
-    let build = |parameters: &DamperParameters| Ok(parameters.build(step_s)?);
-    let dampers: Vec<Damper<f32>> = parameters.iter().map(build).collect::<Outcome<_>>()?;
+    let build = |parameters: &DamperParameters| parameters.build(step_s);
+    let dampers: Vec<Damper<f32>> = parameters.iter().map(build).collect::<Result<_, _>>()?;
     let bar = progress::bar(input::length(&arguments.input), "pil");
-    let mut ticks = Ticks::new(recording, step_s)?;
+    let mut ticks = TickGrid::new(recording, step_s)?;
     let start_s = ticks.start_s();
     let mut history = History::new(target.dampers, start_s, step_s);
     let mut rows = file
@@ -212,7 +216,10 @@ fn drive(
     };
     let report = session.run(&dampers, motion, &mut pace, |record| {
         history.record(record);
-        rows.as_mut().map_or(Ok(()), |rows| rows.write(record))
+        if let Some(rows) = &mut rows {
+            rows.write(record)?;
+        }
+        Ok::<(), Failure>(())
     })?;
     rows.map_or(Ok(()), Rows::finish)?;
     bar.finish_and_clear();

@@ -1,11 +1,11 @@
-//! What `dashpot pil` tells of a run.
+//! The report of `dashpot pil`.
 
 use std::io::{self, Write};
 
 use serde::Serialize;
 
-use crate::commands::counted;
 use crate::commands::gap_report::write_gaps;
+use crate::commands::print::counted;
 use crate::files::recording::Gaps;
 use crate::realtime::timing::{optional_span, span};
 use crate::target::pil::{FaultCounts, Report};
@@ -54,7 +54,7 @@ impl Found {
         let report = &self.report;
         let mut lines = vec![("mismatches", self.mismatches())];
         if let Some(first) = report.first_mismatch {
-            let told = format!(
+            let text = format!(
                 "tick {}, damper {}: target {} N status {:#x}, host {} N status {:#x}",
                 first.tick,
                 first.damper,
@@ -63,17 +63,17 @@ impl Found {
                 first.host_force_n,
                 first.host_status
             );
-            lines.push(("  the first at", told));
+            lines.push(("  the first at", text));
         }
         let trip = &report.round_trip;
-        let told = format!(
+        let text = format!(
             "{} at the median, {} at 99 %, {} at 99.9 %, {} at most",
             optional_span(trip.p50_ns),
             optional_span(trip.p99_ns),
             optional_span(trip.p99_9_ns),
             span(trip.worst_ns)
         );
-        lines.push(("round trip", told));
+        lines.push(("round trip", text));
         lines.extend(self.pacing_lines());
         lines.extend(self.cost_lines());
         lines.extend(self.fault_lines());
@@ -113,23 +113,23 @@ impl Found {
     fn cost_lines(&self) -> Vec<(&'static str, String)> {
         let report = &self.report;
         let clock = &report.clock_ticks;
-        let told = format!(
+        let text = format!(
             "{:.1} clock ticks of {:.0} MHz ({:.0} to {:.0})",
             clock.mean,
             f64::from(report.target.clock_hz) * 1e-6,
             clock.min,
             clock.max
         );
-        let mut lines = vec![("step of the bank", told)];
+        let mut lines = vec![("step of the bank", text)];
         if let Some(instructions) = &report.instructions {
-            let told = format!(
+            let text = format!(
                 "{:.0} ({:.0} to {:.0}), {:.1} a damper",
                 instructions.mean,
                 instructions.min,
                 instructions.max,
                 instructions.mean / report.target.dampers as f64
             );
-            lines.push(("  in instructions", told));
+            lines.push(("  in instructions", text));
         }
         lines
     }
@@ -157,7 +157,7 @@ impl Found {
             ),
         ];
         if let (Some(made), Some(seed)) = (&self.injected_faults, self.seed) {
-            let told = format!(
+            let text = format!(
                 "{} dropped, {} corrupted, {} delayed, {} duplicated, {} reordered, {} resets (seed {seed})",
                 made.dropped,
                 made.corrupted,
@@ -166,7 +166,7 @@ impl Found {
                 made.reordered,
                 made.resets
             );
-            lines.push(("link faults made", told));
+            lines.push(("link faults made", text));
         }
         lines
     }
@@ -176,8 +176,8 @@ impl Found {
 pub(super) fn print(out: &mut dyn Write, found: &Found) -> io::Result<()> {
     writeln!(out, "{}", found.title())?;
     write_gaps(out, &found.gaps)?;
-    for (what, told) in found.lines() {
-        writeln!(out, "{what:<21} {told}")?;
+    for (what, text) in found.lines() {
+        writeln!(out, "{what:<21} {text}")?;
     }
     for file in &found.files {
         writeln!(out, "wrote {file}")?;

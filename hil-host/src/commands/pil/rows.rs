@@ -3,8 +3,8 @@
 use std::io::Write;
 use std::path::Path;
 
-use crate::commands::nearest_nanosecond;
-use crate::error::Outcome;
+use crate::commands::print::nearest_nanosecond;
+use crate::files::FileError;
 use crate::files::output::cannot_write_rows;
 use crate::target::pil::{Event, TickRecord};
 
@@ -24,7 +24,7 @@ impl<'a> Rows<'a> {
         places: usize,
         start_s: f64,
         step_s: f64,
-    ) -> Outcome<Self> {
+    ) -> Result<Self, FileError> {
         let mut rows = csv::Writer::from_writer(file);
         let of_place = (0..places).flat_map(|place| {
             ["displacement_m", "target_force_n", "host_force_n", "status"]
@@ -42,7 +42,7 @@ impl<'a> Rows<'a> {
         })
     }
 
-    pub(super) fn write(&mut self, record: &TickRecord<'_>) -> Outcome<()> {
+    pub(super) fn write(&mut self, record: &TickRecord<'_>) -> Result<(), FileError> {
         let time_s = self.start_s + f64::from(record.tick - 1) * self.step_s;
         let places: Vec<(f32, f32, f32, u16)> = (0..record.displacements_m.len())
             .map(|place| {
@@ -68,7 +68,7 @@ impl<'a> Rows<'a> {
     }
 
     /// All rows are handed over.
-    pub(super) fn finish(mut self) -> Outcome<()> {
+    pub(super) fn finish(mut self) -> Result<(), FileError> {
         self.rows
             .flush()
             .map_err(|error| cannot_write_rows(self.path, error.into()))

@@ -9,9 +9,9 @@ use dashpot_core::characteristic::Characteristic;
 use dashpot_core::parameters::Element;
 
 use super::{DamperArguments, Format, print_report};
-use crate::error::{Failure, Outcome};
+use crate::commands::failure::{Failure, Outcome};
 use crate::files::damper;
-use crate::study::shim_valves::{PLACES, erratum};
+use crate::study::shim_valves::{VALVE_LOCATIONS, erratum};
 use report::{Report, ValveReport, print, valve_report};
 
 /// Shim packs: Cw over radius, equivalent thickness, lift under pressure by theory, as published and as used, flow.
@@ -51,9 +51,9 @@ pub fn run(arguments: &ShimsArguments) -> Outcome<()> {
     let Element::Physical(paper) = &paper.element else {
         return Err(Failure::new("the preset `paper` has no valves"));
     };
-    let valves: Vec<ValveReport> = PLACES
+    let valves: Vec<ValveReport> = VALVE_LOCATIONS
         .iter()
-        .map(|place| valve_report(place, hydraulics, paper, &characteristic))
+        .map(|location| valve_report(location, hydraulics, paper, &characteristic))
         .collect::<Outcome<_>>()?;
     let plots = if arguments.no_plots {
         Vec::new()

@@ -7,39 +7,38 @@ use dashpot_core::parameters::Hydraulics;
 use plotters::prelude::SeriesLabelPosition;
 
 use super::report::{ValveReport, radii};
-use crate::error::Outcome;
+use crate::commands::failure::Outcome;
 use crate::files::output::write_folder;
 use crate::report::plot::curves::{Curve, ramp};
 use crate::report::plot::sheet::{Layout, Panel, Scale, sheet};
 use crate::report::plot::style::{BLUE_LINE, GREEN_LINE, RED_LINE};
 use crate::study::published::Deflection;
-use crate::study::shim_valves::{PLACES, Place};
+use crate::study::shim_valves::{VALVE_LOCATIONS, ValveLocation};
 
 /// Steps of pressure in a curve.
 const STEPS: u32 = 200;
-/// End of the published tables (MPa), the least end of a curve.
-const LEAST_END_MPA: f64 = 10.0;
-
 /// Pressures drawn (MPa): from zero to the end of the published tables or to twice the preload.
-fn pressures_mpa(preload_pa: f64) -> impl Iterator<Item = f64> {
-    let end_mpa = LEAST_END_MPA.max(2e-6 * preload_pa);
+fn pressures_mpa(tables_end_pa: f64, preload_pa: f64) -> impl Iterator<Item = f64> {
+    let end_mpa = 1e-6 * tables_end_pa.max(2.0 * preload_pa);
     (0..=STEPS).map(move |i| end_mpa * f64::from(i) / f64::from(STEPS))
 }
 
-/// Writes the plots into `folder` and tells their paths.
+/// Writes the plots into `folder`; returns their paths.
 pub(super) fn draw(
     folder: &Path,
     hydraulics: &Hydraulics,
     valves: &[ValveReport],
     characteristic: &Characteristic,
 ) -> Outcome<Vec<String>> {
+    let pressures_pa = valves.iter().flat_map(|valve| &valve.pressures);
+    let tables_end_pa = pressures_pa.fold(0.0, |end: f64, row| end.max(row.pressure_pa));
     let mut lifts = Vec::new();
     let mut deflections = Vec::new();
     let mut flows = Vec::new();
-    for (place, report) in PLACES.iter().zip(valves) {
-        lifts.push(lift(place, report));
-        deflections.extend(deflection(place, report, hydraulics)?);
-        flows.push(flow(place, report, characteristic));
+    for (location, report) in VALVE_LOCATIONS.iter().zip(valves) {
+        lifts.push(lift(location, report, tables_end_pa));
+        deflections.extend(deflection(location, report, hydraulics)?);
+        flows.push(flow(location, report, characteristic, tables_end_pa));
     }
     let mut drawings = Vec::new();
     for (name, panels) in [
@@ -52,15 +51,15 @@ pub(super) fn draw(
             drawings.push((name, sheet(layout, &panels)?));
         }
     }
-    write_folder(folder, &drawings)
+    Ok(write_folder(folder, &drawings)?)
 }
 
 /// Edge lift over pressure: the disc theory, the published table and what the damper works with.
-fn lift(place: &Place, report: &ValveReport) -> Panel {
+fn lift(location: &ValveLocation, report: &ValveReport, tables_end_pa: f64) -> Panel {
     let line = |m_per_pa: f64, preload_pa: f64| {
         let lift_mm = move |mpa: f64| (mpa * 1e6 - preload_pa) * m_per_pa * 1e3;
-        let pressures = pressures_mpa(report.preload_pa);
-        // A logarithm has no place for a closed valve, nor for the rounding of one about to open.
+        let pressures = pressures_mpa(tables_end_pa, report.preload_pa);
+        // The logarithm of a closed valve's lift does not exist, and that of one about to open is rounding.
         let open = pressures.filter(move |mpa| mpa * 1e6 > 1.01 * preload_pa && *mpa > 0.0);
         open.map(move |mpa| (mpa, lift_mm(mpa)))
     };
@@ -87,11 +86,11 @@ fn lift(place: &Place, report: &ValveReport) -> Panel {
     let name = format!("used, {} × Ce: {}", report.source(), rate(used));
     curves.push(Curve::new(name, GREEN_LINE, line(used, report.preload_pa)).wide(11));
     let table = match report.published() {
-        Some(_) => format!(", published in Table {}", place.table),
+        Some(_) => format!(", published in Table {}", location.table),
         None => String::new(),
     };
     Panel {
-        title: format!("{} valve{table}", capital(place.name)),
+        title: format!("{} valve{table}", capital(location.name)),
         x_label: "pressure, MPa".into(),
         y_label: "lift of the edge, mm".into(),
         legend: Some(SeriesLabelPosition::LowerRight),
@@ -106,8 +105,8 @@ fn between(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
     let parts = points.windows(2).flat_map(|pair| {
         let [(x0, y0), (x1, y1)] = [pair[0], pair[1]];
         (0..10).map(move |i| {
-            let share = 0.1 * f64::from(i);
-            (x0 + share * (x1 - x0), y0 + share * (y1 - y0))
+            let fraction = 0.1 * f64::from(i);
+            (x0 + fraction * (x1 - x0), y0 + fraction * (y1 - y0))
         })
     });
     parts.chain(points.last().copied()).collect()
@@ -122,12 +121,12 @@ fn rate(m_per_pa: f64) -> String {
 
 /// Deflection over radius by the disc theory, a curve for each published pressure.
 fn deflection(
-    place: &Place,
+    location: &ValveLocation,
     report: &ValveReport,
     hydraulics: &Hydraulics,
 ) -> Outcome<Option<Panel>> {
-    let valve = place.valve_of(hydraulics);
-    let Some(pack) = place.pack(hydraulics)? else {
+    let valve = location.valve_of(hydraulics);
+    let Some(pack) = location.pack(hydraulics)? else {
         return Ok(None);
     };
     let colours = ramp(report.pressures.len());
@@ -137,7 +136,7 @@ fn deflection(
         Curve::new(format!("{:.0} MPa", row.pressure_pa * 1e-6), colour, points)
     });
     Ok(Some(Panel {
-        title: format!("{} valve, disc theory", capital(place.name)),
+        title: format!("{} valve, disc theory", capital(location.name)),
         x_label: "radius, mm".into(),
         y_label: "deflection under uniform pressure, mm".into(),
         legend: Some(SeriesLabelPosition::UpperLeft),
@@ -148,14 +147,19 @@ fn deflection(
 }
 
 /// Flow over pressure with the lift the damper works with.
-fn flow(place: &Place, report: &ValveReport, characteristic: &Characteristic) -> Panel {
-    let points = pressures_mpa(report.preload_pa).map(|mpa| {
-        let flow = characteristic.valve_flow_m3_per_s(place.valve, mpa * 1e6);
+fn flow(
+    location: &ValveLocation,
+    report: &ValveReport,
+    characteristic: &Characteristic,
+    tables_end_pa: f64,
+) -> Panel {
+    let points = pressures_mpa(tables_end_pa, report.preload_pa).map(|mpa| {
+        let flow = characteristic.valve_flow_m3_per_s(location.valve, mpa * 1e6);
         (mpa, flow.unwrap_or(0.0) * 1e6)
     });
     let name = format!("with the lift used ({} × Ce)", report.source());
     Panel {
-        title: format!("{} valve", capital(place.name)),
+        title: format!("{} valve", capital(location.name)),
         x_label: "pressure, MPa".into(),
         y_label: "flow through the pack, cm³/s".into(),
         legend: Some(SeriesLabelPosition::UpperLeft),

@@ -1,4 +1,4 @@
-//! What `dashpot shims` tells of each valve, beside the published deflections.
+//! The report of `dashpot shims` on each valve, beside the published deflections.
 
 use std::io::{self, Write};
 
@@ -7,9 +7,9 @@ use dashpot_core::parameters::{Hydraulics, Valve};
 use dashpot_core::shim::{Pack, edge_compliance_m_per_pa};
 use serde::Serialize;
 
-use crate::error::Outcome;
+use crate::commands::failure::Outcome;
 use crate::study::published::Deflection;
-use crate::study::shim_valves::{Place, theory_over_published};
+use crate::study::shim_valves::{ValveLocation, theory_over_published};
 
 #[derive(Serialize)]
 struct Coefficient {
@@ -126,18 +126,18 @@ fn coefficients(pack: &Pack, valve: &Valve) -> Vec<Coefficient> {
 
 /// What a valve does beside its published deflections, which `paper` was described with.
 pub(super) fn valve_report(
-    place: &Place,
+    location: &ValveLocation,
     hydraulics: &Hydraulics,
     paper: &Hydraulics,
     characteristic: &Characteristic,
 ) -> Outcome<ValveReport> {
-    let valve = place.valve_of(hydraulics);
-    let pack = place.pack(hydraulics)?;
-    let theory = place.theory_m_per_pa(hydraulics)?;
-    let table = place.published()?;
+    let valve = location.valve_of(hydraulics);
+    let pack = location.pack(hydraulics)?;
+    let theory = location.theory_m_per_pa(hydraulics)?;
+    let table = location.published()?;
     // The published deflections stand beside the pack they were published for only.
-    let published = pack.is_some() && pack == place.pack(paper)?;
-    let effective = edge_compliance_m_per_pa(place.section, valve)?;
+    let published = pack.is_some() && pack == location.pack(paper)?;
+    let effective = edge_compliance_m_per_pa(location.section, valve)?;
     let pressures: Vec<Row> = table
         .iter()
         .map(|row| {
@@ -149,14 +149,14 @@ pub(super) fn valve_report(
                 published_real_m: published.then(|| row.fea_real_m()),
                 lift_m: effective * (pressure_pa - valve.preload_pa).max(0.0),
                 flow_m3_per_s: characteristic
-                    .valve_flow_m3_per_s(place.valve, pressure_pa)
+                    .valve_flow_m3_per_s(location.valve, pressure_pa)
                     .unwrap_or(0.0),
             }
         })
         .collect();
     let published = published.then_some(table);
     Ok(ValveReport {
-        valve: place.name,
+        valve: location.name,
         clamp_radius_m: valve.clamp_radius_m,
         free_radius_m: valve.free_radius_m,
         shims_m: valve.shims_m.to_vec(),

@@ -4,7 +4,7 @@ use hdrhistogram::Histogram;
 use serde::Serialize;
 
 /// An interval of more than this many median intervals is a gap. A logger whose stamps jitter by half an
-/// interval or that loses one or two samples makes none.
+/// interval or that loses one or two samples makes no gap.
 pub const GAP_IN_MEDIANS: f64 = 5.0;
 
 /// Intervals are counted in nanoseconds, up to thirty years.

@@ -5,42 +5,39 @@ use std::path::Path;
 
 use csv::{ByteRecord, Reader};
 
-use crate::error::{Failure, Outcome};
+use super::RecordingError;
+use crate::files::FileError;
 
 /// The columns a recording must have; others are passed over.
 pub(super) const COLUMNS: [&str; 2] = ["time_s", "displacement_m"];
 
-/// What a recording must be.
-const ACCEPTED: &str = "accepted is UTF-8 text with a header that names time_s and displacement_m, cells \
-                        separated by commas, numbers with a decimal point";
-
 /// Separators of other files: the byte and its name.
 const SEPARATORS: [(u8, &str); 2] = [(b';', "semicolons"), (b'\t', "tabs")];
 
-/// Places of [`COLUMNS`] in the header of `reader`.
+/// Indices of [`COLUMNS`] in the header of `reader`.
 ///
 /// # Errors
-/// An empty file, another kind of file, or a column that is missing or doubled.
-pub(super) fn columns<R: Read>(path: &Path, reader: &mut Reader<R>) -> Outcome<[usize; 2]> {
-    let header = reader
-        .byte_headers()
-        .map_err(|error| Failure::in_file(path, format!("cannot read: {error}")))?
-        .clone();
+/// An empty file, another kind of file, or a column that is missing or repeated.
+pub(super) fn columns<R: Read>(
+    path: &Path,
+    reader: &mut Reader<R>,
+) -> Result<[usize; 2], FileError> {
+    find_columns(reader).map_err(|error| FileError::in_file(path, error))
+}
+
+fn find_columns<R: Read>(reader: &mut Reader<R>) -> Result<[usize; 2], RecordingError> {
+    let header = reader.byte_headers()?.clone();
     if header.is_empty() {
-        return Err(Failure::in_file(
-            path,
-            "empty; a header `time_s,displacement_m` and at least one row are needed",
-        ));
+        return Err(RecordingError::Empty);
     }
-    let places = COLUMNS.map(|name| places(&header, name));
-    if let Some(column) = places.iter().position(|places| places.len() > 1) {
-        let (name, times) = (COLUMNS[column], places[column].len());
-        return Err(Failure::in_file(
-            path,
-            format!("column {name} is in the header {times} times"),
-        ));
+    let indices = COLUMNS.map(|name| indices(&header, name));
+    for (column, indices) in COLUMNS.into_iter().zip(&indices) {
+        let times = indices.len();
+        if times > 1 {
+            return Err(RecordingError::RepeatedColumn { column, times });
+        }
     }
-    match [places[0].first(), places[1].first()] {
+    match [indices[0].first(), indices[1].first()] {
         [Some(&time), Some(&displacement)] => Ok([time, displacement]),
         [time, _] => {
             let found = binary_kind(&header).map(str::to_owned).unwrap_or_else(|| {
@@ -49,18 +46,18 @@ pub(super) fn columns<R: Read>(path: &Path, reader: &mut Reader<R>) -> Outcome<[
                     .unwrap_or_else(|| format!("column {missing} is missing from the header"));
                 format!("{what} (found `{}`)", shown(&header))
             });
-            Err(Failure::in_file(path, format!("{found}; {ACCEPTED}")))
+            Err(RecordingError::Header { found })
         }
     }
 }
 
-fn places(header: &ByteRecord, name: &str) -> Vec<usize> {
+fn indices(header: &ByteRecord, name: &str) -> Vec<usize> {
     (0..header.len())
         .filter(|&index| &header[index] == name.as_bytes())
         .collect()
 }
 
-/// The kind of file that begins so, where it is a known one that does not show as a line of text.
+/// The kind of file that starts so, where it is a known one that does not show as a line of text.
 fn binary_kind(header: &ByteRecord) -> Option<&'static str> {
     let bytes = header.as_slice();
     let zeros = count(bytes, 0);
@@ -98,7 +95,7 @@ fn count(bytes: &[u8], wanted: u8) -> usize {
     bytes.iter().filter(|&&byte| byte == wanted).count()
 }
 
-/// The begin of the header as a line of text.
+/// The start of the header as a line of text.
 fn shown(header: &ByteRecord) -> String {
     let cells: Vec<_> = header.iter().map(String::from_utf8_lossy).collect();
     let line: String = cells.join(",").chars().take(80).collect();

@@ -25,7 +25,7 @@ impl<R: Read> LineEnds<R> {
     /// into the file.
     pub(super) fn has_passed_line_feed(&self, position: u64) -> bool {
         if position == self.length {
-            // The last row may have none.
+            // The last row may end without a line feed.
             self.last == b'\n'
         } else {
             self.two_bytes == Some(false)

@@ -1,5 +1,6 @@
 //! Recorded motion as a logger writes it: time and displacement, uneven, with gaps.
 
+mod error;
 mod gaps;
 mod header;
 mod line_ends;
@@ -9,8 +10,9 @@ use std::path::{Path, PathBuf};
 
 use csv::{ByteRecord, Reader, ReaderBuilder};
 
-use crate::error::{Failure, Outcome};
-use crate::files::input;
+use crate::files::{FileError, input};
+pub(crate) use error::MOST_TICKS;
+pub use error::RecordingError;
 use gaps::Intervals;
 pub use gaps::{GAP_IN_MEDIANS, Gap, Gaps};
 use header::COLUMNS;
@@ -41,7 +43,7 @@ impl Recording {
     ///
     /// # Errors
     /// No readable file, an empty one, or a column that is missing or doubled.
-    pub fn open(path: &Path) -> Outcome<Self> {
+    pub fn open(path: &Path) -> Result<Self, FileError> {
         Self::read(&input::name(path), input::open(path)?)
     }
 
@@ -49,7 +51,7 @@ impl Recording {
     ///
     /// # Errors
     /// As [`Recording::open`].
-    pub fn read(path: &Path, source: Box<dyn Read>) -> Outcome<Self> {
+    pub fn read(path: &Path, source: Box<dyn Read>) -> Result<Self, FileError> {
         let mut reader = ReaderBuilder::new()
             .comment(Some(b'#'))
             .trim(csv::Trim::Headers)
@@ -70,26 +72,24 @@ impl Recording {
     /// # Errors
     /// A cell that is no finite number, a row of other length, or time that does not grow; with line
     /// and column.
-    pub fn next_sample(&mut self) -> Outcome<Option<Sample>> {
+    pub fn next_sample(&mut self) -> Result<Option<Sample>, FileError> {
         let more = self
             .reader
             .read_byte_record(&mut self.record)
-            .map_err(|error| self.explain(&error))?;
+            .map_err(|error| self.explain(error))?;
         if !more {
             if self.last_time_s.is_none() {
-                return Err(Failure::in_file(&self.path, "no row after the header"));
+                return Err(self.in_text(RecordingError::NoRow));
             }
             return Ok(None);
         }
         let time_s = self.number(0)?;
         let displacement_m = self.number(1)?;
-        if let Some(last) = self.last_time_s {
-            if time_s <= last {
-                return Err(self.in_time(format!(
-                    "time {time_s} s does not grow; the row before has {last} s"
-                )));
+        if let Some(before_s) = self.last_time_s {
+            if time_s <= before_s {
+                return Err(self.in_time(RecordingError::Time { time_s, before_s }));
             }
-            self.intervals.add(last, time_s, self.line());
+            self.intervals.add(before_s, time_s, self.line());
         }
         self.last_time_s = Some(time_s);
         Ok(Some(Sample {
@@ -102,7 +102,7 @@ impl Recording {
     ///
     /// # Errors
     /// As [`Recording::next_sample`].
-    pub fn read_all(&mut self) -> Outcome<Vec<Sample>> {
+    pub fn read_all(&mut self) -> Result<Vec<Sample>, FileError> {
         let mut samples = Vec::new();
         while let Some(sample) = self.next_sample()? {
             samples.push(sample);
@@ -120,12 +120,17 @@ impl Recording {
         self.intervals.gaps()
     }
 
-    /// A failure of the time in the row read last.
-    pub(crate) fn in_time(&self, message: String) -> Failure {
-        self.in_cell(0, message)
+    /// `error` in the text as a whole.
+    pub(crate) fn in_text(&self, error: RecordingError) -> FileError {
+        FileError::in_file(&self.path, error)
     }
 
-    fn number(&self, column: usize) -> Outcome<f64> {
+    /// `error` in the time of the row read last.
+    pub(crate) fn in_time(&self, error: RecordingError) -> FileError {
+        self.in_cell(0, error)
+    }
+
+    fn number(&self, column: usize) -> Result<f64, FileError> {
         // Trimming in the reader would cost as much again as all of its reading.
         let cell = self.record.get(self.columns[column]).unwrap_or_default();
         let cell = cell.trim_ascii();
@@ -133,20 +138,18 @@ impl Recording {
         match text.and_then(|text| text.parse::<f64>().ok()) {
             Some(number) if number.is_finite() => Ok(number),
             _ => {
-                let hint = match text.map(|text| text.replacen(',', ".", 1).parse::<f64>()) {
-                    Some(Ok(_)) if cell.contains(&b',') => {
-                        "; it has a decimal comma, accepted is a decimal point"
-                    }
-                    _ => "",
+                let with_point = text.map(|text| text.replacen(',', ".", 1).parse::<f64>());
+                let error = RecordingError::Number {
+                    cell: String::from_utf8_lossy(&cell[..cell.len().min(40)]).into(),
+                    decimal_comma: matches!(with_point, Some(Ok(_))) && cell.contains(&b','),
                 };
-                let shown = String::from_utf8_lossy(&cell[..cell.len().min(40)]);
-                Err(self.in_cell(column, format!("`{shown}` is not a finite number{hint}")))
+                Err(self.in_cell(column, error))
             }
         }
     }
 
-    fn in_cell(&self, column: usize, message: String) -> Failure {
-        Failure::in_cell(&self.path, self.line(), COLUMNS[column], message)
+    fn in_cell(&self, column: usize, error: RecordingError) -> FileError {
+        FileError::in_cell(&self.path, self.line(), COLUMNS[column], error)
     }
 
     /// Line of the row read last.
@@ -155,25 +158,18 @@ impl Recording {
         position.line() - u64::from(source.has_passed_line_feed(position.byte()))
     }
 
-    /// A failure of the reader at the row read last.
-    fn explain(&self, error: &csv::Error) -> Failure {
-        let csv::ErrorKind::UnequalLengths {
-            expected_len, len, ..
-        } = error.kind()
-        else {
-            return Failure::in_file(&self.path, format!("cannot read: {error}"));
+    /// The reader's `error` at the row read last.
+    fn explain(&self, error: csv::Error) -> FileError {
+        let error = match *error.kind() {
+            csv::ErrorKind::UnequalLengths {
+                expected_len, len, ..
+            } => RecordingError::Cells {
+                line: self.line(),
+                cells: len,
+                expected: expected_len,
+            },
+            _ => error.into(),
         };
-        let hint = if *len == 2 * expected_len {
-            "; numbers with a decimal comma have twice the cells, accepted is a decimal point"
-        } else {
-            ""
-        };
-        Failure::in_file(
-            &self.path,
-            format!(
-                "line {}: {len} cells where the header has {expected_len}{hint}",
-                self.line()
-            ),
-        )
+        self.in_text(error)
     }
 }

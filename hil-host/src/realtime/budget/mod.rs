@@ -1,17 +1,15 @@
-//! Time per tick on this host: dampers on a made motion, timed free running or in real ticks.
+//! Time per tick on this host, free running or in real ticks.
 
-mod bench;
 mod free;
 mod paced;
 
-pub use bench::Bench;
 pub use free::free;
 pub use paced::paced;
 
 use serde::Serialize;
 
-use crate::error::{Failure, Outcome};
-use crate::realtime::timing::{Distribution, span};
+use crate::realtime::RealtimeError;
+use crate::realtime::timing::Distribution;
 
 /// How long a run lasts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -73,25 +71,19 @@ fn stop(tick: u64, step_s: f64, work_ns: f64, limit_ns: Option<u64>) -> Option<S
 }
 
 impl Run {
-    /// Whether the run is as it was asked to be.
+    /// Whether the run met its limits.
     ///
     /// # Errors
     /// It was stopped, or with `fail_on_miss` a deadline was missed.
-    pub fn verdict(&self, fail_on_miss: bool) -> Outcome<()> {
-        if let Some(stop) = &self.stopped {
-            return Err(Failure::new(format!(
-                "stopped: tick {}, {:.6} s along the motion, took {}, allowed by --stop-above-ns: {}",
-                stop.tick,
-                stop.time_s,
-                span(stop.work_ns),
-                span(stop.limit_ns as f64)
-            )));
+    pub fn verdict(&self, fail_on_miss: bool) -> Result<(), RealtimeError> {
+        if let Some(stop) = self.stopped {
+            return Err(RealtimeError::Stopped(stop));
         }
         match self.missed_deadlines {
-            Some(missed) if fail_on_miss && missed > 0 => Err(Failure::new(format!(
-                "{missed} of {} deadlines missed, allowed by --fail-on-miss: none",
-                self.ticks
-            ))),
+            Some(missed) if fail_on_miss && missed > 0 => Err(RealtimeError::MissedDeadlines {
+                missed,
+                ticks: self.ticks,
+            }),
             _ => Ok(()),
         }
     }

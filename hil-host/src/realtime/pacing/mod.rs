@@ -4,10 +4,15 @@ mod clock;
 mod realtime;
 
 pub use clock::{Clock, MonotonicClock, overhead_ns};
-pub use realtime::RealtimeOptions;
+pub use realtime::{RealtimeOption, RealtimeOptions};
 
-use crate::error::{Failure, Outcome};
+use std::ops::RangeInclusive;
+
+use crate::realtime::RealtimeError;
 use crate::realtime::timing::Distribution;
+
+/// Rates that ticks can be paced at (Hz).
+pub const RATE_RANGE_HZ: RangeInclusive<u32> = 1000..=10_000;
 
 /// Ticks listed one by one after the start.
 pub const FIRST_TICKS: usize = 8;
@@ -26,7 +31,7 @@ pub const FIRST_TICKS: usize = 8;
 ///     pacer.finish(timing);
 /// }
 /// assert_eq!(pacer.report().ticks, 5);
-/// # Ok::<(), dashpot_hil::error::Failure>(())
+/// # Ok::<(), dashpot_hil::realtime::RealtimeError>(())
 /// ```
 pub struct Pacer<C: Clock = MonotonicClock> {
     clock: C,
@@ -80,7 +85,7 @@ impl Pacer<MonotonicClock> {
     ///
     /// # Errors
     /// The step is out of 100 us to 1 ms (10 to 1 kHz), or the system refuses an option.
-    pub fn new(step_s: f64, options: &RealtimeOptions) -> Outcome<Self> {
+    pub fn new(step_s: f64, options: &RealtimeOptions) -> Result<Self, RealtimeError> {
         let pacer = Self::with_clock(step_s, MonotonicClock::default())?;
         options.apply()?;
         Ok(pacer)
@@ -92,13 +97,16 @@ impl<C: Clock> Pacer<C> {
     ///
     /// # Errors
     /// The step is out of 100 us to 1 ms.
-    pub fn with_clock(step_s: f64, clock: C) -> Outcome<Self> {
-        // Half a nanosecond of room: a step of 1/10000 s may be written either way.
-        if !(100e-6 - 5e-10..=1e-3 + 5e-10).contains(&step_s) {
-            return Err(Failure::wrong_use(format!(
-                "a paced step of {} us: allowed are 100 to 1000 us (10 to 1 kHz)",
-                step_s * 1e6
-            )));
+    pub fn with_clock(step_s: f64, clock: C) -> Result<Self, RealtimeError> {
+        let (shortest_s, longest_s) = (
+            1.0 / f64::from(*RATE_RANGE_HZ.end()),
+            1.0 / f64::from(*RATE_RANGE_HZ.start()),
+        );
+        // Half a nanosecond more either way: a step of 1/10000 s may be written in two ways.
+        if !(shortest_s - 5e-10..=longest_s + 5e-10).contains(&step_s) {
+            return Err(RealtimeError::Step {
+                step_us: step_s * 1e6,
+            });
         }
         Ok(Self {
             clock,

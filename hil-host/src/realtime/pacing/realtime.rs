@@ -1,8 +1,10 @@
-//! What makes a thread real-time, each asked of the system and refused with a reason.
+//! Options that make a thread real-time; each is requested from the system, which may refuse it.
+
+use std::fmt;
 
 use serde::Serialize;
 
-use crate::error::{Failure, Outcome};
+use crate::realtime::RealtimeError;
 
 /// Real-time properties of the thread that steps.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
@@ -15,13 +17,43 @@ pub struct RealtimeOptions {
     pub core: Option<usize>,
 }
 
+/// One of [`RealtimeOptions`], with its value.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum RealtimeOption {
+    /// Priority under SCHED_FIFO.
+    FifoPriority(u8),
+    /// All memory locked.
+    LockMemory,
+    /// Core the thread is pinned to.
+    Core(usize),
+}
+
+impl RealtimeOption {
+    fn refused(self, reason: String) -> RealtimeError {
+        RealtimeError::Refused {
+            option: self,
+            reason,
+        }
+    }
+}
+
+impl fmt::Display for RealtimeOption {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::FifoPriority(priority) => write!(f, "SCHED_FIFO priority {priority}"),
+            Self::LockMemory => f.write_str("locked memory"),
+            Self::Core(core) => write!(f, "core {core}"),
+        }
+    }
+}
+
 #[cfg(target_os = "linux")]
 impl RealtimeOptions {
     /// Applies the options to the calling thread (memory: to the process), the core first.
     ///
     /// # Errors
     /// The first option the system does not allow, with what is missing.
-    pub fn apply(&self) -> Outcome<()> {
+    pub fn apply(&self) -> Result<(), RealtimeError> {
         if let Some(core) = self.core {
             pin(core)?;
         }
@@ -41,39 +73,33 @@ impl RealtimeOptions {
     ///
     /// # Errors
     /// Any option: they need Linux.
-    pub fn apply(&self) -> Outcome<()> {
-        let asked = [
-            ("--fifo", self.fifo_priority.is_some()),
-            ("--lock-memory", self.lock_memory),
-            ("--core", self.core.is_some()),
+    pub fn apply(&self) -> Result<(), RealtimeError> {
+        let options = [
+            self.fifo_priority.map(RealtimeOption::FifoPriority),
+            self.lock_memory.then_some(RealtimeOption::LockMemory),
+            self.core.map(RealtimeOption::Core),
         ];
-        match asked.iter().find(|(_, asked)| *asked) {
-            Some((option, _)) => Err(Failure::new(format!(
-                "{option}: not on this system, it needs Linux"
-            ))),
+        match options.into_iter().flatten().next() {
+            Some(option) => Err(option.refused("not on this system, it needs Linux".into())),
             None => Ok(()),
         }
     }
 }
 
 #[cfg(target_os = "linux")]
-fn pin(core: usize) -> Outcome<()> {
+fn pin(core: usize) -> Result<(), RealtimeError> {
     use nix::sched::{CpuSet, sched_getaffinity, sched_setaffinity};
     use nix::unistd::Pid;
 
     let this_thread = Pid::from_raw(0);
-    let refused = |why: String| Failure::new(format!("--core {core}: {why}"));
+    let refused = |reason: String| RealtimeOption::Core(core).refused(reason);
     let granted = sched_getaffinity(this_thread)
         .map_err(|error| refused(format!("the system does not tell its cores: {error}")))?;
-    let cores: Vec<usize> = (0..CpuSet::count())
+    let allowed: Vec<usize> = (0..CpuSet::count())
         .filter(|core| granted.is_set(*core).unwrap_or(false))
         .collect();
-    if !cores.contains(&core) {
-        let names: Vec<String> = cores.iter().map(usize::to_string).collect();
-        return Err(Failure::wrong_use(format!(
-            "--core {core}: no core this process may use, allowed: {}",
-            names.join(", ")
-        )));
+    if !allowed.contains(&core) {
+        return Err(RealtimeError::Core { core, allowed });
     }
     let mut wanted = CpuSet::new();
     wanted
@@ -83,7 +109,7 @@ fn pin(core: usize) -> Outcome<()> {
 }
 
 #[cfg(target_os = "linux")]
-fn lock_memory() -> Outcome<()> {
+fn lock_memory() -> Result<(), RealtimeError> {
     use nix::sys::mman::{MlockAllFlags, mlockall};
     use nix::sys::resource::{RLIM_INFINITY, Resource, getrlimit};
 
@@ -93,15 +119,15 @@ fn lock_memory() -> Outcome<()> {
             Ok((soft, _)) => format!("{soft} bytes"),
             Err(error) => error.to_string(),
         };
-        Failure::new(format!(
-            "--lock-memory: the system refused ({error}); needs CAP_IPC_LOCK, or RLIMIT_MEMLOCK \
-             (`ulimit -l`, now {limit}) above the size of the process"
+        RealtimeOption::LockMemory.refused(format!(
+            "the system refused ({error}); needs CAP_IPC_LOCK, or RLIMIT_MEMLOCK (`ulimit -l`, now \
+             {limit}) above the size of the process"
         ))
     })
 }
 
 #[cfg(target_os = "linux")]
-fn set_fifo(priority: u8) -> Outcome<()> {
+fn set_fifo(priority: u8) -> Result<(), RealtimeError> {
     use nix::errno::Errno;
     use nix::sys::resource::{Resource, getrlimit};
     use thread_priority::{
@@ -109,16 +135,17 @@ fn set_fifo(priority: u8) -> Outcome<()> {
         ThreadSchedulePolicy, set_thread_priority_and_policy, thread_native_id,
     };
 
+    let option = RealtimeOption::FifoPriority(priority);
     let refused = |why: String| {
         let limit = getrlimit(Resource::RLIMIT_RTPRIO)
             .map_or_else(|error| error.to_string(), |(soft, _)| soft.to_string());
-        Failure::new(format!(
-            "--fifo {priority}: the system refused ({why}); needs CAP_SYS_NICE, or RLIMIT_RTPRIO \
-             (`ulimit -r`, now {limit}) of at least {priority}"
+        option.refused(format!(
+            "the system refused ({why}); needs CAP_SYS_NICE, or RLIMIT_RTPRIO (`ulimit -r`, now \
+             {limit}) of at least {priority}"
         ))
     };
     let wanted = ThreadPriorityValue::try_from(priority)
-        .map_err(|_| Failure::new(format!("--fifo {priority}: allowed: 1 to 99")))?;
+        .map_err(|_| option.refused("allowed: 1 to 99".into()))?;
     set_thread_priority_and_policy(
         thread_native_id(),
         ThreadPriority::Crossplatform(wanted),

@@ -7,7 +7,7 @@ use std::time::SystemTime;
 
 use serde::Serialize;
 
-/// What decides how long a step takes besides the program. What the system does not tell, as in a
+/// What decides how long a step takes besides the program. What the system does not report, as in a
 /// container without `/proc` or outside Linux, is `None`.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Machine {

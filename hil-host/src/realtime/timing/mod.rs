@@ -1,4 +1,4 @@
-//! Time spans and how they are spread: percentiles, the longest and its place, bins.
+//! Time spans and how they are spread: percentiles, the longest and its index, bins.
 
 mod bins;
 mod machine;
@@ -15,10 +15,10 @@ use bins::Bins;
 
 /// Picoseconds in a nanosecond: the unit of the histogram, for means of batches.
 const UNITS: f64 = 1e3;
-/// Longest span the percentiles tell apart (ns): ten seconds.
+/// Longest span that the percentiles resolve (ns): ten seconds.
 const LONGEST_NS: f64 = 10e9;
-/// A percentile is told when at least this many spans are expected beyond it: with fewer it would be
-/// the accident of a few spans.
+/// A percentile is reported when at least this many spans are expected beyond it: with fewer it would
+/// depend on a few spans.
 const SPANS_BEYOND: u64 = 10;
 
 /// Time spans, percentiles to three significant digits, of constant size.
@@ -93,7 +93,7 @@ impl Distribution {
         self.spans.len()
     }
 
-    /// The shortest span that at least the share `quantile` (0 to 1) of all is at most as long as (ns).
+    /// The shortest span that at least the fraction `quantile` (0 to 1) of all spans does not exceed (ns).
     pub fn quantile_ns(&self, quantile: f64) -> f64 {
         let value = self.spans.value_at_quantile(quantile);
         value.min(self.spans.max()) as f64 / UNITS

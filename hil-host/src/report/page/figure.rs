@@ -2,7 +2,7 @@
 
 use plotters::prelude::SeriesLabelPosition;
 
-use crate::error::Outcome;
+use crate::report::DrawError;
 use crate::report::plot::curves::Curve;
 use crate::report::plot::sheet::{Layout, Panel, Scale, sheet};
 
@@ -25,7 +25,7 @@ impl Figure {
     ///
     /// # Errors
     /// The drawing fails.
-    pub(super) fn desk(&self) -> Outcome<String> {
+    pub(super) fn desk(&self) -> Result<String, DrawError> {
         let columns = self.panels.len();
         let layout = Layout::row(columns, DESK_WIDTH / columns as u32, self.height);
         sheet(layout, &self.panels)
@@ -35,7 +35,7 @@ impl Figure {
     ///
     /// # Errors
     /// The drawing fails.
-    pub(super) fn phone(&self) -> Outcome<String> {
+    pub(super) fn phone(&self) -> Result<String, DrawError> {
         sheet(Layout::column(PHONE_WIDTH, PHONE_HEIGHT), &self.panels)
     }
 }

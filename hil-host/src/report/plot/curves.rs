@@ -4,7 +4,7 @@ use plotters::coord::ranged1d::Ranged;
 use plotters::prelude::*;
 
 use super::style::{FINE, failed};
-use crate::error::Outcome;
+use crate::report::DrawError;
 
 /// How a curve is drawn.
 #[derive(Clone, Copy)]
@@ -105,7 +105,10 @@ impl Curve {
     ///
     /// # Errors
     /// The drawing fails.
-    pub(crate) fn draw<'a, 'b: 'a, X, Y>(&self, chart: &mut Chart<'a, 'b, X, Y>) -> Outcome<()>
+    pub(crate) fn draw<'a, 'b: 'a, X, Y>(
+        &self,
+        chart: &mut Chart<'a, 'b, X, Y>,
+    ) -> Result<(), DrawError>
     where
         X: Ranged<ValueType = f64> + 'a,
         Y: Ranged<ValueType = f64> + 'a,
@@ -157,8 +160,8 @@ pub(crate) fn ramp(count: usize) -> Vec<RGBColor> {
     let (light, strong) = ([144.0, 190.0, 235.0], [13.0, 58.0, 120.0]);
     (0..count)
         .map(|i| {
-            let share = i as f64 / (count.max(2) - 1) as f64;
-            let mix = |k: usize| (light[k] + share * (strong[k] - light[k])) as u8;
+            let fraction = i as f64 / (count.max(2) - 1) as f64;
+            let mix = |k: usize| (light[k] + fraction * (strong[k] - light[k])) as u8;
             RGBColor(mix(0), mix(1), mix(2))
         })
         .collect()

@@ -6,10 +6,10 @@ use plotters::prelude::*;
 
 use super::curves::Curve;
 use super::style::{Area, Digits, FINE, INK, axes, draw, extent, failed, letters, span};
-use crate::error::Outcome;
+use crate::report::DrawError;
 
-/// Room above and below the curves on a scale of decades, as a ratio.
-const DECADE_ROOM: f64 = 1.6;
+/// Margin above and below the curves on a scale of decades, as a ratio.
+const DECADE_MARGIN: f64 = 1.6;
 
 /// How a panel's vertical axis is divided.
 #[derive(Clone, Copy)]
@@ -68,7 +68,7 @@ impl Layout {
 ///
 /// # Errors
 /// The drawing fails.
-pub(crate) fn sheet(layout: Layout, panels: &[Panel]) -> Outcome<String> {
+pub(crate) fn sheet(layout: Layout, panels: &[Panel]) -> Result<String, DrawError> {
     let rows = panels.len().div_ceil(layout.columns);
     draw(layout.width, layout.row_height * rows as u32, |area| {
         let cells = area.split_evenly((rows, layout.columns));
@@ -92,10 +92,10 @@ macro_rules! draw_on {
         for curve in &$panel.curves {
             curve.draw(&mut chart)?;
         }
-        if let Some(place) = &$panel.legend {
+        if let Some(position) = &$panel.legend {
             chart
                 .configure_series_labels()
-                .position(place.clone())
+                .position(position.clone())
                 .label_font(letters(14, &INK))
                 .legend_area_size(30 * FINE)
                 .margin(8 * FINE)
@@ -107,7 +107,7 @@ macro_rules! draw_on {
     }};
 }
 
-fn draw_panel(area: &Area<'_>, panel: &Panel) -> Outcome<()> {
+fn draw_panel(area: &Area<'_>, panel: &Panel) -> Result<(), DrawError> {
     let abscissas = panel.curves.iter().flat_map(Curve::abscissas);
     let ordinates = || panel.curves.iter().flat_map(Curve::ordinates);
     let x = if panel.sides {
@@ -129,7 +129,7 @@ fn draw_panel(area: &Area<'_>, panel: &Panel) -> Outcome<()> {
         }
         Scale::Decades => {
             let y = span(ordinates());
-            let y = y.start / DECADE_ROOM..y.end * DECADE_ROOM;
+            let y = y.start / DECADE_MARGIN..y.end * DECADE_MARGIN;
             draw_on!(area, panel, x, y.log_scale(), (x_digits, Digits::OfDecade));
         }
     }
@@ -142,7 +142,7 @@ fn from_zero(range: Range<f64>) -> Range<f64> {
     if nearly { 0.0..range.end } else { range }
 }
 
-/// Digits behind the point that tell labels of an axis apart.
+/// Digits behind the point that make the labels of an axis differ.
 fn digits(range: &Range<f64>) -> Digits {
     let apart = (range.end - range.start).max(1e-12) / 6.0;
     Digits::Behind((-apart.log10().floor()).clamp(0.0, 6.0) as usize)

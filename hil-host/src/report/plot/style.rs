@@ -1,11 +1,12 @@
 //! Sheet, colours, lettering and axes of every plot.
 
+use std::error::Error;
 use std::ops::Range;
 
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
-use crate::error::{Failure, Outcome};
+use crate::report::DrawError;
 
 /// The backend rounds to whole units; drawn this much larger, curves stay smooth.
 pub(crate) const FINE: u32 = 4;
@@ -18,18 +19,19 @@ pub(crate) const AMBER_LINE: RGBColor = RGBColor(239, 138, 0);
 pub(crate) const PALE: RGBColor = RGBColor(160, 168, 176);
 pub(crate) const LINE: u32 = 2 * FINE;
 
-pub(crate) type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
-
-pub(crate) fn failed(error: impl std::fmt::Display) -> Failure {
-    Failure::new(format!("cannot draw: {error}"))
+/// What a drawing function says when the plotting library fails.
+pub(crate) fn failed(error: impl Error + Send + Sync + 'static) -> DrawError {
+    DrawError(Box::new(error))
 }
+
+pub(crate) type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 
 /// Draws on a white sheet of `width` by `height` pixels and gives the SVG's text.
 pub(crate) fn draw(
     width: u32,
     height: u32,
-    paint: impl FnOnce(&Area<'_>) -> Outcome<()>,
-) -> Outcome<String> {
+    paint: impl FnOnce(&Area<'_>) -> Result<(), DrawError>,
+) -> Result<String, DrawError> {
     let mut text = String::new();
     {
         let area =
@@ -122,6 +124,6 @@ pub(crate) fn span(values: impl Iterator<Item = f64>) -> Range<f64> {
 /// Least and greatest of `values`, widened by a twentieth.
 pub(crate) fn extent(values: impl Iterator<Item = f64>) -> Range<f64> {
     let Range { start, end } = span(values);
-    let room = 0.05 * (end - start).max(1e-6);
-    start - room..end + room
+    let margin = 0.05 * (end - start).max(1e-6);
+    start - margin..end + margin
 }

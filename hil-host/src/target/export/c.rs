@@ -2,10 +2,10 @@
 
 use std::fmt::Write;
 
-use dashpot_core::{Damper, Real};
+use dashpot_core::Damper;
 
-use super::{Provenance, Word, name};
-use crate::error::{Failure, Outcome};
+use super::{ExportError, Provenance, Word, name};
+use crate::study::Scalar;
 
 /// C source of `const uint8_t NAME[]`, to compile on its own or to include in one file; C99 and C++11.
 ///
@@ -17,7 +17,7 @@ pub fn c_source<T: Word>(
     constant: &str,
     damper: &Damper<T>,
     provenance: &Provenance<'_>,
-) -> Outcome<String> {
+) -> Result<String, ExportError> {
     let mut text = declaration(constant, damper, provenance)?;
     let image = T::image(damper);
     text.push_str(&format!(
@@ -41,7 +41,7 @@ pub fn c_header<T: Word>(
     constant: &str,
     damper: &Damper<T>,
     provenance: &Provenance<'_>,
-) -> Outcome<String> {
+) -> Result<String, ExportError> {
     let declaration = declaration(constant, damper, provenance)?;
     let guard = format!("{}{constant}_H", name::C_LIBRARY_PREFIX);
     Ok(format!(
@@ -55,13 +55,12 @@ fn declaration<T: Word>(
     constant: &str,
     damper: &Damper<T>,
     provenance: &Provenance<'_>,
-) -> Outcome<String> {
+) -> Result<String, ExportError> {
     name::check_c(constant)?;
-    if T::NAME != <f32 as Real>::NAME {
-        return Err(Failure::wrong_use(format!(
-            "--scalar {}: the C library is of single precision, allowed with --lang c: f32",
-            T::NAME
-        )));
+    if Scalar::of::<T>() != Scalar::F32 {
+        return Err(ExportError::Scalar {
+            scalar: Scalar::of::<T>(),
+        });
     }
     let length = T::image(damper).len();
     let stored = format!("{length} bytes");

@@ -1,12 +1,14 @@
 //! A built damper as a file for firmware: Rust or C source, or bytes.
 
 mod c;
+mod error;
 mod name;
 mod provenance;
 mod rust;
 mod word;
 
 pub use c::{c_header, c_source};
+pub use error::ExportError;
 pub use provenance::Provenance;
 pub use rust::rust_source;
 pub use word::Word;

@@ -1,9 +1,9 @@
 //! Names that a constant may have.
 
-use crate::error::{Failure, Outcome};
+use super::ExportError;
 
 /// A capital first, then capitals, digits and `_`: no keyword of Rust, C or C++ is written so.
-pub(super) fn check(name: &str) -> Outcome<()> {
+pub(super) fn check(name: &str) -> Result<(), ExportError> {
     let valid = name.starts_with(|first: char| first.is_ascii_uppercase())
         && name
             .chars()
@@ -11,28 +11,24 @@ pub(super) fn check(name: &str) -> Outcome<()> {
     if valid {
         Ok(())
     } else {
-        Err(Failure::wrong_use(format!(
-            "--name {name}: no name of a constant, allowed: A to Z first, then A to Z, 0 to 9 and _"
-        )))
+        Err(ExportError::Name { name: name.into() })
     }
 }
 
 /// What the macros of `dashpot.h` and the guards of exported headers start with.
 pub(super) const C_LIBRARY_PREFIX: &str = "DASHPOT_";
 
+/// How macros of `stdint.h` end.
+pub(super) const RESERVED_ENDS: [&str; 4] = ["_MAX", "_MIN", "_C", "_WIDTH"];
+
 /// As [`check`], and no macro of `dashpot.h` or of the headers an exported C source includes.
-pub(super) fn check_c(name: &str) -> Outcome<()> {
+pub(super) fn check_c(name: &str) -> Result<(), ExportError> {
     check(name)?;
-    let taken = ["_MAX", "_MIN", "_C", "_WIDTH"];
     if name == "NULL"
         || name.starts_with(C_LIBRARY_PREFIX)
-        || taken.iter().any(|end| name.ends_with(end))
+        || RESERVED_ENDS.iter().any(|end| name.ends_with(end))
     {
-        return Err(Failure::wrong_use(format!(
-            "--name {name}: the C headers may define it, allowed: not NULL, no start with {C_LIBRARY_PREFIX}, \
-             no end in {}",
-            taken.join(", ")
-        )));
+        return Err(ExportError::ReservedName { name: name.into() });
     }
     Ok(())
 }

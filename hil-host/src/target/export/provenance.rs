@@ -3,12 +3,13 @@
 use dashpot_core::{Damper, DamperState};
 
 use super::Word;
+use crate::study::Scalar;
 
 /// How an exported damper was made, written into the file.
 pub struct Provenance<'a> {
     /// Preset or file the damper came from.
     pub damper: &'a str,
-    /// Step as asked for (us).
+    /// The requested step (us).
     pub step_us: f64,
     /// Command line that makes the file again.
     pub command: &'a str,
@@ -35,7 +36,7 @@ impl Provenance<'_> {
             one_line(self.damper),
             self.step_us,
             1e3 / self.step_us,
-            T::NAME,
+            Scalar::of::<T>(),
             damper.revision(),
             size_of::<DamperState<T>>(),
             one_line(self.command),

@@ -4,8 +4,8 @@ use std::fmt::Write;
 
 use dashpot_core::Damper;
 
-use super::{Provenance, Word, name};
-use crate::error::Outcome;
+use super::{ExportError, Provenance, Word, name};
+use crate::study::Scalar;
 
 /// Rust source of `pub static NAME: Damper<T>`, for `include!` or as a module.
 ///
@@ -15,10 +15,10 @@ pub fn rust_source<T: Word>(
     constant: &str,
     damper: &Damper<T>,
     provenance: &Provenance<'_>,
-) -> Outcome<String> {
+) -> Result<String, ExportError> {
     name::check(constant)?;
     let literals = T::literals(damper);
-    let scalar = T::NAME;
+    let scalar = Scalar::of::<T>();
     let stored = format!("{} words, {} bytes", literals.len(), size_of::<Damper<T>>());
     let needs = format!(
         "dashpot-core {} with or without its features",

@@ -10,7 +10,6 @@ use dashpot_core::link::{
 use serde::Serialize;
 
 use super::{Link, LinkError};
-use crate::error::Failure;
 
 /// What a byte may take on the way to a target behind a bridge, which has it from the host at once: 87 us at
 /// 115200 bit/s.
@@ -56,7 +55,7 @@ pub struct LinkFaults {
     pub corrupt_requests: u64,
     /// Answers received broken.
     pub corrupt_answers: u64,
-    /// Answers to requests no longer asked.
+    /// Answers to earlier requests.
     pub stale_answers: u64,
     /// Sessions that the target no longer knew, as after a reset.
     pub lost_sessions: u64,
@@ -119,9 +118,7 @@ impl<L: Link> Client<L> {
             return Err(LinkError::Unreadable);
         };
         if welcome.scalar != Scalar::F32 {
-            return Err(LinkError::Broken(Failure::new(
-                "the target steps in f64, this host in f32",
-            )));
+            return Err(LinkError::DoublePrecision);
         }
         if welcome.image_bytes as usize != Damper::<f32>::IMAGE_BYTES {
             return Err(LinkError::Unreadable);
@@ -144,13 +141,11 @@ impl<L: Link> Client<L> {
         let frame = request_frame(self.header, request);
         let frame = frame.bytes();
         if frame.is_empty() {
-            return Err(LinkError::Broken(Failure::new(
-                "a request is too long for a frame",
-            )));
+            return Err(LinkError::TooLong);
         }
         for again in 0..self.patience.tries.max(1) {
             self.faults.repeated_requests += u64::from(again > 0);
-            self.link.send(frame).map_err(LinkError::Broken)?;
+            self.link.send(frame)?;
             if self.wait(self.patience.for_frame(frame.len()))? {
                 return match self.response()? {
                     Response::Refused(Refusal::NoSession | Refusal::OutOfOrder(_)) => {
@@ -200,10 +195,7 @@ impl<L: Link> Client<L> {
             }
             let left = deadline.saturating_duration_since(Instant::now());
             let mut buffer = [0; 1024];
-            let count = self
-                .link
-                .receive(&mut buffer, left)
-                .map_err(LinkError::Broken)?;
+            let count = self.link.receive(&mut buffer, left)?;
             if count == 0 {
                 self.faults.timeouts += 1;
                 return Ok(false);

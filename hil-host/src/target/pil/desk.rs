@@ -6,8 +6,7 @@ use std::time::Duration;
 use dashpot_core::Damper;
 use dashpot_core::link::{Clock, Device, StepSizeError};
 
-use super::Link;
-use crate::error::{Failure, Outcome};
+use super::{Link, LinkError};
 
 /// A device of `N` dampers in this process. It answers at once or, to a broken line, not at all: no wait is
 /// real.
@@ -48,7 +47,7 @@ fn power_on<const N: usize>(bank: &[Damper<f32>; N]) -> Result<Box<Device<N>>, S
 }
 
 impl<const N: usize> Link for Desk<N> {
-    fn send(&mut self, bytes: &[u8]) -> Outcome<()> {
+    fn send(&mut self, bytes: &[u8]) -> Result<(), LinkError> {
         for byte in bytes {
             let mut answered = self.device.receive(*byte);
             while self.device.is_busy() {
@@ -61,16 +60,17 @@ impl<const N: usize> Link for Desk<N> {
         Ok(())
     }
 
-    fn receive(&mut self, buffer: &mut [u8], _: Duration) -> Outcome<usize> {
+    fn receive(&mut self, buffer: &mut [u8], _: Duration) -> Result<usize, LinkError> {
         let count = buffer.len().min(self.answers.len());
-        for (place, byte) in buffer.iter_mut().zip(self.answers.drain(..count)) {
-            *place = byte;
+        for (slot, byte) in buffer.iter_mut().zip(self.answers.drain(..count)) {
+            *slot = byte;
         }
         Ok(count)
     }
 
-    fn reset_target(&mut self) -> Outcome<()> {
-        self.device = power_on(&self.bank).map_err(|error| Failure::new(error.to_string()))?;
+    fn reset_target(&mut self) -> Result<(), LinkError> {
+        // The bank was started before.
+        self.device = power_on(&self.bank)?;
         Ok(())
     }
 

@@ -7,8 +7,7 @@ use std::time::{Duration, Instant};
 use fastrand::Rng;
 use serde::Serialize;
 
-use super::Link;
-use crate::error::{Failure, Outcome};
+use super::{Link, LinkError};
 
 /// Probability of each fault per frame (1), both ways.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -39,7 +38,7 @@ impl FromStr for FaultRates {
             let (kind, rate) = part
                 .split_once('=')
                 .ok_or_else(|| format!("`{part}` is not KIND=PROBABILITY"))?;
-            let place = match kind {
+            let slot = match kind {
                 "drop" => &mut rates.drop,
                 "corrupt" => &mut rates.corrupt,
                 "delay" => &mut rates.delay,
@@ -48,7 +47,7 @@ impl FromStr for FaultRates {
                 "reset" => &mut rates.reset,
                 _ => return Err(format!("`{kind}` is no fault; allowed: {KINDS}")),
             };
-            *place = match rate.parse() {
+            *slot = match rate.parse() {
                 Ok(rate) if (0.0..=0.5).contains(&rate) => rate,
                 _ => return Err(format!("{kind}: `{rate}` is not within 0 to 0.5")),
             };
@@ -104,12 +103,10 @@ impl<L: Link> FaultyLink<L> {
     /// Wraps `link`.
     ///
     /// # Errors
-    /// Resets are asked of a link that cannot reset its target.
-    pub fn new(link: L, rates: FaultRates, seed: u64) -> Outcome<Self> {
+    /// `rates` has resets, and the link cannot reset its target.
+    pub fn new(link: L, rates: FaultRates, seed: u64) -> Result<Self, LinkError> {
         if rates.reset > 0.0 && !link.can_reset() {
-            return Err(Failure::wrong_use(
-                "fault `reset`: this link cannot reset its target; `--link qemu` can",
-            ));
+            return Err(LinkError::ResetFaults);
         }
         Ok(Self {
             link,
@@ -156,8 +153,8 @@ impl<L: Link> FaultyLink<L> {
             Some(1) => {
                 counts.corrupted += 1;
                 let mut frame = frame;
-                let place = self.random.usize(..frame.len());
-                frame[place] ^= 1 << self.random.u32(..8);
+                let index = self.random.usize(..frame.len());
+                frame[index] ^= 1 << self.random.u32(..8);
                 arriving.push(frame);
             }
             Some(2) => {
@@ -181,8 +178,8 @@ impl<L: Link> FaultyLink<L> {
 
     fn hand_over(&mut self, buffer: &mut [u8]) -> usize {
         let count = buffer.len().min(self.ready.len());
-        for (place, byte) in buffer.iter_mut().zip(self.ready.drain(..count)) {
-            *place = byte;
+        for (slot, byte) in buffer.iter_mut().zip(self.ready.drain(..count)) {
+            *slot = byte;
         }
         count
     }
@@ -190,7 +187,7 @@ impl<L: Link> FaultyLink<L> {
 
 impl<L: Link> Link for FaultyLink<L> {
     /// Takes `bytes` as one frame.
-    fn send(&mut self, bytes: &[u8]) -> Outcome<()> {
+    fn send(&mut self, bytes: &[u8]) -> Result<(), LinkError> {
         if bytes.is_empty() {
             return Ok(());
         }
@@ -204,7 +201,7 @@ impl<L: Link> Link for FaultyLink<L> {
         Ok(())
     }
 
-    fn receive(&mut self, buffer: &mut [u8], timeout: Duration) -> Outcome<usize> {
+    fn receive(&mut self, buffer: &mut [u8], timeout: Duration) -> Result<usize, LinkError> {
         let deadline = Instant::now() + timeout;
         while self.ready.is_empty() {
             let left = deadline.saturating_duration_since(Instant::now());
@@ -227,7 +224,7 @@ impl<L: Link> Link for FaultyLink<L> {
         Ok(self.hand_over(buffer))
     }
 
-    fn reset_target(&mut self) -> Outcome<()> {
+    fn reset_target(&mut self) -> Result<(), LinkError> {
         self.partial.clear();
         self.link.reset_target()
     }

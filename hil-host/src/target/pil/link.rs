@@ -4,8 +4,7 @@ use std::path::PathBuf;
 use std::str::FromStr;
 use std::time::Duration;
 
-use super::{DEFAULT_IMAGE, FaultCounts, Qemu, Tcp};
-use crate::error::{Failure, Outcome};
+use super::{DEFAULT_IMAGE, FaultCounts, LinkError, Qemu, Tcp};
 
 /// A line of bytes to a target and back.
 pub trait Link {
@@ -13,22 +12,20 @@ pub trait Link {
     ///
     /// # Errors
     /// The line is broken.
-    fn send(&mut self, bytes: &[u8]) -> Outcome<()>;
+    fn send(&mut self, bytes: &[u8]) -> Result<(), LinkError>;
 
     /// Waits up to `timeout` for bytes; how many came, 0 when none did.
     ///
     /// # Errors
     /// The line is broken.
-    fn receive(&mut self, buffer: &mut [u8], timeout: Duration) -> Outcome<usize>;
+    fn receive(&mut self, buffer: &mut [u8], timeout: Duration) -> Result<usize, LinkError>;
 
     /// Resets the target as a power cycle would.
     ///
     /// # Errors
     /// This line cannot, unless it says otherwise.
-    fn reset_target(&mut self) -> Outcome<()> {
-        Err(Failure::new(
-            "this link cannot reset its target; `--link qemu` can",
-        ))
+    fn reset_target(&mut self) -> Result<(), LinkError> {
+        Err(LinkError::CannotReset)
     }
 
     /// Whether [`Link::reset_target`] can.
@@ -48,13 +45,13 @@ pub trait Link {
 }
 
 impl<L: Link + ?Sized> Link for Box<L> {
-    fn send(&mut self, bytes: &[u8]) -> Outcome<()> {
+    fn send(&mut self, bytes: &[u8]) -> Result<(), LinkError> {
         (**self).send(bytes)
     }
-    fn receive(&mut self, buffer: &mut [u8], timeout: Duration) -> Outcome<usize> {
+    fn receive(&mut self, buffer: &mut [u8], timeout: Duration) -> Result<usize, LinkError> {
         (**self).receive(buffer, timeout)
     }
-    fn reset_target(&mut self) -> Outcome<()> {
+    fn reset_target(&mut self) -> Result<(), LinkError> {
         (**self).reset_target()
     }
     fn can_reset(&self) -> bool {
@@ -98,7 +95,7 @@ impl LinkChoice {
     ///
     /// # Errors
     /// Nothing answers at the address, the device cannot be opened, or the emulator does not start.
-    pub fn open(&self, baud: u32) -> Outcome<Box<dyn Link>> {
+    pub fn open(&self, baud: u32) -> Result<Box<dyn Link>, LinkError> {
         match self {
             Self::Tcp(address) => Ok(Box::new(Tcp::connect(address)?)),
             Self::Serial(device) => open_serial(device, baud),
@@ -108,13 +105,11 @@ impl LinkChoice {
 }
 
 #[cfg(feature = "serial")]
-fn open_serial(device: &std::path::Path, baud: u32) -> Outcome<Box<dyn Link>> {
+fn open_serial(device: &std::path::Path, baud: u32) -> Result<Box<dyn Link>, LinkError> {
     Ok(Box::new(super::Serial::open(device, baud)?))
 }
 
 #[cfg(not(feature = "serial"))]
-fn open_serial(_: &std::path::Path, _: u32) -> Outcome<Box<dyn Link>> {
-    Err(Failure::new(
-        "serial links are left out of this build; build dashpot-hil with the feature `serial`",
-    ))
+fn open_serial(_: &std::path::Path, _: u32) -> Result<Box<dyn Link>, LinkError> {
+    Err(LinkError::NoSerial)
 }

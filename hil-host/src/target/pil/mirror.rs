@@ -3,8 +3,8 @@
 use dashpot_core::link::Forces;
 use dashpot_core::{Damper, DamperState};
 
+use super::SessionError;
 use super::report::{Measured, Mismatch, Target};
-use crate::error::{Failure, Outcome};
 
 /// The same dampers on the host, at the last tick that both sides confirmed.
 pub(super) struct Mirror<'a> {
@@ -24,25 +24,21 @@ impl<'a> Mirror<'a> {
         dampers: &'a [Damper<f32>],
         target: &Target,
         start_m: f32,
-    ) -> Outcome<Self> {
+    ) -> Result<Self, SessionError> {
         let places = target.dampers;
         let dampers: Vec<&Damper<f32>> = match dampers {
             [one] => vec![one; places],
             each if each.len() == places => each.iter().collect(),
             other => {
-                return Err(Failure::wrong_use(format!(
-                    "--damper: {} dampers, the target has {places} places; allowed: 1, for all \
-                     places, or {places}, one for each",
-                    other.len()
-                )));
+                let dampers = other.len();
+                return Err(SessionError::Dampers { dampers, places });
             }
         };
         if let Some(other) = dampers.iter().find(|d| d.step_s() != target.step_s) {
-            return Err(Failure::new(format!(
-                "the damper is built for {} s, the target steps {} s",
-                other.step_s(),
-                target.step_s
-            )));
+            return Err(SessionError::Step {
+                damper_s: other.step_s(),
+                target_s: target.step_s,
+            });
         }
         Ok(Self {
             tick: 0,

@@ -3,6 +3,7 @@
 
 mod client;
 mod desk;
+mod emulator_error;
 mod fault;
 mod link;
 mod link_error;
@@ -14,10 +15,12 @@ mod report;
 #[cfg(feature = "serial")]
 mod serial;
 mod session;
+mod session_error;
 mod tcp;
 
 pub use client::{Client, LinkFaults, Patience};
 pub use desk::Desk;
+pub use emulator_error::EmulatorError;
 pub use fault::{FaultCounts, FaultRates, FaultyLink};
 pub use link::{Link, LinkChoice};
 pub use link_error::LinkError;
@@ -28,4 +31,5 @@ pub use report::{Cost, Mismatch, Pacing, Report, Target};
 #[cfg(feature = "serial")]
 pub use serial::Serial;
 pub use session::Session;
+pub use session_error::SessionError;
 pub use tcp::Tcp;

@@ -1,18 +1,18 @@
 //! A target in an emulator that this process starts and ends.
 
-use std::io::{ErrorKind, Read};
+use std::io::{self, ErrorKind, Read};
 use std::net::{Ipv4Addr, TcpListener, TcpStream};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-use super::{Link, Tcp};
-use crate::error::{Failure, Outcome};
+use super::{EmulatorError, Link, LinkError, Tcp};
+use crate::files::FileError;
 use crate::target::child::ChildProcess;
 
 /// The firmware as `cargo build --release` in `firmware/` leaves it.
 pub const DEFAULT_IMAGE: &str = "firmware/target/thumbv7em-none-eabihf/release/dashpot-firmware";
-const EMULATOR: &str = "qemu-system-arm";
+pub(super) const EMULATOR: &str = "qemu-system-arm";
 /// A busy machine starts it late; one that ends is noticed at once.
 const START_TIMEOUT: Duration = Duration::from_secs(60);
 /// With `-icount shift=0` an instruction takes a nanosecond of the target's time.
@@ -34,8 +34,8 @@ impl Qemu {
     /// Starts the emulator with `image`, an ELF file for Arm.
     ///
     /// # Errors
-    /// The image is none, the emulator is not installed or ends at once.
-    pub fn start(image: &Path) -> Outcome<Self> {
+    /// The file is not an image, the emulator is not installed or ends at once.
+    pub fn start(image: &Path) -> Result<Self, LinkError> {
         Self::start_with_outputs(image, None)
     }
 
@@ -43,7 +43,7 @@ impl Qemu {
     ///
     /// # Errors
     /// As [`Qemu::start`].
-    pub fn start_with_outputs(image: &Path, outputs: Option<&Path>) -> Outcome<Self> {
+    pub fn start_with_outputs(image: &Path, outputs: Option<&Path>) -> Result<Self, LinkError> {
         check_image(image)?;
         let (emulator, link) = launch(image, outputs)?;
         Ok(Self {
@@ -61,19 +61,19 @@ impl Qemu {
 }
 
 impl Link for Qemu {
-    fn send(&mut self, bytes: &[u8]) -> Outcome<()> {
+    fn send(&mut self, bytes: &[u8]) -> Result<(), LinkError> {
         self.link
             .send(bytes)
-            .map_err(|failure| self.emulator.explain(failure))
+            .map_err(|error| self.emulator.explain(error))
     }
 
-    fn receive(&mut self, buffer: &mut [u8], timeout: Duration) -> Outcome<usize> {
+    fn receive(&mut self, buffer: &mut [u8], timeout: Duration) -> Result<usize, LinkError> {
         self.link
             .receive(buffer, timeout)
-            .map_err(|failure| self.emulator.explain(failure))
+            .map_err(|error| self.emulator.explain(error))
     }
 
-    fn reset_target(&mut self) -> Outcome<()> {
+    fn reset_target(&mut self) -> Result<(), LinkError> {
         (self.emulator, self.link) = launch(&self.image, self.outputs.as_deref())?;
         Ok(())
     }
@@ -89,54 +89,52 @@ impl Link for Qemu {
 
 impl Emulator {
     /// How the emulator ended, when that is why the link broke.
-    fn explain(&self, failure: Failure) -> Failure {
+    fn explain(&self, error: LinkError) -> LinkError {
         // It may need a moment to end after its socket did.
         let deadline = Instant::now() + Duration::from_millis(200);
         while Instant::now() < deadline {
-            if let Some(status) = self.0.ended() {
-                return Failure::new(format!("{EMULATOR} ended: {status}{}", self.complaint()));
+            if let Some(ended) = self.ended() {
+                return ended.into();
             }
             std::thread::sleep(Duration::from_millis(5));
         }
-        failure
+        error
     }
 
-    /// What it wrote to its standard error.
-    fn complaint(&self) -> String {
-        match self.0.errors(2000).trim() {
+    /// How it ended, if it has, and what it wrote to its standard error.
+    fn ended(&self) -> Option<EmulatorError> {
+        let status = self.0.ended()?;
+        let message = match self.0.errors(2000).trim() {
             "" => String::new(),
             text => format!("; it said: {text}"),
-        }
+        };
+        Some(EmulatorError::Ended { status, message })
     }
 }
 
 /// The emulator takes any file and runs it, so what is no image for this target is refused here.
-fn check_image(image: &Path) -> Outcome<()> {
+fn check_image(image: &Path) -> Result<(), EmulatorError> {
     let mut start = [0; 20];
     let read = std::fs::File::open(image).and_then(|mut file| file.read_exact(&mut start));
     match read {
-        Err(error) if error.kind() == ErrorKind::NotFound => Err(Failure::in_file(
-            image,
-            "no firmware image there; build it with `cargo xtask firmware`, or name one with \
-             --link qemu:IMAGE",
-        )),
+        Err(error) if error.kind() == ErrorKind::NotFound => {
+            Err(EmulatorError::NoImage(image.to_owned()))
+        }
         Err(error) if error.kind() != ErrorKind::UnexpectedEof => {
-            Err(Failure::in_file(image, format!("cannot read: {error}")))
+            Err(FileError::read(image, error).into())
         }
         // ELF, 32 bit, little-endian; machine 40 is Arm (System V ABI, ELF header).
         Ok(()) if start[..6] == *b"\x7fELF\x01\x01" && start[18..] == [40, 0] => Ok(()),
-        _ => Err(Failure::in_file(
+        _ => Err(FileError::in_file(
             image,
             "no firmware image: must be a 32-bit little-endian ELF file for Arm",
-        )),
+        )
+        .into()),
     }
 }
 
-fn launch(image: &Path, outputs: Option<&Path>) -> Outcome<(Emulator, Tcp)> {
-    let failed = |error: std::io::Error| Failure::new(format!("cannot open a local port: {error}"));
-    let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, 0)).map_err(failed)?;
-    listener.set_nonblocking(true).map_err(failed)?;
-    let port = listener.local_addr().map_err(failed)?.port();
+fn launch(image: &Path, outputs: Option<&Path>) -> Result<(Emulator, Tcp), LinkError> {
+    let (listener, port) = listen().map_err(EmulatorError::Port)?;
     let mut command = Command::new(EMULATOR);
     command
         .args(["-M", "mps2-an500", "-cpu", "cortex-m7", "-nographic"])
@@ -151,10 +149,8 @@ fn launch(image: &Path, outputs: Option<&Path>) -> Outcome<(Emulator, Tcp)> {
         .stdout(Stdio::null())
         .stderr(Stdio::piped());
     let child = ChildProcess::start(&mut command).map_err(|error| match error.kind() {
-        ErrorKind::NotFound => Failure::new(format!(
-            "{EMULATOR} is not installed; on Debian and Ubuntu: apt-get install qemu-system-arm"
-        )),
-        _ => Failure::new(format!("cannot start {EMULATOR}: {error}")),
+        ErrorKind::NotFound => EmulatorError::NotInstalled,
+        _ => EmulatorError::Start(error),
     })?;
     let emulator = Emulator(child);
     let stream = accept(&listener, &emulator)?;
@@ -162,30 +158,34 @@ fn launch(image: &Path, outputs: Option<&Path>) -> Outcome<(Emulator, Tcp)> {
     Ok((emulator, link))
 }
 
-fn accept(listener: &TcpListener, emulator: &Emulator) -> Outcome<TcpStream> {
+/// A local port and its number.
+fn listen() -> io::Result<(TcpListener, u16)> {
+    let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, 0))?;
+    listener.set_nonblocking(true)?;
+    let port = listener.local_addr()?.port();
+    Ok((listener, port))
+}
+
+fn accept(listener: &TcpListener, emulator: &Emulator) -> Result<TcpStream, EmulatorError> {
     let deadline = Instant::now() + START_TIMEOUT;
     loop {
         match listener.accept() {
             Ok((stream, _)) => {
                 stream
                     .set_nonblocking(false)
-                    .map_err(|error| Failure::new(format!("{EMULATOR}: {error}")))?;
+                    .map_err(EmulatorError::SerialLine)?;
                 return Ok(stream);
             }
             Err(error) if error.kind() == ErrorKind::WouldBlock => {}
-            Err(error) => return Err(Failure::new(format!("{EMULATOR}: {error}"))),
+            Err(error) => return Err(EmulatorError::SerialLine(error)),
         }
-        if let Some(status) = emulator.0.ended() {
-            let complaint = emulator.complaint();
-            return Err(Failure::new(format!(
-                "{EMULATOR} ended: {status}{complaint}"
-            )));
+        if let Some(ended) = emulator.ended() {
+            return Err(ended);
         }
         if Instant::now() > deadline {
-            return Err(Failure::new(format!(
-                "{EMULATOR} did not open its serial line within {} s",
-                START_TIMEOUT.as_secs()
-            )));
+            return Err(EmulatorError::TimedOut {
+                seconds: START_TIMEOUT.as_secs(),
+            });
         }
         std::thread::sleep(Duration::from_millis(2));
     }

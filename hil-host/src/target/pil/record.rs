@@ -1,4 +1,4 @@
-//! What a tick of a run was, told to whoever keeps it.
+//! The record of one tick of a run.
 
 use std::fmt;
 

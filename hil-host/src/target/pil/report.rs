@@ -55,7 +55,7 @@ pub struct Mismatch {
 pub struct Pacing {
     /// Ticks answered after the next was due.
     pub missed_deadlines: u64,
-    /// Their share of all ticks (1).
+    /// Their fraction of all ticks (1).
     pub missed_share: f64,
     /// From due to sent.
     pub lateness: Figures,

@@ -1,13 +1,12 @@
 //! A serial device.
 
-use std::io::{ErrorKind, Read, Write};
+use std::io::{self, ErrorKind, Read, Write};
 use std::path::Path;
 use std::time::Duration;
 
 use serialport::SerialPort;
 
-use super::Link;
-use crate::error::{Failure, Outcome};
+use super::{Link, LinkError};
 
 /// A serial device, 8 data bits, no parity, no flow control.
 pub struct Serial {
@@ -20,40 +19,44 @@ impl Serial {
     ///
     /// # Errors
     /// There is no such device, it may not be opened, or it does not know the rate.
-    pub fn open(device: &Path, baud: u32) -> Outcome<Self> {
+    pub fn open(device: &Path, baud: u32) -> Result<Self, LinkError> {
         let name = format!("serial:{}", device.display());
         let port = serialport::new(device.to_string_lossy(), baud)
             .open()
             .map_err(|error| {
-                Failure::new(format!("{name}: cannot open at {baud} bit/s: {error}"))
+                LinkError::line(
+                    &name,
+                    &format!("cannot open at {baud} bit/s: "),
+                    error.into(),
+                )
             })?;
         Ok(Self { port, name })
     }
 
-    fn failure(&self, what: impl std::fmt::Display) -> Failure {
-        Failure::new(format!("{}: {what}", self.name))
+    fn error(&self, action: &str, source: io::Error) -> LinkError {
+        LinkError::line(&self.name, action, source)
     }
 }
 
 impl Link for Serial {
-    fn send(&mut self, bytes: &[u8]) -> Outcome<()> {
+    fn send(&mut self, bytes: &[u8]) -> Result<(), LinkError> {
         // The wait for the answer begins when the bytes have left.
         self.port
             .write_all(bytes)
             .and_then(|()| self.port.flush())
-            .map_err(|error| self.failure(format_args!("cannot send: {error}")))
+            .map_err(|error| self.error("cannot send: ", error))
     }
 
-    fn receive(&mut self, buffer: &mut [u8], timeout: Duration) -> Outcome<usize> {
+    fn receive(&mut self, buffer: &mut [u8], timeout: Duration) -> Result<usize, LinkError> {
         self.port
             .set_timeout(timeout)
-            .map_err(|error| self.failure(error))?;
+            .map_err(|error| self.error("", error.into()))?;
         match self.port.read(buffer) {
-            Ok(0) => Err(self.failure("the device is gone")),
+            Ok(0) => Err(self.error("", io::Error::other("the device is gone"))),
             Ok(count) => Ok(count),
             Err(error) => match error.kind() {
                 ErrorKind::TimedOut | ErrorKind::Interrupted => Ok(0),
-                _ => Err(self.failure(format_args!("cannot receive: {error}"))),
+                _ => Err(self.error("cannot receive: ", error)),
             },
         }
     }

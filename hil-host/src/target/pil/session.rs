@@ -7,8 +7,7 @@ use dashpot_core::{Damper, DamperState};
 
 use super::mirror::Mirror;
 use super::report::Measured;
-use super::{Client, Event, Link, LinkError, Pace, Report, Target, TickRecord};
-use crate::error::{Failure, Outcome};
+use super::{Client, Event, Link, LinkError, Pace, Report, SessionError, Target, TickRecord};
 use crate::realtime::pacing::Clock;
 
 /// Attempts to bring a target back before the run stops.
@@ -25,15 +24,13 @@ impl<L: Link> Session<L> {
     ///
     /// # Errors
     /// No answer, or a target whose forces cannot be compared with this host's.
-    pub fn open(mut client: Client<L>) -> Outcome<Self> {
+    pub fn open(mut client: Client<L>) -> Result<Self, SessionError> {
         let target = target(&mut client)?;
         let version = env!("CARGO_PKG_VERSION");
         if target.core_version != version {
-            return Err(Failure::new(format!(
-                "the target runs dashpot-core {}, this host {version}; bits are the same only \
-                 between the same versions",
-                target.core_version
-            )));
+            return Err(SessionError::Version {
+                target: target.core_version,
+            });
         }
         Ok(Self { client, target })
     }
@@ -50,20 +47,20 @@ impl<L: Link> Session<L> {
 
     /// Drives every damper of the target with `motion` (m), one displacement a tick until it ends, damper i
     /// i ticks behind the first, as wheelsets run over the same track. `dampers` is one for all places or
-    /// one for each; ticks are sent as `pace` has it. `sink` is told every tick once it is done.
+    /// one for each; ticks are sent as `pace` has it. `sink` receives the record of every tick.
     ///
     /// # Errors
     /// Dampers that do not fit the target, `motion`'s, `sink`'s, or a target that is lost and does not
     /// come back.
-    pub fn run<C: Clock>(
+    pub fn run<C: Clock, E: From<SessionError>>(
         &mut self,
         dampers: &[Damper<f32>],
-        mut motion: impl FnMut() -> Outcome<Option<f32>>,
+        mut motion: impl FnMut() -> Result<Option<f32>, E>,
         pace: &mut Pace<C>,
-        mut sink: impl FnMut(&TickRecord<'_>) -> Outcome<()>,
-    ) -> Outcome<Report> {
+        mut sink: impl FnMut(&TickRecord<'_>) -> Result<(), E>,
+    ) -> Result<Report, E> {
         let mut next = motion()?;
-        let start = next.ok_or_else(|| Failure::new("the motion has no tick"))?;
+        let start = next.ok_or(SessionError::NoTick)?;
         let mut host = Mirror::at_rest(dampers, &self.target, start)?;
         let mut displacements_m = VecDeque::from(vec![start; self.target.dampers]);
         let mut measured = Measured::default();
@@ -97,15 +94,15 @@ impl<L: Link> Session<L> {
         })
     }
 
-    /// One tick on both sides, compared and told.
-    fn tick<C: Clock>(
+    /// One tick on both sides: compared, and its record handed to `sink`.
+    fn tick<C: Clock, E: From<SessionError>>(
         &mut self,
         host: &mut Mirror<'_>,
         displacements_m: &[f32],
         pace: &mut Pace<C>,
         measured: &mut Measured,
-        sink: &mut impl FnMut(&TickRecord<'_>) -> Outcome<()>,
-    ) -> Outcome<()> {
+        sink: &mut impl FnMut(&TickRecord<'_>) -> Result<(), E>,
+    ) -> Result<(), E> {
         let tick = host.tick.wrapping_add(1);
         let request = Request::Step {
             tick,
@@ -121,7 +118,7 @@ impl<L: Link> Session<L> {
         measured.round_trip.record_ns(finished.work_ns as f64);
         let all = displacements_m.len();
         if forces.tick != tick || forces.forces_n.len() != all || forces.status.len() != all {
-            return Err(LinkError::Unreadable.into());
+            return Err(SessionError::from(LinkError::Unreadable).into());
         }
         measured.clock(&forces);
         host.step(displacements_m, &forces, measured);
@@ -166,7 +163,7 @@ impl<L: Link> Session<L> {
         host: &Mirror<'_>,
         measured: &mut Measured,
         ask: impl Fn(&mut Client<L>) -> Result<R, LinkError>,
-    ) -> Outcome<R> {
+    ) -> Result<R, SessionError> {
         for _ in 0..MOST_RECOVERIES {
             match ask(&mut self.client) {
                 // Another session may have been opened and have stepped: start over from our state.
@@ -175,14 +172,15 @@ impl<L: Link> Session<L> {
             }
             self.recover(host, measured)?;
         }
-        Err(Failure::new(format!(
-            "after tick {}: the target was lost {MOST_RECOVERIES} times in a row",
-            host.tick
-        )))
+        Err(SessionError::Lost {
+            tick: host.tick,
+            times: MOST_RECOVERIES,
+            when: "in a row",
+        })
     }
 
     /// Gives the target the host's dampers, states and tick.
-    fn recover(&mut self, host: &Mirror<'_>, measured: &mut Measured) -> Outcome<()> {
+    fn recover(&mut self, host: &Mirror<'_>, measured: &mut Measured) -> Result<(), SessionError> {
         measured.recoveries += 1;
         for _ in 0..MOST_RECOVERIES {
             match give(&mut self.client, &self.target, host) {
@@ -190,14 +188,18 @@ impl<L: Link> Session<L> {
                 done => return done.map_err(|error| after(host.tick, error)),
             }
         }
-        Err(Failure::new(format!(
-            "after tick {}: the target was lost {MOST_RECOVERIES} times while it was given its \
-             state again",
-            host.tick
-        )))
+        Err(SessionError::Lost {
+            tick: host.tick,
+            times: MOST_RECOVERIES,
+            when: "while it was given its state again",
+        })
     }
 
-    fn compare_states(&mut self, host: &Mirror<'_>, measured: &mut Measured) -> Outcome<usize> {
+    fn compare_states(
+        &mut self,
+        host: &Mirror<'_>,
+        measured: &mut Measured,
+    ) -> Result<usize, SessionError> {
         let saved = self.insist(host, measured, |client| {
             match client.request(&Request::Save)? {
                 Response::Saved { states, .. } => Ok(states.to_vec()),
@@ -212,7 +214,7 @@ impl<L: Link> Session<L> {
         Ok(differing + missing)
     }
 
-    fn counters(&mut self) -> Outcome<Counters> {
+    fn counters(&mut self) -> Result<Counters, SessionError> {
         let mut tries = 0;
         loop {
             match self.client.request(&Request::Counters) {
@@ -229,8 +231,8 @@ impl<L: Link> Session<L> {
 }
 
 /// The reason a run stopped, with the last tick that both sides confirmed.
-fn after(tick: u32, error: LinkError) -> Failure {
-    Failure::new(format!("after tick {tick}: {error}"))
+fn after(tick: u32, source: LinkError) -> SessionError {
+    SessionError::After { tick, source }
 }
 
 fn target<L: Link>(client: &mut Client<L>) -> Result<Target, LinkError> {
@@ -252,9 +254,7 @@ fn give<L: Link>(
 ) -> Result<(), LinkError> {
     let found = target(client)?;
     if (found.dampers, found.step_s) != (expected.dampers, expected.step_s) {
-        return Err(LinkError::Broken(Failure::new(
-            "another target answers than at the start",
-        )));
+        return Err(LinkError::OtherTarget);
     }
     for ((place, damper), revision) in (0..).zip(&host.dampers).zip(&found.revisions) {
         if *revision != damper.revision() {

@@ -1,13 +1,13 @@
 //! `dashpot link` against a target on the desk that steps by itself.
 
-// Each test binary uses its own share of these.
+// Each test binary uses a part of these.
 #![allow(dead_code)]
 
-use std::process::{Command, Output};
+use std::process::Command;
 use std::time::Duration;
 
-use dashpot_hil::error::Outcome;
-use dashpot_hil::target::pil::{Desk, Link};
+use assert_cmd::assert::{Assert, OutputAssertExt};
+use dashpot_hil::target::pil::{Desk, Link, LinkError};
 use serde_json::Value;
 use tempfile::TempDir;
 
@@ -21,7 +21,7 @@ pub const TICKS: u32 = 20;
 struct Ticking(Desk<3>);
 
 impl Link for Ticking {
-    fn send(&mut self, bytes: &[u8]) -> Outcome<()> {
+    fn send(&mut self, bytes: &[u8]) -> Result<(), LinkError> {
         // A frame ends with a zero.
         for _ in bytes.iter().filter(|byte| **byte == 0) {
             for _ in 0..TICKS {
@@ -31,7 +31,7 @@ impl Link for Ticking {
         self.0.send(bytes)
     }
 
-    fn receive(&mut self, buffer: &mut [u8], timeout: Duration) -> Outcome<usize> {
+    fn receive(&mut self, buffer: &mut [u8], timeout: Duration) -> Result<usize, LinkError> {
         self.0.receive(buffer, timeout)
     }
 }
@@ -59,30 +59,24 @@ impl Rig {
     }
 
     /// What an action wrote and how it ended.
-    pub fn output(&self, action: &[&str]) -> Output {
-        self.command(action).output().unwrap()
+    pub fn output(&self, action: &[&str]) -> Assert {
+        self.command(action).assert()
     }
 
     /// Text of an action that is done.
     pub fn text(&self, action: &[&str]) -> String {
-        let output = self.output(action);
-        assert!(output.status.success(), "{action:?}: {output:?}");
-        text_of(&output)
+        text_of(&self.output(action).success())
     }
 
     /// JSON of an action that is done.
     pub fn json(&self, action: &[&str]) -> Value {
-        let output = self.output(&[action, &["--format", "json"]].concat());
-        assert!(output.status.success(), "{action:?}: {output:?}");
-        json_of(&output.stdout)
+        let arguments = [action, &["--format", "json"]].concat();
+        json_of(&self.output(&arguments).success())
     }
 
     /// Error of an action that ends with `code`, which wrote nothing else.
     pub fn error(&self, action: &[&str], code: i32) -> String {
-        let output = self.output(action);
-        assert_eq!(output.status.code(), Some(code), "{action:?}: {output:?}");
-        assert!(output.stdout.is_empty(), "{action:?}: {output:?}");
-        error_of(&output)
+        error_of(&self.output(action).code(code).stdout(""))
     }
 
     /// Text of a file in the folder.

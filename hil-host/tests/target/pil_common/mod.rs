@@ -1,6 +1,6 @@
 //! A target on the desk, and the motion that drives it.
 
-// Each test binary uses its own share of these.
+// Each test binary uses a part of these.
 #![allow(dead_code)]
 
 use std::collections::VecDeque;
@@ -10,10 +10,9 @@ use std::time::Duration;
 
 use dashpot_core::Damper;
 use dashpot_core::link::{FrameReader, Header, RESPONSE_BYTES, Response, ResponseFrame};
-use dashpot_hil::error::Outcome;
 use dashpot_hil::files::damper;
 use dashpot_hil::study::excitation::Excitation;
-use dashpot_hil::target::pil::{Desk, Link, Patience};
+use dashpot_hil::target::pil::{Desk, Link, LinkError, Patience, SessionError};
 
 /// The desk's waits are not real; a line's end with an answer, which always comes.
 pub const PATIENCE: Patience = Patience {
@@ -42,7 +41,7 @@ pub fn ride(ticks: usize) -> Vec<f32> {
     ride.into_iter().take(ticks).map(|x| x as f32).collect()
 }
 
-pub fn motion(ticks: usize) -> impl FnMut() -> Outcome<Option<f32>> {
+pub fn motion(ticks: usize) -> impl FnMut() -> Result<Option<f32>, SessionError> {
     let mut ride = ride(ticks).into_iter();
     move || Ok(ride.next())
 }
@@ -68,7 +67,7 @@ where
 }
 
 impl<F: FnMut(Header, Response<'_>, &mut ResponseFrame) -> bool> Link for Altered<F> {
-    fn send(&mut self, bytes: &[u8]) -> Outcome<()> {
+    fn send(&mut self, bytes: &[u8]) -> Result<(), LinkError> {
         self.desk.send(bytes)?;
         let mut buffer = [0; 1024];
         let count = self.desk.receive(&mut buffer, Duration::ZERO)?;
@@ -84,7 +83,7 @@ impl<F: FnMut(Header, Response<'_>, &mut ResponseFrame) -> bool> Link for Altere
         Ok(())
     }
 
-    fn receive(&mut self, buffer: &mut [u8], _: Duration) -> Outcome<usize> {
+    fn receive(&mut self, buffer: &mut [u8], _: Duration) -> Result<usize, LinkError> {
         let count = buffer.len().min(self.answers.len());
         for (place, byte) in buffer.iter_mut().zip(self.answers.drain(..count)) {
             *place = byte;

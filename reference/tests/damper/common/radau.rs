@@ -7,7 +7,7 @@ use differential_equations::prelude::*;
 
 type State = [f64; STATES];
 
-/// Tolerance asked for; the method works to `0.1 tol^(2/3)` a step, of an estimate of lower order
+/// The requested tolerance; the method works to `0.1 tol^(2/3)` a step, of an estimate of lower order
 /// than its result.
 const TOLERANCE: f64 = 1e-14;
 
@@ -33,7 +33,7 @@ impl ODE<f64, State> for Equations<'_> {
     }
 }
 
-/// Radau5, set up afresh for each step: kept over several, it goes on with the factorisation of
+/// Radau5, set up afresh for each step: used for several, it goes on with the factorisation of
 /// another step size and so with a false estimate of its error. An event is stepped over, then
 /// located by Newton's method on the length of that step; dense output is not used.
 pub struct Radau {
@@ -64,9 +64,11 @@ impl Radau {
             .atol(TOLERANCE)
             .newton_tol(NEWTON_TOLERANCE)
             .h0(length);
-        solver.init(&equations, 0.0, HORIZON, from).map_err(told)?;
+        solver
+            .init(&equations, 0.0, HORIZON, from)
+            .map_err(solver_error)?;
         loop {
-            solver.step(&equations).map_err(told)?;
+            solver.step(&equations).map_err(solver_error)?;
             if solver.status() != &Status::RejectedStep {
                 self.steps += 1;
                 self.natural_step = solver.h();
@@ -103,10 +105,10 @@ impl Integrator for Radau {
             before = after;
         };
         let natural_step = self.natural_step;
-        // the event met first, judged by the share of the step at which it is met
+        // the event met first, judged by the fraction of the step at which it is met
         let (from, to) = (segment.events(&before), segment.events(&passed));
-        let share = |i: usize| from[i] / (from[i] - to[i]);
-        let mut event = usize::from(to[0] > 0.0 || (to[1] <= 0.0 && share(1) < share(0)));
+        let fraction = |i: usize| from[i] / (from[i] - to[i]);
+        let mut event = usize::from(to[0] > 0.0 || (to[1] <= 0.0 && fraction(1) < fraction(0)));
         let mut tries = 0;
         let (mut low, mut high) = (0.0, length);
         let mut state = passed;
@@ -150,7 +152,7 @@ impl Integrator for Radau {
     }
 }
 
-fn told(error: Error<f64, State>) -> ReferenceError {
+fn solver_error(error: Error<f64, State>) -> ReferenceError {
     ReferenceError::Solver {
         place: String::new(),
         source: format!("Radau: {error:?}").into(),

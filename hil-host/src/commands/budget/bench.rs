@@ -7,7 +7,7 @@ use dashpot_core::{Damper, DamperState, Real};
 use crate::study::excitation::Excitation;
 
 /// Dampers on a ride that ends where it began, a decay, then rest; over and over.
-pub struct Bench<T> {
+pub(super) struct Bench<T> {
     damper: Damper<T>,
     states: Vec<DamperState<T>>,
     motion: Vec<T>,
@@ -16,7 +16,7 @@ pub struct Bench<T> {
 
 impl<T: Real> Bench<T> {
     /// So many of `damper`, built for `step_s` (s).
-    pub fn new(damper: Damper<T>, dampers: u32, step_s: f64) -> Self {
+    pub(super) fn new(damper: Damper<T>, dampers: u32, step_s: f64) -> Self {
         let mut motion = Excitation::Ride.displacements_m(step_s);
         let last = motion.len() - 1;
         let end = motion[last];
@@ -34,7 +34,7 @@ impl<T: Real> Bench<T> {
     }
 
     /// Steps every damper once.
-    pub fn tick(&mut self) {
+    pub(super) fn tick(&mut self) {
         let x = black_box(self.motion[self.tick]);
         for state in &mut self.states {
             black_box(self.damper.step(state, x));

@@ -1,36 +1,39 @@
 //! Damper files and presets: TOML in SI units, unknown keys refused with the nearest one.
 
+mod error;
+
 use std::path::Path;
 
 use dashpot_core::parameters::{
     DamperParameters, Element, Geometry, Hydraulics, Leakage, Limits, Mount, Oil, Orifice, Reduced,
     Relief, Reservoir, Seal, TwoChamber, Valves,
 };
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 
-use crate::error::{Failure, Outcome};
 use crate::files::input;
+pub(crate) use error::FORM;
+pub use error::{ContentError, DamperError};
 
 /// Presets that ship with the program: name and file.
 pub const PRESETS: [(&str, &str); 4] = [
-    ("paper", include_str!("../../../data/dampers/paper.toml")),
+    ("paper", include_str!("../../../../data/dampers/paper.toml")),
     (
         "in-service",
-        include_str!("../../../data/dampers/in-service.toml"),
+        include_str!("../../../../data/dampers/in-service.toml"),
     ),
     (
         "reduced-vertical",
-        include_str!("../../../data/dampers/reduced-vertical.toml"),
+        include_str!("../../../../data/dampers/reduced-vertical.toml"),
     ),
     (
         "reduced-lateral",
-        include_str!("../../../data/dampers/reduced-lateral.toml"),
+        include_str!("../../../../data/dampers/reduced-lateral.toml"),
     ),
 ];
 
 /// The tables of a damper file. One with `[reduced]` has `[mount]` and `[limits]` beside it, one
 /// without has the hydraulics.
-#[derive(Clone, Debug, Serialize, Deserialize)]
+#[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct DamperFile {
     geometry: Option<Geometry>,
@@ -53,15 +56,14 @@ struct DamperFile {
 ///
 /// # Errors
 /// Neither preset nor readable file; text that is no TOML; unknown, missing or misplaced keys; a value
-/// outside its range. A preset that there is not, and an override without which the damper is good, are
-/// wrong use.
+/// outside its range; an override without which the damper is good.
 ///
 /// ```
 /// let damper = dashpot_hil::files::damper::load("paper", &["mount.clearance_m=1e-3".into()])?;
 /// assert_eq!(damper.mount.clearance_m, 1e-3);
-/// # Ok::<(), dashpot_hil::error::Failure>(())
+/// # Ok::<(), dashpot_hil::files::damper::DamperError>(())
 /// ```
-pub fn load(name: &str, overrides: &[String]) -> Outcome<DamperParameters> {
+pub fn load(name: &str, overrides: &[String]) -> Result<DamperParameters, DamperError> {
     let path = Path::new(name);
     match PRESETS.iter().find(|(preset, _)| *preset == name) {
         Some((_, text)) => parse(name, text, overrides),
@@ -73,54 +75,59 @@ pub fn load(name: &str, overrides: &[String]) -> Outcome<DamperParameters> {
     }
 }
 
-fn read(path: &Path) -> Outcome<String> {
-    let names: Vec<&str> = PRESETS.iter().map(|(preset, _)| *preset).collect();
+fn read(path: &Path) -> Result<String, DamperError> {
     if !input::is_file_name(path) && !path.exists() {
-        let near = nearest(&path.to_string_lossy(), names.iter().copied());
-        return Err(Failure::wrong_use(format!(
-            "damper `{}`: no such preset or file; give a TOML file or a preset: {}{near}",
-            path.display(),
-            names.join(", ")
-        )));
+        let names = PRESETS.map(|(preset, _)| preset);
+        let name = path.to_string_lossy().into_owned();
+        return Err(DamperError::Unknown {
+            hint: nearest(&name, names.into_iter()),
+            presets: names.join(", "),
+            name,
+        });
     }
-    input::read_text(path)
+    Ok(input::read_text(path)?)
 }
 
 /// The damper written in `text`; `name` stands for it in errors.
 ///
 /// # Errors
 /// As [`load`].
-pub fn parse(name: &str, text: &str, overrides: &[String]) -> Outcome<DamperParameters> {
-    let in_file = |message: String| Failure::new(format!("{name}: {message}"));
+pub fn parse(
+    name: &str,
+    text: &str,
+    overrides: &[String],
+) -> Result<DamperParameters, DamperError> {
+    let (name, in_text) = (name.to_owned(), |error| ContentError::Text(explain(&error)));
     // Once as typed data for errors that name line and column, once as a tree to override.
-    let mut tree: toml::Table = toml::from_str(text).map_err(|error| in_file(explain(&error)))?;
-    let plain = toml::from_str(text)
-        .map_err(|error| in_file(explain(&error)))
-        .and_then(|file| from_file(file).map_err(|error| in_file(error.to_string())));
+    let mut tree: toml::Table = match toml::from_str(text) {
+        Ok(tree) => tree,
+        Err(error) => {
+            let source = in_text(error);
+            return Err(DamperError::Content { name, source });
+        }
+    };
+    let plain = toml::from_str(text).map_err(in_text).and_then(from_file);
     if overrides.is_empty() {
-        return plain;
+        return plain.map_err(|source| DamperError::Content { name, source });
     }
     for assignment in overrides {
         set(&mut tree, assignment)?;
     }
-    let changed = tree
-        .try_into()
-        .map_err(|error: toml::de::Error| in_file(format!("after --set: {}", explain(&error))))
-        .and_then(|file| from_file(file).map_err(|error| in_file(error.to_string())));
-    match plain {
-        Ok(_) => changed.map_err(Failure::into_wrong_use),
-        // The overrides may complete a file; they are not to blame for what it lacks.
-        Err(_) => changed,
-    }
+    tree.try_into()
+        .map_err(|error| ContentError::Tables(explain(&error)))
+        .and_then(from_file)
+        .map_err(|source| match plain {
+            Ok(_) => DamperError::Overridden { name, source },
+            // The overrides may complete a file; they are not to blame for what it lacks.
+            Err(_) => DamperError::Content { name, source },
+        })
 }
 
 /// Applies `table.key=value`, the value written as in TOML.
-fn set(tree: &mut toml::Table, assignment: &str) -> Outcome<()> {
-    let wrong = |why: String| {
-        Failure::wrong_use(format!(
-            "--set {assignment}: {why}; the form is table.key=value with a TOML value, such as \
-             mount.clearance_m=1e-3"
-        ))
+fn set(tree: &mut toml::Table, assignment: &str) -> Result<(), DamperError> {
+    let wrong = |reason: String| DamperError::Override {
+        assignment: assignment.to_owned(),
+        reason,
     };
     let (path, value) = assignment
         .split_once('=')
@@ -144,7 +151,7 @@ fn set(tree: &mut toml::Table, assignment: &str) -> Outcome<()> {
             .as_table_mut()
             .ok_or_else(|| wrong(format!("`{key}` is not a table")))?;
     }
-    // An integer where the file has a float, or none yet, is meant as a number all the same.
+    // An integer is a number too, whether the file has a float there or nothing.
     let value = match value {
         toml::Value::Integer(number) => toml::Value::Float(number as f64),
         other => other,
@@ -153,7 +160,7 @@ fn set(tree: &mut toml::Table, assignment: &str) -> Outcome<()> {
     Ok(())
 }
 
-fn from_file(file: DamperFile) -> Outcome<DamperParameters> {
+fn from_file(file: DamperFile) -> Result<DamperParameters, ContentError> {
     let element = match file.reduced {
         Some(reduced) => {
             let hydraulic = [
@@ -167,20 +174,13 @@ fn from_file(file: DamperFile) -> Outcome<DamperParameters> {
                 ("two_chamber", file.two_chamber.is_some()),
                 ("oil", file.oil.is_some()),
             ];
-            if let Some((table, _)) = hydraulic.iter().find(|(_, present)| *present) {
-                return Err(Failure::new(format!(
-                    "[{table}] beside [reduced]: a reduced damper has [reduced], [mount] and [limits] only"
-                )));
+            if let Some((table, _)) = hydraulic.into_iter().find(|(_, present)| *present) {
+                return Err(ContentError::BesideReduced { table });
             }
             Element::Reduced(reduced)
         }
         None => {
-            let missing = |table: &str| {
-                Failure::new(format!(
-                    "table [{table}] is missing: a physical damper needs [geometry], [orifice], \
-                     [valves.*], [oil] and [mount]; a reduced one [reduced] and [mount]"
-                ))
-            };
+            let missing = |table| ContentError::Missing { table };
             Element::Physical(Hydraulics {
                 geometry: file.geometry.ok_or_else(|| missing("geometry"))?,
                 orifice: file.orifice.ok_or_else(|| missing("orifice"))?,
@@ -222,40 +222,4 @@ fn nearest<'a>(unknown: &str, known: impl Iterator<Item = &'a str>) -> String {
         .filter(|(likeness, _)| *likeness > 0.7)
         .max_by(|a, b| a.0.total_cmp(&b.0))
         .map_or_else(String::new, |(_, key)| format!("; did you mean `{key}`?"))
-}
-
-/// The TOML text of the damper, every default written out.
-///
-/// # Errors
-/// None for a damper that [`parse`] accepts.
-pub fn to_toml(parameters: &DamperParameters) -> Outcome<String> {
-    let mut file = DamperFile {
-        geometry: None,
-        orifice: None,
-        valves: None,
-        leakage: None,
-        relief: None,
-        reservoir: None,
-        seal: None,
-        two_chamber: None,
-        oil: None,
-        reduced: None,
-        mount: parameters.mount,
-        limits: parameters.limits,
-    };
-    match &parameters.element {
-        Element::Physical(hydraulics) => {
-            file.geometry = Some(hydraulics.geometry);
-            file.orifice = Some(hydraulics.orifice);
-            file.valves = Some(hydraulics.valves.clone());
-            file.leakage = hydraulics.leakage;
-            file.relief = hydraulics.relief;
-            file.reservoir = hydraulics.reservoir;
-            file.seal = hydraulics.seal;
-            file.two_chamber = hydraulics.two_chamber;
-            file.oil = Some(hydraulics.oil);
-        }
-        Element::Reduced(reduced) => file.reduced = Some(*reduced),
-    }
-    toml::to_string_pretty(&file).map_err(|error| Failure::new(error.to_string()))
 }

@@ -6,11 +6,16 @@ use serde::{Deserialize, Serialize};
 /// A status bit of a damper.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub(super) enum StatusBit {
+pub enum StatusBit {
+    /// [`Status::INPUT_HELD`].
     InputHeld,
+    /// [`Status::INPUT_LIMITED`].
     InputLimited,
+    /// [`Status::SATURATED`].
     Saturated,
+    /// [`Status::DAMPER_SWAPPED`].
     DamperSwapped,
+    /// [`Status::CORRUPTED`].
     Corrupted,
 }
 
@@ -32,20 +37,20 @@ const ALL: [(StatusBit, Status, &str); 5] = [
 ];
 
 /// The bits that are set in a status word.
-pub(super) fn of_word(word: u16) -> Vec<StatusBit> {
+pub fn of_word(word: u16) -> Vec<StatusBit> {
     let status = Status::from_bits_truncate(word);
     let set = ALL.iter().filter(|(_, bit, _)| status.contains(*bit));
     set.map(|(name, ..)| *name).collect()
 }
 
 /// The status word with these bits set.
-pub(super) fn to_word(names: &[StatusBit]) -> u16 {
+pub fn to_word(names: &[StatusBit]) -> u16 {
     let set = ALL.iter().filter(|(name, ..)| names.contains(name));
     set.fold(0, |word, (_, bit, _)| word | bit.bits())
 }
 
 /// The bits in words, separated by commas; `none` without any.
-pub(super) fn in_words(names: &[StatusBit]) -> String {
+pub fn in_words(names: &[StatusBit]) -> String {
     let set = ALL.iter().filter(|(name, ..)| names.contains(name));
     let words: Vec<&str> = set.map(|(_, _, word)| *word).collect();
     if words.is_empty() {

@@ -6,26 +6,27 @@ use dashpot_core::DamperState;
 use serde::{Deserialize, Serialize};
 
 use super::status_bits::{self, StatusBit};
-use crate::error::{Failure, Outcome};
-use crate::files::input;
+use super::{FileError, input};
 
 const STATE_BYTES: usize = DamperState::<f32>::BYTES;
 
 /// The states of a bank at a tick.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(super) struct BankState {
-    pub(super) tick: u32,
-    pub(super) places: Vec<PlaceState>,
+pub struct BankState {
+    /// The last tick.
+    pub tick: u32,
+    /// One state for each place, from place 0 on.
+    pub places: Vec<PlaceState>,
 }
 
 /// The state of the damper in a place: [`DamperState::to_bytes`].
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(super) struct PlaceState {
+pub struct PlaceState {
     /// Of the damper that made it.
     #[serde(with = "hexadecimal")]
-    pub(super) revision: u32,
+    pub revision: u32,
     displacement_m: f32,
     stretch_m: f32,
     flow_potential_m2: f32,
@@ -72,7 +73,7 @@ fn words(bytes: [u8; STATE_BYTES]) -> [[u8; 4]; STATE_BYTES / 4] {
 
 impl BankState {
     /// The states in the bytes that a target saved; `None` when one is cut short.
-    pub(super) fn from_bytes(tick: u32, states: &[u8]) -> Option<Self> {
+    pub fn from_bytes(tick: u32, states: &[u8]) -> Option<Self> {
         let (states, rest) = states.as_chunks::<STATE_BYTES>();
         let places = states.iter().copied().map(PlaceState::from_bytes);
         rest.is_empty().then(|| Self {
@@ -82,24 +83,30 @@ impl BankState {
     }
 
     /// The states as a target takes them.
-    pub(super) fn to_bytes(&self) -> Vec<u8> {
+    pub fn to_bytes(&self) -> Vec<u8> {
         self.places.iter().flat_map(PlaceState::to_bytes).collect()
     }
 
     /// The file's text.
-    pub(super) fn to_toml(&self) -> Outcome<String> {
-        let text = toml::to_string(self).map_err(|error| Failure::new(error.to_string()))?;
+    ///
+    /// # Errors
+    /// None: every state can be written as TOML.
+    pub fn to_toml(&self) -> Result<String, toml::ser::Error> {
         Ok(format!(
             "# States of a bank of dampers, one [[places]] for each place from 0 on.\n\
-             # Written by `dashpot link save`, given back by `dashpot link restore`.\n{text}"
+             # Written by `dashpot link save`, given back by `dashpot link restore`.\n{}",
+            toml::to_string(self)?
         ))
     }
 
-    /// Reads the file at `path`.
-    pub(super) fn read(path: &Path) -> Outcome<Self> {
+    /// Reads the file at `path`, `-` being standard input.
+    ///
+    /// # Errors
+    /// The file cannot be read, or its text is not that of a state file.
+    pub fn read(path: &Path) -> Result<Self, FileError> {
         toml::from_str(&input::read_text(path)?).map_err(|error| {
-            let message = error.to_string();
-            Failure::in_file(&input::name(path), message.trim_end())
+            // The parser's message ends with a line break.
+            FileError::in_file(&input::name(path), error.to_string().trim_end())
         })
     }
 }

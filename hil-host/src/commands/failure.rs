@@ -1,0 +1,207 @@
+//! How a command fails: its exit code, and its message in the words of the command line.
+
+use std::fmt;
+
+use dashpot_core::BuildError;
+use dashpot_rail::contact::PairError;
+use dashpot_reference::ReferenceError;
+
+use crate::files::FileError;
+use crate::files::damper::{ContentError, DamperError, FORM};
+use crate::realtime::pacing::RealtimeOption;
+use crate::realtime::timing::span;
+use crate::realtime::{RealtimeError, listed, stopped};
+use crate::report::DrawError;
+use crate::study::StudyError;
+use crate::study::bench_test::{HIGHEST_FREQUENCY_HZ, LARGEST_AMPLITUDE_M};
+use crate::target::export::ExportError;
+use crate::target::pil::{EmulatorError, LinkError, SessionError};
+
+/// A failure with a message that names what failed, where, and what is allowed there.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Failure {
+    kind: Kind,
+    message: String,
+}
+
+/// What a failure means for the command; the exit code follows from it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    /// A file, the system or a result is not as it must be.
+    Failed,
+    /// Something is requested that is not allowed: an option's value, or options together.
+    WrongUse,
+    /// The reader of the output has left: nothing is wrong, and no message is needed.
+    ReaderGone,
+}
+
+/// Result of a command or a part of one.
+pub type Outcome<T> = Result<T, Failure>;
+
+impl Failure {
+    /// A failure with `message`.
+    pub fn new(message: impl Into<String>) -> Self {
+        Self {
+            kind: Kind::Failed,
+            message: message.into(),
+        }
+    }
+
+    /// A request that is not allowed; `message` names the option and what is allowed.
+    pub fn wrong_use(message: impl Into<String>) -> Self {
+        Self {
+            kind: Kind::WrongUse,
+            message: message.into(),
+        }
+    }
+
+    /// What the failure means for the command.
+    pub fn kind(&self) -> Kind {
+        self.kind
+    }
+}
+
+impl fmt::Display for Failure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.message)
+    }
+}
+
+impl std::error::Error for Failure {}
+
+/// Errors whose own words are those of the command line.
+macro_rules! failures {
+    ($($error:ty),*) => {$(
+        impl From<$error> for Failure {
+            fn from(error: $error) -> Self {
+                Self::new(error.to_string())
+            }
+        }
+    )*};
+}
+
+failures!(BuildError, DrawError, ReferenceError, toml::ser::Error);
+
+impl From<FileError> for Failure {
+    fn from(error: FileError) -> Self {
+        let kind = if error.is_broken_pipe() {
+            Kind::ReaderGone
+        } else {
+            Kind::Failed
+        };
+        Self {
+            kind,
+            message: error.to_string(),
+        }
+    }
+}
+
+impl From<DamperError> for Failure {
+    fn from(error: DamperError) -> Self {
+        let message = match &error {
+            DamperError::Override { assignment, reason } => {
+                format!("--set {assignment}: {reason}; the form is {FORM}")
+            }
+            DamperError::Content { name, source } | DamperError::Overridden { name, source } => {
+                match source {
+                    ContentError::Tables(reason) => format!("{name}: after --set: {reason}"),
+                    other => format!("{name}: {other}"),
+                }
+            }
+            other => other.to_string(),
+        };
+        match error {
+            DamperError::Unknown { .. }
+            | DamperError::Override { .. }
+            | DamperError::Overridden { .. } => Self::wrong_use(message),
+            _ => Self::new(message),
+        }
+    }
+}
+
+impl From<StudyError> for Failure {
+    fn from(error: StudyError) -> Self {
+        match error {
+            StudyError::Recording(error) => error.into(),
+            StudyError::Amplitude(amplitude_m) => Self::wrong_use(format!(
+                "--amplitude-m: {amplitude_m}, allowed: above 0 and at most {LARGEST_AMPLITUDE_M} m"
+            )),
+            StudyError::Frequency(frequency_hz) => Self::wrong_use(format!(
+                "--frequency-hz: {frequency_hz}, allowed: above 0 and at most {HIGHEST_FREQUENCY_HZ} Hz"
+            )),
+            StudyError::Step { .. }
+            | StudyError::StepsPerCycle { .. }
+            | StudyError::Velocity { .. } => Self::wrong_use(error.to_string()),
+            _ => Self::new(error.to_string()),
+        }
+    }
+}
+
+impl From<RealtimeError> for Failure {
+    fn from(error: RealtimeError) -> Self {
+        match error {
+            RealtimeError::Step { .. } => Self::wrong_use(error.to_string()),
+            RealtimeError::Core { core, allowed } => Self::wrong_use(format!(
+                "--core {core}: no core this process may use, allowed: {}",
+                listed(&allowed)
+            )),
+            RealtimeError::Refused { option, reason } => Self::new(match option {
+                RealtimeOption::FifoPriority(priority) => format!("--fifo {priority}: {reason}"),
+                RealtimeOption::LockMemory => format!("--lock-memory: {reason}"),
+                RealtimeOption::Core(core) => format!("--core {core}: {reason}"),
+            }),
+            RealtimeError::Stopped(stop) => Self::new(format!(
+                "{}, allowed by --stop-above-ns: {}",
+                stopped(&stop),
+                span(stop.limit_ns as f64)
+            )),
+            RealtimeError::MissedDeadlines { missed, ticks } => Self::new(format!(
+                "{missed} of {ticks} deadlines missed, allowed by --fail-on-miss: none"
+            )),
+        }
+    }
+}
+
+impl From<ExportError> for Failure {
+    fn from(error: ExportError) -> Self {
+        Self::wrong_use(match error {
+            ExportError::Scalar { scalar } => format!(
+                "--scalar {scalar}: the C library is of single precision, allowed with --lang c: f32"
+            ),
+            // The field is called as the option is.
+            name => format!("--{name}"),
+        })
+    }
+}
+
+impl From<LinkError> for Failure {
+    fn from(error: LinkError) -> Self {
+        match error {
+            LinkError::CannotReset => Self::new(format!("{error}; `--link qemu` can")),
+            LinkError::ResetFaults => Self::wrong_use(format!("{error}; `--link qemu` can")),
+            LinkError::Emulator(EmulatorError::NoImage(_)) => {
+                Self::new(format!("{error}, or name one with --link qemu:IMAGE"))
+            }
+            other => Self::new(other.to_string()),
+        }
+    }
+}
+
+impl From<SessionError> for Failure {
+    fn from(error: SessionError) -> Self {
+        match error {
+            SessionError::Link(error) => error.into(),
+            SessionError::Dampers { .. } => Self::wrong_use(format!("--damper: {error}")),
+            other => Self::new(other.to_string()),
+        }
+    }
+}
+
+impl From<PairError> for Failure {
+    fn from(error: PairError) -> Self {
+        match error {
+            PairError::Installation(error) => Self::wrong_use(error.to_string()),
+            _ => Self::new(error.to_string()),
+        }
+    }
+}

@@ -1,0 +1,91 @@
+//! Why a study has no result.
+
+use dashpot_core::BuildError;
+use dashpot_reference::ReferenceError;
+
+use super::bench_test::{HIGHEST_FREQUENCY_HZ, Harmonic, LARGEST_AMPLITUDE_M};
+use crate::files::FileError;
+
+/// Why a study has no result.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum StudyError {
+    /// The recording cannot be used.
+    #[error(transparent)]
+    Recording(#[from] FileError),
+    /// The damper cannot be built.
+    #[error(transparent)]
+    Damper(#[from] BuildError),
+    /// The reference solver failed.
+    #[error(transparent)]
+    Reference(#[from] ReferenceError),
+    /// The amplitude of a harmonic motion (m) is out of its range.
+    #[error("amplitude: {0}, allowed: above 0 and at most {LARGEST_AMPLITUDE_M} m")]
+    Amplitude(f64),
+    /// The frequency of a harmonic motion (Hz) is out of its range.
+    #[error("frequency: {0}, allowed: above 0 and at most {HIGHEST_FREQUENCY_HZ} Hz")]
+    Frequency(f64),
+    /// The step is out of its range.
+    #[error("step: {step_s} s, allowed: {} s", step_range())]
+    Step {
+        /// The step (s).
+        step_s: f64,
+    },
+    /// A cycle has too few or too many steps.
+    #[error(
+        "{steps} steps of {step_s} s a cycle, allowed: 20 to 2e7; choose another step or frequency"
+    )]
+    StepsPerCycle {
+        /// Steps of a cycle.
+        steps: f64,
+        /// The step (s).
+        step_s: f64,
+    },
+    /// The motion is faster than the damper follows.
+    #[error(
+        "the motion reaches {velocity_m_per_s:.3} m/s, allowed: limits.rate_m_per_s = {limit_m_per_s} m/s"
+    )]
+    Velocity {
+        /// Largest velocity of the motion (m/s).
+        velocity_m_per_s: f64,
+        /// The damper's limit (m/s).
+        limit_m_per_s: f64,
+    },
+    /// The force does not become periodic.
+    #[error(
+        "the force does not repeat within {cycles} cycles of {} m at {} Hz",
+        motion.amplitude_m,
+        motion.frequency_hz
+    )]
+    NotPeriodic {
+        /// Cycles run.
+        cycles: usize,
+        /// The motion.
+        motion: Harmonic,
+    },
+    /// Two series of forces have different lengths.
+    #[error("{forces} forces against {references} of the reference")]
+    Lengths {
+        /// Forces of the fixed step.
+        forces: usize,
+        /// Forces of the reference.
+        references: usize,
+    },
+    /// The reference force is zero throughout.
+    #[error(
+        "the reference force is zero throughout: the motion stays within the clearance, there is nothing to compare"
+    )]
+    NoForce,
+    /// A published table in the program is not as it was shipped.
+    #[error("a published table: {0}")]
+    PublishedTable(#[from] csv::Error),
+    /// Table 5 in the program is not as it was shipped.
+    #[error("Table 5: {0}")]
+    Table5(String),
+}
+
+/// The steps that dampers are built for, as text.
+fn step_range() -> String {
+    let range = dashpot_core::parameters::STEP_RANGE_S;
+    format!("{:e} to {:e}", range.start(), range.end())
+}

@@ -1,0 +1,85 @@
+//! The accuracy that the fixed step promises at 1 kHz and at 10 kHz: docs/numerics.md, "What the accuracy promise
+//! covers".
+
+use dashpot_core::DamperParameters;
+use dashpot_reference::deviation::root_mean_square;
+
+use super::Scalar;
+
+/// Fraction of the force limit: a smaller root mean square of the force counts as this in the promised NRMSE.
+pub const LEAST_RMS_FORCE: f64 = 0.01;
+
+/// Largest NRMSE of the fixed step for dampers and motions with a relaxation time of at least so much.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Promise {
+    /// Least relaxation time (s), see [`relaxation_time_s`].
+    pub least_relaxation_time_s: f64,
+    /// Largest NRMSE at 1 kHz, in either scalar (1).
+    pub nrmse_1_khz: f64,
+    /// Largest NRMSE at 10 kHz in `f64` (1).
+    pub nrmse_10_khz_f64: f64,
+    /// Largest NRMSE at 10 kHz in `f32` (1).
+    pub nrmse_10_khz_f32: f64,
+}
+
+/// The promises, the longest relaxation time first; there is no promise below the last.
+pub const PROMISES: [Promise; 2] = [
+    Promise {
+        least_relaxation_time_s: 3e-3,
+        nrmse_1_khz: 1e-3,
+        nrmse_10_khz_f64: 3e-5,
+        nrmse_10_khz_f32: 6e-5,
+    },
+    Promise {
+        least_relaxation_time_s: 1.5e-3,
+        nrmse_1_khz: 3e-3,
+        nrmse_10_khz_f64: 3e-5,
+        nrmse_10_khz_f32: 6e-5,
+    },
+];
+
+impl Promise {
+    /// The promise for a relaxation time (s), where there is one.
+    pub fn of(relaxation_time_s: f64) -> Option<&'static Self> {
+        PROMISES
+            .iter()
+            .find(|promise| relaxation_time_s >= promise.least_relaxation_time_s)
+    }
+
+    /// Largest NRMSE with a step of `step_s` (s) in `scalar`: that at 10 kHz up to 100 us, that at 1 kHz up to 1 ms,
+    /// `None` above.
+    ///
+    /// ```
+    /// use dashpot_hil::study::Scalar;
+    /// use dashpot_hil::study::promise::PROMISES;
+    /// assert_eq!(PROMISES[0].nrmse(1e-4, Scalar::F32), Some(6e-5));
+    /// assert_eq!(PROMISES[0].nrmse(250e-6, Scalar::F32), Some(1e-3));
+    /// assert_eq!(PROMISES[0].nrmse(2e-3, Scalar::F32), None);
+    /// ```
+    pub fn nrmse(&self, step_s: f64, scalar: Scalar) -> Option<f64> {
+        // 1/10000 s may be written in several ways.
+        let is_up_to = |longest_s: f64| step_s <= longest_s * (1.0 + 1e-9);
+        match scalar {
+            Scalar::F64 if is_up_to(1e-4) => Some(self.nrmse_10_khz_f64),
+            Scalar::F32 if is_up_to(1e-4) => Some(self.nrmse_10_khz_f32),
+            _ => is_up_to(1e-3).then_some(self.nrmse_1_khz),
+        }
+    }
+}
+
+/// Relaxation time of a damper on a motion (s): rms force over rms velocity and stiffness of the springs in
+/// series, `F/(v Ke)`. The motion has `displacements_m` (m) at ticks of `step_s` (s), and `forces_n` (N) there.
+pub fn relaxation_time_s(
+    parameters: &DamperParameters,
+    step_s: f64,
+    displacements_m: &[f64],
+    forces_n: &[f64],
+) -> f64 {
+    let velocities = displacements_m.windows(2).map(|x| (x[1] - x[0]) / step_s);
+    let (mount, seats) = (
+        parameters.mount.stiffness_n_per_m,
+        parameters.mount.seat_stiffness_n_per_m,
+    );
+    let compliance_m_per_n = 1.0 / mount + seats.map_or(0.0, |seats| 1.0 / seats);
+    root_mean_square(forces_n.iter().copied()) / root_mean_square(velocities) * compliance_m_per_n
+}

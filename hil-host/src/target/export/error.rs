@@ -1,0 +1,32 @@
+//! Why a damper cannot be exported.
+
+use super::name::{C_LIBRARY_PREFIX, RESERVED_ENDS};
+use crate::study::Scalar;
+
+/// Why a damper cannot be exported; each says what is allowed.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ExportError {
+    /// No name of a constant.
+    #[error("name {name}: no name of a constant, allowed: A to Z first, then A to Z, 0 to 9 and _")]
+    Name {
+        /// The name.
+        name: String,
+    },
+    /// A name that headers of C may define.
+    #[error(
+        "name {name}: the C headers may define it, allowed: not NULL, no start with {C_LIBRARY_PREFIX}, no end \
+         in {}",
+        RESERVED_ENDS.join(", ")
+    )]
+    ReservedName {
+        /// The name.
+        name: String,
+    },
+    /// A scalar that the C library does not have.
+    #[error("scalar {scalar}: the C library is of single precision, allowed for C: f32")]
+    Scalar {
+        /// The scalar.
+        scalar: Scalar,
+    },
+}
