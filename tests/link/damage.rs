@@ -1,10 +1,11 @@
 //! Memory damaged while the tick runs free: it is found, latched, counted, and takes the safe output until the
 //! damper is loaded again.
 
-use crate::common::{Bench, reals};
 use dashpot_core::Status;
 use dashpot_core::integrity::SLICES;
 use dashpot_core::link::{Device, LossOfLink, Refusal, Request, Response, SafeOutput};
+
+use crate::common::{Bench, reals};
 
 /// Flips a bit of the only place in the device that holds these bytes.
 fn flip_a_bit_of(device: &mut Device<2>, bytes: &[u8]) {

@@ -1,11 +1,12 @@
 //! The device: only a valid request, in sequence, moves a state; everything else is counted and answered.
 
-use crate::common::{Bench, SESSION, reals};
 use dashpot_core::DamperState;
 use dashpot_core::link::{
     Header, LossOfLink, PROTOCOL, Parameter, Reals, Refusal, Request, RequestFrame, SafeOutput,
 };
 use proptest::prelude::*;
+
+use crate::common::{Bench, SESSION, reals};
 
 #[test]
 fn steps_give_the_bits_of_the_core() {

@@ -1,9 +1,10 @@
 //! Loading a damper over the link: whole or not at all, in slices, while the others step.
 
-use crate::common::{Bench, built, reals};
 use dashpot::damper;
 use dashpot_core::link::{PROTOCOL, Parameter, Refusal, Request, Response, request_frame};
 use dashpot_core::{Damper, ImageError};
+
+use crate::common::{Bench, built, reals};
 
 #[test]
 fn a_damaged_damper_is_refused_whole() {

@@ -2,9 +2,10 @@
 
 use std::collections::VecDeque;
 
-use crate::common::{Bench, reals};
 use dashpot_core::Status;
 use dashpot_core::link::{Line, LossOfLink, Outputs, Refusal, Request, SafeOutput, request_frame};
+
+use crate::common::{Bench, reals};
 
 #[test]
 fn a_lost_link_ends_in_the_safe_output_until_run() {

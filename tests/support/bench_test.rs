@@ -1,7 +1,8 @@
 //! The bench test: a harmonic motion, and what one settled cycle of it says.
 
-use dashpot_core::{Damper, DamperParameters};
 use std::f64::consts::{PI, TAU};
+
+use dashpot_core::{Damper, DamperParameters};
 
 /// A harmonic motion of the seats.
 #[derive(Clone, Copy, Debug)]

@@ -131,9 +131,10 @@ fn sysroot(rustc: &Path) -> Option<PathBuf> {
 
 #[cfg(test)]
 mod tests {
+    use std::fs;
+
     use super::TargetToolchain;
     use crate::processor::{CORTEX_M4F, CORTEX_M7, CORTEX_M33};
-    use std::fs;
 
     #[test]
     fn a_compiler_is_found_with_the_library_of_the_target_or_with_its_source() {

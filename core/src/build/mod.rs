@@ -7,10 +7,9 @@ mod knots;
 pub(crate) mod root;
 mod span;
 
+use branch::{Branch, Law};
 pub use checked::CheckedParameters;
 pub(crate) use checked::ElementLaws;
-
-use branch::{Branch, Law};
 use span::Stage;
 
 use crate::damper::Damper;

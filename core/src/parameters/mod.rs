@@ -11,21 +11,19 @@ mod range;
 #[cfg(feature = "serde")]
 mod written;
 
+#[cfg(feature = "builder")]
+pub(crate) use hydraulics::circle_area;
 pub use hydraulics::{
     Geometry, GeometryRanges, Hydraulics, Leakage, LeakageRanges, MAX_SHIMS, Orifice,
     OrificeRanges, Relief, ReliefRanges, Reservoir, ReservoirRanges, Seal, SealRanges, TwoChamber,
     TwoChamberRanges, Valve, ValveRanges, Valves,
 };
+#[cfg(feature = "builder")]
+pub(crate) use numbers::Numbers;
 pub use oil::{
     ATMOSPHERIC_PRESSURE_PA, DENSITY_TEMPERATURE_C, Oil, OilColumn, OilColumnRanges, OilRanges,
 };
 pub use range::Range;
-
-#[cfg(feature = "builder")]
-pub(crate) use hydraulics::circle_area;
-#[cfg(feature = "builder")]
-pub(crate) use numbers::Numbers;
-
 use range::{allowed, parameters};
 
 /// Step sizes (s) that a damper can be built for.

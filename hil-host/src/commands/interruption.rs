@@ -10,11 +10,12 @@ use crate::commands::failure::{Failure, Outcome};
 /// The system refuses the handlers or the thread that waits for them.
 #[cfg(unix)]
 pub fn clean_up() -> Outcome<()> {
-    use crate::files::temporary;
-    use crate::target;
     use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
     use signal_hook::iterator::Signals;
     use signal_hook::low_level::emulate_default_handler;
+
+    use crate::files::temporary;
+    use crate::target;
 
     /// Cleaning up takes little of it (bytes).
     const STACK: usize = 64 * 1024;

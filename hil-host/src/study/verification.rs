@@ -1,13 +1,13 @@
 //! The fixed step against the reference solver.
 
 use dashpot_core::{DamperParameters, Real};
+use dashpot_reference::damper::Reference;
+use dashpot_reference::deviation::{errors, largest_magnitude, nrmse, root_mean_square};
 use serde::Serialize;
 
 use super::StudyError;
 use super::replay::{Tick, rounding_s};
 use crate::files::recording::Sample;
-use dashpot_reference::damper::Reference;
-use dashpot_reference::deviation::{errors, largest_magnitude, nrmse, root_mean_square};
 
 /// Deviation of one fixed step from the reference on one motion.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]

@@ -4,13 +4,12 @@ use std::cell::Cell;
 use std::path::Path;
 
 use assert_cmd::assert::Assert;
-
-use crate::common::{dashpot, error_of, json_of, text_of};
-
 use dashpot_hil::commands::failure::Failure;
 use dashpot_hil::realtime::RealtimeError;
 use dashpot_hil::realtime::budget::{Length, Run, free, paced};
 use dashpot_hil::realtime::pacing::{Clock, Pacer};
+
+use crate::common::{dashpot, error_of, json_of, text_of};
 
 /// Time moves by the work of the ticks and by sleeping.
 struct SimulatedClock<'a>(&'a Cell<u64>);

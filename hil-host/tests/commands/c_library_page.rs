@@ -6,9 +6,10 @@ use std::os::unix::fs::PermissionsExt;
 use std::path::Path;
 use std::process::Command;
 
-use crate::common::program;
 use xtask::run::repository;
 use xtask::tools::{ARM_GCC, ARM_LIBC, CMAKE, GCC, GXX, MAKE, PKG_CONFIG, QEMU, have, have_target};
+
+use crate::common::program;
 
 /// Fenced blocks: language, and content after the last line of the text that names a file.
 struct Block<'a> {

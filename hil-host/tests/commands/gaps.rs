@@ -3,8 +3,9 @@
 use std::io::Cursor;
 use std::path::Path;
 
-use crate::common::{dashpot, json_of, text_of};
 use dashpot_hil::files::recording::{Gaps, Recording};
+
+use crate::common::{dashpot, json_of, text_of};
 
 fn gaps_at(times_s: &[f64]) -> Gaps {
     let mut text = String::from("time_s,displacement_m\n");

@@ -4,12 +4,11 @@ use std::f64::consts::{PI, TAU};
 use std::path::Path;
 
 use assert_cmd::assert::Assert;
-
-use crate::common::{dashpot, json_of, text_of};
-
 use dashpot_hil::files::damper;
 use dashpot_hil::study::bench_test::{Harmonic, run_until_periodic};
 use dashpot_reference::damper::Reference;
+
+use crate::common::{dashpot, json_of, text_of};
 
 fn rig(arguments: &[&str]) -> Assert {
     dashpot(&[&["rig"], arguments].concat(), Path::new("."))

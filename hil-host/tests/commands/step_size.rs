@@ -1,9 +1,10 @@
 //! `--step-us` takes fractions, in every command that has it.
 
-use crate::common::{dashpot, json_of};
 use dashpot_core::Damper;
 use dashpot_hil::commands::step_size::StepSize;
 use dashpot_hil::files::damper;
+
+use crate::common::{dashpot, json_of};
 
 const RAMP: &str = "time_s,displacement_m\n0,0\n0.001,0.001\n";
 

@@ -4,13 +4,13 @@ use std::io::Cursor;
 use std::path::Path;
 
 use assert_cmd::assert::Assert;
-use predicates::str::contains;
-
-use crate::common::{dashpot, error_of, json_of, text_of};
 use dashpot_hil::files::damper;
 use dashpot_hil::files::recording::Recording;
 use dashpot_hil::study::replay::TickGrid;
 use dashpot_hil::study::verification::{reference_forces, reference_forces_on_recording};
+use predicates::str::contains;
+
+use crate::common::{dashpot, error_of, json_of, text_of};
 
 /// 5 mm at 1.4 Hz, sampled at the times (s).
 fn sine(times_s: impl Iterator<Item = f64>) -> String {

@@ -1,10 +1,11 @@
 //! `dashpot link`: a target on the desk asked, changed and driven by hand.
 
+use predicates::str::contains;
+use serde_json::json;
+
 use crate::common::{dashpot, error_of};
 use crate::link_common::{Rig, TICKS};
 use crate::pil_common::built;
-use predicates::str::contains;
-use serde_json::json;
 
 #[test]
 fn hello_reports_who_answers() {

@@ -1,10 +1,11 @@
 //! `dashpot link load`: dampers and images into places.
 
-use crate::link_common::Rig;
-use crate::pil_common::built;
 use dashpot_core::Damper;
 use dashpot_hil::files::damper;
 use serde_json::json;
+
+use crate::link_common::Rig;
+use crate::pil_common::built;
 
 #[test]
 fn a_damper_goes_where_it_is_not_yet() {

@@ -2,9 +2,10 @@
 
 use std::process::{Child, Stdio};
 
+use serde_json::{Value, json};
+
 use crate::common::{error_of, files_in, text_of};
 use crate::link_common::{Rig, TICKS};
-use serde_json::{Value, json};
 
 fn running() -> Rig {
     let rig = Rig::new();

@@ -1,10 +1,10 @@
 //! `dashpot link save` and `restore`: the states of a bank in a file.
 
 use assert_cmd::assert::OutputAssertExt;
+use serde_json::json;
 
 use crate::common::files_in;
 use crate::link_common::Rig;
-use serde_json::json;
 
 /// A bank that was moved and stopped.
 fn moved() -> Rig {

@@ -1,11 +1,12 @@
 //! A damper of its own in each place of the target.
 
-use crate::pil_common::{PATIENCE, built, desk, motion, ride};
 use dashpot_core::Damper;
 use dashpot_hil::commands::failure::{Failure, Kind};
 use dashpot_hil::target::pil::{
     Client, Desk, FaultRates, FaultyLink, Link, Pace, Report, Session, SessionError,
 };
+
+use crate::pil_common::{PATIENCE, built, desk, motion, ride};
 
 /// Runs `dampers` and keeps the forces of the target (N), tick by tick.
 fn forces(

@@ -4,10 +4,11 @@ use std::cell::RefCell;
 use std::rc::Rc;
 use std::time::{Duration, Instant};
 
-use crate::pil_common::{PATIENCE, desk};
 use dashpot_core::link::{Refusal, Request};
 use dashpot_core::{Damper, ImageError};
 use dashpot_hil::target::pil::{Client, Desk, Link, LinkError, Patience};
+
+use crate::pil_common::{PATIENCE, desk};
 
 /// Nobody: tells how long it was to wait since it was made.
 struct Nobody(Instant, Rc<RefCell<Vec<Duration>>>);

@@ -3,12 +3,12 @@
 use std::path::Path;
 
 use assert_cmd::assert::Assert;
+use dashpot_core::link::Response;
+use dashpot_hil::target::pil::Link;
 use predicates::str::contains;
 
 use crate::common::{dashpot, files_in, json_beside, json_of, text_of};
 use crate::pil_common::{altered, desk, serve_tcp};
-use dashpot_core::link::Response;
-use dashpot_hil::target::pil::Link;
 
 /// Half a second to and fro with a gap at the end: 601 ticks.
 const TICKS: usize = 601;

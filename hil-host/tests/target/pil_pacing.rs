@@ -4,10 +4,11 @@ use std::cell::Cell;
 use std::rc::Rc;
 use std::time::Duration;
 
-use crate::pil_common::{PATIENCE, built, desk, motion};
 use dashpot_core::link::{FrameReader, Header, REQUEST_BYTES, Request};
 use dashpot_hil::realtime::pacing::{Clock, Pacer};
 use dashpot_hil::target::pil::{Client, Desk, Event, Link, LinkError, Pace, Report, Session};
+
+use crate::pil_common::{PATIENCE, built, desk, motion};
 
 /// Time moves by sleeping and by hand.
 #[derive(Clone, Default)]

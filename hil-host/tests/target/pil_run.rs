@@ -2,7 +2,6 @@
 
 use std::time::Duration;
 
-use crate::pil_common::{PATIENCE, altered, built, desk, motion, serve_tcp};
 use dashpot_core::Status;
 use dashpot_core::link::{
     FrameReader, Header, PROTOCOL, REQUEST_BYTES, Refusal, Request, Response, ResponseFrame,
@@ -13,6 +12,8 @@ use dashpot_hil::target::pil::{
 };
 #[cfg(all(unix, feature = "serial"))]
 use {crate::pil_common::serve, dashpot_hil::target::pil::Serial, std::path::Path};
+
+use crate::pil_common::{PATIENCE, altered, built, desk, motion, serve_tcp};
 
 fn drive(rates: &str, seed: u64) -> (Report, FaultCounts) {
     let rates: FaultRates = rates.parse().unwrap();

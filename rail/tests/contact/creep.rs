@@ -1,8 +1,9 @@
 //! Creep laws against exact theory and linear theory, and what holds for every law.
 
-use crate::common::{contact, laws};
 use dashpot_rail::creep::{CreepForces, Creepage, Friction, LoadedContact, linear_forces};
 use proptest::prelude::*;
+
+use crate::common::{contact, laws};
 
 const CURVE: &str = include_str!("../../data/creep_curve.csv");
 

@@ -2,8 +2,9 @@
 
 use std::f64::consts::PI;
 
-use crate::common::contact;
 use dashpot_rail::creep::{CreepForces, CreepLaw, Creepage, Fastsim, LoadedContact};
+
+use crate::common::contact;
 
 /// Force of Kalker's simplified theory without spin, strips integrated in closed form.
 fn simplified(contact: &LoadedContact, creepage: f64, c: f64) -> f64 {

@@ -5,9 +5,10 @@
 use std::fmt::Write;
 use std::path::Path;
 
-use crate::common::{laws, tables};
 use dashpot_rail::contact::WheelPose;
 use dashpot_rail::creep::{CreepLaw, Creepage, Fastsim, KalkerTable, LoadedContact, linear_forces};
+
+use crate::common::{laws, tables};
 
 const BEGIN: &str = "<!-- measured: begin -->";
 const END: &str = "<!-- measured: end -->";

@@ -1,9 +1,10 @@
 //! What the forces on a wheelset keep everywhere: energy, mirror image, finite numbers, a status.
 
-use crate::common::{LEVEL, at_height_under_load, polach, rolling};
 use dashpot_rail::contact::{Motion, RailDisplacement, Status, WheelsetContact};
 use dashpot_rail::creep::CreepLaw;
 use proptest::prelude::*;
+
+use crate::common::{LEVEL, at_height_under_load, polach, rolling};
 
 #[test]
 fn flange_climbing_ends_past_the_tip_with_a_status() {

@@ -1,8 +1,9 @@
 //! Forces on a wheelset: statics, steering, small creepages, continuity, direction, law against law.
 
-use crate::common::{LEVEL, at_height_under_load, polach, rolling, tables};
 use dashpot_rail::contact::{Hertz, Motion, Status, Steel, WheelsetContact, WheelsetForces};
 use dashpot_rail::creep::{Fastsim, Friction, KalkerTable, ShenHedrickElkins};
+
+use crate::common::{LEVEL, at_height_under_load, polach, rolling, tables};
 
 #[test]
 fn a_centred_wheelset_stands_level_on_hertz_s_penetration() {

@@ -20,13 +20,12 @@ use std::rc::Rc;
 
 use dashpot_core::DamperParameters;
 
+pub use self::motion::Statistics;
 use self::motion::{Mode, Motion, Piece};
 use self::segment::Scales;
+pub use self::segment::{Arrival, Integrator, STATES, Segment};
 use self::side::Side;
 use crate::error::ReferenceError;
-
-pub use self::motion::Statistics;
-pub use self::segment::{Arrival, Integrator, STATES, Segment};
 
 /// Reference solver of one damper.
 pub struct Reference {

@@ -2,11 +2,12 @@
 
 use std::time::Instant;
 
-use crate::common::radau::Radau;
-use crate::common::{dampers, motions};
 use dashpot_core::DamperParameters;
 use dashpot_reference::damper::Reference;
 use dashpot_reference::deviation::nrmse;
+
+use crate::common::radau::Radau;
+use crate::common::{dampers, motions};
 
 /// Largest normalised difference allowed between ESDIRK34 and Radau5; 5.8e-8 is the largest seen.
 const AGREEMENT: f64 = 1e-6;

@@ -2,11 +2,12 @@
 
 use std::f64::consts::PI;
 
-use crate::common::{dampers, motions};
 use dashpot_core::DamperParameters;
 use dashpot_core::parameters::{Element, Hydraulics, TwoChamber};
 use dashpot_reference::damper::Reference;
 use dashpot_reference::deviation::nrmse;
+
+use crate::common::{dampers, motions};
 
 fn hydraulics(parameters: &mut DamperParameters) -> &mut Hydraulics {
     match &mut parameters.element {

@@ -1,12 +1,13 @@
 //! Hard motions: noise, jumps, near rest, stiff and soft chains. The second solver must agree and
 //! no energy may come out.
 
-use crate::common::motions::Motion;
-use crate::common::radau::Radau;
-use crate::common::{dampers, motions};
 use dashpot_core::DamperParameters;
 use dashpot_reference::damper::Reference;
 use dashpot_reference::deviation::nrmse;
+
+use crate::common::motions::Motion;
+use crate::common::radau::Radau;
+use crate::common::{dampers, motions};
 
 /// Deviates in [0, 1) from a fixed sequence.
 struct Sequence(u64);

@@ -15,13 +15,12 @@
 mod header;
 mod loading;
 
+use header::{Header, VERSION};
 pub use loading::Loading;
-
 use zerocopy::IntoBytes;
 
 use super::checksum::crc_32;
 use crate::damper::Damper;
-use header::{Header, VERSION};
 
 /// Bytes of the CRC-32.
 const CHECK_BYTES: usize = 4;

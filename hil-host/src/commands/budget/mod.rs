@@ -7,7 +7,9 @@ use std::ops::RangeInclusive;
 use std::path::Path;
 use std::time::SystemTime;
 
+use bench::Bench;
 use dashpot_core::{Damper, Real};
+use report::{Report, Setting, print};
 
 use super::{DamperArguments, Format, RealtimeArguments, print_report};
 use crate::commands::failure::Outcome;
@@ -15,8 +17,6 @@ use crate::realtime::budget::{Length, free, paced};
 use crate::realtime::pacing::{MonotonicClock, Pacer, RATE_RANGE_HZ, overhead_ns};
 use crate::realtime::timing::Machine;
 use crate::study::Scalar;
-use bench::Bench;
-use report::{Report, Setting, print};
 
 /// Time per step on this host: histogram, percentiles, worst case, missed deadlines.
 ///

@@ -5,17 +5,18 @@ mod report;
 
 use std::path::{Path, PathBuf};
 
-use super::{Format, print_report, streams};
-use crate::commands::failure::{Failure, Outcome};
-use crate::files::input;
-use crate::files::output::write_folder;
-use crate::files::profile;
 use dashpot_rail::contact::{Installation, Pair, RigidContact};
 use dashpot_rail::indices::RollingRadiusDifference;
 use dashpot_rail::profile::measured;
 use dashpot_rail::profile::{Body, Profile};
 use dashpot_rail::profile::{s1002, uic60};
 use report::{print, report};
+
+use super::{Format, print_report, streams};
+use crate::commands::failure::{Failure, Outcome};
+use crate::files::input;
+use crate::files::output::write_folder;
+use crate::files::profile;
 
 /// Contact geometry of a wheelset on a track: contact points, rolling radius, equivalent conicity.
 #[derive(Debug, Clone, clap::Args)]

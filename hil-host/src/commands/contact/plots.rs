@@ -1,5 +1,7 @@
 //! Plots of a pair: contact points, rolling radius and angle, conicity; SVG.
 
+use dashpot_rail::contact::{Pair, RigidContact};
+use dashpot_rail::indices::RollingRadiusDifference;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
@@ -7,8 +9,6 @@ use crate::report::DrawError;
 use crate::report::plot::style::{
     BLUE_LINE, FINE, INK, LINE, RED_LINE, axes, draw, extent, failed, letters,
 };
-use dashpot_rail::contact::{Pair, RigidContact};
-use dashpot_rail::indices::RollingRadiusDifference;
 
 /// Wheel over rail with lines between the points that touch at each lateral shift in `contacts`.
 ///

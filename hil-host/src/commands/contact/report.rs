@@ -2,10 +2,9 @@
 
 use std::io::{self, Write};
 
-use serde::Serialize;
-
 use dashpot_rail::contact::{Pair, RigidContact};
 use dashpot_rail::indices::RollingRadiusDifference;
+use serde::Serialize;
 
 #[derive(Serialize)]
 struct Conicity {

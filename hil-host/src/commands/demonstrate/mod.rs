@@ -10,12 +10,12 @@ mod results;
 use std::io::{self, Write};
 use std::path::PathBuf;
 
+use results::Accuracy;
 use serde::Serialize;
 
 use super::{Format, print_report_beside, progress};
 use crate::commands::failure::Outcome;
 use crate::files::output::{self, write_bytes};
-use results::Accuracy;
 
 /// The demonstration: two presets on a made ride, accuracy, cost, and a page that shows them.
 #[derive(Debug, Clone, clap::Args)]

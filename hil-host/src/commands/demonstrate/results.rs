@@ -4,14 +4,13 @@ use dashpot_core::DamperParameters;
 use dashpot_core::characteristic::Characteristic;
 use serde::Serialize;
 
+use super::cost::median_ns_per_step;
 use crate::commands::failure::Outcome;
 use crate::files::damper;
 use crate::study::Scalar;
 use crate::study::bench_test::{self, Cycle, Harmonic, Indices};
 use crate::study::promise::{Promise, relaxation_time_s};
 use crate::study::verification::{deviation, fixed_step_forces, reference_forces};
-
-use super::cost::median_ns_per_step;
 
 /// Presets shown: the published equations as they stand, and the same damper in service.
 const DAMPERS: [&str; 2] = ["paper", "in-service"];

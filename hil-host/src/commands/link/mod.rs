@@ -12,18 +12,18 @@ mod watch;
 
 use std::io::{self, Write};
 
+use change::{LossOfLinkArguments, SetArguments};
+use drive::DisplacementArguments;
+use load::LoadArguments;
+use saved::{RestoreArguments, SaveArguments};
 use serde::Serialize;
+use telemetry::TelemetryArguments;
+use watch::WatchArguments;
 
 use super::arguments::Format;
 use super::line::LineArguments;
 use super::print::print_report;
 use crate::commands::failure::Outcome;
-use change::{LossOfLinkArguments, SetArguments};
-use drive::DisplacementArguments;
-use load::LoadArguments;
-use saved::{RestoreArguments, SaveArguments};
-use telemetry::TelemetryArguments;
-use watch::WatchArguments;
 
 /// Ask a target by hand: who it is, what it holds and noticed; load, change, run and watch it.
 #[derive(Debug, Clone, clap::Args)]

@@ -10,6 +10,9 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use dashpot_core::{Damper, DamperParameters};
+use history::History;
+use report::{Found, print};
+use rows::Rows;
 
 use super::arguments::damper_help;
 use super::line::LineArguments;
@@ -23,9 +26,6 @@ use crate::files::recording::Recording;
 use crate::realtime::pacing::Pacer;
 use crate::study::replay::TickGrid;
 use crate::target::pil::{Client, FaultRates, FaultyLink, Link, Pace, Session};
-use history::History;
-use report::{Found, print};
-use rows::Rows;
 
 /// Drive dampers on a target and compare every force with this host's, bit for bit.
 #[derive(Debug, Clone, clap::Args)]

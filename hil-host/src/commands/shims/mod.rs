@@ -7,12 +7,12 @@ use std::path::PathBuf;
 
 use dashpot_core::characteristic::Characteristic;
 use dashpot_core::parameters::Element;
+use report::{Report, ValveReport, print, valve_report};
 
 use super::{DamperArguments, Format, print_report};
 use crate::commands::failure::{Failure, Outcome};
 use crate::files::damper;
 use crate::study::shim_valves::{VALVE_LOCATIONS, erratum};
-use report::{Report, ValveReport, print, valve_report};
 
 /// Shim packs: Cw over radius, equivalent thickness, lift under pressure by theory, as published and as used, flow.
 #[derive(Debug, Clone, clap::Args)]

@@ -8,11 +8,11 @@ use dashpot_core::parameters::{
     DamperParameters, Element, Geometry, Hydraulics, Leakage, Limits, Mount, Oil, Orifice, Reduced,
     Relief, Reservoir, Seal, TwoChamber, Valves,
 };
+pub(crate) use error::FORM;
+pub use error::{ContentError, DamperError};
 use serde::Deserialize;
 
 use crate::files::input;
-pub(crate) use error::FORM;
-pub use error::{ContentError, DamperError};
 
 /// Presets that ship with the program: name and file.
 pub const PRESETS: [(&str, &str); 4] = [

@@ -9,14 +9,14 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use csv::{ByteRecord, Reader, ReaderBuilder};
-
-use crate::files::{FileError, input};
 pub(crate) use error::MOST_TICKS;
 pub use error::RecordingError;
 use gaps::Intervals;
 pub use gaps::{GAP_IN_MEDIANS, Gap, Gaps};
 use header::COLUMNS;
 use line_ends::LineEnds;
+
+use crate::files::{FileError, input};
 
 /// One row of a recording.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -5,7 +5,6 @@ mod paced;
 
 pub use free::free;
 pub use paced::paced;
-
 use serde::Serialize;
 
 use crate::realtime::RealtimeError;

@@ -3,10 +3,10 @@
 mod clock;
 mod realtime;
 
+use std::ops::RangeInclusive;
+
 pub use clock::{Clock, MonotonicClock, overhead_ns};
 pub use realtime::{RealtimeOption, RealtimeOptions};
-
-use std::ops::RangeInclusive;
 
 use crate::realtime::RealtimeError;
 use crate::realtime::timing::Distribution;

@@ -5,13 +5,11 @@ mod machine;
 mod text;
 
 pub use bins::Bin;
-pub use machine::Machine;
-pub use text::{optional_span, span};
-
-use hdrhistogram::Histogram;
-use serde::Serialize;
-
 use bins::Bins;
+use hdrhistogram::Histogram;
+pub use machine::Machine;
+use serde::Serialize;
+pub use text::{optional_span, span};
 
 /// Picoseconds in a nanosecond: the unit of the histogram, for means of batches.
 const UNITS: f64 = 1e3;

@@ -4,7 +4,6 @@
 mod figure;
 
 pub(crate) use figure::{Figure, panel};
-
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use crate::report::DrawError;

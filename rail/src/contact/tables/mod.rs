@@ -3,16 +3,16 @@
 mod axis;
 mod patch;
 
+use axis::AxisReader;
+pub use axis::{Axis, Grid};
+use patch::NUMBERS;
+pub use patch::{MIN_CURVATURE_PER_M, TabulatedPatch};
+
 use super::hertz::Steel;
 use super::pair::Pair;
 use super::patches::{Patches, REGULARIZATION_M};
 use super::silhouette::{SilhouettePoint, WheelPose};
 use crate::creep::{KalkerError, KalkerTable};
-pub use axis::{Axis, Grid};
-pub use patch::{MIN_CURVATURE_PER_M, TabulatedPatch};
-
-use axis::AxisReader;
-use patch::NUMBERS;
 
 /// Greatest number of nodes of the tables: 96 bytes each, a gigabyte in all.
 pub const MAX_NODES: usize = 10_000_000;

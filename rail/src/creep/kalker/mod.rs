@@ -4,9 +4,10 @@ mod table;
 
 use std::f64::consts::PI;
 
-use crate::math::spline::Spline;
 pub use table::KalkerError;
 use table::{COLUMNS, Row, rows};
+
+use crate::math::spline::Spline;
 
 /// Kalker's coefficients of one contact, dimensionless.
 #[derive(Debug, Clone, Copy, PartialEq)]

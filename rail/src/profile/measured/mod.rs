@@ -3,8 +3,9 @@
 mod check;
 mod error;
 
-use super::{Body, Profile};
 pub use error::ProfileError;
+
+use super::{Body, Profile};
 
 /// Smallest number of points of a usable profile: one each 2 mm over a rail head.
 pub const MIN_POINTS: usize = 30;
