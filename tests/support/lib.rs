@@ -19,5 +19,6 @@ use dashpot_hil::files::damper;
 /// A preset of the product with overrides, which must be valid.
 pub fn damper(name: &str, overrides: &[&str]) -> DamperParameters {
     let overrides: Vec<String> = overrides.iter().map(|&text| text.to_owned()).collect();
-    damper::load(name, &overrides).expect("a preset with valid overrides")
+    let checked = damper::load(name, &overrides).expect("a preset with valid overrides");
+    (*checked).clone()
 }

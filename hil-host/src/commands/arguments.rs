@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use dashpot_core::DamperParameters;
+use dashpot_core::CheckedParameters;
 
 use super::failure::{Failure, Outcome};
 use super::streams;
@@ -44,7 +44,7 @@ impl DamperArguments {
     ///
     /// # Errors
     /// As [`damper::load`].
-    pub fn load(&self) -> Outcome<DamperParameters> {
+    pub fn load(&self) -> Outcome<CheckedParameters> {
         Ok(damper::load(&self.damper, &self.overrides)?)
     }
 

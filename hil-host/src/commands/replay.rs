@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 use std::path::PathBuf;
 
-use dashpot_core::{DamperParameters, Real};
+use dashpot_core::{CheckedParameters, Real};
 use serde::Serialize;
 
 use super::gap_report::write_gaps;
@@ -140,7 +140,7 @@ pub fn run(arguments: &ReplayArguments) -> Outcome<()> {
 }
 
 fn write<T: Real + Serialize>(
-    parameters: &DamperParameters,
+    parameters: &CheckedParameters,
     arguments: &ReplayArguments,
     pacer: Option<&mut Pacer>,
 ) -> Outcome<(Summary, Gaps)> {

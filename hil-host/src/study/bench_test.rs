@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use dashpot_core::parameters::STEP_RANGE_S;
-use dashpot_core::{DamperParameters, Status};
+use dashpot_core::{CheckedParameters, Status};
 use serde::Serialize;
 
 use super::StudyError;
@@ -100,7 +100,7 @@ pub struct Cycle {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn run_until_periodic(
-    parameters: &DamperParameters,
+    parameters: &CheckedParameters,
     motion: Harmonic,
     step_s: f64,
 ) -> Result<Cycle, StudyError> {

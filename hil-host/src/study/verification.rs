@@ -1,6 +1,6 @@
 //! The fixed step against the reference solver.
 
-use dashpot_core::{DamperParameters, Real};
+use dashpot_core::{CheckedParameters, Real};
 use dashpot_reference::damper::Reference;
 use dashpot_reference::deviation::{errors, largest_magnitude, nrmse, root_mean_square};
 use serde::Serialize;
@@ -41,7 +41,7 @@ pub struct FixedStep {
 /// # Errors
 /// Parameters that cannot be built.
 pub fn fixed_step_forces<T: Real>(
-    parameters: &DamperParameters,
+    parameters: &CheckedParameters,
     step_s: f64,
     displacements_m: &[f64],
 ) -> Result<FixedStep, StudyError> {
@@ -63,7 +63,7 @@ pub fn fixed_step_forces<T: Real>(
 /// # Errors
 /// What the reference solver reports.
 pub fn reference_forces(
-    parameters: &DamperParameters,
+    parameters: &CheckedParameters,
     step_s: f64,
     displacements_m: &[f64],
 ) -> Result<Vec<f64>, StudyError> {
@@ -81,7 +81,7 @@ pub fn reference_forces(
 /// # Errors
 /// What the reference solver reports.
 pub fn reference_forces_on_recording(
-    parameters: &DamperParameters,
+    parameters: &CheckedParameters,
     step_s: f64,
     samples: &[Sample],
     ticks: &[Tick],

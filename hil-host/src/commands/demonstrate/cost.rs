@@ -3,7 +3,7 @@
 use std::hint::black_box;
 use std::time::Instant;
 
-use dashpot_core::{DamperParameters, Real};
+use dashpot_core::{CheckedParameters, Real};
 
 use crate::commands::failure::Outcome;
 use crate::realtime::timing::Distribution;
@@ -18,7 +18,7 @@ const STEPS: usize = 200_000;
 /// # Errors
 /// Parameters that cannot be built.
 pub(super) fn median_ns_per_step<T: Real>(
-    parameters: &DamperParameters,
+    parameters: &CheckedParameters,
     step_s: f64,
     displacements_m: &[f64],
 ) -> Outcome<f64> {

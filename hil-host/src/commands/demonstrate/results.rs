@@ -1,6 +1,6 @@
 //! What the demonstration shows: two presets on the shipped made ride, fixed step against reference, bench test, cost.
 
-use dashpot_core::DamperParameters;
+use dashpot_core::CheckedParameters;
 use dashpot_core::characteristic::Characteristic;
 use serde::Serialize;
 
@@ -61,7 +61,7 @@ pub(super) struct Ride {
 /// A preset on the bench.
 pub(super) struct Bench {
     pub(super) damper: &'static str,
-    pub(super) parameters: DamperParameters,
+    pub(super) parameters: CheckedParameters,
     pub(super) characteristic: Characteristic,
     pub(super) loops: Vec<Cycle>,
     pub(super) table_5: Indices,
@@ -113,7 +113,7 @@ pub fn run(mut report: impl FnMut(String, u64)) -> Outcome<Demonstration> {
 
 impl Demonstration {
     /// Runs the shipped recording at one step size, in both precisions.
-    fn ride(&mut self, name: &'static str, damper: &DamperParameters, step_s: f64) -> Outcome<()> {
+    fn ride(&mut self, name: &'static str, damper: &CheckedParameters, step_s: f64) -> Outcome<()> {
         let displacements_m = super::recording::at_ticks(step_s)?;
         let reference_n = reference_forces(damper, step_s, &displacements_m)?;
         let relaxation_s = relaxation_time_s(damper, step_s, &displacements_m, &reference_n);
@@ -153,7 +153,7 @@ impl Demonstration {
     }
 }
 
-fn bench(name: &'static str, damper: &DamperParameters) -> Outcome<Bench> {
+fn bench(name: &'static str, damper: &CheckedParameters) -> Outcome<Bench> {
     let loops = LOOP_AMPLITUDES_M
         .iter()
         .map(|&amplitude_m| {
@@ -167,7 +167,7 @@ fn bench(name: &'static str, damper: &DamperParameters) -> Outcome<Bench> {
     Ok(Bench {
         damper: name,
         parameters: damper.clone(),
-        characteristic: Characteristic::new(&damper.check()?),
+        characteristic: Characteristic::new(damper),
         loops,
         table_5: bench_test::run_until_periodic(damper, Harmonic::TABLE_5, 1e-4)?.indices(),
     })

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use dashpot_core::link::Request;
-use dashpot_core::{Damper, DamperParameters};
+use dashpot_core::{CheckedParameters, Damper};
 use serde::Serialize;
 
 use super::LinkArguments;
@@ -45,7 +45,7 @@ pub(super) struct LoadArguments {
 
 /// Where the damper comes from, read and checked.
 enum Source {
-    Parameters(Box<DamperParameters>),
+    Parameters(Box<CheckedParameters>),
     Image(Box<Damper<f32>>),
 }
 

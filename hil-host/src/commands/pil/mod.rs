@@ -9,7 +9,7 @@ mod rows;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use dashpot_core::{Damper, DamperParameters};
+use dashpot_core::{CheckedParameters, Damper};
 use history::History;
 use report::{Found, print};
 use rows::Rows;
@@ -178,7 +178,7 @@ impl PilArguments {
 /// Runs the recording through the target; each tick goes to `file`, where there is one.
 fn drive(
     arguments: &PilArguments,
-    parameters: &[DamperParameters],
+    parameters: &[CheckedParameters],
     recording: Recording,
     file: Option<(&Path, &mut dyn Write)>,
 ) -> Outcome<(Found, History)> {
@@ -189,7 +189,7 @@ fn drive(
     let target = session.target();
     let step = StepSize::of_target(target.step_s)?;
     let step_s = step.seconds();
-    let build = |parameters: &DamperParameters| parameters.build(step_s);
+    let build = |parameters: &CheckedParameters| parameters.build(step_s);
     let dampers: Vec<Damper<f32>> = parameters.iter().map(build).collect::<Result<_, _>>()?;
     let bar = progress::bar(input::length(&arguments.input), "pil");
     let mut ticks = TickGrid::new(recording, step_s)?;

@@ -46,7 +46,7 @@ pub fn run(arguments: &ShimsArguments) -> Outcome<()> {
             "{name}: a reduced damper has no shim packs; allowed: a damper with [valves], such as `paper`"
         )));
     };
-    let characteristic = Characteristic::new(&parameters.check()?);
+    let characteristic = Characteristic::new(&parameters);
     let paper = damper::load("paper", &[])?;
     let Element::Physical(paper) = &paper.element else {
         return Err(Failure::new("the preset `paper` has no valves"));

@@ -4,6 +4,7 @@ mod error;
 
 use std::path::Path;
 
+use dashpot_core::CheckedParameters;
 use dashpot_core::parameters::{
     DamperParameters, Element, Geometry, Hydraulics, Leakage, Limits, Mount, Oil, Orifice, Reduced,
     Relief, Reservoir, Seal, TwoChamber, Valves,
@@ -63,7 +64,7 @@ struct DamperFile {
 /// assert_eq!(damper.mount.clearance_m, 1e-3);
 /// # Ok::<(), dashpot_hil::files::damper::DamperError>(())
 /// ```
-pub fn load(name: &str, overrides: &[String]) -> Result<DamperParameters, DamperError> {
+pub fn load(name: &str, overrides: &[String]) -> Result<CheckedParameters, DamperError> {
     let path = Path::new(name);
     match PRESETS.iter().find(|(preset, _)| *preset == name) {
         Some((_, text)) => parse(name, text, overrides),
@@ -96,7 +97,7 @@ pub fn parse(
     name: &str,
     text: &str,
     overrides: &[String],
-) -> Result<DamperParameters, DamperError> {
+) -> Result<CheckedParameters, DamperError> {
     let (name, in_text) = (name.to_owned(), |error| ContentError::Text(explain(&error)));
     // Once as typed data for errors that name line and column, once as a tree to override.
     let mut tree: toml::Table = match toml::from_str(text) {
@@ -160,7 +161,7 @@ fn set(tree: &mut toml::Table, assignment: &str) -> Result<(), DamperError> {
     Ok(())
 }
 
-fn from_file(file: DamperFile) -> Result<DamperParameters, ContentError> {
+fn from_file(file: DamperFile) -> Result<CheckedParameters, ContentError> {
     let element = match file.reduced {
         Some(reduced) => {
             let hydraulic = [
@@ -199,8 +200,7 @@ fn from_file(file: DamperFile) -> Result<DamperParameters, ContentError> {
         mount: file.mount,
         limits: file.limits,
     };
-    parameters.check()?;
-    Ok(parameters)
+    Ok(parameters.check()?)
 }
 
 /// The parser's message with the nearest known key where it met an unknown one.
