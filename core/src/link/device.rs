@@ -1,16 +1,14 @@
 //! The device's end of the link: bytes in, responses out, ticks.
 
-use core::ops::Range;
-
 use super::board::{Line, Outputs};
-use super::frame::{FrameReader, Message, REQUEST_BYTES, ResponseFrame};
+use super::exchange::{Exchange, Load, Served, answer};
+use super::frame::{FrameReader, REQUEST_BYTES, ResponseFrame};
 use super::loaded::StepSizeError;
-use super::message::{Counters, Header, Request, Response};
+use super::message::{Counters, Response};
 use super::refusal::Refusal;
 use super::service::{Clock, Service, count};
-use super::session::{Session, Verdict};
+use super::session::Session;
 use crate::damper::Damper;
-use crate::encoding::Loading;
 use crate::state::DamperState;
 
 /// Bytes taken of the line before ticks are looked at again.
@@ -20,7 +18,7 @@ const BYTES_PER_PASS: usize = 32;
 ///
 /// Of zeros until [`Device::start`], so it lies in static storage that takes no flash and is never moved: 22 KB
 /// and 13 KB a damper. A firmware calls [`Device::poll`] in a loop. While the host steps (after power on, and after
-/// [`Request::Stop`]) time is the tick of its step requests; after [`Request::Run`] it is that of the ticks due.
+/// [`Request::Stop`](super::Request::Stop)) time is the tick of its step requests; after [`Request::Run`](super::Request::Run) it is that of the ticks due.
 ///
 /// ```
 /// use dashpot_core::Damper;
@@ -88,28 +86,6 @@ enum Intake {
     LoadingWithinFrame,
     /// It is dropped until its frame ends.
     Dropping,
-}
-
-/// A load that is under way, in slices.
-#[derive(Clone, Debug)]
-struct Load {
-    header: Header,
-    damper: u8,
-    /// Where the image is in the reader's message.
-    image: Range<usize>,
-    progress: Loading,
-}
-
-impl Load {
-    const NONE: Self = Self {
-        header: Header {
-            session: 0,
-            sequence: 0,
-        },
-        damper: 0,
-        image: 0..0,
-        progress: Loading::START,
-    };
 }
 
 impl<const N: usize> Default for Device<N> {
@@ -314,109 +290,4 @@ impl<const N: usize> Device<N> {
     pub fn counters(&self) -> Counters {
         self.service.counters
     }
-}
-
-/// What a message came to.
-enum Served {
-    /// The stored response is to be sent.
-    Stored,
-    /// The notice is to be sent.
-    Notice,
-    /// An image is to be loaded first.
-    Loads(Load),
-}
-
-/// A message, and what it is judged by and answered with.
-struct Exchange<'a, const N: usize> {
-    session: &'a mut Session,
-    service: &'a mut Service<N>,
-    stored: &'a mut ResponseFrame,
-    notice: &'a mut ResponseFrame,
-}
-
-impl<const N: usize> Exchange<'_, N> {
-    /// Judges a message and carries it out.
-    #[inline(never)]
-    fn serve(self, message: Message<'_>) -> Served {
-        let counters = &mut self.service.counters;
-        let Ok((header, body)) = postcard::take_from_bytes::<Header>(message.bytes) else {
-            count(&mut counters.unreadable);
-            answer(self.session.last(), Err(Refusal::Unreadable), self.notice);
-            return Served::Notice;
-        };
-        let request = match postcard::take_from_bytes::<Request<'_>>(body) {
-            Ok((request, [])) => Some(request),
-            _ => None,
-        };
-        let verdict = self.session.judge(header, message.check);
-        let opens = matches!(request, Some(Request::Hello { .. })) && verdict == Verdict::NoSession;
-        let counter = match verdict {
-            Verdict::Repeated => {
-                count(&mut counters.repeated);
-                return Served::Stored;
-            }
-            Verdict::OutOfOrder(_) => &mut counters.out_of_order,
-            Verdict::NoSession if !opens => &mut counters.no_session,
-            _ => return self.carry_out(header, message, request, opens),
-        };
-        count(counter);
-        answer(header, Err(verdict.refusal()), self.notice);
-        Served::Notice
-    }
-
-    fn carry_out(
-        self,
-        header: Header,
-        message: Message<'_>,
-        request: Option<Request<'_>>,
-        opens: bool,
-    ) -> Served {
-        let Some(request) = request else {
-            count(&mut self.service.counters.unreadable);
-            self.session.advance(header, message.check);
-            answer(header, Err(Refusal::Unreadable), self.stored);
-            return Served::Stored;
-        };
-        let done = self.service.execute(&request);
-        let carried_out = done.is_ok();
-        let frame = if opens && !carried_out {
-            // Another protocol: no session is opened.
-            self.notice
-        } else {
-            self.session.advance(header, message.check);
-            if let (Request::Load { damper, image }, true) = (&request, carried_out) {
-                // The image is the end of the message.
-                let end = message.bytes.len();
-                return Served::Loads(Load {
-                    header,
-                    damper: *damper,
-                    image: end.saturating_sub(image.len())..end,
-                    progress: Loading::START,
-                });
-            }
-            self.stored
-        };
-        answer(header, done, frame);
-        self.service.count_done(carried_out);
-        if opens && !carried_out {
-            Served::Notice
-        } else {
-            Served::Stored
-        }
-    }
-}
-
-/// Writes a response as a frame.
-#[inline(never)]
-fn answer(header: Header, done: Result<Response<'_>, Refusal>, frame: &mut ResponseFrame) {
-    let refused;
-    let response = match &done {
-        Ok(response) => response,
-        Err(refusal) => {
-            refused = Response::Refused(*refusal);
-            &refused
-        }
-    };
-    // Every response fits: see the test `the_longest_messages_fit`.
-    let _ = frame.write(&(header, response));
 }

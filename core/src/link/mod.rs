@@ -8,6 +8,7 @@
 
 mod board;
 mod device;
+mod exchange;
 mod frame;
 mod guard;
 mod loaded;

@@ -1,0 +1,141 @@
+//! A message of the host: judged, carried out, answered.
+
+use core::ops::Range;
+
+use super::frame::{Message, ResponseFrame};
+use super::message::{Header, Request, Response};
+use super::refusal::Refusal;
+use super::service::{Service, count};
+use super::session::{Session, Verdict};
+use crate::encoding::Loading;
+
+/// A load that is under way, in slices.
+#[derive(Clone, Debug)]
+pub(super) struct Load {
+    pub(super) header: Header,
+    pub(super) damper: u8,
+    /// Where the image is in the reader's message.
+    pub(super) image: Range<usize>,
+    pub(super) progress: Loading,
+}
+
+impl Load {
+    pub(super) const NONE: Self = Self {
+        header: Header {
+            session: 0,
+            sequence: 0,
+        },
+        damper: 0,
+        image: 0..0,
+        progress: Loading::START,
+    };
+}
+
+/// What a message came to.
+pub(super) enum Served {
+    /// The stored response is to be sent.
+    Stored,
+    /// The notice is to be sent.
+    Notice,
+    /// An image is to be loaded first.
+    Loads(Load),
+}
+
+/// A message, and what it is judged by and answered with.
+pub(super) struct Exchange<'a, const N: usize> {
+    pub(super) session: &'a mut Session,
+    pub(super) service: &'a mut Service<N>,
+    pub(super) stored: &'a mut ResponseFrame,
+    pub(super) notice: &'a mut ResponseFrame,
+}
+
+impl<const N: usize> Exchange<'_, N> {
+    /// Judges a message and carries it out.
+    #[inline(never)]
+    pub(super) fn serve(self, message: Message<'_>) -> Served {
+        let counters = &mut self.service.counters;
+        let Ok((header, body)) = postcard::take_from_bytes::<Header>(message.bytes) else {
+            count(&mut counters.unreadable);
+            answer(self.session.last(), Err(Refusal::Unreadable), self.notice);
+            return Served::Notice;
+        };
+        let request = match postcard::take_from_bytes::<Request<'_>>(body) {
+            Ok((request, [])) => Some(request),
+            _ => None,
+        };
+        let verdict = self.session.judge(header, message.check);
+        let opens = matches!(request, Some(Request::Hello { .. })) && verdict == Verdict::NoSession;
+        let counter = match verdict {
+            Verdict::Repeated => {
+                count(&mut counters.repeated);
+                return Served::Stored;
+            }
+            Verdict::OutOfOrder(_) => &mut counters.out_of_order,
+            Verdict::NoSession if !opens => &mut counters.no_session,
+            _ => return self.carry_out(header, message, request, opens),
+        };
+        count(counter);
+        answer(header, Err(verdict.refusal()), self.notice);
+        Served::Notice
+    }
+
+    fn carry_out(
+        self,
+        header: Header,
+        message: Message<'_>,
+        request: Option<Request<'_>>,
+        opens: bool,
+    ) -> Served {
+        let Some(request) = request else {
+            count(&mut self.service.counters.unreadable);
+            self.session.advance(header, message.check);
+            answer(header, Err(Refusal::Unreadable), self.stored);
+            return Served::Stored;
+        };
+        let done = self.service.execute(&request);
+        let carried_out = done.is_ok();
+        let frame = if opens && !carried_out {
+            // Another protocol: no session is opened.
+            self.notice
+        } else {
+            self.session.advance(header, message.check);
+            if let (Request::Load { damper, image }, true) = (&request, carried_out) {
+                // The image is the end of the message.
+                let end = message.bytes.len();
+                return Served::Loads(Load {
+                    header,
+                    damper: *damper,
+                    image: end.saturating_sub(image.len())..end,
+                    progress: Loading::START,
+                });
+            }
+            self.stored
+        };
+        answer(header, done, frame);
+        self.service.count_done(carried_out);
+        if opens && !carried_out {
+            Served::Notice
+        } else {
+            Served::Stored
+        }
+    }
+}
+
+/// Writes a response as a frame.
+#[inline(never)]
+pub(super) fn answer(
+    header: Header,
+    done: Result<Response<'_>, Refusal>,
+    frame: &mut ResponseFrame,
+) {
+    let refused;
+    let response = match &done {
+        Ok(response) => response,
+        Err(refusal) => {
+            refused = Response::Refused(*refusal);
+            &refused
+        }
+    };
+    // Every response fits: see the test `the_longest_messages_fit`.
+    let _ = frame.write(&(header, response));
+}
