@@ -1,0 +1,17 @@
+//! A target over the link: on the desk, behind a port, in an emulator.
+
+#[path = "../common/mod.rs"]
+mod common;
+mod link_command;
+mod link_common;
+mod link_load;
+mod link_samples;
+mod link_states;
+mod pil_bank;
+mod pil_client;
+mod pil_command;
+mod pil_common;
+mod pil_interruption;
+mod pil_pacing;
+mod pil_run;
+mod pil_tcp;

@@ -1,0 +1,7 @@
+//! What runs on emulated processors: the step, the firmware, its outputs.
+
+mod aarch64;
+mod firmware;
+mod no_panic;
+mod outputs;
+mod processors;
