@@ -69,7 +69,9 @@ fn a_flipped_bit_is_found_and_the_force_stays_within_its_limit() {
     damper.opaque[2000] ^= 1 << 30;
     let calls = (1..).find(|_| slice(&damper, &state) != DONE);
     assert!(calls.is_some_and(|calls| calls <= DASHPOT_CHECK_SLICES));
-    for word in 0..DASHPOT_DAMPER_WORDS {
+    // Miri is slow: a word of every part.
+    let every = if cfg!(miri) { 397 } else { 1 };
+    for word in (0..DASHPOT_DAMPER_WORDS).step_by(every) {
         let (mut damper, mut state) = (damper, state);
         damper.opaque[word] = f32::INFINITY.to_bits();
         for x in [1e-3, -1e-3] {

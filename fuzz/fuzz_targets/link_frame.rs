@@ -1,6 +1,9 @@
 //! Any bytes on the link: refused or answered, and the next frame after a zero is read.
+//!
+//! Changed frames never have the right CRC-32, so the same bytes come a second time with it made right.
 #![no_main]
 
+use dashpot::signed_image::crc_32;
 use dashpot_core::Damper;
 use dashpot_core::link::{Clock, Device, FrameReader, REQUEST_BYTES, ResponseFrame};
 use libfuzzer_sys::fuzz_target;
@@ -12,7 +15,7 @@ fuzz_target!(|bytes: &[u8]| {
     let clock = Clock { now: || 0, hz: 1 };
     let mut device = Box::new(Device::new());
     device.start(&[&DAMPER; 2], clock).expect("one step");
-    for byte in bytes.iter().chain(&[0]) {
+    for byte in bytes.iter().chain(&[0]).chain(&signed(bytes)) {
         let _ = reader.push(*byte);
         let mut answered = device.receive(*byte);
         while device.is_busy() {
@@ -30,3 +33,20 @@ fuzz_target!(|bytes: &[u8]| {
         .filter_map(|byte| reader.push(*byte).map(|r| r.is_ok()));
     assert!(read.eq([true]));
 });
+
+/// The frames between zeros, each with the CRC-32 of its message.
+fn signed(bytes: &[u8]) -> Vec<u8> {
+    let mut stream = Vec::new();
+    for frame in bytes.split(|byte| *byte == 0) {
+        let Ok(mut message) = cobs::decode_vec(frame) else {
+            continue;
+        };
+        let Some((message, check)) = message.split_last_chunk_mut::<4>() else {
+            continue;
+        };
+        *check = crc_32(message).to_le_bytes();
+        stream.extend(cobs::encode_vec(&[&*message, &*check].concat()));
+        stream.push(0);
+    }
+    stream
+}

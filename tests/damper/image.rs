@@ -1,25 +1,9 @@
 //! A damper as bytes: it comes back whole or is refused whole.
 
 use dashpot::damper;
+use dashpot::signed_image::{self, SCALARS, TABLE, crc_32, revise_and_sign, sign};
 use dashpot_core::{Damper, ImageError};
 use proptest::prelude::*;
-
-/// CRC-32 as in ISO 3309, one bit at a time.
-fn crc_32(bytes: &[u8]) -> u32 {
-    !bytes.iter().fold(u32::MAX, |crc, byte| {
-        (0..8).fold(crc ^ u32::from(*byte), |crc, _| {
-            (crc >> 1) ^ (0xedb8_8320 * (crc & 1))
-        })
-    })
-}
-
-/// The image with a CRC-32 that is right.
-fn signed(mut image: Vec<u8>) -> Vec<u8> {
-    let end = image.len() - 4;
-    let check = crc_32(&image[..end]);
-    image[end..].copy_from_slice(&check.to_le_bytes());
-    image
-}
 
 fn single() -> Damper<f32> {
     damper("in-service", &[]).build(1e-3).expect("a preset")
@@ -61,7 +45,9 @@ fn the_layout_is_as_documented() {
     let end = image.len() - 4;
     let body: Vec<u8> = words.iter().flat_map(|word| word.to_le_bytes()).collect();
     assert_eq!(image[16..end], body);
-    assert_eq!(signed(image.clone()), image);
+    let mut signed = image.clone();
+    sign(&mut signed);
+    assert_eq!(signed, image);
 }
 
 #[test]
@@ -122,7 +108,7 @@ fn constants_of_no_build_are_refused_though_signed() {
         for other in [f32::NAN.to_bits(), infinite, word ^ 1, word ^ 0x8000_0000] {
             let mut changed = image.clone();
             changed[at..at + 4].copy_from_slice(&other.to_le_bytes());
-            let refused = read(&signed(changed));
+            sign(&mut changed);
             // 16 bytes of header, eleven words, then pieces of thirteen.
             let piece = (at / 4).checked_sub(15).map(|word| word as u32 / 13);
             let finite = f32::from_bits(other).is_finite();
@@ -130,65 +116,46 @@ fn constants_of_no_build_are_refused_though_signed() {
                 Some(piece) if !finite => ImageError::Piece(piece),
                 _ => ImageError::Revision,
             };
-            assert_eq!(refused, Err(expected), "{other:#x} at byte {at}");
+            assert_eq!(read(&changed), Err(expected), "{other:#x} at byte {at}");
         }
     }
 }
 
-/// FNV-1a over words widened to 64 bits, as the revision is defined.
-fn fnv_1a(hash: u32, words: &[u32]) -> u32 {
-    let bytes = words.iter().flat_map(|word| u64::from(*word).to_le_bytes());
-    bytes.fold(hash, |hash, byte| {
-        (hash ^ u32::from(byte)).wrapping_mul(16_777_619)
-    })
-}
-
-/// The image of these words with both revisions and the CRC-32 made right.
-fn forged(mut words: Vec<u32>, revision_at: usize) -> Vec<u8> {
-    let tables = fnv_1a(2_166_136_261, &words[revision_at + 2..]);
-    words[revision_at + 1] = tables;
-    words[revision_at] = fnv_1a(tables, &words[..revision_at]);
+/// The image of the preset with some words set to these numbers, and both revisions and the CRC-32 right.
+fn forged(changes: &[(usize, f32)]) -> Vec<u8> {
     let mut image = image();
-    for (place, word) in image[16..].chunks_exact_mut(4).zip(words) {
-        place.copy_from_slice(&word.to_le_bytes());
+    for (index, value) in changes {
+        signed_image::word::<f32>(&mut image, *index).copy_from_slice(&value.to_le_bytes());
     }
-    signed(image)
+    revise_and_sign::<f32>(&mut image);
+    image
 }
 
 #[test]
 fn constants_out_of_range_are_refused_though_their_revision_is_right() {
     let damper = single();
-    let words = damper.to_words().to_vec();
-    let revision = damper.revision();
-    let revision_at = words
-        .iter()
-        .position(|word| *word == revision)
-        .expect("the revision is among the words");
-    assert_eq!(read(&forged(words.clone(), revision_at)), Ok(damper));
+    let words = damper.to_words();
+    assert_eq!(words[SCALARS], damper.revision());
+    assert_eq!(read(&forged(&[])), Ok(damper));
     // Step, offset, first knot, half the clearance; words in the order of the scalars.
     let mut cases = vec![(3, 0.0_f32), (4, 1e-3), (5, 0.0), (6, 1e-3)];
-    for scalar in 0..revision_at {
+    for scalar in 0..SCALARS {
         cases.extend([f32::NAN, f32::INFINITY, -1.0].map(|value| (scalar, value)));
     }
     // Beyond the largest clearance, the sum that goes with it right.
-    let mut loose = words.clone();
-    loose[6] = 0.051_f32.to_bits();
-    loose[4] = (0.051 + f32::from_bits(words[8])).to_bits();
-    let refused = read(&forged(loose, revision_at));
-    assert_eq!(refused, Err(ImageError::Scalars));
+    let loose = [(6, 0.051), (4, 0.051 + f32::from_bits(words[8]))];
+    assert_eq!(read(&forged(&loose)), Err(ImageError::Scalars));
     let last = words.len() - 1;
-    for coefficient in [revision_at + 2, last] {
+    for coefficient in [TABLE, last] {
         cases.extend([(coefficient, f32::NAN), (coefficient, f32::NEG_INFINITY)]);
     }
-    for (at, value) in cases {
-        let mut words = words.clone();
-        words[at] = value.to_bits();
-        let refused = read(&forged(words, revision_at));
-        let expected = match at.checked_sub(revision_at + 2) {
+    for change in cases {
+        let refused = read(&forged(&[change]));
+        let expected = match change.0.checked_sub(TABLE) {
             Some(word) => ImageError::Piece(word as u32 / 13),
             None => ImageError::Scalars,
         };
-        assert_eq!(refused, Err(expected), "word {at} = {value}");
+        assert_eq!(refused, Err(expected), "{change:?}");
     }
 }
 
@@ -206,8 +173,6 @@ fn errors_say_what_is_wrong() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
-
     #[test]
     fn arbitrary_bytes_are_refused(bytes in prop::collection::vec(any::<u8>(), 0..8000)) {
         prop_assert!(read(&bytes).is_err());
@@ -224,7 +189,7 @@ proptest! {
             *byte ^= damage;
         }
         if sign {
-            damaged = signed(damaged);
+            signed_image::sign(&mut damaged);
         }
         match read(&damaged) {
             // Damage to the CRC-32 alone is mended by signing again, zeros are none.

@@ -2,6 +2,7 @@
 
 mod accuracy;
 mod bank;
+mod changed_image;
 mod contract;
 mod disc;
 mod energy;

@@ -47,11 +47,7 @@ fn least_dissipation(parameters: &DamperParameters, stiffness: f64, motion: &[f6
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig {
-        cases: 64,
-        failure_persistence: None,
-        ..ProptestConfig::default()
-    })]
+    #![proptest_config(ProptestConfig::with_cases(64))]
 
     #[test]
     fn no_energy_comes_out_beyond_the_springs_store(

@@ -7,10 +7,12 @@ use std::net::{Ipv4Addr, TcpListener};
 use std::process::Command;
 use std::time::Duration;
 
+use dashpot::requests::every_request;
+use dashpot::signed_image::revise_and_sign;
 use dashpot::{damper, document};
 use dashpot_core::link::{
-    Counters, FrameReader, Header, LossOfLink, PROTOCOL, Parameter, RESPONSE_BYTES, Refusal,
-    Request, Response, SafeOutput, Sample, Scalar, request_frame,
+    Counters, FrameReader, Header, PROTOCOL, Parameter, RESPONSE_BYTES, Reals, Refusal, Request,
+    Response, SafeOutput, Sample, Scalar, request_frame,
 };
 use dashpot_core::{Damper, ImageError, Status};
 use dashpot_hil::target::pil::{Desk, Link};
@@ -61,44 +63,7 @@ fn numbered<T: Serialize + std::fmt::Debug>(choices: &[T]) -> Vec<(u8, String)> 
 
 #[test]
 fn the_numbers_are_those_of_the_code() {
-    let reals = dashpot_core::link::Reals::new;
-    let requests = [
-        Request::Hello { protocol: 0 },
-        Request::Load {
-            damper: 0,
-            image: &[],
-        },
-        Request::Set {
-            damper: 0,
-            parameter: Parameter::ClearanceM,
-            value: 0.0,
-        },
-        Request::LossOfLink(LossOfLink::default()),
-        Request::Reset {
-            displacements_m: reals(),
-        },
-        Request::Step {
-            tick: 0,
-            displacements_m: reals(),
-        },
-        Request::Run {
-            displacements_m: reals(),
-        },
-        Request::Displace {
-            displacements_m: reals(),
-        },
-        Request::Stop,
-        Request::Save,
-        Request::Restore {
-            tick: 0,
-            states: &[],
-        },
-        Request::Telemetry { damper: 0 },
-        Request::Counters,
-        Request::Outputs,
-        Request::Status,
-        Request::ClearStatus,
-    ];
+    let requests = every_request(&[], &[], &Reals::new());
     assert_eq!(rows("request"), numbered(&requests));
     let outputs = [
         SafeOutput::Hold,
@@ -260,16 +225,11 @@ fn the_revision_is_computed_as_the_document_says() {
         }
         let image = built.to_image();
         assert_eq!(image.len(), 6720);
-        let words = image[60..image.len() - 4]
-            .chunks(4)
-            .chain(image[16..52].chunks(4));
-        let hash = words.fold(0x811c_9dc5_u32, |hash, word| {
-            word.iter().chain(&[0; 4]).fold(hash, |hash, byte| {
-                (hash ^ u32::from(*byte)).wrapping_mul(16_777_619)
-            })
-        });
-        assert_eq!(image[52..56], hash.max(1).to_le_bytes());
-        assert_eq!(built.revision(), hash.max(1));
+        let mut revised = image;
+        revised[52..60].fill(0);
+        revise_and_sign::<f32>(&mut revised);
+        assert_eq!(revised, image);
+        assert_eq!(image[52..56], built.revision().to_le_bytes());
     }
 }
 

@@ -1,5 +1,6 @@
 //! Frames: what comes back, what is refused, and that a zero byte ends any trouble.
 
+use dashpot::signed_image::crc_32;
 use dashpot_core::link::{
     Forces, FrameError, FrameReader, Header, MOST_DAMPERS, MOST_SAMPLES, REQUEST_BYTES,
     RESPONSE_BYTES, Request, RequestFrame, Response, ResponseFrame, Sample, Scalar, Welcome,
@@ -31,15 +32,6 @@ fn step(tick: u32) -> (Header, Request<'static>) {
             displacements_m,
         },
     )
-}
-
-/// CRC-32 from its definition (ISO 3309): reflected polynomial 0xedb88320, all ones before and after.
-fn crc_32(bytes: &[u8]) -> u32 {
-    !bytes.iter().fold(u32::MAX, |crc, byte| {
-        (0..8).fold(crc ^ u32::from(*byte), |crc, _| {
-            (crc >> 1) ^ (0xedb8_8320 * (crc & 1))
-        })
-    })
 }
 
 /// COBS by its definition (Cheshire and Baker 1999): each code byte is the distance to the next.

@@ -39,6 +39,25 @@ pub fn compare(path: &str, text: &str) {
     }
 }
 
+/// As [`compare`], of bytes that are no text.
+pub fn compare_bytes(path: &str, bytes: &[u8]) {
+    let file = in_repository(path);
+    if blessing() {
+        std::fs::write(file, bytes).unwrap_or_else(|error| panic!("{path}: {error}"));
+        return;
+    }
+    let found = std::fs::read(file).unwrap_or_default();
+    let differ = found
+        .iter()
+        .zip(bytes)
+        .position(|(found, byte)| found != byte);
+    if let Some(offset) = differ.or_else(|| (found.len() != bytes.len()).then_some(bytes.len())) {
+        panic!(
+            "{path}, byte {offset}: not as made by this test; DASHPOT_BLESS=1 rewrites the file"
+        );
+    }
+}
+
 /// The part of a file between the lines `<!-- name -->` and `<!-- end -->`.
 pub fn part(path: &str, name: &str) -> String {
     split(path, name).1

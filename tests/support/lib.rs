@@ -8,7 +8,10 @@ pub mod document;
 pub mod in_turn;
 pub mod library;
 pub mod look_up;
+pub mod memory;
 pub mod newton;
+pub mod requests;
+pub mod signed_image;
 pub mod target;
 pub mod tolerance;
 

@@ -2,9 +2,12 @@
 
 pub mod aarch64;
 pub mod c_library;
+pub mod ci;
 pub mod firmware;
+pub mod nightly;
 pub mod processor;
 pub mod run;
+pub mod rust_version;
 pub mod target_toolchain;
 pub mod test_run;
 pub mod tools;

@@ -3,10 +3,12 @@
 use std::process::ExitCode;
 
 use xtask::c_library::{self, Options, Platform};
-use xtask::firmware;
-use xtask::run::{Outcome, cargo, cargo_aside, cargo_output, cargo_with, repository, version_of};
+use xtask::ci::ci;
+use xtask::run::{Outcome, cargo, cargo_aside, repository, version_of};
+use xtask::rust_version::numbers;
 use xtask::test_run::test;
 use xtask::tools::install_missing;
+use xtask::{firmware, nightly};
 
 const HELP: &str = "\
 Developer commands of Dashpot
@@ -23,17 +25,15 @@ Commands:
                          build the C library into an install tree for each target: cortex-m4f,
                          cortex-m7, cortex-m33, x86-64, aarch64; all that this machine can build
                          when none is named; into target/c-library
-  ci                     formatting, lints, documentation, Rust version, then test
+  miri                   run the tests of the C border under Miri (needs a nightly compiler)
+  fuzz [--seconds N]     run each fuzz target from its kept seeds for N seconds, 60 when not given (needs a
+                         nightly compiler)
+  ci                     formatting, lints, documentation, Rust version, each feature, test; Miri and
+                         fuzzing where there is a nightly compiler
   help                   this text
 
 Example: cargo xtask test
 Exit code: 0 done, 1 a check failed, 2 wrong use.";
-
-/// Not of the workspace: its library has a C name and its own panic strategy.
-const C_LIBRARY: &str = "capi/Cargo.toml";
-
-/// Not of the workspace: it is built for the target only.
-const FIRMWARE: &str = "firmware/Cargo.toml";
 
 /// Of the `gungraun` in Cargo.toml; the runner must be of the same version.
 const GUNGRAUN: &str = "0.20";
@@ -60,6 +60,15 @@ fn main() -> ExitCode {
                 return ExitCode::from(2);
             }
         },
+        ["miri"] => nightly::miri(),
+        ["fuzz"] => nightly::fuzz(60),
+        ["fuzz", "--seconds", text] => match text.parse() {
+            Ok(seconds @ 1..=86_400) => nightly::fuzz(seconds),
+            _ => {
+                eprintln!("wrong use: --seconds {text}: must be a whole number of 1 to 86400");
+                return ExitCode::from(2);
+            }
+        },
         ["ci"] => ci(),
         _ => {
             eprintln!("wrong use: `{}`\n\n{HELP}", words.join(" "));
@@ -80,35 +89,6 @@ fn build_firmware() -> Outcome {
     Ok(())
 }
 
-fn ci() -> Outcome {
-    cargo(&["fmt", "--all", "--check"])?;
-    cargo(&[
-        "clippy",
-        "--workspace",
-        "--all-targets",
-        "--",
-        "-D",
-        "warnings",
-    ])?;
-    cargo_with(
-        &["doc", "--workspace", "--no-deps"],
-        &[("RUSTDOCFLAGS", "-D warnings")],
-    )?;
-    cargo(&["fmt", "--manifest-path", C_LIBRARY, "--check"])?;
-    cargo(&[
-        "clippy",
-        "--manifest-path",
-        C_LIBRARY,
-        "--all-targets",
-        "--",
-        "-D",
-        "warnings",
-    ])?;
-    cargo(&["fmt", "--manifest-path", FIRMWARE, "--check"])?;
-    check_rust_version()?;
-    test()
-}
-
 /// Installs for the platforms named; where none is, for all but those that lack a tool, which is said.
 fn c_library(options: &Options) -> Outcome {
     let named = !options.platforms.is_empty();
@@ -124,29 +104,6 @@ fn c_library(options: &Options) -> Outcome {
             }
         }
     }
-    Ok(())
-}
-
-/// The `rust-version` that Cargo.toml states must not be above the compiler that ran the checks.
-fn check_rust_version() -> Outcome {
-    let compiler = version_of("rustc", &["--version"])?;
-    let id = cargo_output(&["metadata", "--no-deps", "--format-version", "1"])?;
-    let stated: Vec<&str> = id
-        .split("\"rust_version\":\"")
-        .skip(1)
-        .filter_map(|rest| rest.split('"').next())
-        .collect();
-    if stated.is_empty() {
-        return Err("no package states its rust-version: add it to Cargo.toml".into());
-    }
-    for version in stated {
-        if numbers(version) > numbers(&compiler) {
-            return Err(format!(
-                "Cargo.toml states rust-version {version}, above rustc {compiler}"
-            ));
-        }
-    }
-    println!("rust-version is at most rustc {compiler}");
     Ok(())
 }
 
@@ -201,24 +158,4 @@ fn count_instructions() -> Outcome {
         "--bench",
         "instructions",
     ])
-}
-
-/// `1.95.0-nightly` as `[1, 95, 0]`.
-fn numbers(version: &str) -> Vec<u32> {
-    version
-        .split(['.', '-'])
-        .map_while(|part| part.parse().ok())
-        .collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::numbers;
-
-    #[test]
-    fn versions_compare_as_numbers() {
-        assert!(numbers("1.95") <= numbers("1.95.0"));
-        assert!(numbers("1.100.0") > numbers("1.95.0"));
-        assert_eq!(numbers("1.97.0-nightly"), [1, 97, 0]);
-    }
 }

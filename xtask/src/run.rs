@@ -22,11 +22,15 @@ pub fn cargo_aside(arguments: &[&str], variables: &[(&str, &str)]) -> Outcome {
 }
 
 fn show(arguments: &[&str], variables: &[(&str, &str)], output: Stdio) -> Outcome {
-    let line = format!("cargo {}", arguments.join(" "));
+    let mut command = cargo_command(arguments);
+    command.envs(variables.iter().copied()).stdout(output);
+    run(command, &format!("cargo {}", arguments.join(" ")))
+}
+
+/// Runs a program, `line` for people, its output shown.
+pub fn run(mut command: Command, line: &str) -> Outcome {
     eprintln!("> {line}");
-    let status = cargo_command(arguments)
-        .envs(variables.iter().copied())
-        .stdout(output)
+    let status = command
         .status()
         .map_err(|error| format!("cannot run `{line}`: {error}"))?;
     if status.success() {
@@ -34,6 +38,27 @@ fn show(arguments: &[&str], variables: &[(&str, &str)], output: Stdio) -> Outcom
     } else {
         Err(format!("`{line}` failed: {status}"))
     }
+}
+
+/// Runs rustup's cargo of another toolchain in the repository's folder, its output shown.
+pub fn cargo_of(toolchain: &str, arguments: &[&str], variables: &[(&str, &str)]) -> Outcome {
+    let line = format!("cargo +{toolchain} {}", arguments.join(" "));
+    let mut command = cargo_of_toolchain(toolchain);
+    command.args(arguments).envs(variables.iter().copied());
+    run(command, &line)
+}
+
+/// rustup's cargo of a toolchain, to be given its arguments.
+pub fn cargo_of_toolchain(toolchain: &str) -> Command {
+    let mut command = Command::new("cargo");
+    command
+        .arg(format!("+{toolchain}"))
+        .current_dir(repository());
+    // Set for the programs that rustup starts, this one among them.
+    for variable in ["CARGO", "RUSTC", "RUSTDOC", "RUSTUP_TOOLCHAIN"] {
+        command.env_remove(variable);
+    }
+    command
 }
 
 /// What cargo prints to its standard output.

@@ -4,17 +4,22 @@ use crate::run::{Outcome, cargo_with, repository};
 use crate::tools::{SKIPPED, install_missing};
 
 /// Calls of cargo: all tests; those of the C library, which is a workspace of its own; the force bits of the
-/// optimised core.
+/// optimised core, with what was built for the first call but for our own crates.
 const RUNS: [&[&str]; 3] = [
     &["test", "--workspace", "--no-fail-fast"],
     &["test", "--manifest-path", "capi/Cargo.toml"],
     &[
         "test",
-        "--release",
-        "--package",
-        "dashpot",
+        "--workspace",
         "--test",
         "determinism",
+        "--config",
+        "profile.dev.package.dashpot-core.opt-level=3",
+        "--config",
+        "profile.dev.package.dashpot-experiment.opt-level=3",
+        // Generic code is compiled where it is used.
+        "--config",
+        "profile.dev.package.dashpot.opt-level=3",
     ],
 ];
 

@@ -6,6 +6,7 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 
 use crate::processor::{CORTEX_M7, TARGETS};
+use crate::run::{Outcome, cargo, cargo_output};
 use crate::target_toolchain::TargetToolchain;
 
 /// A program, or a header that a C compiler must find, and the Debian package that has it.
@@ -67,6 +68,39 @@ pub const TOOLS: [Tool; 14] = [
     CHROMIUM,
     PYTHON,
 ];
+
+/// A subcommand of cargo that is built from its source.
+#[derive(Clone, Copy, Debug)]
+pub struct Subcommand {
+    name: &'static str,
+    version: &'static str,
+}
+
+/// Runs cargo with each feature.
+pub const CARGO_HACK: Subcommand = Subcommand {
+    name: "hack",
+    version: "0.6.46",
+};
+/// Builds and runs fuzz targets.
+pub const CARGO_FUZZ: Subcommand = Subcommand {
+    name: "fuzz",
+    version: "0.13.2",
+};
+
+impl Subcommand {
+    /// Builds and installs it where it is missing.
+    ///
+    /// # Errors
+    /// It does not build.
+    pub fn install(self) -> Outcome {
+        let Self { name, version } = self;
+        if cargo_output(&[name, "--version"]).is_ok() {
+            return Ok(());
+        }
+        let package = format!("cargo-{name}");
+        cargo(&["install", "--locked", &package, "--version", version])
+    }
+}
 
 /// A compiler for the Cortex-M processors where there is no rustup: packages of Debian.
 const TOOLCHAIN_PACKAGES: [&str; 3] = ["rustc-web", "cargo-web", "rust-web-src"];

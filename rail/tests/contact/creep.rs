@@ -197,7 +197,7 @@ fn friction_falls_as_its_law_says() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 600, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig::with_cases(600))]
 
     #[test]
     fn every_law_stays_within_friction_creates_no_energy_and_has_a_mirror(

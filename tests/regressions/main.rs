@@ -1,0 +1,7 @@
+//! Bugs that were found: each has a file that says what was wrong and asserts what is right.
+
+mod damaged_table_gave_infinite_force;
+mod elsewhere;
+mod frame_beyond_its_end_panicked;
+mod nan_in_marked_state_stayed;
+mod unwritten_state_was_stepped;

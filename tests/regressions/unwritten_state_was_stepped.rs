@@ -1,0 +1,20 @@
+//! Memory that was never made a state was stepped as if it were one.
+
+use dashpot::damper;
+use dashpot::memory::bytes;
+use dashpot_core::integrity::Check;
+use dashpot_core::{Damper, Status};
+
+#[test]
+fn a_state_that_was_never_made_starts_at_rest_and_says_so() {
+    let damper: Damper<f32> = damper("in-service", &[]).build(1e-3).expect("a preset");
+    for byte in [0x00, 0xff, 0xa5, 0xcd] {
+        let mut state = damper.at_rest(0.0);
+        bytes(&mut state).fill(byte);
+        assert!(Check::state(&damper, &state).is_err(), "{byte:#x}");
+        let force = damper.step(&mut state, 0.25);
+        assert_eq!((force, state.displacement()), (0.0, 0.25), "{byte:#x}");
+        assert_eq!(state.status(), Status::CORRUPTED, "{byte:#x}");
+        assert_eq!(Check::state(&damper, &state), Ok(()));
+    }
+}

@@ -1,0 +1,135 @@
+//! The seeds of `fuzz/seeds/`: what a fuzz target starts from is valid, so that it reaches what is behind the
+//! checks. `DASHPOT_BLESS=1 cargo test -p dashpot --test repository fuzz_seeds` writes them.
+
+use std::collections::BTreeSet;
+use std::fs;
+
+use dashpot::requests::every_request;
+use dashpot::{damper, document};
+use dashpot_core::Damper;
+use dashpot_core::link::{Header, Reals, request_frame};
+use dashpot_hil::files::damper::PRESETS;
+use dashpot_rail::profile::{Body, measured, s1002, uic60};
+
+/// Name and bytes of a seed.
+type Seed = (String, Vec<u8>);
+
+/// Asserts that the target's folder has these files and no others, or writes them when blessing.
+fn compare(target: &str, seeds: Vec<Seed>) {
+    let folder = format!("fuzz/seeds/{target}");
+    if document::blessing() {
+        fs::create_dir_all(document::in_repository(&folder)).expect("a folder");
+    }
+    let names: BTreeSet<&str> = seeds.iter().map(|(name, _)| &**name).collect();
+    for (name, bytes) in &seeds {
+        document::compare_bytes(&format!("{folder}/{name}"), bytes);
+    }
+    let found = fs::read_dir(document::in_repository(&folder)).expect("the target's seeds");
+    for entry in found {
+        let name = entry.expect("an entry").file_name();
+        let name = name.to_string_lossy();
+        assert!(
+            names.contains(&*name),
+            "{folder}/{name}: no seed of this test"
+        );
+    }
+}
+
+#[test]
+fn damper_files_are_the_presets() {
+    let seeds = PRESETS
+        .iter()
+        .map(|(name, text)| ((*name).to_owned(), text.as_bytes().to_vec()));
+    compare("damper_file", seeds.collect());
+}
+
+#[test]
+fn images_are_of_dampers_of_either_precision() {
+    let single: Damper<f32> = damper("in-service", &[]).build(1e-3).expect("a preset");
+    let reduced: Damper<f32> = damper("reduced-vertical", &[])
+        .build(1e-3)
+        .expect("a preset");
+    let double: Damper<f64> = damper("paper", &[]).build(1e-4).expect("a preset");
+    compare(
+        "image",
+        vec![
+            ("in_service_f32".into(), single.to_image().into()),
+            ("reduced_vertical_f32".into(), reduced.to_image().into()),
+            ("paper_f64".into(), double.to_image().into()),
+        ],
+    );
+}
+
+/// A session with one request each, to two dampers at rest.
+#[test]
+fn frames_are_of_every_request() {
+    let built: Damper<f32> = damper("reduced-vertical", &[])
+        .build(1e-3)
+        .expect("a preset");
+    let image = built.to_image();
+    // A device of the fuzz target has dampers of zeros.
+    let zeros = Damper::<f32>::from_words(&[0; Damper::<f32>::WORDS]);
+    let states = [zeros.at_rest(0.0).to_bytes(); 2].concat();
+    let displacements_m = Reals::from_iter([1e-3, -2e-3]);
+    let requests = every_request(&image, &states, &displacements_m);
+    let frame = |sequence: u32| {
+        let header = Header {
+            session: 1,
+            sequence,
+        };
+        let request = &requests[sequence as usize];
+        (
+            format!("{request:?}"),
+            request_frame(header, request).bytes().to_vec(),
+        )
+    };
+    let (_, hello) = frame(0);
+    let seeds = (0..requests.len() as u32).map(|number| {
+        let (request, frame) = frame(number);
+        let name: String = request
+            .chars()
+            .take_while(char::is_ascii_alphabetic)
+            .collect();
+        let opened = if number > 0 { &hello[..] } else { &[] };
+        (name.to_lowercase(), [opened, &frame].concat())
+    });
+    compare("link_frame", seeds.collect());
+}
+
+#[test]
+fn recordings_are_with_and_without_header() {
+    let rows = "0,0\n0.001,1.5e-4\n0.0021,-2e-4\n0.0031,0\n";
+    let headed = format!("# made\ntime_s,displacement_m\n{rows}");
+    compare(
+        "recording",
+        vec![
+            ("headed.csv".into(), headed.clone().into()),
+            ("crlf.csv".into(), headed.replace('\n', "\r\n").into()),
+            // The target writes the header before it.
+            ("rows.csv".into(), rows.into()),
+        ],
+    );
+}
+
+#[test]
+fn profiles_are_a_wheel_and_a_rail() {
+    let text = |places: Vec<[f64; 2]>| {
+        let rows = places.iter().map(|[y, z]| format!("{y:.3},{z:.3}\n"));
+        format!("y_mm,z_mm\n{}", rows.collect::<String>())
+    };
+    let wheel = (-69..60).map(|i| [f64::from(i), s1002::depth_mm(f64::from(i))]);
+    let head = (-22..=22).map(|i: i32| {
+        let [y, z] = uic60::position_mm(2.0 * f64::from(i).abs());
+        [y * f64::from(i.signum()), z]
+    });
+    let seeds = [
+        ("wheel.csv", Body::Wheel, text(wheel.collect())),
+        ("rail.csv", Body::Rail, text(head.collect())),
+    ];
+    let seeds = seeds.map(|(name, body, text)| {
+        let read = measured::parse(name, &text, body, measured::DEFAULT_SMOOTHING_M);
+        assert!(read.is_ok(), "{name}: {read:?}");
+        (name.to_owned(), text.into_bytes())
+    });
+    compare("measured_profile", seeds.into());
+}

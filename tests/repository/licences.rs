@@ -1,0 +1,82 @@
+//! Licences of all packages that anything here is built from: each may be used under MIT or Apache-2.0, our own.
+
+use std::collections::BTreeSet;
+
+use spdx::{Expression, ParseMode};
+
+use crate::workspaces::WORKSPACES;
+
+/// Licences that ask for no more than ours do: that their text is kept.
+const ALLOWED: [&str; 5] = ["Apache-2.0", "BSD-2-Clause", "MIT", "Unicode-3.0", "Zlib"];
+
+/// Other licences: package, licence, why it may be used.
+const EXCEPTIONS: [(&str, &str, &str); 3] = [
+    (
+        "serialport",
+        "MPL-2.0",
+        "behind the feature `serial`; a product may be built without",
+    ),
+    (
+        "cbindgen",
+        "MPL-2.0",
+        "makes the C header, part of no product",
+    ),
+    ("libfuzzer-sys", "NCSA", "part of fuzz targets only"),
+];
+
+/// Where cargo gets a package that lies in no folder of the repository.
+const REGISTRY: &str = "registry+https://github.com/rust-lang/crates.io-index";
+
+#[test]
+fn every_package_may_be_used_under_our_licences() {
+    let mut excepted = BTreeSet::new();
+    for workspace in &*WORKSPACES {
+        for package in &workspace.packages {
+            let name: &str = package.name.as_ref();
+            let Some(source) = &package.source else {
+                continue; // our own
+            };
+            assert_eq!(source.repr, REGISTRY, "{name}: allowed: from crates.io");
+            let licence = package.license.as_deref().unwrap_or_default();
+            let expression = Expression::parse_mode(licence, ParseMode::LAX)
+                .unwrap_or_else(|error| panic!("{name}: licence `{licence}`: {error}"));
+            let may_be_used = expression.evaluate(|required| {
+                let id = required.license.id().map(|id| id.name);
+                let exception = EXCEPTIONS
+                    .iter()
+                    .find(|(package, licence, _)| *package == name && Some(*licence) == id);
+                excepted.extend(exception.map(|(package, ..)| package));
+                required.addition.is_none() && id.is_some_and(|id| ALLOWED.contains(&id))
+                    || exception.is_some()
+            });
+            assert!(
+                may_be_used,
+                "{name}: licence `{licence}`; allowed: {ALLOWED:?}, or an exception with its reason"
+            );
+        }
+    }
+    let listed = EXCEPTIONS.iter().map(|(package, ..)| package).collect();
+    assert_eq!(excepted, listed, "an exception that nothing needs");
+}
+
+/// The compiler that CI checks one of them with is that of all.
+#[test]
+fn our_packages_state_one_licence_and_one_compiler() {
+    for workspace in &*WORKSPACES {
+        let ours = workspace
+            .packages
+            .iter()
+            .filter(|package| package.source.is_none());
+        for package in ours {
+            let name = &package.name;
+            assert_eq!(
+                package.license.as_deref(),
+                Some("MIT OR Apache-2.0"),
+                "{name}"
+            );
+            assert_eq!(package.edition.as_str(), "2024", "{name}");
+            let version = package.rust_version.as_ref().map(ToString::to_string);
+            assert_eq!(version.as_deref(), Some("1.95.0"), "{name}");
+        }
+    }
+}

@@ -1,0 +1,115 @@
+//! Checks of a damper's image computed from the format as documented, without the code under test: a changed
+//! image with these checks is taken for a damper.
+
+use dashpot_core::Damper;
+
+/// Bytes before the words.
+const HEADER: usize = 16;
+/// Scalars, in words: the stretch up to which nothing flows is half the clearance and the stretch held.
+const OFFSET: usize = 4;
+const HALF_CLEARANCE: usize = 6;
+const HELD: usize = 8;
+/// Scalars before the revision.
+pub const SCALARS: usize = 9;
+/// Words before the table: scalars, revision, revision of the table.
+pub const TABLE: usize = SCALARS + 2;
+
+/// CRC-32 as in ISO 3309, one bit at a time: reflected polynomial 0xedb88320, all ones before and after.
+pub fn crc_32(bytes: &[u8]) -> u32 {
+    !bytes.iter().fold(u32::MAX, |crc, byte| {
+        (0..8).fold(crc ^ u32::from(*byte), |crc, _| {
+            (crc >> 1) ^ (0xedb8_8320 * (crc & 1))
+        })
+    })
+}
+
+/// FNV-1a (32 bit) of words widened to 64 bits, continued from `hash`.
+fn fnv_1a(hash: u32, words: impl IntoIterator<Item = u64>) -> u32 {
+    let bytes = words.into_iter().flat_map(u64::to_le_bytes);
+    bytes.fold(hash, |hash, byte| {
+        (hash ^ u32::from(byte)).wrapping_mul(16_777_619)
+    })
+}
+
+/// A scalar of dampers, as its words are in an image.
+pub trait Word: Copy {
+    /// Bytes of a word.
+    const BYTES: usize;
+    /// An image with words of zero: header and length are right.
+    fn empty() -> Vec<u8>;
+    /// The bits of a word's bytes.
+    fn bits(bytes: &[u8]) -> u64;
+    /// The bytes of the sum of two numbers.
+    fn sum(left: &[u8], right: &[u8]) -> Vec<u8>;
+}
+
+macro_rules! word {
+    ($float:ident, $bits:ident) => {
+        impl Word for $float {
+            const BYTES: usize = size_of::<$float>();
+
+            fn empty() -> Vec<u8> {
+                const WORDS: usize = Damper::<$float>::WORDS;
+                Damper::<$float>::from_words(&[0; WORDS]).to_image().into()
+            }
+
+            fn bits(bytes: &[u8]) -> u64 {
+                $bits::from_le_bytes(bytes.try_into().expect("a word")).into()
+            }
+
+            fn sum(left: &[u8], right: &[u8]) -> Vec<u8> {
+                let number =
+                    |bytes: &[u8]| $float::from_le_bytes(bytes.try_into().expect("a word"));
+                (number(left) + number(right)).to_le_bytes().into()
+            }
+        }
+    };
+}
+
+word!(f32, u32);
+word!(f64, u64);
+
+/// The bytes of a word of an image.
+pub fn word<T: Word>(image: &mut [u8], index: usize) -> &mut [u8] {
+    &mut image[HEADER + index * T::BYTES..][..T::BYTES]
+}
+
+/// Makes the CRC-32 of an image right.
+pub fn sign(image: &mut [u8]) {
+    let end = image.len() - 4;
+    let check = crc_32(&image[..end]);
+    image[end..].copy_from_slice(&check.to_le_bytes());
+}
+
+/// Makes both revisions of an image right, then its CRC-32.
+pub fn revise_and_sign<T: Word>(image: &mut [u8]) {
+    let end = image.len() - 4;
+    let words = |from: usize, to: usize| image[from..to].chunks_exact(T::BYTES).map(T::bits);
+    let [scalars_end, table] = [SCALARS, TABLE].map(|words| HEADER + words * T::BYTES);
+    let of_table = fnv_1a(2_166_136_261, words(table, end));
+    let revision = fnv_1a(of_table, words(HEADER, scalars_end)).max(1);
+    for (index, revision) in [(SCALARS, revision), (SCALARS + 1, of_table)] {
+        let bytes = u64::from(revision).to_le_bytes();
+        word::<T>(image, index).copy_from_slice(&bytes[..T::BYTES]);
+    }
+    sign(image);
+}
+
+/// Any bytes as the words of an image whose checks and sums are right: refused for a number out of range only.
+pub fn of_any_bytes<T: Word>(bytes: &[u8]) -> Vec<u8> {
+    let mut image = T::empty();
+    let end = image.len() - 4;
+    for (place, byte) in image[HEADER..end].iter_mut().zip(bytes) {
+        *place = *byte;
+    }
+    sum_and_sign::<T>(&mut image);
+    image
+}
+
+/// As [`revise_and_sign`], after the sum that one scalar is of two others was made right.
+pub fn sum_and_sign<T: Word>(image: &mut [u8]) {
+    let half_clearance = word::<T>(image, HALF_CLEARANCE).to_vec();
+    let offset = T::sum(&half_clearance, word::<T>(image, HELD));
+    word::<T>(image, OFFSET).copy_from_slice(&offset);
+    revise_and_sign::<T>(image);
+}

@@ -1,0 +1,66 @@
+//! Every check there is, in the order of how soon it fails.
+
+use crate::firmware;
+use crate::nightly;
+use crate::processor::CORTEX_M7;
+use crate::run::{Outcome, cargo, cargo_with};
+use crate::rust_version;
+use crate::test_run::test;
+use crate::tools::{CARGO_HACK, install_missing};
+
+/// Not of the main workspace: the C library has a C name and its own panic strategy, the firmware is built for
+/// the target, fuzz targets have their own entry point.
+const C_LIBRARY: &str = "capi/Cargo.toml";
+const FIRMWARE: &str = "firmware/Cargo.toml";
+const FUZZ: &str = "fuzz/Cargo.toml";
+
+/// How long CI looks for inputs that break a fuzz target (s).
+const FUZZ_SECONDS: u32 = 10;
+
+/// Runs every check.
+///
+/// # Errors
+/// The first that failed.
+pub fn ci() -> Outcome {
+    install_missing();
+    cargo(&["fmt", "--all", "--check"])?;
+    for manifest in [C_LIBRARY, FIRMWARE, FUZZ] {
+        cargo(&["fmt", "--manifest-path", manifest, "--check"])?;
+    }
+    lint(&["--workspace", "--all-targets"])?;
+    lint(&["--manifest-path", C_LIBRARY, "--all-targets"])?;
+    lint(&["--manifest-path", FIRMWARE, "--target", CORTEX_M7.target])?;
+    lint(&["--manifest-path", FUZZ])?;
+    cargo_with(
+        &["doc", "--workspace", "--no-deps"],
+        &[("RUSTDOCFLAGS", "-D warnings")],
+    )?;
+    rust_version::check()?;
+    each_feature()?;
+    firmware::build_default()?;
+    test()?;
+    if let Err(lack) = nightly::find() {
+        println!("left out, for there is no nightly compiler: Miri, fuzzing; {lack}");
+        return Ok(());
+    }
+    nightly::miri()?;
+    nightly::fuzz(FUZZ_SECONDS)
+}
+
+fn lint(what: &[&str]) -> Outcome {
+    cargo(&[&["clippy"], what, &["--", "-D", "warnings"]].concat())
+}
+
+/// Every feature of every package alone, none, and all.
+fn each_feature() -> Outcome {
+    CARGO_HACK.install()?;
+    cargo(&[
+        "hack",
+        "clippy",
+        "--workspace",
+        "--each-feature",
+        "--",
+        "-D",
+        "warnings",
+    ])
+}
