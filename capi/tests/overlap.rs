@@ -3,6 +3,7 @@
 mod common;
 
 use std::ptr::null_mut;
+use std::sync::LazyLock;
 
 use common::core_damper;
 use dashpot::*;
@@ -12,9 +13,10 @@ const DONE: DashpotError = DashpotError::None;
 const IMAGE: usize = DASHPOT_IMAGE_SIZE;
 const SAVED: usize = DASHPOT_SAVED_STATE_SIZE;
 
-fn image() -> [u8; IMAGE] {
-    let damper = core_damper(120e3);
-    damper.to_image()
+/// Made once, for under Miri it takes seconds.
+fn image() -> &'static [u8; IMAGE] {
+    static MADE: LazyLock<[u8; IMAGE]> = LazyLock::new(|| core_damper(120e3).to_image());
+    &MADE
 }
 
 /// Words that hold several things at once, and what they were before a call.
