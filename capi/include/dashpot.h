@@ -121,7 +121,7 @@
 #define DASHPOT_STATUS_DAMPER_SWAPPED 8
 
 /**
- * The state was damaged in memory and started over at rest.
+ * Memory was damaged: the state started over at rest, or a check found damage in constants or state.
  */
 #define DASHPOT_STATUS_CORRUPTED 16
 

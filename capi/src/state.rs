@@ -68,8 +68,8 @@ pub unsafe extern "C" fn dashpot_state_read(
         check(reading)?;
         Memory::of(reading).check_apart(Memory::of(state))?;
         let read = DashpotReading {
-            displacement_m: state.displacement(),
-            force_n: state.force(),
+            displacement_m: state.displacement_m(),
+            force_n: state.force_n(),
             status: state.status().bits(),
             rejected_inputs: state.rejected_inputs(),
         };

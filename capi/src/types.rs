@@ -89,7 +89,7 @@ pub const DASHPOT_STATUS_INPUT_LIMITED: u16 = 2;
 pub const DASHPOT_STATUS_SATURATED: u16 = 4;
 /// Another damper than before stepped this state; the force was carried over.
 pub const DASHPOT_STATUS_DAMPER_SWAPPED: u16 = 8;
-/// The state was damaged in memory and started over at rest.
+/// Memory was damaged: the state started over at rest, or a check found damage in constants or state.
 pub const DASHPOT_STATUS_CORRUPTED: u16 = 16;
 
 const _: () = {

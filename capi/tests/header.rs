@@ -1,6 +1,6 @@
 //! The header checked in is the one cbindgen makes of the sources, with the version and sizes of this library.
 //!
-//! `DASHPOT_BLESS=1 cargo test --test header` writes it.
+//! `DASHPOT_BLESS=1 cargo test --manifest-path capi/Cargo.toml --test header` writes it.
 
 use std::fmt::{Display, Write};
 use std::path::Path;
@@ -106,7 +106,7 @@ fn the_header_is_that_of_the_sources() {
         .position(|(a, b)| a != b);
     assert!(
         checked_in == generated,
-        "{} differs from the sources at line {}: DASHPOT_BLESS=1 cargo test --test header",
+        "{} differs from the sources at line {}: DASHPOT_BLESS=1 cargo test --manifest-path capi/Cargo.toml --test header",
         file.display(),
         differs.map_or("of its end".to_owned(), |line| (line + 1).to_string())
     );

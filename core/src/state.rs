@@ -80,17 +80,17 @@ impl<T: Real> DamperState<T> {
     }
 
     /// Displacement used last (m), positive in extension.
-    pub fn displacement(&self) -> T {
+    pub fn displacement_m(&self) -> T {
         self.displacement
     }
 
     /// Piston displacement in the cylinder `x_r` (m).
-    pub fn piston_displacement(&self) -> T {
+    pub fn piston_displacement_m(&self) -> T {
         self.displacement - self.stretch
     }
 
     /// Force returned last (N), positive when it resists extension.
-    pub fn force(&self) -> T {
+    pub fn force_n(&self) -> T {
         self.force
     }
 

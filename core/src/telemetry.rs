@@ -74,6 +74,17 @@ impl<const N: usize> Telemetry<N> {
     /// Root mean square of the force over the samples (N), 0 without any.
     ///
     /// For a display: its square root is approximate and errs by up to 6 %. The step never uses it.
+    ///
+    /// ```
+    /// use dashpot_core::telemetry::{Sample, Telemetry};
+    ///
+    /// let mut telemetry = Telemetry::<4>::new();
+    /// for force_n in [300.0, -400.0] {
+    ///     telemetry.record(Sample { force_n, ..Sample::default() });
+    /// }
+    /// let exact = 353.553; // sqrt((300^2 + 400^2)/2)
+    /// assert!((telemetry.approximate_rms_force_n() / exact - 1.0).abs() < 0.062);
+    /// ```
     pub fn approximate_rms_force_n(&self) -> f32 {
         let mut sum = 0.0;
         let mut count = 0.0;

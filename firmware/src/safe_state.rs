@@ -1,4 +1,4 @@
-//! The end after a panic or a fault: outputs zero, nothing runs, the host gets no answer.
+//! The safe state after a panic or a fault: outputs zero, nothing runs, the host gets no answer.
 
 use core::panic::PanicInfo;
 

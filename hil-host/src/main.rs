@@ -40,7 +40,7 @@ fn main() -> ExitCode {
         return ExitCode::SUCCESS;
     };
     let code = match failure.kind() {
-        Kind::ReaderGone => return ExitCode::SUCCESS,
+        Kind::OutputClosed => return ExitCode::SUCCESS,
         Kind::Failed => 1,
         // As clap's own for an option it refuses.
         Kind::WrongUse => 2,

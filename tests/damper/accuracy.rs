@@ -8,8 +8,8 @@ use dashpot::accuracy::{DAMPERS, Errors, STEPS_S, measure_all};
 use dashpot::tolerance::{FILE, LEAST_USE, SLACK, Tolerance, required, rows, to_text};
 use dashpot::{damper, document};
 use dashpot_core::characteristic::{Characteristic, Corner};
+use dashpot_hil::study::accuracy_limits::{ACCURACY_LIMITS, AccuracyLimits};
 use dashpot_hil::study::excitation::Excitation;
-use dashpot_hil::study::promise::{PROMISES, Promise};
 
 type Found = HashMap<(&'static str, &'static str), Errors>;
 
@@ -144,12 +144,12 @@ fn document_part(found: &Found) -> String {
 
 /// The promised limits of docs/numerics.md.
 fn promise_part() -> String {
-    let [long, short] = PROMISES;
+    let [long, short] = ACCURACY_LIMITS;
     assert_eq!(
         (long.nrmse_10_khz_f64, long.nrmse_10_khz_f32),
         (short.nrmse_10_khz_f64, short.nrmse_10_khz_f32)
     );
-    let ms = |promise: Promise| promise.least_relaxation_time_s * 1e3;
+    let ms = |promise: AccuracyLimits| promise.least_relaxation_time_s * 1e3;
     format!(
         "| relaxation time | 1 kHz | 10 kHz |\n|---|---|---|\n\
          | {} ms or more | {:e} | {:e} in `f64`, {:e} in `f32` |\n| {} to {} ms | {:e} | the same |\n",

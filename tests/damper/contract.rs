@@ -67,7 +67,7 @@ fn a_jump_is_followed_at_the_configured_rate() {
     for tick in 1..=10 {
         damper.step(&mut state, -0.02);
         let expected = (1e-3 - 1.5e-3 * f64::from(tick)).max(-0.02);
-        assert!((state.displacement() - expected).abs() < 1e-12);
+        assert!((state.displacement_m() - expected).abs() < 1e-12);
     }
     assert!(state.status().contains(Status::INPUT_LIMITED));
     assert!(!state.status().contains(Status::INPUT_HELD));
@@ -99,7 +99,7 @@ fn the_force_is_finite_and_within_its_limit_for_any_bits() {
             };
             let force = damper.step(&mut state, x);
             assert!(force.abs() <= limit, "{preset}, tick {tick}: {force}");
-            assert!(state.piston_displacement().is_finite());
+            assert!(state.piston_displacement_m().is_finite());
         }
     }
 }
@@ -110,7 +110,7 @@ fn any_place_to_start_is_safe() {
     let damper: Damper<f32> = build("paper");
     for _ in 0..200_000 {
         let mut state = damper.at_rest(f32::from_bits(bits(&mut seed)));
-        assert!(state.displacement().is_finite());
+        assert!(state.displacement_m().is_finite());
         let force = damper.step(&mut state, f32::from_bits(bits(&mut seed)));
         assert!(force.abs() <= damper.force_limit_n());
     }
@@ -142,7 +142,7 @@ fn tiny_states_are_flushed() {
         // Seal friction holds its force; beyond it, in `f32` a stretch of half a millimetre of clearance
         // resolves 6e-11 m, 5e-4 N.
         let held = if preset == "in-service" { 100.0 } else { 0.0 };
-        let rest = state.force().abs();
+        let rest = state.force_n().abs();
         assert!(rest < held + 0.01, "{preset}: {rest} N at rest");
     }
 }
@@ -154,7 +154,7 @@ fn tiny_input_leaves_no_tiny_state() {
     for x in [1e-40, -1e-42, f32::MIN_POSITIVE, 1e-30, -1e-20, 1e-12] {
         assert_eq!(damper.step(&mut state, x), 0.0);
         assert_eq!(
-            state.displacement(),
+            state.displacement_m(),
             0.0,
             "{x:e} is below the position grid"
         );
@@ -389,7 +389,7 @@ fn drop_at_swap(before: &DamperParameters, after: &DamperParameters, step_s: f64
     for tick in 1..=ticks {
         before.step(&mut state, x(tick));
     }
-    let force = state.force();
+    let force = state.force_n();
     assert!(force > 5e3);
     assert!(!state.status().contains(Status::DAMPER_SWAPPED));
     let swapped = after.step(&mut state, x(ticks));
@@ -407,8 +407,8 @@ fn adopting_keeps_force_and_displacement() {
     }
     let saved = state;
     after.adopt(&mut state);
-    assert_eq!(state.force(), saved.force());
-    assert_eq!(state.displacement(), saved.displacement());
+    assert_eq!(state.force_n(), saved.force_n());
+    assert_eq!(state.displacement_m(), saved.displacement_m());
     assert!(state.status().contains(Status::DAMPER_SWAPPED));
     let mut swapped = saved;
     assert_eq!(

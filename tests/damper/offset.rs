@@ -3,8 +3,8 @@
 use dashpot::accuracy::{displacements_m, stepped};
 use dashpot::damper;
 use dashpot_hil::study::Scalar;
+use dashpot_hil::study::accuracy_limits::ACCURACY_LIMITS;
 use dashpot_hil::study::excitation::Excitation;
-use dashpot_hil::study::promise::PROMISES;
 use dashpot_reference::damper::Reference;
 use dashpot_reference::deviation::nrmse;
 
@@ -31,7 +31,7 @@ fn error_about(preset: &str, offset_m: f64) -> f64 {
 
 #[test]
 fn the_promise_holds_up_to_a_quarter_of_a_metre() {
-    let promised = PROMISES[0].nrmse(STEP_S, Scalar::F32).unwrap();
+    let promised = ACCURACY_LIMITS[0].nrmse(STEP_S, Scalar::F32).unwrap();
     for preset in ["paper", "in-service", "reduced-vertical", "reduced-lateral"] {
         for offset_m in [-0.25, 0.2] {
             let error = error_about(preset, offset_m);

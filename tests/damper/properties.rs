@@ -36,7 +36,7 @@ fn least_dissipation(parameters: &DamperParameters, stiffness: f64, motion: &[f6
     let mut state = damper.at_rest(motion[0]);
     let (mut work, mut moved, mut least) = (0.0_f64, 0.0_f64, 0.0_f64);
     for pair in motion.windows(2) {
-        let before = state.force();
+        let before = state.force_n();
         let force = damper.step(&mut state, pair[1]);
         let done = 0.5 * (before + force) * (pair[1] - pair[0]);
         work += done;
@@ -80,7 +80,7 @@ proptest! {
             for x in through(&corners, ticks) {
                 prop_assert_eq!(damper.step(&mut state, x as f32), 0.0);
             }
-            prop_assert_eq!(state.piston_displacement(), 0.0);
+            prop_assert_eq!(state.piston_displacement_m(), 0.0);
         }
     }
 
@@ -136,7 +136,10 @@ fn odd<T: Real>(parameters: &DamperParameters, motion: &[f64]) -> Result<(), Tes
         let force = damper.step(&mut one, T::from_f64(*x)).to_f64();
         let mirrored = damper.step(&mut other, T::from_f64(-*x)).to_f64();
         prop_assert_eq!(force, -mirrored);
-        prop_assert_eq!(one.displacement().to_f64(), -other.displacement().to_f64());
+        prop_assert_eq!(
+            one.displacement_m().to_f64(),
+            -other.displacement_m().to_f64()
+        );
     }
     Ok(())
 }
@@ -229,7 +232,7 @@ fn a_piston_at_rest_stays_where_it_is_over_ten_million_steps() {
     }
     assert_eq!(MANY % 2000, 0);
     assert_eq!(state, early, "the state after the first cycle, bit for bit");
-    assert_eq!(state.piston_displacement(), 0.0);
+    assert_eq!(state.piston_displacement_m(), 0.0);
 }
 
 #[test]

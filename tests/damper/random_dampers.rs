@@ -16,7 +16,9 @@ use dashpot_core::parameters::{
 };
 use dashpot_core::{Damper, DamperParameters};
 use dashpot_hil::study::Scalar;
-use dashpot_hil::study::promise::{LEAST_RMS_FORCE, Promise, relaxation_time_s};
+use dashpot_hil::study::accuracy_limits::{
+    AccuracyLimits, LEAST_RMS_FORCE_RATIO, relaxation_time_s,
+};
 use dashpot_reference::damper::Reference;
 use dashpot_reference::deviation::{largest_magnitude, nrmse_above};
 
@@ -247,7 +249,7 @@ fn measure(number: u64) -> Result<Case, String> {
         let built: Damper<f64> = parameters
             .build(step_s)
             .map_err(|error| error.to_string())?;
-        let least_rms_n = LEAST_RMS_FORCE * built.force_limit_n();
+        let least_rms_n = LEAST_RMS_FORCE_RATIO * built.force_limit_n();
         *found = stepped.map(|forces| nrmse_above(&forces, &reference, least_rms_n));
     }
     Ok(case)
@@ -255,7 +257,7 @@ fn measure(number: u64) -> Result<Case, String> {
 
 /// NRMSE promised for each step of [`STEPS_S`] in `f64` and in `f32`, where there is a promise.
 fn promised(relaxation_s: f64) -> Option<[[f64; 2]; 2]> {
-    let promise = Promise::of(relaxation_s)?;
+    let promise = AccuracyLimits::of(relaxation_s)?;
     let nrmse = |step_s, scalar| {
         promise
             .nrmse(step_s, scalar)

@@ -5,12 +5,12 @@ use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 use std::time::Duration;
 
-use dashpot_hil::target::pil::{Link, LinkError, Patience, Qemu};
+use dashpot_hil::target::pil::{Link, LinkError, Qemu, RetryLimits};
 use xtask::processor::CORTEX_M7;
 use xtask::tools::{ARM_GCC, QEMU, have, have_target};
 
 /// The link under the client never lets it wait.
-pub const PATIENCE: Patience = Patience {
+pub const RETRY_LIMITS: RetryLimits = RetryLimits {
     timeout: Duration::ZERO,
     tries: 50,
 };

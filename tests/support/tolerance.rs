@@ -4,7 +4,7 @@
 //! error; no row, blessed or not, may exceed [`required`].
 
 use dashpot_hil::study::Scalar;
-use dashpot_hil::study::promise::PROMISES;
+use dashpot_hil::study::accuracy_limits::ACCURACY_LIMITS;
 
 use crate::accuracy::{DAMPERS, STEPS_S};
 
@@ -31,7 +31,7 @@ pub struct Tolerance {
 /// NRMSE the product promises at step size `step` of [`STEPS_S`], in `f64` and in `f32`.
 pub fn required(damper: &str, step: usize) -> [f64; 2] {
     assert!(DAMPERS.iter().any(|(name, _, _)| *name == damper));
-    let [usual, stiff] = &PROMISES;
+    let [usual, stiff] = &ACCURACY_LIMITS;
     let promise = if damper == "paper, Ke 40 MN/m" {
         stiff
     } else {

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use dashpot::in_turn::{InTurn, MOST_ANSWERS, PATIENCE, images};
+use dashpot::in_turn::{InTurn, MOST_ANSWERS, RETRY_LIMITS, images};
 use dashpot::target::first_line;
 use dashpot::{damper, document};
 use dashpot_core::link::{Counters, LossOfLink, Reals, Refusal, Request, Response, SafeOutput};
@@ -26,7 +26,7 @@ fn run(rates: &str, resets: &'static [u32], ticks: usize) -> Option<Report> {
     let image = images()?.join("dashpot-firmware");
     let rates: FaultRates = rates.parse().unwrap();
     let link = FaultyLink::new(InTurn::start(&image, resets, None), rates, 5).unwrap();
-    let mut session = Session::open(Client::new(link, PATIENCE, 1)).unwrap();
+    let mut session = Session::open(Client::new(link, RETRY_LIMITS, 1)).unwrap();
     let ride = Excitation::Ride.displacements_m(1e-3);
     let mut ride = ride.into_iter().take(ticks);
     let damper = damper("in-service", &["mount.clearance_m=1e-3"]);
@@ -72,7 +72,7 @@ fn the_free_running_target_loses_the_link_and_outputs_zero() {
         return;
     };
     let link = InTurn::start(&images.join("dashpot-firmware"), &[], None);
-    let mut client = Client::new(link, PATIENCE, 9);
+    let mut client = Client::new(link, RETRY_LIMITS, 9);
     client.hello().unwrap();
     let lose_after = |after_ticks| {
         Request::LossOfLink(LossOfLink {

@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use dashpot::in_turn::{InTurn, MOST_ANSWERS, PATIENCE, images};
+use dashpot::in_turn::{InTurn, MOST_ANSWERS, RETRY_LIMITS, images};
 use dashpot_core::link::{LossOfLink, Reals, Request, Response, SafeOutput};
 use dashpot_hil::target::pil::{Client, Qemu};
 
@@ -39,7 +39,7 @@ fn lose_the_link(output: SafeOutput) -> Option<(Vec<Forces>, Reals)> {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let file = folder.path().join("outputs.bin");
     let link = InTurn::start(&images.join("dashpot-firmware"), &[], Some(&file));
-    let mut client = Client::new(link, PATIENCE, 3);
+    let mut client = Client::new(link, RETRY_LIMITS, 3);
     client.hello().expect("a target");
     let mut ask = |request: Request<'static>| {
         let answer = client.request(&request);

@@ -4,7 +4,7 @@ use std::process::ExitCode;
 
 use xtask::c_library::{self, Options, Platform};
 use xtask::ci::ci;
-use xtask::run::{Outcome, cargo, cargo_aside, repository, version_of};
+use xtask::run::{Outcome, cargo, cargo_output_to_stderr, repository, version_of};
 use xtask::rust_version::numbers;
 use xtask::test_run::test;
 use xtask::tools::install_missing;
@@ -25,7 +25,7 @@ Commands:
                          build the C library into an install tree for each target: cortex-m4f,
                          cortex-m7, cortex-m33, x86-64, aarch64; all that this machine can build
                          when none is named; into target/c-library
-  miri                   run the tests of the C border under Miri (needs a nightly compiler)
+  miri                   run the tests of the C interface under Miri (needs a nightly compiler)
   fuzz [--seconds N]     run each fuzz target from its kept seeds for N seconds, 60 when not given (needs a
                          nightly compiler)
   ci                     formatting, lints, documentation, Rust version, each feature, test; Miri and
@@ -112,7 +112,7 @@ fn measure_target(json: bool) -> Outcome {
     install_missing();
     let path = repository().join("target/target_figures.json");
     let _ = std::fs::remove_file(&path);
-    let held = cargo_aside(
+    let held = cargo_output_to_stderr(
         &[
             "test",
             "--package",

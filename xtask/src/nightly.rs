@@ -11,7 +11,7 @@ const NIGHTLY: &str = "nightly";
 /// assembly.
 const MIRI_TARGET: &str = "armv7-unknown-linux-gnueabihf";
 
-/// What Miri runs: all tests that cross the border of the C library, but that of its header. The core, which they
+/// What Miri runs: all tests that cross the C interface, but that of its header. The core, which they
 /// drive, has no unsafe code of its own.
 const MIRI_ARGUMENTS: [&str; 14] = [
     "miri",
@@ -42,7 +42,7 @@ pub fn find() -> Outcome {
         .map_err(|_| "run `rustup toolchain install nightly --component miri,rust-src`".into())
 }
 
-/// Runs the tests of the C border under Miri.
+/// Runs the tests of the C interface under Miri.
 ///
 /// # Errors
 /// There is no nightly toolchain, a test failed, or its behaviour is undefined.

@@ -17,7 +17,7 @@ pub fn cargo_with(arguments: &[&str], variables: &[(&str, &str)]) -> Outcome {
 }
 
 /// As [`cargo_with`], with all output on standard error: standard output is free for a result.
-pub fn cargo_aside(arguments: &[&str], variables: &[(&str, &str)]) -> Outcome {
+pub fn cargo_output_to_stderr(arguments: &[&str], variables: &[(&str, &str)]) -> Outcome {
     show(arguments, variables, std::io::stderr().into())
 }
 

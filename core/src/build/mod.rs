@@ -16,7 +16,7 @@ use crate::damper::Damper;
 use crate::error::BuildError;
 use crate::hydraulics::HydraulicSide;
 use crate::math::Real;
-use crate::parameters::{DamperParameters, OilColumn, STEP_RANGE_S};
+use crate::parameters::{DamperParameters, OilColumn, STEP_ALLOWED, STEP_RANGE_S};
 use crate::scalars::Scalars;
 use crate::table::{DOUBLINGS, PIECES};
 
@@ -44,7 +44,7 @@ impl CheckedParameters {
                 section: "step",
                 field: "step_s",
                 value: step_s,
-                allowed: "1e-6 to 2e-2 s",
+                allowed: STEP_ALLOWED,
             });
         }
         let damper = match &self.laws {

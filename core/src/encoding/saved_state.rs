@@ -106,7 +106,7 @@ macro_rules! saved_state {
             /// let parameters = DamperParameters::reduced(120e3, 0.03, Mount::new(8e6));
             #[doc = concat!("let damper: Damper<", stringify!($float), "> = parameters.build(1e-3)?;")]
             /// let mut saved = damper.at_rest(0.25).save();
-            /// assert_eq!(damper.restore(&saved).unwrap().displacement(), 0.25);
+            /// assert_eq!(damper.restore(&saved).unwrap().displacement_m(), 0.25);
             /// saved[10] ^= 1;
             /// assert_eq!(damper.restore(&saved), Err(SavedStateError::Checksum));
             /// # }

@@ -42,7 +42,7 @@ macro_rules! state_bytes {
             /// let parameters = DamperParameters::reduced(120e3, 0.03, Mount::new(8e6));
             #[doc = concat!("let damper: Damper<", stringify!($float), "> = parameters.build(1e-3)?;")]
             /// let mut bytes = damper.at_rest(0.25).to_bytes();
-            /// assert_eq!(damper.state_from_bytes(&bytes).unwrap().displacement(), 0.25);
+            /// assert_eq!(damper.state_from_bytes(&bytes).unwrap().displacement_m(), 0.25);
             #[doc = concat!("let revision = &mut bytes[", stringify!($bytes), " - 8..][..4];")]
             /// revision.copy_from_slice(&7_u32.to_le_bytes());
             /// let refused = SavedStateError::Revision { expected: damper.revision(), found: 7 };

@@ -203,8 +203,8 @@ impl<const N: usize> Loaded<N> {
             *state = damper.state_from_bytes(saved).map_err(|_| Refusal::State)?;
         }
         self.states = states;
-        self.displacements_m = states.map(|state| state.displacement());
-        self.forces_n = states.map(|state| state.force());
+        self.displacements_m = states.map(|state| state.displacement_m());
+        self.forces_n = states.map(|state| state.force_n());
         self.tick = tick;
         Ok(())
     }

@@ -51,8 +51,8 @@ impl<const N: usize> Recorder<N> {
     pub(crate) fn record(&mut self, tick: u32, states: &[DamperState<f32>; N]) {
         self.ticks[self.recorded as usize % KEPT_TICKS] = Tick {
             tick,
-            displacements_m: states.each_ref().map(DamperState::displacement),
-            forces_n: states.each_ref().map(DamperState::force),
+            displacements_m: states.each_ref().map(DamperState::displacement_m),
+            forces_n: states.each_ref().map(DamperState::force_n),
             status: states.each_ref().map(DamperState::status),
         };
         self.recorded = self.recorded.wrapping_add(1);

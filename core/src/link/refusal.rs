@@ -66,8 +66,8 @@ pub enum Refusal {
     /// The link was lost: the safe output stays until run.
     #[error("the target lost the link; its outputs stay safe until it is run again")]
     LinkLost,
-    /// The constants of this damper were damaged in memory: the safe output stays until it is loaded again and
-    /// run.
+    /// Memory of this damper was damaged: the safe output stays until run or, where it is the constants, until the
+    /// damper is loaded again and run.
     #[error(
         "memory of the damper in place {0} was damaged; the outputs stay safe until it is loaded again and run"
     )]

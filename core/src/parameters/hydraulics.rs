@@ -139,25 +139,6 @@ parameters! {
 }
 
 impl Valve {
-    /// A valve of a given edge compliance (m/Pa) between two radii (m), with its discharge coefficient (1); no
-    /// preload.
-    pub fn with_edge_compliance(
-        clamp_radius_m: f64,
-        free_radius_m: f64,
-        edge_compliance_m_per_pa: f64,
-        discharge_coefficient: f64,
-    ) -> Self {
-        Self {
-            edge_compliance_m_per_pa: Some(edge_compliance_m_per_pa),
-            ..Self::with_shims(
-                clamp_radius_m,
-                free_radius_m,
-                Vec::new(),
-                discharge_coefficient,
-            )
-        }
-    }
-
     /// A valve of shims of these thicknesses (m) between two radii (m), with its discharge coefficient (1); spring
     /// steel, no preload.
     pub fn with_shims(
@@ -171,9 +152,11 @@ impl Valve {
             free_radius_m,
             shims_m,
             edge_compliance_m_per_pa: None,
-            equivalent_pressure_factor: 1.0,
+            equivalent_pressure_factor: const {
+                Self::RANGES.equivalent_pressure_factor.default.unwrap()
+            },
             discharge_coefficient,
-            preload_pa: 0.0,
+            preload_pa: const { Self::RANGES.preload_pa.default.unwrap() },
             elastic_modulus_pa: const { Self::RANGES.elastic_modulus_pa.default.unwrap() },
             poisson_ratio: const { Self::RANGES.poisson_ratio.default.unwrap() },
         }

@@ -29,6 +29,10 @@ use range::{allowed, parameters};
 /// Step sizes (s) that a damper can be built for.
 pub const STEP_RANGE_S: core::ops::RangeInclusive<f64> = 1e-6..=2e-2;
 
+/// [`STEP_RANGE_S`] in words.
+#[cfg(feature = "builder")]
+pub(crate) const STEP_ALLOWED: &str = "1e-6 to 2e-2 s";
+
 /// Largest clearance 2a (m).
 pub const LARGEST_CLEARANCE_M: f64 = Mount::RANGES.clearance_m.greatest;
 

@@ -140,12 +140,12 @@ fn export<T: Word>(arguments: &ExportArguments) -> Outcome<Report> {
         (Some(name), _) => Some(name.clone()),
         (None, _) => Some(constant_name(&arguments.damper.damper)),
     };
-    let step_s = arguments.step_us.seconds();
+    let step_s = arguments.step_us.step_s();
     let damper: Damper<T> = arguments.damper.load()?.build(step_s)?;
     let constant = name.as_deref().unwrap_or_default();
     let provenance = Provenance {
         damper: &arguments.damper.damper,
-        step_us: arguments.step_us.us(),
+        step_us: arguments.step_us.step_us(),
         command: &command_line(arguments, constant),
     };
     let path = &arguments.output;

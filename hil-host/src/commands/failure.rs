@@ -32,7 +32,7 @@ pub enum Kind {
     /// Something is requested that is not allowed: an option's value, or options together.
     WrongUse,
     /// The reader of the output has left: nothing is wrong, and no message is needed.
-    ReaderGone,
+    OutputClosed,
 }
 
 /// Result of a command or a part of one.
@@ -85,7 +85,7 @@ failures!(BuildError, DrawError, ReferenceError, toml::ser::Error);
 impl From<FileError> for Failure {
     fn from(error: FileError) -> Self {
         let kind = if error.is_broken_pipe() {
-            Kind::ReaderGone
+            Kind::OutputClosed
         } else {
             Kind::Failed
         };

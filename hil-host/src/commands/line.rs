@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use crate::commands::failure::Outcome;
-use crate::target::pil::{Link, LinkChoice, Patience};
+use crate::target::pil::{Link, LinkChoice, RetryLimits};
 
 /// Which line to a target, and how long to wait for answers.
 #[derive(Debug, Clone, clap::Args)]
@@ -32,8 +32,8 @@ impl LineArguments {
     }
 
     /// How long to wait for an answer, and how often to ask.
-    pub fn patience(&self) -> Patience {
-        Patience {
+    pub fn retry_limits(&self) -> RetryLimits {
+        RetryLimits {
             timeout: Duration::from_millis(self.timeout_ms),
             tries: self.tries,
         }

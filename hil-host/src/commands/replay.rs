@@ -101,7 +101,7 @@ pub fn run(arguments: &ReplayArguments) -> Outcome<()> {
         .options
         .options_under("--realtime", arguments.realtime)?;
     let mut pacer = if arguments.realtime {
-        Some(Pacer::new(arguments.step_us.seconds(), &options)?)
+        Some(Pacer::new(arguments.step_us.step_s(), &options)?)
     } else {
         None
     };
@@ -111,7 +111,7 @@ pub fn run(arguments: &ReplayArguments) -> Outcome<()> {
     };
     let report = Report {
         ticks: summary.ticks,
-        step_s: arguments.step_us.seconds(),
+        step_s: arguments.step_us.step_s(),
         force_rms_n: summary.force_rms_n,
         max_extension_force_n: summary.max_extension_force_n,
         max_compression_force_n: summary.max_compression_force_n,
@@ -144,7 +144,7 @@ fn write<T: Real + Serialize>(
     arguments: &ReplayArguments,
     pacer: Option<&mut Pacer>,
 ) -> Outcome<(Summary, Gaps)> {
-    let step_s = arguments.step_us.seconds();
+    let step_s = arguments.step_us.step_s();
     let damper = parameters.build::<T>(step_s)?;
     let bar = progress::bar(input::length(&arguments.input), "replay");
     let mut ticks = TickGrid::new(Recording::open(&arguments.input)?, step_s)?;

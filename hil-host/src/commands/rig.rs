@@ -77,7 +77,7 @@ pub fn run(arguments: &RigArguments) -> Outcome<()> {
         amplitude_m: arguments.amplitude_m,
         frequency_hz: arguments.frequency_hz,
     };
-    let cycle = bench_test::run_until_periodic(&damper, motion, arguments.step_us.seconds())?;
+    let cycle = bench_test::run_until_periodic(&damper, motion, arguments.step_us.step_s())?;
     let indices = cycle.indices();
     let published = is_nominal(&motion)
         .then(nominal_characteristic)

@@ -23,7 +23,7 @@ pub(super) fn help(what: &str, more: &str) -> String {
 /// ```
 /// use dashpot_hil::commands::step_size::StepSize;
 /// let step: StepSize = "62.5".parse()?;
-/// assert_eq!(step.seconds(), 62.5e-6);
+/// assert_eq!(step.step_s(), 62.5e-6);
 /// assert_eq!(step.to_string(), "62.5");
 /// # Ok::<(), String>(())
 /// ```
@@ -36,7 +36,7 @@ impl StepSize {
     /// The step size of `us` (us); `None` outside [`STEP_RANGE_S`].
     pub fn from_us(us: f64) -> Option<Self> {
         let step = Self { us };
-        STEP_RANGE_S.contains(&step.seconds()).then_some(step)
+        STEP_RANGE_S.contains(&step.step_s()).then_some(step)
     }
 
     /// The step that a target reports in single precision (s), which stands for the shortest decimal that
@@ -62,12 +62,12 @@ impl StepSize {
     }
 
     /// In microseconds.
-    pub fn us(self) -> f64 {
+    pub fn step_us(self) -> f64 {
         self.us
     }
 
     /// In seconds.
-    pub fn seconds(self) -> f64 {
+    pub fn step_s(self) -> f64 {
         self.us / 1e6
     }
 }

@@ -85,7 +85,7 @@ pub fn run(arguments: &VerifyArguments) -> Outcome<()> {
     let bar = progress::bar(arguments.step_us.len() as u64, "verify");
     let mut rows = Vec::new();
     for &step in &arguments.step_us {
-        let step_s = step.seconds();
+        let step_s = step.step_s();
         let ticks = TickGrid::new(open()?, step_s)?.read_all()?;
         let displacements_m: Vec<f64> = ticks.iter().map(|tick| tick.displacement_m).collect();
         let on_ticks = reference_forces(&parameters, step_s, &displacements_m)?;
@@ -151,7 +151,7 @@ fn print(out: &mut dyn Write, report: &Report, arguments: &VerifyArguments) -> i
         writeln!(
             out,
             "  {:>9}  {:<6}  {:>14.2e}  {:>18.2e}  {:>12.2e}  {:>9.2}  {:>6.0}",
-            row.step.us(),
+            row.step.step_us(),
             row.scalar,
             deviation.nrmse,
             row.nrmse_on_recording,

@@ -1,9 +1,9 @@
 //! Studies of a damper: replay of a recording, bench test, verification against the reference.
 
+pub mod accuracy_limits;
 pub mod bench_test;
 mod error;
 pub mod excitation;
-pub mod promise;
 pub mod published;
 pub mod replay;
 mod scalar;

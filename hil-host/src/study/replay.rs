@@ -180,7 +180,7 @@ pub fn replay<T: Real, E: From<FileError>>(
         sink(tick, force, ticks)?;
         summary.book(tick.time_s, state.status());
         state.clear_status();
-        let (followed, force) = (state.displacement().to_f64(), force.to_f64());
+        let (followed, force) = (state.displacement_m().to_f64(), force.to_f64());
         if let Some((x, f)) = last {
             summary.energy_j += 0.5 * (force + f) * (followed - x);
         }

@@ -26,11 +26,6 @@ impl ChildProcess {
         Ok(Self(child))
     }
 
-    /// Its process id.
-    pub(crate) fn id(&self) -> u32 {
-        lock(&self.0).id()
-    }
-
     /// How it ended, if it has.
     pub(crate) fn ended(&self) -> Option<ExitStatus> {
         lock(&self.0).try_wait().ok().flatten()

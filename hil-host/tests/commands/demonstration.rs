@@ -4,8 +4,8 @@ use std::path::Path;
 use std::sync::LazyLock;
 
 use dashpot_hil::study::Scalar;
+use dashpot_hil::study::accuracy_limits::ACCURACY_LIMITS;
 use dashpot_hil::study::excitation::Excitation;
-use dashpot_hil::study::promise::PROMISES;
 
 use crate::common::{dashpot, error_of, json_of, text_of};
 
@@ -25,7 +25,7 @@ fn check_limit(row: &serde_json::Value) {
         Scalar::F64
     };
     let step_s = row["step_s"].as_f64().unwrap();
-    let limit = PROMISES[0].nrmse(step_s, scalar).unwrap();
+    let limit = ACCURACY_LIMITS[0].nrmse(step_s, scalar).unwrap();
     assert_eq!(row["nrmse_limit"].as_f64(), Some(limit));
     let nrmse = row["nrmse"].as_f64().unwrap();
     assert!(nrmse > 0.0 && nrmse < limit, "{row}");

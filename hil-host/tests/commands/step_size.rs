@@ -75,7 +75,7 @@ fn verify_and_rig_take_a_fraction() {
 fn the_step_of_a_target_is_the_one_it_was_built_for() {
     for us in [1.0, 62.5, 100.0, 333.3333, 1000.0, 20_000.0] {
         let step = StepSize::from_us(us).unwrap();
-        let reported = in_service(step.seconds()).step_s();
+        let reported = in_service(step.step_s()).step_s();
         assert_eq!(StepSize::from_target(reported), Some(step), "{reported}");
     }
     for step_s in [0.0, 0.9e-6, 0.021, f32::NAN, f32::INFINITY] {

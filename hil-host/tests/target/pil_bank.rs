@@ -6,7 +6,7 @@ use dashpot_hil::target::pil::{
     Client, Desk, FaultRates, FaultyLink, Link, Pace, Report, Session, SessionError,
 };
 
-use crate::pil_common::{PATIENCE, built, desk, motion, ride};
+use crate::pil_common::{RETRY_LIMITS, built, desk, motion, ride};
 
 /// Runs `dampers` and keeps the forces of the target (N), tick by tick.
 fn forces(
@@ -14,7 +14,7 @@ fn forces(
     dampers: &[Damper<f32>],
     ticks: usize,
 ) -> Result<(Report, Vec<Vec<f32>>), SessionError> {
-    let mut session = Session::open(Client::new(link, PATIENCE, 40))?;
+    let mut session = Session::open(Client::new(link, RETRY_LIMITS, 40))?;
     let mut forces_n = Vec::new();
     let report = session.run(dampers, motion(ticks), &mut Pace::default(), |record| {
         assert_eq!(record.target_forces_n, record.host_forces_n);
@@ -87,7 +87,7 @@ fn one_damper_goes_into_every_place() {
 fn another_number_of_dampers_is_refused_before_the_target_is_touched() {
     for count in [0, 2, 4] {
         let dampers = vec![built("paper"); count];
-        let mut session = Session::open(Client::new(desk(), PATIENCE, 40)).unwrap();
+        let mut session = Session::open(Client::new(desk(), RETRY_LIMITS, 40)).unwrap();
         let refused = session.run(&dampers, motion(10), &mut Pace::default(), |_| Ok(()));
         let refused = Failure::from(refused.unwrap_err());
         assert_eq!(refused.kind(), Kind::WrongUse);

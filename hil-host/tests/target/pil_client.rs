@@ -6,9 +6,9 @@ use std::time::{Duration, Instant};
 
 use dashpot_core::link::{Refusal, Request};
 use dashpot_core::{Damper, ImageError};
-use dashpot_hil::target::pil::{Client, Desk, Link, LinkError, Patience};
+use dashpot_hil::target::pil::{Client, Desk, Link, LinkError, RetryLimits};
 
-use crate::pil_common::{PATIENCE, desk};
+use crate::pil_common::{RETRY_LIMITS, desk};
 
 /// Nobody: tells how long it was to wait since it was made.
 struct Nobody(Instant, Rc<RefCell<Vec<Duration>>>);
@@ -27,14 +27,14 @@ impl Link for Nobody {
 #[test]
 fn the_wait_allows_for_the_time_a_long_frame_takes() {
     let waits = Rc::default();
-    let once = Patience {
+    let once = RetryLimits {
         timeout: Duration::from_millis(200),
         tries: 1,
     };
     let mut client = Client::new(Nobody(Instant::now(), Rc::clone(&waits)), once, 1);
     let image = &[0; Damper::<f32>::IMAGE_BYTES];
     let silent = client.request(&Request::Load { damper: 0, image });
-    assert!(matches!(silent, Err(LinkError::Silent(patience)) if patience == once));
+    assert!(matches!(silent, Err(LinkError::Silent(retry_limits)) if retry_limits == once));
     // At 115200 bit/s a bridge is busy with these bytes for 0.58 s.
     let busy = Duration::from_secs_f64(image.len() as f64 * 10.0 / 115_200.0);
     let [wait] = waits.borrow()[..] else {
@@ -60,10 +60,10 @@ impl Link for Shared {
 #[test]
 fn a_session_number_that_is_open_is_passed_over() {
     let desk = Shared(Rc::new(RefCell::new(desk())));
-    let mut first = Client::new(desk.clone(), PATIENCE, u16::MAX);
+    let mut first = Client::new(desk.clone(), RETRY_LIMITS, u16::MAX);
     first.hello().unwrap();
     first.request(&Request::Status).unwrap();
-    let mut second = Client::new(desk, PATIENCE, u16::MAX);
+    let mut second = Client::new(desk, RETRY_LIMITS, u16::MAX);
     second.hello().unwrap();
     second.request(&Request::Status).unwrap();
     // The first has lost its session to the second, and takes the target back.

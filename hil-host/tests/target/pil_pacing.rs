@@ -8,7 +8,7 @@ use dashpot_core::link::{FrameReader, Header, REQUEST_BYTES, Request};
 use dashpot_hil::realtime::pacing::{Clock, Pacer};
 use dashpot_hil::target::pil::{Client, Desk, Event, Link, LinkError, Pace, Report, Session};
 
-use crate::pil_common::{PATIENCE, built, desk, motion};
+use crate::pil_common::{RETRY_LIMITS, built, desk, motion};
 
 /// Time moves by sleeping and by hand.
 #[derive(Clone, Default)]
@@ -68,7 +68,7 @@ fn run(pace: impl FnOnce(SimulatedClock) -> Pace<SimulatedClock>) -> Ran {
         sent_ns: Rc::default(),
     };
     let sent_ns = link.sent_ns.clone();
-    let mut session = Session::open(Client::new(link, PATIENCE, 40)).unwrap();
+    let mut session = Session::open(Client::new(link, RETRY_LIMITS, 40)).unwrap();
     let (mut round_trips_ns, mut late) = (Vec::new(), Vec::new());
     let report = session
         .run(&[built("paper")], motion(10), &mut pace(clock), |record| {

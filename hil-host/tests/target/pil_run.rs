@@ -13,12 +13,12 @@ use dashpot_hil::target::pil::{
 #[cfg(all(unix, feature = "serial"))]
 use {crate::pil_common::serve, dashpot_hil::target::pil::Serial, std::path::Path};
 
-use crate::pil_common::{PATIENCE, altered, built, desk, motion, serve_tcp};
+use crate::pil_common::{RETRY_LIMITS, altered, built, desk, motion, serve_tcp};
 
 fn drive(rates: &str, seed: u64) -> (Report, FaultCounts) {
     let rates: FaultRates = rates.parse().unwrap();
     let link = FaultyLink::new(desk(), rates, seed).unwrap();
-    let mut session = Session::open(Client::new(link, PATIENCE, 40)).unwrap();
+    let mut session = Session::open(Client::new(link, RETRY_LIMITS, 40)).unwrap();
     let report = session
         .run(
             &[built("paper")],
@@ -77,7 +77,7 @@ fn every_tick_tells_what_happened_in_it() {
             .parse()
             .unwrap();
     let link = FaultyLink::new(desk(), rates, 2).unwrap();
-    let mut session = Session::open(Client::new(link, PATIENCE, 40)).unwrap();
+    let mut session = Session::open(Client::new(link, RETRY_LIMITS, 40)).unwrap();
     let mut reported: Vec<Vec<Event>> = Vec::new();
     let report = session
         .run(
@@ -130,7 +130,7 @@ fn all_faults_together_and_the_same_for_the_same_seed() {
 }
 
 fn report_of(link: impl Link) -> Result<Report, SessionError> {
-    let mut session = Session::open(Client::new(link, PATIENCE, 40))?;
+    let mut session = Session::open(Client::new(link, RETRY_LIMITS, 40))?;
     let dampers = [built("paper")];
     session.run(&dampers, motion(100), &mut Pace::default(), |_| Ok(()))
 }

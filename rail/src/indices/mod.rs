@@ -6,7 +6,7 @@
 //! # To add an index
 //!
 //! Add a file to `rail/src/indices/`, named after the index, that computes it from a
-//! [`Pair`](crate::contact::Pair) or from [`WheelsetForces`](crate::contact::WheelsetForces). Declare and re-export it
+//! [`Pair`](crate::contact::Pair), from [`WheelsetForces`](crate::contact::WheelsetForces), or from a record over time and its step. Declare and re-export it
 //! here, and test it in `rail/tests/contact/` against a closed form.
 
 mod conicity;

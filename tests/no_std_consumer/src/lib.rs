@@ -89,8 +89,8 @@ pub extern "C" fn checked_telemetry(
 ) -> f32 {
     telemetry.record(Sample {
         tick,
-        displacement_m: state.displacement(),
-        force_n: state.force(),
+        displacement_m: state.displacement_m(),
+        force_n: state.force_n(),
         status: state.status(),
     });
     let oldest = telemetry.take().unwrap_or_default();

@@ -67,8 +67,10 @@ pub struct ContactArguments {
     pub format: Format,
 }
 
-/// Greatest lateral shift evaluated, m.
-const REACH: f64 = 0.012;
+/// Largest lateral shift that is evaluated, m.
+const LARGEST_SHIFT_M: f64 = 0.012;
+/// Largest lateral shift that is drawn: there the flange face touches, m.
+const LARGEST_SHIFT_DRAWN_M: f64 = 8e-3;
 /// Cells of the rolling radius difference from left to right: 25 um each, which locates its jumps as well.
 const CELLS: usize = 960;
 
@@ -112,7 +114,7 @@ pub fn run(arguments: &ContactArguments) -> Outcome<()> {
     let pair = Pair::new(wheel, &rail, installation)?;
     let mut scratch = Vec::new();
     let contacts: Vec<RigidContact> = (0..=CELLS)
-        .map(|i| REACH * (2.0 * i as f64 / CELLS as f64 - 1.0))
+        .map(|i| LARGEST_SHIFT_M * (2.0 * i as f64 / CELLS as f64 - 1.0))
         .map(|shift| pair.rigid_contact(shift, 0.0, &mut scratch))
         .collect();
     let rolling = RollingRadiusDifference::new(
@@ -159,19 +161,22 @@ fn draw(
     contacts: &[RigidContact],
     rolling: &RollingRadiusDifference,
 ) -> Outcome<Vec<String>> {
-    // A line each half millimetre up to 8 mm, where the flange face is reached.
+    // A line each half millimetre.
     let lines: Vec<RigidContact> = contacts
         .iter()
         .copied()
         .step_by(20)
-        .filter(|c| c.lateral_m.abs() < 8.1e-3)
+        .filter(|c| c.lateral_m.abs() < LARGEST_SHIFT_DRAWN_M + 0.1e-3)
         .collect();
     Ok(write_folder(
         folder,
         &[
             ("contact-points.svg", plots::contact_points(pair, &lines)?),
             ("rolling-radius.svg", plots::rolling_radius(pair, contacts)?),
-            ("conicity.svg", plots::conicity(pair, rolling, 8e-3)?),
+            (
+                "conicity.svg",
+                plots::conicity(pair, rolling, LARGEST_SHIFT_DRAWN_M)?,
+            ),
         ],
     )?)
 }

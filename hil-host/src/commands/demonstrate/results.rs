@@ -8,8 +8,8 @@ use super::cost::median_ns_per_step;
 use crate::commands::failure::Outcome;
 use crate::files::damper;
 use crate::study::Scalar;
+use crate::study::accuracy_limits::{AccuracyLimits, relaxation_time_s};
 use crate::study::bench_test::{self, Cycle, Harmonic, Indices};
-use crate::study::promise::{Promise, relaxation_time_s};
 use crate::study::verification::{deviation, fixed_step_forces, reference_forces};
 
 /// Presets shown: the published equations as they stand, and the same damper in service.
@@ -117,7 +117,7 @@ impl Demonstration {
         let displacements_m = super::recording::at_ticks(step_s)?;
         let reference_n = reference_forces(damper, step_s, &displacements_m)?;
         let relaxation_s = relaxation_time_s(damper, step_s, &displacements_m, &reference_n);
-        let promise = Promise::of(relaxation_s);
+        let promise = AccuracyLimits::of(relaxation_s);
         let single = fixed_step_forces::<f32>(damper, step_s, &displacements_m)?;
         let double = fixed_step_forces::<f64>(damper, step_s, &displacements_m)?;
         let costs = [

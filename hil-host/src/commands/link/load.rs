@@ -72,7 +72,7 @@ fn build(name: &str, source: &Source, step_s: f32) -> Outcome<Damper<f32>> {
     match source {
         Source::Parameters(parameters) => {
             let step = StepSize::of_target(step_s)?;
-            Ok(parameters.build(step.seconds())?)
+            Ok(parameters.build(step.step_s())?)
         }
         Source::Image(damper) if damper.step_s() == step_s => Ok(**damper),
         Source::Image(damper) => Err(Failure::new(format!(

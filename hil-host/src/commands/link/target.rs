@@ -40,7 +40,7 @@ pub(super) fn step_in_words(step_s: f32) -> String {
 impl Target {
     /// Opens the line and says hello under a session number drawn at random.
     pub(super) fn open(line: &LineArguments) -> Outcome<Self> {
-        let mut client = Client::new(line.open()?, line.patience(), fastrand::u16(..));
+        let mut client = Client::new(line.open()?, line.retry_limits(), fastrand::u16(..));
         let welcome = client.hello()?;
         let greeting = Greeting {
             core_version: welcome.core_version.into(),

@@ -184,11 +184,11 @@ fn drive(
 ) -> Outcome<(Found, History)> {
     let rates = arguments.faults.unwrap_or_default();
     let link = FaultyLink::new(arguments.line.open()?, rates, arguments.seed)?;
-    let client = Client::new(link, arguments.line.patience(), fastrand::u16(..));
+    let client = Client::new(link, arguments.line.retry_limits(), fastrand::u16(..));
     let mut session = Session::open(client)?;
     let target = session.target();
     let step = StepSize::of_target(target.step_s)?;
-    let step_s = step.seconds();
+    let step_s = step.step_s();
     let build = |parameters: &CheckedParameters| parameters.build(step_s);
     let dampers: Vec<Damper<f32>> = parameters.iter().map(build).collect::<Result<_, _>>()?;
     let bar = progress::bar(input::length(&arguments.input), "pil");
@@ -225,7 +225,7 @@ fn drive(
     bar.finish_and_clear();
     let found = Found {
         dampers: arguments.dampers.clone(),
-        step_us: step.us(),
+        step_us: step.step_us(),
         report,
         gaps: ticks.recording().gaps(),
         injected_faults: arguments.faults.map(|_| session.link().faults_made()),

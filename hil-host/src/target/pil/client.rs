@@ -20,14 +20,14 @@ const MOST_SESSIONS: u32 = 10;
 
 /// How long to wait for an answer, and how often to ask.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Patience {
+pub struct RetryLimits {
     /// Wait for each try, beside the time its bytes take.
     pub timeout: Duration,
     /// Tries of a request, 1 at least.
     pub tries: u32,
 }
 
-impl Default for Patience {
+impl Default for RetryLimits {
     /// Eight tries of a fifth of a second.
     fn default() -> Self {
         Self {
@@ -37,7 +37,7 @@ impl Default for Patience {
     }
 }
 
-impl Patience {
+impl RetryLimits {
     /// How long to wait for the answer to a frame of so many bytes.
     fn for_frame(&self, bytes: usize) -> Duration {
         self.timeout + BYTE_TIME.saturating_mul(bytes as u32)
@@ -64,7 +64,7 @@ pub struct LinkFaults {
 /// Asks a target over a link.
 pub struct Client<L> {
     link: L,
-    patience: Patience,
+    retry_limits: RetryLimits,
     header: Header,
     faults: LinkFaults,
     reader: FrameReader<RESPONSE_BYTES>,
@@ -75,10 +75,10 @@ pub struct Client<L> {
 impl<L: Link> Client<L> {
     /// A client whose first session is the one after `session`; a number drawn for each run keeps it apart
     /// from the last run's.
-    pub fn new(link: L, patience: Patience, session: u16) -> Self {
+    pub fn new(link: L, retry_limits: RetryLimits, session: u16) -> Self {
         Self {
             link,
-            patience,
+            retry_limits,
             header: Header {
                 session,
                 sequence: 0,
@@ -143,10 +143,10 @@ impl<L: Link> Client<L> {
         if frame.is_empty() {
             return Err(LinkError::TooLong);
         }
-        for again in 0..self.patience.tries.max(1) {
+        for again in 0..self.retry_limits.tries.max(1) {
             self.faults.repeated_requests += u64::from(again > 0);
             self.link.send(frame)?;
-            if self.wait(self.patience.for_frame(frame.len()))? {
+            if self.wait(self.retry_limits.for_frame(frame.len()))? {
                 return match self.response()? {
                     Response::Refused(Refusal::NoSession | Refusal::OutOfOrder(_)) => {
                         self.faults.lost_sessions += 1;
@@ -157,7 +157,7 @@ impl<L: Link> Client<L> {
                 };
             }
         }
-        Err(LinkError::Silent(self.patience))
+        Err(LinkError::Silent(self.retry_limits))
     }
 
     /// The last answer.

@@ -4,7 +4,7 @@ use std::io;
 
 use dashpot_core::link::{Refusal, StepSizeError};
 
-use super::{EmulatorError, Patience};
+use super::{EmulatorError, RetryLimits};
 
 /// Why a request over a link has no result.
 #[derive(Debug, thiserror::Error)]
@@ -44,7 +44,7 @@ pub enum LinkError {
         .0.tries,
         .0.timeout.as_millis()
     )]
-    Silent(Patience),
+    Silent(RetryLimits),
     /// The target does not know the session: it was reset, or another program said hello.
     #[error("the target was reset, or another program said hello to it")]
     SessionLost,

@@ -53,11 +53,6 @@ impl Qemu {
             outputs: outputs.map(Path::to_owned),
         })
     }
-
-    /// Process id of the emulator.
-    pub fn process_id(&self) -> u32 {
-        self.emulator.0.id()
-    }
 }
 
 impl Link for Qemu {

@@ -5,7 +5,7 @@ use std::collections::VecDeque;
 use dashpot_core::link::{Counters, Refusal, Request, Response};
 use dashpot_core::{Damper, DamperState};
 
-use super::mirror::Mirror;
+use super::host_replica::HostReplica;
 use super::report::Measured;
 use super::{Client, Event, Link, LinkError, Pace, Report, SessionError, Target, TickRecord};
 use crate::realtime::pacing::Clock;
@@ -61,7 +61,7 @@ impl<L: Link> Session<L> {
     ) -> Result<Report, E> {
         let mut next = motion()?;
         let start = next.ok_or(SessionError::NoTick)?;
-        let mut host = Mirror::at_rest(dampers, &self.target, start)?;
+        let mut host = HostReplica::at_rest(dampers, &self.target, start)?;
         let mut displacements_m = VecDeque::from(vec![start; self.target.dampers]);
         let mut measured = Measured::default();
         self.recover(&host, &mut measured)?;
@@ -97,7 +97,7 @@ impl<L: Link> Session<L> {
     /// One tick on both sides: compared, and its record handed to `sink`.
     fn tick<C: Clock, E: From<SessionError>>(
         &mut self,
-        host: &mut Mirror<'_>,
+        host: &mut HostReplica<'_>,
         displacements_m: &[f32],
         pace: &mut Pace<C>,
         measured: &mut Measured,
@@ -160,7 +160,7 @@ impl<L: Link> Session<L> {
     /// Asks until the target does it, bringing it back to the host's last state when it was lost.
     fn insist<R>(
         &mut self,
-        host: &Mirror<'_>,
+        host: &HostReplica<'_>,
         measured: &mut Measured,
         ask: impl Fn(&mut Client<L>) -> Result<R, LinkError>,
     ) -> Result<R, SessionError> {
@@ -180,7 +180,11 @@ impl<L: Link> Session<L> {
     }
 
     /// Gives the target the host's dampers, states and tick.
-    fn recover(&mut self, host: &Mirror<'_>, measured: &mut Measured) -> Result<(), SessionError> {
+    fn recover(
+        &mut self,
+        host: &HostReplica<'_>,
+        measured: &mut Measured,
+    ) -> Result<(), SessionError> {
         measured.recoveries += 1;
         for _ in 0..MOST_RECOVERIES {
             match give(&mut self.client, &self.target, host) {
@@ -197,7 +201,7 @@ impl<L: Link> Session<L> {
 
     fn compare_states(
         &mut self,
-        host: &Mirror<'_>,
+        host: &HostReplica<'_>,
         measured: &mut Measured,
     ) -> Result<usize, SessionError> {
         let saved = self.insist(host, measured, |client| {
@@ -250,7 +254,7 @@ fn target<L: Link>(client: &mut Client<L>) -> Result<Target, LinkError> {
 fn give<L: Link>(
     client: &mut Client<L>,
     expected: &Target,
-    host: &Mirror<'_>,
+    host: &HostReplica<'_>,
 ) -> Result<(), LinkError> {
     let found = target(client)?;
     if (found.dampers, found.step_s) != (expected.dampers, expected.step_s) {

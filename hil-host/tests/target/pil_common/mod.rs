@@ -12,10 +12,10 @@ use dashpot_core::Damper;
 use dashpot_core::link::{FrameReader, Header, RESPONSE_BYTES, Response, ResponseFrame};
 use dashpot_hil::files::damper;
 use dashpot_hil::study::excitation::Excitation;
-use dashpot_hil::target::pil::{Desk, Link, LinkError, Patience, SessionError};
+use dashpot_hil::target::pil::{Desk, Link, LinkError, RetryLimits, SessionError};
 
 /// The desk's waits are not real; a line's end with an answer, which always comes.
-pub const PATIENCE: Patience = Patience {
+pub const RETRY_LIMITS: RetryLimits = RetryLimits {
     timeout: Duration::from_secs(300),
     tries: 30,
 };

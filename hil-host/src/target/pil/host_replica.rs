@@ -7,7 +7,7 @@ use super::SessionError;
 use super::report::{Measured, Mismatch, Target};
 
 /// The same dampers on the host, at the last tick that both sides confirmed.
-pub(super) struct Mirror<'a> {
+pub(super) struct HostReplica<'a> {
     /// One for each place.
     pub(super) dampers: Vec<&'a Damper<f32>>,
     pub(super) tick: u32,
@@ -15,7 +15,7 @@ pub(super) struct Mirror<'a> {
     forces_n: Vec<f32>,
 }
 
-impl<'a> Mirror<'a> {
+impl<'a> HostReplica<'a> {
     /// At rest at `start_m` (m), `dampers` being one for all places of `target` or one for each.
     ///
     /// # Errors

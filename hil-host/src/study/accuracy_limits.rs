@@ -7,11 +7,11 @@ use dashpot_reference::deviation::root_mean_square;
 use super::Scalar;
 
 /// Fraction of the force limit: a smaller root mean square of the force counts as this in the promised NRMSE.
-pub const LEAST_RMS_FORCE: f64 = 0.01;
+pub const LEAST_RMS_FORCE_RATIO: f64 = 0.01;
 
 /// Largest NRMSE of the fixed step for dampers and motions with a relaxation time of at least so much.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Promise {
+pub struct AccuracyLimits {
     /// Least relaxation time (s), see [`relaxation_time_s`].
     pub least_relaxation_time_s: f64,
     /// Largest NRMSE at 1 kHz, in either scalar (1).
@@ -23,14 +23,14 @@ pub struct Promise {
 }
 
 /// The promises, the longest relaxation time first; there is no promise below the last.
-pub const PROMISES: [Promise; 2] = [
-    Promise {
+pub const ACCURACY_LIMITS: [AccuracyLimits; 2] = [
+    AccuracyLimits {
         least_relaxation_time_s: 3e-3,
         nrmse_1_khz: 1e-3,
         nrmse_10_khz_f64: 3e-5,
         nrmse_10_khz_f32: 6e-5,
     },
-    Promise {
+    AccuracyLimits {
         least_relaxation_time_s: 1.5e-3,
         nrmse_1_khz: 3e-3,
         nrmse_10_khz_f64: 3e-5,
@@ -38,10 +38,10 @@ pub const PROMISES: [Promise; 2] = [
     },
 ];
 
-impl Promise {
+impl AccuracyLimits {
     /// The promise for a relaxation time (s), where there is one.
     pub fn of(relaxation_time_s: f64) -> Option<&'static Self> {
-        PROMISES
+        ACCURACY_LIMITS
             .iter()
             .find(|promise| relaxation_time_s >= promise.least_relaxation_time_s)
     }
@@ -51,10 +51,10 @@ impl Promise {
     ///
     /// ```
     /// use dashpot_hil::study::Scalar;
-    /// use dashpot_hil::study::promise::PROMISES;
-    /// assert_eq!(PROMISES[0].nrmse(1e-4, Scalar::F32), Some(6e-5));
-    /// assert_eq!(PROMISES[0].nrmse(250e-6, Scalar::F32), Some(1e-3));
-    /// assert_eq!(PROMISES[0].nrmse(2e-3, Scalar::F32), None);
+    /// use dashpot_hil::study::accuracy_limits::ACCURACY_LIMITS;
+    /// assert_eq!(ACCURACY_LIMITS[0].nrmse(1e-4, Scalar::F32), Some(6e-5));
+    /// assert_eq!(ACCURACY_LIMITS[0].nrmse(250e-6, Scalar::F32), Some(1e-3));
+    /// assert_eq!(ACCURACY_LIMITS[0].nrmse(2e-3, Scalar::F32), None);
     /// ```
     pub fn nrmse(&self, step_s: f64, scalar: Scalar) -> Option<f64> {
         // 1/10000 s may be written in several ways.
