@@ -16,7 +16,7 @@ fn hello_reports_who_answers() {
     assert_eq!(
         greeting,
         json!({
-            "core_version": env!("CARGO_PKG_VERSION"), "protocol": 2, "dampers": 3, "step_s": 0.001,
+            "core_version": env!("CARGO_PKG_VERSION"), "protocol": 3, "dampers": 3, "step_s": 0.001,
             "tick": 0, "running": false, "clock_hz": 1_000_000, "revisions": revisions,
         })
     );

@@ -175,7 +175,7 @@ fn a_target_that_cannot_be_compared_is_refused() {
     }));
     let message = protocol.unwrap_err().to_string();
     assert!(
-        message.contains("version 3 of the link protocol, this host 2"),
+        message.contains("version 4 of the link protocol, this host 3"),
         "{message}"
     );
     let step = report_of(altered(
