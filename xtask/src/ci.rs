@@ -1,7 +1,6 @@
 //! Every check there is, in the order of how soon it fails.
 
 use crate::firmware;
-use crate::nightly;
 use crate::processor::CORTEX_M7;
 use crate::run::{Outcome, cargo, cargo_with};
 use crate::rust_version;
@@ -14,10 +13,7 @@ const C_LIBRARY: &str = "capi/Cargo.toml";
 const FIRMWARE: &str = "firmware/Cargo.toml";
 const FUZZ: &str = "fuzz/Cargo.toml";
 
-/// How long CI looks for inputs that break a fuzz target (s).
-const FUZZ_SECONDS: u32 = 10;
-
-/// Runs every check.
+/// Runs every check that the stated compiler can do; Miri and fuzzing need a nightly one and are commands of their own.
 ///
 /// # Errors
 /// The first that failed.
@@ -38,13 +34,7 @@ pub fn ci() -> Outcome {
     rust_version::check()?;
     each_feature()?;
     firmware::build_default()?;
-    test()?;
-    if let Err(lack) = nightly::find() {
-        println!("left out, for there is no nightly compiler: Miri, fuzzing; {lack}");
-        return Ok(());
-    }
-    nightly::miri()?;
-    nightly::fuzz(FUZZ_SECONDS)
+    test()
 }
 
 fn lint(what: &[&str]) -> Outcome {

@@ -28,8 +28,7 @@ Commands:
   miri                   run the tests of the C interface under Miri (needs a nightly compiler)
   fuzz [--seconds N]     run each fuzz target from its kept seeds for N seconds, 60 when not given (needs a
                          nightly compiler)
-  ci                     formatting, lints, documentation, Rust version, each feature, test; Miri and
-                         fuzzing where there is a nightly compiler
+  ci                     formatting, lints, documentation, Rust version, each feature, test
   help                   this text
 
 Example: cargo xtask test
