@@ -4,9 +4,9 @@ use std::collections::HashMap;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use dashpot_core::{Damper, DamperParameters, Real};
+use dashpot_core::{DamperParameters, Real};
 use dashpot_hil::study::excitation::Excitation;
-use dashpot_reference::damper::Reference;
+use dashpot_hil::study::verification::{fixed_step_forces, reference_forces};
 use dashpot_reference::deviation::nrmse;
 
 use crate::damper;
@@ -71,12 +71,9 @@ pub fn stepped<T: Real>(
     step_s: f64,
     displacements: &[f64],
 ) -> Vec<f64> {
-    let damper: Damper<T> = parameters.build(step_s).expect("a valid damper");
-    let mut state = damper.at_rest(T::from_f64(displacements[0]));
-    displacements
-        .iter()
-        .map(|x| damper.step(&mut state, T::from_f64(*x)).to_f64())
-        .collect()
+    let checked = parameters.check().expect("a valid damper");
+    let stepped = fixed_step_forces::<T>(&checked, step_s, displacements);
+    stepped.expect("a valid step").forces_n
 }
 
 /// NRMSE in `f64` and `f32` of one case, and the reference's forces (N).
@@ -86,11 +83,7 @@ pub fn errors(
     step_s: f64,
 ) -> ([f64; 2], Vec<f64>) {
     let displacements = displacements_m(excitation, step_s);
-    let times: Vec<f64> = (0..displacements.len())
-        .map(|tick| tick as f64 * step_s)
-        .collect();
-    let reference = Reference::new(parameters)
-        .and_then(|mut reference| reference.forces(&times, &displacements))
+    let reference = reference_forces(parameters, step_s, &displacements)
         .expect("the reference solves every damper of the table");
     let found = [
         stepped::<f64>(parameters, step_s, &displacements),

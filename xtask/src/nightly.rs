@@ -34,7 +34,7 @@ const MIRI_ARGUMENTS: [&str; 14] = [
 ///
 /// # Errors
 /// There is none; the message has the command that installs it.
-pub fn find() -> Outcome {
+fn find() -> Outcome {
     let mut miri = cargo_of_toolchain(NIGHTLY);
     miri.args(["miri", "--version"]);
     output_of(miri, "cargo +nightly miri --version")

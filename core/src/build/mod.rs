@@ -81,11 +81,9 @@ impl CheckedParameters {
         column: Option<(OilColumn, f64)>,
         force_limit: f64,
     ) -> Branch<'a> {
-        let seat = self.mount.seat_stiffness_n_per_m;
         Branch {
             law,
-            mount_compliance: 1.0 / self.mount.stiffness_n_per_m
-                + seat.map_or(0.0, |stiffness| 1.0 / stiffness),
+            mount_compliance: self.mount.compliance_m_per_n(),
             column,
             force_limit,
         }

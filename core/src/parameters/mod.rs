@@ -30,8 +30,7 @@ use range::{allowed, parameters};
 pub const STEP_RANGE_S: core::ops::RangeInclusive<f64> = 1e-6..=2e-2;
 
 /// [`STEP_RANGE_S`] in words.
-#[cfg(feature = "builder")]
-pub(crate) const STEP_ALLOWED: &str = "1e-6 to 2e-2 s";
+pub const STEP_ALLOWED: &str = "1e-6 to 2e-2 s";
 
 /// Largest clearance 2a (m).
 pub const LARGEST_CLEARANCE_M: f64 = Mount::RANGES.clearance_m.greatest;
@@ -109,6 +108,12 @@ impl Mount {
             seat_stiffness_n_per_m: None,
             clearance_m: 0.0,
         }
+    }
+
+    /// Compliance of rubber and seats in series, `1/K_rubber + 1/K_seat` (m/N).
+    pub fn compliance_m_per_n(&self) -> f64 {
+        let seats = self.seat_stiffness_n_per_m;
+        1.0 / self.stiffness_n_per_m + seats.map_or(0.0, |stiffness| 1.0 / stiffness)
     }
 }
 

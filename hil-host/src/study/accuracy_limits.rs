@@ -76,10 +76,6 @@ pub fn relaxation_time_s(
     forces_n: &[f64],
 ) -> f64 {
     let velocities = displacements_m.windows(2).map(|x| (x[1] - x[0]) / step_s);
-    let (mount, seats) = (
-        parameters.mount.stiffness_n_per_m,
-        parameters.mount.seat_stiffness_n_per_m,
-    );
-    let compliance_m_per_n = 1.0 / mount + seats.map_or(0.0, |seats| 1.0 / seats);
-    root_mean_square(forces_n.iter().copied()) / root_mean_square(velocities) * compliance_m_per_n
+    root_mean_square(forces_n.iter().copied()) / root_mean_square(velocities)
+        * parameters.mount.compliance_m_per_n()
 }

@@ -1,6 +1,7 @@
 //! Bench test: a harmonic motion until the force is periodic, and the indices of one periodic cycle.
 
 use std::f64::consts::TAU;
+use std::ops::RangeInclusive;
 
 use dashpot_core::parameters::STEP_RANGE_S;
 use dashpot_core::{CheckedParameters, Status};
@@ -16,6 +17,9 @@ const MOST_CYCLES: usize = 200;
 
 /// Largest amplitude of a harmonic motion (m).
 pub const LARGEST_AMPLITUDE_M: f64 = 1.0;
+/// Steps that a cycle may have.
+pub const STEPS_PER_CYCLE: RangeInclusive<f64> = 20.0..=2e7;
+
 /// Highest frequency of a harmonic motion (Hz).
 pub const HIGHEST_FREQUENCY_HZ: f64 = 1000.0;
 
@@ -110,7 +114,7 @@ pub fn run_until_periodic(
     }
     let period = 1.0 / motion.frequency_hz;
     let ticks = (period / step_s - 1e-9).ceil();
-    if !(20.0..=2e7).contains(&ticks) {
+    if !STEPS_PER_CYCLE.contains(&ticks) {
         return Err(StudyError::StepsPerCycle {
             steps: ticks,
             step_s,

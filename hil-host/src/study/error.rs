@@ -1,9 +1,10 @@
 //! Why a study has no result.
 
 use dashpot_core::BuildError;
+use dashpot_core::parameters::STEP_ALLOWED;
 use dashpot_reference::ReferenceError;
 
-use super::bench_test::{HIGHEST_FREQUENCY_HZ, Harmonic, LARGEST_AMPLITUDE_M};
+use super::bench_test::{HIGHEST_FREQUENCY_HZ, Harmonic, LARGEST_AMPLITUDE_M, STEPS_PER_CYCLE};
 use crate::files::FileError;
 
 /// Why a study has no result.
@@ -26,14 +27,16 @@ pub enum StudyError {
     #[error("frequency: {0}, allowed: above 0 and at most {HIGHEST_FREQUENCY_HZ} Hz")]
     Frequency(f64),
     /// The step is out of its range.
-    #[error("step: {step_s} s, allowed: {} s", step_range())]
+    #[error("step: {step_s} s, allowed: {STEP_ALLOWED}")]
     Step {
         /// The step (s).
         step_s: f64,
     },
     /// A cycle has too few or too many steps.
     #[error(
-        "{steps} steps of {step_s} s a cycle, allowed: 20 to 2e7; choose another step or frequency"
+        "{steps} steps of {step_s} s a cycle, allowed: {} to {:e}; choose another step or frequency",
+        STEPS_PER_CYCLE.start(),
+        STEPS_PER_CYCLE.end()
     )]
     StepsPerCycle {
         /// Steps of a cycle.
@@ -82,10 +85,4 @@ pub enum StudyError {
     /// Table 5 in the program is not as it was shipped.
     #[error("Table 5: {0}")]
     Table5(String),
-}
-
-/// The steps that dampers are built for, as text.
-fn step_range() -> String {
-    let range = dashpot_core::parameters::STEP_RANGE_S;
-    format!("{:e} to {:e}", range.start(), range.end())
 }

@@ -1,6 +1,6 @@
 //! The fixed step against the reference solver.
 
-use dashpot_core::{CheckedParameters, Real};
+use dashpot_core::{CheckedParameters, DamperParameters, Real};
 use dashpot_reference::damper::Reference;
 use dashpot_reference::deviation::{errors, largest_magnitude, nrmse, root_mean_square};
 use serde::Serialize;
@@ -63,7 +63,7 @@ pub fn fixed_step_forces<T: Real>(
 /// # Errors
 /// What the reference solver reports.
 pub fn reference_forces(
-    parameters: &CheckedParameters,
+    parameters: &DamperParameters,
     step_s: f64,
     displacements_m: &[f64],
 ) -> Result<Vec<f64>, StudyError> {
@@ -81,7 +81,7 @@ pub fn reference_forces(
 /// # Errors
 /// What the reference solver reports.
 pub fn reference_forces_on_recording(
-    parameters: &CheckedParameters,
+    parameters: &DamperParameters,
     step_s: f64,
     samples: &[Sample],
     ticks: &[Tick],
