@@ -1,10 +1,12 @@
 //! Time of the contact forces on a wheelset: tables, tread and flange of both wheels, each law.
 
 use std::hint::black_box;
+use std::sync::Arc;
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use dashpot_rail::contact::{
-    Grid, Installation, Motion, Pair, RailDisplacement, Steel, Tables, WheelsetContact,
+    ContactGeometry, Grid, Installation, Motion, Pair, RailDisplacement, Steel, Tables,
+    WheelsetContact, WheelsetForces,
 };
 use dashpot_rail::creep::{CreepLaw, Fastsim, Friction, Polach, ShenHedrickElkins};
 
@@ -41,11 +43,12 @@ fn curve() -> (Motion, [RailDisplacement; 2]) {
 fn measure(
     criterion: &mut Criterion,
     law_name: &str,
-    tables: &Tables,
+    tables: &Arc<Tables>,
     law: impl CreepLaw,
     friction: Friction,
 ) {
-    let contact = WheelsetContact::new(tables.clone(), law, friction);
+    let contact =
+        WheelsetContact::new(Arc::clone(tables), law, friction).expect("the friction is valid");
     let cases = [("four_patches", four_patches()), ("curve", curve())];
     for (case, (motion, rails)) in cases {
         let loaded: usize = contact
@@ -56,9 +59,9 @@ fn measure(
             .filter(|patch| patch.load_n > 1.0)
             .count();
         criterion.bench_function(&format!("{law_name}/{case} ({loaded} loaded)"), |bencher| {
+            let mut forces = WheelsetForces::default();
             bencher.iter(|| {
-                let forces = contact.forces(black_box(&motion), black_box(&rails));
-                // By reference: returning them would time a copy of 700 bytes.
+                contact.update(black_box(&motion), black_box(&rails), &mut forces);
                 black_box(&forces);
             });
         });
@@ -67,8 +70,10 @@ fn measure(
 
 fn contact(criterion: &mut Criterion) {
     let pair = Pair::standard(Installation::default()).expect("the standard pair is valid");
-    let tables =
-        Tables::new(pair, Steel::default(), Grid::default()).expect("the default grid is valid");
+    let geometry =
+        ContactGeometry::new(pair, Steel::default(), 100e3).expect("the default steel is valid");
+    let tables = Tables::new(geometry, Grid::default()).expect("the default grid is valid");
+    let tables = Arc::new(tables);
     let friction = Friction::default();
     let falling = Friction {
         residual_ratio: 0.4,

@@ -2,8 +2,11 @@
 //!
 //! `cargo run --release -p dashpot-rail --example wheelset`
 
+use std::sync::Arc;
+
 use dashpot_rail::contact::{
-    Grid, Installation, Motion, Pair, RailDisplacement, Steel, Tables, WheelsetContact,
+    ContactGeometry, Grid, Installation, Motion, Pair, RailDisplacement, Steel, Tables,
+    WheelsetContact,
 };
 use dashpot_rail::creep::{CreepLaw, Friction, Polach, ShenHedrickElkins};
 
@@ -11,11 +14,15 @@ const LOAD_N: f64 = 206e3;
 const SPEED_M_PER_S: f64 = 27.8;
 
 /// Prints the lateral force, the steering moment and the derailment coefficient of the right wheel.
-fn print(name: &str, tables: &Tables, law: impl CreepLaw) {
+fn print(
+    name: &str,
+    tables: &Arc<Tables>,
+    law: impl CreepLaw,
+) -> Result<(), Box<dyn std::error::Error>> {
     println!("{name}\nshift mm  lateral kN  steering kN m  right Y/Q  status");
-    let contact = WheelsetContact::new(tables.clone(), law, Friction::default());
+    let contact = WheelsetContact::new(Arc::clone(tables), law, Friction::default())?;
     let rails = [RailDisplacement::default(); 2];
-    let radius_m = tables.pair().installation().wheel_radius_m;
+    let radius_m = tables.geometry().pair().installation().wheel_radius_m;
     for shift_mm in 0..7 {
         // The vertical position at which the rails carry the load, by bisection.
         let (mut high, mut low) = (-2e-3, 1e-3);
@@ -42,12 +49,13 @@ fn print(name: &str, tables: &Tables, law: impl CreepLaw) {
             forces.status
         );
     }
+    Ok(())
 }
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let pair = Pair::standard(Installation::default())?;
-    let tables = Tables::new(pair, Steel::default(), Grid::default())?;
-    print("Polach", &tables, Polach);
-    print("Shen, Hedrick and Elkins", &tables, ShenHedrickElkins);
-    Ok(())
+    let geometry = ContactGeometry::new(pair, Steel::default(), 0.5 * LOAD_N)?;
+    let tables = Arc::new(Tables::new(geometry, Grid::default())?);
+    print("Polach", &tables, Polach)?;
+    print("Shen, Hedrick and Elkins", &tables, ShenHedrickElkins)
 }

@@ -1,10 +1,12 @@
 //! The evaluation allocates nothing: a counting allocator under it.
 
 use std::alloc::{GlobalAlloc, Layout, System};
+use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use dashpot_rail::contact::{
-    Grid, Installation, Motion, Pair, RailDisplacement, Steel, Tables, WheelsetContact,
+    ContactGeometry, Grid, Installation, Motion, Pair, RailDisplacement, Steel, Tables,
+    WheelsetContact,
 };
 use dashpot_rail::creep::{Friction, Polach};
 
@@ -32,8 +34,10 @@ fn forces_are_computed_without_allocating() {
     let pair = Pair::standard(Installation::default()).unwrap();
     let mut grid = Grid::default();
     grid.roll_rad.cells = [1, 2, 1];
-    let tables = Tables::new(pair, Steel::default(), grid).unwrap();
-    let contact = WheelsetContact::new(tables, Polach, Friction::default());
+    grid.yaw_squared_rad2.cells = [0, 1, 1];
+    let geometry = ContactGeometry::new(pair, Steel::default(), 100e3).unwrap();
+    let tables = Tables::new(geometry, grid).unwrap();
+    let contact = WheelsetContact::new(Arc::new(tables), Polach, Friction::default()).unwrap();
     let rails = [RailDisplacement::default(); 2];
     let before = COUNT.load(Ordering::Relaxed);
     assert!(before > 0, "the counter does not count");

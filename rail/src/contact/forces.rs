@@ -1,5 +1,7 @@
 //! Results of the contact: forces on patches, wheels and the wheelset, and the state of each wheel.
 
+use super::motion::MOTION_FIELDS;
+use super::zones::ZONES;
 use crate::creep::{CreepForces, Creepage};
 
 /// State of a wheel on its rail, from harmless to worst.
@@ -26,9 +28,9 @@ pub enum Status {
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[non_exhaustive]
 pub struct PatchForces {
-    /// Normal load, N; zero when wheel and rail are apart.
+    /// Normal load, N.
     pub load_n: f64,
-    /// Normal penetration, m; negative when wheel and rail are apart.
+    /// Normal penetration, m.
     pub penetration_m: f64,
     /// Tangent of the contact angle against the track plane, positive on a cone that widens to the flange.
     pub slope: f64,
@@ -52,14 +54,24 @@ pub struct PatchForces {
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[non_exhaustive]
 pub struct WheelForces {
-    /// The patch on the tread, then that on the flange.
-    pub patches: [PatchForces; 2],
+    /// The patch of each zone, from the flange to the field side; zeros where the zone is not loaded.
+    pub patches: [PatchForces; ZONES],
     /// Force in track axes, N.
     pub force_n: [f64; 3],
     /// Moment about the wheelset's centre in track axes, N m.
     pub moment_n_m: [f64; 3],
     /// State of the wheel.
     pub status: Status,
+}
+
+/// Derivatives of the force and moment of one rail on its wheel: one row for each component along x, y and z, in it one
+/// number for each field of [`Motion`](super::Motion) in the order of its declaration, in N and N m per unit of the field.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct WheelDerivatives {
+    /// Of the force.
+    pub force: [[f64; MOTION_FIELDS]; 3],
+    /// Of the moment about the wheelset's centre.
+    pub moment: [[f64; MOTION_FIELDS]; 3],
 }
 
 /// Forces of both rails on a wheelset.
@@ -102,12 +114,14 @@ impl WheelsetForces {
 }
 
 impl WheelForces {
-    /// Turns the forces on the mirror image of a wheel into those on the wheel itself.
+    /// The patches that carry load.
+    pub fn loaded_patches(&self) -> impl Iterator<Item = &PatchForces> {
+        self.patches.iter().filter(|patch| patch.load_n > 0.0)
+    }
+
+    /// Turns the positions of the patches on the mirror image of a wheel into those on the wheel itself.
     #[inline]
-    pub(super) fn mirror(&mut self) {
-        self.force_n[1] = -self.force_n[1];
-        self.moment_n_m[0] = -self.moment_n_m[0];
-        self.moment_n_m[2] = -self.moment_n_m[2];
+    pub(super) fn mirror_patches(&mut self) {
         for patch in &mut self.patches {
             patch.position_m[1] = -patch.position_m[1];
         }

@@ -21,7 +21,43 @@ impl Default for Steel {
     }
 }
 
+/// Why elastic constants are refused.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum SteelError {
+    /// Young's modulus is not that of a metal.
+    #[error("Young's modulus: {young_modulus_pa} Pa, allowed: 1e9 to 1e12 Pa")]
+    YoungModulus {
+        /// Young's modulus, Pa.
+        young_modulus_pa: f64,
+    },
+    /// Poisson's ratio is out of bounds.
+    #[error("Poisson's ratio: {poisson_ratio}, allowed: 0 to 0.5")]
+    PoissonRatio {
+        /// Poisson's ratio.
+        poisson_ratio: f64,
+    },
+}
+
 impl Steel {
+    /// Checks that both constants are in their bounds.
+    ///
+    /// # Errors
+    /// Young's modulus not within 1e9 to 1e12 Pa, Poisson's ratio not within 0 to 0.5.
+    pub fn check(&self) -> Result<(), SteelError> {
+        let Self {
+            young_modulus_pa,
+            poisson_ratio,
+        } = *self;
+        if !(1e9..=1e12).contains(&young_modulus_pa) {
+            return Err(SteelError::YoungModulus { young_modulus_pa });
+        }
+        if !(0.0..=0.5).contains(&poisson_ratio) {
+            return Err(SteelError::PoissonRatio { poisson_ratio });
+        }
+        Ok(())
+    }
+
     /// Shear modulus `E / (2 (1 + nu))`, Pa.
     ///
     /// ```
@@ -113,23 +149,31 @@ impl Hertz {
     }
 }
 
-/// Minor over major semi-axis of a contact whose curvatures have the ratio `ratio` >= 1, by bisection.
+/// Minor over major semi-axis of a contact whose curvatures have the ratio `ratio` >= 1, by the secant method on logarithms
+/// from the power law of Hamrock and Brewe (1983).
 fn axis_ratio(ratio: f64) -> f64 {
     if ratio < 1.0 + 1e-9 {
         return 1.0;
     }
-    let curvature_ratio = |k: f64| {
+    let off = |logarithm: f64| {
+        let k = logarithm.exp();
         let (first, second) = complete(k);
-        (second / (k * k) - first) / (first - second)
+        ((second / (k * k) - first) / (first - second) / ratio).ln()
     };
-    let (mut low, mut high) = (1e-5_f64, 1.0 - 1e-7);
-    for _ in 0..60 {
-        let middle = (low * high).sqrt();
-        if curvature_ratio(middle) > ratio {
-            low = middle;
-        } else {
-            high = middle;
+    let mut before = -0.636 * ratio.ln();
+    let mut logarithm = 0.99 * before;
+    let mut off_before = off(before);
+    for _ in 0..20 {
+        let here = off(logarithm);
+        let step = here * (logarithm - before) / (here - off_before);
+        if !step.is_finite() {
+            break;
+        }
+        (before, off_before) = (logarithm, here);
+        logarithm = (logarithm - step).min(0.0);
+        if step.abs() < 1e-14 {
+            break;
         }
     }
-    (low * high).sqrt()
+    logarithm.exp()
 }

@@ -4,17 +4,21 @@
 //!
 //! 1. [`Installation`] holds the distances of wheels and rails; [`Pair`] lays a rail under a wheel.
 //! 2. [`Pair::rigid_contact`] gives the contact points of a rigid wheelset ([`RigidContact`]), which is what
-//!    [`indices`](crate::indices) need; [`Pair::patches`] gives the elastic contact patches of one wheel.
-//! 3. [`Hertz`] turns local curvatures into stiffness and semi-axes of a patch.
-//! 4. [`Tables`] precomputes patches, Hertz and Kalker over a [`Grid`] of [`WheelPose`]s.
-//! 5. [`WheelsetContact`] reads the tables in every time step: [`Motion`] of the wheelset and
-//!    [`RailDisplacement`] of both rails in, [`WheelsetForces`] with a [`Status`] out.
+//!    [`indices`](crate::indices) need; [`TurnedWheel::patches`] gives the elastic contact patches of one wheel,
+//!    one in each of its [`Zones`].
+//! 3. [`Hertz`] turns local curvatures into stiffness and semi-axes of a patch, [`ContactGeometry`] does so for a pair
+//!    under its nominal load.
+//! 4. [`Tables`] precomputes all this over a [`Grid`] of [`WheelPose`]s.
+//! 5. [`WheelsetContact`] reads tables (or the geometry itself) in every time step: [`Motion`] of the wheelset and
+//!    [`RailDisplacement`] of both rails in, [`WheelsetForces`] with a [`Status`] and, where asked for, [`WheelDerivatives`] out.
 //!
 //! Axes: x forward, y right, z down. Quantities of a single wheel are those of the right wheel, whose field side
 //! is y positive; the left wheel is its mirror image.
 
+mod contact_forces;
 mod forces;
 mod frame;
+mod geometry;
 mod hertz;
 mod installation;
 mod laid_rail;
@@ -23,16 +27,25 @@ mod pair;
 mod patches;
 mod rigid;
 mod silhouette;
+mod source;
+mod surface;
 mod tables;
+mod wheel;
 mod wheelset;
+mod zones;
 
-pub use forces::{PatchForces, Status, WheelForces, WheelsetForces};
-pub use hertz::{Hertz, Steel};
+pub use forces::{PatchForces, Status, WheelDerivatives, WheelForces, WheelsetForces};
+pub use geometry::{ContactGeometry, GeometryError, NOMINAL_LOAD_RANGE_N};
+pub use hertz::{Hertz, Steel, SteelError};
 pub use installation::{Installation, InstallationError};
-pub use motion::{Motion, RailDisplacement, STANDSTILL_SPEED_M_PER_S};
+pub use motion::{MOTION_FIELDS, Motion, RailDisplacement, STANDSTILL_SPEED_M_PER_S};
 pub use pair::{Pair, PairError};
-pub use patches::{Patch, Patches, REGULARIZATION_M};
+pub use patches::{Patch, softness_m};
 pub use rigid::RigidContact;
-pub use silhouette::{SilhouettePoint, WheelPose};
+pub use silhouette::{SilhouettePoint, TurnedWheel, WheelPose};
+pub use source::PatchSource;
+pub use surface::{MAX_NORMAL_DAMPING_S_PER_M, SurfaceError};
 pub use tables::{Axis, Grid, MAX_NODES, MIN_CURVATURE_PER_M, Tables, TablesError, TabulatedPatch};
-pub use wheelset::{MAX_PENETRATION_M, WheelsetContact};
+pub use wheel::MAX_PENETRATION_M;
+pub use wheelset::WheelsetContact;
+pub use zones::{ZONES, Zones};

@@ -7,7 +7,8 @@ pub struct Motion {
     pub speed_m_per_s: f64,
     /// Lateral displacement of the centre, right positive, m.
     pub lateral_m: f64,
-    /// Vertical displacement of the centre, down positive, m; 0 has the tread datum at the height of the rail's top.
+    /// Vertical displacement of the centre, down positive, m; 0 has the tread datum at the height of the rail's top
+    /// (the mean of both, where the wheels differ).
     pub vertical_m: f64,
     /// Roll, right side down positive, rad.
     pub roll_rad: f64,
@@ -36,6 +37,10 @@ pub struct RailDisplacement {
     pub lateral_velocity_m_per_s: f64,
     /// Rate of `vertical_m` at the wheel, m/s.
     pub vertical_velocity_m_per_s: f64,
+    /// Roll about the rail's top, right side down positive, rad.
+    pub roll_rad: f64,
+    /// Rate of `roll_rad` at the wheel, rad/s.
+    pub roll_rate_rad_per_s: f64,
 }
 
 /// Smallest speed by which creepages are divided, m/s: at standstill the creep forces become a viscous drag.
@@ -47,17 +52,23 @@ const MAX_MAGNITUDE: f64 = 1e9;
 /// Whether every number is within the accepted magnitude; NaN is not.
 // Not short-circuited: the comparisons run side by side.
 #[inline]
-fn all_accepted<const N: usize>(numbers: [f64; N]) -> bool {
+pub(super) fn all_accepted<const N: usize>(numbers: [f64; N]) -> bool {
     numbers
         .iter()
         .fold(true, |all, number| all & (number.abs() <= MAX_MAGNITUDE))
 }
 
+/// Number of fields of [`Motion`].
+pub const MOTION_FIELDS: usize = 10;
+
+/// The fields of [`Motion`] in their order, with or without derivatives.
+pub(super) type MotionNumbers<T> = [T; MOTION_FIELDS];
+
 impl Motion {
-    /// Whether every field is a number of at most 1e9 in magnitude.
+    /// The fields in their order.
     #[inline]
-    pub(super) fn is_accepted(&self) -> bool {
-        all_accepted([
+    pub(super) fn numbers(&self) -> MotionNumbers<f64> {
+        [
             self.speed_m_per_s,
             self.lateral_m,
             self.vertical_m,
@@ -68,7 +79,7 @@ impl Motion {
             self.roll_rate_rad_per_s,
             self.rotation_rad_per_s,
             self.yaw_rate_rad_per_s,
-        ])
+        ]
     }
 }
 
@@ -81,6 +92,8 @@ impl RailDisplacement {
             self.vertical_m,
             self.lateral_velocity_m_per_s,
             self.vertical_velocity_m_per_s,
+            self.roll_rad,
+            self.roll_rate_rad_per_s,
         ])
     }
 
@@ -90,6 +103,8 @@ impl RailDisplacement {
         Self {
             lateral_m: -self.lateral_m,
             lateral_velocity_m_per_s: -self.lateral_velocity_m_per_s,
+            roll_rad: -self.roll_rad,
+            roll_rate_rad_per_s: -self.roll_rate_rad_per_s,
             ..*self
         }
     }

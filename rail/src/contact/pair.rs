@@ -2,7 +2,7 @@
 
 use super::installation::{Installation, InstallationError};
 use super::laid_rail::lay;
-use crate::profile::{Profile, s1002, uic60};
+use crate::profile::{Profile, ProfilePoint, s1002, uic60};
 
 /// Why a wheel and a rail do not make a pair.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -39,6 +39,7 @@ pub struct Pair {
     wheel: Profile,
     rail: Profile,
     installation: Installation,
+    rail_top_m: f64,
     tread_end_m: f64,
     steepest_flange_m: f64,
     flange_tip_m: f64,
@@ -70,11 +71,7 @@ impl Pair {
             });
         };
         let points = wheel.points();
-        let flange = points
-            .iter()
-            .rposition(|point| point.angle_rad < -FLANGE_ANGLE);
-        let deepest = (0..points.len()).max_by(|&i, &j| points[i].z_m.total_cmp(&points[j].z_m));
-        let (Some(tread_end), Some(tip)) = (flange, deepest.filter(|&tip| tip > 0)) else {
+        let Some((tip, tread_end)) = flange(points) else {
             return Err(PairError::NoFlange {
                 wheel: wheel.name().to_owned(),
             });
@@ -88,7 +85,9 @@ impl Pair {
                     .find(|&i| points[i].angle_rad <= bound)
                     .unwrap_or(steepest)
             });
+        let top = laid.points().iter().min_by(|p, q| p.z_m.total_cmp(&q.z_m));
         Ok(Self {
+            rail_top_m: top.map_or(0.0, |point| point.y_m),
             tread_end_m: points[tread_end].y_m,
             steepest_flange_m: points[steepest].y_m,
             flange_tip_m: points[tip].y_m,
@@ -132,6 +131,11 @@ impl Pair {
         &self.installation
     }
 
+    /// Lateral position of the rail's top from the track centre, m.
+    pub fn rail_top_m(&self) -> f64 {
+        self.rail_top_m
+    }
+
     /// Position on the wheel at which the tread (greater values) meets the flange, m from the tread datum.
     pub fn tread_end_m(&self) -> f64 {
         self.tread_end_m
@@ -146,6 +150,17 @@ impl Pair {
     pub fn flange_tip_m(&self) -> f64 {
         self.flange_tip_m
     }
+}
+
+/// Samples of the flange tip and of the end of the flange's face towards the tread.
+///
+/// The face is looked for from the tip: a chamfer on the field side is steep as well.
+fn flange(points: &[ProfilePoint]) -> Option<(usize, usize)> {
+    let tip = (1..points.len()).max_by(|&i, &j| points[i].z_m.total_cmp(&points[j].z_m))?;
+    let steep = |point: &ProfilePoint| point.angle_rad < -FLANGE_ANGLE;
+    let face = tip + points[tip..].iter().position(steep)?;
+    let root = points[face..].iter().position(|point| !steep(point))?;
+    Some((tip, face + root - 1))
 }
 
 /// `dz/dy` at every sample.

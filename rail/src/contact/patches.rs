@@ -1,15 +1,36 @@
-//! Where a wheel touches its rail: the contact patch of the tread and that of the flange.
+//! Where a wheel touches its rail: a contact patch at the summit of each of its zones.
 
+use std::ops::Range;
+
+use super::hertz::{Hertz, Steel};
 use super::pair::Pair;
-use super::silhouette::{SilhouettePoint, WheelPose};
+use super::silhouette::{SilhouettePoint, TurnedWheel};
+use super::zones::{ZONES, Zones};
 
-/// Regularization length of the contact search, m: about a tenth of the penetration under a
-/// wheel load. A greater one blends tread and flange, with a smaller one the contact jumps.
-pub const REGULARIZATION_M: f64 = 1e-5;
-
-/// One contact patch of a wheel, on the tread or on the flange, at the greatest interpenetration there.
+/// Softness of the contact over Hertz's penetration.
 ///
-/// Every quantity is a mean over the silhouette with weights `exp(interpenetration / regularization)`, so that it
+/// With a quarter the place of contact is that of an elastic half-space within 0.15 mm; the hundredth more takes half
+/// of the remaining error off the steering forces near the centre.
+const SOFTNESS_RATIO: f64 = 0.26;
+/// Transverse curvature of the contact whose penetration sets the softness, 1/m: the top of a rail of R 300.
+const TYPICAL_CURVATURE_PER_M: f64 = 1.0 / 0.3;
+
+/// Softness of the contact of a wheel of `wheel_radius_m` under `load_n`, m: over this interpenetration the
+/// weight of a point falls to `1/e`. It is 0.26 of Hertz's penetration on a rail head of R 300.
+///
+/// ```
+/// use dashpot_rail::contact::{Steel, softness_m};
+/// let at_100_kn = softness_m(&Steel::default(), 0.625, 100e3);
+/// assert!((at_100_kn - 25.6e-6).abs() < 0.1e-6);
+/// ```
+pub fn softness_m(steel: &Steel, wheel_radius_m: f64, load_n: f64) -> f64 {
+    let typical = Hertz::new(steel, 1.0 / wheel_radius_m, TYPICAL_CURVATURE_PER_M);
+    SOFTNESS_RATIO * typical.penetration_m(load_n)
+}
+
+/// One contact patch of a wheel.
+///
+/// Every quantity is a mean over the silhouette of its zone with weights `exp(normal height / softness)`, so that it
 /// moves continuously where the contact of rigid bodies would jump (quasi-elastic contact, Arnold and Netter 1998).
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
@@ -26,102 +47,125 @@ pub struct Patch {
     pub slope: f64,
     /// Curvature of the rail less that of the wheel across the track, 1/m.
     pub curvature_per_m: f64,
-    /// Fraction of the load that the patch carries, 0 to 1: below 1 where tread and flange are still one patch.
+    /// Fraction of the load at `interpenetration_m` and `curvature_per_m` that the patch carries, 0 to 1: below 1 where
+    /// no valley separates it from a neighbour.
     pub load_fraction: f64,
 }
 
-/// The patches of one wheel.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[non_exhaustive]
-pub struct Patches {
-    /// The patch on the tread.
-    pub tread: Patch,
-    /// The patch on the flange and its root.
-    pub flange: Patch,
-}
-
-/// Depth of the valley between tread and flange from which they are two patches, in regularization lengths.
+/// Depth of the valley from which two patches are separate, in lengths of the softness.
 const SEPARATION: f64 = 4.0;
-
-/// Interpenetration of a part of the wheel that is nowhere over the rail, m: far above it.
+/// Interpenetration of a zone that is nowhere over the rail, m: far above it.
 const ABSENT_M: f64 = -0.05;
+/// Weights below `exp` of this are left out.
+const LEAST_EXPONENT: f64 = -20.0;
 
-impl Pair {
-    /// The patches of tread and flange at `pose`; `scratch` is working memory that is overwritten.
+impl TurnedWheel<'_> {
+    /// The patches of the wheel's `zones` when it is shifted by `lateral_m`, from the flange to the field side; `scratch` is
+    /// working memory that is overwritten.
     ///
-    /// While no valley in the interpenetration separates the patches they divide one load in proportion to
-    /// their weights; once the valley is four times `regularization_m` deep, each carries its own load. The
-    /// position of the boundary between tread and flange has no influence on the sum.
+    /// Two summits with a valley `v` between them belong together by `1 - S(v / 4 softness)` with the smooth step `S`.
+    /// Each patch carries its own load by its own interpenetration and curvature once it belongs to itself alone; as long as it
+    /// belongs to others too, interpenetration and curvature are weighted means over all of them and it carries its
+    /// share of their one load. Sums over a wheel therefore do not change where a summit divides or two merge.
     pub fn patches(
         &self,
-        pose: &WheelPose,
-        regularization_m: f64,
+        lateral_m: f64,
+        zones: &Zones,
+        softness_m: f64,
         scratch: &mut Vec<SilhouettePoint>,
-    ) -> Patches {
-        self.silhouette(pose, scratch);
-        let boundary = scratch
-            .iter()
-            .position(|p| self.wheel().points()[p.index].y_m > self.tread_end_m())
-            .unwrap_or(scratch.len());
-        let (flange_part, tread_part) = scratch.split_at(boundary);
-        let greatest = |part: &[SilhouettePoint]| {
-            let depths = part.iter().map(|p| p.interpenetration_m);
-            depths.fold(f64::MIN, f64::max)
-        };
-        let peaks = [greatest(tread_part), greatest(flange_part)];
-        let top = peaks[0].max(peaks[1]);
-        let (tread_weight, mut tread) = self.mean(tread_part, peaks[0], regularization_m);
-        let (flange_weight, mut flange) = self.mean(flange_part, peaks[1], regularization_m);
-        let at = |part: &[SilhouettePoint], peak: f64| {
-            part.iter().position(|p| p.interpenetration_m == peak)
-        };
-        let valley_depth = match (at(flange_part, peaks[1]), at(tread_part, peaks[0])) {
-            (Some(i), Some(j)) => {
-                let valley = scratch[i..=boundary + j]
+    ) -> [Patch; ZONES] {
+        self.silhouette(lateral_m, scratch);
+        let ends = zones.ends_m(lateral_m);
+        let summits: [Option<Summit>; ZONES] = std::array::from_fn(|zone| {
+            let start = if zone == 0 { f64::MIN } else { ends[zone - 1] };
+            let end = ends.get(zone).copied().unwrap_or(f64::MAX);
+            self.summit(scratch, start..end, softness_m)
+        });
+        std::array::from_fn(|zone| {
+            let Some(own) = &summits[zone] else {
+                return self.pair().absent();
+            };
+            let relatives = summits.iter().flatten().map(|other| {
+                let between = own.sample.min(other.sample)..=own.sample.max(other.sample);
+                let lowest = scratch[between]
                     .iter()
-                    .map(|p| p.interpenetration_m);
-                peaks[0].min(peaks[1]) - valley.fold(f64::MAX, f64::min)
+                    .map(|p| p.normal_height_m)
+                    .fold(f64::MAX, f64::min);
+                let valley_m = own.height_m.min(other.height_m) - lowest;
+                let t = (valley_m / (SEPARATION * softness_m)).clamp(0.0, 1.0);
+                (other, 1.0 - t * t * (3.0 - 2.0 * t))
+            });
+            let highest = relatives
+                .clone()
+                .filter(|(_, together)| *together > 0.0)
+                .fold(own.height_m, |highest, (other, _)| highest.max(other.height_m));
+            let weight = |summit: &Summit| {
+                summit.weight_m * ((summit.height_m - highest) / softness_m).exp()
+            };
+            let mut total = 0.0;
+            let (mut interpenetration, mut curvature) = (0.0, 0.0);
+            for (other, together) in relatives.filter(|(_, together)| *together > 0.0) {
+                let weight = together * weight(other);
+                total += weight;
+                interpenetration += weight * other.patch.interpenetration_m;
+                curvature += weight * other.patch.curvature_per_m;
             }
-            _ => f64::MAX,
-        };
-        let t = (valley_depth / (SEPARATION * regularization_m)).min(1.0);
-        let separate = t * t * (3.0 - 2.0 * t);
-        let weights = [
-            tread_weight * ((peaks[0] - top) / regularization_m).exp(),
-            flange_weight * ((peaks[1] - top) / regularization_m).exp(),
-        ];
-        let total = (weights[0] + weights[1]).max(f64::MIN_POSITIVE);
-        tread.load_fraction = separate + (1.0 - separate) * weights[0] / total;
-        flange.load_fraction = separate + (1.0 - separate) * weights[1] / total;
-        Patches { tread, flange }
+            Patch {
+                interpenetration_m: interpenetration / total,
+                curvature_per_m: curvature / total,
+                load_fraction: weight(own) / total,
+                ..own.patch
+            }
+        })
     }
 
-    /// Sum of the weights over `part`, relative to its greatest interpenetration `peak`, and the weighted means.
-    fn mean(&self, part: &[SilhouettePoint], peak: f64, regularization: f64) -> (f64, Patch) {
-        let mut total = 0.0;
+    /// The summit of the part of the wheel within `zone` (m from the tread datum); `None` where it is nowhere over the rail.
+    fn summit(
+        &self,
+        silhouette: &[SilhouettePoint],
+        zone: Range<f64>,
+        softness: f64,
+    ) -> Option<Summit> {
+        // A sample stands for the wheel up to the middle of its neighbours, and for its zone as far as that lies within.
+        let points = self.pair().wheel().points();
+        let middle = |i: usize, j: usize| 0.5 * (points[i].y_m + points[j].y_m);
+        let left = |i: usize| middle(i.saturating_sub(1), i);
+        let right = |i: usize| middle(i, (i + 1).min(points.len() - 1));
+        let first = silhouette.partition_point(|p| right(p.index) <= zone.start);
+        let end = silhouette.partition_point(|p| left(p.index) < zone.end);
+        let height = |i: usize| silhouette[i].normal_height_m;
+        let sample = (first..end).max_by(|&i, &j| height(i).total_cmp(&height(j)))?;
+        let mut weight_m = 0.0;
         let mut sum = [0.0; 6];
-        for (i, point) in part.iter().enumerate() {
-            let exponent = (point.interpenetration_m - peak) / regularization;
-            if exponent < -40.0 {
+        for point in &silhouette[first..end] {
+            let exponent = (point.normal_height_m - height(sample)) / softness;
+            if exponent < LEAST_EXPONENT {
                 continue;
             }
-            let next = part.get(i + 1).unwrap_or(point).track_y_m;
-            let previous = part[i.saturating_sub(1)].track_y_m;
-            let weight = exponent.exp() * 0.5 * (next - previous).abs();
-            total += weight;
-            for (sum, term) in sum.iter_mut().zip(self.quantities(point)) {
+            let width = right(point.index).min(zone.end) - left(point.index).max(zone.start);
+            let weight = exponent.exp() * width;
+            weight_m += weight;
+            for (sum, term) in sum.iter_mut().zip(self.pair().quantities(point)) {
                 *sum += weight * term;
             }
         }
-        if total <= 0.0 {
-            return (0.0, self.absent());
+        if weight_m <= 0.0 {
+            return None;
         }
-        let mut patch = Patch::from_quantities(sum.map(|sum| sum / total));
-        // The mean over a parabola lies half a regularization length below its vertex.
-        patch.interpenetration_m += 0.5 * regularization;
-        (total, patch)
+        let mut patch = Patch::from_quantities(sum.map(|sum| sum / weight_m));
+        // The mean over a parabola lies half the softness, along the normal, below its vertex.
+        patch.interpenetration_m += 0.5 * softness * 1.0_f64.hypot(patch.slope);
+        Some(Summit {
+            sample,
+            height_m: height(sample),
+            weight_m,
+            patch,
+        })
     }
 
+}
+
+impl Pair {
     /// The patch of a part of the wheel that is nowhere over the rail.
     pub(super) fn absent(&self) -> Patch {
         Patch {
@@ -147,6 +191,17 @@ impl Pair {
             point.curvature_per_m,
         ]
     }
+}
+
+/// The greatest interpenetration of one zone.
+struct Summit {
+    /// Its sample of the silhouette.
+    sample: usize,
+    height_m: f64,
+    /// Sum of the weights over the zone, relative to that of the summit, m.
+    weight_m: f64,
+    /// The zone's own means.
+    patch: Patch,
 }
 
 impl Patch {

@@ -24,50 +24,110 @@ pub struct SilhouettePoint {
     pub track_y_m: f64,
     /// Depth of the wheel below the rail's surface when the tread datum is at the height of the rail's top, m.
     pub interpenetration_m: f64,
+    /// The same as a height along the normal, `integral of cos(angle) d(interpenetration)` over the wheel from its first
+    /// point, m: by this height points are nearer to or farther from touching.
+    pub normal_height_m: f64,
     /// `dz/dy` of the wheel's surface across the track.
     pub slope: f64,
     /// Curvature of the rail less that of the wheel, 1/m.
     pub curvature_per_m: f64,
 }
 
+/// A wheel turned by its roll and yaw, before it is shifted over the rail.
+#[derive(Debug, Clone)]
+pub struct TurnedWheel<'a> {
+    pair: &'a Pair,
+    pub(super) roll_rad: f64,
+    points: Vec<TurnedPoint>,
+}
+
+/// One point of the silhouette of a turned wheel.
+#[derive(Debug, Clone, Copy)]
+struct TurnedPoint {
+    /// Lateral and vertical position from the place of the tread datum of a centred wheel over the rail's top, m.
+    y: f64,
+    z: f64,
+    slope: f64,
+    cos: f64,
+}
+
 impl Pair {
-    /// Fills `silhouette` with the points of the wheel over the rail at `pose`.
+    /// The wheel turned by `roll_rad` and `yaw_rad`.
     ///
     /// The silhouette is seen along the rail, of the body of revolution turned by the yaw and then rolled about
     /// the rail's direction. A circle of radius `r` and slope `t = dr/ds` touches it `r t tan(yaw)` behind
     /// the axle, `r t tan(yaw) sin(yaw)` inward and `r sqrt(1 - t^2 tan(yaw)^2)` below it. This is exact for
     /// this order of turns.
-    pub fn silhouette(&self, pose: &WheelPose, silhouette: &mut Vec<SilhouettePoint>) {
-        silhouette.clear();
-        let (sin_roll, cos_roll) = pose.roll_rad.sin_cos();
-        let (sin_yaw, cos_yaw) = pose.yaw_rad.sin_cos();
-        let datum = self.installation().datum_offset_m();
+    pub fn turned(&self, roll_rad: f64, yaw_rad: f64) -> TurnedWheel<'_> {
+        let (sin_roll, cos_roll) = roll_rad.sin_cos();
+        let (sin_yaw, cos_yaw) = yaw_rad.sin_cos();
         let radius = self.installation().wheel_radius_m;
         let (tan_roll, tan_yaw) = (sin_roll / cos_roll, sin_yaw / cos_yaw);
-        let mut rail = Cursor {
-            points: self.rail().points(),
-            slopes: &self.rail_slopes,
-            i: 0,
-        };
-        for (index, point) in self.wheel().points().iter().enumerate() {
+        let turn = |(point, slope): (&ProfilePoint, &f64)| {
             let r = radius + point.z_m;
-            let slope = self.wheel_slopes[index];
             let sin_behind = slope * tan_yaw;
             let cos_behind = (1.0 - sin_behind * sin_behind).max(0.01).sqrt();
             let across = point.y_m * cos_yaw - r * sin_behind * sin_yaw;
             let down = r * cos_behind - radius;
-            let y = datum + pose.lateral_m + across * cos_roll - down * sin_roll;
-            let z = across * sin_roll + down * cos_roll;
             let unrolled_slope = slope / (cos_yaw * cos_behind);
-            if let Some((rail_z, rail_curvature)) = rail.at(y) {
-                silhouette.push(SilhouettePoint {
-                    index,
-                    track_y_m: y,
-                    interpenetration_m: z - rail_z,
-                    slope: (unrolled_slope + tan_roll) / (1.0 - unrolled_slope * tan_roll),
-                    curvature_per_m: rail_curvature - point.curvature_per_m,
-                });
+            let slope = (unrolled_slope + tan_roll) / (1.0 - unrolled_slope * tan_roll);
+            TurnedPoint {
+                y: across * cos_roll - down * sin_roll,
+                z: across * sin_roll + down * cos_roll,
+                slope,
+                cos: 1.0 / (1.0 + slope * slope).sqrt(),
             }
+        };
+        let points = self.wheel().points().iter().zip(&self.wheel_slopes);
+        TurnedWheel {
+            pair: self,
+            roll_rad,
+            points: points.map(turn).collect(),
+        }
+    }
+
+    /// Fills `silhouette` with the points of the wheel over the rail at `pose`.
+    pub fn silhouette(&self, pose: &WheelPose, silhouette: &mut Vec<SilhouettePoint>) {
+        self.turned(pose.roll_rad, pose.yaw_rad)
+            .silhouette(pose.lateral_m, silhouette);
+    }
+}
+
+impl<'a> TurnedWheel<'a> {
+    /// The pair that the wheel belongs to.
+    pub fn pair(&self) -> &'a Pair {
+        self.pair
+    }
+
+    /// Fills `silhouette` with the points of the wheel that are over the rail when it is shifted by `lateral_m`.
+    pub fn silhouette(&self, lateral_m: f64, silhouette: &mut Vec<SilhouettePoint>) {
+        silhouette.clear();
+        let datum = self.pair.installation().datum_offset_m() + lateral_m;
+        let mut rail = Cursor {
+            points: self.pair.rail().points(),
+            slopes: &self.pair.rail_slopes,
+            i: 0,
+        };
+        let on_wheel = self.pair.wheel().points();
+        let (mut height, mut last) = (0.0, None);
+        for (index, point) in self.points.iter().enumerate() {
+            let track_y_m = datum + point.y;
+            let Some((rail_z, rail_curvature)) = rail.at(track_y_m) else {
+                continue;
+            };
+            let interpenetration_m = point.z - rail_z;
+            if let Some((before, cos)) = last {
+                height += 0.5 * (point.cos + cos) * (interpenetration_m - before);
+            }
+            last = Some((interpenetration_m, point.cos));
+            silhouette.push(SilhouettePoint {
+                index,
+                track_y_m,
+                interpenetration_m,
+                normal_height_m: height,
+                slope: point.slope,
+                curvature_per_m: rail_curvature - on_wheel[index].curvature_per_m,
+            });
         }
     }
 }

@@ -24,7 +24,52 @@ impl Default for Friction {
     }
 }
 
+/// Why a friction is refused.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum FrictionError {
+    /// A quantity is out of bounds.
+    #[error("{name}: {value}, allowed: {} to {}", .allowed[0], .allowed[1])]
+    OutOfBounds {
+        /// Name of the quantity.
+        name: &'static str,
+        /// Its value, in m/s for the decay speed, else dimensionless.
+        value: f64,
+        /// Smallest and greatest allowed value.
+        allowed: [f64; 2],
+    },
+}
+
 impl Friction {
+    /// Checks that every quantity is in its bounds.
+    ///
+    /// # Errors
+    /// A coefficient not within 0 to 2, a ratio not within 0 to 1, a decay speed not within 0.001 to 1000 m/s.
+    pub fn check(&self) -> Result<(), FrictionError> {
+        let allowed = [
+            ("static friction coefficient", self.static_coefficient, [0.0, 2.0]),
+            ("residual friction ratio", self.residual_ratio, [0.0, 1.0]),
+            ("friction decay speed", self.decay_speed_m_per_s, [1e-3, 1e3]),
+        ];
+        for (name, value, allowed) in allowed {
+            if !(allowed[0]..=allowed[1]).contains(&value) {
+                return Err(FrictionError::OutOfBounds {
+                    name,
+                    value,
+                    allowed,
+                });
+            }
+        }
+        Ok(())
+    }
+
+    /// Derivative of the coefficient by the sliding speed, s/m.
+    #[inline]
+    pub(crate) fn slope_at(&self, sliding_speed_m_per_s: f64) -> f64 {
+        let residual = self.static_coefficient * self.residual_ratio;
+        (residual - self.at(sliding_speed_m_per_s)) / self.decay_speed_m_per_s
+    }
+
     /// Coefficient at a sliding speed in m/s, dimensionless.
     ///
     /// ```

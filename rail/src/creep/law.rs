@@ -1,6 +1,7 @@
 //! What a creep law is, and what holds for the forces of every law.
 
 use super::creepage::Creepage;
+use super::derivatives::{CreepDerivatives, differences};
 use super::kalker::KalkerCoefficients;
 
 /// One loaded contact as the creep laws need it.
@@ -81,6 +82,18 @@ pub trait CreepLaw: Send + Sync {
             contact,
             &creepage,
             self.unlimited_forces(contact, &creepage),
+        )
+    }
+
+    /// [`CreepLaw::forces`] and their derivatives by the creepages; by differences unless the law knows better.
+    fn forces_with_derivatives(
+        &self,
+        contact: &LoadedContact,
+        creepage: &Creepage,
+    ) -> (CreepForces, CreepDerivatives) {
+        (
+            self.forces(contact, creepage),
+            differences(self, contact, creepage),
         )
     }
 }

@@ -22,6 +22,7 @@
 //! on it, and `rail/tests/contact/laws.rs` measures its errors for `docs/contact.md`.
 
 mod creepage;
+mod derivatives;
 mod fastsim;
 mod friction;
 mod kalker;
@@ -30,8 +31,9 @@ mod polach;
 mod shen_hedrick_elkins;
 
 pub use creepage::{Creepage, MAX_CREEPAGE};
+pub use derivatives::CreepDerivatives;
 pub use fastsim::Fastsim;
-pub use friction::Friction;
+pub use friction::{Friction, FrictionError};
 pub use kalker::{KalkerCoefficients, KalkerError, KalkerTable};
 pub use law::{CreepForces, CreepLaw, LoadedContact, linear_forces};
 pub use polach::Polach;

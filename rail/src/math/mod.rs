@@ -1,4 +1,5 @@
 //! Numerical tools of this crate.
 
 pub(crate) mod elliptic;
+pub(crate) mod number;
 pub(crate) mod spline;

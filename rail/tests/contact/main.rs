@@ -3,6 +3,7 @@
 mod common;
 mod conicity;
 mod creep;
+mod derivatives;
 mod fastsim;
 mod geometry;
 mod laws;

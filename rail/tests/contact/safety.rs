@@ -239,7 +239,7 @@ proptest! {
 
     #[test]
     fn the_mirror_image_has_mirrored_forces(motion in motions(), left in -5e-3..5e-3_f64, right in -5e-3..5e-3_f64, down in -1e-3..1e-3_f64) {
-        let rail = |lateral: f64, vertical: f64| RailDisplacement { lateral_m: lateral, vertical_m: vertical, lateral_velocity_m_per_s: 10.0 * lateral, vertical_velocity_m_per_s: vertical };
+        let rail = |lateral: f64, vertical: f64| RailDisplacement { roll_rad: 0.5 * lateral, roll_rate_rad_per_s: lateral, lateral_m: lateral, vertical_m: vertical, lateral_velocity_m_per_s: 10.0 * lateral, vertical_velocity_m_per_s: vertical };
         let rails = [rail(left, down), rail(right, 0.0)];
         let image = Motion {
             lateral_m: -motion.lateral_m, roll_rad: -motion.roll_rad, yaw_rad: -motion.yaw_rad,
@@ -258,13 +258,13 @@ proptest! {
     }
 
     #[test]
-    fn no_number_makes_it_panic(numbers in prop::collection::vec(anything(), 14)) {
+    fn no_number_makes_it_panic(numbers in prop::collection::vec(anything(), 16)) {
         let n = &numbers;
         let motion = Motion {
             speed_m_per_s: n[0], lateral_m: n[1], vertical_m: n[2], roll_rad: n[3], yaw_rad: n[4],
             lateral_velocity_m_per_s: n[5], vertical_velocity_m_per_s: n[6], roll_rate_rad_per_s: n[7], rotation_rad_per_s: n[8], yaw_rate_rad_per_s: n[9],
         };
-        let rail = RailDisplacement { lateral_m: n[10], vertical_m: n[11], lateral_velocity_m_per_s: n[12], vertical_velocity_m_per_s: n[13] };
+        let rail = RailDisplacement { roll_rad: n[14], roll_rate_rad_per_s: n[15], lateral_m: n[10], vertical_m: n[11], lateral_velocity_m_per_s: n[12], vertical_velocity_m_per_s: n[13] };
         let forces = polach().forces(&motion, &[rail, RailDisplacement::default()]);
         prop_assert!(forces.force_n.iter().chain(&forces.moment_n_m).all(|x| x.is_finite()), "{:?}", forces);
         for patch in forces.wheels.iter().flat_map(|wheel| wheel.patches) {

@@ -1,18 +1,19 @@
 //! Grids and steels that tables refuse, and what can be shared between threads.
 
 use dashpot_rail::contact::{
-    Grid, Installation, InstallationError, Motion, Pair, PairError, Steel, Tables, TablesError,
-    WheelsetContact, WheelsetForces,
+    ContactGeometry, GeometryError, Grid, Installation, InstallationError, Motion, Pair, PairError,
+    Steel, SteelError, SurfaceError, Tables, TablesError, WheelsetContact, WheelsetForces,
 };
-use dashpot_rail::creep::{CreepLaw, KalkerError, KalkerTable, Polach};
+use dashpot_rail::creep::{CreepLaw, Friction, FrictionError, KalkerError, KalkerTable, Polach};
 use dashpot_rail::indices::{RollingRadiusDifference, RollingRadiusError};
 use dashpot_rail::profile::{CurveError, Profile, measured::ProfileError};
 
-fn refused(steel: Steel, change: impl Fn(&mut Grid)) -> TablesError {
-    let pair = Pair::standard(Installation::default()).unwrap();
+use crate::common::{geometry, tables};
+
+fn refused(change: impl Fn(&mut Grid)) -> TablesError {
     let mut grid = Grid::default();
     change(&mut grid);
-    Tables::new(pair, steel, grid).unwrap_err()
+    Tables::new(geometry().clone(), grid).unwrap_err()
 }
 
 #[test]
@@ -33,37 +34,70 @@ fn grids_without_a_cell_or_an_order_are_refused() {
         }),
     ];
     for (expected, change) in changes {
-        let error = refused(Steel::default(), change);
+        let error = refused(change);
         assert!(
             matches!(error, TablesError::Axis { name, .. } if name == expected),
             "{expected}: {error}"
         );
     }
-    let huge = refused(Steel::default(), |grid| grid.lateral_m.cells[1] = 1_000_000);
+    let huge = refused(|grid| grid.lateral_m.cells[1] = 1_000_000);
     assert!(matches!(huge, TablesError::TooManyNodes { .. }), "{huge}");
 }
 
 #[test]
-fn elastic_constants_out_of_bounds_are_refused() {
+fn elastic_constants_and_loads_out_of_bounds_are_refused() {
+    let refused = |steel: Steel, nominal_load_n: f64| {
+        let pair = Pair::standard(Installation::default()).unwrap();
+        ContactGeometry::new(pair, steel, nominal_load_n).unwrap_err()
+    };
     let steel = Steel::default();
-    for young_modulus_pa in [0.0, -210e9, f64::NAN] {
-        let error = refused(
-            Steel {
-                young_modulus_pa,
-                ..steel
-            },
-            |_| {},
-        );
-        assert!(matches!(error, TablesError::YoungModulus { .. }), "{error}");
-    }
-    let error = refused(
-        Steel {
-            poisson_ratio: 0.6,
+    for young_modulus_pa in [0.0, -210e9, 1e13, f64::NAN] {
+        let bad = Steel {
+            young_modulus_pa,
             ..steel
-        },
-        |_| {},
-    );
-    assert!(matches!(error, TablesError::Kalker(_)), "{error}");
+        };
+        assert!(matches!(
+            refused(bad, 100e3),
+            GeometryError::Steel(SteelError::YoungModulus { .. })
+        ));
+    }
+    for poisson_ratio in [-0.1, 0.6, f64::NAN] {
+        let bad = Steel {
+            poisson_ratio,
+            ..steel
+        };
+        assert!(matches!(
+            refused(bad, 100e3),
+            GeometryError::Steel(SteelError::PoissonRatio { .. })
+        ));
+    }
+    for nominal_load_n in [0.0, -100e3, 1e7, f64::NAN] {
+        let error = refused(steel, nominal_load_n);
+        assert!(error.to_string().contains("allowed: 100 to 1000000 N"), "{error}");
+    }
+}
+
+#[test]
+fn frictions_and_dampings_out_of_bounds_are_refused() {
+    let friction = Friction::default();
+    for bad in [
+        Friction { static_coefficient: -0.1, ..friction },
+        Friction { static_coefficient: f64::NAN, ..friction },
+        Friction { residual_ratio: 1.1, ..friction },
+        Friction { decay_speed_m_per_s: 0.0, ..friction },
+    ] {
+        let error = WheelsetContact::new(tables(), Polach, bad).unwrap_err();
+        assert!(matches!(
+            error,
+            SurfaceError::Friction(FrictionError::OutOfBounds { .. })
+        ));
+        assert!(error.to_string().contains("allowed: "), "{error}");
+    }
+    for damping in [-1.0, 101.0, f64::NAN] {
+        let contact = WheelsetContact::new(tables(), Polach, friction).unwrap();
+        let error = contact.with_normal_damping(damping).unwrap_err();
+        assert!(matches!(error, SurfaceError::NormalDamping { .. }), "{error}");
+    }
 }
 
 #[test]
@@ -74,5 +108,6 @@ fn every_type_can_be_shared_between_threads() {
     shared::<dyn CreepLaw>();
     shared::<RollingRadiusDifference>();
     shared::<(CurveError, ProfileError, InstallationError, PairError)>();
-    shared::<(TablesError, KalkerError, RollingRadiusError)>();
+    shared::<(TablesError, GeometryError, SurfaceError)>();
+    shared::<(KalkerError, RollingRadiusError, ContactGeometry)>();
 }

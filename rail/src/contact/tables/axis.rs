@@ -50,6 +50,17 @@ impl Axis {
     }
 }
 
+/// Where a value lies on an axis.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Located {
+    pub cell: usize,
+    /// Position within the cell, from 0 to 1.
+    pub position: f64,
+    /// Derivative of the position by the value; zero outside, where the nearest end is read.
+    pub cells_per_unit: f64,
+    pub is_inside: bool,
+}
+
 /// An axis prepared for reading: cells per unit in place of cell widths.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct AxisReader {
@@ -78,19 +89,20 @@ impl AxisReader {
         }
     }
 
-    /// Cell of `x`, position within the cell from 0 to 1, and whether `x` lies on the axis.
     #[inline(always)]
-    pub fn locate(&self, x: f64) -> (usize, f32, bool) {
+    pub fn locate(&self, x: f64) -> Located {
         let ends = &self.ends;
         let limited = x.max(ends[0]).min(ends[3]);
         let part = usize::from(limited >= ends[1]) + usize::from(limited > ends[2]);
         let position = self.first[part] + (limited - ends[part]) * self.per_unit[part];
         let cell = (position as u32).min(self.last_cell);
-        (
-            cell as usize,
-            (position - f64::from(cell)) as f32,
-            x == limited,
-        )
+        let is_inside = x == limited;
+        Located {
+            cell: cell as usize,
+            position: position - f64::from(cell),
+            cells_per_unit: if is_inside { self.per_unit[part] } else { 0.0 },
+            is_inside,
+        }
     }
 }
 
@@ -105,22 +117,31 @@ pub struct Grid {
     pub yaw_squared_rad2: Axis,
 }
 
+impl Grid {
+    /// Roll and yaw of a row of shifts, counted over the roll first.
+    pub(super) fn turns(&self, row: usize) -> (f64, f64) {
+        let rolls = self.roll_rad.nodes();
+        let yaw_squared = self.yaw_squared_rad2.value(row / rolls);
+        (self.roll_rad.value(row % rolls), yaw_squared.sqrt())
+    }
+}
+
 impl Default for Grid {
     /// Shift from -20 mm (wheel towards the track centre) to 65 mm (flange past the rail's top), roll to 24 mrad, yaw
-    /// to 50 mrad; nodes 0.1 mm, 1 mrad and 1e-4 rad^2 apart within 12 mm, 12 mrad and 30 mrad.
+    /// to 50 mrad; nodes 0.03 mm apart up to 12 mm (0.1 mm below zero), 1.5 mrad within 12 mrad and 1e-4 rad^2 within 30 mrad.
     fn default() -> Self {
         Self {
             lateral_m: Axis {
-                ends: [-0.020, -0.012, 0.012, 0.065],
-                cells: [32, 240, 212],
+                ends: [-0.020, 0.0, 0.012, 0.065],
+                cells: [200, 400, 160],
             },
             roll_rad: Axis {
                 ends: [-0.024, -0.012, 0.012, 0.024],
-                cells: [4, 24, 4],
+                cells: [2, 16, 2],
             },
             yaw_squared_rad2: Axis {
                 ends: [0.0, 0.0, 9e-4, 25e-4],
-                cells: [0, 9, 4],
+                cells: [0, 9, 2],
             },
         }
     }

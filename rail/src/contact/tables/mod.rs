@@ -3,19 +3,20 @@
 mod axis;
 mod patch;
 
+use std::array::from_fn;
+
 use axis::AxisReader;
 pub use axis::{Axis, Grid};
-use patch::NUMBERS;
+pub(super) use patch::NUMBERS;
 pub use patch::{MIN_CURVATURE_PER_M, TabulatedPatch};
 
-use super::hertz::Steel;
-use super::pair::Pair;
-use super::patches::{Patches, REGULARIZATION_M};
-use super::silhouette::{SilhouettePoint, WheelPose};
-use crate::creep::{KalkerError, KalkerTable};
+use super::geometry::ContactGeometry;
+use super::silhouette::WheelPose;
+use super::source::{PatchReader, sealed};
+use super::zones::ZONES;
 
-/// Greatest number of nodes of the tables: 96 bytes each, a gigabyte in all.
-pub const MAX_NODES: usize = 10_000_000;
+/// Greatest number of nodes of the tables: 224 bytes each, a gigabyte in all.
+pub const MAX_NODES: usize = 5_000_000;
 
 /// Why tables cannot be computed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -39,93 +40,91 @@ pub enum TablesError {
         /// Number of nodes.
         nodes: u128,
     },
-    /// Young's modulus is not a positive number.
-    #[error("Young's modulus: {young_modulus_pa} Pa, allowed: a positive number")]
-    YoungModulus {
-        /// Young's modulus, Pa.
-        young_modulus_pa: f64,
-    },
-    /// Poisson's ratio is out of bounds.
-    #[error(transparent)]
-    Kalker(#[from] KalkerError),
 }
 
-/// One node: the numbers of the tread's patch, then those of the flange's; aligned for vector loads.
+/// Four numbers of a node, which one vector instruction reads.
+type Quad = [f32; 4];
+/// Quads of one patch.
+const QUADS: usize = NUMBERS / 4;
+
+/// One node: what decides which patches are loaded, then the numbers of each; aligned for vector loads.
 #[derive(Debug, Clone, Copy)]
-#[repr(align(32))]
-struct Node([f32; 2 * NUMBERS]);
+#[repr(align(16))]
+struct Node {
+    interpenetrations: Quad,
+    stiffnesses: Quad,
+    numbers: [[Quad; QUADS]; ZONES],
+}
 
 /// The tables of one pair; they serve the right wheel and, mirrored, the left wheel.
 #[derive(Debug, Clone)]
 pub struct Tables {
-    pair: Pair,
-    steel: Steel,
-    kalker: KalkerTable,
+    geometry: ContactGeometry,
     grid: Grid,
     nodes: Vec<Node>,
     readers: [AxisReader; 3],
     /// Nodes from one roll to the next and from one yaw to the next.
     strides: [usize; 2],
+    /// Shift by which a squared yaw moves the contact on the flange, m/rad^2.
+    yaw_shift_m: f64,
 }
+
+/// Slope of the flange whose silhouette, which yaw moves outwards by `r slope yaw^2`, stays at its place on the axis of the
+/// shift: between the root's, where contact jumps, and the face's. Without this a table would need twice as many yaws.
+const FLANGE_SLOPE: f64 = 1.8;
 
 impl Tables {
     /// Computes every node of `grid`, on as many threads as the machine offers.
     ///
     /// # Errors
-    /// An axis that does not rise or has no cells, more than [`MAX_NODES`] nodes, or elastic constants out of bounds.
-    pub fn new(pair: Pair, steel: Steel, grid: Grid) -> Result<Self, TablesError> {
+    /// An axis that does not rise or has no cells, or more than [`MAX_NODES`] nodes.
+    pub fn new(geometry: ContactGeometry, grid: Grid) -> Result<Self, TablesError> {
         check_grid(&grid)?;
-        let young_modulus_pa = steel.young_modulus_pa;
-        if !(young_modulus_pa > 0.0 && young_modulus_pa.is_finite()) {
-            return Err(TablesError::YoungModulus { young_modulus_pa });
-        }
-        let kalker = KalkerTable::new(steel.poisson_ratio)?;
-        let empty = Node([0.0; 2 * NUMBERS]);
-        let count = grid.lateral_m.nodes() * grid.roll_rad.nodes() * grid.yaw_squared_rad2.nodes();
-        let mut tables = Self {
-            nodes: Vec::new(),
-            readers: [grid.lateral_m, grid.roll_rad, grid.yaw_squared_rad2].map(AxisReader::new),
-            strides: [
-                grid.lateral_m.nodes(),
-                grid.lateral_m.nodes() * grid.roll_rad.nodes(),
-            ],
-            pair,
-            steel,
-            kalker,
-            grid,
+        let yaw_shift_m = FLANGE_SLOPE * geometry.pair().installation().wheel_radius_m;
+        let strides = [
+            grid.lateral_m.nodes(),
+            grid.lateral_m.nodes() * grid.roll_rad.nodes(),
+        ];
+        let count = strides[1] * grid.yaw_squared_rad2.nodes();
+        let empty = Node {
+            interpenetrations: [0.0; 4],
+            stiffnesses: [0.0; 4],
+            numbers: [[[0.0; 4]; QUADS]; ZONES],
         };
         let mut nodes = vec![empty; count];
+        // A row has one roll and one yaw: its wheel is turned once.
+        let rows = strides[1] / strides[0] * grid.yaw_squared_rad2.nodes();
         let threads = std::thread::available_parallelism().map_or(1, usize::from);
-        let chunk = nodes.len().div_ceil(threads);
+        let rows_each = rows.div_ceil(threads);
         std::thread::scope(|scope| {
-            for (part, nodes) in nodes.chunks_mut(chunk).enumerate() {
-                let tables = &tables;
+            for (part, nodes) in nodes.chunks_mut(rows_each * strides[0]).enumerate() {
+                let (geometry, grid) = (&geometry, &grid);
                 scope.spawn(move || {
                     let mut scratch = Vec::new();
-                    for (i, node) in nodes.iter_mut().enumerate() {
-                        let pose = tables.pose(part * chunk + i);
-                        let patches = tables.patches(&pose, &mut scratch);
-                        for (patch, numbers) in
-                            patches.into_iter().zip(node.0.chunks_exact_mut(NUMBERS))
-                        {
-                            numbers.copy_from_slice(&patch.to_numbers());
+                    for (row, nodes) in nodes.chunks_exact_mut(strides[0]).enumerate() {
+                        let (roll_rad, yaw_rad) = grid.turns(part * rows_each + row);
+                        let wheel = geometry.pair().turned(roll_rad, yaw_rad);
+                        for (i, node) in nodes.iter_mut().enumerate() {
+                            let lateral_m = grid.lateral_m.value(i) - yaw_shift_m * yaw_rad * yaw_rad;
+                            *node = Node::new(geometry.patches_of(&wheel, lateral_m, &mut scratch));
                         }
                     }
                 });
             }
         });
-        tables.nodes = nodes;
-        Ok(tables)
+        Ok(Self {
+            geometry,
+            grid,
+            nodes,
+            readers: [grid.lateral_m, grid.roll_rad, grid.yaw_squared_rad2].map(AxisReader::new),
+            strides,
+            yaw_shift_m,
+        })
     }
 
-    /// The pair that the tables were computed for.
-    pub fn pair(&self) -> &Pair {
-        &self.pair
-    }
-
-    /// The steel that the tables were computed for.
-    pub fn steel(&self) -> &Steel {
-        &self.steel
+    /// What the tables were computed from.
+    pub fn geometry(&self) -> &ContactGeometry {
+        &self.geometry
     }
 
     /// Extent and spacing.
@@ -133,61 +132,170 @@ impl Tables {
         &self.grid
     }
 
-    /// The patches of tread and flange at `pose`, linear in shift, roll and squared yaw, and whether `pose` lies within
+    /// The patch of each zone at `pose`, linear in shift, roll and squared yaw, and whether `pose` lies within
     /// the grid; outside it they are those of its nearest edge.
-    // Always inlined: passed through memory, the pose and the patches stall the step.
+    pub fn at(&self, pose: &WheelPose) -> ([TabulatedPatch; ZONES], bool) {
+        let reader = sealed::Source::locate(self, pose);
+        let [interpenetrations, stiffnesses] = [reader.interpenetrations_m(), reader.stiffnesses()];
+        let patches = from_fn(|zone| {
+            let numbers = reader.numbers(zone);
+            TabulatedPatch::from_numbers(interpenetrations[zone], stiffnesses[zone], numbers)
+        });
+        (patches, reader.is_inside())
+    }
+}
+
+impl Node {
+    fn new(patches: [TabulatedPatch; ZONES]) -> Self {
+        Self {
+            interpenetrations: patches.map(|patch| patch.interpenetration_m as f32),
+            stiffnesses: patches.map(|patch| patch.hertz.stiffness_n_per_m_1_5 as f32),
+            numbers: patches.map(|patch| {
+                let numbers = patch.to_numbers();
+                from_fn(|quad| from_fn(|i| numbers[4 * quad + i] as f32))
+            }),
+        }
+    }
+}
+
+/// A cell of the tables and the weights of its eight nodes.
+pub struct TabulatedPose<'a> {
+    nodes: [&'a Node; 8],
+    /// Position within the cell along each axis, from 0 to 1.
+    position: [f64; 3],
+    /// Derivatives of the position by the value on each axis.
+    cells_per_unit: [f64; 3],
+    /// Derivatives of the first and the last value by the yaw.
+    yaw_slopes: [f64; 2],
+    weights: [f64; 8],
+    is_inside: bool,
+}
+
+impl sealed::Source for Tables {
+    type Reader<'a> = TabulatedPose<'a>;
+
+    fn geometry(&self) -> &ContactGeometry {
+        &self.geometry
+    }
+
+    // Always inlined: passed through memory, the pose and the weights stall the step.
     #[inline(always)]
-    pub fn at(&self, pose: &WheelPose) -> ([TabulatedPatch; 2], bool) {
-        let [lateral, roll, yaw_squared] = &self.readers;
-        let (i, t, inside_lateral) = lateral.locate(pose.lateral_m);
-        let (j, u, inside_roll) = roll.locate(pose.roll_rad);
-        let (k, v, inside_yaw) = yaw_squared.locate(pose.yaw_rad * pose.yaw_rad);
+    fn locate(&self, pose: &WheelPose) -> TabulatedPose<'_> {
+        let yaw_squared = pose.yaw_rad * pose.yaw_rad;
+        let shifted = pose.lateral_m + self.yaw_shift_m * yaw_squared;
+        let values = [shifted, pose.roll_rad, yaw_squared];
+        let located: [_; 3] = from_fn(|axis| self.readers[axis].locate(values[axis]));
+        let [i, j, k] = located.map(|place| place.cell);
         let [roll_stride, yaw_stride] = self.strides;
         let start = k * yaw_stride + j * roll_stride + i;
-        let nodes = [0, roll_stride, yaw_stride, yaw_stride + roll_stride].map(|offset| {
-            let at = start + offset;
-            [&self.nodes[at].0, &self.nodes[at + 1].0]
-        });
-        let (v0, v1) = (1.0 - v, v);
-        let weights = [v0 * (1.0 - u), v0 * u, v1 * (1.0 - u), v1 * u];
-        let mut sum = [0.0_f32; 2 * NUMBERS];
-        for (n, sum) in sum.iter_mut().enumerate() {
-            let along = |row: usize| (1.0 - t) * nodes[row][0][n] + t * nodes[row][1][n];
-            *sum = weights[0] * along(0)
-                + weights[1] * along(1)
-                + weights[2] * along(2)
-                + weights[3] * along(3);
+        let position = located.map(|place| place.position);
+        TabulatedPose {
+            nodes: from_fn(|corner| {
+                let offset = (corner & 1)
+                    + ((corner >> 1) & 1) * roll_stride
+                    + (corner >> 2) * yaw_stride;
+                &self.nodes[start + offset]
+            }),
+            position,
+            cells_per_unit: located.map(|place| place.cells_per_unit),
+            yaw_slopes: [self.yaw_shift_m, 1.0].map(|slope| 2.0 * pose.yaw_rad * slope),
+            weights: weights(position.map(|t| [1.0 - t, t])),
+            is_inside: located.iter().all(|place| place.is_inside),
         }
-        let (tread, flange) = sum.split_at(NUMBERS);
-        (
-            [
-                TabulatedPatch::from_numbers(tread),
-                TabulatedPatch::from_numbers(flange),
-            ],
-            inside_lateral && inside_roll && inside_yaw,
-        )
+    }
+}
+
+/// Products of the weights of both ends along each axis, the first axis fastest.
+#[inline(always)]
+fn weights([lateral, roll, yaw]: [[f64; 2]; 3]) -> [f64; 8] {
+    from_fn(|corner| lateral[corner & 1] * (roll[(corner >> 1) & 1] * yaw[corner >> 2]))
+}
+
+impl TabulatedPose<'_> {
+    /// The weighted sum of one quad over the nodes.
+    #[inline(always)]
+    fn sum(&self, weights: &[f64; 8], quad: impl Fn(&Node) -> &Quad) -> [f64; 4] {
+        let mut sum = [0.0_f32; 4];
+        for (node, weight) in self.nodes.iter().zip(weights) {
+            for (sum, number) in sum.iter_mut().zip(quad(node)) {
+                *sum += *weight as f32 * number;
+            }
+        }
+        sum.map(f64::from)
     }
 
-    /// The patches of tread and flange at `pose` computed without the tables: what [`Tables::at`] approximates.
-    pub fn computed(&self, pose: &WheelPose) -> [TabulatedPatch; 2] {
-        self.patches(pose, &mut Vec::new())
+    /// The weighted sum of the interpenetrations, in double precision: a contact of 1e9 N/m answers an error in the
+    /// seventh digit with a tenth of a newton.
+    #[inline(always)]
+    fn sum_of_interpenetrations(&self, weights: &[f64; 8]) -> [f64; ZONES] {
+        let mut sum = [0.0; ZONES];
+        for (node, weight) in self.nodes.iter().zip(weights) {
+            for (sum, number) in sum.iter_mut().zip(&node.interpenetrations) {
+                *sum += weight * f64::from(*number);
+            }
+        }
+        sum
     }
 
-    fn patches(&self, pose: &WheelPose, scratch: &mut Vec<SilhouettePoint>) -> [TabulatedPatch; 2] {
-        let Patches { tread, flange } = self.pair.patches(pose, REGULARIZATION_M, scratch);
-        [tread, flange].map(|patch| {
-            TabulatedPatch::new(&self.pair, &self.steel, &self.kalker, &patch, pose.roll_rad)
+    /// The weights whose sum is the derivative by the position along `axis`.
+    #[inline(always)]
+    fn slope_weights(&self, axis: usize) -> [f64; 8] {
+        let mut ends = self.position.map(|t| [1.0 - t, t]);
+        ends[axis] = [-1.0, 1.0];
+        weights(ends)
+    }
+
+    /// The derivatives by shift, roll and yaw of what `read` sums up with weights.
+    #[inline(always)]
+    fn by_pose<const N: usize>(&self, read: impl Fn(&[f64; 8]) -> [f64; N]) -> [[f64; N]; 3] {
+        let [by_shift, by_roll, by_yaw_squared]: [[f64; N]; 3] = from_fn(|axis| {
+            read(&self.slope_weights(axis)).map(|slope| slope * self.cells_per_unit[axis])
+        });
+        let [shift, squared] = self.yaw_slopes;
+        let by_yaw = from_fn(|n| shift * by_shift[n] + squared * by_yaw_squared[n]);
+        [by_shift, by_roll, by_yaw]
+    }
+
+    #[inline(always)]
+    fn quads(&self, weights: &[f64; 8], zone: usize) -> [f64; NUMBERS] {
+        let quads: [_; QUADS] = from_fn(|quad| self.sum(weights, |node| &node.numbers[zone][quad]));
+        from_fn(|n| quads[n / 4][n % 4])
+    }
+}
+
+impl PatchReader for TabulatedPose<'_> {
+    #[inline(always)]
+    fn is_inside(&self) -> bool {
+        self.is_inside
+    }
+
+    #[inline(always)]
+    fn interpenetrations_m(&self) -> [f64; ZONES] {
+        self.sum_of_interpenetrations(&self.weights)
+    }
+
+    #[inline(always)]
+    fn stiffnesses(&self) -> [f64; ZONES] {
+        self.sum(&self.weights, |node| &node.stiffnesses)
+    }
+
+    #[inline(always)]
+    fn load_slopes(&self, zone: usize) -> [[f64; 2]; 3] {
+        self.by_pose(|weights| {
+            let interpenetrations = self.sum_of_interpenetrations(weights);
+            let stiffnesses = self.sum(weights, |node| &node.stiffnesses);
+            [interpenetrations[zone], stiffnesses[zone]]
         })
     }
 
-    /// Pose at a node, counted over the lateral shift first, then the roll, then the yaw.
-    fn pose(&self, node: usize) -> WheelPose {
-        let [roll_stride, yaw_stride] = self.strides;
-        WheelPose {
-            lateral_m: self.grid.lateral_m.value(node % roll_stride),
-            roll_rad: self.grid.roll_rad.value(node % yaw_stride / roll_stride),
-            yaw_rad: self.grid.yaw_squared_rad2.value(node / yaw_stride).sqrt(),
-        }
+    #[inline(always)]
+    fn numbers(&self, zone: usize) -> [f64; NUMBERS] {
+        self.quads(&self.weights, zone)
+    }
+
+    #[inline(always)]
+    fn number_slopes(&self, zone: usize) -> [[f64; NUMBERS]; 3] {
+        self.by_pose(|weights| self.quads(weights, zone))
     }
 }
 

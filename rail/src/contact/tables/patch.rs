@@ -9,8 +9,11 @@ use crate::creep::{KalkerCoefficients, KalkerTable};
 /// whole width, which is that of an ellipse of this curvature.
 pub const MIN_CURVATURE_PER_M: f64 = 0.5;
 
-/// Numbers stored of one patch.
-pub(super) const NUMBERS: usize = 12;
+/// Load fraction up to which a patch is left out, so that the step need not evaluate it.
+const NEGLIGIBLE_FRACTION: f64 = 1e-4;
+
+/// Numbers stored of one patch beside its interpenetration and stiffness.
+pub(in crate::contact) const NUMBERS: usize = 12;
 
 /// One patch as read from the tables.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -35,7 +38,7 @@ pub struct TabulatedPatch {
 impl TabulatedPatch {
     /// Hertz and Kalker of `patch` on a wheel that is rolled by `roll`, which turns the slope back into the
     /// wheel's axes.
-    pub(super) fn new(
+    pub(in crate::contact) fn new(
         pair: &Pair,
         steel: &Steel,
         kalker: &KalkerTable,
@@ -49,13 +52,9 @@ impl TabulatedPatch {
             rolling,
             patch.curvature_per_m.max(MIN_CURVATURE_PER_M),
         );
-        // Numbers below the normal range of f32 would slow the step; a millionth of a load is negligible.
-        let load_fraction = if patch.load_fraction < 1e-6 {
-            0.0
-        } else {
-            patch.load_fraction
-        };
-        let axis_factor = load_fraction.cbrt();
+        let load_fraction = (patch.load_fraction - NEGLIGIBLE_FRACTION).max(0.0) / (1.0 - NEGLIGIBLE_FRACTION);
+        // The parts of one patch have its ratio of the semi-axes and divide its area, hence its creep stiffness.
+        let axis_factor = load_fraction.sqrt();
         Self {
             interpenetration_m: patch.interpenetration_m,
             wheel_y_m: patch.wheel_y_m,
@@ -71,44 +70,43 @@ impl TabulatedPatch {
         }
     }
 
-    pub(super) fn to_numbers(self) -> [f32; NUMBERS] {
+    /// Every number but interpenetration and stiffness, in the order of [`TabulatedPatch::from_numbers`].
+    pub(in crate::contact) fn to_numbers(self) -> [f64; NUMBERS] {
         [
-            self.interpenetration_m,
             self.wheel_y_m,
             self.wheel_z_m,
             self.slope,
             self.load_fraction,
-            self.hertz.stiffness_n_per_m_1_5,
             self.hertz.a_factor_m_0_5,
             self.hertz.b_factor_m_0_5,
             self.kalker.c11,
             self.kalker.c22,
             self.kalker.c23,
             self.kalker.c33,
+            0.0,
+            0.0,
         ]
-        .map(|number| number as f32)
     }
 
     #[inline]
-    pub(super) fn from_numbers(numbers: &[f32]) -> Self {
-        let number = |i: usize| f64::from(numbers[i]);
+    pub(in crate::contact) fn from_numbers(
+        interpenetration_m: f64,
+        stiffness: f64,
+        numbers: [f64; NUMBERS],
+    ) -> Self {
+        let [y, z, slope, load_fraction, a, b, c11, c22, c23, c33, _, _] = numbers;
         Self {
-            interpenetration_m: number(0),
-            wheel_y_m: number(1),
-            wheel_z_m: number(2),
-            slope: number(3),
-            load_fraction: number(4),
+            interpenetration_m,
+            wheel_y_m: y,
+            wheel_z_m: z,
+            slope,
+            load_fraction,
             hertz: Hertz {
-                stiffness_n_per_m_1_5: number(5),
-                a_factor_m_0_5: number(6),
-                b_factor_m_0_5: number(7),
+                stiffness_n_per_m_1_5: stiffness,
+                a_factor_m_0_5: a,
+                b_factor_m_0_5: b,
             },
-            kalker: KalkerCoefficients {
-                c11: number(8),
-                c22: number(9),
-                c23: number(10),
-                c33: number(11),
-            },
+            kalker: KalkerCoefficients { c11, c22, c23, c33 },
         }
     }
 }

@@ -1,20 +1,30 @@
 //! Tables of the default pair, wheelsets that stand and roll on them, and the list of creep laws.
 
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 use dashpot_rail::contact::{
-    Grid, Installation, Motion, Pair, RailDisplacement, Steel, Tables, WheelsetContact,
+    ContactGeometry, Grid, Installation, Motion, Pair, PatchSource, RailDisplacement, Steel, Tables,
+    WheelsetContact,
 };
 use dashpot_rail::creep::{
     CreepLaw, Fastsim, Friction, KalkerTable, LoadedContact, Polach, ShenHedrickElkins,
 };
 
-pub fn tables() -> &'static Tables {
-    static TABLES: OnceLock<Tables> = OnceLock::new();
-    TABLES.get_or_init(|| {
+/// S1002 on UIC 60 under wheels of 103 kN.
+pub fn geometry() -> &'static ContactGeometry {
+    static GEOMETRY: OnceLock<ContactGeometry> = OnceLock::new();
+    GEOMETRY.get_or_init(|| {
         let pair = Pair::standard(Installation::default()).unwrap();
-        Tables::new(pair, Steel::default(), Grid::default()).unwrap()
+        ContactGeometry::new(pair, Steel::default(), 103e3).unwrap()
     })
+}
+
+pub fn tables() -> Arc<Tables> {
+    static TABLES: OnceLock<Arc<Tables>> = OnceLock::new();
+    let tables = TABLES.get_or_init(|| {
+        Arc::new(Tables::new(geometry().clone(), Grid::default()).unwrap())
+    });
+    Arc::clone(tables)
 }
 
 /// Every creep law, by the name it has in docs/contact.md.
@@ -28,7 +38,7 @@ pub fn laws() -> [(&'static str, Box<dyn CreepLaw>); 3] {
 
 pub fn polach() -> &'static WheelsetContact<Polach> {
     static CONTACT: OnceLock<WheelsetContact<Polach>> = OnceLock::new();
-    CONTACT.get_or_init(|| WheelsetContact::new(tables().clone(), Polach, Friction::default()))
+    CONTACT.get_or_init(|| WheelsetContact::new(tables(), Polach, Friction::default()).unwrap())
 }
 
 /// Both rails in their nominal position.
@@ -37,11 +47,13 @@ pub const LEVEL: [RailDisplacement; 2] = [RailDisplacement {
     vertical_m: 0.0,
     lateral_velocity_m_per_s: 0.0,
     vertical_velocity_m_per_s: 0.0,
+    roll_rad: 0.0,
+    roll_rate_rad_per_s: 0.0,
 }; 2];
 
 /// `motion` at the height at which the rails carry `load_n`, by bisection.
-pub fn at_height_under_load<L: CreepLaw>(
-    contact: &WheelsetContact<L>,
+pub fn at_height_under_load<L: CreepLaw, S: PatchSource>(
+    contact: &WheelsetContact<L, S>,
     motion: &Motion,
     load_n: f64,
 ) -> Motion {

@@ -1,0 +1,47 @@
+//! What holds for every patch of a wheelset: creep law, friction, elasticity and damping of the surfaces.
+
+use crate::creep::{Friction, FrictionError};
+use crate::math::number::Number;
+
+/// Greatest normal damping, s/m: a wheel that falls at 0.1 m/s is pushed with eleven times its elastic force.
+pub const MAX_NORMAL_DAMPING_S_PER_M: f64 = 100.0;
+
+/// Why the surfaces of a contact are refused.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum SurfaceError {
+    /// The friction is out of bounds.
+    #[error(transparent)]
+    Friction(#[from] FrictionError),
+    /// The normal damping is out of bounds.
+    #[error(
+        "normal damping: {normal_damping_s_per_m} s/m, allowed: 0 to {MAX_NORMAL_DAMPING_S_PER_M} s/m"
+    )]
+    NormalDamping {
+        /// The damping, s/m.
+        normal_damping_s_per_m: f64,
+    },
+}
+
+/// Creep law, friction, elasticity and damping.
+#[derive(Debug, Clone)]
+pub(super) struct Surface<L> {
+    pub law: L,
+    pub friction: Friction,
+    pub shear_modulus_pa: f64,
+    pub normal_damping_s_per_m: f64,
+}
+
+impl<L> Surface<L> {
+    /// The factor `1 + beta w` on the elastic load of surfaces that approach each other at the speed `w` (Hunt and
+    /// Crossley 1975); never negative, for the rails push and never pull.
+    #[inline(always)]
+    pub fn damping<T: Number>(&self, approach_speed: T) -> T {
+        let factor = approach_speed * self.normal_damping_s_per_m + 1.0;
+        if factor.value() > 0.0 {
+            factor
+        } else {
+            T::constant(0.0)
+        }
+    }
+}
