@@ -118,11 +118,9 @@ pub struct Grid {
 }
 
 impl Grid {
-    /// Roll and yaw of a row of shifts, counted over the roll first.
-    pub(super) fn turns(&self, row: usize) -> (f64, f64) {
-        let rolls = self.roll_rad.nodes();
-        let yaw_squared = self.yaw_squared_rad2.value(row / rolls);
-        (self.roll_rad.value(row % rolls), yaw_squared.sqrt())
+    /// Number of nodes.
+    pub(super) fn nodes(&self) -> usize {
+        self.lateral_m.nodes() * self.roll_rad.nodes() * self.yaw_squared_rad2.nodes()
     }
 }
 

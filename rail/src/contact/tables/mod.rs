@@ -1,12 +1,14 @@
 //! Contact patches, Hertz and Kalker of one pair, precomputed over lateral shift, roll and yaw.
 
 mod axis;
+mod cache;
 mod patch;
 
 use std::array::from_fn;
 
 use axis::AxisReader;
 pub use axis::{Axis, Grid};
+pub use cache::CacheError;
 pub(super) use patch::NUMBERS;
 pub use patch::{MIN_CURVATURE_PER_M, TabulatedPatch};
 
@@ -47,13 +49,16 @@ type Quad = [f32; 4];
 /// Quads of one patch.
 const QUADS: usize = NUMBERS / 4;
 
-/// One node: what decides which patches are loaded, then the numbers of each; aligned for vector loads.
-#[derive(Debug, Clone, Copy)]
+/// One node: interpenetrations and stiffnesses of all patches, which decide what is loaded, then the numbers of each patch.
+#[derive(Debug, Clone, Copy, PartialEq)]
 #[repr(align(16))]
-struct Node {
-    interpenetrations: Quad,
-    stiffnesses: Quad,
-    numbers: [[Quad; QUADS]; ZONES],
+struct Node([Quad; 2 + QUADS * ZONES]);
+
+const INTERPENETRATIONS: usize = 0;
+const STIFFNESSES: usize = 1;
+/// First quad of the numbers of a patch.
+const fn first_quad(zone: usize) -> usize {
+    2 + QUADS * zone
 }
 
 /// The tables of one pair; they serve the right wheel and, mirrored, the left wheel.
@@ -80,46 +85,44 @@ impl Tables {
     /// An axis that does not rise or has no cells, or more than [`MAX_NODES`] nodes.
     pub fn new(geometry: ContactGeometry, grid: Grid) -> Result<Self, TablesError> {
         check_grid(&grid)?;
-        let yaw_shift_m = FLANGE_SLOPE * geometry.pair().installation().wheel_radius_m;
-        let strides = [
-            grid.lateral_m.nodes(),
-            grid.lateral_m.nodes() * grid.roll_rad.nodes(),
-        ];
-        let count = strides[1] * grid.yaw_squared_rad2.nodes();
-        let empty = Node {
-            interpenetrations: [0.0; 4],
-            stiffnesses: [0.0; 4],
-            numbers: [[[0.0; 4]; QUADS]; ZONES],
-        };
-        let mut nodes = vec![empty; count];
+        let empty = Node([[0.0; 4]; 2 + QUADS * ZONES]);
+        let mut nodes = vec![empty; grid.nodes()];
         // A row has one roll and one yaw: its wheel is turned once.
-        let rows = strides[1] / strides[0] * grid.yaw_squared_rad2.nodes();
+        let shifts = grid.lateral_m.nodes();
+        let rows = nodes.len() / shifts;
         let threads = std::thread::available_parallelism().map_or(1, usize::from);
         let rows_each = rows.div_ceil(threads);
         std::thread::scope(|scope| {
-            for (part, nodes) in nodes.chunks_mut(rows_each * strides[0]).enumerate() {
+            for (part, nodes) in nodes.chunks_mut(rows_each * shifts).enumerate() {
                 let (geometry, grid) = (&geometry, &grid);
                 scope.spawn(move || {
                     let mut scratch = Vec::new();
-                    for (row, nodes) in nodes.chunks_exact_mut(strides[0]).enumerate() {
-                        let (roll_rad, yaw_rad) = grid.turns(part * rows_each + row);
-                        let wheel = geometry.pair().turned(roll_rad, yaw_rad);
+                    for (row, nodes) in nodes.chunks_exact_mut(shifts).enumerate() {
+                        let first = (part * rows_each + row) * shifts;
+                        let turned = pose(geometry, grid, first);
+                        let wheel = geometry.pair().turned(turned.roll_rad, turned.yaw_rad);
                         for (i, node) in nodes.iter_mut().enumerate() {
-                            let lateral_m = grid.lateral_m.value(i) - yaw_shift_m * yaw_rad * yaw_rad;
+                            let lateral_m = pose(geometry, grid, first + i).lateral_m;
                             *node = Node::new(geometry.patches_of(&wheel, lateral_m, &mut scratch));
                         }
                     }
                 });
             }
         });
-        Ok(Self {
+        Ok(Self::of_nodes(geometry, grid, nodes))
+    }
+
+    /// The tables of nodes that are already computed.
+    fn of_nodes(geometry: ContactGeometry, grid: Grid, nodes: Vec<Node>) -> Self {
+        let shifts = grid.lateral_m.nodes();
+        Self {
+            yaw_shift_m: yaw_shift_m(&geometry),
             geometry,
             grid,
             nodes,
             readers: [grid.lateral_m, grid.roll_rad, grid.yaw_squared_rad2].map(AxisReader::new),
-            strides,
-            yaw_shift_m,
-        })
+            strides: [shifts, shifts * grid.roll_rad.nodes()],
+        }
     }
 
     /// What the tables were computed from.
@@ -145,16 +148,33 @@ impl Tables {
     }
 }
 
+/// Shift by which a squared yaw moves the contact on the flange, m/rad^2.
+fn yaw_shift_m(geometry: &ContactGeometry) -> f64 {
+    FLANGE_SLOPE * geometry.pair().installation().wheel_radius_m
+}
+
+/// Pose of a node, counted over the shift first, then the roll, then the yaw.
+fn pose(geometry: &ContactGeometry, grid: &Grid, node: usize) -> WheelPose {
+    let (shifts, rolls) = (grid.lateral_m.nodes(), grid.roll_rad.nodes());
+    let yaw_squared = grid.yaw_squared_rad2.value(node / (shifts * rolls));
+    WheelPose {
+        lateral_m: grid.lateral_m.value(node % shifts) - yaw_shift_m(geometry) * yaw_squared,
+        roll_rad: grid.roll_rad.value(node / shifts % rolls),
+        yaw_rad: yaw_squared.sqrt(),
+    }
+}
+
 impl Node {
     fn new(patches: [TabulatedPatch; ZONES]) -> Self {
-        Self {
-            interpenetrations: patches.map(|patch| patch.interpenetration_m as f32),
-            stiffnesses: patches.map(|patch| patch.hertz.stiffness_n_per_m_1_5 as f32),
-            numbers: patches.map(|patch| {
-                let numbers = patch.to_numbers();
-                from_fn(|quad| from_fn(|i| numbers[4 * quad + i] as f32))
-            }),
+        let mut quads = [[0.0; 4]; 2 + QUADS * ZONES];
+        for (zone, patch) in patches.iter().enumerate() {
+            quads[INTERPENETRATIONS][zone] = patch.interpenetration_m as f32;
+            quads[STIFFNESSES][zone] = patch.hertz.stiffness_n_per_m_1_5 as f32;
+            for (n, number) in patch.to_numbers().into_iter().enumerate() {
+                quads[first_quad(zone) + n / 4][n % 4] = number as f32;
+            }
         }
+        Self(quads)
     }
 }
 
@@ -214,10 +234,10 @@ fn weights([lateral, roll, yaw]: [[f64; 2]; 3]) -> [f64; 8] {
 impl TabulatedPose<'_> {
     /// The weighted sum of one quad over the nodes.
     #[inline(always)]
-    fn sum(&self, weights: &[f64; 8], quad: impl Fn(&Node) -> &Quad) -> [f64; 4] {
+    fn sum(&self, weights: &[f64; 8], quad: usize) -> [f64; 4] {
         let mut sum = [0.0_f32; 4];
         for (node, weight) in self.nodes.iter().zip(weights) {
-            for (sum, number) in sum.iter_mut().zip(quad(node)) {
+            for (sum, number) in sum.iter_mut().zip(&node.0[quad]) {
                 *sum += *weight as f32 * number;
             }
         }
@@ -230,7 +250,7 @@ impl TabulatedPose<'_> {
     fn sum_of_interpenetrations(&self, weights: &[f64; 8]) -> [f64; ZONES] {
         let mut sum = [0.0; ZONES];
         for (node, weight) in self.nodes.iter().zip(weights) {
-            for (sum, number) in sum.iter_mut().zip(&node.interpenetrations) {
+            for (sum, number) in sum.iter_mut().zip(&node.0[INTERPENETRATIONS]) {
                 *sum += weight * f64::from(*number);
             }
         }
@@ -258,7 +278,7 @@ impl TabulatedPose<'_> {
 
     #[inline(always)]
     fn quads(&self, weights: &[f64; 8], zone: usize) -> [f64; NUMBERS] {
-        let quads: [_; QUADS] = from_fn(|quad| self.sum(weights, |node| &node.numbers[zone][quad]));
+        let quads: [_; QUADS] = from_fn(|quad| self.sum(weights, first_quad(zone) + quad));
         from_fn(|n| quads[n / 4][n % 4])
     }
 }
@@ -276,14 +296,14 @@ impl PatchReader for TabulatedPose<'_> {
 
     #[inline(always)]
     fn stiffnesses(&self) -> [f64; ZONES] {
-        self.sum(&self.weights, |node| &node.stiffnesses)
+        self.sum(&self.weights, STIFFNESSES)
     }
 
     #[inline(always)]
     fn load_slopes(&self, zone: usize) -> [[f64; 2]; 3] {
         self.by_pose(|weights| {
             let interpenetrations = self.sum_of_interpenetrations(weights);
-            let stiffnesses = self.sum(weights, |node| &node.stiffnesses);
+            let stiffnesses = self.sum(weights, STIFFNESSES);
             [interpenetrations[zone], stiffnesses[zone]]
         })
     }
