@@ -111,16 +111,12 @@ fn profile(
 ) -> Outcome<(Profile, Option<Reading>)> {
     let path = Path::new(name);
     if name.eq_ignore_ascii_case(known) {
-        let of_file = [
-            ("format", options.format.is_some()),
-            ("mirror", options.mirror.is_some()),
-        ];
-        return match of_file.iter().find(|(_, given)| *given) {
-            Some((option, _)) => Err(Failure::wrong_use(format!(
-                "{known} is built in, allowed with the option {option}: a file"
-            ))),
-            None => Ok((built_in(), None)),
-        };
+        if options.format.is_some() || options.mirror.is_some() {
+            return Err(Failure::wrong_use(format!(
+                "{known} is built in; allowed with a format or mirror: a profile file"
+            )));
+        }
+        return Ok((built_in(), None));
     }
     if input::is_file_name(path) || path.exists() {
         let (profile, reading) = profile::read(path, body, options)?;
