@@ -126,3 +126,21 @@ fn a_vertical_side_ends_the_profile() {
             .all(|point| point.angle_rad.cos() > 0.0)
     );
 }
+
+#[test]
+fn a_gap_down_a_vertical_side_ends_the_profile() {
+    let mut rows = rail_readings();
+    rows.retain(|row| row.0 > -35.95);
+    let (y, z) = rows[0];
+    let good = rail(&text(&rows)).unwrap().0;
+    // The gauge touches the side again 12 mm further down, a hundredth further out.
+    for i in 0..10 {
+        rows.insert(0, (y - 0.01, z + 12.0 + 0.4 * f64::from(i)));
+    }
+    let (profile, reading) = rail(&text(&rows)).unwrap();
+    assert_eq!((profile.points(), reading.overhanging), (good.points(), 10));
+    // Half a millimetre further out it is a surface that the profile would lack.
+    rows.iter_mut().take(10).for_each(|row| row.0 -= 0.5);
+    let refused = rail(&text(&rows)).unwrap_err();
+    assert!(matches!(refused, ProfileError::Gap { .. }), "{refused}");
+}

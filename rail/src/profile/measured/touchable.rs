@@ -1,5 +1,7 @@
 //! The part of a measured curve that wheel and rail can touch with.
 
+use std::iter;
+
 use super::row::Row;
 use super::{MAX_FOLD_MM, MAX_GAP_MM, ProfileError, REACH_MM};
 use crate::profile::Body;
@@ -43,7 +45,7 @@ impl Touchable {
     /// The points of `rows`, from the apex outward, that lie further in `direction` than all before them.
     fn walk<'a>(
         &mut self,
-        mut rows: impl ExactSizeIterator<Item = &'a Row>,
+        mut rows: impl ExactSizeIterator<Item = &'a Row> + Clone,
         direction: f64,
         into_material: impl Fn(&Row) -> f64,
     ) -> Result<Vec<[f64; 2]>, ProfileError> {
@@ -52,19 +54,28 @@ impl Touchable {
             return Ok(kept);
         };
         kept.push([apex.y_mm, apex.z_mm]);
+        let in_reach = |row: &Row| into_material(row) - into_material(apex) <= REACH_MM;
         let (mut outermost, mut before) = (apex, apex);
         // The points since `outermost`, and the furthest that one of them lies behind it.
         let (mut hidden, mut fold_mm) = (0, 0.0_f64);
         while let Some(row) = rows.next() {
-            let depth_mm = into_material(row) - into_material(apex);
-            if depth_mm > REACH_MM {
+            if !in_reach(row) {
                 hidden += 1 + rows.len();
                 break;
             }
             let gap_mm = (row.y_mm - before.y_mm).hypot(row.z_mm - before.z_mm);
             if gap_mm > MAX_GAP_MM {
-                let line = row.line.max(before.line);
-                return Err(ProfileError::Gap { line, gap_mm });
+                // Down a vertical side nothing lies beyond a gap that the profile could lack.
+                let beyond = iter::once(row)
+                    .chain(rows.clone())
+                    .take_while(|row| in_reach(row))
+                    .any(|row| direction * (row.y_mm - outermost.y_mm) > MAX_FOLD_MM);
+                if beyond {
+                    let line = row.line.max(before.line);
+                    return Err(ProfileError::Gap { line, gap_mm });
+                }
+                hidden += 1 + rows.len();
+                break;
             }
             before = row;
             let beyond_mm = direction * (row.y_mm - outermost.y_mm);
