@@ -6,6 +6,7 @@ use std::path::Path;
 use dashpot_hil::files::damper::{self, PRESETS};
 use dashpot_hil::files::profile;
 use dashpot_rail::profile::Body;
+use dashpot_rail::profile::measured::Options;
 use proptest::prelude::*;
 
 /// `text` with `patch` written over the bytes from `place`, as text again.
@@ -56,7 +57,7 @@ proptest! {
             let mut file = tempfile();
             file.write_all(content).unwrap();
             let path: &Path = file.path();
-            let _ = profile::read(path, Body::Wheel, 0.0);
+            let _ = profile::read(path, Body::Wheel, &Options::default());
         }
     }
 }

@@ -1,11 +1,26 @@
-//! Any text as a measured wheel or rail profile: refused, or a profile.
+//! Any text as a wheel or rail profile of any format: refused, or a profile with rising lateral position.
 #![no_main]
 
-use dashpot_rail::profile::{Body, measured};
+use dashpot_rail::profile::Body;
+use dashpot_rail::profile::measured::{self, Format, Mirror, Options};
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|text: &str| {
-    for body in [Body::Wheel, Body::Rail] {
-        let _ = measured::parse("fuzz", text, body, measured::DEFAULT_SMOOTHING_M);
+    let formats = Format::ALL.map(Some).into_iter().chain([None]);
+    for format in formats {
+        for body in [Body::Wheel, Body::Rail] {
+            let options = Options {
+                format,
+                mirror: Some(Mirror::None),
+                ..Options::default()
+            };
+            let Ok((profile, reading)) = measured::parse("fuzz.txt", text, body, &options) else {
+                continue;
+            };
+            let points = profile.points();
+            assert!(points.windows(2).all(|pair| pair[0].y_m < pair[1].y_m));
+            assert!(points.iter().all(|point| point.z_m.is_finite()));
+            assert!(reading.overhanging + reading.folded < reading.points);
+        }
     }
 });

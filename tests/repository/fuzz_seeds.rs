@@ -9,7 +9,8 @@ use dashpot::{damper, document};
 use dashpot_core::Damper;
 use dashpot_core::link::{Header, Reals, request_frame};
 use dashpot_hil::files::damper::PRESETS;
-use dashpot_rail::profile::{Body, measured, s1002, uic60};
+use dashpot_rail::profile::Body;
+use dashpot_rail::profile::measured::{self, Mirror, Options};
 
 /// Name and bytes of a seed.
 type Seed = (String, Vec<u8>);
@@ -112,24 +113,25 @@ fn recordings_are_with_and_without_header() {
 }
 
 #[test]
-fn profiles_are_a_wheel_and_a_rail() {
-    let text = |places: Vec<[f64; 2]>| {
-        let rows = places.iter().map(|[y, z]| format!("{y:.3},{z:.3}\n"));
-        format!("y_mm,z_mm\n{}", rows.collect::<String>())
-    };
-    let wheel = (-69..60).map(|i| [f64::from(i), s1002::depth_mm(f64::from(i))]);
-    let head = (-22..=22).map(|i: i32| {
-        let [y, z] = uic60::position_mm(2.0 * f64::from(i).abs());
-        [y * f64::from(i.signum()), z]
-    });
-    let seeds = [
-        ("wheel.csv", Body::Wheel, text(wheel.collect())),
-        ("rail.csv", Body::Rail, text(head.collect())),
-    ];
-    let seeds = seeds.map(|(name, body, text)| {
-        let read = measured::parse(name, &text, body, measured::DEFAULT_SMOOTHING_M);
-        assert!(read.is_ok(), "{name}: {read:?}");
-        (name.to_owned(), text.into_bytes())
-    });
-    compare("measured_profile", seeds.into());
+fn profiles_are_the_samples_of_every_format() {
+    let folder = document::in_repository("rail/tests/data");
+    let mut seeds = Vec::new();
+    for entry in fs::read_dir(folder).expect("the samples") {
+        let path = entry.expect("an entry").path();
+        let name = path.file_name().expect("a name").to_string_lossy();
+        let body = match &*name {
+            "README.md" => continue,
+            name if name.starts_with("s1002") => Body::Wheel,
+            _ => Body::Rail,
+        };
+        let text = fs::read_to_string(&path).expect("text");
+        let options = Options {
+            mirror: name.ends_with(".rail").then_some(Mirror::Y),
+            ..Options::default()
+        };
+        let read = measured::parse(&name, &text, body, &options);
+        assert!(read.is_ok(), "{name}: {:?}", read.err());
+        seeds.push((name.into_owned(), text.into_bytes()));
+    }
+    compare("measured_profile", seeds);
 }

@@ -40,6 +40,16 @@ pub enum FileError {
         /// What is wrong, and what is allowed.
         source: Box<dyn Error + Send + Sync>,
     },
+    /// One line of the file is not as it must be.
+    #[error("{}:{line}: {source}", path.display())]
+    Line {
+        /// The file, or the name of the stream.
+        path: PathBuf,
+        /// Line of the file, from 1.
+        line: u64,
+        /// What is wrong, and what is allowed.
+        source: Box<dyn Error + Send + Sync>,
+    },
     /// One cell of a table in the file is not as it must be.
     #[error("{}:{line}: column {column}: {source}", path.display())]
     Cell {
@@ -65,6 +75,19 @@ impl FileError {
     pub fn in_file(path: &Path, source: impl Into<Box<dyn Error + Send + Sync>>) -> Self {
         Self::Content {
             path: path.to_owned(),
+            source: source.into(),
+        }
+    }
+
+    /// A line of the file at `path` is not as it must be.
+    pub fn in_line(
+        path: &Path,
+        line: u64,
+        source: impl Into<Box<dyn Error + Send + Sync>>,
+    ) -> Self {
+        Self::Line {
+            path: path.to_owned(),
+            line,
             source: source.into(),
         }
     }

@@ -3,9 +3,10 @@
 use std::path::Path;
 
 use assert_cmd::assert::Assert;
+use predicates::prelude::PredicateBooleanExt;
 use predicates::str::contains;
 
-use crate::common::{dashpot, json_of, text_of};
+use crate::common::{dashpot, dashpot_reading, json_of, text_of};
 
 fn contact(arguments: &[&str]) -> Assert {
     dashpot(&[&["contact"], arguments].concat(), Path::new("."))
@@ -54,6 +55,79 @@ fn text_reports_conicity_over_amplitude() {
     let text = text_of(&output);
     assert!(text.contains("S1002 on UIC 60, rails 1:40"), "{text}");
     assert!(text.contains("           3.0     0.18"), "{text}");
+}
+
+/// A wheel and a rail as their gauge wrote them, in a folder of nothing else.
+fn folder_of(files: &[(&str, &str)]) -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, text) in files {
+        std::fs::write(folder.path().join(name), text).unwrap();
+    }
+    folder
+}
+
+const WHEEL: (&str, &str) = ("x.whl", include_str!("../../../rail/tests/data/s1002.whl"));
+const RAIL: (&str, &str) = ("y.ban", include_str!("../../../rail/tests/data/uic60.ban"));
+const GENSYS_RAIL: (&str, &str) = (
+    "z.rail",
+    include_str!("../../../rail/tests/data/uic60.rail"),
+);
+
+#[test]
+fn files_of_a_profile_gauge_are_reported_with_what_was_left_out() {
+    let folder = folder_of(&[WHEEL, RAIL]);
+    let arguments = ["contact", "--wheel", "x.whl", "--rail", "y.ban"];
+    let output = dashpot(&arguments, folder.path()).success();
+    let text = text_of(&output);
+    for part in [
+        "x on y, rails 1:40",
+        "x: miniprof, 6 of 200 points beyond the widest point left out\n",
+        "y: miniprof, 15 of 169 points beyond the widest point left out, turned upright",
+        // S1002 on UIC 60: literature 0.17 to 0.18.
+        "           3.0     0.18",
+        "plots: contact-plots/contact-points.svg",
+    ] {
+        assert!(text.contains(part), "{part} in {text}");
+    }
+    let output = dashpot(
+        &[&arguments[..], &["--no-plots", "--format", "json"]].concat(),
+        folder.path(),
+    );
+    let report = json_of(&output.success());
+    assert_eq!(report["wheel_file"]["format"], "miniprof");
+    assert_eq!(report["wheel_file"]["points_overhanging"], 6);
+    assert_eq!(report["rail_file"]["turned"], true);
+    let built_in = json_of(&contact(&["--no-plots", "--format", "json"]));
+    assert!(built_in["rail_file"].is_null());
+    let conicity = |report: &serde_json::Value| report["conicity_at_3mm"].as_f64().unwrap();
+    let off = conicity(&report) - conicity(&built_in);
+    assert!(off.abs() < 2e-3, "{off}");
+}
+
+#[test]
+fn the_side_of_a_gensys_rail_is_asked_for() {
+    let folder = folder_of(&[GENSYS_RAIL]);
+    let command = ["contact", "--no-plots", "--rail", "z.rail"];
+    dashpot(&command, folder.path())
+        .code(1)
+        .stdout("")
+        .stderr(contains("z.rail: side not stated").and(contains("option mirror")));
+    let stated = [&command[..], &["--rail-mirror", "y"]].concat();
+    let output = dashpot(&stated, folder.path()).success();
+    assert!(text_of(&output).contains("z: gensys, 0 of 154 points"));
+    // From standard input there is no extension that tells.
+    let piped = [
+        "contact",
+        "--no-plots",
+        "--rail",
+        "-",
+        "--rail-format",
+        "gensys",
+        "--rail-mirror",
+        "y",
+    ];
+    let output = dashpot_reading(GENSYS_RAIL.1.as_bytes(), &piped, folder.path()).success();
+    assert!(text_of(&output).contains("standard input: gensys, 0 of 154 points"));
 }
 
 #[test]

@@ -260,6 +260,15 @@ fn contact() {
             &["--smoothing-m=1"],
             "--smoothing-m: 1, allowed: 0 to 0.05 m",
         ),
+        (
+            &["--rail-format", "vampire"],
+            "possible values: columns, miniprof, simpack, gensys",
+        ),
+        (&["--wheel-mirror", "x"], "possible values: none, y, z, yz"),
+        (
+            &["--wheel-format", "miniprof"],
+            "s1002 is built in; allowed with a format or mirror: a profile file",
+        ),
     ] {
         wrong_use(&contact, options, part);
     }

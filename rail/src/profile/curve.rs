@@ -97,32 +97,39 @@ impl Profile {
         points_m: &[[f64; 2]],
         smoothing_m: f64,
     ) -> Result<Self, CurveError> {
-        if points_m.len() < MIN_POINTS {
-            return Err(CurveError::TooFewPoints {
-                found: points_m.len(),
+        Self::between_vertical_ends(name, points_m, smoothing_m, 0.0)
+    }
+
+    /// As [`Profile::through`], without an end beyond a vertical tangent that takes up no more than `width_m`.
+    pub(super) fn between_vertical_ends(
+        name: impl Into<String>,
+        points_m: &[[f64; 2]],
+        smoothing_m: f64,
+        width_m: f64,
+    ) -> Result<Self, CurveError> {
+        check(points_m, smoothing_m)?;
+        let mut profile = Self::resampled(name, points_m, smoothing_m);
+        let ends = [points_m[0][0], points_m[points_m.len() - 1][0]];
+        let vertical = |point: &ProfilePoint| point.angle_rad.cos() <= 0.0;
+        let at_end = |point: &ProfilePoint, end: usize| (point.y_m - ends[end]).abs() <= width_m;
+        let points = &profile.points;
+        let start = points
+            .iter()
+            .rposition(|point| vertical(point) && at_end(point, 0))
+            .map_or(0, |last| last + 1);
+        let end = points[start..]
+            .iter()
+            .position(|point| vertical(point) && at_end(point, 1))
+            .map_or(points.len(), |first| start + first);
+        let fold = points[start..end].iter().find(|point| vertical(point));
+        if let Some(fold) = fold.or((end - start < MIN_POINTS).then_some(&points[0])) {
+            return Err(CurveError::FoldedBySmoothing {
+                y_mm: fold.y_m * 1e3,
             });
         }
-        for (index, &[y_m, z_m]) in points_m.iter().enumerate() {
-            let rises = index == 0 || y_m > points_m[index - 1][0];
-            if !(y_m.is_finite() && z_m.is_finite() && rises) {
-                return Err(CurveError::Point { index, y_m, z_m });
-            }
-        }
-        let length_m = chord_lengths(points_m)[points_m.len() - 1];
-        if length_m > MAX_LENGTH_M {
-            return Err(CurveError::TooLong { length_m });
-        }
-        if !(smoothing_m >= 0.0 && smoothing_m.is_finite()) {
-            return Err(CurveError::Smoothing { smoothing_m });
-        }
-        let profile = Self::resampled(name, points_m, smoothing_m);
-        let vertical = |point: &&ProfilePoint| point.angle_rad.cos() <= 0.0;
-        match profile.points.iter().find(vertical) {
-            Some(point) => Err(CurveError::FoldedBySmoothing {
-                y_mm: point.y_m * 1e3,
-            }),
-            None => Ok(profile),
-        }
+        profile.points.truncate(end);
+        profile.points.drain(..start);
+        Ok(profile)
     }
 
     /// As [`Profile::through`], for three or more points whose chord length rises.
@@ -189,6 +196,29 @@ impl Profile {
             curvature_per_m: interpolate(p.curvature_per_m, q.curvature_per_m),
         }
     }
+}
+
+/// Checks that a curve can be laid through `points_m`.
+fn check(points_m: &[[f64; 2]], smoothing_m: f64) -> Result<(), CurveError> {
+    if points_m.len() < MIN_POINTS {
+        return Err(CurveError::TooFewPoints {
+            found: points_m.len(),
+        });
+    }
+    for (index, &[y_m, z_m]) in points_m.iter().enumerate() {
+        let rises = index == 0 || y_m > points_m[index - 1][0];
+        if !(y_m.is_finite() && z_m.is_finite() && rises) {
+            return Err(CurveError::Point { index, y_m, z_m });
+        }
+    }
+    let length_m = chord_lengths(points_m)[points_m.len() - 1];
+    if length_m > MAX_LENGTH_M {
+        return Err(CurveError::TooLong { length_m });
+    }
+    if !(smoothing_m >= 0.0 && smoothing_m.is_finite()) {
+        return Err(CurveError::Smoothing { smoothing_m });
+    }
+    Ok(())
 }
 
 /// Length of the chords from the first point to each point.

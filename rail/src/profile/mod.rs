@@ -1,7 +1,7 @@
 //! Profiles of wheels and rails: plane curves with tangent and curvature, sampled along their arc.
 //!
 //! - [`s1002`] and [`uic60`]: the standard wheel and rail, from their definitions.
-//! - [`measured`]: a profile from the text file of a profile gauge, with every error located.
+//! - [`measured`]: a profile from the file of a profile gauge or of a simulation program, with every error located.
 //! - [`Profile::through`]: a profile from your own points.
 //!
 //! Axes of a profile: `y` to the field side (away from the track centre), `z` down. A wheel's origin is

@@ -1,22 +1,19 @@
 //! `dashpot contact`: the geometry of a wheel and a rail, in numbers and plots.
 
 mod plots;
+mod profiles;
 mod report;
 
 use std::path::{Path, PathBuf};
 
 use dashpot_rail::contact::{Installation, Pair, RigidContact};
 use dashpot_rail::indices::RollingRadiusDifference;
-use dashpot_rail::profile::measured;
-use dashpot_rail::profile::{Body, Profile};
-use dashpot_rail::profile::{s1002, uic60};
+use profiles::{ProfileArguments, Profiles};
 use report::{print, report};
 
-use super::{Format, print_report, streams};
+use super::{Format, print_report};
 use crate::commands::failure::{Failure, Outcome};
-use crate::files::input;
 use crate::files::output::write_folder;
-use crate::files::profile;
 
 /// Contact geometry of a wheelset on a track: contact points, rolling radius, equivalent conicity.
 #[derive(Debug, Clone, clap::Args)]
@@ -24,17 +21,13 @@ use crate::files::profile;
     allow_negative_numbers = true,
     after_help = "Examples:
   dashpot contact
+  dashpot contact --wheel worn.whl --rail worn.ban
   dashpot contact --rail worn.csv --gauge-m 1.432 --plots worn-plots --format json"
 )]
 pub struct ContactArguments {
-    /// Wheel profile: `s1002` or a file of y_mm, z_mm from the tread datum, field side and down positive;
-    /// `-` for standard input.
-    #[arg(long, default_value = "s1002", value_name = "NAME|FILE")]
-    pub wheel: String,
-    /// Rail profile: `uic60` or a file of y_mm, z_mm from the head's top, field side and down positive;
-    /// `-` for standard input.
-    #[arg(long, default_value = "uic60", value_name = "NAME|FILE")]
-    pub rail: String,
+    /// The wheel and the rail.
+    #[command(flatten)]
+    pub profiles: ProfileArguments,
     /// Track gauge, m.
     #[arg(long, default_value_t = Installation::default().gauge_m)]
     pub gauge_m: f64,
@@ -53,9 +46,6 @@ pub struct ContactArguments {
     /// Rail inclination: 0.025 is 1:40.
     #[arg(long, default_value_t = Installation::default().inclination)]
     pub inclination: f64,
-    /// Wavelength halved by the smoothing of profiles from files, m; 0 goes through every point.
-    #[arg(long, default_value_t = measured::DEFAULT_SMOOTHING_M)]
-    pub smoothing_m: f64,
     /// Folder the plots are written to.
     #[arg(long, default_value = "contact-plots", value_name = "FOLDER")]
     pub plots: PathBuf,
@@ -79,30 +69,11 @@ const CELLS: usize = 960;
 /// # Errors
 /// A profile or a distance is not valid, or a plot cannot be written.
 pub fn run(arguments: &ContactArguments) -> Outcome<()> {
-    let smoothing = arguments.smoothing_m;
-    if !(0.0..=0.05).contains(&smoothing) {
-        return Err(Failure::wrong_use(format!(
-            "--smoothing-m: {smoothing}, allowed: 0 to 0.05 m"
-        )));
-    }
-    streams::refuse_second_standard_input(&[
-        ("--wheel", Path::new(&arguments.wheel)),
-        ("--rail", Path::new(&arguments.rail)),
-    ])?;
-    let wheel = profile(
-        &arguments.wheel,
-        "s1002",
-        s1002::profile,
-        Body::Wheel,
-        smoothing,
-    )?;
-    let rail = profile(
-        &arguments.rail,
-        "uic60",
-        uic60::profile,
-        Body::Rail,
-        smoothing,
-    )?;
+    let Profiles {
+        wheel,
+        rail,
+        readings,
+    } = arguments.profiles.load()?;
     let installation = Installation {
         wheel_radius_m: arguments.wheel_radius_m,
         back_to_back_m: arguments.back_to_back_m,
@@ -130,28 +101,8 @@ pub fn run(arguments: &ContactArguments) -> Outcome<()> {
     } else {
         draw(&arguments.plots, &pair, &contacts, &rolling)?
     };
-    let report = report(&pair, &contacts, &rolling, plots);
+    let report = report(&pair, readings, &contacts, &rolling, plots);
     print_report(arguments.format, &report, print)
-}
-
-/// The profile called `name`: the built-in one or a file.
-fn profile(
-    name: &str,
-    known: &str,
-    built_in: fn() -> Profile,
-    body: Body,
-    smoothing: f64,
-) -> Outcome<Profile> {
-    if name.eq_ignore_ascii_case(known) {
-        return Ok(built_in());
-    }
-    let path = Path::new(name);
-    if input::is_file_name(path) || path.exists() {
-        return Ok(profile::read(path, body, smoothing)?);
-    }
-    Err(Failure::wrong_use(format!(
-        "{name}: no such profile, allowed: {known} or a file of two columns y_mm, z_mm"
-    )))
 }
 
 /// Writes the plots into `folder` and returns their paths.

@@ -4,7 +4,34 @@ use std::io::{self, Write};
 
 use dashpot_rail::contact::{Pair, RigidContact};
 use dashpot_rail::indices::RollingRadiusDifference;
+use dashpot_rail::profile::measured::Reading;
 use serde::Serialize;
+
+use super::profiles::Readings;
+
+/// What was read of a profile file, for programs.
+#[derive(Serialize)]
+struct FileReport {
+    format: &'static str,
+    turned: bool,
+    points: usize,
+    points_overhanging: usize,
+    points_folded: usize,
+    widest_fold_m: f64,
+}
+
+impl From<Reading> for FileReport {
+    fn from(reading: Reading) -> Self {
+        Self {
+            format: reading.format.name(),
+            turned: reading.turned,
+            points: reading.points,
+            points_overhanging: reading.overhanging,
+            points_folded: reading.folded,
+            widest_fold_m: reading.widest_fold_mm * 1e-3,
+        }
+    }
+}
 
 #[derive(Serialize)]
 struct Conicity {
@@ -27,6 +54,10 @@ struct Shift {
 pub(super) struct Report {
     wheel: String,
     rail: String,
+    wheel_file: Option<FileReport>,
+    rail_file: Option<FileReport>,
+    #[serde(skip)]
+    readings: Readings,
     gauge_m: f64,
     back_to_back_m: f64,
     wheel_radius_m: f64,
@@ -37,9 +68,10 @@ pub(super) struct Report {
     plots: Vec<String>,
 }
 
-/// The report on `pair`: `contacts` at lateral shifts from left to right, and the files of the plots.
+/// The report on `pair`, of which `readings` were read: `contacts` at lateral shifts from left to right, and the files of the plots.
 pub(super) fn report(
     pair: &Pair,
+    readings: Readings,
     contacts: &[RigidContact],
     rolling: &RollingRadiusDifference,
     plots: Vec<String>,
@@ -49,6 +81,9 @@ pub(super) fn report(
     Report {
         wheel: pair.wheel().name().to_owned(),
         rail: pair.rail().name().to_owned(),
+        wheel_file: readings.wheel.map(FileReport::from),
+        rail_file: readings.rail.map(FileReport::from),
+        readings,
         gauge_m: installation.gauge_m,
         back_to_back_m: installation.back_to_back_m,
         wheel_radius_m: installation.wheel_radius_m,
@@ -94,6 +129,15 @@ pub(super) fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
         report.back_to_back_m * 1e3,
         report.wheel_radius_m * 1e3
     )?;
+    let files = [
+        (&report.wheel, report.readings.wheel),
+        (&report.rail, report.readings.rail),
+    ];
+    for (name, reading) in files {
+        if let Some(reading) = reading {
+            writeln!(out, "{name}: {reading}")?;
+        }
+    }
     writeln!(
         out,
         "\nequivalent conicity (EN 15302)\n  amplitude mm   conicity"

@@ -1,19 +1,21 @@
 //! What can be wrong with the text of a measured profile.
 
-use super::{COLUMNS, MAX_GAP_MM, MIN_POINTS};
+use super::{MAX_FOLD_MM, MAX_GAP_MM, MIN_POINTS};
 use crate::profile::CurveError;
 
 /// Why a text is not a profile.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ProfileError {
-    /// A row does not have two columns.
-    #[error("line {line}: {found} columns, allowed: 2 (y_mm, z_mm)")]
+    /// A row has too few or too many columns.
+    #[error("{found} columns, allowed: {allowed}")]
     Columns {
         /// Line of the text, counted from 1.
         line: u64,
         /// Number of columns found.
         found: usize,
+        /// Number and names of the columns.
+        allowed: String,
     },
     /// A cell is not a number from -1000 to 1000.
     #[error("{text:?} is not a number from -1000 to 1000")]
@@ -25,28 +27,65 @@ pub enum ProfileError {
         /// Content of the cell.
         text: String,
     },
+    /// A key of the header has a value it must not have.
+    #[error("{key} = {text}, allowed: {allowed}")]
+    Key {
+        /// Line of the text, counted from 1.
+        line: u64,
+        /// Name of the key.
+        key: &'static str,
+        /// Its value.
+        text: String,
+        /// What it may be.
+        allowed: &'static str,
+    },
+    /// A line does not belong where it stands.
+    #[error("{text:?}, allowed: {allowed}")]
+    Line {
+        /// Line of the text, counted from 1.
+        line: u64,
+        /// Content of the line.
+        text: String,
+        /// What may stand there.
+        allowed: &'static str,
+    },
+    /// The text ends before the profile does.
+    #[error("cut short: {missing}")]
+    CutShort {
+        /// What is missing, and what is allowed.
+        missing: String,
+    },
+    /// The sign of the lateral axis of this kind of file is not known.
+    #[error(
+        "side not stated: in a rail of GENSYS y may point to either side; allowed: the option mirror, none where y \
+         points to the field side, y where it points to the track centre"
+    )]
+    MirrorNotStated,
     /// There are fewer than [`MIN_POINTS`] points.
     #[error("too few points: {found}, allowed: {MIN_POINTS} or more")]
     TooFewPoints {
         /// Number of points found.
         found: usize,
     },
-    /// The lateral position does not keep its direction.
-    #[error("folded back: {y_mm} follows {before_mm}, allowed: one direction throughout")]
+    /// The curve turns back, and comes out again or runs back over the surface.
+    #[error(
+        "folded back by {fold_mm:.2} mm near y_mm {y_mm:.2}, allowed: {MAX_FOLD_MM} mm, or to the end of the profile \
+         on the side of the material"
+    )]
     FoldedBack {
         /// Line of the text, counted from 1.
         line: u64,
-        /// Lateral position on that line, mm.
+        /// Lateral position that the curve turns back from, mm.
         y_mm: f64,
-        /// Lateral position of the point before, mm.
-        before_mm: f64,
+        /// How far it turns back, mm.
+        fold_mm: f64,
     },
     /// Neighbouring points are further apart than [`MAX_GAP_MM`].
     #[error("gap: {gap_mm:.2} mm to its neighbour, allowed: {MAX_GAP_MM} mm")]
     Gap {
         /// Line of the text, counted from 1.
         line: u64,
-        /// Distance to the point before, mm.
+        /// Distance to the neighbour, mm.
         gap_mm: f64,
     },
     /// The wheel has no flange.
@@ -56,14 +95,33 @@ pub enum ProfileError {
         depth_mm: f64,
     },
     /// The flange of the wheel points up.
-    #[error("wrong side up: the flange must point to positive z_mm (down)")]
+    #[error(
+        "wrong side up: the flange must point to positive z_mm (down); the option mirror z turns it over"
+    )]
     FlangeUp,
     /// The flange of the wheel lies on the field side.
-    #[error("wrong side: the flange must lie at negative y_mm (towards the track centre)")]
+    #[error(
+        "wrong side: the flange must lie at negative y_mm (towards the track centre); the option mirror y, or the \
+         format gensys for its files, changes sides"
+    )]
     FlangeOutside,
+    /// The wheel does not lie about its tread datum.
+    #[error(
+        "y_mm from {from_mm:.1} to {to_mm:.1} with the flange tip at {tip_mm:.1}: allowed: 0 at the tread datum, the \
+         flange tip at negative y_mm (in a SIMPACK file shift.y moves it)"
+    )]
+    DatumOutside {
+        /// Least lateral position, mm.
+        from_mm: f64,
+        /// Greatest lateral position, mm.
+        to_mm: f64,
+        /// Lateral position of the flange tip, mm.
+        tip_mm: f64,
+    },
     /// The head of the rail does not point up.
     #[error(
-        "wrong side up: the head must be the least z_mm (up), both sides 0.5 mm deeper or more"
+        "wrong side up: the head must be the least z_mm (up), both sides 0.5 mm deeper or more; the option mirror z \
+         turns it over"
     )]
     HeadDown,
     /// The points do not make a smooth curve.
@@ -72,11 +130,23 @@ pub enum ProfileError {
 }
 
 impl ProfileError {
-    /// Line (counted from 1) and column of the cell in error; `None` where the error is not of one cell.
-    pub fn cell(&self) -> Option<(u64, &'static str)> {
+    /// Line in error, counted from 1; `None` where the error is not of one line.
+    pub fn line(&self) -> Option<u64> {
         match *self {
-            Self::Number { line, column, .. } => Some((line, column)),
-            Self::FoldedBack { line, .. } | Self::Gap { line, .. } => Some((line, COLUMNS[0])),
+            Self::Columns { line, .. }
+            | Self::Number { line, .. }
+            | Self::Key { line, .. }
+            | Self::Line { line, .. }
+            | Self::FoldedBack { line, .. }
+            | Self::Gap { line, .. } => Some(line),
+            _ => None,
+        }
+    }
+
+    /// Column in error; `None` where the error is not of one cell.
+    pub fn column(&self) -> Option<&'static str> {
+        match *self {
+            Self::Number { column, .. } => Some(column),
             _ => None,
         }
     }

@@ -1,32 +1,59 @@
-//! A measured profile: a text of two columns in mm, checked and smoothed.
+//! Measured profiles: the files of profile gauges and of simulation programs, checked, cut and smoothed.
+//!
+//! | [`Format`] | files | axes of the file |
+//! |---|---|---|
+//! | [`Columns`](Format::Columns) | two columns `y_mm`, `z_mm` | `y` to the field side, `z` down |
+//! | [`MiniProf`](Format::MiniProf) | `.whl`, `.ban` | wheel: `X` from the flange back to the field side, `Y` down; rail: the same, or both turned round |
+//! | [`Simpack`](Format::Simpack) | `.prw`, `.prr` | after the file's own shifts, turns and mirrors: `y` to the field side, `z` down |
+//! | [`Gensys`](Format::Gensys) | `.wheel`, `.rail` | `z` down; wheel: `y` to the track centre; rail: must be stated |
+//!
+//! Points follow one another along the curve, from either end; `y` need not rise. What a wheel or rail cannot touch
+//! with is left out, and [`Reading`] counts it: see [`MAX_FOLD_MM`] and [`REACH_MM`].
 
-mod check;
+mod columns;
 mod error;
+mod format;
+mod gensys;
+mod miniprof;
+mod orientation;
+mod reading;
+mod row;
+mod simpack;
+mod touchable;
+
+use std::ffi::OsStr;
+use std::path::Path;
 
 pub use error::ProfileError;
+pub use format::{Format, UnknownFormat};
+pub use reading::{Mirror, Options, Reading, UnknownMirror};
 
 use super::{Body, Profile};
+use reading::Laid;
 
 /// Smallest number of points of a usable profile: one each 2 mm over a rail head.
 pub const MIN_POINTS: usize = 30;
 /// Greatest distance of neighbouring points, mm; over 5 mm a rail corner of R 13 would lose 0.24 mm.
 pub const MAX_GAP_MM: f64 = 5.0;
+/// Greatest width of a fold or burr that is levelled, mm: some times the noise of a profile gauge. Behind a wider one
+/// the shape of the surface is not known.
+pub const MAX_FOLD_MM: f64 = 0.3;
+/// Farthest that a point is used from the top of a rail or the tip of a flange, mm in depth: the highest flanges have
+/// 36 mm, and a chamfer ends 9 mm above the tread.
+pub const REACH_MM: f64 = 45.0;
 /// Default wavelength whose amplitude the smoothing halves, m: readings rounded to 0.01 mm each
 /// 0.5 mm then give positions within 0.005 mm and curvatures within 2 per m RMS.
 pub const DEFAULT_SMOOTHING_M: f64 = 0.004;
 
-/// Names of the two columns.
-const COLUMNS: [&str; 2] = ["y_mm", "z_mm"];
-
-/// Reads the profile of `body` from `text`.
+/// Reads the profile of `body` from the `text` of a file.
 ///
-/// The columns `y_mm` and `z_mm` are the lateral position and the depth in mm, positive to the field side and
-/// down, separated by comma, semicolon or space. `#` starts a comment; one heading line is allowed.
-/// A wheel's origin is its tread datum, a rail's the top of its head. `smoothing_m` is that of [`Profile::through`].
+/// The profile is called as the file, without folder and extension. A wheel's origin is its tread datum.
+/// `#` starts a comment in columns and GENSYS files, `!` in SIMPACK files.
 ///
 /// # Errors
-/// A cell that is not a number from -1000 to 1000, fewer than [`MIN_POINTS`] points, a curve that folds back,
-/// neighbours further apart than [`MAX_GAP_MM`], a profile upside down or mirrored, a negative smoothing length.
+/// A text that is not of its format, a number beyond -1000 to 1000, fewer than [`MIN_POINTS`] points, neighbours further
+/// apart than [`MAX_GAP_MM`], a fold wider than [`MAX_FOLD_MM`], a profile upside down or mirrored, a GENSYS rail
+/// without [`Options::mirror`], a negative smoothing length.
 ///
 /// ```
 /// use dashpot_rail::profile::{Body, measured};
@@ -35,65 +62,63 @@ const COLUMNS: [&str; 2] = ["y_mm", "z_mm"];
 ///     let depth_mm = f64::from(y_mm).powi(4) * 2e-5;
 ///     text += &format!("{y_mm},{depth_mm:.2}\n");
 /// }
-/// let rail = measured::parse("worn", &text, Body::Rail, measured::DEFAULT_SMOOTHING_M)?;
+/// // Under the head: no wheel reaches there.
+/// text += "35,36\n34,38\n";
+/// let options = measured::Options::default();
+/// let (rail, reading) = measured::parse("worn.csv", &text, Body::Rail, &options)?;
 /// assert!((rail.at(0.020).z_m - 3.2e-3).abs() < 2e-5);
+/// assert_eq!((reading.points, reading.overhanging), (75, 2));
 ///
-/// let error = measured::parse("bad", "0,0\n1,x\n", Body::Rail, 0.0).unwrap_err();
-/// assert_eq!(error.cell(), Some((2, "z_mm")));
+/// let error = measured::parse("bad.csv", "0,0\n1,x\n", Body::Rail, &options).unwrap_err();
+/// assert_eq!((error.line(), error.column()), (Some(2), Some("z_mm")));
 /// # Ok::<(), measured::ProfileError>(())
 /// ```
 pub fn parse(
-    name: impl Into<String>,
+    file_name: &str,
     text: &str,
     body: Body,
-    smoothing_m: f64,
-) -> Result<Profile, ProfileError> {
-    let points_mm = check::checked(body, rows(text)?)?;
-    let points_m: Vec<[f64; 2]> = points_mm
+    options: &Options,
+) -> Result<(Profile, Reading), ProfileError> {
+    let path = Path::new(file_name);
+    let text = text.trim_start_matches('\u{feff}');
+    let extension = path.extension().and_then(OsStr::to_str);
+    let format = options
+        .format
+        .unwrap_or_else(|| Format::detect(text, extension));
+    let Laid { mut rows, turned } = match format {
+        Format::Columns => columns::read(text, options.mirror),
+        Format::MiniProf => miniprof::read(text, body, options.mirror),
+        Format::Simpack => simpack::read(text, body, options.mirror),
+        Format::Gensys => gensys::read(text, body, options.mirror),
+    }?;
+    if rows.len() < MIN_POINTS {
+        return Err(ProfileError::TooFewPoints { found: rows.len() });
+    }
+    if rows[0].y_mm > rows[rows.len() - 1].y_mm {
+        rows.reverse();
+    }
+    orientation::check(body, &rows)?;
+    let part_in_reach = touchable::touchable(body, &rows)?;
+    if part_in_reach.points_mm.len() < MIN_POINTS {
+        return Err(ProfileError::TooFewPoints {
+            found: part_in_reach.points_mm.len(),
+        });
+    }
+    let points_m: Vec<[f64; 2]> = part_in_reach
+        .points_mm
         .iter()
         .map(|[y, z]| [y * 1e-3, z * 1e-3])
         .collect();
-    Ok(Profile::through(name, &points_m, smoothing_m)?)
-}
-
-/// Line number and coordinates in mm of one row.
-type Row = (u64, [f64; 2]);
-
-fn rows(text: &str) -> Result<Vec<Row>, ProfileError> {
-    let mut rows: Vec<Row> = Vec::new();
-    let mut heading_allowed = true;
-    for (number, line) in (1..).zip(text.lines()) {
-        let content = line.split('#').next().unwrap_or("").trim();
-        if content.is_empty() {
-            continue;
-        }
-        let cells: Vec<&str> = content
-            .split(|c: char| c == ',' || c == ';' || c.is_whitespace())
-            .filter(|cell| !cell.is_empty())
-            .collect();
-        if std::mem::take(&mut heading_allowed) && cells.iter().all(|c| c.parse::<f64>().is_err()) {
-            continue;
-        }
-        if cells.len() != 2 {
-            return Err(ProfileError::Columns {
-                line: number,
-                found: cells.len(),
-            });
-        }
-        let mut row = [0.0; 2];
-        for k in 0..2 {
-            row[k] = match cells[k].parse::<f64>() {
-                Ok(value) if value.is_finite() && value.abs() <= 1000.0 => value,
-                _ => {
-                    return Err(ProfileError::Number {
-                        line: number,
-                        column: COLUMNS[k],
-                        text: cells[k].to_owned(),
-                    });
-                }
-            };
-        }
-        rows.push((number, row));
-    }
-    Ok(rows)
+    let name = path.file_stem().and_then(OsStr::to_str).unwrap_or_default();
+    let profile =
+        Profile::between_vertical_ends(name, &points_m, options.smoothing_m, MAX_FOLD_MM * 1e-3)?;
+    let reading = Reading {
+        format,
+        turned,
+        points: rows.len(),
+        overhanging: part_in_reach.overhanging,
+        folded: part_in_reach.folded,
+        widest_fold_mm: part_in_reach.widest_fold_mm,
+    };
+    Ok((profile, reading))
 }

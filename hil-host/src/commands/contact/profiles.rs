@@ -1,0 +1,128 @@
+//! The wheel and the rail of `dashpot contact`: built in, or from files.
+
+use std::path::Path;
+
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use dashpot_rail::profile::measured::{self, Format, Mirror, Options, Reading};
+use dashpot_rail::profile::{Body, Profile, s1002, uic60};
+
+use crate::commands::failure::{Failure, Outcome};
+use crate::commands::streams;
+use crate::files::{input, profile};
+
+/// Which wheel runs on which rail.
+#[derive(Debug, Clone, clap::Args)]
+pub struct ProfileArguments {
+    /// Wheel profile: `s1002` or a file; `-` for standard input.
+    ///
+    /// MiniProf (.whl), SIMPACK (.prw), GENSYS (.wheel), or two columns y_mm, z_mm from the tread datum, field side and
+    /// down positive.
+    #[arg(long, default_value = "s1002", value_name = "NAME|FILE")]
+    pub wheel: String,
+    /// Rail profile: `uic60` or a file; `-` for standard input.
+    ///
+    /// MiniProf (.ban), SIMPACK (.prr), GENSYS (.rail), or two columns y_mm, z_mm, field side and down positive.
+    #[arg(long, default_value = "uic60", value_name = "NAME|FILE")]
+    pub rail: String,
+    /// Format of the wheel's file, where its content and name do not tell it.
+    #[arg(long, value_name = "FORMAT", value_parser = formats())]
+    pub wheel_format: Option<Format>,
+    /// Format of the rail's file, where its content and name do not tell it.
+    #[arg(long, value_name = "FORMAT", value_parser = formats())]
+    pub rail_format: Option<Format>,
+    /// Axes of the wheel's file to change the sign of: y for a profile of the other side.
+    #[arg(long, value_name = "AXES", value_parser = mirrors())]
+    pub wheel_mirror: Option<Mirror>,
+    /// Axes of the rail's file to change the sign of: y for a profile of the other side. A GENSYS rail needs it: none
+    /// when its y points to the field side, y when to the track centre.
+    #[arg(long, value_name = "AXES", value_parser = mirrors())]
+    pub rail_mirror: Option<Mirror>,
+    /// Wavelength halved by the smoothing of profiles from files, m; 0 goes through every point.
+    #[arg(long, default_value_t = measured::DEFAULT_SMOOTHING_M)]
+    pub smoothing_m: f64,
+}
+
+fn formats() -> impl TypedValueParser<Value = Format> {
+    PossibleValuesParser::new(Format::ALL.map(Format::name)).try_map(|name| name.parse())
+}
+
+fn mirrors() -> impl TypedValueParser<Value = Mirror> {
+    PossibleValuesParser::new(Mirror::ALL.map(Mirror::name)).try_map(|name| name.parse())
+}
+
+/// A wheel, a rail, and what was read of each.
+pub(super) struct Profiles {
+    pub wheel: Profile,
+    pub rail: Profile,
+    pub readings: Readings,
+}
+
+/// What was read of a wheel and a rail; `None` for a built-in one.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Readings {
+    pub wheel: Option<Reading>,
+    pub rail: Option<Reading>,
+}
+
+impl ProfileArguments {
+    /// The two profiles.
+    ///
+    /// # Errors
+    /// No such profile, a file that is none, or an option out of its range.
+    pub(super) fn load(&self) -> Outcome<Profiles> {
+        let smoothing_m = self.smoothing_m;
+        if !(0.0..=0.05).contains(&smoothing_m) {
+            return Err(Failure::wrong_use(format!(
+                "--smoothing-m: {smoothing_m}, allowed: 0 to 0.05 m"
+            )));
+        }
+        streams::refuse_second_standard_input(&[
+            ("--wheel", Path::new(&self.wheel)),
+            ("--rail", Path::new(&self.rail)),
+        ])?;
+        let options = |format, mirror| Options {
+            format,
+            mirror,
+            smoothing_m,
+        };
+        let wheel_options = options(self.wheel_format, self.wheel_mirror);
+        let rail_options = options(self.rail_format, self.rail_mirror);
+        let s1002 = ("s1002", s1002::profile as fn() -> Profile);
+        let uic60 = ("uic60", uic60::profile as fn() -> Profile);
+        let (wheel, of_wheel) = profile(&self.wheel, Body::Wheel, s1002, &wheel_options)?;
+        let (rail, of_rail) = profile(&self.rail, Body::Rail, uic60, &rail_options)?;
+        Ok(Profiles {
+            wheel,
+            rail,
+            readings: Readings {
+                wheel: of_wheel,
+                rail: of_rail,
+            },
+        })
+    }
+}
+
+/// The profile called `name`: the built-in one or a file.
+fn profile(
+    name: &str,
+    body: Body,
+    (known, built_in): (&str, fn() -> Profile),
+    options: &Options,
+) -> Outcome<(Profile, Option<Reading>)> {
+    let path = Path::new(name);
+    if name.eq_ignore_ascii_case(known) {
+        if options.format.is_some() || options.mirror.is_some() {
+            return Err(Failure::wrong_use(format!(
+                "{known} is built in; allowed with a format or mirror: a profile file"
+            )));
+        }
+        return Ok((built_in(), None));
+    }
+    if input::is_file_name(path) || path.exists() {
+        let (profile, reading) = profile::read(path, body, options)?;
+        return Ok((profile, Some(reading)));
+    }
+    Err(Failure::wrong_use(format!(
+        "{name}: no such profile, allowed: {known} or a profile file"
+    )))
+}

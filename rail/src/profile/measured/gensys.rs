@@ -1,0 +1,27 @@
+//! Profile files of GENSYS: two columns in mm, `#` for comments.
+//!
+//! Source: GENSYS, Users Manual for Program KPF, "Wheel profile input data" (gensys.se/doc_html/kpf.html): `Y` is positive
+//! to the centre of the track for both wheels, `Z` down, the origin at the nominal running circle. The sign of `Y` of a
+//! rail could not be verified, so it must be stated.
+
+use super::ProfileError;
+use super::columns::rows;
+use super::reading::{Laid, Mirror};
+use crate::profile::Body;
+
+/// The points of `text` in the axes of a profile.
+pub(super) fn read(text: &str, body: Body, mirror: Option<Mirror>) -> Result<Laid, ProfileError> {
+    let mut rows = rows(text)?;
+    match (body, mirror) {
+        (Body::Wheel, mirror) => {
+            mirror.unwrap_or_default().apply(&mut rows);
+            Mirror::Y.apply(&mut rows);
+        }
+        (Body::Rail, Some(mirror)) => mirror.apply(&mut rows),
+        (Body::Rail, None) => return Err(ProfileError::MirrorNotStated),
+    }
+    Ok(Laid {
+        rows,
+        turned: false,
+    })
+}
