@@ -96,6 +96,25 @@ impl PatchForces {
 }
 
 impl WheelsetForces {
+    /// The forces where the profiles change along the track: `1 - share` of these and `share`, 0 to 1, of those by the profiles
+    /// that follow. The patches and creepages are those of the greater share, the status is the worse one.
+    pub fn blended(&self, next: &Self, share: f64) -> Self {
+        let mut forces = if share < 0.5 { *self } else { *next };
+        let blend = |from: [f64; 3], to: [f64; 3]| {
+            std::array::from_fn(|k| (1.0 - share) * from[k] + share * to[k])
+        };
+        for (side, wheel) in forces.wheels.iter_mut().enumerate() {
+            let (from, to) = (&self.wheels[side], &next.wheels[side]);
+            wheel.force_n = blend(from.force_n, to.force_n);
+            wheel.moment_n_m = blend(from.moment_n_m, to.moment_n_m);
+            wheel.status = from.status.max(to.status);
+        }
+        forces.force_n = blend(self.force_n, next.force_n);
+        forces.moment_n_m = blend(self.moment_n_m, next.moment_n_m);
+        forces.status = self.status.max(next.status);
+        forces
+    }
+
     /// Derailment coefficients `Y/Q` of the left and the right wheel, dimensionless: positive when the rail pushes
     /// the wheel towards the track centre, zero for a lifted wheel.
     pub fn derailment_coefficients(&self) -> [f64; 2] {

@@ -1,5 +1,6 @@
 //! Wheel on rail: profiles, geometry, normal and creep forces, conicity.
 
+mod cache;
 mod common;
 mod conicity;
 mod creep;
@@ -11,5 +12,6 @@ mod normal;
 mod profiles;
 mod published;
 mod safety;
+mod sides;
 mod tables;
 mod wheelset;

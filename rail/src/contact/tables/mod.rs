@@ -187,7 +187,7 @@ pub struct TabulatedPose<'a> {
     cells_per_unit: [f64; 3],
     /// Derivatives of the first and the last value by the yaw.
     yaw_slopes: [f64; 2],
-    weights: [f64; 8],
+    weights: Weights,
     is_inside: bool,
 }
 
@@ -219,26 +219,39 @@ impl sealed::Source for Tables {
             position,
             cells_per_unit: located.map(|place| place.cells_per_unit),
             yaw_slopes: [self.yaw_shift_m, 1.0].map(|slope| 2.0 * pose.yaw_rad * slope),
-            weights: weights(position.map(|t| [1.0 - t, t])),
+            weights: Weights::new(position.map(|t| [1.0 - t, t])),
             is_inside: located.iter().all(|place| place.is_inside),
         }
     }
 }
 
-/// Products of the weights of both ends along each axis, the first axis fastest.
-#[inline(always)]
-fn weights([lateral, roll, yaw]: [[f64; 2]; 3]) -> [f64; 8] {
-    from_fn(|corner| lateral[corner & 1] * (roll[(corner >> 1) & 1] * yaw[corner >> 2]))
+/// Weights of the eight nodes of a cell.
+struct Weights {
+    double: [f64; 8],
+    single: [f32; 8],
+}
+
+impl Weights {
+    /// Products of the weights of both ends along each axis, the first axis fastest.
+    #[inline(always)]
+    fn new([lateral, roll, yaw]: [[f64; 2]; 3]) -> Self {
+        let double: [f64; 8] =
+            from_fn(|corner| lateral[corner & 1] * (roll[(corner >> 1) & 1] * yaw[corner >> 2]));
+        Self {
+            double,
+            single: double.map(|weight| weight as f32),
+        }
+    }
 }
 
 impl TabulatedPose<'_> {
     /// The weighted sum of one quad over the nodes.
     #[inline(always)]
-    fn sum(&self, weights: &[f64; 8], quad: usize) -> [f64; 4] {
-        let mut sum = [0.0_f32; 4];
-        for (node, weight) in self.nodes.iter().zip(weights) {
+    fn sum(&self, weights: &Weights, quad: usize) -> [f64; 4] {
+        let mut sum = [0.0; 4];
+        for (node, weight) in self.nodes.iter().zip(&weights.single) {
             for (sum, number) in sum.iter_mut().zip(&node.0[quad]) {
-                *sum += *weight as f32 * number;
+                *sum += weight * number;
             }
         }
         sum.map(f64::from)
@@ -247,9 +260,9 @@ impl TabulatedPose<'_> {
     /// The weighted sum of the interpenetrations, in double precision: a contact of 1e9 N/m answers an error in the
     /// seventh digit with a tenth of a newton.
     #[inline(always)]
-    fn sum_of_interpenetrations(&self, weights: &[f64; 8]) -> [f64; ZONES] {
+    fn sum_of_interpenetrations(&self, weights: &Weights) -> [f64; ZONES] {
         let mut sum = [0.0; ZONES];
-        for (node, weight) in self.nodes.iter().zip(weights) {
+        for (node, weight) in self.nodes.iter().zip(&weights.double) {
             for (sum, number) in sum.iter_mut().zip(&node.0[INTERPENETRATIONS]) {
                 *sum += weight * f64::from(*number);
             }
@@ -259,15 +272,15 @@ impl TabulatedPose<'_> {
 
     /// The weights whose sum is the derivative by the position along `axis`.
     #[inline(always)]
-    fn slope_weights(&self, axis: usize) -> [f64; 8] {
+    fn slope_weights(&self, axis: usize) -> Weights {
         let mut ends = self.position.map(|t| [1.0 - t, t]);
         ends[axis] = [-1.0, 1.0];
-        weights(ends)
+        Weights::new(ends)
     }
 
     /// The derivatives by shift, roll and yaw of what `read` sums up with weights.
     #[inline(always)]
-    fn by_pose<const N: usize>(&self, read: impl Fn(&[f64; 8]) -> [f64; N]) -> [[f64; N]; 3] {
+    fn by_pose<const N: usize>(&self, read: impl Fn(&Weights) -> [f64; N]) -> [[f64; N]; 3] {
         let [by_shift, by_roll, by_yaw_squared]: [[f64; N]; 3] = from_fn(|axis| {
             read(&self.slope_weights(axis)).map(|slope| slope * self.cells_per_unit[axis])
         });
@@ -277,7 +290,7 @@ impl TabulatedPose<'_> {
     }
 
     #[inline(always)]
-    fn quads(&self, weights: &[f64; 8], zone: usize) -> [f64; NUMBERS] {
+    fn quads(&self, weights: &Weights, zone: usize) -> [f64; NUMBERS] {
         let quads: [_; QUADS] = from_fn(|quad| self.sum(weights, first_quad(zone) + quad));
         from_fn(|n| quads[n / 4][n % 4])
     }
