@@ -1,6 +1,8 @@
 //! Results of the contact: forces on patches, wheels and the wheelset, and the state of each wheel.
 
 use super::motion::MOTION_FIELDS;
+use super::pair::Pair;
+use super::wheel::{Wrench, status};
 use super::zones::ZONES;
 use crate::creep::{CreepForces, Creepage};
 
@@ -138,9 +140,24 @@ impl WheelForces {
         self.patches.iter().filter(|patch| patch.load_n > 0.0)
     }
 
-    /// Turns the positions of the patches on the mirror image of a wheel into those on the wheel itself.
-    #[inline]
-    pub(super) fn mirror_patches(&mut self) {
+    /// Takes account of what the loaded patch of a zone makes of the wheel.
+    #[inline(always)]
+    pub(super) fn add_status(&mut self, pair: &Pair, zone: usize) {
+        self.status = self.status.max(status(pair, &self.patches[zone]));
+    }
+
+    #[inline(always)]
+    pub(super) fn set_wrench(&mut self, [fx, fy, fz, mx, my, mz]: Wrench<f64>) {
+        self.force_n = [fx, fy, fz];
+        self.moment_n_m = [mx, my, mz];
+    }
+
+    /// Turns the forces on the mirror image of a wheel into those on the wheel itself.
+    #[inline(always)]
+    pub(super) fn mirror(&mut self) {
+        self.force_n[1] = -self.force_n[1];
+        self.moment_n_m[0] = -self.moment_n_m[0];
+        self.moment_n_m[2] = -self.moment_n_m[2];
         for patch in &mut self.patches {
             patch.position_m[1] = -patch.position_m[1];
         }

@@ -15,13 +15,13 @@
 //! Axes: x forward, y right, z down. Quantities of a single wheel are those of the right wheel, whose field side
 //! is y positive; the left wheel is its mirror image.
 
-mod contact_forces;
 mod forces;
 mod frame;
 mod geometry;
 mod hertz;
 mod installation;
 mod laid_rail;
+mod loaded;
 mod motion;
 mod pair;
 mod patches;

@@ -1,5 +1,7 @@
 //! Motion of a wheelset and displacement of its rails, in track axes: x forward, y right, z down.
 
+use crate::math::number::Number;
+
 /// Position and velocity of a wheelset, which is turned by its yaw and then rolled about the rail's direction.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Motion {
@@ -52,7 +54,7 @@ const MAX_MAGNITUDE: f64 = 1e9;
 /// Whether every number is within the accepted magnitude; NaN is not.
 // Not short-circuited: the comparisons run side by side.
 #[inline]
-pub(super) fn all_accepted<const N: usize>(numbers: [f64; N]) -> bool {
+fn all_accepted<const N: usize>(numbers: [f64; N]) -> bool {
     numbers
         .iter()
         .fold(true, |all, number| all & (number.abs() <= MAX_MAGNITUDE))
@@ -65,6 +67,12 @@ pub const MOTION_FIELDS: usize = 10;
 pub(super) type MotionNumbers<T> = [T; MOTION_FIELDS];
 
 impl Motion {
+    /// Whether every field is a number of at most 1e9 in magnitude.
+    #[inline]
+    pub(super) fn is_accepted(&self) -> bool {
+        all_accepted(self.numbers())
+    }
+
     /// The fields in their order.
     #[inline]
     pub(super) fn numbers(&self) -> MotionNumbers<f64> {
@@ -83,6 +91,17 @@ impl Motion {
     }
 }
 
+/// The fields of [`RailDisplacement`], with or without derivatives.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct RailNumbers<T> {
+    pub lateral: T,
+    pub vertical: T,
+    pub lateral_velocity: T,
+    pub vertical_velocity: T,
+    pub roll: T,
+    pub roll_rate: T,
+}
+
 impl RailDisplacement {
     /// Whether every field is a number of at most 1e9 in magnitude.
     #[inline]
@@ -96,16 +115,29 @@ impl RailDisplacement {
             self.roll_rate_rad_per_s,
         ])
     }
+}
 
-    /// The mirror image about the track centre.
-    #[inline]
-    pub(super) fn mirrored(&self) -> Self {
+impl<T: Number> RailNumbers<T> {
+    /// The rails of a wheel of the right side, or of the mirror image of one of the left: what is odd in the mirror comes
+    /// from `odd`.
+    #[inline(always)]
+    pub fn new(
+        even: impl Fn(fn(&RailDisplacement) -> f64) -> T,
+        odd: impl Fn(fn(&RailDisplacement) -> f64) -> T,
+    ) -> Self {
         Self {
-            lateral_m: -self.lateral_m,
-            lateral_velocity_m_per_s: -self.lateral_velocity_m_per_s,
-            roll_rad: -self.roll_rad,
-            roll_rate_rad_per_s: -self.roll_rate_rad_per_s,
-            ..*self
+            lateral: odd(|rail| rail.lateral_m),
+            vertical: even(|rail| rail.vertical_m),
+            lateral_velocity: odd(|rail| rail.lateral_velocity_m_per_s),
+            vertical_velocity: even(|rail| rail.vertical_velocity_m_per_s),
+            roll: odd(|rail| rail.roll_rad),
+            roll_rate: odd(|rail| rail.roll_rate_rad_per_s),
         }
     }
 }
+
+/// Whether a field of [`Motion`] changes its sign in a mirror about the track centre: the lateral one, roll and yaw,
+/// and their rates.
+pub(super) const ODD: [bool; MOTION_FIELDS] = [
+    false, true, false, true, true, true, false, true, false, true,
+];

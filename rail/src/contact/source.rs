@@ -6,7 +6,7 @@ use super::geometry::ContactGeometry;
 use super::silhouette::WheelPose;
 use super::tables::{NUMBERS, TabulatedPatch};
 use super::zones::ZONES;
-use crate::math::number::Number;
+use crate::math::number::Dual;
 
 /// A source of the patches of a wheel: [`Tables`](super::Tables) in real time, [`ContactGeometry`] where
 /// time does not matter and every number is to be smooth and in double precision.
@@ -48,27 +48,25 @@ pub trait PatchReader {
 
     /// Their derivatives by lateral shift, roll and yaw.
     fn number_slopes(&self, zone: usize) -> [[f64; NUMBERS]; 3];
+}
 
-    /// Interpenetration and stiffness of one patch, whose values are already read, at `pose` (lateral shift, roll, yaw).
-    #[inline(always)]
-    fn load_numbers<T: Number>(&self, zone: usize, values: [f64; 2], pose: [T; 3]) -> [T; 2] {
-        if !T::DIFFERENTIATED {
-            return values.map(T::constant);
-        }
-        let slopes = self.load_slopes(zone);
-        from_fn(|n| T::function(values[n], from_fn::<_, 3, _>(|axis| (slopes[axis][n], pose[axis]))))
-    }
-
-    /// The numbers of one patch at `pose`.
-    #[inline(always)]
-    fn numbers_at<T: Number>(&self, zone: usize, pose: [T; 3]) -> [T; NUMBERS] {
-        let values = self.numbers(zone);
-        if !T::DIFFERENTIATED {
-            return values.map(T::constant);
-        }
-        let slopes = self.number_slopes(zone);
-        from_fn(|n| T::function(values[n], from_fn::<_, 3, _>(|axis| (slopes[axis][n], pose[axis]))))
-    }
+/// Interpenetration, stiffness and numbers of one patch as functions of `pose` (lateral shift, roll, yaw).
+#[inline(always)]
+pub(super) fn functions_of_pose<R: PatchReader>(
+    reader: &R,
+    zone: usize,
+    load_numbers: [f64; 2],
+    pose: [Dual; 3],
+) -> ([Dual; 2], [Dual; NUMBERS]) {
+    let function = |value: f64, slopes: [f64; 3]| {
+        Dual::function(value, from_fn::<_, 3, _>(|axis| (slopes[axis], pose[axis])))
+    };
+    let (of_load, of_numbers) = (reader.load_slopes(zone), reader.number_slopes(zone));
+    let numbers = reader.numbers(zone);
+    (
+        from_fn(|n| function(load_numbers[n], of_load.map(|slopes| slopes[n]))),
+        from_fn(|n| function(numbers[n], of_numbers.map(|slopes| slopes[n]))),
+    )
 }
 
 /// A pose of the geometry itself.

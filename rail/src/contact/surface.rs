@@ -37,11 +37,6 @@ impl<L> Surface<L> {
     /// Crossley 1975); never negative, for the rails push and never pull.
     #[inline(always)]
     pub fn damping<T: Number>(&self, approach_speed: T) -> T {
-        let factor = approach_speed * self.normal_damping_s_per_m + 1.0;
-        if factor.value() > 0.0 {
-            factor
-        } else {
-            T::constant(0.0)
-        }
+        (approach_speed * self.normal_damping_s_per_m + 1.0).not_negative()
     }
 }

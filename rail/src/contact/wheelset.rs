@@ -1,17 +1,20 @@
 //! Contact forces on a wheelset: both wheels, each on its own rail.
 
+use std::array::from_fn;
 use std::sync::Arc;
 
-use super::forces::{Status, WheelDerivatives, WheelForces, WheelsetForces};
+use super::forces::{PatchForces, Status, WheelDerivatives, WheelForces, WheelsetForces};
 use super::frame::Frame;
 use super::geometry::ContactGeometry;
-use super::motion::{MOTION_FIELDS, Motion, MotionNumbers, RailDisplacement};
-use super::source::PatchSource;
+use super::motion::{MOTION_FIELDS, Motion, ODD, RailDisplacement, RailNumbers};
+use super::silhouette::WheelPose;
+use super::source::{PatchReader, PatchSource, functions_of_pose, sealed::Source};
 use super::surface::{MAX_NORMAL_DAMPING_S_PER_M, Surface, SurfaceError};
-use super::tables::Tables;
-use super::wheel::{Wheel, Wrench};
+use super::tables::{NUMBERS, Tables};
+use super::wheel::{Place, WheelLengths, Wrench};
+use super::zones::ZONES;
 use crate::creep::{CreepLaw, Friction};
-use crate::math::number::{Dual, Number};
+use crate::math::number::{Dual, Number, Sides};
 
 /// The contact of a wheelset: constant, shared by every wheelset of the same profiles.
 ///
@@ -36,7 +39,8 @@ pub struct WheelsetContact<L, S = Tables> {
     /// Of the left wheel (as its mirror image on the right side) and of the right wheel.
     sources: [Arc<S>; 2],
     surface: Surface<L>,
-    height_m: f64,
+    lengths: [WheelLengths<Dual>; 2],
+    lengths_of_sides: WheelLengths<Sides>,
 }
 
 impl<L: CreepLaw, S: PatchSource> WheelsetContact<L, S> {
@@ -70,9 +74,17 @@ impl<L: CreepLaw, S: PatchSource> WheelsetContact<L, S> {
             shear_modulus_pa: mean(|geometry| geometry.steel().shear_modulus_pa()),
             normal_damping_s_per_m: 0.0,
         };
+        let height_m = mean(|geometry| geometry.pair().installation().wheel_radius_m);
+        let of_side = |side: &Arc<S>| {
+            WheelLengths::new(|of| Dual::constant(of(side.geometry())), height_m)
+        };
         Ok(Self {
-            height_m: mean(|geometry| geometry.pair().installation().wheel_radius_m),
             surface,
+            lengths: [of_side(&left), of_side(&right)],
+            lengths_of_sides: WheelLengths::new(
+                |of| Sides::from([of(left.geometry()), of(right.geometry())]),
+                height_m,
+            ),
             sources: [left, right],
         })
     }
@@ -120,7 +132,50 @@ impl<L: CreepLaw, S: PatchSource> WheelsetContact<L, S> {
         rails: &[RailDisplacement; 2],
         forces: &mut WheelsetForces,
     ) {
-        self.evaluate(motion.numbers(), rails, forces);
+        if !begin(motion, rails, forces) {
+            return;
+        }
+        let values = motion.numbers();
+        let numbers = from_fn(|field| {
+            let left = if ODD[field] { -values[field] } else { values[field] };
+            Sides::from([left, values[field]])
+        });
+        let rail = RailNumbers::new(
+            |of| Sides::from([of(&rails[0]), of(&rails[1])]),
+            |of| Sides::from([-of(&rails[0]), of(&rails[1])]),
+        );
+        let place = Place::new(Frame::new(&numbers), rail, self.lengths_of_sides);
+        let poses = place.pose.map(<[f64; 2]>::from);
+        let depths = <[f64; 2]>::from(place.depth);
+        let readers: [_; 2] = from_fn(|side| {
+            let wheel = &mut forces.wheels[side];
+            let pose = [poses[0][side], poses[1][side], poses[2][side]];
+            LoadedZones::of(self.sources[side].as_ref(), pose, depths[side], wheel)
+        });
+        let mut wrench = [Sides::constant(0.0); 6];
+        for k in 0..readers[0].count.max(readers[1].count) {
+            // A wheel with fewer patches than the other computes one without load.
+            let of_sides = readers.each_ref().map(|reader| reader.patch(k));
+            let [depths, stiffnesses] =
+                [0, 1].map(|n| Sides::from(of_sides.each_ref().map(|(load, _)| load[n])));
+            let numbers = from_fn(|n| Sides::from(of_sides.each_ref().map(|(_, numbers)| numbers[n])));
+            let patch = place.patch(&self.surface, depths, stiffnesses, numbers);
+            for (sum, term) in wrench.iter_mut().zip(patch.wrench) {
+                *sum = *sum + term;
+            }
+            for (side, reader) in readers.iter().enumerate() {
+                if k < reader.count {
+                    let wheel = &mut forces.wheels[side];
+                    patch.write(side, &mut wheel.patches[reader.zones[k]]);
+                    wheel.add_status(self.sources[side].geometry().pair(), reader.zones[k]);
+                }
+            }
+        }
+        let wrench = wrench.map(<[f64; 2]>::from);
+        for side in 0..2 {
+            forces.wheels[side].set_wrench(wrench.map(|sides| sides[side]));
+        }
+        finish(forces);
     }
 
     /// As [`update`](WheelsetContact::update), and the derivatives of force and moment on the left and the right wheel by
@@ -135,73 +190,148 @@ impl<L: CreepLaw, S: PatchSource> WheelsetContact<L, S> {
         rails: &[RailDisplacement; 2],
         forces: &mut WheelsetForces,
     ) -> [WheelDerivatives; 2] {
+        let mut derivatives = [WheelDerivatives::default(); 2];
+        if !begin(motion, rails, forces) {
+            return derivatives;
+        }
         let values = motion.numbers();
-        let variables = std::array::from_fn(|field| Dual::variable(values[field], field));
-        self.evaluate(variables, rails, forces)
-            .map(|wrench| WheelDerivatives::of(&wrench))
+        for side in 0..2 {
+            let sign = if side == 0 { -1.0 } else { 1.0 };
+            let numbers = from_fn(|field| {
+                let variable = Dual::variable(values[field], field);
+                if ODD[field] { variable * sign } else { variable }
+            });
+            let rail = RailNumbers::new(
+                |of| Dual::constant(of(&rails[side])),
+                |of| Dual::constant(sign * of(&rails[side])),
+            );
+            let place = Place::new(Frame::new(&numbers), rail, self.lengths[side]);
+            let wheel = &mut forces.wheels[side];
+            let source = self.sources[side].as_ref();
+            let pose = place.pose.map(|number| number.value());
+            let loaded = LoadedZones::of(source, pose, place.depth.value(), wheel);
+            let mut wrench = [Dual::constant(0.0); 6];
+            for &zone in &loaded.zones[..loaded.count] {
+                let load = [loaded.interpenetrations[zone], loaded.stiffnesses[zone]];
+                let ([interpenetration, stiffness], numbers) =
+                    functions_of_pose(&loaded.reader, zone, load, place.pose);
+                let depth = interpenetration + place.depth;
+                let patch = place.patch(&self.surface, depth, stiffness, numbers);
+                for (sum, term) in wrench.iter_mut().zip(patch.wrench) {
+                    *sum = *sum + term;
+                }
+                patch.write(0, &mut wheel.patches[zone]);
+                wheel.add_status(source.geometry().pair(), zone);
+            }
+            wheel.set_wrench(wrench.map(|number| number.value()));
+            derivatives[side] = WheelDerivatives::of(&wrench, sign);
+        }
+        finish(forces);
+        derivatives
+    }
+}
+
+/// Whether the motion is one that forces can be computed of; otherwise they are zero and say so.
+#[inline(always)]
+fn begin(motion: &Motion, rails: &[RailDisplacement; 2], forces: &mut WheelsetForces) -> bool {
+    let accepted = motion.is_accepted() & rails[0].is_accepted() & rails[1].is_accepted();
+    if !accepted {
+        *forces = WheelsetForces::default();
+        forces.status = Status::NotFinite;
+        for wheel in &mut forces.wheels {
+            wheel.status = Status::NotFinite;
+        }
+    }
+    accepted
+}
+
+/// Turns the left wheel back from its mirror image and adds up both wheels.
+#[inline(always)]
+fn finish(forces: &mut WheelsetForces) {
+    let [left, right] = &mut forces.wheels;
+    left.mirror();
+    for k in 0..3 {
+        forces.force_n[k] = left.force_n[k] + right.force_n[k];
+        forces.moment_n_m[k] = left.moment_n_m[k] + right.moment_n_m[k];
+    }
+    forces.status = left.status.max(right.status);
+}
+
+/// The zones of a wheel that carry load at its pose.
+struct LoadedZones<R> {
+    reader: R,
+    interpenetrations: [f64; ZONES],
+    stiffnesses: [f64; ZONES],
+    /// Depth of the tread datum below the rail's top, m.
+    depth: f64,
+    zones: [usize; ZONES],
+    count: usize,
+}
+
+impl<'a, R: PatchReader> LoadedZones<R> {
+    /// Those of `source`; sets the status of `wheel` and clears the patches that carry nothing.
+    #[inline(always)]
+    fn of<S: Source<Reader<'a> = R>>(
+        source: &'a S,
+        [lateral_m, roll_rad, yaw_rad]: [f64; 3],
+        depth: f64,
+        wheel: &mut WheelForces,
+    ) -> Self {
+        let reader = source.locate(&WheelPose {
+            lateral_m,
+            roll_rad,
+            yaw_rad,
+        });
+        wheel.status = if reader.is_inside() {
+            Status::Lifted
+        } else {
+            Status::OutsideTables
+        };
+        let (interpenetrations, stiffnesses) = (reader.interpenetrations_m(), reader.stiffnesses());
+        let (mut zones, mut count) = ([0; ZONES], 0);
+        for zone in 0..ZONES {
+            let result = &mut wheel.patches[zone];
+            if interpenetrations[zone] + depth > 0.0 && stiffnesses[zone] > 0.0 {
+                zones[count] = zone;
+                count += 1;
+            } else if result.load_n != 0.0 {
+                *result = PatchForces::default();
+            }
+        }
+        Self {
+            reader,
+            interpenetrations,
+            stiffnesses,
+            depth,
+            zones,
+            count,
+        }
     }
 
-    /// Writes the forces and returns the wrench on each wheel.
+    /// Depth and stiffness of the loaded patch number `k`, and its numbers; without stiffness when there are fewer.
     #[inline(always)]
-    fn evaluate<T: Number>(
-        &self,
-        motion: MotionNumbers<T>,
-        rails: &[RailDisplacement; 2],
-        forces: &mut WheelsetForces,
-    ) -> [Wrench<T>; 2] {
-        let frame = Frame::new(&motion);
-        let accepted = super::motion::all_accepted(motion.map(T::value));
-        let frames = [frame.mirrored(), frame];
-        let mut wrenches = [[T::constant(0.0); 6]; 2];
-        for side in 0..2 {
-            let wheel_forces = &mut forces.wheels[side];
-            let rail = if side == 0 { rails[0].mirrored() } else { rails[1] };
-            if !(accepted && rail.is_accepted()) {
-                *wheel_forces = WheelForces {
-                    status: Status::NotFinite,
-                    ..WheelForces::default()
-                };
-                continue;
-            }
-            let wheel = Wheel {
-                source: self.sources[side].as_ref(),
-                surface: &self.surface,
-                height_m: self.height_m,
-            };
-            let mut wrench = wheel.wrench(&frames[side], &rail, wheel_forces);
-            if side == 0 {
-                wheel_forces.mirror_patches();
-                // Forces along y and moments about x and z change their sign in a mirror.
-                for k in [1, 3, 5] {
-                    wrench[k] = -wrench[k];
-                }
-            }
-            let [fx, fy, fz, mx, my, mz] = wrench.map(T::value);
-            wheel_forces.force_n = [fx, fy, fz];
-            wheel_forces.moment_n_m = [mx, my, mz];
-            wrenches[side] = wrench;
+    fn patch(&self, k: usize) -> ([f64; 2], [f64; NUMBERS]) {
+        let zone = self.zones[k];
+        let numbers = self.reader.numbers(zone);
+        if k < self.count {
+            let depth = self.interpenetrations[zone] + self.depth;
+            ([depth, self.stiffnesses[zone]], numbers)
+        } else {
+            ([0.0; 2], numbers)
         }
-        let [left, right] = &forces.wheels;
-        for k in 0..3 {
-            forces.force_n[k] = left.force_n[k] + right.force_n[k];
-            forces.moment_n_m[k] = left.moment_n_m[k] + right.moment_n_m[k];
-        }
-        forces.status = left.status.max(right.status);
-        wrenches
     }
 }
 
 impl WheelDerivatives {
-    fn of(wrench: &Wrench<Dual>) -> Self {
-        let by_field = |number: &Dual| {
-            std::array::from_fn::<f64, MOTION_FIELDS, _>(|field| {
-                f64::from(number.derivatives()[field])
-            })
+    /// Those of the wrench on a wheel, or on the mirror image (`sign` -1) of the left wheel.
+    fn of(wrench: &Wrench<Dual>, sign: f64) -> Self {
+        let by_field = |number: &Dual, sign: f64| -> [f64; MOTION_FIELDS] {
+            from_fn(|field| sign * f64::from(number.derivatives()[field]))
         };
         let [fx, fy, fz, mx, my, mz] = wrench;
         Self {
-            force: [fx, fy, fz].map(by_field),
-            moment: [mx, my, mz].map(by_field),
+            force: [by_field(fx, 1.0), by_field(fy, sign), by_field(fz, 1.0)],
+            moment: [by_field(mx, sign), by_field(my, 1.0), by_field(mz, sign)],
         }
     }
 }

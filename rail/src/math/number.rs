@@ -1,9 +1,11 @@
-//! Numbers that may carry their derivatives: one text for the forces and for their tangents.
+//! Numbers that are more than one: one text for the forces on both wheels side by side, and for their tangents.
 
 use std::array::from_fn;
 use std::ops::{Add, Mul, Neg, Sub};
 
-/// A real number, with or without derivatives.
+use wide::f64x2;
+
+/// A real number in several lanes, or with derivatives.
 pub trait Number:
     Copy
     + Add<Output = Self>
@@ -11,61 +13,108 @@ pub trait Number:
     + Mul<Output = Self>
     + Neg<Output = Self>
     + Add<f64, Output = Self>
-    + Sub<f64, Output = Self>
     + Mul<f64, Output = Self>
 {
-    /// Whether the number carries derivatives.
-    const DIFFERENTIATED: bool;
-
-    /// The number without derivatives.
-    fn value(self) -> f64;
-
-    /// A number that depends on nothing.
+    /// A number that depends on nothing, the same in every lane.
     fn constant(value: f64) -> Self;
 
-    /// The function of `terms` that has this `value` and the given derivative by each term.
-    fn function<const N: usize>(value: f64, terms: [(f64, Self); N]) -> Self;
+    /// The value in one lane.
+    fn lane(self, lane: usize) -> f64;
 
     /// `1 / self`.
-    #[inline(always)]
-    fn reciprocal(self) -> Self {
-        let reciprocal = 1.0 / self.value();
-        Self::function(reciprocal, [(-reciprocal * reciprocal, self)])
-    }
+    fn reciprocal(self) -> Self;
 
-    /// Square root of a positive number.
-    #[inline(always)]
-    fn sqrt(self) -> Self {
-        let root = self.value().sqrt();
-        Self::function(root, [(0.5 / root, self)])
-    }
+    /// Square root of a number that is not negative.
+    fn sqrt(self) -> Self;
 
     /// The number limited to `limit` in magnitude; constant where it is limited.
+    fn limited(self, limit: f64) -> Self;
+
+    /// The number, or zero where it is negative.
+    fn not_negative(self) -> Self;
+}
+
+/// The left and the right wheel, one in each lane.
+#[derive(Debug, Clone, Copy)]
+pub struct Sides(f64x2);
+
+impl From<[f64; 2]> for Sides {
     #[inline(always)]
-    fn limited(self, limit: f64) -> Self {
-        let value = self.value();
-        let limited = value.max(-limit).min(limit);
-        let slope = if limited == value { 1.0 } else { 0.0 };
-        Self::function(limited, [(slope, self)])
+    fn from(sides: [f64; 2]) -> Self {
+        Self(f64x2::from(sides))
     }
 }
 
-impl Number for f64 {
-    const DIFFERENTIATED: bool = false;
-
+impl From<Sides> for [f64; 2] {
     #[inline(always)]
-    fn value(self) -> f64 {
-        self
+    fn from(sides: Sides) -> Self {
+        sides.0.to_array()
     }
+}
 
+impl Number for Sides {
     #[inline(always)]
     fn constant(value: f64) -> Self {
-        value
+        Self(f64x2::splat(value))
     }
 
     #[inline(always)]
-    fn function<const N: usize>(value: f64, _: [(f64, Self); N]) -> Self {
-        value
+    fn lane(self, lane: usize) -> f64 {
+        self.0.as_array()[lane]
+    }
+
+    #[inline(always)]
+    fn reciprocal(self) -> Self {
+        Self(f64x2::ONE / self.0)
+    }
+
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        Self(self.0.sqrt())
+    }
+
+    #[inline(always)]
+    fn limited(self, limit: f64) -> Self {
+        let limit = f64x2::splat(limit);
+        Self(self.0.fast_max(-limit).fast_min(limit))
+    }
+
+    #[inline(always)]
+    fn not_negative(self) -> Self {
+        Self(self.0.fast_max(f64x2::ZERO))
+    }
+}
+
+/// Operators of [`Sides`], by lane.
+macro_rules! by_lane {
+    ($($operator:ident $function:ident),*) => {$(
+        impl $operator for Sides {
+            type Output = Self;
+
+            #[inline(always)]
+            fn $function(self, other: Self) -> Self {
+                Self($operator::$function(self.0, other.0))
+            }
+        }
+
+        impl $operator<f64> for Sides {
+            type Output = Self;
+
+            #[inline(always)]
+            fn $function(self, other: f64) -> Self {
+                Self($operator::$function(self.0, f64x2::splat(other)))
+            }
+        }
+    )*};
+}
+by_lane!(Add add, Sub sub, Mul mul);
+
+impl Neg for Sides {
+    type Output = Self;
+
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self(-self.0)
     }
 }
 
@@ -89,20 +138,32 @@ impl Dual {
         }
     }
 
+    /// The value without derivatives.
+    #[inline(always)]
+    pub fn value(&self) -> f64 {
+        self.value
+    }
+
     /// The derivatives by the variables.
     pub fn derivatives(&self) -> &[f32; VARIABLES] {
         &self.derivatives
     }
+
+    /// The function of `terms` that has this `value` and the given derivative by each term.
+    #[inline(always)]
+    pub fn function<const N: usize>(value: f64, terms: [(f64, Self); N]) -> Self {
+        let mut derivatives = [0.0; VARIABLES];
+        for (slope, term) in terms {
+            let slope = slope as f32;
+            for (sum, derivative) in derivatives.iter_mut().zip(term.derivatives) {
+                *sum += slope * derivative;
+            }
+        }
+        Self { value, derivatives }
+    }
 }
 
 impl Number for Dual {
-    const DIFFERENTIATED: bool = true;
-
-    #[inline(always)]
-    fn value(self) -> f64 {
-        self.value
-    }
-
     #[inline(always)]
     fn constant(value: f64) -> Self {
         Self {
@@ -112,15 +173,38 @@ impl Number for Dual {
     }
 
     #[inline(always)]
-    fn function<const N: usize>(value: f64, terms: [(f64, Self); N]) -> Self {
-        let mut derivatives = [0.0; VARIABLES];
-        for (slope, term) in terms {
-            let slope = slope as f32;
-            for (sum, derivative) in derivatives.iter_mut().zip(term.derivatives) {
-                *sum += slope * derivative;
-            }
+    fn lane(self, _: usize) -> f64 {
+        self.value
+    }
+
+    #[inline(always)]
+    fn reciprocal(self) -> Self {
+        let reciprocal = 1.0 / self.value;
+        Self::function(reciprocal, [(-reciprocal * reciprocal, self)])
+    }
+
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        let root = self.value.sqrt();
+        Self::function(root, [(0.5 / root, self)])
+    }
+
+    #[inline(always)]
+    fn limited(self, limit: f64) -> Self {
+        if self.value.abs() <= limit {
+            self
+        } else {
+            Self::constant(limit.copysign(self.value))
         }
-        Self { value, derivatives }
+    }
+
+    #[inline(always)]
+    fn not_negative(self) -> Self {
+        if self.value > 0.0 {
+            self
+        } else {
+            Self::constant(0.0)
+        }
     }
 }
 
@@ -182,15 +266,6 @@ impl Add<f64> for Dual {
     }
 }
 
-impl Sub<f64> for Dual {
-    type Output = Self;
-
-    #[inline(always)]
-    fn sub(self, other: f64) -> Self {
-        self + -other
-    }
-}
-
 impl Mul<f64> for Dual {
     type Output = Self;
 
@@ -207,11 +282,15 @@ impl Mul<f64> for Dual {
 mod tests {
     use super::*;
 
+    /// `x^2 y / sqrt(x) - 2 x + 1/y`
+    fn formula<T: Number>(x: T, y: T) -> T {
+        x * x * y * x.sqrt().reciprocal() - x * 2.0 + y.reciprocal()
+    }
+
     #[test]
     fn derivatives_are_those_of_closed_forms() {
         let (x, y) = (Dual::variable(0.7, 0), Dual::variable(-1.3, 3));
-        // x^2 y / sqrt(x) - 2 x + 1/y
-        let f = x * x * y * x.sqrt().reciprocal() - x * 2.0 + y.reciprocal();
+        let f = formula(x, y);
         assert!((f.value() - (-1.3 * 0.7_f64.powf(1.5) - 1.4 - 1.0 / 1.3)).abs() < 1e-14);
         let by_x = -1.3 * 1.5 * 0.7_f64.sqrt() - 2.0;
         let by_y = 0.7_f64.powf(1.5) - 1.0 / 1.69;
@@ -220,5 +299,18 @@ mod tests {
         assert_eq!(f.derivatives()[1..3], [0.0, 0.0]);
         assert_eq!(x.limited(0.5), Dual::constant(0.5));
         assert_eq!((-x).limited(0.9), -x);
+        assert_eq!(y.not_negative(), Dual::constant(0.0));
+        assert_eq!(x.not_negative(), x);
+    }
+
+    #[test]
+    fn each_lane_has_its_own_number() {
+        let sides = formula(Sides::from([0.7, 2.0]), Sides::from([-1.3, 0.5]));
+        let alone = |x: f64, y: f64| formula(Dual::constant(x), Dual::constant(y)).value();
+        assert_eq!(<[f64; 2]>::from(sides), [alone(0.7, -1.3), alone(2.0, 0.5)]);
+        let limited = Sides::from([-3.0, 0.2]).limited(1.0);
+        assert_eq!(<[f64; 2]>::from(limited), [-1.0, 0.2]);
+        let not_negative = Sides::from([-3.0, 0.2]).not_negative();
+        assert_eq!(<[f64; 2]>::from(not_negative), [0.0, 0.2]);
     }
 }
