@@ -37,11 +37,8 @@ pub trait PatchReader {
     /// Interpenetration of each patch, m.
     fn interpenetrations_m(&self) -> [f64; ZONES];
 
-    /// Hertz's stiffness of each patch, N/m^1.5; zero for a patch that carries nothing.
-    fn stiffnesses(&self) -> [f64; ZONES];
-
-    /// Derivatives of interpenetration and stiffness of one patch by lateral shift, roll and yaw.
-    fn load_slopes(&self, zone: usize) -> [[f64; 2]; 3];
+    /// Derivatives of the interpenetration of one patch by lateral shift, roll and yaw.
+    fn interpenetration_slopes(&self, zone: usize) -> [f64; 3];
 
     /// The numbers of one patch, as [`TabulatedPatch::to_numbers`].
     fn numbers(&self, zone: usize) -> [f64; NUMBERS];
@@ -50,22 +47,21 @@ pub trait PatchReader {
     fn number_slopes(&self, zone: usize) -> [[f64; NUMBERS]; 3];
 }
 
-/// Interpenetration, stiffness and numbers of one patch as functions of `pose` (lateral shift, roll, yaw).
+/// Interpenetration and numbers of one patch as functions of `pose` (lateral shift, roll, yaw).
 #[inline(always)]
 pub(super) fn functions_of_pose<R: PatchReader>(
     reader: &R,
     zone: usize,
-    load_numbers: [f64; 2],
+    interpenetration: f64,
     pose: [Dual; 3],
-) -> ([Dual; 2], [Dual; NUMBERS]) {
+) -> (Dual, [Dual; NUMBERS]) {
     let function = |value: f64, slopes: [f64; 3]| {
         Dual::function(value, from_fn::<_, 3, _>(|axis| (slopes[axis], pose[axis])))
     };
-    let (of_load, of_numbers) = (reader.load_slopes(zone), reader.number_slopes(zone));
-    let numbers = reader.numbers(zone);
+    let (numbers, slopes) = (reader.numbers(zone), reader.number_slopes(zone));
     (
-        from_fn(|n| function(load_numbers[n], of_load.map(|slopes| slopes[n]))),
-        from_fn(|n| function(numbers[n], of_numbers.map(|slopes| slopes[n]))),
+        function(interpenetration, reader.interpenetration_slopes(zone)),
+        from_fn(|n| function(numbers[n], slopes.map(|slopes| slopes[n]))),
     )
 }
 
@@ -123,14 +119,9 @@ impl PatchReader for ComputedPose<'_> {
         self.patches.map(|patch| patch.interpenetration_m)
     }
 
-    fn stiffnesses(&self) -> [f64; ZONES] {
-        self.patches.map(|patch| patch.hertz.stiffness_n_per_m_1_5)
-    }
-
-    fn load_slopes(&self, zone: usize) -> [[f64; 2]; 3] {
-        self.differences(zone, |patch| {
-            [patch.interpenetration_m, patch.hertz.stiffness_n_per_m_1_5]
-        })
+    fn interpenetration_slopes(&self, zone: usize) -> [f64; 3] {
+        self.differences(zone, |patch| [patch.interpenetration_m])
+            .map(|[slope]| slope)
     }
 
     fn numbers(&self, zone: usize) -> [f64; NUMBERS] {

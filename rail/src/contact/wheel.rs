@@ -89,17 +89,16 @@ impl<T: CreepNumber> Place<T> {
         }
     }
 
-    /// The patch of `stiffness` and `numbers` whose surfaces interpenetrate by `depth` along z.
+    /// The patch of `numbers` whose surfaces interpenetrate by `depth` along z.
     #[inline(always)]
     pub fn patch<L: CreepLaw>(
         &self,
         surface: &Surface<L>,
         depth: T,
-        stiffness: T,
         numbers: [T; NUMBERS],
     ) -> Patch<T> {
         let (frame, rail) = (&self.frame, &self.rail);
-        let [wheel_y, wheel_z, rail_slope, _, a, b, c11, c22, c23, c33, _, _] = numbers;
+        let [wheel_y, wheel_z, rail_slope, _, stiffness, a, b, c11, c22, c23, c33, _] = numbers;
         let penetration = depth * cosine(rail_slope);
         let slope = self.rail_roll.into_track(rail_slope);
         let cos = cosine(slope);

@@ -145,30 +145,35 @@ impl<L: CreepLaw, S: PatchSource> WheelsetContact<L, S> {
             |of| Sides::from([-of(&rails[0]), of(&rails[1])]),
         );
         let place = Place::new(Frame::new(&numbers), rail, self.lengths_of_sides);
-        let poses = place.pose.map(<[f64; 2]>::from);
-        let depths = <[f64; 2]>::from(place.depth);
-        let readers: [_; 2] = from_fn(|side| {
-            let wheel = &mut forces.wheels[side];
-            let pose = [poses[0][side], poses[1][side], poses[2][side]];
-            LoadedZones::of(self.sources[side].as_ref(), pose, depths[side], wheel)
-        });
+        let [lateral, roll, yaw] = place.pose.map(<[f64; 2]>::from);
+        let depth = <[f64; 2]>::from(place.depth);
+        let [left, right] = &mut forces.wheels;
+        let sources = self.sources.each_ref().map(|source| source.as_ref());
+        let pose = |side: usize| [lateral[side], roll[side], yaw[side]];
+        let left_zones = LoadedZones::of(sources[0], pose(0), depth[0], left);
+        let right_zones = LoadedZones::of(sources[1], pose(1), depth[1], right);
         let mut wrench = [Sides::constant(0.0); 6];
-        for k in 0..readers[0].count.max(readers[1].count) {
+        for k in 0..left_zones.count.max(right_zones.count) {
             // A wheel with fewer patches than the other computes one without load.
-            let of_sides = readers.each_ref().map(|reader| reader.patch(k));
-            let [depths, stiffnesses] =
-                [0, 1].map(|n| Sides::from(of_sides.each_ref().map(|(load, _)| load[n])));
-            let numbers = from_fn(|n| Sides::from(of_sides.each_ref().map(|(_, numbers)| numbers[n])));
-            let patch = place.patch(&self.surface, depths, stiffnesses, numbers);
+            let (left_depth, left_numbers) = left_zones.patch(k);
+            let (right_depth, right_numbers) = right_zones.patch(k);
+            let patch = place.patch(
+                &self.surface,
+                Sides::from([left_depth, right_depth]),
+                from_fn(|n| Sides::from([left_numbers[n], right_numbers[n]])),
+            );
             for (sum, term) in wrench.iter_mut().zip(patch.wrench) {
                 *sum = *sum + term;
             }
-            for (side, reader) in readers.iter().enumerate() {
-                if k < reader.count {
-                    let wheel = &mut forces.wheels[side];
-                    patch.write(side, &mut wheel.patches[reader.zones[k]]);
-                    wheel.add_status(self.sources[side].geometry().pair(), reader.zones[k]);
-                }
+            if k < left_zones.count {
+                let zone = left_zones.zones[k];
+                patch.write(0, &mut left.patches[zone]);
+                left.add_status(sources[0].geometry().pair(), zone);
+            }
+            if k < right_zones.count {
+                let zone = right_zones.zones[k];
+                patch.write(1, &mut right.patches[zone]);
+                right.add_status(sources[1].geometry().pair(), zone);
             }
         }
         let wrench = wrench.map(<[f64; 2]>::from);
@@ -212,11 +217,11 @@ impl<L: CreepLaw, S: PatchSource> WheelsetContact<L, S> {
             let loaded = LoadedZones::of(source, pose, place.depth.value(), wheel);
             let mut wrench = [Dual::constant(0.0); 6];
             for &zone in &loaded.zones[..loaded.count] {
-                let load = [loaded.interpenetrations[zone], loaded.stiffnesses[zone]];
-                let ([interpenetration, stiffness], numbers) =
-                    functions_of_pose(&loaded.reader, zone, load, place.pose);
+                let value = loaded.interpenetrations[zone];
+                let (interpenetration, numbers) =
+                    functions_of_pose(&loaded.reader, zone, value, place.pose);
                 let depth = interpenetration + place.depth;
-                let patch = place.patch(&self.surface, depth, stiffness, numbers);
+                let patch = place.patch(&self.surface, depth, numbers);
                 for (sum, term) in wrench.iter_mut().zip(patch.wrench) {
                     *sum = *sum + term;
                 }
@@ -261,7 +266,6 @@ fn finish(forces: &mut WheelsetForces) {
 struct LoadedZones<R> {
     reader: R,
     interpenetrations: [f64; ZONES],
-    stiffnesses: [f64; ZONES],
     /// Depth of the tread datum below the rail's top, m.
     depth: f64,
     zones: [usize; ZONES],
@@ -287,11 +291,11 @@ impl<'a, R: PatchReader> LoadedZones<R> {
         } else {
             Status::OutsideTables
         };
-        let (interpenetrations, stiffnesses) = (reader.interpenetrations_m(), reader.stiffnesses());
+        let interpenetrations = reader.interpenetrations_m();
         let (mut zones, mut count) = ([0; ZONES], 0);
         for zone in 0..ZONES {
             let result = &mut wheel.patches[zone];
-            if interpenetrations[zone] + depth > 0.0 && stiffnesses[zone] > 0.0 {
+            if interpenetrations[zone] + depth > 0.0 {
                 zones[count] = zone;
                 count += 1;
             } else if result.load_n != 0.0 {
@@ -301,24 +305,22 @@ impl<'a, R: PatchReader> LoadedZones<R> {
         Self {
             reader,
             interpenetrations,
-            stiffnesses,
             depth,
             zones,
             count,
         }
     }
 
-    /// Depth and stiffness of the loaded patch number `k`, and its numbers; without stiffness when there are fewer.
+    /// Depth and numbers of the loaded patch number `k`; without depth when there are fewer.
     #[inline(always)]
-    fn patch(&self, k: usize) -> ([f64; 2], [f64; NUMBERS]) {
+    fn patch(&self, k: usize) -> (f64, [f64; NUMBERS]) {
         let zone = self.zones[k];
-        let numbers = self.reader.numbers(zone);
-        if k < self.count {
-            let depth = self.interpenetrations[zone] + self.depth;
-            ([depth, self.stiffnesses[zone]], numbers)
+        let depth = if k < self.count {
+            self.interpenetrations[zone] + self.depth
         } else {
-            ([0.0; 2], numbers)
-        }
+            0.0
+        };
+        (depth, self.reader.numbers(zone))
     }
 }
 

@@ -22,7 +22,14 @@ impl Creepage {
     /// let bounded = Creepage { longitudinal: f64::NAN, lateral: 1e9, spin_per_m: 0.1 }.bounded();
     /// assert_eq!(bounded, Creepage { longitudinal: 0.0, lateral: 1e6, spin_per_m: 0.1 });
     /// ```
+    #[inline]
     pub fn bounded(self) -> Self {
+        let square = self.longitudinal * self.longitudinal
+            + self.lateral * self.lateral
+            + self.spin_per_m * self.spin_per_m;
+        if square <= MAX_CREEPAGE * MAX_CREEPAGE {
+            return self;
+        }
         let bound = |x: f64| {
             if x.is_nan() {
                 0.0

@@ -54,9 +54,9 @@ impl Axis {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Located {
     pub cell: usize,
-    /// Position within the cell, from 0 to 1.
-    pub position: f64,
-    /// Derivative of the position by the value; zero outside, where the nearest end is read.
+    /// Place within the cell, from 0 to 1.
+    pub place: f64,
+    /// Derivative of the place by the value; zero outside, where the nearest end is read.
     pub cells_per_unit: f64,
     pub is_inside: bool,
 }
@@ -92,14 +92,16 @@ impl AxisReader {
     #[inline(always)]
     pub fn locate(&self, x: f64) -> Located {
         let ends = &self.ends;
-        let limited = x.max(ends[0]).min(ends[3]);
+        // Plain comparisons: one instruction each, unlike the maximum and minimum that mind NaN.
+        let raised = if x > ends[0] { x } else { ends[0] };
+        let limited = if raised < ends[3] { raised } else { ends[3] };
         let part = usize::from(limited >= ends[1]) + usize::from(limited > ends[2]);
         let position = self.first[part] + (limited - ends[part]) * self.per_unit[part];
         let cell = (position as u32).min(self.last_cell);
         let is_inside = x == limited;
         Located {
             cell: cell as usize,
-            position: position - f64::from(cell),
+            place: position - f64::from(cell),
             cells_per_unit: if is_inside { self.per_unit[part] } else { 0.0 },
             is_inside,
         }

@@ -1,13 +1,13 @@
 //! Tables kept on disk, found again by the content they were computed from.
 
-use std::array::from_fn;
 use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use sha2::{Digest, Sha256};
 
-use super::{Axis, Grid, Node, Tables, TablesError, check_grid, pose};
+use super::node::{NODE_BYTES, Node};
+use super::{Axis, Grid, Tables, TablesError, check_grid, pose};
 use crate::contact::geometry::ContactGeometry;
 use crate::profile::Profile;
 
@@ -118,11 +118,9 @@ fn key(geometry: &ContactGeometry, grid: &Grid) -> [u8; DIGEST] {
 
 /// The bytes of a file: magic, key, checksum of the nodes, nodes as little-endian numbers.
 fn file_of(key: &[u8; DIGEST], nodes: &[Node]) -> Vec<u8> {
-    let mut payload = Vec::with_capacity(nodes.len() * size_of::<Node>());
+    let mut payload = Vec::with_capacity(nodes.len() * NODE_BYTES);
     for node in nodes {
-        for number in node.0.as_flattened() {
-            payload.extend_from_slice(&number.to_le_bytes());
-        }
+        node.write(&mut payload);
     }
     let checksum: [u8; DIGEST] = Sha256::digest(&payload).into();
     [MAGIC, &key[..], &checksum, &payload].concat()
@@ -138,16 +136,11 @@ fn nodes(
     let rest = bytes.strip_prefix(MAGIC)?.strip_prefix(key)?;
     let (checksum, payload) = rest.split_at_checked(DIGEST)?;
     let sum: [u8; DIGEST] = Sha256::digest(payload).into();
-    if checksum != sum || payload.len() != grid.nodes() * size_of::<Node>() {
+    if checksum != sum || payload.len() != grid.nodes() * NODE_BYTES {
         return None;
     }
-    let nodes: Vec<Node> = payload
-        .chunks_exact(size_of::<Node>())
-        .map(|node| {
-            let (numbers, _) = node.as_chunks::<4>();
-            Node(from_fn(|quad| from_fn(|i| f32::from_le_bytes(numbers[4 * quad + i]))))
-        })
-        .collect();
+    let (nodes, _) = payload.as_chunks::<NODE_BYTES>();
+    let nodes: Vec<Node> = nodes.iter().map(Node::read).collect();
     let mut scratch = Vec::new();
     let unchanged = (0..PROBES).all(|probe| {
         let index = probe * (nodes.len() - 1) / (PROBES - 1);

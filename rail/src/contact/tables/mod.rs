@@ -2,6 +2,8 @@
 
 mod axis;
 mod cache;
+mod cell;
+mod node;
 mod patch;
 
 use std::array::from_fn;
@@ -9,6 +11,8 @@ use std::array::from_fn;
 use axis::AxisReader;
 pub use axis::{Axis, Grid};
 pub use cache::CacheError;
+use cell::{Cell, Weights};
+use node::Node;
 pub(super) use patch::NUMBERS;
 pub use patch::{MIN_CURVATURE_PER_M, TabulatedPatch};
 
@@ -18,7 +22,7 @@ use super::source::{PatchReader, sealed};
 use super::zones::ZONES;
 
 /// Greatest number of nodes of the tables: 224 bytes each, a gigabyte in all.
-pub const MAX_NODES: usize = 5_000_000;
+pub const MAX_NODES: usize = 4_000_000;
 
 /// Why tables cannot be computed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -42,23 +46,6 @@ pub enum TablesError {
         /// Number of nodes.
         nodes: u128,
     },
-}
-
-/// Four numbers of a node, which one vector instruction reads.
-type Quad = [f32; 4];
-/// Quads of one patch.
-const QUADS: usize = NUMBERS / 4;
-
-/// One node: interpenetrations and stiffnesses of all patches, which decide what is loaded, then the numbers of each patch.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[repr(align(16))]
-struct Node([Quad; 2 + QUADS * ZONES]);
-
-const INTERPENETRATIONS: usize = 0;
-const STIFFNESSES: usize = 1;
-/// First quad of the numbers of a patch.
-const fn first_quad(zone: usize) -> usize {
-    2 + QUADS * zone
 }
 
 /// The tables of one pair; they serve the right wheel and, mirrored, the left wheel.
@@ -85,8 +72,7 @@ impl Tables {
     /// An axis that does not rise or has no cells, or more than [`MAX_NODES`] nodes.
     pub fn new(geometry: ContactGeometry, grid: Grid) -> Result<Self, TablesError> {
         check_grid(&grid)?;
-        let empty = Node([[0.0; 4]; 2 + QUADS * ZONES]);
-        let mut nodes = vec![empty; grid.nodes()];
+        let mut nodes = vec![Node::default(); grid.nodes()];
         // A row has one roll and one yaw: its wheel is turned once.
         let shifts = grid.lateral_m.nodes();
         let rows = nodes.len() / shifts;
@@ -139,10 +125,10 @@ impl Tables {
     /// the grid; outside it they are those of its nearest edge.
     pub fn at(&self, pose: &WheelPose) -> ([TabulatedPatch; ZONES], bool) {
         let reader = sealed::Source::locate(self, pose);
-        let [interpenetrations, stiffnesses] = [reader.interpenetrations_m(), reader.stiffnesses()];
+        let interpenetrations = reader.interpenetrations_m();
         let patches = from_fn(|zone| {
             let numbers = reader.numbers(zone);
-            TabulatedPatch::from_numbers(interpenetrations[zone], stiffnesses[zone], numbers)
+            TabulatedPatch::from_numbers(interpenetrations[zone], numbers)
         });
         (patches, reader.is_inside())
     }
@@ -164,35 +150,8 @@ fn pose(geometry: &ContactGeometry, grid: &Grid, node: usize) -> WheelPose {
     }
 }
 
-impl Node {
-    fn new(patches: [TabulatedPatch; ZONES]) -> Self {
-        let mut quads = [[0.0; 4]; 2 + QUADS * ZONES];
-        for (zone, patch) in patches.iter().enumerate() {
-            quads[INTERPENETRATIONS][zone] = patch.interpenetration_m as f32;
-            quads[STIFFNESSES][zone] = patch.hertz.stiffness_n_per_m_1_5 as f32;
-            for (n, number) in patch.to_numbers().into_iter().enumerate() {
-                quads[first_quad(zone) + n / 4][n % 4] = number as f32;
-            }
-        }
-        Self(quads)
-    }
-}
-
-/// A cell of the tables and the weights of its eight nodes.
-pub struct TabulatedPose<'a> {
-    nodes: [&'a Node; 8],
-    /// Position within the cell along each axis, from 0 to 1.
-    position: [f64; 3],
-    /// Derivatives of the position by the value on each axis.
-    cells_per_unit: [f64; 3],
-    /// Derivatives of the first and the last value by the yaw.
-    yaw_slopes: [f64; 2],
-    weights: Weights,
-    is_inside: bool,
-}
-
 impl sealed::Source for Tables {
-    type Reader<'a> = TabulatedPose<'a>;
+    type Reader<'a> = Cell<'a>;
 
     fn geometry(&self) -> &ContactGeometry {
         &self.geometry
@@ -200,135 +159,26 @@ impl sealed::Source for Tables {
 
     // Always inlined: passed through memory, the pose and the weights stall the step.
     #[inline(always)]
-    fn locate(&self, pose: &WheelPose) -> TabulatedPose<'_> {
+    fn locate(&self, pose: &WheelPose) -> Cell<'_> {
         let yaw_squared = pose.yaw_rad * pose.yaw_rad;
-        let shifted = pose.lateral_m + self.yaw_shift_m * yaw_squared;
-        let values = [shifted, pose.roll_rad, yaw_squared];
-        let located: [_; 3] = from_fn(|axis| self.readers[axis].locate(values[axis]));
-        let [i, j, k] = located.map(|place| place.cell);
+        let [shift, roll, yaw] = &self.readers;
+        let shift = shift.locate(pose.lateral_m + self.yaw_shift_m * yaw_squared);
+        let (roll, yaw) = (roll.locate(pose.roll_rad), yaw.locate(yaw_squared));
         let [roll_stride, yaw_stride] = self.strides;
-        let start = k * yaw_stride + j * roll_stride + i;
-        let position = located.map(|place| place.position);
-        TabulatedPose {
-            nodes: from_fn(|corner| {
-                let offset = (corner & 1)
-                    + ((corner >> 1) & 1) * roll_stride
-                    + (corner >> 2) * yaw_stride;
-                &self.nodes[start + offset]
-            }),
-            position,
-            cells_per_unit: located.map(|place| place.cells_per_unit),
-            yaw_slopes: [self.yaw_shift_m, 1.0].map(|slope| 2.0 * pose.yaw_rad * slope),
-            weights: Weights::new(position.map(|t| [1.0 - t, t])),
-            is_inside: located.iter().all(|place| place.is_inside),
+        let start = yaw.cell * yaw_stride + roll.cell * roll_stride + shift.cell;
+        let row = |offset: usize| {
+            let (rows, _) = self.nodes[start + offset..].as_chunks::<2>();
+            &rows[0]
+        };
+        let place = [shift.place, roll.place, yaw.place];
+        Cell {
+            rows: [row(0), row(roll_stride), row(yaw_stride), row(yaw_stride + roll_stride)],
+            place,
+            cells_per_unit: [shift.cells_per_unit, roll.cells_per_unit, yaw.cells_per_unit],
+            yaw_slopes: [2.0 * pose.yaw_rad * self.yaw_shift_m, 2.0 * pose.yaw_rad],
+            is_inside: shift.is_inside & roll.is_inside & yaw.is_inside,
+            weights: Weights::at(place),
         }
-    }
-}
-
-/// Weights of the eight nodes of a cell.
-struct Weights {
-    double: [f64; 8],
-    single: [f32; 8],
-}
-
-impl Weights {
-    /// Products of the weights of both ends along each axis, the first axis fastest.
-    #[inline(always)]
-    fn new([lateral, roll, yaw]: [[f64; 2]; 3]) -> Self {
-        let double: [f64; 8] =
-            from_fn(|corner| lateral[corner & 1] * (roll[(corner >> 1) & 1] * yaw[corner >> 2]));
-        Self {
-            double,
-            single: double.map(|weight| weight as f32),
-        }
-    }
-}
-
-impl TabulatedPose<'_> {
-    /// The weighted sum of one quad over the nodes.
-    #[inline(always)]
-    fn sum(&self, weights: &Weights, quad: usize) -> [f64; 4] {
-        let mut sum = [0.0; 4];
-        for (node, weight) in self.nodes.iter().zip(&weights.single) {
-            for (sum, number) in sum.iter_mut().zip(&node.0[quad]) {
-                *sum += weight * number;
-            }
-        }
-        sum.map(f64::from)
-    }
-
-    /// The weighted sum of the interpenetrations, in double precision: a contact of 1e9 N/m answers an error in the
-    /// seventh digit with a tenth of a newton.
-    #[inline(always)]
-    fn sum_of_interpenetrations(&self, weights: &Weights) -> [f64; ZONES] {
-        let mut sum = [0.0; ZONES];
-        for (node, weight) in self.nodes.iter().zip(&weights.double) {
-            for (sum, number) in sum.iter_mut().zip(&node.0[INTERPENETRATIONS]) {
-                *sum += weight * f64::from(*number);
-            }
-        }
-        sum
-    }
-
-    /// The weights whose sum is the derivative by the position along `axis`.
-    #[inline(always)]
-    fn slope_weights(&self, axis: usize) -> Weights {
-        let mut ends = self.position.map(|t| [1.0 - t, t]);
-        ends[axis] = [-1.0, 1.0];
-        Weights::new(ends)
-    }
-
-    /// The derivatives by shift, roll and yaw of what `read` sums up with weights.
-    #[inline(always)]
-    fn by_pose<const N: usize>(&self, read: impl Fn(&Weights) -> [f64; N]) -> [[f64; N]; 3] {
-        let [by_shift, by_roll, by_yaw_squared]: [[f64; N]; 3] = from_fn(|axis| {
-            read(&self.slope_weights(axis)).map(|slope| slope * self.cells_per_unit[axis])
-        });
-        let [shift, squared] = self.yaw_slopes;
-        let by_yaw = from_fn(|n| shift * by_shift[n] + squared * by_yaw_squared[n]);
-        [by_shift, by_roll, by_yaw]
-    }
-
-    #[inline(always)]
-    fn quads(&self, weights: &Weights, zone: usize) -> [f64; NUMBERS] {
-        let quads: [_; QUADS] = from_fn(|quad| self.sum(weights, first_quad(zone) + quad));
-        from_fn(|n| quads[n / 4][n % 4])
-    }
-}
-
-impl PatchReader for TabulatedPose<'_> {
-    #[inline(always)]
-    fn is_inside(&self) -> bool {
-        self.is_inside
-    }
-
-    #[inline(always)]
-    fn interpenetrations_m(&self) -> [f64; ZONES] {
-        self.sum_of_interpenetrations(&self.weights)
-    }
-
-    #[inline(always)]
-    fn stiffnesses(&self) -> [f64; ZONES] {
-        self.sum(&self.weights, STIFFNESSES)
-    }
-
-    #[inline(always)]
-    fn load_slopes(&self, zone: usize) -> [[f64; 2]; 3] {
-        self.by_pose(|weights| {
-            let interpenetrations = self.sum_of_interpenetrations(weights);
-            let stiffnesses = self.sum(weights, STIFFNESSES);
-            [interpenetrations[zone], stiffnesses[zone]]
-        })
-    }
-
-    #[inline(always)]
-    fn numbers(&self, zone: usize) -> [f64; NUMBERS] {
-        self.quads(&self.weights, zone)
-    }
-
-    #[inline(always)]
-    fn number_slopes(&self, zone: usize) -> [[f64; NUMBERS]; 3] {
-        self.by_pose(|weights| self.quads(weights, zone))
     }
 }
 

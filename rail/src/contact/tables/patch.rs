@@ -9,17 +9,18 @@ use crate::creep::{KalkerCoefficients, KalkerTable};
 /// whole width, which is that of an ellipse of this curvature.
 pub const MIN_CURVATURE_PER_M: f64 = 0.5;
 
-/// Load fraction up to which a patch is left out, so that the step need not evaluate it.
-const NEGLIGIBLE_FRACTION: f64 = 1e-4;
+/// Load fraction below which a patch is lifted, by so many m for each factor of e, so that the step need not evaluate it.
+const LIGHT_FRACTION: f64 = 1e-3;
+const LIFT_M: f64 = 0.1e-3;
 
-/// Numbers stored of one patch beside its interpenetration and stiffness.
+/// Numbers stored of one patch beside its interpenetration.
 pub(in crate::contact) const NUMBERS: usize = 12;
 
 /// One patch as read from the tables.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct TabulatedPatch {
-    /// As [`Patch::interpenetration_m`], m.
+    /// As [`Patch::interpenetration_m`], m; less where the patch carries under a thousandth of a load.
     pub interpenetration_m: f64,
     /// As [`Patch::wheel_y_m`], m.
     pub wheel_y_m: f64,
@@ -52,11 +53,12 @@ impl TabulatedPatch {
             rolling,
             patch.curvature_per_m.max(MIN_CURVATURE_PER_M),
         );
-        let load_fraction = (patch.load_fraction - NEGLIGIBLE_FRACTION).max(0.0) / (1.0 - NEGLIGIBLE_FRACTION);
+        let load_fraction = patch.load_fraction.max(1e-30);
+        let lift = LIFT_M * (load_fraction / LIGHT_FRACTION).ln().min(0.0);
         // The parts of one patch have its ratio of the semi-axes and divide its area, hence its creep stiffness.
         let axis_factor = load_fraction.sqrt();
         Self {
-            interpenetration_m: patch.interpenetration_m,
+            interpenetration_m: patch.interpenetration_m + lift,
             wheel_y_m: patch.wheel_y_m,
             wheel_z_m: patch.wheel_z_m,
             slope: patch.slope,
@@ -70,13 +72,14 @@ impl TabulatedPatch {
         }
     }
 
-    /// Every number but interpenetration and stiffness, in the order of [`TabulatedPatch::from_numbers`].
+    /// Every number but the interpenetration, in the order of [`TabulatedPatch::from_numbers`].
     pub(in crate::contact) fn to_numbers(self) -> [f64; NUMBERS] {
         [
             self.wheel_y_m,
             self.wheel_z_m,
             self.slope,
             self.load_fraction,
+            self.hertz.stiffness_n_per_m_1_5,
             self.hertz.a_factor_m_0_5,
             self.hertz.b_factor_m_0_5,
             self.kalker.c11,
@@ -84,17 +87,12 @@ impl TabulatedPatch {
             self.kalker.c23,
             self.kalker.c33,
             0.0,
-            0.0,
         ]
     }
 
     #[inline]
-    pub(in crate::contact) fn from_numbers(
-        interpenetration_m: f64,
-        stiffness: f64,
-        numbers: [f64; NUMBERS],
-    ) -> Self {
-        let [y, z, slope, load_fraction, a, b, c11, c22, c23, c33, _, _] = numbers;
+    pub(in crate::contact) fn from_numbers(interpenetration_m: f64, numbers: [f64; NUMBERS]) -> Self {
+        let [y, z, slope, load_fraction, stiffness, a, b, c11, c22, c23, c33, _] = numbers;
         Self {
             interpenetration_m,
             wheel_y_m: y,
