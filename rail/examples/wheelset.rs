@@ -5,7 +5,7 @@
 use dashpot_rail::contact::{
     Grid, Installation, Motion, Pair, RailDisplacement, Steel, Tables, WheelsetContact,
 };
-use dashpot_rail::creep::{CreepLaw, Friction, Polach, ShenHedrickElkins};
+use dashpot_rail::creep::{CreepLaw, Friction, KalkerBook, Polach, ShenHedrickElkins};
 
 const LOAD_N: f64 = 206e3;
 const SPEED_M_PER_S: f64 = 27.8;
@@ -47,6 +47,7 @@ fn print(name: &str, tables: &Tables, law: impl CreepLaw) {
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let pair = Pair::standard(Installation::default())?;
     let tables = Tables::new(pair, Steel::default(), Grid::default())?;
+    print("Kalker's book of tables", &tables, KalkerBook::new());
     print("Polach", &tables, Polach);
     print("Shen, Hedrick and Elkins", &tables, ShenHedrickElkins);
     Ok(())

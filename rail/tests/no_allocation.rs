@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use dashpot_rail::contact::{
     Grid, Installation, Motion, Pair, RailDisplacement, Steel, Tables, WheelsetContact,
 };
-use dashpot_rail::creep::{Friction, Polach};
+use dashpot_rail::creep::{Friction, KalkerBook};
 
 struct Counting;
 
@@ -33,7 +33,7 @@ fn forces_are_computed_without_allocating() {
     let mut grid = Grid::default();
     grid.roll_rad.cells = [1, 2, 1];
     let tables = Tables::new(pair, Steel::default(), grid).unwrap();
-    let contact = WheelsetContact::new(tables, Polach, Friction::default());
+    let contact = WheelsetContact::new(tables, KalkerBook::new(), Friction::default());
     let rails = [RailDisplacement::default(); 2];
     let before = COUNT.load(Ordering::Relaxed);
     assert!(before > 0, "the counter does not count");

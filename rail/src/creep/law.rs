@@ -69,11 +69,7 @@ pub trait CreepLaw: Send + Sync {
 
     /// Forces within friction that dissipate energy; zero unless load, friction and semi-axes are positive and finite.
     fn forces(&self, contact: &LoadedContact, creepage: &Creepage) -> CreepForces {
-        let limit = contact.friction * contact.load_n;
-        let area = contact.a_m * contact.b_m;
-        // Positive products of positive factors: two negative ones are refused.
-        let loaded = contact.load_n > 0.0 && limit > 0.0 && limit.is_finite();
-        if !(loaded && contact.a_m > 0.0 && area > 0.0 && area.is_finite()) {
+        if !is_loaded(contact) {
             return CreepForces::default();
         }
         let creepage = creepage.bounded();
@@ -83,6 +79,16 @@ pub trait CreepLaw: Send + Sync {
             self.unlimited_forces(contact, &creepage),
         )
     }
+}
+
+/// Whether load, friction and semi-axes are positive and finite.
+#[inline]
+pub(super) fn is_loaded(contact: &LoadedContact) -> bool {
+    let limit = contact.friction * contact.load_n;
+    let area = contact.a_m * contact.b_m;
+    // Positive products of positive factors: two negative ones are refused.
+    let loaded = contact.load_n > 0.0 && limit > 0.0 && limit.is_finite();
+    loaded && contact.a_m > 0.0 && area > 0.0 && area.is_finite()
 }
 
 /// Forces of Kalker's linear theory: `Fx = -G ab C11 xi`, `Fy = -G ab C22 eta - G (ab)^1.5 C23 phi`,

@@ -1,4 +1,5 @@
 //! Numerical tools of this crate.
 
+pub(crate) mod dual;
 pub(crate) mod elliptic;
 pub(crate) mod spline;

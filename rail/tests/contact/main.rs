@@ -1,5 +1,6 @@
 //! Wheel on rail: profiles, geometry, normal and creep forces, conicity.
 
+mod book;
 mod common;
 mod conicity;
 mod creep;
