@@ -8,7 +8,7 @@ use dashpot_rail::contact::{
     ContactGeometry, Grid, Installation, Motion, Pair, RailDisplacement, Steel, Tables,
     WheelsetContact,
 };
-use dashpot_rail::creep::{CreepLaw, Friction, Polach, ShenHedrickElkins};
+use dashpot_rail::creep::{CreepLaw, Friction, KalkerBook, Polach, ShenHedrickElkins};
 
 const LOAD_N: f64 = 206e3;
 const SPEED_M_PER_S: f64 = 27.8;
@@ -56,6 +56,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let pair = Pair::standard(Installation::default())?;
     let geometry = ContactGeometry::new(pair, Steel::default(), 0.5 * LOAD_N)?;
     let tables = Arc::new(Tables::new(geometry, Grid::default())?);
+    print("Kalker's book of tables", &tables, KalkerBook::new())?;
     print("Polach", &tables, Polach)?;
     print("Shen, Hedrick and Elkins", &tables, ShenHedrickElkins)
 }

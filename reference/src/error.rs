@@ -101,4 +101,25 @@ pub enum ReferenceError {
         /// What failed.
         source: Box<ReferenceError>,
     },
+    /// A rolling contact that has no solution.
+    #[error(
+        "reference: a/b {a_over_b} must be above 0, Poisson's ratio {poisson_ratio} within 0 to 0.5, and the mesh \
+         {along} x {strips} not empty"
+    )]
+    RollingContact {
+        /// Semi-axis in the rolling direction over that across.
+        a_over_b: f64,
+        /// Poisson's ratio.
+        poisson_ratio: f64,
+        /// Elements along each strip.
+        along: usize,
+        /// Number of strips.
+        strips: usize,
+    },
+    /// The tractions of a rolling contact do not converge.
+    #[error("reference: the tractions at the creepages {creepage:?} over mu N / (G a b) do not converge")]
+    RollingDiverges {
+        /// Longitudinal, lateral and spin creepage, scaled.
+        creepage: [f64; 3],
+    },
 }

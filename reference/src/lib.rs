@@ -7,5 +7,7 @@
 pub mod damper;
 pub mod deviation;
 mod error;
+pub mod kalker_book;
+pub mod rolling_contact;
 
 pub use error::ReferenceError;

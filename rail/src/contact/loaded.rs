@@ -49,7 +49,7 @@ impl CreepNumber for Sides {
             let forces = surface.law.forces(&loaded, &creepage);
             Creep { creepage, forces }
         });
-        let [left, right] = creep.map(|creep| components(&creep.forces));
+        let [left, right] = creep.map(|creep| creep.forces.components());
         (from_fn(|k| Self::from([left[k], right[k]])), creep)
     }
 }
@@ -62,7 +62,7 @@ impl CreepNumber for Dual {
         reference_speed: Self,
     ) -> ([Self; 3], [Creep; 2]) {
         let (loaded, creepage, sliding_speed) = contact.in_lane(0, surface, reference_speed);
-        let (forces, derivatives) = surface.law.forces_with_derivatives(&loaded, &creepage);
+        let derivatives = surface.law.forces_with_derivatives(&loaded, &creepage);
         let friction_slope = surface.friction.slope_at(sliding_speed);
         let friction = if friction_slope == 0.0 || sliding_speed == 0.0 {
             Self::constant(loaded.friction)
@@ -72,8 +72,11 @@ impl CreepNumber for Dual {
             Self::function(loaded.friction, [(friction_slope, sliding)])
         };
         (
-            contact.differentiated(&forces, &derivatives, friction),
-            [Creep { creepage, forces }; 2],
+            contact.differentiated(&derivatives, friction),
+            [Creep {
+                creepage,
+                forces: derivatives.forces,
+            }; 2],
         )
     }
 }
@@ -112,25 +115,15 @@ impl Contact<Dual> {
     /// The forces as functions of all they depend on. Every law is `mu N f(x, y, z)` with
     /// `x = G ab C11 xi / (mu N)`, `y` and `z` likewise, and the moment has `sqrt(ab)` more: what changes the scale of a
     /// creepage acts on the force as the creepage itself does. (The explicit influence of `a/b` and `C33` is left out.)
-    fn differentiated(
-        &self,
-        forces: &CreepForces,
-        derivatives: &CreepDerivatives,
-        friction: Dual,
-    ) -> [Dual; 3] {
-        let by = [
-            components(&derivatives.by_longitudinal),
-            components(&derivatives.by_lateral),
-            components(&derivatives.by_spin),
-        ];
+    fn differentiated(&self, derivatives: &CreepDerivatives, friction: Dual) -> [Dual; 3] {
         let creepage = self.creepage.map(|number| number.value());
         let kalker = self.kalker.map(|number| number.value());
         let limit = self.load * friction;
         let area = self.semi_axes[0] * self.semi_axes[1];
         let (per_limit, per_area) = (reciprocal(limit.value()), reciprocal(area.value()));
-        let values = components(forces);
+        let values = derivatives.forces.components();
         from_fn(|k| {
-            let slopes: [f64; 3] = from_fn(|c| by[c][k]);
+            let slopes = derivatives.by_creepage[k];
             let scaled: [f64; 3] = from_fn(|c| slopes[c] * creepage[c]);
             let in_moment = if k == 2 { 0.5 * values[2] } else { 0.0 };
             let by_limit = (values[k] - scaled[0] - scaled[1] - scaled[2]) * per_limit;
@@ -153,9 +146,4 @@ impl Contact<Dual> {
 /// The reciprocal; zero for zero, where there is no load.
 fn reciprocal(x: f64) -> f64 {
     if x > 0.0 { 1.0 / x } else { 0.0 }
-}
-
-#[inline(always)]
-fn components(forces: &CreepForces) -> [f64; 3] {
-    [forces.longitudinal_n, forces.lateral_n, forces.moment_n_m]
 }

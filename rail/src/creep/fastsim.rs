@@ -1,4 +1,4 @@
-//! FASTSIM, Kalker's simplified theory: the reference among the laws.
+//! FASTSIM, Kalker's simplified theory.
 
 use std::f64::consts::PI;
 
@@ -9,8 +9,9 @@ use super::law::{CreepForces, CreepLaw, LoadedContact};
 /// `L1 = 8a/(3 C11 G)`, `L2 = 8a/(3 C22 G)`, `L3 = pi a sqrt(a/b)/(4 C23 G)` and the parabolic
 /// traction bound `2 mu N / (pi a b) (1 - x^2/a^2 - y^2/b^2)`; midpoint rule over the strips and along each.
 ///
-/// With `L1 != L2` the force of full sliding is against `(C11 xi, C22 eta)`, not against the sliding itself.
-/// Without elements or strips there is no force.
+/// Where an element slides its traction opposes the slip, elastic part included, although `L1 != L2`; to bring the
+/// traction of sticking back to the bound in its own direction, as the source does, would turn the force of full sliding to
+/// `(C11 xi, C22 eta)`. Without elements or strips there is no force.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Fastsim {
     /// Number of elements along each strip.
@@ -60,12 +61,7 @@ impl CreepLaw for Fastsim {
                 px -= step * (rigid_x - spin * y);
                 py -= step * (rigid_y + spin * middle);
                 let bound = peak * (half * half - x * x) / (a * a);
-                let traction = (px * px + py * py).sqrt();
-                if traction > bound {
-                    let factor = bound / traction;
-                    px *= factor;
-                    py *= factor;
-                }
+                [px, py] = within_friction([px, py], [l1, l2], bound);
                 let area = dx * width;
                 sum.longitudinal_n += px * area;
                 sum.lateral_n += py * area;
@@ -75,4 +71,27 @@ impl CreepLaw for Fastsim {
         }
         sum
     }
+}
+
+/// The traction `p` of an element whose traction in stick would be `sticking`: that one within `bound`, else the one of
+/// magnitude `bound` against the slip `L (p - sticking)` over the flexibilities `L`.
+fn within_friction(sticking: [f64; 2], flexibilities: [f64; 2], bound: f64) -> [f64; 2] {
+    let [x, y] = sticking;
+    if x * x + y * y <= bound * bound {
+        return sticking;
+    }
+    // (L + r) p = L sticking with a resistance r = |slip| / bound; 1/|p| is nearly linear in r, so that two steps of
+    // Newton suffice where the flexibilities differ by half.
+    let mut resistance = 0.0;
+    let mut p = sticking;
+    for _ in 0..3 {
+        let square = p[0] * p[0] + p[1] * p[1];
+        let slope: f64 = (0..2)
+            .map(|k| p[k] * p[k] / (flexibilities[k] + resistance))
+            .sum();
+        resistance += square / slope * (square.sqrt() / bound - 1.0);
+        p = [0, 1].map(|k| sticking[k] * flexibilities[k] / (flexibilities[k] + resistance));
+    }
+    let factor = bound / (p[0] * p[0] + p[1] * p[1]).sqrt();
+    p.map(|p| p * factor)
 }

@@ -33,6 +33,12 @@ pub struct CreepForces {
 }
 
 impl CreepForces {
+    /// Longitudinal force, lateral force (N) and moment (N m).
+    #[inline]
+    pub fn components(&self) -> [f64; 3] {
+        [self.longitudinal_n, self.lateral_n, self.moment_n_m]
+    }
+
     /// Magnitude of the force, N.
     pub fn magnitude_n(&self) -> f64 {
         (self.longitudinal_n * self.longitudinal_n + self.lateral_n * self.lateral_n).sqrt()
@@ -70,11 +76,7 @@ pub trait CreepLaw: Send + Sync {
 
     /// Forces within friction that dissipate energy; zero unless load, friction and semi-axes are positive and finite.
     fn forces(&self, contact: &LoadedContact, creepage: &Creepage) -> CreepForces {
-        let limit = contact.friction * contact.load_n;
-        let area = contact.a_m * contact.b_m;
-        // Positive products of positive factors: two negative ones are refused.
-        let loaded = contact.load_n > 0.0 && limit > 0.0 && limit.is_finite();
-        if !(loaded && contact.a_m > 0.0 && area > 0.0 && area.is_finite()) {
+        if !is_loaded(contact) {
             return CreepForces::default();
         }
         let creepage = creepage.bounded();
@@ -90,12 +92,19 @@ pub trait CreepLaw: Send + Sync {
         &self,
         contact: &LoadedContact,
         creepage: &Creepage,
-    ) -> (CreepForces, CreepDerivatives) {
-        (
-            self.forces(contact, creepage),
-            differences(self, contact, creepage),
-        )
+    ) -> CreepDerivatives {
+        differences(self, contact, creepage)
     }
+}
+
+/// Whether load, friction and semi-axes are positive and finite.
+#[inline]
+pub(super) fn is_loaded(contact: &LoadedContact) -> bool {
+    let limit = contact.friction * contact.load_n;
+    let area = contact.a_m * contact.b_m;
+    // Positive products of positive factors: two negative ones are refused.
+    let loaded = contact.load_n > 0.0 && limit > 0.0 && limit.is_finite();
+    loaded && contact.a_m > 0.0 && area > 0.0 && area.is_finite()
 }
 
 /// Forces of Kalker's linear theory: `Fx = -G ab C11 xi`, `Fy = -G ab C22 eta - G (ab)^1.5 C23 phi`,

@@ -1,12 +1,16 @@
 //! Creep forces: the tangential forces of rolling contact.
 //!
-//! [`Creepage`] and [`LoadedContact`] in, [`CreepForces`] out, by one of three laws behind [`CreepLaw`]:
+//! [`Creepage`] and [`LoadedContact`] in, [`CreepForces`] out, by one of four laws behind [`CreepLaw`]:
 //!
 //! | law | cost | use |
 //! |---|---|---|
-//! | [`Fastsim`] | about a thousand times the others | reference |
-//! | [`Polach`] | closed form | large creepages, falling friction |
-//! | [`ShenHedrickElkins`] | closed form | small spin, flange forces |
+//! | [`KalkerBook`] | one reading of a table | recommended: exact theory with any spin, derivatives |
+//! | [`Polach`] | closed form | for comparison, without spin; falling friction |
+//! | [`ShenHedrickElkins`] | closed form | for comparison, with little spin |
+//! | [`Fastsim`] | about a thousand times the others | for comparison: Kalker's simplified theory |
+//!
+//! The two closed forms are far off where spin counts, as on flanges and other steep contacts: by up to three quarters and
+//! more than half of friction.
 //!
 //! [`KalkerTable`] gives the coefficients of the linear theory ([`linear_forces`]), [`Friction`] the coefficient
 //! of friction over the sliding speed.
@@ -26,6 +30,7 @@ mod derivatives;
 mod fastsim;
 mod friction;
 mod kalker;
+pub mod kalker_book;
 mod law;
 mod polach;
 mod shen_hedrick_elkins;
@@ -35,6 +40,7 @@ pub use derivatives::CreepDerivatives;
 pub use fastsim::Fastsim;
 pub use friction::{Friction, FrictionError};
 pub use kalker::{KalkerCoefficients, KalkerError, KalkerTable};
+pub use kalker_book::KalkerBook;
 pub use law::{CreepForces, CreepLaw, LoadedContact, linear_forces};
 pub use polach::Polach;
 pub use shen_hedrick_elkins::ShenHedrickElkins;

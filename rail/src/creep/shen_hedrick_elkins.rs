@@ -7,6 +7,10 @@ use super::law::{CreepForces, CreepLaw, LoadedContact, linear_forces};
 /// `mu N (f - f^2/3 + f^3/27)` with `f = |F linear| / (mu N)` up to 3
 /// (Shen, Hedrick, Elkins, Vehicle System Dynamics 12, 1983, 79-83).
 ///
+/// **Not for contacts with much spin** (flange, large contact angles): with spin `phi sqrt(ab)` of half the sliding creepage
+/// its force is off by 5 % of friction (RMS over the grid of docs/contact.md), with twice that creepage by 17 % (57 % at
+/// most). [`KalkerBook`](super::KalkerBook) has no such limit.
+///
 /// The moment is reduced by the same factor, so that the dissipation keeps the sign of the linear theory.
 /// The force of full sliding is against `(C11 xi, C22 eta)`, not against the sliding itself.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

@@ -1,5 +1,6 @@
 //! Wheel on rail: profiles, geometry, normal and creep forces, conicity.
 
+mod book;
 mod cache;
 mod common;
 mod conicity;

@@ -7,7 +7,7 @@ use dashpot_rail::contact::{
     WheelsetContact,
 };
 use dashpot_rail::creep::{
-    CreepLaw, Fastsim, Friction, KalkerTable, LoadedContact, Polach, ShenHedrickElkins,
+    CreepLaw, Fastsim, Friction, KalkerBook, KalkerTable, LoadedContact, Polach, ShenHedrickElkins,
 };
 
 /// S1002 on UIC 60 under wheels of 103 kN.
@@ -28,8 +28,9 @@ pub fn tables() -> Arc<Tables> {
 }
 
 /// Every creep law, by the name it has in docs/contact.md.
-pub fn laws() -> [(&'static str, Box<dyn CreepLaw>); 3] {
+pub fn laws() -> [(&'static str, Box<dyn CreepLaw>); 4] {
     [
+        ("Kalker's book of tables", Box::new(KalkerBook::new())),
         ("FASTSIM 80 x 81", Box::new(Fastsim::default())),
         ("Polach", Box::new(Polach)),
         ("Shen-Hedrick-Elkins", Box::new(ShenHedrickElkins)),

@@ -1,0 +1,89 @@
+//! Where a contact and its creepage lie in the book: creepages and forces as dimensionless numbers.
+
+use crate::creep::{Creepage, LoadedContact};
+use crate::math::dual::Real;
+
+/// A place in the book, for a creepage that is turned into the book's quarter of all directions.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Coordinates<R> {
+    /// Size of the creepage, 0 to 1: `r / (r + 1)`, where `r` is the magnitude of `(x, y, z)`.
+    pub(super) size: R,
+    /// Share of spin, 0 to 1: `h (9 - h^2) / 8`, the angle of spin over a right angle within 3 %, where
+    /// `h = z / (r + s)` is the tangent of half the angle and `s` the magnitude of `(x, y)`.
+    pub(super) spin: R,
+    /// Direction of sliding, -1 to 1: `y / (s + |x|)`, the tangent of half its angle against rolling.
+    pub(super) direction: R,
+    /// 1 or -1: what the longitudinal force, and what lateral force and moment are multiplied by.
+    pub(super) signs: [f64; 2],
+}
+
+/// A square that keeps directions without creepage from being 0/0.
+const TINY: f64 = 1e-60;
+
+impl<R: Real> Coordinates<R> {
+    /// Of the creepages `[longitudinal, lateral, spin]`.
+    ///
+    /// With `(X, Y, Z) = G a b C22 / (mu N) (xi, eta, sqrt(a b) phi)` and `q = X^2 + Y^2 + Z^2` the creepages of the
+    /// book are `x = X (C11/C22 + q)/(1 + q)`, `y = Y`, `z = Z (C23/C22 + q)/(1 + q)`: forces of the linear theory
+    /// where creepages are small, directions of sliding where they are large, whatever Poisson's ratio.
+    #[inline]
+    pub(super) fn new(contact: &LoadedContact, scale: &Scale, creepage: [R; 3]) -> Self {
+        let [xi, eta, phi] = creepage;
+        let k = &contact.kalker;
+        let number = |number: f64| R::from(number);
+        let (xi, eta) = (xi * number(scale.creepage), eta * number(scale.creepage));
+        let phi = phi * number(scale.creepage * scale.length);
+        let q = (xi * xi + eta * eta + phi * phi) * number(k.c22 * k.c22);
+        let weight = number(1.0) / (number(1.0) + q);
+        let large = q * number(k.c22);
+        let x = xi * (number(k.c11) + large) * weight;
+        let y = eta * number(k.c22);
+        let z = phi * (number(k.c23) + large) * weight;
+        let signs = [x.value(), z.value()].map(|value| 1f64.copysign(value));
+        let (x, y, z) = (x.abs(), y * number(signs[1]), z.abs());
+        let square = x * x + y * y + number(TINY);
+        let s = square.sqrt();
+        let r = (square + z * z).sqrt();
+        let h = z / (r + s);
+        Self {
+            size: r / (r + number(1.0)),
+            spin: h * (number(9.0) - h * h) * number(0.125),
+            direction: y / (s + x),
+            signs,
+        }
+    }
+}
+
+/// What creepages and forces of a contact are divided by.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Scale {
+    /// `mu N`, N.
+    pub(super) force: f64,
+    /// `sqrt(a b)`, m.
+    pub(super) length: f64,
+    /// `G a b / (mu N)`.
+    pub(super) creepage: f64,
+}
+
+impl Scale {
+    #[inline]
+    pub(super) fn new(contact: &LoadedContact) -> Self {
+        let area = contact.a_m * contact.b_m;
+        let force = contact.friction * contact.load_n;
+        Self {
+            force,
+            length: area.sqrt(),
+            creepage: contact.shear_modulus_pa * area / force,
+        }
+    }
+}
+
+/// The numbers of a creepage in the order of the coordinates' formulas.
+#[inline]
+pub(super) fn numbers(creepage: &Creepage) -> [f64; 3] {
+    [
+        creepage.longitudinal,
+        creepage.lateral,
+        creepage.spin_per_m,
+    ]
+}

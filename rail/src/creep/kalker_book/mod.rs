@@ -1,0 +1,118 @@
+//! Exact theory of rolling contact, read from a book of tables.
+
+mod coordinates;
+mod pages;
+
+use coordinates::{Coordinates, Scale, numbers};
+pub use pages::Layout;
+use pages::{Near, pages};
+
+use super::creepage::Creepage;
+use super::derivatives::CreepDerivatives;
+use super::law::{CreepForces, CreepLaw, LoadedContact, is_loaded};
+use crate::math::dual::{Dual, Real};
+
+/// Kalker's exact theory of rolling contact from a precomputed book of tables (the idea of his USETAB, Vehicle System
+/// Dynamics 27, 1997): the recommended law, with any spin.
+///
+/// The tables are those of the solver in `dashpot-reference` for Poisson's ratio 0.28, over `a/b` from 0.1 to 10 (beyond:
+/// the tables at that ratio) and every creepage; small creepages give the linear theory with the contact's own
+/// coefficients. Forces have continuous derivatives by every creepage.
+#[derive(Debug, Clone, Copy)]
+pub struct KalkerBook {
+    pages: &'static [[f32; 4]],
+}
+
+impl KalkerBook {
+    /// The book; its tables are read once in a process and shared.
+    pub fn new() -> Self {
+        Self { pages: pages() }
+    }
+
+    #[inline]
+    fn near<R: Real>(&self, contact: &LoadedContact, at: &Coordinates<R>) -> Near<'static> {
+        Near::new(
+            self.pages,
+            [contact.a_m, contact.b_m],
+            [at.size, at.spin, at.direction].map(R::value),
+        )
+    }
+}
+
+impl Default for KalkerBook {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl CreepLaw for KalkerBook {
+    #[inline]
+    fn unlimited_forces(&self, contact: &LoadedContact, creepage: &Creepage) -> CreepForces {
+        let scale = Scale::new(contact);
+        let at = Coordinates::new(contact, &scale, numbers(creepage));
+        let [x, y, m, _] = self.near(contact, &at).value().map(f64::from);
+        let [longitudinal_n, lateral_n, moment_n_m] = forces([x, y, m], &at, &scale);
+        CreepForces {
+            longitudinal_n,
+            lateral_n,
+            moment_n_m,
+        }
+    }
+
+    /// The tables are within friction and dissipate energy.
+    #[inline]
+    fn forces(&self, contact: &LoadedContact, creepage: &Creepage) -> CreepForces {
+        if is_loaded(contact) {
+            self.unlimited_forces(contact, &creepage.bounded())
+        } else {
+            CreepForces::default()
+        }
+    }
+
+    /// With exact derivatives.
+    fn forces_with_derivatives(
+        &self,
+        contact: &LoadedContact,
+        creepage: &Creepage,
+    ) -> CreepDerivatives {
+        if !is_loaded(contact) {
+            return CreepDerivatives::default();
+        }
+        let numbers = numbers(&creepage.bounded());
+        let scale = Scale::new(contact);
+        let variables = [0, 1, 2].map(|k| Dual::variable(numbers[k], k));
+        let at = Coordinates::new(contact, &scale, variables);
+        let near = self.near(contact, &at);
+        let gradient = near.gradient();
+        let of_book = |k: usize| {
+            let [size, spin, direction] = [0, 1, 2].map(|axis| f64::from(gradient[axis][k]));
+            Dual {
+                value: f64::from(near.value()[k]),
+                by: [0, 1, 2].map(|c| {
+                    size * at.size.by[c] + spin * at.spin.by[c] + direction * at.direction.by[c]
+                }),
+            }
+        };
+        let forces = forces([0, 1, 2].map(of_book), &at, &scale);
+        let [longitudinal_n, lateral_n, moment_n_m] = forces.map(|force| force.value);
+        let values = CreepForces {
+            longitudinal_n,
+            lateral_n,
+            moment_n_m,
+        };
+        CreepDerivatives::new(values, forces.map(|force| force.by), contact, creepage)
+    }
+}
+
+/// Forces in N and N m from the numbers of the book.
+#[inline]
+fn forces<R: Real>(book: [R; 3], at: &Coordinates<R>, scale: &Scale) -> [R; 3] {
+    let one = R::from(1.0);
+    let force = R::from(scale.force) / (one + at.direction * at.direction);
+    let [along, across] = at.signs.map(|sign| force * R::from(sign));
+    [
+        book[0] * along,
+        book[1] * across,
+        book[2] * across * R::from(scale.length),
+    ]
+}

@@ -1,0 +1,154 @@
+//! The book's pages: coefficients of a spline, and the sum over those near a place.
+
+use std::sync::OnceLock;
+
+/// Layout of the book's file, for what writes and checks it.
+///
+/// The forces are `f = N(size, spin, direction) / (1 + direction^2)`, where `N` is a quadratic B-spline on equal cells,
+/// linear between the ratios of the semi-axes: at coefficients over the middles of the cells, and one more beyond each end.
+/// Every coefficient is three little-endian `f32`, longitudinal force, lateral force (over `mu N`) and moment (over
+/// `mu N sqrt(a b)`); the direction varies fastest, then spin, size and ratio.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Layout;
+
+impl Layout {
+    /// Number of ratios of the semi-axes, equal steps of `(a - b)/(a + b)`.
+    pub const RATIOS: usize = 12;
+    /// Cells of size, spin and direction.
+    pub const CELLS: [usize; 3] = [16, 8, 16];
+    /// Greatest ratio of the semi-axes; the least is its reciprocal.
+    pub const GREATEST_RATIO: f64 = 10.0;
+
+    /// Ratio `a/b` at an index.
+    pub fn a_over_b(index: usize) -> f64 {
+        let part = 2.0 * index as f64 / (Self::RATIOS - 1) as f64 - 1.0;
+        let shape = part * GREATEST_SHAPE;
+        (1.0 + shape) / (1.0 - shape)
+    }
+}
+
+/// `(a - b)/(a + b)` at the greatest ratio.
+const GREATEST_SHAPE: f64 = (Layout::GREATEST_RATIO - 1.0) / (Layout::GREATEST_RATIO + 1.0);
+
+/// Coefficients from one spin, size and ratio to the next.
+const STRIDE: [usize; 3] = {
+    let [size, spin, direction] = Layout::CELLS;
+    let row = direction + 2;
+    let page = row * (spin + 2);
+    [row, page, page * (size + 2)]
+};
+
+/// From the first coefficient that a place needs to the last.
+const SPAN: usize = STRIDE[2] + 2 * STRIDE[1] + 2 * STRIDE[0] + 3;
+
+/// A coefficient: longitudinal force, lateral force, moment, and zero, which fills a vector register.
+type Coefficient = [f32; 4];
+
+const FILE: &[u8] = include_bytes!("../../../data/kalker_book.bin");
+
+/// The book's coefficients, read once.
+pub(super) fn pages() -> &'static [Coefficient] {
+    static PAGES: OnceLock<Vec<Coefficient>> = OnceLock::new();
+    PAGES.get_or_init(|| {
+        let (numbers, _) = FILE.as_chunks::<4>();
+        let (coefficients, _) = numbers.as_chunks::<3>();
+        coefficients
+            .iter()
+            .map(|three| {
+                let [x, y, m] = three.map(f32::from_le_bytes);
+                [x, y, m, 0.0]
+            })
+            .collect()
+    })
+}
+
+/// The cell of a coordinate from 0 to 1 among `cells`, and the place in it from 0 to 1.
+#[inline]
+fn cell(coordinate: f64, cells: usize) -> (usize, f32) {
+    let scaled = coordinate * cells as f64;
+    // Within an i32 the conversion is one instruction.
+    let cell = (scaled as i32).clamp(0, cells as i32 - 1);
+    (cell as usize, (scaled - f64::from(cell)) as f32)
+}
+
+/// Values of the three B-splines over a cell.
+#[inline]
+fn weights(at: f32) -> [f32; 3] {
+    let rest = 1.0 - at;
+    [0.5 * rest * rest, 0.5 + at * rest, 0.5 * at * at]
+}
+
+/// Their derivatives by the place in the cell.
+fn slopes(at: f32) -> [f32; 3] {
+    [at - 1.0, 1.0 - 2.0 * at, at]
+}
+
+/// The coefficients around a place.
+pub(super) struct Near<'a> {
+    coefficients: &'a [Coefficient; SPAN],
+    ratio: f32,
+    /// Place in the cell of size, spin and direction.
+    at: [f32; 3],
+}
+
+impl<'a> Near<'a> {
+    /// Around the ratio of the semi-axes and the coordinates size, spin (0 to 1) and direction (-1 to 1).
+    #[inline]
+    pub(super) fn new(
+        pages: &'a [Coefficient],
+        [a, b]: [f64; 2],
+        [size, spin, direction]: [f64; 3],
+    ) -> Self {
+        let shape = ((a - b) / (a + b) * (0.5 / GREATEST_SHAPE) + 0.5).clamp(0.0, 1.0);
+        let [sizes, spins, directions] = Layout::CELLS;
+        let (ratio, ratio_at) = cell(shape, Layout::RATIOS - 1);
+        let (size, size_at) = cell(size, sizes);
+        let (spin, spin_at) = cell(spin, spins);
+        let (direction, direction_at) = cell(0.5 + 0.5 * direction, directions);
+        let first = ratio * STRIDE[2] + size * STRIDE[1] + spin * STRIDE[0] + direction;
+        let near = pages[first..].first_chunk().expect("cells within the book");
+        Self {
+            coefficients: near,
+            ratio: ratio_at,
+            at: [size_at, spin_at, direction_at],
+        }
+    }
+
+    /// `N` of [`Layout`].
+    #[inline]
+    pub(super) fn value(&self) -> Coefficient {
+        self.sum(self.at.map(weights))
+    }
+
+    /// Derivatives of `N` by size, spin and direction.
+    pub(super) fn gradient(&self) -> [Coefficient; 3] {
+        [0, 1, 2].map(|axis| {
+            let mut factors = self.at.map(weights);
+            factors[axis] = slopes(self.at[axis]);
+            // A direction runs over 2.
+            let cells = Layout::CELLS[axis] as f32 * if axis == 2 { 0.5 } else { 1.0 };
+            self.sum(factors).map(|slope| slope * cells)
+        })
+    }
+
+    #[inline]
+    fn sum(&self, [sizes, spins, directions]: [[f32; 3]; 3]) -> Coefficient {
+        let mut sum = [0.0; 4];
+        for (ratio, of_ratio) in [1.0 - self.ratio, self.ratio].into_iter().enumerate() {
+            for (size, of_size) in sizes.iter().enumerate() {
+                for (spin, of_spin) in spins.iter().enumerate() {
+                    let start = ratio * STRIDE[2] + size * STRIDE[1] + spin * STRIDE[0];
+                    let weight = of_ratio * of_size * of_spin;
+                    let row = &self.coefficients[start..start + 3];
+                    for lane in 0..4 {
+                        let across = directions[0] * row[0][lane]
+                            + directions[1] * row[1][lane]
+                            + directions[2] * row[2][lane];
+                        sum[lane] += weight * across;
+                    }
+                }
+            }
+        }
+        sum
+    }
+}

@@ -1,0 +1,160 @@
+//! Computes the tables of [`dashpot_rail::creep::KalkerBook`] from exact theory.
+
+mod fit;
+mod places;
+
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use dashpot_rail::creep::kalker_book::Layout;
+use dashpot_rail::creep::{KalkerCoefficients, KalkerTable};
+use fit::{End, fit};
+use places::{Direction, creepage, direction, direction_coordinate, magnitude};
+
+use crate::error::ReferenceError;
+use crate::rolling_contact::{RollingContact, ScaledForces, Tractions, full_sliding};
+
+/// Poisson's ratio of the tables, that of steel.
+pub const POISSON_RATIO: f64 = 0.28;
+
+const SIZES: usize = Layout::CELLS[0];
+const SPINS: usize = Layout::CELLS[1];
+const DIRECTIONS: usize = Layout::CELLS[2];
+
+/// Directions of a ratio: those of the cells, then pure spin.
+const LINES: usize = SPINS * DIRECTIONS + 1;
+
+/// Forces along one direction of creepage: their growth with the size where it is zero, their values in the middles of
+/// all cells of size but the first, and full sliding.
+type Line = [ScaledForces; SIZES + 1];
+
+/// All coefficients in the order of [`Layout`]. Every processor takes part; the numbers do not depend on how many.
+/// `progress` is told the parts done, of how many.
+///
+/// # Errors
+/// A contact does not converge.
+pub fn coefficients(progress: impl Fn(usize, usize) + Sync) -> Result<Vec<[f32; 3]>, ReferenceError> {
+    let kalker = KalkerTable::new(POISSON_RATIO).expect("steel is in Kalker's table");
+    let contacts: Vec<_> = (0..Layout::RATIOS)
+        .map(|index| {
+            let a_over_b = Layout::a_over_b(index);
+            let contact = RollingContact::new(a_over_b, POISSON_RATIO)?;
+            Ok((a_over_b, contact, kalker.at(a_over_b)))
+        })
+        .collect::<Result<_, ReferenceError>>()?;
+    let total = Layout::RATIOS * LINES;
+    let next = AtomicUsize::new(0);
+    let lines = Mutex::new((0..total).map(|_| None).collect::<Vec<_>>());
+    let work = || {
+        loop {
+            let index = next.fetch_add(1, Ordering::Relaxed);
+            if index >= total {
+                return;
+            }
+            let (a_over_b, contact, kalker) = &contacts[index / LINES];
+            let part = index % LINES;
+            let towards = if part == LINES - 1 {
+                [0.0, 0.0, 1.0]
+            } else {
+                direction(part / DIRECTIONS, part % DIRECTIONS)
+            };
+            let line = line(*a_over_b, contact, kalker, towards);
+            lines.lock().expect("no thread panics")[index] = Some(line);
+            progress(index + 1, total);
+        }
+    };
+    let threads = std::thread::available_parallelism().map_or(1, usize::from);
+    std::thread::scope(|scope| {
+        for _ in 0..threads {
+            scope.spawn(work);
+        }
+    });
+    let lines: Vec<Line> = lines
+        .into_inner()
+        .expect("no thread panics")
+        .into_iter()
+        .map(|line| line.expect("every line is computed"))
+        .collect::<Result<_, _>>()?;
+    Ok(lines.chunks(LINES).flat_map(spline).collect())
+}
+
+fn line(
+    a_over_b: f64,
+    contact: &RollingContact,
+    kalker: &KalkerCoefficients,
+    towards: Direction,
+) -> Result<Line, ReferenceError> {
+    let [x, y, z] = towards;
+    let mut line = [[0.0; 3]; SIZES + 1];
+    let moment = kalker.c23 / kalker.c22 * y - kalker.c33 / kalker.c23 * z;
+    line[0] = [-x, -(y + z), moment];
+    let mut tractions = Tractions::default();
+    for (cell, forces) in line.iter_mut().enumerate().take(SIZES).skip(1) {
+        let creepage = creepage(towards.map(|x| x * magnitude(cell)), kalker);
+        *forces = contact.solve_from(creepage, &mut tractions)?;
+    }
+    line[SIZES] = full_sliding(a_over_b, towards);
+    Ok(line)
+}
+
+/// Coefficients of one ratio from its lines.
+fn spline(lines: &[Line]) -> Vec<[f32; 3]> {
+    let layers: Vec<[Vec<Vec<f64>>; 3]> = (0..=SIZES)
+        .map(|level| [0, 1, 2].map(|force| layer(lines, level, force)))
+        .collect();
+    let mut coefficients = vec![[0.0; 3]; (SIZES + 2) * (SPINS + 2) * (DIRECTIONS + 2)];
+    for force in 0..3 {
+        for spin in 0..SPINS + 2 {
+            for direction in 0..DIRECTIONS + 2 {
+                let at = |level: usize| layers[level][force][spin][direction];
+                // Zero at size zero, with the slope there: the coefficient before it is the opposite of that after it.
+                let first = 0.5 * at(0) / SIZES as f64;
+                let values: Vec<f64> = (1..SIZES).map(at).collect();
+                let rest = fit(&values, [End::coefficient(first), End::value(at(SIZES))]);
+                for (size, value) in std::iter::once(-first).chain(rest).enumerate() {
+                    let index = (size * (SPINS + 2) + spin) * (DIRECTIONS + 2) + direction;
+                    coefficients[index][force] = value as f32;
+                }
+            }
+        }
+    }
+    coefficients
+}
+
+/// Coefficients over spin and direction of one force at one level of size, by spin, then direction.
+fn layer(lines: &[Line], level: usize, force: usize) -> Vec<Vec<f64>> {
+    let square = |cell: usize| 1.0 + direction_coordinate(cell).powi(2);
+    // The longitudinal force is odd in x, which is zero at both ends; where f = N / (1 + v^2) is even, N' = N at v = 1.
+    let half = 1.0 / DIRECTIONS as f64;
+    let end = End::multiple(if force == 0 {
+        -1.0
+    } else {
+        (1.0 + half) / (1.0 - half)
+    });
+    let along = |value: &dyn Fn(usize) -> f64| {
+        let values: Vec<f64> = (0..DIRECTIONS).map(|cell| value(cell) * square(cell)).collect();
+        fit(&values, [end, end])
+    };
+    let rows: Vec<Vec<f64>> = (0..SPINS)
+        .map(|spin| along(&|cell| lines[spin * DIRECTIONS + cell][level][force]))
+        .collect();
+    let pole = along(&|_| lines[LINES - 1][level][force]);
+    // Negative spin is the mirror image: the spline runs from pole to pole, and one half of it is kept.
+    let mirror = if force == 0 { 1.0 } else { -1.0 };
+    let mut layer = vec![vec![0.0; DIRECTIONS + 2]; SPINS + 2];
+    for direction in 0..DIRECTIONS + 2 {
+        let image = DIRECTIONS + 1 - direction;
+        let values: Vec<f64> = rows
+            .iter()
+            .rev()
+            .map(|row| mirror * row[image])
+            .chain(rows.iter().map(|row| row[direction]))
+            .collect();
+        let ends = [End::value(mirror * pole[image]), End::value(pole[direction])];
+        let whole = fit(&values, ends);
+        for (spin, value) in whole[SPINS..].iter().enumerate() {
+            layer[spin][direction] = *value;
+        }
+    }
+    layer
+}

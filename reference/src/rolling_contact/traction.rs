@@ -1,0 +1,33 @@
+//! Stick or slip of one element.
+
+/// The traction `p` of an element with the slip `s = others + own p`, where `others` is that by everything else:
+/// `s = 0` if `|p|` is then within `limit`; else `|p| = limit` and `p` opposes `s + shift`, all of the shift deep in
+/// sliding and none of it where sliding begins.
+pub(super) fn traction(others: [f64; 2], own: [f64; 2], shift: [f64; 2], limit: f64) -> [f64; 2] {
+    // In sliding `(own + resistance) p = -others` with a resistance `|s| / limit` of zero or more.
+    let at = |resistance: f64| {
+        [0, 1].map(|k| {
+            let sum = own[k] + resistance;
+            -(others[k] + shift[k] * resistance / sum) / sum
+        })
+    };
+    let sticking = at(0.0);
+    if sticking[0].hypot(sticking[1]) <= limit {
+        return sticking;
+    }
+    // 1/|p| is nearly linear in the resistance: Newton on it converges in a few steps.
+    let mut resistance = 0.0;
+    for _ in 0..30 {
+        let p = at(resistance);
+        let square = p[0] * p[0] + p[1] * p[1];
+        let slope: f64 = (0..2).map(|k| p[k] * p[k] / (own[k] + resistance)).sum();
+        let step = square / slope * (square.sqrt() / limit - 1.0);
+        resistance = f64::max(resistance + step, 0.0);
+        if step.abs() <= 1e-9 * (own[0] + resistance) {
+            break;
+        }
+    }
+    let p = at(resistance);
+    let factor = limit / p[0].hypot(p[1]);
+    p.map(|p| p * factor)
+}

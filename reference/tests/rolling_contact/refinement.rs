@@ -1,0 +1,46 @@
+//! The solution over its mesh.
+
+use dashpot_reference::ReferenceError;
+use dashpot_reference::rolling_contact::{RollingContact, ScaledForces};
+
+fn forces(a_over_b: f64, creepage: [f64; 3], [along, strips]: [usize; 2]) -> ScaledForces {
+    let contact = RollingContact::with_mesh(a_over_b, 0.28, along, strips).unwrap();
+    contact.solve(creepage).unwrap()
+}
+
+fn distance(one: ScaledForces, other: ScaledForces) -> f64 {
+    let squares = one.iter().zip(other).map(|(a, b)| (a - b).powi(2));
+    squares.sum::<f64>().sqrt()
+}
+
+#[test]
+fn a_finer_mesh_changes_less() {
+    for (a_over_b, creepage) in [
+        (1.0, [0.3, 0.2, 0.0]),
+        (2.0, [0.3, -0.3, 0.4]),
+        (0.5, [0.2, 0.2, 0.6]),
+        (0.2, [0.2, 0.2, 0.4]),
+    ] {
+        let meshes = [[8, 4], [16, 8], [32, 12], [64, 16]];
+        let all = meshes.map(|mesh| forces(a_over_b, creepage, mesh));
+        let finest = all[3];
+        let errors: Vec<f64> = all.iter().map(|&f| distance(f, finest)).collect();
+        let usual = forces(a_over_b, creepage, RollingContact::usual_mesh(a_over_b));
+        let of_usual = distance(usual, finest);
+        println!("a/b {a_over_b} {creepage:?}: {errors:.4?}, usual {of_usual:.4}");
+        // At least of first order.
+        assert!(errors[2] < 0.5 * errors[0], "{errors:?}");
+        assert!(of_usual < 0.006, "{of_usual}");
+    }
+}
+
+#[test]
+fn what_is_no_contact_is_refused() {
+    for (a_over_b, poisson_ratio) in [(0.0, 0.3), (f64::NAN, 0.3), (1.0, 0.6), (-1.0, 0.3)] {
+        let error = RollingContact::new(a_over_b, poisson_ratio).err();
+        assert!(matches!(error, Some(ReferenceError::RollingContact { .. })));
+    }
+    let contact = RollingContact::new(1.0, 0.3).unwrap();
+    let error = contact.solve([f64::NAN, 0.0, 0.0]).unwrap_err();
+    assert!(matches!(error, ReferenceError::RollingDiverges { .. }));
+}
