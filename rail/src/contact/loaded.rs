@@ -12,6 +12,8 @@ use crate::math::number::{Dual, Number, Sides};
 pub(super) struct Contact<T> {
     /// Normal load, N.
     pub load: T,
+    /// Fraction of the load, and of the creep forces, that is asked for.
+    pub fraction: T,
     /// Semi-axes in the rolling direction and across, m.
     pub semi_axes: [T; 2],
     /// Kalker's `C11`, `C22`, `C23`, `C33`.
@@ -47,6 +49,7 @@ impl CreepNumber for Sides {
         let creep = [0, 1].map(|lane| {
             let (loaded, creepage, _) = contact.in_lane(lane, surface, reference_speed);
             let forces = surface.law.forces(&loaded, &creepage);
+            let forces = forces.scaled(contact.fraction.lane(lane));
             Creep { creepage, forces }
         });
         let [left, right] = creep.map(|creep| creep.forces.components());
@@ -75,7 +78,7 @@ impl CreepNumber for Dual {
             contact.differentiated(&derivatives, friction),
             [Creep {
                 creepage,
-                forces: derivatives.forces,
+                forces: derivatives.forces.scaled(contact.fraction.value()),
             }; 2],
         )
     }
@@ -138,7 +141,7 @@ impl Contact<Dual> {
                 (scaled[1] * reciprocal(kalker[1]), self.kalker[1]),
                 (scaled[2] * reciprocal(kalker[2]), self.kalker[2]),
             ];
-            Dual::function(values[k], terms)
+            Dual::function(values[k], terms) * self.fraction
         })
     }
 }

@@ -98,7 +98,7 @@ impl<T: CreepNumber> Place<T> {
         numbers: [T; NUMBERS],
     ) -> Patch<T> {
         let (frame, rail) = (&self.frame, &self.rail);
-        let [wheel_y, wheel_z, rail_slope, _, stiffness, a, b, c11, c22, c23, c33, _] = numbers;
+        let [wheel_y, wheel_z, rail_slope, fraction, stiffness, a, b, c11, c22, c23, c33, _] = numbers;
         let penetration = depth * cosine(rail_slope);
         let slope = self.rail_roll.into_track(rail_slope);
         let cos = cosine(slope);
@@ -119,9 +119,10 @@ impl<T: CreepNumber> Place<T> {
         let directed = frame.per_reference_speed * frame.direction;
         let root = penetration.sqrt();
         let approach_speed = vz * cos - vy * sin;
-        let load = stiffness * penetration * root * surface.damping(approach_speed);
+        // A patch that is part of another is a fraction of it, in its creep forces too.
         let contact = Contact {
-            load,
+            load: stiffness * penetration * root * surface.damping(approach_speed),
+            fraction,
             semi_axes: [a * root, b * root],
             kalker: [c11, c22, c23, c33],
             creepage: [
@@ -132,6 +133,7 @@ impl<T: CreepNumber> Place<T> {
         };
         let ([longitudinal, lateral, spin_moment], creep) =
             T::creep(&contact, surface, frame.reference_speed);
+        let load = contact.load * fraction;
         let (fx, ft) = (longitudinal * frame.direction, lateral * frame.direction);
         let (fy, fz) = (ft * cos + load * sin, ft * sin - load * cos);
         Patch {

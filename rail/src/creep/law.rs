@@ -39,6 +39,18 @@ impl CreepForces {
         [self.longitudinal_n, self.lateral_n, self.moment_n_m]
     }
 
+    /// The forces times `factor`.
+    #[inline]
+    pub fn scaled(&self, factor: f64) -> Self {
+        let [longitudinal_n, lateral_n, moment_n_m] =
+            self.components().map(|component| component * factor);
+        Self {
+            longitudinal_n,
+            lateral_n,
+            moment_n_m,
+        }
+    }
+
     /// Magnitude of the force, N.
     pub fn magnitude_n(&self) -> f64 {
         (self.longitudinal_n * self.longitudinal_n + self.lateral_n * self.lateral_n).sqrt()

@@ -30,7 +30,7 @@ pub struct TabulatedPatch {
     pub slope: f64,
     /// As [`Patch::load_fraction`].
     pub load_fraction: f64,
-    /// Hertz contact of the patch for its fraction of the load.
+    /// Hertz contact whose load the patch carries a fraction of.
     pub hertz: Hertz,
     /// Kalker's coefficients of the ellipse.
     pub kalker: KalkerCoefficients,
@@ -55,19 +55,13 @@ impl TabulatedPatch {
         );
         let load_fraction = patch.load_fraction.max(1e-30);
         let lift = LIFT_M * (load_fraction / LIGHT_FRACTION).ln().min(0.0);
-        // The parts of one patch have its ratio of the semi-axes and divide its area, hence its creep stiffness.
-        let axis_factor = load_fraction.sqrt();
         Self {
             interpenetration_m: patch.interpenetration_m + lift,
             wheel_y_m: patch.wheel_y_m,
             wheel_z_m: patch.wheel_z_m,
             slope: patch.slope,
             load_fraction,
-            hertz: Hertz {
-                stiffness_n_per_m_1_5: hertz.stiffness_n_per_m_1_5 * load_fraction,
-                a_factor_m_0_5: hertz.a_factor_m_0_5 * axis_factor,
-                b_factor_m_0_5: hertz.b_factor_m_0_5 * axis_factor,
-            },
+            hertz,
             kalker: kalker.at(hertz.a_factor_m_0_5 / hertz.b_factor_m_0_5),
         }
     }
