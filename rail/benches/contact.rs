@@ -8,9 +8,7 @@ use dashpot_rail::contact::{
     ContactGeometry, Grid, Installation, Motion, Pair, RailDisplacement, Steel, Tables,
     WheelsetContact, WheelsetForces,
 };
-use dashpot_rail::creep::{
-    CreepLaw, Fastsim, Friction, KalkerBook, Polach, ShenHedrickElkins,
-};
+use dashpot_rail::creep::{CreepLaw, Fastsim, Friction, KalkerBook, Polach, ShenHedrickElkins};
 
 /// Both rails pressed inward until tread and flange of both wheels are loaded.
 fn four_patches() -> (Motion, [RailDisplacement; 2]) {
@@ -81,7 +79,13 @@ fn contact(criterion: &mut Criterion) {
         residual_ratio: 0.4,
         ..friction
     };
-    measure(criterion, "kalker_book", &tables, KalkerBook::new(), friction);
+    measure(
+        criterion,
+        "kalker_book",
+        &tables,
+        KalkerBook::new(),
+        friction,
+    );
     measure(criterion, "polach", &tables, Polach, friction);
     measure(criterion, "polach_falling", &tables, Polach, falling);
     measure(criterion, "she", &tables, ShenHedrickElkins, friction);

@@ -1,9 +1,9 @@
-//! Writes the tables of `dashpot_rail::creep::KalkerBook`: `cargo xtask kalker-book`.
+//! Writes the tables of `dashpot_rail::creep::KalkerBook` and their provenance: `cargo xtask kalker-book`.
 
 use std::error::Error;
 use std::path::Path;
 
-use dashpot_reference::kalker_book::coefficients;
+use dashpot_reference::kalker_book::{coefficients, provenance};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let coefficients = coefficients(|done, total| {
@@ -18,5 +18,6 @@ fn main() -> Result<(), Box<dyn Error>> {
         .collect();
     let data = Path::new(env!("CARGO_MANIFEST_DIR")).join("../rail/data");
     std::fs::write(data.join("kalker_book.bin"), &bytes)?;
+    std::fs::write(data.join("kalker_book.txt"), provenance(&bytes))?;
     Ok(())
 }

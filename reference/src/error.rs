@@ -117,7 +117,9 @@ pub enum ReferenceError {
         strips: usize,
     },
     /// The tractions of a rolling contact do not converge.
-    #[error("reference: the tractions at the creepages {creepage:?} over mu N / (G a b) do not converge")]
+    #[error(
+        "reference: the tractions at the creepages {creepage:?} over mu N / (G a b) do not converge"
+    )]
     RollingDiverges {
         /// Longitudinal, lateral and spin creepage, scaled.
         creepage: [f64; 3],

@@ -6,11 +6,7 @@ use proptest::prelude::*;
 use crate::common::contact;
 
 fn numbers(forces: CreepForces) -> [f64; 3] {
-    [
-        forces.longitudinal_n,
-        forces.lateral_n,
-        forces.moment_n_m,
-    ]
+    [forces.longitudinal_n, forces.lateral_n, forces.moment_n_m]
 }
 
 fn creepage([longitudinal, lateral, spin_per_m]: [f64; 3]) -> Creepage {
@@ -24,7 +20,10 @@ fn creepage([longitudinal, lateral, spin_per_m]: [f64; 3]) -> Creepage {
 /// Derivatives by the creepages in terms of sliding: force over `mu N`, moment over `mu N sqrt(a b)`, creepages over
 /// `mu N / (G a b C22)` and spin over that over `sqrt(a b)`.
 fn scaled_derivatives(contact: &LoadedContact, at: [f64; 3]) -> [[f64; 3]; 3] {
-    let (limit, length) = (contact.friction * contact.load_n, (contact.a_m * contact.b_m).sqrt());
+    let (limit, length) = (
+        contact.friction * contact.load_n,
+        (contact.a_m * contact.b_m).sqrt(),
+    );
     let unit = limit / (contact.shear_modulus_pa * length * length * contact.kalker.c22);
     let by = KalkerBook::new()
         .forces_with_derivatives(contact, &creepage(at))
@@ -45,7 +44,11 @@ fn cases() -> impl Strategy<Value = (LoadedContact, [f64; 3])> {
         let (sin, cos) = spin.sin_cos();
         (
             contact,
-            [size * cos * angle.cos(), size * cos * angle.sin(), size * sin / 5e-3],
+            [
+                size * cos * angle.cos(),
+                size * cos * angle.sin(),
+                size * sin / 5e-3,
+            ],
         )
     })
 }

@@ -5,10 +5,12 @@
 use std::fmt::Write;
 use std::path::Path;
 
-use dashpot_rail::contact::WheelPose;
-use dashpot_rail::creep::{CreepLaw, Creepage, LoadedContact};
+use dashpot_rail::contact::{Motion, WheelPose, WheelsetContact};
+use dashpot_rail::creep::{
+    CreepLaw, Creepage, Fastsim, Friction, KalkerBook, LoadedContact, Polach, ShenHedrickElkins,
+};
 
-use crate::common::{contact, laws, tables};
+use crate::common::{LEVEL, at_height_under_load, contact, laws, polach, rolling, tables};
 
 const BEGIN: &str = "<!-- measured: begin -->";
 const END: &str = "<!-- measured: end -->";
@@ -68,6 +70,22 @@ fn from_grid(law: &dyn CreepLaw) -> [(f64, f64); 4] {
         *worst = worst.max(off);
     }
     sums.map(|(squares, count, worst)| (f64::sqrt(squares / count), worst))
+}
+
+/// Force on a wheelset of 206 kN over its friction: on the treads (3 mm, 2 mrad), and with the flange in contact
+/// (6.4 mm, 6 mrad).
+fn on_a_wheelset(law: impl CreepLaw) -> [[f64; 3]; 2] {
+    let contact = WheelsetContact::new(tables().clone(), law, Friction::default());
+    [(3e-3, 2e-3), (6.4e-3, 6e-3)].map(|(lateral_m, yaw_rad)| {
+        let motion = Motion {
+            lateral_m,
+            yaw_rad,
+            ..rolling(20.0)
+        };
+        let motion = at_height_under_load(polach(), &motion, 206e3);
+        let force = contact.forces(&motion, &LEVEL).force_n;
+        force.map(|force| force / (0.4 * 206e3))
+    })
 }
 
 /// Member `n` of a sequence that fills the unit interval evenly.
@@ -132,11 +150,30 @@ fn measured() -> String {
          |---|---|---|---|---|---|\n",
     );
     for (name, law) in laws() {
-        let _ = write!(text, "| {name} | {:.1} % ", from_curve(law.as_ref()) * 100.0);
+        let _ = write!(
+            text,
+            "| {name} | {:.1} % ",
+            from_curve(law.as_ref()) * 100.0
+        );
         for (rms, worst) in from_grid(law.as_ref()) {
             let _ = write!(text, "| {:.1} / {:.1} % ", rms * 100.0, worst * 100.0);
         }
         text.push_str("|\n");
+    }
+    text.push_str("\n| law, from the book | treads (3 mm, 2 mrad) | flange (6.4 mm, 6 mrad) |\n|---|---|---|\n");
+    let book = on_a_wheelset(KalkerBook::new());
+    for (name, forces) in [
+        ("FASTSIM 80 x 81", on_a_wheelset(Fastsim::default())),
+        ("Polach", on_a_wheelset(Polach)),
+        ("Shen-Hedrick-Elkins", on_a_wheelset(ShenHedrickElkins)),
+    ] {
+        let [tread, flange] = [0, 1].map(|place| {
+            let square: f64 = (0..3)
+                .map(|k| (forces[place][k] - book[place][k]).powi(2))
+                .sum();
+            square.sqrt() * 100.0
+        });
+        let _ = writeln!(text, "| {name} | {tread:.1} % | {flange:.1} % |");
     }
     text.push_str("\n| read from the tables | RMS error | greatest error |\n|---|---|---|\n");
     for (name, rms, worst) in table_errors() {

@@ -6,20 +6,27 @@ mod places;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+use dashpot_core::crc_32;
 use dashpot_rail::creep::kalker_book::Layout;
 use dashpot_rail::creep::{KalkerCoefficients, KalkerTable};
 use fit::{End, fit};
-use places::{Direction, creepage, direction, direction_coordinate, magnitude};
+use places::{Direction, creepage, direction, direction_coordinate, magnitude, spin_arm};
 
 use crate::error::ReferenceError;
-use crate::rolling_contact::{RollingContact, ScaledForces, Tractions, full_sliding};
+use crate::rolling_contact::{RollingContact, ScaledForces, TOLERANCE, Tractions, full_sliding};
 
 /// Poisson's ratio of the tables, that of steel.
 pub const POISSON_RATIO: f64 = 0.28;
 
+/// Revision of the method; a change of solver, mesh, coordinates or fit raises it.
+pub const REVISION: u32 = 1;
+
 const SIZES: usize = Layout::CELLS[0];
 const SPINS: usize = Layout::CELLS[1];
 const DIRECTIONS: usize = Layout::CELLS[2];
+
+/// Coefficients of a size: those of all spins and directions.
+const LAYER: usize = (SPINS + 2) * (DIRECTIONS + 2);
 
 /// Directions of a ratio: those of the cells, then pure spin.
 const LINES: usize = SPINS * DIRECTIONS + 1;
@@ -33,7 +40,9 @@ type Line = [ScaledForces; SIZES + 1];
 ///
 /// # Errors
 /// A contact does not converge.
-pub fn coefficients(progress: impl Fn(usize, usize) + Sync) -> Result<Vec<[f32; 3]>, ReferenceError> {
+pub fn coefficients(
+    progress: impl Fn(usize, usize) + Sync,
+) -> Result<Vec<[f32; 3]>, ReferenceError> {
     let kalker = KalkerTable::new(POISSON_RATIO).expect("steel is in Kalker's table");
     let contacts: Vec<_> = (0..Layout::RATIOS)
         .map(|index| {
@@ -78,6 +87,34 @@ pub fn coefficients(progress: impl Fn(usize, usize) + Sync) -> Result<Vec<[f32; 
     Ok(lines.chunks(LINES).flat_map(spline).collect())
 }
 
+/// What the file beside tables of these bytes says of them.
+pub fn provenance(bytes: &[u8]) -> String {
+    let meshes: Vec<String> = (0..Layout::RATIOS)
+        .map(|index| {
+            let a_over_b = Layout::a_over_b(index);
+            let [along, strips] = RollingContact::usual_mesh(a_over_b);
+            format!("{a_over_b:.3}: {along} x {strips}")
+        })
+        .collect();
+    let [size, spin, direction] = Layout::CELLS;
+    format!(
+        "Kalker's book of tables: creep forces of exact theory of rolling contact\n\
+         written by: cargo xtask kalker-book (dashpot-reference, kalker_book), revision {REVISION}\n\
+         solver: dashpot-reference, rolling_contact; tractions converged to {TOLERANCE} mu N\n\
+         theory: elastic half-spaces, Hertz pressure, steady rolling, Coulomb friction (Kalker 1990)\n\
+         linear theory at size 0: Kalker's coefficients of 1967 (kalker.csv); full sliding at size 1: quadrature\n\
+         Poisson's ratio: {POISSON_RATIO}\n\
+         cells: {size} sizes, {spin} spins, {direction} directions\n\
+         a/b: elements along x strips: {}\n\
+         layout: dashpot_rail::creep::kalker_book::Layout\n\
+         bytes: {}\n\
+         CRC-32: {:08x}\n",
+        meshes.join(", "),
+        bytes.len(),
+        crc_32(bytes),
+    )
+}
+
 fn line(
     a_over_b: f64,
     contact: &RollingContact,
@@ -86,43 +123,48 @@ fn line(
 ) -> Result<Line, ReferenceError> {
     let [x, y, z] = towards;
     let mut line = [[0.0; 3]; SIZES + 1];
+    let z = z / spin_arm(a_over_b);
     let moment = kalker.c23 / kalker.c22 * y - kalker.c33 / kalker.c23 * z;
     line[0] = [-x, -(y + z), moment];
     let mut tractions = Tractions::default();
     for (cell, forces) in line.iter_mut().enumerate().take(SIZES).skip(1) {
-        let creepage = creepage(towards.map(|x| x * magnitude(cell)), kalker);
+        let creepage = creepage(towards.map(|x| x * magnitude(cell)), a_over_b, kalker);
         *forces = contact.solve_from(creepage, &mut tractions)?;
     }
-    line[SIZES] = full_sliding(a_over_b, towards);
+    line[SIZES] = full_sliding(a_over_b, [x, y, z]);
     Ok(line)
 }
 
 /// Coefficients of one ratio from its lines.
 fn spline(lines: &[Line]) -> Vec<[f32; 3]> {
-    let layers: Vec<[Vec<Vec<f64>>; 3]> = (0..=SIZES)
+    let layers: Vec<[Vec<f64>; 3]> = (0..=SIZES)
         .map(|level| [0, 1, 2].map(|force| layer(lines, level, force)))
         .collect();
-    let mut coefficients = vec![[0.0; 3]; (SIZES + 2) * (SPINS + 2) * (DIRECTIONS + 2)];
-    for force in 0..3 {
-        for spin in 0..SPINS + 2 {
-            for direction in 0..DIRECTIONS + 2 {
-                let at = |level: usize| layers[level][force][spin][direction];
-                // Zero at size zero, with the slope there: the coefficient before it is the opposite of that after it.
-                let first = 0.5 * at(0) / SIZES as f64;
-                let values: Vec<f64> = (1..SIZES).map(at).collect();
-                let rest = fit(&values, [End::coefficient(first), End::value(at(SIZES))]);
-                for (size, value) in std::iter::once(-first).chain(rest).enumerate() {
-                    let index = (size * (SPINS + 2) + spin) * (DIRECTIONS + 2) + direction;
-                    coefficients[index][force] = value as f32;
-                }
-            }
-        }
-    }
-    coefficients
+    let columns: Vec<[Vec<f64>; 3]> = (0..LAYER)
+        .map(|place| {
+            [0, 1, 2].map(|force| {
+                let values: Vec<f64> = layers.iter().map(|layer| layer[force][place]).collect();
+                over_size(&values)
+            })
+        })
+        .collect();
+    let at = |size: usize| move |column: &[Vec<f64>; 3]| [0, 1, 2].map(|k| column[k][size] as f32);
+    (0..SIZES + 2)
+        .flat_map(|size| columns.iter().map(at(size)))
+        .collect()
+}
+
+/// Coefficients over size from those of all levels at one place of a layer.
+fn over_size(levels: &[f64]) -> Vec<f64> {
+    // Zero at size zero, with the slope there: the coefficient before it is the opposite of that after it.
+    let first = 0.5 * levels[0] / SIZES as f64;
+    let ends = [End::coefficient(first), End::value(levels[SIZES])];
+    let rest = fit(&levels[1..SIZES], ends);
+    std::iter::once(-first).chain(rest).collect()
 }
 
 /// Coefficients over spin and direction of one force at one level of size, by spin, then direction.
-fn layer(lines: &[Line], level: usize, force: usize) -> Vec<Vec<f64>> {
+fn layer(lines: &[Line], level: usize, force: usize) -> Vec<f64> {
     let square = |cell: usize| 1.0 + direction_coordinate(cell).powi(2);
     // The longitudinal force is odd in x, which is zero at both ends; where f = N / (1 + v^2) is even, N' = N at v = 1.
     let half = 1.0 / DIRECTIONS as f64;
@@ -132,7 +174,9 @@ fn layer(lines: &[Line], level: usize, force: usize) -> Vec<Vec<f64>> {
         (1.0 + half) / (1.0 - half)
     });
     let along = |value: &dyn Fn(usize) -> f64| {
-        let values: Vec<f64> = (0..DIRECTIONS).map(|cell| value(cell) * square(cell)).collect();
+        let values: Vec<f64> = (0..DIRECTIONS)
+            .map(|cell| value(cell) * square(cell))
+            .collect();
         fit(&values, [end, end])
     };
     let rows: Vec<Vec<f64>> = (0..SPINS)
@@ -141,20 +185,18 @@ fn layer(lines: &[Line], level: usize, force: usize) -> Vec<Vec<f64>> {
     let pole = along(&|_| lines[LINES - 1][level][force]);
     // Negative spin is the mirror image: the spline runs from pole to pole, and one half of it is kept.
     let mirror = if force == 0 { 1.0 } else { -1.0 };
-    let mut layer = vec![vec![0.0; DIRECTIONS + 2]; SPINS + 2];
-    for direction in 0..DIRECTIONS + 2 {
-        let image = DIRECTIONS + 1 - direction;
-        let values: Vec<f64> = rows
-            .iter()
-            .rev()
-            .map(|row| mirror * row[image])
-            .chain(rows.iter().map(|row| row[direction]))
-            .collect();
-        let ends = [End::value(mirror * pole[image]), End::value(pole[direction])];
-        let whole = fit(&values, ends);
-        for (spin, value) in whole[SPINS..].iter().enumerate() {
-            layer[spin][direction] = *value;
-        }
-    }
-    layer
+    let columns: Vec<Vec<f64>> = (0..DIRECTIONS + 2)
+        .map(|direction| {
+            let image = DIRECTIONS + 1 - direction;
+            let mirrored = rows.iter().rev().map(|row| mirror * row[image]);
+            let values: Vec<f64> = mirrored
+                .chain(rows.iter().map(|row| row[direction]))
+                .collect();
+            let ends = [mirror * pole[image], pole[direction]].map(End::value);
+            fit(&values, ends)
+        })
+        .collect();
+    (SPINS..2 * SPINS + 2)
+        .flat_map(|spin| columns.iter().map(move |column| column[spin]))
+        .collect()
 }

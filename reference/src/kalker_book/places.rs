@@ -37,8 +37,17 @@ pub(super) fn direction(spin: usize, direction: usize) -> Direction {
     [cos_spin * cos, cos_spin * sin, sin_spin]
 }
 
+/// `(a + b)/2` over `sqrt(a b)`: the length that the book multiplies spin by.
+pub(super) fn spin_arm(a_over_b: f64) -> f64 {
+    0.5 * (a_over_b.sqrt() + 1.0 / a_over_b.sqrt())
+}
+
 /// Creepage with the book's creepages `[x, y, z]`.
-pub(super) fn creepage(book: [f64; 3], kalker: &KalkerCoefficients) -> ScaledCreepage {
+pub(super) fn creepage(
+    book: [f64; 3],
+    a_over_b: f64,
+    kalker: &KalkerCoefficients,
+) -> ScaledCreepage {
     let [x, y, z] = book;
     let part = |c: f64, q: f64| (1.0 + q) / (c / kalker.c22 + q);
     let at = |q: f64| [x * part(kalker.c11, q), y, z * part(kalker.c23, q)];
@@ -56,5 +65,6 @@ pub(super) fn creepage(book: [f64; 3], kalker: &KalkerCoefficients) -> ScaledCre
             high = q;
         }
     }
-    at(high).map(|scaled| scaled / kalker.c22)
+    let [x, y, z] = at(high).map(|scaled| scaled / kalker.c22);
+    [x, y, z / spin_arm(a_over_b)]
 }

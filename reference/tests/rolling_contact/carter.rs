@@ -32,7 +32,10 @@ fn a_narrow_ellipse_is_carters_cylinder() {
             let closed = carter(size, flexibility);
             println!("{size} axis {axis}: {computed:.4} {closed:.4}");
             assert!((computed - closed).abs() < 0.005, "{computed} {closed}");
-            assert!((computed / closed - 1.0).abs() < 0.01, "{computed} {closed}");
+            assert!(
+                (computed / closed - 1.0).abs() < 0.01,
+                "{computed} {closed}"
+            );
         }
     }
 }

@@ -6,26 +6,51 @@ use dashpot_reference::rolling_contact::RollingContact;
 const GRID: &str = include_str!("../../../rail/data/creep_exact_grid.csv");
 
 #[test]
-fn another_solver() {
+fn every_case_of_an_independent_solver() {
     let kalker = KalkerTable::new(0.28).unwrap();
-    let mut contacts: Vec<(f64, RollingContact)> = vec![];
-    let mut stats = [[0.0f64; 5]; 4];
-    for line in GRID.lines().filter(|l| l.starts_with(|c: char| c.is_ascii_digit())) {
-        let v: Vec<f64> = line.split(',').map(|s| s.parse().unwrap()).collect();
-        let (r, a, b, n, mu) = (v[0], v[1], v[2], v[3], v[4]);
-        if !contacts.iter().any(|c| c.0 == r) { contacts.push((r, RollingContact::new(r, v[6]).unwrap())); }
-        let solver = &contacts.iter().find(|c| c.0 == r).unwrap().1;
-        let contact = LoadedContact { load_n: n, a_m: a, b_m: b, shear_modulus_pa: v[5], friction: mu, kalker: kalker.at(r) };
-        let f = solver.creep_forces(&contact, &Creepage { longitudinal: v[7], lateral: v[8], spin_per_m: v[9] }).unwrap();
-        let f2 = dashpot_reference::rolling_contact::full_sliding(r, [v[7], v[8], v[9] * (a * b).sqrt()]);
-        let e = (f.longitudinal_n - v[10]).hypot(f.lateral_n - v[11]) / (mu * n);
-        let em = (f.moment_n_m - v[12]).abs() / (mu * n * (a * b).sqrt());
-        let sliding = mu * n / (v[5] * a * b * contact.kalker.c11);
-        let k = (v[9] * (a * b).sqrt() / sliding * 2.0).round() as usize;
-        if v[7].hypot(v[8]) > 2.9 * sliding { let c = (f.longitudinal_n/(mu*n) - f2[0]).hypot(f.lateral_n/(mu*n) - f2[1]); let d = (v[10]/(mu*n) - f2[0]).hypot(v[11]/(mu*n) - f2[1]); println!("large {r} k {k} {:.5} {:.5}: ours-slid {c:.4} grid-slid {d:.4}, ours-grid {e:.4}", v[7], v[8]); }
-        let st = &mut stats[k.min(3)];
-        st[0] += e * e; st[1] = st[1].max(e); st[2] += em * em; st[3] = st[3].max(em); st[4] += 1.0;
-        if e > 0.02 { println!("{e:.4} {line} {f:?}"); }
+    let lines = GRID
+        .lines()
+        .filter(|line| line.starts_with(|c: char| c.is_ascii_digit()));
+    let rows: Vec<Vec<f64>> = lines
+        .map(|line| line.split(',').map(|cell| cell.parse().unwrap()).collect())
+        .collect();
+    assert_eq!(rows.len(), 225);
+    let (mut force, mut moment) = ([0.0, 0.0_f64], [0.0, 0.0_f64]);
+    for a_over_b in [0.5, 1.0, 2.0] {
+        let solver = RollingContact::new(a_over_b, 0.28).unwrap();
+        for row in rows.iter().filter(|row| row[0] == a_over_b) {
+            let contact = LoadedContact {
+                load_n: row[3],
+                a_m: row[1],
+                b_m: row[2],
+                shear_modulus_pa: row[5],
+                kalker: kalker.at(a_over_b),
+                friction: row[4],
+            };
+            let creepage = Creepage {
+                longitudinal: row[7],
+                lateral: row[8],
+                spin_per_m: row[9],
+            };
+            let forces = solver.creep_forces(&contact, &creepage).unwrap();
+            let limit = contact.friction * contact.load_n;
+            let [x, y] = [forces.longitudinal_n - row[10], forces.lateral_n - row[11]];
+            let off = x.hypot(y) / limit;
+            let arm = (contact.a_m * contact.b_m).sqrt();
+            let turn = (forces.moment_n_m - row[12]).abs() / (limit * arm);
+            force = [force[0] + off * off, force[1].max(off)];
+            moment = [moment[0] + turn * turn, moment[1].max(turn)];
+        }
     }
-    for s in stats { println!("rms {:.4} worst {:.4}  M {:.4} {:.4}", (s[0] / s[4]).sqrt(), s[1], (s[2] / s[4]).sqrt(), s[3]); }
+    let rms = |squares: f64| (squares / rows.len() as f64).sqrt();
+    let (force, moment) = ([rms(force[0]), force[1]], [rms(moment[0]), moment[1]]);
+    println!("RMS and greatest, of friction: force {force:.4?}, moment {moment:.4?}");
+    assert!(force[0] < 0.01 && moment[0] < 0.01, "{force:?} {moment:?}");
+    // The greatest are where most sticks and without spin, where the grid's forces lie above ours; a finer mesh of ours
+    // takes half a percent away from them at most (`refinement.rs`), and Carter's closed form and Kalker's coefficients
+    // agree with ours.
+    assert!(
+        force[1] < 0.016 && moment[1] < 0.016,
+        "{force:?} {moment:?}"
+    );
 }

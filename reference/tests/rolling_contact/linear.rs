@@ -20,7 +20,10 @@ fn coefficients(a_over_b: f64, poisson_ratio: f64) -> [f64; 5] {
 
 #[test]
 fn small_creepages_give_kalkers_coefficients() {
-    for line in TABLE.lines().filter(|line| line.starts_with(|c: char| c.is_ascii_digit())) {
+    for line in TABLE
+        .lines()
+        .filter(|line| line.starts_with(|c: char| c.is_ascii_digit()))
+    {
         let row: Vec<f64> = line.split(',').map(|cell| cell.parse().unwrap()).collect();
         let [ratio, poisson_ratio] = [row[0], row[1]];
         if ![0.1, 0.3, 0.5, 1.0, 2.0, 5.0].contains(&ratio) || poisson_ratio != 0.25 {
@@ -28,7 +31,11 @@ fn small_creepages_give_kalkers_coefficients() {
         }
         let computed = coefficients(ratio, poisson_ratio);
         let table = [row[2], row[3], row[4], row[4], row[5]];
-        let off: Vec<f64> = computed.iter().zip(table).map(|(c, t)| c / t - 1.0).collect();
+        let off: Vec<f64> = computed
+            .iter()
+            .zip(table)
+            .map(|(c, t)| c / t - 1.0)
+            .collect();
         println!("a/b {ratio}: {off:.4?}");
         // Kalker's C33 is known to about 2 %.
         for (off, bound) in off.iter().zip([0.01, 0.01, 0.01, 0.01, 0.025]) {
@@ -41,7 +48,9 @@ fn small_creepages_give_kalkers_coefficients() {
 fn a_small_creepage_sticks() {
     let contact = RollingContact::new(1.0, 0.28).unwrap();
     let mut tractions = Tractions::default();
-    let [force, ..] = contact.solve_from([1e-2, 0.0, 0.0], &mut tractions).unwrap();
+    let [force, ..] = contact
+        .solve_from([1e-2, 0.0, 0.0], &mut tractions)
+        .unwrap();
     // Only the trailing edge slides, where the traction has no bound in linear theory.
     assert!(force.abs() < 0.05 && contact.greatest_utilisation(&tractions) <= 1.0 + 1e-9);
 }

@@ -6,8 +6,9 @@ use dashpot_reference::rolling_contact::{RollingContact, Tractions, full_sliding
 
 #[test]
 fn large_creepages_slide_fully() {
-    for a_over_b in [0.1, 0.2, 0.4, 1.0, 3.0] {
-        let contact = RollingContact::new(a_over_b, 0.28).unwrap();
+    for a_over_b in [0.2, 1.0, 3.0] {
+        // Strips enough to place the pole of spin, where the traction turns round.
+        let contact = RollingContact::with_mesh(a_over_b, 0.28, 30, 40).unwrap();
         for creepage in [
             [300.0, 0.0, 0.0],
             [-300.0, 400.0, 0.0],
@@ -21,7 +22,7 @@ fn large_creepages_slide_fully() {
             let sliding = full_sliding(a_over_b, creepage);
             println!("a/b {a_over_b} {creepage:?}: {rolling:.4?} {sliding:.4?}");
             for (rolling, sliding) in rolling.iter().zip(sliding) {
-                if (rolling - sliding).abs() > 0.01 {println!("!!!");}  
+                assert!((rolling - sliding).abs() < 0.01, "{a_over_b} {creepage:?}");
             }
             let used = contact.greatest_utilisation(&tractions);
             assert!(used <= 1.0 + 1e-9, "{used}");

@@ -23,7 +23,7 @@ const TINY: f64 = 1e-60;
 impl<R: Real> Coordinates<R> {
     /// Of the creepages `[longitudinal, lateral, spin]`.
     ///
-    /// With `(X, Y, Z) = G a b C22 / (mu N) (xi, eta, sqrt(a b) phi)` and `q = X^2 + Y^2 + Z^2` the creepages of the
+    /// With `(X, Y, Z) = G a b C22 / (mu N) (xi, eta, phi (a + b)/2)` and `q = X^2 + Y^2 + Z^2` the creepages of the
     /// book are `x = X (C11/C22 + q)/(1 + q)`, `y = Y`, `z = Z (C23/C22 + q)/(1 + q)`: forces of the linear theory
     /// where creepages are small, directions of sliding where they are large, whatever Poisson's ratio.
     #[inline]
@@ -32,7 +32,7 @@ impl<R: Real> Coordinates<R> {
         let k = &contact.kalker;
         let number = |number: f64| R::from(number);
         let (xi, eta) = (xi * number(scale.creepage), eta * number(scale.creepage));
-        let phi = phi * number(scale.creepage * scale.length);
+        let phi = phi * number(scale.creepage * scale.spin_arm);
         let q = (xi * xi + eta * eta + phi * phi) * number(k.c22 * k.c22);
         let weight = number(1.0) / (number(1.0) + q);
         let large = q * number(k.c22);
@@ -60,7 +60,9 @@ pub(super) struct Scale {
     /// `mu N`, N.
     pub(super) force: f64,
     /// `sqrt(a b)`, m.
-    pub(super) length: f64,
+    pub(super) moment_arm: f64,
+    /// `(a + b)/2`, m: what spin slides at counts from the longer semi-axis.
+    pub(super) spin_arm: f64,
     /// `G a b / (mu N)`.
     pub(super) creepage: f64,
 }
@@ -72,7 +74,8 @@ impl Scale {
         let force = contact.friction * contact.load_n;
         Self {
             force,
-            length: area.sqrt(),
+            moment_arm: area.sqrt(),
+            spin_arm: 0.5 * (contact.a_m + contact.b_m),
             creepage: contact.shear_modulus_pa * area / force,
         }
     }
@@ -81,9 +84,5 @@ impl Scale {
 /// The numbers of a creepage in the order of the coordinates' formulas.
 #[inline]
 pub(super) fn numbers(creepage: &Creepage) -> [f64; 3] {
-    [
-        creepage.longitudinal,
-        creepage.lateral,
-        creepage.spin_per_m,
-    ]
+    [creepage.longitudinal, creepage.lateral, creepage.spin_per_m]
 }

@@ -15,7 +15,7 @@ impl Layout {
     /// Number of ratios of the semi-axes, equal steps of `(a - b)/(a + b)`.
     pub const RATIOS: usize = 12;
     /// Cells of size, spin and direction.
-    pub const CELLS: [usize; 3] = [16, 8, 16];
+    pub const CELLS: [usize; 3] = [16, 10, 14];
     /// Greatest ratio of the semi-axes; the least is its reciprocal.
     pub const GREATEST_RATIO: f64 = 10.0;
 
@@ -131,24 +131,20 @@ impl<'a> Near<'a> {
         })
     }
 
+    /// Coefficients weighted axis by axis, so that opposite ones cancel without rounding.
     #[inline]
     fn sum(&self, [sizes, spins, directions]: [[f32; 3]; 3]) -> Coefficient {
-        let mut sum = [0.0; 4];
-        for (ratio, of_ratio) in [1.0 - self.ratio, self.ratio].into_iter().enumerate() {
-            for (size, of_size) in sizes.iter().enumerate() {
-                for (spin, of_spin) in spins.iter().enumerate() {
-                    let start = ratio * STRIDE[2] + size * STRIDE[1] + spin * STRIDE[0];
-                    let weight = of_ratio * of_size * of_spin;
-                    let row = &self.coefficients[start..start + 3];
-                    for lane in 0..4 {
-                        let across = directions[0] * row[0][lane]
-                            + directions[1] * row[1][lane]
-                            + directions[2] * row[2][lane];
-                        sum[lane] += weight * across;
-                    }
-                }
-            }
-        }
-        sum
+        let three =
+            |start: usize, stride: usize, weights: [f32; 3], of: &dyn Fn(usize) -> Coefficient| {
+                let [p, q, r] = [0, 1, 2].map(|k| of(start + k * stride));
+                std::array::from_fn(|lane| {
+                    weights[0] * p[lane] + weights[1] * q[lane] + weights[2] * r[lane]
+                })
+            };
+        let row = |start| three(start, 1, directions, &|at| self.coefficients[at]);
+        let page = |start| three(start, STRIDE[0], spins, &row);
+        let ratio = |start| three(start, STRIDE[1], sizes, &page);
+        let (here, next) = (ratio(0), ratio(STRIDE[2]));
+        std::array::from_fn(|lane| here[lane] + self.ratio * (next[lane] - here[lane]))
     }
 }
