@@ -37,7 +37,8 @@ fn forces_are_computed_without_allocating() {
     grid.yaw_squared_rad2.cells = [0, 1, 1];
     let geometry = ContactGeometry::new(pair, Steel::default(), 100e3).unwrap();
     let tables = Tables::new(geometry, grid).unwrap();
-    let contact = WheelsetContact::new(Arc::new(tables), KalkerBook::new(), Friction::default()).unwrap();
+    let contact =
+        WheelsetContact::new(Arc::new(tables), KalkerBook::new(), Friction::default()).unwrap();
     let rails = [RailDisplacement::default(); 2];
     let before = COUNT.load(Ordering::Relaxed);
     assert!(before > 0, "the counter does not count");

@@ -125,7 +125,13 @@ impl ContactGeometry {
         wheel
             .patches(lateral_m, &self.zones, self.softness_m, scratch)
             .map(|patch| {
-                TabulatedPatch::new(&self.pair, &self.steel, &self.kalker, &patch, wheel.roll_rad)
+                TabulatedPatch::new(
+                    &self.pair,
+                    &self.steel,
+                    &self.kalker,
+                    &patch,
+                    wheel.roll_rad,
+                )
             })
     }
 }

@@ -2,11 +2,12 @@
 
 use std::array::from_fn;
 
+use super::motion::Tangent;
 use super::surface::Surface;
 use crate::creep::{
     CreepDerivatives, CreepForces, CreepLaw, Creepage, KalkerCoefficients, LoadedContact,
 };
-use crate::math::number::{Dual, Number, Sides};
+use crate::math::number::{Number, Sides};
 
 /// A loaded contact and its creepages.
 pub(super) struct Contact<T> {
@@ -57,7 +58,7 @@ impl CreepNumber for Sides {
     }
 }
 
-impl CreepNumber for Dual {
+impl CreepNumber for Tangent {
     #[inline(always)]
     fn creep<L: CreepLaw>(
         contact: &Contact<Self>,
@@ -114,11 +115,11 @@ impl<T: Number> Contact<T> {
     }
 }
 
-impl Contact<Dual> {
+impl Contact<Tangent> {
     /// The forces as functions of all they depend on. Every law is `mu N f(x, y, z)` with
     /// `x = G ab C11 xi / (mu N)`, `y` and `z` likewise, and the moment has `sqrt(ab)` more: what changes the scale of a
     /// creepage acts on the force as the creepage itself does. (The explicit influence of `a/b` and `C33` is left out.)
-    fn differentiated(&self, derivatives: &CreepDerivatives, friction: Dual) -> [Dual; 3] {
+    fn differentiated(&self, derivatives: &CreepDerivatives, friction: Tangent) -> [Tangent; 3] {
         let creepage = self.creepage.map(|number| number.value());
         let kalker = self.kalker.map(|number| number.value());
         let limit = self.load * friction;
@@ -141,7 +142,7 @@ impl Contact<Dual> {
                 (scaled[1] * reciprocal(kalker[1]), self.kalker[1]),
                 (scaled[2] * reciprocal(kalker[2]), self.kalker[2]),
             ];
-            Dual::function(values[k], terms) * self.fraction
+            Tangent::function(values[k], terms) * self.fraction
         })
     }
 }

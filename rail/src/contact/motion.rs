@@ -1,6 +1,6 @@
 //! Motion of a wheelset and displacement of its rails, in track axes: x forward, y right, z down.
 
-use crate::math::number::Number;
+use crate::math::number::{Dual, Number};
 
 /// Position and velocity of a wheelset, which is turned by its yaw and then rolled about the rail's direction.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -62,6 +62,9 @@ fn all_accepted<const N: usize>(numbers: [f64; N]) -> bool {
 
 /// Number of fields of [`Motion`].
 pub const MOTION_FIELDS: usize = 10;
+
+/// A number with its derivatives by the fields of [`Motion`], filled up to three vectors of four.
+pub(super) type Tangent = Dual<12>;
 
 /// The fields of [`Motion`] in their order, with or without derivatives.
 pub(super) type MotionNumbers<T> = [T; MOTION_FIELDS];

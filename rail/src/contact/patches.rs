@@ -98,7 +98,9 @@ impl TurnedWheel<'_> {
             let highest = relatives
                 .clone()
                 .filter(|(_, together)| *together > 0.0)
-                .fold(own.height_m, |highest, (other, _)| highest.max(other.height_m));
+                .fold(own.height_m, |highest, (other, _)| {
+                    highest.max(other.height_m)
+                });
             let weight = |summit: &Summit| {
                 summit.weight_m * ((summit.height_m - highest) / softness_m).exp()
             };
@@ -162,7 +164,6 @@ impl TurnedWheel<'_> {
             patch,
         })
     }
-
 }
 
 impl Pair {

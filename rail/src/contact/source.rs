@@ -3,10 +3,10 @@
 use std::array::from_fn;
 
 use super::geometry::ContactGeometry;
+use super::motion::Tangent;
 use super::silhouette::WheelPose;
 use super::tables::{NUMBERS, TabulatedPatch};
 use super::zones::ZONES;
-use crate::math::number::Dual;
 
 /// A source of the patches of a wheel: [`Tables`](super::Tables) in real time, [`ContactGeometry`] where
 /// time does not matter and every number is to be smooth and in double precision.
@@ -53,10 +53,10 @@ pub(super) fn functions_of_pose<R: PatchReader>(
     reader: &R,
     zone: usize,
     interpenetration: f64,
-    pose: [Dual; 3],
-) -> (Dual, [Dual; NUMBERS]) {
+    pose: [Tangent; 3],
+) -> (Tangent, [Tangent; NUMBERS]) {
     let function = |value: f64, slopes: [f64; 3]| {
-        Dual::function(value, from_fn::<_, 3, _>(|axis| (slopes[axis], pose[axis])))
+        Tangent::function(value, from_fn::<_, 3, _>(|axis| (slopes[axis], pose[axis])))
     };
     let (numbers, slopes) = (reader.numbers(zone), reader.number_slopes(zone));
     (

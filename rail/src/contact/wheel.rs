@@ -80,7 +80,11 @@ impl<T: CreepNumber> Place<T> {
             vertical + lengths.below_top - rail.vertical,
         ]);
         Self {
-            pose: [across - lengths.beside_top, frame.roll - rail_roll.angle, frame.yaw],
+            pose: [
+                across - lengths.beside_top,
+                frame.roll - rail_roll.angle,
+                frame.yaw,
+            ],
             depth,
             frame,
             rail,
@@ -98,7 +102,20 @@ impl<T: CreepNumber> Place<T> {
         numbers: [T; NUMBERS],
     ) -> Patch<T> {
         let (frame, rail) = (&self.frame, &self.rail);
-        let [wheel_y, wheel_z, rail_slope, fraction, stiffness, a, b, c11, c22, c23, c33, _] = numbers;
+        let [
+            wheel_y,
+            wheel_z,
+            rail_slope,
+            fraction,
+            stiffness,
+            a,
+            b,
+            c11,
+            c22,
+            c23,
+            c33,
+            _,
+        ] = numbers;
         let penetration = depth * cosine(rail_slope);
         let slope = self.rail_roll.into_track(rail_slope);
         let cos = cosine(slope);

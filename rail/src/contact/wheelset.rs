@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::forces::{PatchForces, Status, WheelDerivatives, WheelForces, WheelsetForces};
 use super::frame::Frame;
 use super::geometry::ContactGeometry;
-use super::motion::{MOTION_FIELDS, Motion, ODD, RailDisplacement, RailNumbers};
+use super::motion::{MOTION_FIELDS, Motion, ODD, RailDisplacement, RailNumbers, Tangent};
 use super::silhouette::WheelPose;
 use super::source::{PatchReader, PatchSource, functions_of_pose, sealed::Source};
 use super::surface::{MAX_NORMAL_DAMPING_S_PER_M, Surface, SurfaceError};
@@ -14,7 +14,7 @@ use super::tables::{NUMBERS, Tables};
 use super::wheel::{Place, WheelLengths, Wrench};
 use super::zones::ZONES;
 use crate::creep::{CreepLaw, Friction};
-use crate::math::number::{Dual, Number, Sides};
+use crate::math::number::{Number, Sides};
 
 /// The contact of a wheelset: constant, shared by every wheelset of the same profiles.
 ///
@@ -39,7 +39,7 @@ pub struct WheelsetContact<L, S = Tables> {
     /// Of the left wheel (as its mirror image on the right side) and of the right wheel.
     sources: [Arc<S>; 2],
     surface: Surface<L>,
-    lengths: [WheelLengths<Dual>; 2],
+    lengths: [WheelLengths<Tangent>; 2],
     lengths_of_sides: WheelLengths<Sides>,
 }
 
@@ -65,9 +65,8 @@ impl<L: CreepLaw, S: PatchSource> WheelsetContact<L, S> {
         friction: Friction,
     ) -> Result<Self, SurfaceError> {
         friction.check()?;
-        let mean = |of: fn(&ContactGeometry) -> f64| {
-            0.5 * (of(left.geometry()) + of(right.geometry()))
-        };
+        let mean =
+            |of: fn(&ContactGeometry) -> f64| 0.5 * (of(left.geometry()) + of(right.geometry()));
         let surface = Surface {
             law,
             friction,
@@ -76,7 +75,7 @@ impl<L: CreepLaw, S: PatchSource> WheelsetContact<L, S> {
         };
         let height_m = mean(|geometry| geometry.pair().installation().wheel_radius_m);
         let of_side = |side: &Arc<S>| {
-            WheelLengths::new(|of| Dual::constant(of(side.geometry())), height_m)
+            WheelLengths::new(|of| Tangent::constant(of(side.geometry())), height_m)
         };
         Ok(Self {
             surface,
@@ -137,7 +136,11 @@ impl<L: CreepLaw, S: PatchSource> WheelsetContact<L, S> {
         }
         let values = motion.numbers();
         let numbers = from_fn(|field| {
-            let left = if ODD[field] { -values[field] } else { values[field] };
+            let left = if ODD[field] {
+                -values[field]
+            } else {
+                values[field]
+            };
             Sides::from([left, values[field]])
         });
         let rail = RailNumbers::new(
@@ -203,19 +206,23 @@ impl<L: CreepLaw, S: PatchSource> WheelsetContact<L, S> {
         for side in 0..2 {
             let sign = if side == 0 { -1.0 } else { 1.0 };
             let numbers = from_fn(|field| {
-                let variable = Dual::variable(values[field], field);
-                if ODD[field] { variable * sign } else { variable }
+                let variable = Tangent::variable(values[field], field);
+                if ODD[field] {
+                    variable * sign
+                } else {
+                    variable
+                }
             });
             let rail = RailNumbers::new(
-                |of| Dual::constant(of(&rails[side])),
-                |of| Dual::constant(sign * of(&rails[side])),
+                |of| Tangent::constant(of(&rails[side])),
+                |of| Tangent::constant(sign * of(&rails[side])),
             );
             let place = Place::new(Frame::new(&numbers), rail, self.lengths[side]);
             let wheel = &mut forces.wheels[side];
             let source = self.sources[side].as_ref();
             let pose = place.pose.map(|number| number.value());
             let loaded = LoadedZones::of(source, pose, place.depth.value(), wheel);
-            let mut wrench = [Dual::constant(0.0); 6];
+            let mut wrench = [Tangent::constant(0.0); 6];
             for &zone in &loaded.zones[..loaded.count] {
                 let value = loaded.interpenetrations[zone];
                 let (interpenetration, numbers) =
@@ -326,8 +333,8 @@ impl<'a, R: PatchReader> LoadedZones<R> {
 
 impl WheelDerivatives {
     /// Those of the wrench on a wheel, or on the mirror image (`sign` -1) of the left wheel.
-    fn of(wrench: &Wrench<Dual>, sign: f64) -> Self {
-        let by_field = |number: &Dual, sign: f64| -> [f64; MOTION_FIELDS] {
+    fn of(wrench: &Wrench<Tangent>, sign: f64) -> Self {
+        let by_field = |number: &Tangent, sign: f64| -> [f64; MOTION_FIELDS] {
             from_fn(|field| sign * f64::from(number.derivatives()[field]))
         };
         let [fx, fy, fz, mx, my, mz] = wrench;

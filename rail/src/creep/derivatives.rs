@@ -29,8 +29,7 @@ impl CreepDerivatives {
         let values = forces.components();
         let by_load = |k: usize| {
             let [by_longitudinal, by_lateral, _] = by_creepage[k];
-            let creepages =
-                by_longitudinal * creepage.longitudinal + by_lateral * creepage.lateral;
+            let creepages = by_longitudinal * creepage.longitudinal + by_lateral * creepage.lateral;
             let exponent = if k == 2 { 4.0 / 3.0 } else { 1.0 };
             (exponent * values[k] - creepages / 3.0) / contact.load_n
         };

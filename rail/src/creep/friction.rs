@@ -47,9 +47,17 @@ impl Friction {
     /// A coefficient not within 0 to 2, a ratio not within 0 to 1, a decay speed not within 0.001 to 1000 m/s.
     pub fn check(&self) -> Result<(), FrictionError> {
         let allowed = [
-            ("static friction coefficient", self.static_coefficient, [0.0, 2.0]),
+            (
+                "static friction coefficient",
+                self.static_coefficient,
+                [0.0, 2.0],
+            ),
             ("residual friction ratio", self.residual_ratio, [0.0, 1.0]),
-            ("friction decay speed", self.decay_speed_m_per_s, [1e-3, 1e3]),
+            (
+                "friction decay speed",
+                self.decay_speed_m_per_s,
+                [1e-3, 1e3],
+            ),
         ];
         for (name, value, allowed) in allowed {
             if !(allowed[0]..=allowed[1]).contains(&value) {

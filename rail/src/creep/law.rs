@@ -109,6 +109,24 @@ pub trait CreepLaw: Send + Sync {
     }
 }
 
+impl<L: CreepLaw + ?Sized> CreepLaw for Box<L> {
+    fn unlimited_forces(&self, contact: &LoadedContact, creepage: &Creepage) -> CreepForces {
+        self.as_ref().unlimited_forces(contact, creepage)
+    }
+
+    fn forces(&self, contact: &LoadedContact, creepage: &Creepage) -> CreepForces {
+        self.as_ref().forces(contact, creepage)
+    }
+
+    fn forces_with_derivatives(
+        &self,
+        contact: &LoadedContact,
+        creepage: &Creepage,
+    ) -> CreepDerivatives {
+        self.as_ref().forces_with_derivatives(contact, creepage)
+    }
+}
+
 /// Whether load, friction and semi-axes are positive and finite.
 #[inline]
 pub(super) fn is_loaded(contact: &LoadedContact) -> bool {

@@ -1,7 +1,7 @@
 //! Numbers that are more than one: one text for the forces on both wheels side by side, and for their tangents.
 
 use std::array::from_fn;
-use std::ops::{Add, Mul, Neg, Sub};
+use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use wide::f64x2;
 
@@ -11,6 +11,7 @@ pub trait Number:
     + Add<Output = Self>
     + Sub<Output = Self>
     + Mul<Output = Self>
+    + Div<Output = Self>
     + Neg<Output = Self>
     + Add<f64, Output = Self>
     + Mul<f64, Output = Self>
@@ -32,6 +33,38 @@ pub trait Number:
 
     /// The number, or zero where it is negative.
     fn not_negative(self) -> Self;
+}
+
+impl Number for f64 {
+    #[inline(always)]
+    fn constant(value: f64) -> Self {
+        value
+    }
+
+    #[inline(always)]
+    fn lane(self, _: usize) -> f64 {
+        self
+    }
+
+    #[inline(always)]
+    fn reciprocal(self) -> Self {
+        1.0 / self
+    }
+
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        f64::sqrt(self)
+    }
+
+    #[inline(always)]
+    fn limited(self, limit: f64) -> Self {
+        self.clamp(-limit, limit)
+    }
+
+    #[inline(always)]
+    fn not_negative(self) -> Self {
+        self.max(0.0)
+    }
 }
 
 /// The left and the right wheel, one in each lane.
@@ -107,7 +140,7 @@ macro_rules! by_lane {
         }
     )*};
 }
-by_lane!(Add add, Sub sub, Mul mul);
+by_lane!(Add add, Sub sub, Mul mul, Div div);
 
 impl Neg for Sides {
     type Output = Self;
@@ -118,18 +151,15 @@ impl Neg for Sides {
     }
 }
 
-/// Number of variables that a [`Dual`] can be differentiated by: three vectors of four.
-pub const VARIABLES: usize = 12;
-
-/// A number and its derivatives by [`VARIABLES`] variables (forward automatic differentiation). The derivatives are in
-/// single precision: a tangent needs no more, and four of them take one instruction.
+/// A number and its derivatives by `N` variables (forward automatic differentiation). The derivatives are in single
+/// precision: a tangent needs no more, and four of them take one instruction.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Dual {
+pub struct Dual<const N: usize> {
     value: f64,
-    derivatives: [f32; VARIABLES],
+    derivatives: [f32; N],
 }
 
-impl Dual {
+impl<const N: usize> Dual<N> {
     /// The variable number `index` at `value`.
     pub fn variable(value: f64, index: usize) -> Self {
         Self {
@@ -145,14 +175,14 @@ impl Dual {
     }
 
     /// The derivatives by the variables.
-    pub fn derivatives(&self) -> &[f32; VARIABLES] {
+    pub fn derivatives(&self) -> &[f32; N] {
         &self.derivatives
     }
 
     /// The function of `terms` that has this `value` and the given derivative by each term.
     #[inline(always)]
-    pub fn function<const N: usize>(value: f64, terms: [(f64, Self); N]) -> Self {
-        let mut derivatives = [0.0; VARIABLES];
+    pub fn function<const TERMS: usize>(value: f64, terms: [(f64, Self); TERMS]) -> Self {
+        let mut derivatives = [0.0; N];
         for (slope, term) in terms {
             let slope = slope as f32;
             for (sum, derivative) in derivatives.iter_mut().zip(term.derivatives) {
@@ -163,12 +193,12 @@ impl Dual {
     }
 }
 
-impl Number for Dual {
+impl<const N: usize> Number for Dual<N> {
     #[inline(always)]
     fn constant(value: f64) -> Self {
         Self {
             value,
-            derivatives: [0.0; VARIABLES],
+            derivatives: [0.0; N],
         }
     }
 
@@ -208,7 +238,7 @@ impl Number for Dual {
     }
 }
 
-impl Add for Dual {
+impl<const N: usize> Add for Dual<N> {
     type Output = Self;
 
     #[inline(always)]
@@ -220,7 +250,7 @@ impl Add for Dual {
     }
 }
 
-impl Sub for Dual {
+impl<const N: usize> Sub for Dual<N> {
     type Output = Self;
 
     #[inline(always)]
@@ -232,20 +262,27 @@ impl Sub for Dual {
     }
 }
 
-impl Mul for Dual {
+impl<const N: usize> Mul for Dual<N> {
     type Output = Self;
 
     #[inline(always)]
     fn mul(self, other: Self) -> Self {
-        let (here, there) = (self.value as f32, other.value as f32);
-        Self {
-            value: self.value * other.value,
-            derivatives: from_fn(|i| self.derivatives[i] * there + here * other.derivatives[i]),
-        }
+        let product = self.value * other.value;
+        Self::function(product, [(other.value, self), (self.value, other)])
     }
 }
 
-impl Neg for Dual {
+impl<const N: usize> Div for Dual<N> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn div(self, other: Self) -> Self {
+        let (quotient, per) = (self.value / other.value, 1.0 / other.value);
+        Self::function(quotient, [(per, self), (-quotient * per, other)])
+    }
+}
+
+impl<const N: usize> Neg for Dual<N> {
     type Output = Self;
 
     #[inline(always)]
@@ -254,7 +291,7 @@ impl Neg for Dual {
     }
 }
 
-impl Add<f64> for Dual {
+impl<const N: usize> Add<f64> for Dual<N> {
     type Output = Self;
 
     #[inline(always)]
@@ -266,15 +303,12 @@ impl Add<f64> for Dual {
     }
 }
 
-impl Mul<f64> for Dual {
+impl<const N: usize> Mul<f64> for Dual<N> {
     type Output = Self;
 
     #[inline(always)]
     fn mul(self, other: f64) -> Self {
-        Self {
-            value: self.value * other,
-            derivatives: self.derivatives.map(|derivative| derivative * other as f32),
-        }
+        Self::function(self.value * other, [(other, self)])
     }
 }
 
@@ -284,12 +318,12 @@ mod tests {
 
     /// `x^2 y / sqrt(x) - 2 x + 1/y`
     fn formula<T: Number>(x: T, y: T) -> T {
-        x * x * y * x.sqrt().reciprocal() - x * 2.0 + y.reciprocal()
+        x * x * y / x.sqrt() - x * 2.0 + y.reciprocal()
     }
 
     #[test]
     fn derivatives_are_those_of_closed_forms() {
-        let (x, y) = (Dual::variable(0.7, 0), Dual::variable(-1.3, 3));
+        let (x, y) = (Dual::<4>::variable(0.7, 0), Dual::variable(-1.3, 3));
         let f = formula(x, y);
         assert!((f.value() - (-1.3 * 0.7_f64.powf(1.5) - 1.4 - 1.0 / 1.3)).abs() < 1e-14);
         let by_x = -1.3 * 1.5 * 0.7_f64.sqrt() - 2.0;
@@ -306,7 +340,7 @@ mod tests {
     #[test]
     fn each_lane_has_its_own_number() {
         let sides = formula(Sides::from([0.7, 2.0]), Sides::from([-1.3, 0.5]));
-        let alone = |x: f64, y: f64| formula(Dual::constant(x), Dual::constant(y)).value();
+        let alone = |x: f64, y: f64| formula(x, y);
         assert_eq!(<[f64; 2]>::from(sides), [alone(0.7, -1.3), alone(2.0, 0.5)]);
         let limited = Sides::from([-3.0, 0.2]).limited(1.0);
         assert_eq!(<[f64; 2]>::from(limited), [-1.0, 0.2]);

@@ -51,10 +51,7 @@ fn worst<L: CreepLaw, S: PatchSource>(
             let rows = |of: fn(&dashpot_rail::contact::WheelForces) -> [f64; 3],
                         by: &[[f64; MOTION_FIELDS]; 3]| {
                 let (b, h, a) = (of(b), of(h), of(a));
-                let scale = by
-                    .iter()
-                    .map(|row| row[index].abs())
-                    .fold(1.0, f64::max);
+                let scale = by.iter().map(|row| row[index].abs()).fold(1.0, f64::max);
                 (0..3)
                     .map(|k| {
                         let (left, right) = ((h[k] - b[k]) / step, (a[k] - h[k]) / step);

@@ -75,7 +75,7 @@ fn from_grid(law: &dyn CreepLaw) -> [(f64, f64); 4] {
 /// Force on a wheelset of 206 kN over its friction: on the treads (3 mm, 2 mrad), and with the flange in contact
 /// (6.4 mm, 6 mrad).
 fn on_a_wheelset(law: impl CreepLaw) -> [[f64; 3]; 2] {
-    let contact = WheelsetContact::new(tables().clone(), law, Friction::default());
+    let contact = WheelsetContact::new(tables(), law, Friction::default()).unwrap();
     [(3e-3, 2e-3), (6.4e-3, 6e-3)].map(|(lateral_m, yaw_rad)| {
         let motion = Motion {
             lateral_m,
@@ -117,7 +117,9 @@ fn table_errors() -> Vec<(&'static str, f64, f64)> {
         let summit = computed
             .iter()
             .filter(|patch| patch.load_fraction > 0.0)
-            .fold(f64::MIN, |summit, patch| summit.max(patch.interpenetration_m));
+            .fold(f64::MIN, |summit, patch| {
+                summit.max(patch.interpenetration_m)
+            });
         for (r, c) in read.iter().zip(&computed) {
             // A patch 0.3 mm or more above the other one carries no load.
             if c.load_fraction < 0.5 || c.interpenetration_m < summit - 0.3e-3 {

@@ -10,6 +10,7 @@ mod fastsim;
 mod geometry;
 mod laws;
 mod normal;
+mod patches;
 mod profiles;
 mod published;
 mod safety;

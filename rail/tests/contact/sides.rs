@@ -16,7 +16,9 @@ fn of(installation: Installation) -> Arc<ContactGeometry> {
     Arc::new(ContactGeometry::new(pair, Steel::default(), 103e3).unwrap())
 }
 
-fn contact(sides: [Arc<ContactGeometry>; 2]) -> WheelsetContact<ShenHedrickElkins, ContactGeometry> {
+fn contact(
+    sides: [Arc<ContactGeometry>; 2],
+) -> WheelsetContact<ShenHedrickElkins, ContactGeometry> {
     WheelsetContact::with_sides(sides, ShenHedrickElkins, Friction::default()).unwrap()
 }
 
@@ -43,9 +45,12 @@ fn a_larger_wheel_reaches_deeper_and_rolls_on_its_own_radius() {
             (found.force_n[2] / expected.force_n[2] - 1.0).abs() < 2e-4,
             "{found:?} {expected:?}"
         );
-        let [found, expected] = [found, expected]
-            .map(|wheel| wheel.loaded_patches().next().unwrap().rolling_radius_m);
-        assert!((found - expected - deeper_m).abs() < 1e-7, "{found} {expected}");
+        let [found, expected] =
+            [found, expected].map(|wheel| wheel.loaded_patches().next().unwrap().rolling_radius_m);
+        assert!(
+            (found - expected - deeper_m).abs() < 1e-7,
+            "{found} {expected}"
+        );
     }
     // The larger right wheel drives forward, the smaller left one brakes: the nose turns left.
     assert!(forces.wheels[1].force_n[0] > forces.wheels[0].force_n[0] + 1e3);
@@ -136,7 +141,10 @@ fn a_rolling_rail_carries_the_contact_along() {
     let turning = damped.forces(&motion, &[LEVEL[0], rail]).wheels[1];
     let load = turning.loaded_patches().next().unwrap().load_n;
     let expected = 1.0 - 10.0 * rate * beside_top;
-    assert!((load / patch.load_n / expected - 1.0).abs() < 1e-3, "{load} {expected}");
+    assert!(
+        (load / patch.load_n / expected - 1.0).abs() < 1e-3,
+        "{load} {expected}"
+    );
 }
 
 #[test]
@@ -183,7 +191,8 @@ fn a_left_wheel_of_its_own_is_read_on_the_left() {
     let motion = at_height_under_load(&both, &rolling(20.0), 206e3);
     let (both, mixed) = (both.forces(&motion, &LEVEL), mixed.forces(&motion, &LEVEL));
     assert_eq!(both.wheels[1], mixed.wheels[1]);
-    let place = |forces: &WheelsetForces| forces.wheels[0].loaded_patches().next().unwrap().wheel_y_m;
+    let place =
+        |forces: &WheelsetForces| forces.wheels[0].loaded_patches().next().unwrap().wheel_y_m;
     assert!((place(&both) - place(&mixed)).abs() > 2e-3);
 }
 
@@ -199,7 +208,10 @@ fn profiles_that_change_along_the_track_change_the_forces_evenly() {
     let pair = Pair::new(wheel, &worn, Installation::default()).unwrap();
     let worn = Arc::new(ContactGeometry::new(pair, Steel::default(), 103e3).unwrap());
     let new = Arc::new(geometry().clone());
-    let (new, worn) = (contact([Arc::clone(&new), new]), contact([Arc::clone(&worn), worn]));
+    let (new, worn) = (
+        contact([Arc::clone(&new), new]),
+        contact([Arc::clone(&worn), worn]),
+    );
     let motion = at_height_under_load(&new, &rolling(20.0), 206e3);
     let (from, to) = (new.forces(&motion, &LEVEL), worn.forces(&motion, &LEVEL));
     let change = from.force_n[2] - to.force_n[2];

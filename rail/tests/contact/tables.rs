@@ -73,7 +73,10 @@ fn elastic_constants_and_loads_out_of_bounds_are_refused() {
     }
     for nominal_load_n in [0.0, -100e3, 1e7, f64::NAN] {
         let error = refused(steel, nominal_load_n);
-        assert!(error.to_string().contains("allowed: 100 to 1000000 N"), "{error}");
+        assert!(
+            error.to_string().contains("allowed: 100 to 1000000 N"),
+            "{error}"
+        );
     }
 }
 
@@ -81,10 +84,22 @@ fn elastic_constants_and_loads_out_of_bounds_are_refused() {
 fn frictions_and_dampings_out_of_bounds_are_refused() {
     let friction = Friction::default();
     for bad in [
-        Friction { static_coefficient: -0.1, ..friction },
-        Friction { static_coefficient: f64::NAN, ..friction },
-        Friction { residual_ratio: 1.1, ..friction },
-        Friction { decay_speed_m_per_s: 0.0, ..friction },
+        Friction {
+            static_coefficient: -0.1,
+            ..friction
+        },
+        Friction {
+            static_coefficient: f64::NAN,
+            ..friction
+        },
+        Friction {
+            residual_ratio: 1.1,
+            ..friction
+        },
+        Friction {
+            decay_speed_m_per_s: 0.0,
+            ..friction
+        },
     ] {
         let error = WheelsetContact::new(tables(), Polach, bad).unwrap_err();
         assert!(matches!(
@@ -96,7 +111,10 @@ fn frictions_and_dampings_out_of_bounds_are_refused() {
     for damping in [-1.0, 101.0, f64::NAN] {
         let contact = WheelsetContact::new(tables(), Polach, friction).unwrap();
         let error = contact.with_normal_damping(damping).unwrap_err();
-        assert!(matches!(error, SurfaceError::NormalDamping { .. }), "{error}");
+        assert!(
+            matches!(error, SurfaceError::NormalDamping { .. }),
+            "{error}"
+        );
     }
 }
 

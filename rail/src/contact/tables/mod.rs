@@ -172,9 +172,18 @@ impl sealed::Source for Tables {
         };
         let place = [shift.place, roll.place, yaw.place];
         Cell {
-            rows: [row(0), row(roll_stride), row(yaw_stride), row(yaw_stride + roll_stride)],
+            rows: [
+                row(0),
+                row(roll_stride),
+                row(yaw_stride),
+                row(yaw_stride + roll_stride),
+            ],
             place,
-            cells_per_unit: [shift.cells_per_unit, roll.cells_per_unit, yaw.cells_per_unit],
+            cells_per_unit: [
+                shift.cells_per_unit,
+                roll.cells_per_unit,
+                yaw.cells_per_unit,
+            ],
             yaw_slopes: [2.0 * pose.yaw_rad * self.yaw_shift_m, 2.0 * pose.yaw_rad],
             is_inside: shift.is_inside & roll.is_inside & yaw.is_inside,
             weights: Weights::at(place),

@@ -48,7 +48,9 @@ impl Node {
         let (doubles, _) = doubles.as_chunks::<8>();
         let (singles, _) = singles.as_chunks::<4>();
         let quad = |first: usize| {
-            f32x4::from(std::array::from_fn(|i| f32::from_le_bytes(singles[first + i])))
+            f32x4::from(std::array::from_fn(|i| {
+                f32::from_le_bytes(singles[first + i])
+            }))
         };
         Self {
             interpenetrations: std::array::from_fn(|zone| f64::from_le_bytes(doubles[zone])),

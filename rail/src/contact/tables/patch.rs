@@ -85,8 +85,24 @@ impl TabulatedPatch {
     }
 
     #[inline]
-    pub(in crate::contact) fn from_numbers(interpenetration_m: f64, numbers: [f64; NUMBERS]) -> Self {
-        let [y, z, slope, load_fraction, stiffness, a, b, c11, c22, c23, c33, _] = numbers;
+    pub(in crate::contact) fn from_numbers(
+        interpenetration_m: f64,
+        numbers: [f64; NUMBERS],
+    ) -> Self {
+        let [
+            y,
+            z,
+            slope,
+            load_fraction,
+            stiffness,
+            a,
+            b,
+            c11,
+            c22,
+            c23,
+            c33,
+            _,
+        ] = numbers;
         Self {
             interpenetration_m,
             wheel_y_m: y,

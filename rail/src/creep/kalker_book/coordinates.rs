@@ -1,7 +1,7 @@
 //! Where a contact and its creepage lie in the book: creepages and forces as dimensionless numbers.
 
 use crate::creep::{Creepage, LoadedContact};
-use crate::math::dual::Real;
+use crate::math::number::Number;
 
 /// A place in the book, for a creepage that is turned into the book's quarter of all directions.
 #[derive(Debug, Clone, Copy)]
@@ -20,7 +20,7 @@ pub(super) struct Coordinates<R> {
 /// A square that keeps directions without creepage from being 0/0.
 const TINY: f64 = 1e-60;
 
-impl<R: Real> Coordinates<R> {
+impl<R: Number> Coordinates<R> {
     /// Of the creepages `[longitudinal, lateral, spin]`.
     ///
     /// With `(X, Y, Z) = G a b C22 / (mu N) (xi, eta, phi (a + b)/2)` and `q = X^2 + Y^2 + Z^2` the creepages of the
@@ -30,24 +30,24 @@ impl<R: Real> Coordinates<R> {
     pub(super) fn new(contact: &LoadedContact, scale: &Scale, creepage: [R; 3]) -> Self {
         let [xi, eta, phi] = creepage;
         let k = &contact.kalker;
-        let number = |number: f64| R::from(number);
-        let (xi, eta) = (xi * number(scale.creepage), eta * number(scale.creepage));
-        let phi = phi * number(scale.creepage * scale.spin_arm);
-        let q = (xi * xi + eta * eta + phi * phi) * number(k.c22 * k.c22);
-        let weight = number(1.0) / (number(1.0) + q);
-        let large = q * number(k.c22);
-        let x = xi * (number(k.c11) + large) * weight;
-        let y = eta * number(k.c22);
-        let z = phi * (number(k.c23) + large) * weight;
-        let signs = [x.value(), z.value()].map(|value| 1f64.copysign(value));
-        let (x, y, z) = (x.abs(), y * number(signs[1]), z.abs());
-        let square = x * x + y * y + number(TINY);
+        let (xi, eta) = (xi * scale.creepage, eta * scale.creepage);
+        let phi = phi * (scale.creepage * scale.spin_arm);
+        let q = (xi * xi + eta * eta + phi * phi) * (k.c22 * k.c22);
+        let weight = (q + 1.0).reciprocal();
+        let large = q * k.c22;
+        let (x, z) = (
+            xi * (large + k.c11) * weight,
+            phi * (large + k.c23) * weight,
+        );
+        let signs = [x.lane(0), z.lane(0)].map(|value| 1f64.copysign(value));
+        let (x, y, z) = (x * signs[0], eta * (k.c22 * signs[1]), z * signs[1]);
+        let square = x * x + y * y + TINY;
         let s = square.sqrt();
         let r = (square + z * z).sqrt();
         let h = z / (r + s);
         Self {
-            size: r / (r + number(1.0)),
-            spin: h * (number(9.0) - h * h) * number(0.125),
+            size: r / (r + 1.0),
+            spin: h * (-(h * h) + 9.0) * 0.125,
             direction: y / (s + x),
             signs,
         }

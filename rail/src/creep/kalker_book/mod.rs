@@ -10,7 +10,7 @@ use pages::{Near, pages};
 use super::creepage::Creepage;
 use super::derivatives::CreepDerivatives;
 use super::law::{CreepForces, CreepLaw, LoadedContact, is_loaded};
-use crate::math::dual::{Dual, Real};
+use crate::math::number::{Dual, Number};
 
 /// Kalker's exact theory of rolling contact from a precomputed book of tables (the idea of his USETAB, Vehicle System
 /// Dynamics 27, 1997): the recommended law, with any spin.
@@ -51,11 +51,11 @@ impl KalkerBook {
     }
 
     #[inline]
-    fn near<R: Real>(&self, contact: &LoadedContact, at: &Coordinates<R>) -> Near<'static> {
+    fn near<R: Number>(&self, contact: &LoadedContact, at: &Coordinates<R>) -> Near<'static> {
         Near::new(
             self.pages,
             [contact.a_m, contact.b_m],
-            [at.size, at.spin, at.direction].map(R::value),
+            [at.size, at.spin, at.direction].map(|coordinate| coordinate.lane(0)),
         )
     }
 }
@@ -99,29 +99,27 @@ impl CreepLaw for KalkerBook {
         if !is_loaded(contact) {
             return CreepDerivatives::default();
         }
-        let numbers = numbers(&creepage.bounded());
+        let creepage = creepage.bounded();
+        let numbers = numbers(&creepage);
         let scale = Scale::new(contact);
-        let variables = [0, 1, 2].map(|k| Dual::variable(numbers[k], k));
+        let variables = [0, 1, 2].map(|k| Dual::<3>::variable(numbers[k], k));
         let at = Coordinates::new(contact, &scale, variables);
         let near = self.near(contact, &at);
-        let gradient = near.gradient();
+        let (value, gradient) = (near.value(), near.gradient());
         let of_book = |k: usize| {
-            let [size, spin, direction] = [0, 1, 2].map(|axis| f64::from(gradient[axis][k]));
-            Dual {
-                value: f64::from(near.value()[k]),
-                by: [0, 1, 2].map(|c| {
-                    size * at.size.by[c] + spin * at.spin.by[c] + direction * at.direction.by[c]
-                }),
-            }
+            let [size, spin, direction] = gradient.map(|slopes| f64::from(slopes[k]));
+            let terms = [(size, at.size), (spin, at.spin), (direction, at.direction)];
+            Dual::function(f64::from(value[k]), terms)
         };
         let forces = forces([0, 1, 2].map(of_book), &at, &scale);
-        let [longitudinal_n, lateral_n, moment_n_m] = forces.map(|force| force.value);
+        let [longitudinal_n, lateral_n, moment_n_m] = forces.map(|force| force.value());
         let values = CreepForces {
             longitudinal_n,
             lateral_n,
             moment_n_m,
         };
-        CreepDerivatives::new(values, forces.map(|force| force.by), contact, creepage)
+        let by_creepage = forces.map(|force| force.derivatives().map(f64::from));
+        CreepDerivatives::new(values, by_creepage, contact, &creepage)
     }
 }
 
@@ -130,29 +128,28 @@ const BEND: f64 = 0.005;
 
 /// Forces in N and N m from the numbers of the book.
 #[inline]
-fn forces<R: Real>([x, y, moment]: [R; 3], at: &Coordinates<R>, scale: &Scale) -> [R; 3] {
-    let one = R::from(1.0);
-    let per = one / (one + at.direction * at.direction);
+fn forces<R: Number>([x, y, moment]: [R; 3], at: &Coordinates<R>, scale: &Scale) -> [R; 3] {
+    let per = (at.direction * at.direction + 1.0).reciprocal();
     let limited = limited((x * x + y * y) * per * per);
-    let force = R::from(scale.force) * per;
-    let [along, across] = at.signs.map(|sign| force * R::from(sign));
+    let force = per * scale.force;
+    let [along, across] = at.signs.map(|sign| force * sign);
     [
         x * along * limited,
         y * across * limited,
-        moment * across * R::from(scale.moment_arm),
+        moment * across * scale.moment_arm,
     ]
 }
 
 /// Factor that keeps a force with this square within 1, where the spline overshoots, and its slope continuous.
 #[inline]
-fn limited<R: Real>(square: R) -> R {
-    if square.value() <= (1.0 - BEND) * (1.0 - BEND) {
-        return R::from(1.0);
+fn limited<R: Number>(square: R) -> R {
+    if square.lane(0) <= (1.0 - BEND) * (1.0 - BEND) {
+        return R::constant(1.0);
     }
     let force = square.sqrt();
-    if force.value() >= 1.0 + BEND {
-        return R::from(1.0) / force;
+    if force.lane(0) >= 1.0 + BEND {
+        return force.reciprocal();
     }
-    let beyond = force - R::from(1.0 - BEND);
-    (force - beyond * beyond * R::from(0.25 / BEND)) / force
+    let beyond = force + (BEND - 1.0);
+    (force - beyond * beyond * (0.25 / BEND)) / force
 }

@@ -2,6 +2,8 @@
 
 use std::sync::OnceLock;
 
+use wide::f32x4;
+
 /// Layout of the book's file, for what writes and checks it.
 ///
 /// The forces are `f = N(size, spin, direction) / (1 + direction^2)`, where `N` is a quadratic B-spline on equal cells,
@@ -133,18 +135,27 @@ impl<'a> Near<'a> {
 
     /// Coefficients weighted axis by axis, so that opposite ones cancel without rounding.
     #[inline]
-    fn sum(&self, [sizes, spins, directions]: [[f32; 3]; 3]) -> Coefficient {
-        let three =
-            |start: usize, stride: usize, weights: [f32; 3], of: &dyn Fn(usize) -> Coefficient| {
-                let [p, q, r] = [0, 1, 2].map(|k| of(start + k * stride));
-                std::array::from_fn(|lane| {
-                    weights[0] * p[lane] + weights[1] * q[lane] + weights[2] * r[lane]
-                })
-            };
-        let row = |start| three(start, 1, directions, &|at| self.coefficients[at]);
-        let page = |start| three(start, STRIDE[0], spins, &row);
-        let ratio = |start| three(start, STRIDE[1], sizes, &page);
-        let (here, next) = (ratio(0), ratio(STRIDE[2]));
-        std::array::from_fn(|lane| here[lane] + self.ratio * (next[lane] - here[lane]))
+    fn sum(&self, weights: [[f32; 3]; 3]) -> Coefficient {
+        let [sizes, spins, directions] = weights.map(|weights| weights.map(f32x4::splat));
+        let three = |[p, q, r]: [f32x4; 3], weights: [f32x4; 3]| {
+            p * weights[0] + q * weights[1] + r * weights[2]
+        };
+        let at = |index: usize| f32x4::from(self.coefficients[index]);
+        let row = |start: usize| three([at(start), at(start + 1), at(start + 2)], directions);
+        let [to_spin, to_size, to_ratio] = STRIDE;
+        let page = |start: usize| {
+            let rows = [row(start), row(start + to_spin), row(start + 2 * to_spin)];
+            three(rows, spins)
+        };
+        let ratio = |start: usize| {
+            let pages = [
+                page(start),
+                page(start + to_size),
+                page(start + 2 * to_size),
+            ];
+            three(pages, sizes)
+        };
+        let (here, next) = (ratio(0), ratio(to_ratio));
+        (here + f32x4::splat(self.ratio) * (next - here)).to_array()
     }
 }

@@ -3,8 +3,8 @@
 use std::sync::{Arc, OnceLock};
 
 use dashpot_rail::contact::{
-    ContactGeometry, Grid, Installation, Motion, Pair, PatchSource, RailDisplacement, Steel, Tables,
-    WheelsetContact,
+    ContactGeometry, Grid, Installation, Motion, Pair, PatchSource, RailDisplacement, Steel,
+    Tables, WheelsetContact,
 };
 use dashpot_rail::creep::{
     CreepLaw, Fastsim, Friction, KalkerBook, KalkerTable, LoadedContact, Polach, ShenHedrickElkins,
@@ -21,9 +21,8 @@ pub fn geometry() -> &'static ContactGeometry {
 
 pub fn tables() -> Arc<Tables> {
     static TABLES: OnceLock<Arc<Tables>> = OnceLock::new();
-    let tables = TABLES.get_or_init(|| {
-        Arc::new(Tables::new(geometry().clone(), Grid::default()).unwrap())
-    });
+    let tables =
+        TABLES.get_or_init(|| Arc::new(Tables::new(geometry().clone(), Grid::default()).unwrap()));
     Arc::clone(tables)
 }
 

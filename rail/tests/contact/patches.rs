@@ -1,0 +1,162 @@
+//! Several patches on one wheel: where they are, what each carries, and that none appears or goes with a jump.
+
+use std::sync::Arc;
+
+use dashpot_rail::contact::{
+    ContactGeometry, Hertz, Installation, Motion, Pair, Steel, WheelsetContact,
+};
+use dashpot_rail::creep::{Friction, KalkerBook};
+use dashpot_rail::profile::{Profile, s1002, uic60};
+
+use crate::common::{LEVEL, at_height_under_load, rolling};
+
+fn contact(wheel: Profile, rail: &Profile) -> WheelsetContact<KalkerBook, ContactGeometry> {
+    let pair = Pair::new(wheel, rail, Installation::default()).unwrap();
+    let geometry = Arc::new(ContactGeometry::new(pair, Steel::default(), 100e3).unwrap());
+    WheelsetContact::new(geometry, KalkerBook::new(), Friction::default()).unwrap()
+}
+
+/// A profile with `change_mm` added to the depth at each position in mm.
+fn changed(profile: &Profile, name: &str, change_mm: impl Fn(f64) -> f64) -> Profile {
+    let points: Vec<[f64; 2]> = profile
+        .points()
+        .iter()
+        .step_by(3)
+        .map(|p| [p.y_m, p.z_m + 1e-3 * change_mm(1e3 * p.y_m)])
+        .collect();
+    Profile::through(name, &points, 0.0).unwrap()
+}
+
+/// A hump of `height_mm` at `at_mm`, which raises a rail.
+fn hump(y_mm: f64, at_mm: f64, height_mm: f64) -> f64 {
+    -height_mm * (-((y_mm - at_mm) / 3.0).powi(2)).exp()
+}
+
+#[test]
+fn s1002_touches_at_tread_and_root_at_five_millimetres() {
+    // An elastic half-space under 100 kN has two areas there, of 67 kN at 737 mm and of 33 kN at 727 mm.
+    let contact = contact(s1002::profile(), &uic60::profile());
+    let motion = Motion {
+        lateral_m: 5e-3,
+        ..rolling(20.0)
+    };
+    let motion = at_height_under_load(&contact, &motion, 200e3);
+    let forces = contact.forces(&motion, &LEVEL);
+    let mut loaded = forces.wheels[1]
+        .loaded_patches()
+        .filter(|patch| patch.load_n > 1e3);
+    let (root, tread) = (loaded.next().unwrap(), loaded.next().unwrap());
+    assert!(loaded.next().is_none());
+    for (patch, place_m, share) in [(root, 0.727, 0.33), (tread, 0.737, 0.67)] {
+        let place = motion.lateral_m + patch.position_m[1];
+        assert!((place - place_m).abs() < 1.5e-3, "{patch:?}");
+        let found = patch.load_n / (root.load_n + tread.load_n);
+        assert!((found - share).abs() < 0.12, "{found} for {share}");
+    }
+}
+
+#[test]
+fn three_separate_contacts_carry_their_own_hertz_loads() {
+    // A rail worn flat with three humps, under a wheel that is a cylinder beside its root.
+    let wheel = changed(&s1002::profile(), "cylinder", |y| {
+        if y > -25.0 {
+            -s1002::depth_mm(y)
+        } else {
+            -s1002::depth_mm(-25.0)
+        }
+    });
+    let rail = changed(&uic60::profile(), "humps", |y| {
+        let flat = if y.abs() < 24.0 {
+            0.6 - depth_of_uic60_mm(y)
+        } else {
+            0.6 - depth_of_uic60_mm(24.0)
+        };
+        flat + hump(y, -14.0, 1.0) + hump(y, 2.0, 1.0) + hump(y, 17.0, 1.0)
+    });
+    let installation = Installation {
+        inclination: 0.0,
+        ..Installation::default()
+    };
+    let pair = Pair::new(wheel, &rail, installation).unwrap();
+    let geometry = Arc::new(ContactGeometry::new(pair, Steel::default(), 100e3).unwrap());
+    let contact = WheelsetContact::new(geometry, KalkerBook::new(), Friction::default()).unwrap();
+    let motion = at_height_under_load(&contact, &rolling(20.0), 200e3);
+    let forces = contact.forces(&motion, &LEVEL);
+    let loaded: Vec<_> = forces.wheels[1].loaded_patches().collect();
+    assert_eq!(loaded.len(), 3, "{loaded:?}");
+    let mut rest = 0.0;
+    for patch in loaded {
+        // A hump exp(-(y/3)^2) of 1 mm has the curvature 2/9 per mm at its top.
+        let hertz = Hertz::new(
+            &Steel::default(),
+            1.0 / patch.rolling_radius_m,
+            2.0 / 9.0 * 1e3,
+        );
+        let expected = hertz.load_n(patch.penetration_m);
+        // The mean curvature of the weights is a little less than that of the top.
+        assert!(
+            (patch.load_n / expected - 1.0).abs() < 0.1,
+            "{patch:?} {expected}"
+        );
+        assert!(patch.load_n > 20e3, "{patch:?}");
+        rest += patch.load_n;
+    }
+    assert!((rest - 100e3).abs() < 1e3, "{rest}");
+}
+
+fn depth_of_uic60_mm(y_mm: f64) -> f64 {
+    1e3 * uic60::profile().at(y_mm * 1e-3).z_m
+}
+
+#[test]
+fn a_chamfer_on_the_field_side_is_no_flange() {
+    let plain = Pair::standard(Installation::default()).unwrap();
+    let chamfered = changed(&s1002::profile(), "chamfer", |y| -1.5 * (y - 54.0).max(0.0));
+    let steepest = chamfered
+        .points()
+        .iter()
+        .map(|p| p.angle_rad)
+        .fold(0.0, f64::min);
+    assert!(chamfered.at(58e-3).angle_rad < -50_f64.to_radians() && steepest < -1.0);
+    let pair = Pair::new(chamfered, &uic60::profile(), Installation::default()).unwrap();
+    assert!((pair.tread_end_m() - plain.tread_end_m()).abs() < 1e-4);
+    assert!((pair.steepest_flange_m() - plain.steepest_flange_m()).abs() < 1e-3);
+}
+
+#[test]
+fn no_patch_of_worn_profiles_appears_or_goes_with_a_jump() {
+    let worn_wheel = changed(&s1002::profile(), "hollow", |y| hump(y, 4.0, 0.25) * 0.8);
+    let worn_rail = changed(&uic60::profile(), "worn", |y| {
+        hump(y, -6.0, 0.12) + hump(y, 9.0, 0.15) - hump(y, -18.0, 0.2)
+    });
+    let contact = contact(worn_wheel, &worn_rail);
+    let (mut worst, mut most) = (0.0_f64, 0);
+    let mut last: Option<[f64; 3]> = None;
+    // At the height of a wheel load of about 100 kN, shifted by 5 um at a time.
+    for step in 0..2400 {
+        let motion = Motion {
+            lateral_m: -6e-3 + 5e-6 * f64::from(step),
+            vertical_m: 0.05e-3,
+            yaw_rad: 2e-3,
+            ..rolling(20.0)
+        };
+        let wheel = contact.forces(&motion, &LEVEL).wheels[1];
+        most = most.max(
+            wheel
+                .loaded_patches()
+                .filter(|patch| patch.load_n > 1e3)
+                .count(),
+        );
+        let load: f64 = wheel.loaded_patches().map(|patch| patch.load_n).sum();
+        if load > 400e3 {
+            break;
+        }
+        if let Some(last) = last {
+            let jump: f64 = (0..3).map(|k| (wheel.force_n[k] - last[k]).powi(2)).sum();
+            worst = worst.max(jump.sqrt() / (load + 20e3));
+        }
+        last = Some(wheel.force_n);
+    }
+    assert!(most >= 2, "{most} patches at most");
+    assert!(worst < 0.05, "{worst} of the load for 5 um");
+}

@@ -1,0 +1,8 @@
+//! The contact of a wheel beside exact theory, in figures and a table of docs/contact.md.
+//!
+//! `DASHPOT_BLESS=1 cargo test -p dashpot-reference --test contact_theory` redraws and restates them.
+
+mod climbing;
+mod document;
+mod figures;
+mod shifts;
