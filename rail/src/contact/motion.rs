@@ -1,6 +1,7 @@
 //! Motion of a wheelset and displacement of its rails, in track axes: x forward, y right, z down.
 
-use crate::math::number::{Dual, Number};
+use crate::math::dual::Dual;
+use crate::math::number::Number;
 
 /// Position and velocity of a wheelset, which is turned by its yaw and then rolled about the rail's direction.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

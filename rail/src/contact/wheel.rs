@@ -3,7 +3,7 @@
 use super::forces::{PatchForces, Status};
 use super::frame::{Frame, RailRoll};
 use super::geometry::ContactGeometry;
-use super::loaded::{Contact, Creep, CreepNumber};
+use super::loaded_contact::{Contact, Creep, CreepNumber};
 use super::motion::RailNumbers;
 use super::pair::Pair;
 use super::surface::Surface;

@@ -3,16 +3,15 @@
 use std::array::from_fn;
 use std::sync::Arc;
 
-use super::forces::{PatchForces, Status, WheelDerivatives, WheelForces, WheelsetForces};
+use super::forces::{Status, WheelDerivatives, WheelsetForces};
 use super::frame::Frame;
 use super::geometry::ContactGeometry;
+use super::loaded_zones::LoadedZones;
 use super::motion::{MOTION_FIELDS, Motion, ODD, RailDisplacement, RailNumbers, Tangent};
-use super::silhouette::WheelPose;
-use super::source::{PatchReader, PatchSource, functions_of_pose, sealed::Source};
+use super::source::{PatchSource, functions_of_pose};
 use super::surface::{MAX_NORMAL_DAMPING_S_PER_M, Surface, SurfaceError};
-use super::tables::{NUMBERS, Tables};
+use super::tables::Tables;
 use super::wheel::{Place, WheelLengths, Wrench};
-use super::zones::ZONES;
 use crate::creep::{CreepLaw, Friction};
 use crate::math::number::{Number, Sides};
 
@@ -267,68 +266,6 @@ fn finish(forces: &mut WheelsetForces) {
         forces.moment_n_m[k] = left.moment_n_m[k] + right.moment_n_m[k];
     }
     forces.status = left.status.max(right.status);
-}
-
-/// The zones of a wheel that carry load at its pose.
-struct LoadedZones<R> {
-    reader: R,
-    interpenetrations: [f64; ZONES],
-    /// Depth of the tread datum below the rail's top, m.
-    depth: f64,
-    zones: [usize; ZONES],
-    count: usize,
-}
-
-impl<'a, R: PatchReader> LoadedZones<R> {
-    /// Those of `source`; sets the status of `wheel` and clears the patches that carry nothing.
-    #[inline(always)]
-    fn of<S: Source<Reader<'a> = R>>(
-        source: &'a S,
-        [lateral_m, roll_rad, yaw_rad]: [f64; 3],
-        depth: f64,
-        wheel: &mut WheelForces,
-    ) -> Self {
-        let reader = source.locate(&WheelPose {
-            lateral_m,
-            roll_rad,
-            yaw_rad,
-        });
-        wheel.status = if reader.is_inside() {
-            Status::Lifted
-        } else {
-            Status::OutsideTables
-        };
-        let interpenetrations = reader.interpenetrations_m();
-        let (mut zones, mut count) = ([0; ZONES], 0);
-        for zone in 0..ZONES {
-            let result = &mut wheel.patches[zone];
-            if interpenetrations[zone] + depth > 0.0 {
-                zones[count] = zone;
-                count += 1;
-            } else if result.load_n != 0.0 {
-                *result = PatchForces::default();
-            }
-        }
-        Self {
-            reader,
-            interpenetrations,
-            depth,
-            zones,
-            count,
-        }
-    }
-
-    /// Depth and numbers of the loaded patch number `k`; without depth when there are fewer.
-    #[inline(always)]
-    fn patch(&self, k: usize) -> (f64, [f64; NUMBERS]) {
-        let zone = self.zones[k];
-        let depth = if k < self.count {
-            self.interpenetrations[zone] + self.depth
-        } else {
-            0.0
-        };
-        (depth, self.reader.numbers(zone))
-    }
 }
 
 impl WheelDerivatives {

@@ -45,9 +45,8 @@ fn worst<L: CreepLaw, S: PatchSource>(
         };
         let (before, here, after) = (at(-1.0), at(0.0), at(1.0));
         let (_, step) = field(&mut Motion::default(), index);
-        for side in 0..2 {
+        for (side, d) in derivatives.iter().enumerate() {
             let [b, h, a] = [&before, &here, &after].map(|forces| &forces.wheels[side]);
-            let d = &derivatives[side];
             let rows = |of: fn(&dashpot_rail::contact::WheelForces) -> [f64; 3],
                         by: &[[f64; MOTION_FIELDS]; 3]| {
                 let (b, h, a) = (of(b), of(h), of(a));

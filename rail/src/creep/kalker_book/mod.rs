@@ -10,7 +10,8 @@ use pages::{Near, pages};
 use super::creepage::Creepage;
 use super::derivatives::CreepDerivatives;
 use super::law::{CreepForces, CreepLaw, LoadedContact, is_loaded};
-use crate::math::number::{Dual, Number};
+use crate::math::dual::Dual;
+use crate::math::number::Number;
 
 /// Kalker's exact theory of rolling contact from a precomputed book of tables (the idea of his USETAB, Vehicle System
 /// Dynamics 27, 1997): the recommended law, with any spin.
