@@ -5,7 +5,7 @@ mod pages;
 
 use coordinates::{Coordinates, Scale, numbers};
 pub use pages::Layout;
-use pages::{Near, pages};
+use pages::{Coefficient, Near, pages};
 
 use super::creepage::Creepage;
 use super::derivatives::CreepDerivatives;
@@ -42,7 +42,7 @@ use crate::math::number::Number;
 /// ```
 #[derive(Debug, Clone, Copy)]
 pub struct KalkerBook {
-    pages: &'static [[f32; 4]],
+    pages: &'static [Coefficient],
 }
 
 impl KalkerBook {

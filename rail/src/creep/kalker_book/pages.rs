@@ -44,7 +44,7 @@ const STRIDE: [usize; 3] = {
 const SPAN: usize = STRIDE[2] + 2 * STRIDE[1] + 2 * STRIDE[0] + 3;
 
 /// A coefficient: longitudinal force, lateral force, moment, and zero, which fills a vector register.
-type Coefficient = [f32; 4];
+pub(super) type Coefficient = f32x4;
 
 const FILE: &[u8] = include_bytes!("../../../data/kalker_book.bin");
 
@@ -58,7 +58,7 @@ pub(super) fn pages() -> &'static [Coefficient] {
             .iter()
             .map(|three| {
                 let [x, y, m] = three.map(f32::from_le_bytes);
-                [x, y, m, 0.0]
+                f32x4::new([x, y, m, 0.0])
             })
             .collect()
     })
@@ -118,18 +118,18 @@ impl<'a> Near<'a> {
 
     /// `N` of [`Layout`].
     #[inline]
-    pub(super) fn value(&self) -> Coefficient {
-        self.sum(self.at.map(weights))
+    pub(super) fn value(&self) -> [f32; 4] {
+        self.sum(self.at.map(weights)).to_array()
     }
 
     /// Derivatives of `N` by size, spin and direction.
-    pub(super) fn gradient(&self) -> [Coefficient; 3] {
+    pub(super) fn gradient(&self) -> [[f32; 4]; 3] {
         [0, 1, 2].map(|axis| {
             let mut factors = self.at.map(weights);
             factors[axis] = slopes(self.at[axis]);
             // A direction runs over 2.
             let cells = Layout::CELLS[axis] as f32 * if axis == 2 { 0.5 } else { 1.0 };
-            self.sum(factors).map(|slope| slope * cells)
+            (self.sum(factors) * f32x4::splat(cells)).to_array()
         })
     }
 
@@ -140,7 +140,7 @@ impl<'a> Near<'a> {
         let three = |[p, q, r]: [f32x4; 3], weights: [f32x4; 3]| {
             p * weights[0] + q * weights[1] + r * weights[2]
         };
-        let at = |index: usize| f32x4::from(self.coefficients[index]);
+        let at = |index: usize| self.coefficients[index];
         let row = |start: usize| three([at(start), at(start + 1), at(start + 2)], directions);
         let [to_spin, to_size, to_ratio] = STRIDE;
         let page = |start: usize| {
@@ -156,6 +156,6 @@ impl<'a> Near<'a> {
             three(pages, sizes)
         };
         let (here, next) = (ratio(0), ratio(to_ratio));
-        (here + f32x4::splat(self.ratio) * (next - here)).to_array()
+        here + f32x4::splat(self.ratio) * (next - here)
     }
 }
