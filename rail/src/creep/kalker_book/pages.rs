@@ -7,12 +7,13 @@ use std::sync::OnceLock;
 /// The forces are `f = N(size, spin, direction) / (1 + direction^2)`, where `N` is a quadratic B-spline on equal cells,
 /// linear between the ratios of the semi-axes: at coefficients over the middles of the cells, and one more beyond each end.
 /// Every coefficient is three little-endian `f32`, longitudinal force, lateral force (over `mu N`) and moment (over
-/// `mu N sqrt(a b)`); the direction varies fastest, then spin, size and ratio.
+/// `mu N (a^2 + b^2)/(2 sqrt(a b))`); the direction varies fastest, then spin, size and ratio.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Layout;
 
 impl Layout {
-    /// Number of ratios of the semi-axes, equal steps of `(a - b)/(a + b)`.
+    /// Number of ratios of the semi-axes, equal steps of `(a^2 - b^2)/(a^2 + 4 a b + b^2)`, which is
+    /// nearly a third of `ln(a/b)`.
     pub const RATIOS: usize = 12;
     /// Cells of size, spin and direction.
     pub const CELLS: [usize; 3] = [16, 10, 14];
@@ -23,12 +24,17 @@ impl Layout {
     pub fn a_over_b(index: usize) -> f64 {
         let part = 2.0 * index as f64 / (Self::RATIOS - 1) as f64 - 1.0;
         let shape = part * GREATEST_SHAPE;
-        (1.0 + shape) / (1.0 - shape)
+        (2.0 * shape + (1.0 + 3.0 * shape * shape).sqrt()) / (1.0 - shape)
     }
 }
 
-/// `(a - b)/(a + b)` at the greatest ratio.
-const GREATEST_SHAPE: f64 = (Layout::GREATEST_RATIO - 1.0) / (Layout::GREATEST_RATIO + 1.0);
+/// The number that grows in equal steps, at the greatest ratio.
+const GREATEST_SHAPE: f64 = shape(Layout::GREATEST_RATIO, 1.0);
+
+#[inline]
+const fn shape(a: f64, b: f64) -> f64 {
+    (a * a - b * b) / (a * a + b * b + 4.0 * a * b)
+}
 
 /// Coefficients from one spin, size and ratio to the next.
 const STRIDE: [usize; 3] = {
@@ -99,7 +105,7 @@ impl<'a> Near<'a> {
         [a, b]: [f64; 2],
         [size, spin, direction]: [f64; 3],
     ) -> Self {
-        let shape = ((a - b) / (a + b) * (0.5 / GREATEST_SHAPE) + 0.5).clamp(0.0, 1.0);
+        let shape = (shape(a, b) * (0.5 / GREATEST_SHAPE) + 0.5).clamp(0.0, 1.0);
         let [sizes, spins, directions] = Layout::CELLS;
         let (ratio, ratio_at) = cell(shape, Layout::RATIOS - 1);
         let (size, size_at) = cell(size, sizes);
