@@ -5,7 +5,7 @@ mod pages;
 
 use coordinates::{Coordinates, Scale, numbers};
 pub use pages::Layout;
-use pages::{Near, pages};
+use pages::{Coefficient, Near, pages};
 
 use super::creepage::Creepage;
 use super::law::{CreepForces, CreepLaw, LoadedContact, is_loaded};
@@ -40,7 +40,7 @@ use crate::math::dual::{Dual, Real};
 /// ```
 #[derive(Debug, Clone, Copy)]
 pub struct KalkerBook {
-    pages: &'static [[f32; 4]],
+    pages: &'static [Coefficient],
 }
 
 /// Forces with their derivatives, for Newton's method.
@@ -75,11 +75,12 @@ impl KalkerBook {
         let variables = [0, 1, 2].map(|k| Dual::variable(numbers[k], k));
         let at = Coordinates::new(contact, &scale, variables);
         let near = self.near(contact, &at);
-        let gradient = near.gradient();
+        let value = near.value().to_array();
+        let gradient = near.gradient().map(|slopes| slopes.to_array());
         let of_book = |k: usize| {
             let [size, spin, direction] = [0, 1, 2].map(|axis| f64::from(gradient[axis][k]));
             Dual {
-                value: f64::from(near.value()[k]),
+                value: f64::from(value[k]),
                 by: [0, 1, 2].map(|c| {
                     size * at.size.by[c] + spin * at.spin.by[c] + direction * at.direction.by[c]
                 }),
@@ -125,7 +126,7 @@ impl CreepLaw for KalkerBook {
     fn unlimited_forces(&self, contact: &LoadedContact, creepage: &Creepage) -> CreepForces {
         let scale = Scale::new(contact);
         let at = Coordinates::new(contact, &scale, numbers(creepage));
-        let [x, y, m, _] = self.near(contact, &at).value().map(f64::from);
+        let [x, y, m, _] = self.near(contact, &at).value().to_array().map(f64::from);
         let [longitudinal_n, lateral_n, moment_n_m] = forces([x, y, m], &at, &scale);
         CreepForces {
             longitudinal_n,

@@ -2,6 +2,8 @@
 
 use std::sync::OnceLock;
 
+use wide::f32x4;
+
 /// Layout of the book's file, for what writes and checks it.
 ///
 /// The forces are `f = N(size, spin, direction) / (1 + direction^2)`, where `N` is a quadratic B-spline on equal cells,
@@ -48,7 +50,7 @@ const STRIDE: [usize; 3] = {
 const SPAN: usize = STRIDE[2] + 2 * STRIDE[1] + 2 * STRIDE[0] + 3;
 
 /// A coefficient: longitudinal force, lateral force, moment, and zero, which fills a vector register.
-type Coefficient = [f32; 4];
+pub(super) type Coefficient = f32x4;
 
 const FILE: &[u8] = include_bytes!("../../../data/kalker_book.bin");
 
@@ -62,7 +64,7 @@ pub(super) fn pages() -> &'static [Coefficient] {
             .iter()
             .map(|three| {
                 let [x, y, m] = three.map(f32::from_le_bytes);
-                [x, y, m, 0.0]
+                f32x4::from([x, y, m, 0.0])
             })
             .collect()
     })
@@ -133,24 +135,35 @@ impl<'a> Near<'a> {
             factors[axis] = slopes(self.at[axis]);
             // A direction runs over 2.
             let cells = Layout::CELLS[axis] as f32 * if axis == 2 { 0.5 } else { 1.0 };
-            self.sum(factors).map(|slope| slope * cells)
+            self.sum(factors) * cells
         })
     }
 
     /// Coefficients weighted axis by axis, so that opposite ones cancel without rounding.
-    #[inline]
-    fn sum(&self, [sizes, spins, directions]: [[f32; 3]; 3]) -> Coefficient {
-        let three =
-            |start: usize, stride: usize, weights: [f32; 3], of: &dyn Fn(usize) -> Coefficient| {
-                let [p, q, r] = [0, 1, 2].map(|k| of(start + k * stride));
-                std::array::from_fn(|lane| {
-                    weights[0] * p[lane] + weights[1] * q[lane] + weights[2] * r[lane]
-                })
-            };
-        let row = |start| three(start, 1, directions, &|at| self.coefficients[at]);
-        let page = |start| three(start, STRIDE[0], spins, &row);
-        let ratio = |start| three(start, STRIDE[1], sizes, &page);
-        let (here, next) = (ratio(0), ratio(STRIDE[2]));
-        std::array::from_fn(|lane| here[lane] + self.ratio * (next[lane] - here[lane]))
+    #[inline(always)]
+    fn sum(&self, factors: [[f32; 3]; 3]) -> Coefficient {
+        let factors = factors.map(|three| three.map(f32x4::splat));
+        let (here, next) = (self.ratio(0, &factors), self.ratio(STRIDE[2], &factors));
+        here + (next - here) * self.ratio
+    }
+
+    #[inline(always)]
+    fn ratio(&self, at: usize, factors: &[[f32x4; 3]; 3]) -> Coefficient {
+        self.size(at, factors) * factors[0][0]
+            + self.size(at + STRIDE[1], factors) * factors[0][1]
+            + self.size(at + 2 * STRIDE[1], factors) * factors[0][2]
+    }
+
+    #[inline(always)]
+    fn size(&self, at: usize, factors: &[[f32x4; 3]; 3]) -> Coefficient {
+        self.spin(at, factors) * factors[1][0]
+            + self.spin(at + STRIDE[0], factors) * factors[1][1]
+            + self.spin(at + 2 * STRIDE[0], factors) * factors[1][2]
+    }
+
+    #[inline(always)]
+    fn spin(&self, at: usize, factors: &[[f32x4; 3]; 3]) -> Coefficient {
+        let c = self.coefficients;
+        c[at] * factors[2][0] + c[at + 1] * factors[2][1] + c[at + 2] * factors[2][2]
     }
 }
