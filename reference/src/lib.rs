@@ -1,6 +1,7 @@
-//! Independent solutions that the fixed steps are checked against: adaptive, to a stated tolerance.
+//! Independent solutions that the fixed steps and the creep laws are checked against, to a stated tolerance.
 //!
-//! They share the parameters with what they check, and nothing else.
+//! They share the parameters with what they check, and nothing else. [`kalker_book`] computes the tables that the
+//! recommended creep law reads.
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
 

@@ -9,8 +9,8 @@
 //! | [`ShenHedrickElkins`] | closed form | for comparison, with little spin |
 //! | [`Fastsim`] | about a thousand times the others | for comparison: Kalker's simplified theory |
 //!
-//! The two closed forms are far off where spin counts, as on flanges and other steep contacts: by up to three quarters and
-//! more than half of friction.
+//! The two closed forms are far off where spin counts, as on flanges and other steep contacts: by up to 45 % and 29 % of
+//! friction.
 //!
 //! [`KalkerTable`] gives the coefficients of the linear theory ([`linear_forces`]), [`Friction`] the coefficient
 //! of friction over the sliding speed.

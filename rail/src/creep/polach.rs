@@ -13,8 +13,8 @@ use super::law::{CreepForces, CreepLaw, LoadedContact, linear_forces};
 /// caused by spin is `9/16 a mu N K (1 + 6.3 (1 - exp(-a/b))) phi / s_c`.
 ///
 /// **Not for contacts with spin** (flange, large contact angles): with spin `phi sqrt(ab)` of half the sliding creepage its
-/// force is off by 9 % of friction (RMS over the grid of docs/contact.md, 25 % at most), with twice that creepage by
-/// 20 % (76 %). [`KalkerBook`](super::KalkerBook) has no such limit.
+/// force is off by 8 % of friction (RMS over the grid of docs/contact.md, 20 % at most), with twice that creepage by
+/// 14 % (45 %). [`KalkerBook`](super::KalkerBook) has no such limit.
 ///
 /// The source states no moment: here it is that of the linear theory, reduced by the same factor as the force.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

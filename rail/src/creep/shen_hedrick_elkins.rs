@@ -8,8 +8,8 @@ use super::law::{CreepForces, CreepLaw, LoadedContact, linear_forces};
 /// (Shen, Hedrick, Elkins, Vehicle System Dynamics 12, 1983, 79-83).
 ///
 /// **Not for contacts with much spin** (flange, large contact angles): with spin `phi sqrt(ab)` of half the sliding creepage
-/// its force is off by 5 % of friction (RMS over the grid of docs/contact.md), with twice that creepage by 17 % (57 % at
-/// most). [`KalkerBook`](super::KalkerBook) has no such limit.
+/// its force is off by 4 % of friction (RMS over the grid of docs/contact.md, 8 % at most), with twice that creepage by
+/// 12 % (29 %). [`KalkerBook`](super::KalkerBook) has no such limit.
 ///
 /// The moment is reduced by the same factor, so that the dissipation keeps the sign of the linear theory.
 /// The force of full sliding is against `(C11 xi, C22 eta)`, not against the sliding itself.

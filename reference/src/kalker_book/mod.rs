@@ -10,7 +10,9 @@ use dashpot_core::crc_32;
 use dashpot_rail::creep::kalker_book::Layout;
 use dashpot_rail::creep::{KalkerCoefficients, KalkerTable};
 use fit::{End, fit};
-use places::{Direction, creepage, direction, direction_coordinate, magnitude, spin_arm};
+use places::{
+    Direction, creepage, direction, direction_coordinate, magnitude, moment_arm, spin_arm,
+};
 
 use crate::error::ReferenceError;
 use crate::rolling_contact::{RollingContact, ScaledForces, TOLERANCE, Tractions, full_sliding};
@@ -123,7 +125,6 @@ fn line(
 ) -> Result<Line, ReferenceError> {
     let [x, y, z] = towards;
     let mut line = [[0.0; 3]; SIZES + 1];
-    let z = z / spin_arm(a_over_b);
     let moment = kalker.c23 / kalker.c22 * y - kalker.c33 / kalker.c23 * z;
     line[0] = [-x, -(y + z), moment];
     let mut tractions = Tractions::default();
@@ -131,7 +132,14 @@ fn line(
         let creepage = creepage(towards.map(|x| x * magnitude(cell)), a_over_b, kalker);
         *forces = contact.solve_from(creepage, &mut tractions)?;
     }
-    line[SIZES] = full_sliding(a_over_b, [x, y, z]);
+    line[SIZES] = full_sliding(a_over_b, [x, y, z / spin_arm(a_over_b)]);
+    for forces in &mut line {
+        forces[2] /= moment_arm(a_over_b);
+        // Spin alone causes no longitudinal force; the iteration leaves one within its tolerance.
+        if x == 0.0 {
+            forces[0] = 0.0;
+        }
+    }
     Ok(line)
 }
 

@@ -37,9 +37,14 @@ pub(super) fn direction(spin: usize, direction: usize) -> Direction {
     [cos_spin * cos, cos_spin * sin, sin_spin]
 }
 
-/// `(a + b)/2` over `sqrt(a b)`: the length that the book multiplies spin by.
+/// `(a + b)/2` over `sqrt(a b)`: the length that large spin is multiplied by.
 pub(super) fn spin_arm(a_over_b: f64) -> f64 {
     0.5 * (a_over_b.sqrt() + 1.0 / a_over_b.sqrt())
+}
+
+/// `(a^2 + b^2)/2` over `a b`: the length that the book's moments are divided by, over `sqrt(a b)`.
+pub(super) fn moment_arm(a_over_b: f64) -> f64 {
+    0.5 * (a_over_b + 1.0 / a_over_b)
 }
 
 /// Creepage with the book's creepages `[x, y, z]`.
@@ -50,7 +55,8 @@ pub(super) fn creepage(
 ) -> ScaledCreepage {
     let [x, y, z] = book;
     let part = |c: f64, q: f64| (1.0 + q) / (c / kalker.c22 + q);
-    let at = |q: f64| [x * part(kalker.c11, q), y, z * part(kalker.c23, q)];
+    let arm = spin_arm(a_over_b);
+    let at = |q: f64| [x * part(kalker.c11, q), y, z * part(kalker.c23 / arm, q)];
     // q = X^2 + Y^2 + Z^2 by bisection.
     let square = |q: f64| at(q).iter().map(|x| x * x).sum::<f64>();
     let (mut low, mut high) = (0.0, 1.0);
@@ -66,5 +72,5 @@ pub(super) fn creepage(
         }
     }
     let [x, y, z] = at(high).map(|scaled| scaled / kalker.c22);
-    [x, y, z / spin_arm(a_over_b)]
+    [x, y, z / arm]
 }

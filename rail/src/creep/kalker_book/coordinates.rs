@@ -24,23 +24,21 @@ impl<R: Number> Coordinates<R> {
     /// Of the creepages `[longitudinal, lateral, spin]`.
     ///
     /// With `(X, Y, Z) = G a b C22 / (mu N) (xi, eta, phi (a + b)/2)` and `q = X^2 + Y^2 + Z^2` the creepages of the
-    /// book are `x = X (C11/C22 + q)/(1 + q)`, `y = Y`, `z = Z (C23/C22 + q)/(1 + q)`: forces of the linear theory
-    /// where creepages are small, directions of sliding where they are large, whatever Poisson's ratio.
+    /// book are `x = (X C11/C22 + X q)/(1 + q)`, `y = Y` and `z = (Z' C23/C22 + Z q)/(1 + q)`, where `Z'` has `sqrt(a b)`
+    /// in place of `(a + b)/2`: forces of the linear theory where creepages are small, directions of sliding where they
+    /// are large, whatever Poisson's ratio.
     #[inline]
     pub(super) fn new(contact: &LoadedContact, scale: &Scale, creepage: [R; 3]) -> Self {
-        let [xi, eta, phi] = creepage;
         let k = &contact.kalker;
-        let (xi, eta) = (xi * scale.creepage, eta * scale.creepage);
-        let phi = phi * (scale.creepage * scale.spin_arm);
-        let q = (xi * xi + eta * eta + phi * phi) * (k.c22 * k.c22);
+        let [xi, eta, phi] = creepage.map(|creepage| creepage * scale.creepage);
+        let (large_x, y) = (xi * k.c22, eta * k.c22);
+        let large_z = phi * (k.c22 * 0.5 * (contact.a_m + contact.b_m));
+        let q = large_x * large_x + y * y + large_z * large_z;
         let weight = (q + 1.0).reciprocal();
-        let large = q * k.c22;
-        let (x, z) = (
-            xi * (large + k.c11) * weight,
-            phi * (large + k.c23) * weight,
-        );
+        let x = (xi * k.c11 + large_x * q) * weight;
+        let z = (phi * (k.c23 * scale.length) + large_z * q) * weight;
         let signs = [x.lane(0), z.lane(0)].map(|value| 1f64.copysign(value));
-        let (x, y, z) = (x * signs[0], eta * (k.c22 * signs[1]), z * signs[1]);
+        let (x, y, z) = (x * signs[0], y * signs[1], z * signs[1]);
         let square = x * x + y * y + TINY;
         let s = square.sqrt();
         let r = (square + z * z).sqrt();
@@ -60,9 +58,9 @@ pub(super) struct Scale {
     /// `mu N`, N.
     pub(super) force: f64,
     /// `sqrt(a b)`, m.
+    pub(super) length: f64,
+    /// `(a^2 + b^2)/(2 sqrt(a b))`, m: over this and `mu N` the moment of small spin hardly depends on `a/b`.
     pub(super) moment_arm: f64,
-    /// `(a + b)/2`, m: what spin slides at counts from the longer semi-axis.
-    pub(super) spin_arm: f64,
     /// `G a b / (mu N)`.
     pub(super) creepage: f64,
 }
@@ -72,10 +70,11 @@ impl Scale {
     pub(super) fn new(contact: &LoadedContact) -> Self {
         let area = contact.a_m * contact.b_m;
         let force = contact.friction * contact.load_n;
+        let length = area.sqrt();
         Self {
             force,
-            moment_arm: area.sqrt(),
-            spin_arm: 0.5 * (contact.a_m + contact.b_m),
+            length,
+            moment_arm: 0.5 * (contact.a_m * contact.a_m + contact.b_m * contact.b_m) / length,
             creepage: contact.shear_modulus_pa * area / force,
         }
     }

@@ -72,7 +72,7 @@ impl CreepLaw for KalkerBook {
     fn unlimited_forces(&self, contact: &LoadedContact, creepage: &Creepage) -> CreepForces {
         let scale = Scale::new(contact);
         let at = Coordinates::new(contact, &scale, numbers(creepage));
-        let [x, y, m, _] = self.near(contact, &at).value().map(f64::from);
+        let [x, y, m, _] = self.near(contact, &at).value().to_array().map(f64::from);
         let [longitudinal_n, lateral_n, moment_n_m] = forces([x, y, m], &at, &scale);
         CreepForces {
             longitudinal_n,
@@ -106,7 +106,8 @@ impl CreepLaw for KalkerBook {
         let variables = [0, 1, 2].map(|k| Dual::<3>::variable(numbers[k], k));
         let at = Coordinates::new(contact, &scale, variables);
         let near = self.near(contact, &at);
-        let (value, gradient) = (near.value(), near.gradient());
+        let value = near.value().to_array();
+        let gradient = near.gradient().map(|slopes| slopes.to_array());
         let of_book = |k: usize| {
             let [size, spin, direction] = gradient.map(|slopes| f64::from(slopes[k]));
             let terms = [(size, at.size), (spin, at.spin), (direction, at.direction)];

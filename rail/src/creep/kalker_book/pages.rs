@@ -9,12 +9,13 @@ use wide::f32x4;
 /// The forces are `f = N(size, spin, direction) / (1 + direction^2)`, where `N` is a quadratic B-spline on equal cells,
 /// linear between the ratios of the semi-axes: at coefficients over the middles of the cells, and one more beyond each end.
 /// Every coefficient is three little-endian `f32`, longitudinal force, lateral force (over `mu N`) and moment (over
-/// `mu N sqrt(a b)`); the direction varies fastest, then spin, size and ratio.
+/// `mu N (a^2 + b^2)/(2 sqrt(a b))`); the direction varies fastest, then spin, size and ratio.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Layout;
 
 impl Layout {
-    /// Number of ratios of the semi-axes, equal steps of `(a - b)/(a + b)`.
+    /// Number of ratios of the semi-axes, equal steps of `(a^2 - b^2)/(a^2 + 4 a b + b^2)`, which is
+    /// nearly a third of `ln(a/b)`.
     pub const RATIOS: usize = 12;
     /// Cells of size, spin and direction.
     pub const CELLS: [usize; 3] = [16, 10, 14];
@@ -25,12 +26,17 @@ impl Layout {
     pub fn a_over_b(index: usize) -> f64 {
         let part = 2.0 * index as f64 / (Self::RATIOS - 1) as f64 - 1.0;
         let shape = part * GREATEST_SHAPE;
-        (1.0 + shape) / (1.0 - shape)
+        (2.0 * shape + (1.0 + 3.0 * shape * shape).sqrt()) / (1.0 - shape)
     }
 }
 
-/// `(a - b)/(a + b)` at the greatest ratio.
-const GREATEST_SHAPE: f64 = (Layout::GREATEST_RATIO - 1.0) / (Layout::GREATEST_RATIO + 1.0);
+/// The number that grows in equal steps, at the greatest ratio.
+const GREATEST_SHAPE: f64 = shape(Layout::GREATEST_RATIO, 1.0);
+
+#[inline]
+const fn shape(a: f64, b: f64) -> f64 {
+    (a * a - b * b) / (a * a + b * b + 4.0 * a * b)
+}
 
 /// Coefficients from one spin, size and ratio to the next.
 const STRIDE: [usize; 3] = {
@@ -58,7 +64,7 @@ pub(super) fn pages() -> &'static [Coefficient] {
             .iter()
             .map(|three| {
                 let [x, y, m] = three.map(f32::from_le_bytes);
-                f32x4::new([x, y, m, 0.0])
+                f32x4::from([x, y, m, 0.0])
             })
             .collect()
     })
@@ -101,7 +107,7 @@ impl<'a> Near<'a> {
         [a, b]: [f64; 2],
         [size, spin, direction]: [f64; 3],
     ) -> Self {
-        let shape = ((a - b) / (a + b) * (0.5 / GREATEST_SHAPE) + 0.5).clamp(0.0, 1.0);
+        let shape = (shape(a, b) * (0.5 / GREATEST_SHAPE) + 0.5).clamp(0.0, 1.0);
         let [sizes, spins, directions] = Layout::CELLS;
         let (ratio, ratio_at) = cell(shape, Layout::RATIOS - 1);
         let (size, size_at) = cell(size, sizes);
@@ -118,44 +124,46 @@ impl<'a> Near<'a> {
 
     /// `N` of [`Layout`].
     #[inline]
-    pub(super) fn value(&self) -> [f32; 4] {
-        self.sum(self.at.map(weights)).to_array()
+    pub(super) fn value(&self) -> Coefficient {
+        self.sum(self.at.map(weights))
     }
 
     /// Derivatives of `N` by size, spin and direction.
-    pub(super) fn gradient(&self) -> [[f32; 4]; 3] {
+    pub(super) fn gradient(&self) -> [Coefficient; 3] {
         [0, 1, 2].map(|axis| {
             let mut factors = self.at.map(weights);
             factors[axis] = slopes(self.at[axis]);
             // A direction runs over 2.
             let cells = Layout::CELLS[axis] as f32 * if axis == 2 { 0.5 } else { 1.0 };
-            (self.sum(factors) * f32x4::splat(cells)).to_array()
+            self.sum(factors) * cells
         })
     }
 
     /// Coefficients weighted axis by axis, so that opposite ones cancel without rounding.
-    #[inline]
-    fn sum(&self, weights: [[f32; 3]; 3]) -> Coefficient {
-        let [sizes, spins, directions] = weights.map(|weights| weights.map(f32x4::splat));
-        let three = |[p, q, r]: [f32x4; 3], weights: [f32x4; 3]| {
-            p * weights[0] + q * weights[1] + r * weights[2]
-        };
-        let at = |index: usize| self.coefficients[index];
-        let row = |start: usize| three([at(start), at(start + 1), at(start + 2)], directions);
-        let [to_spin, to_size, to_ratio] = STRIDE;
-        let page = |start: usize| {
-            let rows = [row(start), row(start + to_spin), row(start + 2 * to_spin)];
-            three(rows, spins)
-        };
-        let ratio = |start: usize| {
-            let pages = [
-                page(start),
-                page(start + to_size),
-                page(start + 2 * to_size),
-            ];
-            three(pages, sizes)
-        };
-        let (here, next) = (ratio(0), ratio(to_ratio));
-        here + f32x4::splat(self.ratio) * (next - here)
+    #[inline(always)]
+    fn sum(&self, factors: [[f32; 3]; 3]) -> Coefficient {
+        let factors = factors.map(|three| three.map(f32x4::splat));
+        let (here, next) = (self.ratio(0, &factors), self.ratio(STRIDE[2], &factors));
+        here + (next - here) * self.ratio
+    }
+
+    #[inline(always)]
+    fn ratio(&self, at: usize, factors: &[[f32x4; 3]; 3]) -> Coefficient {
+        self.size(at, factors) * factors[0][0]
+            + self.size(at + STRIDE[1], factors) * factors[0][1]
+            + self.size(at + 2 * STRIDE[1], factors) * factors[0][2]
+    }
+
+    #[inline(always)]
+    fn size(&self, at: usize, factors: &[[f32x4; 3]; 3]) -> Coefficient {
+        self.spin(at, factors) * factors[1][0]
+            + self.spin(at + STRIDE[0], factors) * factors[1][1]
+            + self.spin(at + 2 * STRIDE[0], factors) * factors[1][2]
+    }
+
+    #[inline(always)]
+    fn spin(&self, at: usize, factors: &[[f32x4; 3]; 3]) -> Coefficient {
+        let c = self.coefficients;
+        c[at] * factors[2][0] + c[at + 1] * factors[2][1] + c[at + 2] * factors[2][2]
     }
 }
