@@ -25,12 +25,12 @@ use crate::math::number::{Number, Sides};
 /// # grid.roll_rad.cells = [1, 2, 1];
 /// # grid.yaw_squared_rad2.cells = [0, 1, 1];
 /// let pair = Pair::standard(Installation::default())?;
-/// let tables = Tables::new(ContactGeometry::new(pair, Steel::default(), 80e3)?, grid)?;
+/// let tables = Tables::new(ContactGeometry::new(pair, Steel::default(), 100e3)?, grid)?;
 /// let contact = WheelsetContact::new(Arc::new(tables), Polach, Friction::default())?;
-/// let pressed = Motion { vertical_m: 0.25e-3, ..Motion::default() };
-/// let forces = contact.forces(&pressed, &[RailDisplacement::default(); 2]);
-/// // The rails push up, against the axis z.
-/// assert!((forces.force_n[2] / -156.3e3 - 1.0).abs() < 1e-2);
+/// let shifted = Motion { lateral_m: 3e-3, vertical_m: 0.0708e-3, ..Motion::default() };
+/// let forces = contact.forces(&shifted, &[RailDisplacement::default(); 2]);
+/// // An elastic half-space carries 100 kN on the right wheel; the rail pushes up, against the axis z.
+/// assert!((forces.wheels[1].force_n[2] / -100e3 - 1.0).abs() < 0.02);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug, Clone)]
