@@ -80,7 +80,7 @@ fn within_friction(sticking: [f64; 2], flexibilities: [f64; 2], bound: f64) -> [
     if x * x + y * y <= bound * bound {
         return sticking;
     }
-    // (L + r) p = L sticking with a resistance r = |slip| / bound; 1/|p| is nearly linear in r, so that two steps of
+    // (L + r) p = L sticking with a resistance r = |slip| / bound; 1/|p| is nearly linear in r, so that three steps of
     // Newton suffice where the flexibilities differ by half.
     let mut resistance = 0.0;
     let mut p = sticking;

@@ -43,7 +43,7 @@ const MAX_SWEEPS: usize = 1000;
 /// ```
 /// use dashpot_reference::rolling_contact::RollingContact;
 /// let circle = RollingContact::new(1.0, 0.25)?;
-/// let creepage = 0.01;
+/// let creepage = 1e-3;
 /// // Kalker's C11 of 1967 is 4.12.
 /// let [force, _, _] = circle.solve([creepage, 0.0, 0.0])?;
 /// assert!((-force / creepage / 4.12 - 1.0).abs() < 0.01);
