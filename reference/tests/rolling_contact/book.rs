@@ -68,16 +68,7 @@ fn errors(cases: impl Iterator<Item = u32>) -> [[f64; 2]; 2] {
 
 #[test]
 fn the_book_is_exact_theory_between_its_nodes() {
-    let [force, moment] = errors(1..=24);
-    println!("force {force:.4?}, moment {moment:.4?}");
-    assert!(force[0] < 0.003 && force[1] < 0.01, "{force:?}");
-    assert!(moment[0] < 0.004 && moment[1] < 0.01, "{moment:?}");
-}
-
-#[test]
-#[ignore = "some minutes: the figures of docs/contact.md"]
-fn the_book_over_many_cases() {
-    let [force, moment] = errors(1..=2000);
+    let [force, moment] = errors(1..=100);
     println!("force {force:.4?}, moment {moment:.4?}");
     assert!(force[0] < 0.003 && force[1] < 0.02, "{force:?}");
     assert!(moment[0] < 0.004 && moment[1] < 0.02, "{moment:?}");
