@@ -1,8 +1,7 @@
 //! Results of the contact: forces on patches, wheels and the wheelset, and the state of each wheel.
 
 use super::motion::MOTION_FIELDS;
-use super::pair::Pair;
-use super::wheel::{Wrench, status};
+use super::wheel::Wrench;
 use super::zones::ZONES;
 use crate::creep::{CreepForces, Creepage};
 
@@ -138,12 +137,6 @@ impl WheelForces {
     /// The patches that carry load.
     pub fn loaded_patches(&self) -> impl Iterator<Item = &PatchForces> {
         self.patches.iter().filter(|patch| patch.load_n > 0.0)
-    }
-
-    /// Takes account of what the loaded patch of a zone makes of the wheel.
-    #[inline(always)]
-    pub(super) fn add_status(&mut self, pair: &Pair, zone: usize) {
-        self.status = self.status.max(status(pair, &self.patches[zone]));
     }
 
     #[inline(always)]

@@ -85,7 +85,11 @@ impl TurnedWheel<'_> {
             let Some(own) = &summits[zone] else {
                 return self.pair().absent();
             };
-            let relatives = summits.iter().flatten().map(|other| {
+            // How far each summit belongs together with this one.
+            let together = summits.each_ref().map(|other| {
+                let Some(other) = other else {
+                    return 0.0;
+                };
                 let between = own.sample.min(other.sample)..=own.sample.max(other.sample);
                 let lowest = scratch[between]
                     .iter()
@@ -93,20 +97,23 @@ impl TurnedWheel<'_> {
                     .fold(f64::MAX, f64::min);
                 let valley_m = own.height_m.min(other.height_m) - lowest;
                 let t = (valley_m / (SEPARATION * softness_m)).clamp(0.0, 1.0);
-                (other, 1.0 - t * t * (3.0 - 2.0 * t))
+                1.0 - t * t * (3.0 - 2.0 * t)
             });
-            let highest = relatives
-                .clone()
-                .filter(|(_, together)| *together > 0.0)
-                .fold(own.height_m, |highest, (other, _)| {
-                    highest.max(other.height_m)
-                });
+            let relatives = || {
+                let pairs = summits.iter().zip(together);
+                pairs
+                    .filter_map(|(other, together)| Some((other.as_ref()?, together)))
+                    .filter(|(_, together)| *together > 0.0)
+            };
+            let highest = relatives().fold(own.height_m, |highest, (other, _)| {
+                highest.max(other.height_m)
+            });
             let weight = |summit: &Summit| {
                 summit.weight_m * ((summit.height_m - highest) / softness_m).exp()
             };
             let mut total = 0.0;
             let (mut interpenetration, mut curvature) = (0.0, 0.0);
-            for (other, together) in relatives.filter(|(_, together)| *together > 0.0) {
+            for (other, together) in relatives() {
                 let weight = together * weight(other);
                 total += weight;
                 interpenetration += weight * other.patch.interpenetration_m;

@@ -37,15 +37,15 @@ pub trait PatchReader {
     /// Interpenetration of each patch, m.
     fn interpenetrations_m(&self) -> [f64; ZONES];
 
-    /// Derivatives of the interpenetration of one patch by lateral shift, roll and yaw.
-    fn interpenetration_slopes(&self, zone: usize) -> [f64; 3];
-
     /// The numbers of one patch, as [`TabulatedPatch::to_numbers`].
     fn numbers(&self, zone: usize) -> [f64; NUMBERS];
 
-    /// Their derivatives by lateral shift, roll and yaw.
-    fn number_slopes(&self, zone: usize) -> [[f64; NUMBERS]; 3];
+    /// Derivatives of interpenetration and numbers of one patch by lateral shift, roll and yaw.
+    fn slopes(&self, zone: usize) -> [Slopes; 3];
 }
+
+/// The derivative of the interpenetration of a patch, then those of its numbers.
+pub type Slopes = [f64; 1 + NUMBERS];
 
 /// Interpenetration and numbers of one patch as functions of `pose` (lateral shift, roll, yaw).
 #[inline(always)]
@@ -55,14 +55,29 @@ pub(super) fn functions_of_pose<R: PatchReader>(
     interpenetration: f64,
     pose: [Tangent; 3],
 ) -> (Tangent, [Tangent; NUMBERS]) {
-    let function = |value: f64, slopes: [f64; 3]| {
-        Tangent::function(value, from_fn::<_, 3, _>(|axis| (slopes[axis], pose[axis])))
+    let (numbers, slopes) = (reader.numbers(zone), reader.slopes(zone));
+    let function = |value: f64, n: usize| {
+        Tangent::function(
+            value,
+            from_fn::<_, 3, _>(|axis| (slopes[axis][n], pose[axis])),
+        )
     };
-    let (numbers, slopes) = (reader.numbers(zone), reader.number_slopes(zone));
     (
-        function(interpenetration, reader.interpenetration_slopes(zone)),
-        from_fn(|n| function(numbers[n], slopes.map(|slopes| slopes[n]))),
+        function(interpenetration, 0),
+        from_fn(|n| function(numbers[n], 1 + n)),
     )
+}
+
+/// The numbers of a patch behind its interpenetration, in the order of [`Slopes`].
+#[inline(always)]
+pub(super) fn with_interpenetration(interpenetration: f64, numbers: [f64; NUMBERS]) -> Slopes {
+    from_fn(|n| {
+        if n == 0 {
+            interpenetration
+        } else {
+            numbers[n - 1]
+        }
+    })
 }
 
 /// A pose of the geometry itself.
@@ -88,28 +103,6 @@ impl sealed::Source for ContactGeometry {
     }
 }
 
-impl ComputedPose<'_> {
-    /// Central differences of what `read` takes from a patch, by lateral shift, roll and yaw.
-    fn differences<const N: usize>(
-        &self,
-        zone: usize,
-        read: impl Fn(&TabulatedPatch) -> [f64; N],
-    ) -> [[f64; N]; 3] {
-        let mut scratch = Vec::new();
-        from_fn(|axis| {
-            let mut at = |step: f64| {
-                let mut pose = self.pose;
-                *[&mut pose.lateral_m, &mut pose.roll_rad, &mut pose.yaw_rad][axis] += step;
-                read(&self.geometry.patches(&pose, &mut scratch)[zone])
-            };
-            // A micrometre, or a microradian at the arm of a metre.
-            let step = 1e-6;
-            let (before, after) = (at(-step), at(step));
-            from_fn(|n| (after[n] - before[n]) / (2.0 * step))
-        })
-    }
-}
-
 impl PatchReader for ComputedPose<'_> {
     fn is_inside(&self) -> bool {
         true
@@ -119,16 +112,24 @@ impl PatchReader for ComputedPose<'_> {
         self.patches.map(|patch| patch.interpenetration_m)
     }
 
-    fn interpenetration_slopes(&self, zone: usize) -> [f64; 3] {
-        self.differences(zone, |patch| [patch.interpenetration_m])
-            .map(|[slope]| slope)
-    }
-
     fn numbers(&self, zone: usize) -> [f64; NUMBERS] {
         self.patches[zone].to_numbers()
     }
 
-    fn number_slopes(&self, zone: usize) -> [[f64; NUMBERS]; 3] {
-        self.differences(zone, |patch| patch.to_numbers())
+    /// Central differences.
+    fn slopes(&self, zone: usize) -> [Slopes; 3] {
+        let mut scratch = Vec::new();
+        from_fn(|axis| {
+            let mut at = |step: f64| {
+                let mut pose = self.pose;
+                *[&mut pose.lateral_m, &mut pose.roll_rad, &mut pose.yaw_rad][axis] += step;
+                let patch = self.geometry.patches(&pose, &mut scratch)[zone];
+                with_interpenetration(patch.interpenetration_m, patch.to_numbers())
+            };
+            // A micrometre, or a microradian at the arm of a metre.
+            let step = 1e-6;
+            let (before, after) = (at(-step), at(step));
+            from_fn(|n| (after[n] - before[n]) / (2.0 * step))
+        })
     }
 }

@@ -1,6 +1,6 @@
 //! Where a wheel is over its rail, and the force of one patch on it.
 
-use super::forces::{PatchForces, Status};
+use super::forces::{PatchForces, Status, WheelForces};
 use super::frame::{Frame, RailRoll};
 use super::geometry::ContactGeometry;
 use super::loaded_contact::{Contact, Creep, CreepNumber};
@@ -32,9 +32,8 @@ pub(super) struct WheelLengths<T> {
 impl<T: Number> WheelLengths<T> {
     /// Those of the wheels of one or two geometries, whose wheelset is `height_m` above the rails.
     pub fn new(geometry: impl Fn(fn(&ContactGeometry) -> f64) -> T, height_m: f64) -> Self {
-        let offset = |geometry: &ContactGeometry| geometry.pair().installation().datum_offset_m();
+        let offset = geometry(|geometry| geometry.pair().installation().datum_offset_m());
         let radius = geometry(|geometry| geometry.pair().installation().wheel_radius_m);
-        let offset = geometry(offset);
         Self {
             offset,
             radius,
@@ -58,7 +57,7 @@ pub(super) struct Place<T> {
 
 /// One patch: its force and what is told of it.
 pub(super) struct Patch<T> {
-    pub wrench: Wrench<T>,
+    wrench: Wrench<T>,
     load: T,
     penetration: T,
     slope: T,
@@ -176,9 +175,18 @@ impl<T: CreepNumber> Place<T> {
 }
 
 impl<T: Number> Patch<T> {
-    /// Writes what is told of the patch in one lane.
+    /// Adds the force and moment of the patch.
     #[inline(always)]
-    pub fn write(&self, lane: usize, result: &mut PatchForces) {
+    pub fn add_to(&self, wrench: &mut Wrench<T>) {
+        for (sum, term) in wrench.iter_mut().zip(self.wrench) {
+            *sum = *sum + term;
+        }
+    }
+
+    /// Writes what is told of the patch in one lane into its zone of `wheel`, whose status takes account of it.
+    #[inline(always)]
+    pub fn write(&self, lane: usize, pair: &Pair, zone: usize, wheel: &mut WheelForces) {
+        let result = &mut wheel.patches[zone];
         result.load_n = self.load.lane(lane);
         result.penetration_m = self.penetration.lane(lane);
         result.slope = -self.slope.lane(lane);
@@ -190,12 +198,13 @@ impl<T: Number> Patch<T> {
         result.creepage = creepage;
         result.creep = forces;
         result.dissipation_w = forces.dissipation_n(&creepage) * self.reference_speed.lane(lane);
+        wheel.status = wheel.status.max(status(pair, result));
     }
 }
 
 /// What a loaded patch makes of its wheel.
 #[inline(always)]
-pub(super) fn status(pair: &Pair, patch: &PatchForces) -> Status {
+fn status(pair: &Pair, patch: &PatchForces) -> Status {
     if patch.penetration_m > MAX_PENETRATION_M {
         Status::OutsideTables
     } else if patch.wheel_y_m < pair.flange_tip_m() {

@@ -164,18 +164,13 @@ impl<L: CreepLaw, S: PatchSource> WheelsetContact<L, S> {
                 Sides::from([left_depth, right_depth]),
                 from_fn(|n| Sides::from([left_numbers[n], right_numbers[n]])),
             );
-            for (sum, term) in wrench.iter_mut().zip(patch.wrench) {
-                *sum = *sum + term;
-            }
+            patch.add_to(&mut wrench);
+            let [left_pair, right_pair] = sources.map(|source| source.geometry().pair());
             if k < left_zones.count {
-                let zone = left_zones.zones[k];
-                patch.write(0, &mut left.patches[zone]);
-                left.add_status(sources[0].geometry().pair(), zone);
+                patch.write(0, left_pair, left_zones.zones[k], left);
             }
             if k < right_zones.count {
-                let zone = right_zones.zones[k];
-                patch.write(1, &mut right.patches[zone]);
-                right.add_status(sources[1].geometry().pair(), zone);
+                patch.write(1, right_pair, right_zones.zones[k], right);
             }
         }
         let wrench = wrench.map(<[f64; 2]>::from);
@@ -228,11 +223,8 @@ impl<L: CreepLaw, S: PatchSource> WheelsetContact<L, S> {
                     functions_of_pose(&loaded.reader, zone, value, place.pose);
                 let depth = interpenetration + place.depth;
                 let patch = place.patch(&self.surface, depth, numbers);
-                for (sum, term) in wrench.iter_mut().zip(patch.wrench) {
-                    *sum = *sum + term;
-                }
-                patch.write(0, &mut wheel.patches[zone]);
-                wheel.add_status(source.geometry().pair(), zone);
+                patch.add_to(&mut wrench);
+                patch.write(0, source.geometry().pair(), zone, wheel);
             }
             wheel.set_wrench(wrench.map(|number| number.value()));
             derivatives[side] = WheelDerivatives::of(&wrench, sign);

@@ -4,7 +4,7 @@ use wide::{f32x4, f64x2};
 
 use super::node::{Node, QUADS};
 use super::patch::NUMBERS;
-use crate::contact::source::PatchReader;
+use crate::contact::source::{PatchReader, Slopes, with_interpenetration};
 use crate::contact::zones::ZONES;
 
 /// A cell of the tables and a place in it.
@@ -91,20 +91,6 @@ impl Cell<'_> {
         let [[a, b, c, d], [e, f, g, h], [i, j, k, l]] = sums;
         [a, b, c, d, e, f, g, h, i, j, k, l].map(f64::from)
     }
-
-    /// The derivatives by shift, roll and yaw of what `read` sums up with weights.
-    #[inline(always)]
-    fn by_pose<const N: usize>(&self, read: impl Fn(&Weights) -> [f64; N]) -> [[f64; N]; 3] {
-        let by_axis = |axis: usize| {
-            let mut ends = ends(self.place);
-            ends[axis] = [-1.0, 1.0];
-            read(&Weights::new(ends)).map(|slope| slope * self.cells_per_unit[axis])
-        };
-        let [by_shift, by_roll, by_yaw_squared] = [by_axis(0), by_axis(1), by_axis(2)];
-        let [shift, squared] = self.yaw_slopes;
-        let by_yaw = std::array::from_fn(|n| shift * by_shift[n] + squared * by_yaw_squared[n]);
-        [by_shift, by_roll, by_yaw]
-    }
 }
 
 impl PatchReader for Cell<'_> {
@@ -119,18 +105,23 @@ impl PatchReader for Cell<'_> {
     }
 
     #[inline(always)]
-    fn interpenetration_slopes(&self, zone: usize) -> [f64; 3] {
-        self.by_pose(|weights| [self.interpenetrations(weights)[zone]])
-            .map(|[slope]| slope)
-    }
-
-    #[inline(always)]
     fn numbers(&self, zone: usize) -> [f64; NUMBERS] {
         self.numbers_by(&self.weights, zone)
     }
 
     #[inline(always)]
-    fn number_slopes(&self, zone: usize) -> [[f64; NUMBERS]; 3] {
-        self.by_pose(|weights| self.numbers_by(weights, zone))
+    fn slopes(&self, zone: usize) -> [Slopes; 3] {
+        let by_axis = |axis: usize| {
+            let mut ends = ends(self.place);
+            ends[axis] = [-1.0, 1.0];
+            let weights = Weights::new(ends);
+            let interpenetration = self.interpenetrations(&weights)[zone];
+            with_interpenetration(interpenetration, self.numbers_by(&weights, zone))
+                .map(|slope| slope * self.cells_per_unit[axis])
+        };
+        let [by_shift, by_roll, by_yaw_squared] = [by_axis(0), by_axis(1), by_axis(2)];
+        let [shift, squared] = self.yaw_slopes;
+        let by_yaw = std::array::from_fn(|n| shift * by_shift[n] + squared * by_yaw_squared[n]);
+        [by_shift, by_roll, by_yaw]
     }
 }
