@@ -1,13 +1,19 @@
-//! Instructions per step on this machine, counted by Valgrind: `cargo xtask bench --instructions`.
-//! Each figure is of 1000 steps.
+//! Instructions per step of the damper and of a wheelset's contact on this machine, counted by Valgrind:
+//! `cargo xtask bench --instructions`. Each figure is of 1000 steps.
 #![allow(missing_docs)] // gungraun's macros
 
 use std::hint::black_box;
+use std::sync::Arc;
 
 use dashpot::damper;
 use dashpot::newton::NewtonDamper;
 use dashpot_core::{Damper, step_bank};
 use dashpot_hil::study::excitation::Excitation;
+use dashpot_rail::contact::{
+    ContactGeometry, Grid, Installation, Motion, Pair, RailDisplacement, Steel, Tables,
+    WheelsetContact, WheelsetForces,
+};
+use dashpot_rail::creep::{CreepLaw, Friction, KalkerBook, ShenHedrickElkins};
 use gungraun::prelude::*;
 
 const STEP_S: f64 = 1e-3;
@@ -71,8 +77,116 @@ fn plain_newton((mut newton, motion): (NewtonDamper, Vec<f32>)) -> f32 {
     force
 }
 
+/// Which patches of a wheelset are loaded.
+#[derive(Clone, Copy)]
+enum Loaded {
+    None,
+    /// One on each wheel.
+    Two,
+    /// Two on the outer wheel in a curve, one on the inner.
+    Three,
+    /// Both rails pressed inward: tread and flange of both wheels.
+    Four,
+}
+
+type Wheelset<L> = (WheelsetContact<L>, Motion, [RailDisplacement; 2]);
+
+fn wheelset<L: CreepLaw>(law: L, loaded: Loaded) -> Wheelset<L> {
+    let pair = Pair::standard(Installation::default()).expect("the standard pair is valid");
+    let geometry =
+        ContactGeometry::new(pair, Steel::default(), 100e3).expect("the default steel is valid");
+    // Fewer rolls and yaws than by default, for Valgrind is slow; the step takes the same path.
+    let mut grid = Grid::default();
+    grid.roll_rad.cells = [1, 2, 1];
+    grid.yaw_squared_rad2.cells = [0, 2, 1];
+    let tables = Arc::new(Tables::new(geometry, grid).expect("the grid is valid"));
+    let contact = WheelsetContact::new(tables, law, Friction::default()).expect("dry rail");
+    let mut motion = Motion {
+        speed_m_per_s: 27.8,
+        rotation_rad_per_s: 27.8 / 0.625,
+        yaw_rad: 0.008,
+        ..Motion::default()
+    };
+    let mut rails = [RailDisplacement::default(); 2];
+    let patches = match loaded {
+        Loaded::None => {
+            motion.vertical_m = -20e-3;
+            0
+        }
+        Loaded::Two => {
+            motion.vertical_m = 0.08e-3;
+            2
+        }
+        Loaded::Three => {
+            (motion.lateral_m, motion.vertical_m, motion.roll_rad) = (6.4e-3, -0.15e-3, -0.65e-3);
+            3
+        }
+        Loaded::Four => {
+            motion.vertical_m = -0.75e-3;
+            [rails[0].lateral_m, rails[1].lateral_m] = [6.68e-3, -6.68e-3];
+            4
+        }
+    };
+    let forces = contact.forces(&motion, &rails);
+    let found: usize = forces
+        .wheels
+        .map(|wheel| wheel.loaded_patches().count())
+        .iter()
+        .sum();
+    assert_eq!(found, patches);
+    (contact, motion, rails)
+}
+
+fn updates<L: CreepLaw>((contact, motion, rails): Wheelset<L>) -> WheelsetForces {
+    let mut forces = WheelsetForces::default();
+    for _ in 0..STEPS {
+        contact.update(black_box(&motion), black_box(&rails), &mut forces);
+        black_box(&forces);
+    }
+    forces
+}
+
+#[library_benchmark]
+#[bench::none(wheelset(KalkerBook::new(), Loaded::None))]
+#[bench::two(wheelset(KalkerBook::new(), Loaded::Two))]
+#[bench::three(wheelset(KalkerBook::new(), Loaded::Three))]
+#[bench::four(wheelset(KalkerBook::new(), Loaded::Four))]
+fn contact_by_book(wheelset: Wheelset<KalkerBook>) -> WheelsetForces {
+    updates(wheelset)
+}
+
+#[library_benchmark]
+#[bench::two(wheelset(ShenHedrickElkins, Loaded::Two))]
+#[bench::four(wheelset(ShenHedrickElkins, Loaded::Four))]
+fn contact_by_shen_hedrick_elkins(wheelset: Wheelset<ShenHedrickElkins>) -> WheelsetForces {
+    updates(wheelset)
+}
+
+#[library_benchmark]
+#[bench::two(wheelset(KalkerBook::new(), Loaded::Two))]
+#[bench::four(wheelset(KalkerBook::new(), Loaded::Four))]
+fn contact_with_derivatives((contact, motion, rails): Wheelset<KalkerBook>) -> WheelsetForces {
+    let mut forces = WheelsetForces::default();
+    for _ in 0..STEPS {
+        black_box(contact.update_with_derivatives(
+            black_box(&motion),
+            black_box(&rails),
+            &mut forces,
+        ));
+    }
+    forces
+}
+
 library_benchmark_group!(
     name = steps,
     benchmarks = [single, bank_of_16, plain_newton]
 );
-main!(library_benchmark_groups = steps);
+library_benchmark_group!(
+    name = contact,
+    benchmarks = [
+        contact_by_book,
+        contact_by_shen_hedrick_elkins,
+        contact_with_derivatives
+    ]
+);
+main!(library_benchmark_groups = steps, contact);

@@ -1,7 +1,6 @@
 //! Results of the contact: forces on patches, wheels and the wheelset, and the state of each wheel.
 
-use super::motion::MOTION_FIELDS;
-use super::wheel::Wrench;
+use super::motion::{MOTION_FIELDS, Motion, RailDisplacement};
 use super::zones::ZONES;
 use crate::creep::{CreepForces, Creepage};
 
@@ -63,6 +62,8 @@ pub struct WheelForces {
     pub moment_n_m: [f64; 3],
     /// State of the wheel.
     pub status: Status,
+    /// A bit for each zone that carries load.
+    pub(super) loaded_zones: u32,
 }
 
 /// Derivatives of the force and moment of one rail on its wheel: one row for each component along x, y and z, in it one
@@ -89,7 +90,44 @@ pub struct WheelsetForces {
     pub status: Status,
 }
 
+/// Numbers told of a patch.
+pub(super) const TOLD: usize = 17;
+
+/// Place of the lateral position among them.
+pub(super) const POSITION_Y: usize = 8;
+
 impl PatchForces {
+    /// Of the numbers in the order of the fields.
+    #[inline(always)]
+    pub(super) fn set(&mut self, told: [f64; TOLD]) {
+        let [
+            load,
+            penetration,
+            slope,
+            a,
+            b,
+            radius,
+            wheel_y,
+            x,
+            y,
+            z,
+            creep @ ..,
+        ] = told;
+        let [xi, eta, phi, longitudinal, lateral, moment, dissipation] = creep;
+        *self = Self {
+            load_n: load,
+            penetration_m: penetration,
+            slope,
+            semi_axes_m: [a, b],
+            rolling_radius_m: radius,
+            wheel_y_m: wheel_y,
+            position_m: [x, y, z],
+            creepage: Creepage::of([xi, eta, phi]),
+            creep: CreepForces::of_components([longitudinal, lateral, moment]),
+            dissipation_w: dissipation,
+        };
+    }
+
     /// Contact angle against the track plane, rad; sign as `slope`.
     pub fn contact_angle_rad(&self) -> f64 {
         self.slope.atan()
@@ -97,6 +135,40 @@ impl PatchForces {
 }
 
 impl WheelsetForces {
+    /// Whether the motion is one that forces can be computed of; otherwise they are zero and say so.
+    #[inline(always)]
+    pub(super) fn begin(&mut self, motion: &Motion, rails: &[RailDisplacement; 2]) -> bool {
+        let accepted = motion.is_accepted() & rails[0].is_accepted() & rails[1].is_accepted();
+        if !accepted {
+            *self = Self::default();
+            self.status = Status::NotFinite;
+            for wheel in &mut self.wheels {
+                wheel.status = Status::NotFinite;
+            }
+        }
+        accepted
+    }
+
+    /// Sets force and moment of both wheels, of the left one on its mirror image, and adds them up.
+    #[inline(always)]
+    pub(super) fn set_wrenches(&mut self, wrench: [[f64; 2]; 6]) {
+        const MIRRORED: [bool; 6] = [false, true, false, true, false, true];
+        let [left_wheel, right_wheel] = &mut self.wheels;
+        for (component, [left, right]) in wrench.into_iter().enumerate() {
+            let left = if MIRRORED[component] { -left } else { left };
+            let k = component % 3;
+            let (of_left, of_right, sum) = if component < 3 {
+                let (left, right) = (&mut left_wheel.force_n, &mut right_wheel.force_n);
+                (left, right, &mut self.force_n)
+            } else {
+                let (left, right) = (&mut left_wheel.moment_n_m, &mut right_wheel.moment_n_m);
+                (left, right, &mut self.moment_n_m)
+            };
+            (of_left[k], of_right[k], sum[k]) = (left, right, left + right);
+        }
+        self.status = left_wheel.status.max(right_wheel.status);
+    }
+
     /// The forces where the profiles change along the track: `1 - share` of these and `share`, 0 to 1, of those by the profiles
     /// that follow. The patches and creepages are those of the greater share, the status is the worse one.
     pub fn blended(&self, next: &Self, share: f64) -> Self {
@@ -137,22 +209,5 @@ impl WheelForces {
     /// The patches that carry load.
     pub fn loaded_patches(&self) -> impl Iterator<Item = &PatchForces> {
         self.patches.iter().filter(|patch| patch.load_n > 0.0)
-    }
-
-    #[inline(always)]
-    pub(super) fn set_wrench(&mut self, [fx, fy, fz, mx, my, mz]: Wrench<f64>) {
-        self.force_n = [fx, fy, fz];
-        self.moment_n_m = [mx, my, mz];
-    }
-
-    /// Turns the forces on the mirror image of a wheel into those on the wheel itself.
-    #[inline(always)]
-    pub(super) fn mirror(&mut self) {
-        self.force_n[1] = -self.force_n[1];
-        self.moment_n_m[0] = -self.moment_n_m[0];
-        self.moment_n_m[2] = -self.moment_n_m[2];
-        for patch in &mut self.patches {
-            patch.position_m[1] = -patch.position_m[1];
-        }
     }
 }

@@ -2,12 +2,15 @@
 
 use std::array::from_fn;
 
+use fearless_simd::{Simd, f64x4};
+
 use super::motion::Tangent;
 use super::surface::Surface;
 use crate::creep::{
-    CreepDerivatives, CreepForces, CreepLaw, Creepage, KalkerCoefficients, LoadedContact,
+    ContactLanes, CreepDerivatives, CreepLaw, Creepage, KalkerCoefficients, LoadedContact,
 };
-use crate::math::number::{Number, Sides};
+use crate::math::each::Each;
+use crate::math::number::Number;
 
 /// A loaded contact and its creepages.
 pub(super) struct Contact<T> {
@@ -23,49 +26,57 @@ pub(super) struct Contact<T> {
     pub creepage: [T; 3],
 }
 
-/// Creepage and creep forces in one lane.
-#[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Creep {
-    pub creepage: Creepage,
-    pub forces: CreepForces,
-}
-
 /// A number that a creep law can be evaluated with.
 pub(super) trait CreepNumber: Number {
-    /// Longitudinal and lateral force, N, and spin moment, N m; and what is told of them in each lane.
-    fn creep<L: CreepLaw>(
+    /// Longitudinal and lateral force, N, and spin moment, N m, in the lanes that are `used`.
+    fn creep_forces<L: CreepLaw>(
         contact: &Contact<Self>,
         surface: &Surface<L>,
         reference_speed: Self,
-    ) -> ([Self; 3], [Creep; 2]);
+        used: [bool; 4],
+    ) -> [Self; 3];
 }
 
-impl CreepNumber for Sides {
+impl<S: Simd> CreepNumber for f64x4<S> {
     #[inline(always)]
-    fn creep<L: CreepLaw>(
+    fn creep_forces<L: CreepLaw>(
         contact: &Contact<Self>,
         surface: &Surface<L>,
         reference_speed: Self,
-    ) -> ([Self; 3], [Creep; 2]) {
-        let creep = [0, 1].map(|lane| {
-            let (loaded, creepage, _) = contact.in_lane(lane, surface, reference_speed);
-            let forces = surface.law.forces(&loaded, &creepage);
-            let forces = forces.scaled(contact.fraction.lane(lane));
-            Creep { creepage, forces }
-        });
-        let [left, right] = creep.map(|creep| creep.forces.components());
-        (from_fn(|k| Self::from([left[k], right[k]])), creep)
+        used: [bool; 4],
+    ) -> [Self; 3] {
+        let contacts = ContactLanes {
+            load: contact.load,
+            semi_axes: contact.semi_axes,
+            shear_modulus: surface.shear_modulus_pa,
+            kalker: contact.kalker,
+            friction: surface.friction_in_lanes(contact.creepage, reference_speed),
+            creepage: contact.creepage,
+        };
+        let forces = surface.law.forces_in_lanes(&contacts, used);
+        forces.each(|force| force * contact.fraction)
     }
 }
 
 impl CreepNumber for Tangent {
     #[inline(always)]
-    fn creep<L: CreepLaw>(
+    fn creep_forces<L: CreepLaw>(
         contact: &Contact<Self>,
         surface: &Surface<L>,
         reference_speed: Self,
-    ) -> ([Self; 3], [Creep; 2]) {
-        let (loaded, creepage, sliding_speed) = contact.in_lane(0, surface, reference_speed);
+        _: [bool; 4],
+    ) -> [Self; 3] {
+        let creepage = Creepage::of(contact.creepage.map(|number| number.value()));
+        let sliding_speed = creepage.magnitude() * reference_speed.value();
+        let [c11, c22, c23, c33] = contact.kalker.map(|number| number.value());
+        let loaded = LoadedContact {
+            load_n: contact.load.value(),
+            a_m: contact.semi_axes[0].value(),
+            b_m: contact.semi_axes[1].value(),
+            shear_modulus_pa: surface.shear_modulus_pa,
+            kalker: KalkerCoefficients { c11, c22, c23, c33 },
+            friction: surface.friction.at(sliding_speed),
+        };
         let derivatives = surface.law.forces_with_derivatives(&loaded, &creepage);
         let friction_slope = surface.friction.slope_at(sliding_speed);
         let friction = if friction_slope == 0.0 || sliding_speed == 0.0 {
@@ -75,43 +86,7 @@ impl CreepNumber for Tangent {
             let sliding = (x * x + y * y).sqrt() * reference_speed;
             Self::function(loaded.friction, [(friction_slope, sliding)])
         };
-        (
-            contact.differentiated(&derivatives, friction),
-            [Creep {
-                creepage,
-                forces: derivatives.forces.scaled(contact.fraction.value()),
-            }; 2],
-        )
-    }
-}
-
-impl<T: Number> Contact<T> {
-    /// The contact in one lane as a creep law needs it, its creepages, and its sliding speed, m/s.
-    #[inline(always)]
-    fn in_lane<L>(
-        &self,
-        lane: usize,
-        surface: &Surface<L>,
-        reference_speed: T,
-    ) -> (LoadedContact, Creepage, f64) {
-        let [longitudinal, lateral, spin_per_m] = self.creepage.map(|number| number.lane(lane));
-        let creepage = Creepage {
-            longitudinal,
-            lateral,
-            spin_per_m,
-        }
-        .bounded();
-        let sliding_speed = creepage.magnitude() * reference_speed.lane(lane);
-        let [c11, c22, c23, c33] = self.kalker.map(|number| number.lane(lane));
-        let loaded = LoadedContact {
-            load_n: self.load.lane(lane),
-            a_m: self.semi_axes[0].lane(lane),
-            b_m: self.semi_axes[1].lane(lane),
-            shear_modulus_pa: surface.shear_modulus_pa,
-            kalker: KalkerCoefficients { c11, c22, c23, c33 },
-            friction: surface.friction.at(sliding_speed),
-        };
-        (loaded, creepage, sliding_speed)
+        contact.differentiated(&derivatives, friction)
     }
 }
 

@@ -1,69 +1,43 @@
-//! Which zones of a wheel carry load at its pose, and what the step reads of each.
+//! Which zones of a wheel carry load at its pose.
 
-use super::forces::{PatchForces, Status, WheelForces};
-use super::silhouette::WheelPose;
-use super::source::{PatchReader, sealed::Source};
-use super::tables::NUMBERS;
+use super::forces::{PatchForces, WheelForces};
 use super::zones::ZONES;
 
-/// The zones of a wheel that carry load at its pose.
-pub(super) struct LoadedZones<R> {
-    pub reader: R,
-    pub interpenetrations: [f64; ZONES],
-    /// Depth of the tread datum below the rail's top, m.
-    depth: f64,
-    /// The first `count` are those that carry load.
-    pub zones: [usize; ZONES],
-    pub count: usize,
+/// The zones of a wheel that carry load at its pose, one by one.
+pub(super) struct LoadedZones {
+    /// A bit for each that is still to come.
+    zones: u32,
+    /// The zone that came last.
+    zone: usize,
 }
 
-impl<'a, R: PatchReader> LoadedZones<R> {
-    /// Those of `source`; sets the status of `wheel` and clears the patches that carry nothing.
+impl LoadedZones {
+    /// The `zones`, a bit for each, that carry load; clears the patches of `wheel` that carry load no more.
     #[inline(always)]
-    pub fn of<S: Source<Reader<'a> = R>>(
-        source: &'a S,
-        [lateral_m, roll_rad, yaw_rad]: [f64; 3],
-        depth: f64,
-        wheel: &mut WheelForces,
-    ) -> Self {
-        let reader = source.locate(&WheelPose {
-            lateral_m,
-            roll_rad,
-            yaw_rad,
-        });
-        wheel.status = if reader.is_inside() {
-            Status::Lifted
-        } else {
-            Status::OutsideTables
-        };
-        let interpenetrations = reader.interpenetrations_m();
-        let (mut zones, mut count) = ([0; ZONES], 0);
-        for (zone, result) in wheel.patches.iter_mut().enumerate() {
-            if interpenetrations[zone] + depth > 0.0 {
-                zones[count] = zone;
-                count += 1;
-            } else if result.load_n != 0.0 {
-                *result = PatchForces::default();
-            }
+    pub fn new(zones: u32, wheel: &mut WheelForces) -> Self {
+        let mut unloaded = wheel.loaded_zones & !zones;
+        wheel.loaded_zones = zones;
+        while unloaded != 0 {
+            wheel.patches[unloaded.trailing_zeros() as usize % ZONES] = PatchForces::default();
+            unloaded &= unloaded - 1;
         }
-        Self {
-            reader,
-            interpenetrations,
-            depth,
-            zones,
-            count,
-        }
+        Self { zones, zone: 0 }
     }
 
-    /// Depth and numbers of the loaded patch number `k`; without depth when there are fewer.
+    /// Whether another one carries load.
     #[inline(always)]
-    pub fn patch(&self, k: usize) -> (f64, [f64; NUMBERS]) {
-        let zone = self.zones[k];
-        let depth = if k < self.count {
-            self.interpenetrations[zone] + self.depth
-        } else {
-            0.0
-        };
-        (depth, self.reader.numbers(zone))
+    pub fn are_left(&self) -> bool {
+        self.zones != 0
+    }
+
+    /// Goes on to the next one, or stays at the last; whether there was another.
+    #[inline(always)]
+    pub fn advance(&mut self) -> (usize, bool) {
+        let is_another = self.are_left();
+        if is_another {
+            self.zone = self.zones.trailing_zeros() as usize % ZONES;
+            self.zones &= self.zones - 1;
+        }
+        (self.zone, is_another)
     }
 }

@@ -2,11 +2,14 @@
 
 use std::array::from_fn;
 
+use fearless_simd::{Simd, SimdBase, f64x4};
+
 use super::geometry::ContactGeometry;
 use super::motion::Tangent;
 use super::silhouette::WheelPose;
 use super::tables::{NUMBERS, TabulatedPatch};
 use super::zones::ZONES;
+use crate::math::number::Number;
 
 /// A source of the patches of a wheel: [`Tables`](super::Tables) in real time, [`ContactGeometry`] where
 /// time does not matter and every number is to be smooth and in double precision.
@@ -15,17 +18,35 @@ pub trait PatchSource: sealed::Source {}
 impl<S: sealed::Source> PatchSource for S {}
 
 pub(super) mod sealed {
+    use std::fmt::Debug;
+
+    use fearless_simd::{Simd, f64x4};
+
     use super::{ContactGeometry, PatchReader, WheelPose};
 
-    pub trait Source: Send + Sync {
+    pub trait Source: Send + Sync + Sized {
         type Reader<'a>: PatchReader
         where
             Self: 'a;
+
+        /// What finds the poses of a left and a right wheel.
+        type Finder: Clone + Debug + Send + Sync;
 
         fn geometry(&self) -> &ContactGeometry;
 
         /// The place of `pose` in the source.
         fn locate(&self, pose: &WheelPose) -> Self::Reader<'_>;
+
+        /// The finder of a left and a right wheel.
+        fn finder(sides: [&Self; 2]) -> Self::Finder;
+
+        /// The places of the poses (lateral shift, roll, yaw) in the first two lanes, each in its own source.
+        fn locate_both<'a, S: Simd>(
+            simd: S,
+            finder: &Self::Finder,
+            sides: [&'a Self; 2],
+            pose: [f64x4<S>; 3],
+        ) -> [Self::Reader<'a>; 2];
     }
 }
 
@@ -39,6 +60,22 @@ pub trait PatchReader {
 
     /// The numbers of one patch, as [`TabulatedPatch::to_numbers`].
     fn numbers(&self, zone: usize) -> [f64; NUMBERS];
+
+    /// The numbers of the patches in four lanes, of the left and the right wheel and again of both.
+    #[inline(always)]
+    fn numbers_in_lanes<S: Simd>(
+        simd: S,
+        [left, right]: [&Self; 2],
+        [a, b, c, d]: [usize; 4],
+    ) -> [f64x4<S>; NUMBERS] {
+        let lanes = [
+            left.numbers(a),
+            right.numbers(b),
+            left.numbers(c),
+            right.numbers(d),
+        ];
+        from_fn(|n| f64x4::from_fn(simd, |lane| lanes[lane][n]))
+    }
 
     /// Derivatives of interpenetration and numbers of one patch by lateral shift, roll and yaw.
     fn slopes(&self, zone: usize) -> [Slopes; 3];
@@ -89,6 +126,7 @@ pub struct ComputedPose<'a> {
 
 impl sealed::Source for ContactGeometry {
     type Reader<'a> = ComputedPose<'a>;
+    type Finder = ();
 
     fn geometry(&self) -> &ContactGeometry {
         self
@@ -100,6 +138,25 @@ impl sealed::Source for ContactGeometry {
             pose: *pose,
             patches: self.patches(pose, &mut Vec::new()),
         }
+    }
+
+    fn finder(_: [&Self; 2]) {}
+
+    fn locate_both<'a, S: Simd>(
+        _: S,
+        (): &(),
+        [left, right]: [&'a Self; 2],
+        pose: [f64x4<S>; 3],
+    ) -> [ComputedPose<'a>; 2] {
+        let in_lane = |lane: usize| {
+            let [lateral_m, roll_rad, yaw_rad] = pose.map(|number| number.lane(lane));
+            WheelPose {
+                lateral_m,
+                roll_rad,
+                yaw_rad,
+            }
+        };
+        [left.locate(&in_lane(0)), right.locate(&in_lane(1))]
     }
 }
 

@@ -1,7 +1,9 @@
 //! What holds for every patch of a wheelset: creep law, friction, elasticity and damping of the surfaces.
 
+use fearless_simd::{Simd, f64x4};
+
 use crate::creep::{Friction, FrictionError};
-use crate::math::number::Number;
+use crate::math::number::{Number, load};
 
 /// Greatest normal damping, s/m: a wheel that falls at 0.1 m/s is pushed with eleven times its elastic force.
 pub const MAX_NORMAL_DAMPING_S_PER_M: f64 = 100.0;
@@ -33,10 +35,34 @@ pub(super) struct Surface<L> {
 }
 
 impl<L> Surface<L> {
+    /// The friction coefficients of four contacts.
+    #[inline(always)]
+    pub fn friction_in_lanes<S: Simd>(
+        &self,
+        [longitudinal, lateral, _]: [f64x4<S>; 3],
+        reference_speed: f64x4<S>,
+    ) -> f64x4<S> {
+        let simd = reference_speed.simd;
+        if self.friction.is_constant() {
+            return simd.splat_f64x4(self.friction.static_coefficient);
+        }
+        let creepage = (longitudinal * longitudinal + lateral * lateral).sqrt();
+        load(
+            simd,
+            &falling(&self.friction, (creepage * reference_speed).into()),
+        )
+    }
+
     /// The factor `1 + beta w` on the elastic load of surfaces that approach each other at the speed `w` (Hunt and
     /// Crossley 1975); never negative, for the rails push and never pull.
     #[inline(always)]
     pub fn damping<T: Number>(&self, approach_speed: T) -> T {
         (approach_speed * self.normal_damping_s_per_m + 1.0).not_negative()
     }
+}
+
+/// Not inlined: the exponential would have what is in registers spilled, where friction does not fall too.
+#[inline(never)]
+fn falling(friction: &Friction, sliding_speed: [f64; 4]) -> [f64; 4] {
+    sliding_speed.map(|speed| friction.at(speed))
 }

@@ -1,14 +1,14 @@
 //! Where a wheel is over its rail, and the force of one patch on it.
 
-use super::forces::{PatchForces, Status, WheelForces};
+use super::forces::{Status, TOLD};
 use super::frame::{Frame, RailRoll};
 use super::geometry::ContactGeometry;
-use super::loaded_contact::{Contact, Creep, CreepNumber};
+use super::loaded_contact::{Contact, CreepNumber};
 use super::motion::RailNumbers;
 use super::pair::Pair;
 use super::surface::Surface;
 use super::tables::NUMBERS;
-use crate::creep::CreepLaw;
+use crate::creep::{CreepLaw, MAX_CREEPAGE};
 use crate::math::number::Number;
 
 /// Normal penetration beyond which steel does not stay elastic, m.
@@ -29,16 +29,40 @@ pub(super) struct WheelLengths<T> {
     beside_top: T,
 }
 
-impl<T: Number> WheelLengths<T> {
-    /// Those of the wheels of one or two geometries, whose wheelset is `height_m` above the rails.
-    pub fn new(geometry: impl Fn(fn(&ContactGeometry) -> f64) -> T, height_m: f64) -> Self {
-        let offset = geometry(|geometry| geometry.pair().installation().datum_offset_m());
-        let radius = geometry(|geometry| geometry.pair().installation().wheel_radius_m);
+impl WheelLengths<f64> {
+    /// Those of the wheels of a geometry, whose wheelset is `height_m` above the rails.
+    pub fn new(geometry: &ContactGeometry, height_m: f64) -> Self {
+        let pair = geometry.pair();
+        let offset = pair.installation().datum_offset_m();
+        let radius = pair.installation().wheel_radius_m;
         Self {
             offset,
             radius,
-            below_top: radius + -height_m,
-            beside_top: offset - geometry(|geometry| geometry.pair().rail_top_m()),
+            below_top: radius - height_m,
+            beside_top: offset - pair.rail_top_m(),
+        }
+    }
+}
+
+impl<T> WheelLengths<T> {
+    /// The same with every number made another.
+    #[inline(always)]
+    pub fn map<U>(&self, number: impl Fn(&T) -> U) -> WheelLengths<U> {
+        WheelLengths {
+            offset: number(&self.offset),
+            radius: number(&self.radius),
+            below_top: number(&self.below_top),
+            beside_top: number(&self.beside_top),
+        }
+    }
+
+    /// Those of two wheels side by side.
+    pub fn zip<U>(&self, other: &Self, number: impl Fn(&T, &T) -> U) -> WheelLengths<U> {
+        WheelLengths {
+            offset: number(&self.offset, &other.offset),
+            radius: number(&self.radius, &other.radius),
+            below_top: number(&self.below_top, &other.below_top),
+            beside_top: number(&self.beside_top, &other.beside_top),
         }
     }
 }
@@ -57,16 +81,11 @@ pub(super) struct Place<T> {
 
 /// One patch: its force and what is told of it.
 pub(super) struct Patch<T> {
-    wrench: Wrench<T>,
-    load: T,
-    penetration: T,
-    slope: T,
-    radius: T,
-    wheel_y: T,
-    position: [T; 3],
-    semi_axes: [T; 2],
-    creep: [Creep; 2],
-    reference_speed: T,
+    pub wrench: Wrench<T>,
+    pub penetration: T,
+    pub wheel_y: T,
+    /// The numbers of [`PatchForces`](super::PatchForces), of a patch of the right side.
+    pub told: [T; TOLD],
 }
 
 impl<T: CreepNumber> Place<T> {
@@ -92,13 +111,14 @@ impl<T: CreepNumber> Place<T> {
         }
     }
 
-    /// The patch of `numbers` whose surfaces interpenetrate by `depth` along z.
+    /// The patch of `numbers` whose surfaces interpenetrate by `depth` along z, in the lanes that are `used`.
     #[inline(always)]
     pub fn patch<L: CreepLaw>(
         &self,
         surface: &Surface<L>,
         depth: T,
         numbers: [T; NUMBERS],
+        used: [bool; 4],
     ) -> Patch<T> {
         let (frame, rail) = (&self.frame, &self.rail);
         let [
@@ -142,13 +162,16 @@ impl<T: CreepNumber> Place<T> {
             semi_axes: [a * root, b * root],
             kalker: [c11, c22, c23, c33],
             creepage: [
-                vx * directed,
-                (vy * cos + vz * sin) * directed,
-                (wz * cos - wy * sin) * frame.per_reference_speed,
+                (vx * directed).limited(MAX_CREEPAGE),
+                ((vy * cos + vz * sin) * directed).limited(MAX_CREEPAGE),
+                ((wz * cos - wy * sin) * frame.per_reference_speed).limited(MAX_CREEPAGE),
             ],
         };
-        let ([longitudinal, lateral, spin_moment], creep) =
-            T::creep(&contact, surface, frame.reference_speed);
+        let creep = T::creep_forces(&contact, surface, frame.reference_speed, used);
+        let [longitudinal, lateral, spin_moment] = creep;
+        let [xi, eta, phi] = contact.creepage;
+        let dissipation =
+            -(longitudinal * xi + lateral * eta + spin_moment * phi) * frame.reference_speed;
         let load = contact.load * fraction;
         let (fx, ft) = (longitudinal * frame.direction, lateral * frame.direction);
         let (fy, fz) = (ft * cos + load * sin, ft * sin - load * cos);
@@ -161,55 +184,48 @@ impl<T: CreepNumber> Place<T> {
                 z * fx - x * fz - spin_moment * sin,
                 x * fy - y * fx + spin_moment * cos,
             ],
-            load,
             penetration,
-            slope,
-            radius,
             wheel_y,
-            position,
-            semi_axes: contact.semi_axes,
-            creep,
-            reference_speed: frame.reference_speed,
+            told: [
+                load,
+                penetration,
+                -slope,
+                contact.semi_axes[0],
+                contact.semi_axes[1],
+                radius,
+                wheel_y,
+                x,
+                y,
+                z,
+                xi,
+                eta,
+                phi,
+                longitudinal,
+                lateral,
+                spin_moment,
+                dissipation,
+            ],
         }
     }
 }
 
-impl<T: Number> Patch<T> {
-    /// Adds the force and moment of the patch.
-    #[inline(always)]
-    pub fn add_to(&self, wrench: &mut Wrench<T>) {
-        for (sum, term) in wrench.iter_mut().zip(self.wrench) {
-            *sum = *sum + term;
-        }
-    }
-
-    /// Writes what is told of the patch in one lane into its zone of `wheel`, whose status takes account of it.
-    #[inline(always)]
-    pub fn write(&self, lane: usize, pair: &Pair, zone: usize, wheel: &mut WheelForces) {
-        let result = &mut wheel.patches[zone];
-        result.load_n = self.load.lane(lane);
-        result.penetration_m = self.penetration.lane(lane);
-        result.slope = -self.slope.lane(lane);
-        result.semi_axes_m = self.semi_axes.map(|axis| axis.lane(lane));
-        result.rolling_radius_m = self.radius.lane(lane);
-        result.wheel_y_m = self.wheel_y.lane(lane);
-        result.position_m = self.position.map(|component| component.lane(lane));
-        let Creep { creepage, forces } = self.creep[lane];
-        result.creepage = creepage;
-        result.creep = forces;
-        result.dissipation_w = forces.dissipation_n(&creepage) * self.reference_speed.lane(lane);
-        wheel.status = wheel.status.max(status(pair, result));
-    }
-}
-
-/// What a loaded patch makes of its wheel.
+/// State of a wheel at a pose inside its tables or not, with the greatest penetration of its patches and the `wheel_y_m` of the
+/// one nearest to the flange's tip, if it is loaded.
 #[inline(always)]
-fn status(pair: &Pair, patch: &PatchForces) -> Status {
-    if patch.penetration_m > MAX_PENETRATION_M {
+pub(super) fn status(
+    pair: &Pair,
+    is_inside: bool,
+    is_loaded: bool,
+    penetration_m: f64,
+    wheel_y_m: f64,
+) -> Status {
+    if !is_inside || penetration_m > MAX_PENETRATION_M {
         Status::OutsideTables
-    } else if patch.wheel_y_m < pair.flange_tip_m() {
+    } else if !is_loaded {
+        Status::Lifted
+    } else if wheel_y_m < pair.flange_tip_m() {
         Status::PastTip
-    } else if patch.wheel_y_m < pair.steepest_flange_m() {
+    } else if wheel_y_m < pair.steepest_flange_m() {
         Status::Climbing
     } else {
         Status::Rolling

@@ -1,19 +1,17 @@
 //! Contact forces on a wheelset: both wheels, each on its own rail.
 
-use std::array::from_fn;
 use std::sync::Arc;
 
-use super::forces::{Status, WheelDerivatives, WheelsetForces};
-use super::frame::Frame;
+use fearless_simd::{Level, dispatch};
+
+use super::forces::{WheelDerivatives, WheelsetForces};
 use super::geometry::ContactGeometry;
-use super::loaded_zones::LoadedZones;
-use super::motion::{MOTION_FIELDS, Motion, ODD, RailDisplacement, RailNumbers, Tangent};
-use super::source::{PatchSource, functions_of_pose};
+use super::motion::{Motion, RailDisplacement};
+use super::source::PatchSource;
 use super::surface::{MAX_NORMAL_DAMPING_S_PER_M, Surface, SurfaceError};
 use super::tables::Tables;
-use super::wheel::{Place, WheelLengths, Wrench};
+use super::wheel::WheelLengths;
 use crate::creep::{CreepLaw, Friction};
-use crate::math::number::{Number, Sides};
 
 /// The contact of a wheelset: constant, shared by every wheelset of the same profiles.
 ///
@@ -34,12 +32,14 @@ use crate::math::number::{Number, Sides};
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug, Clone)]
-pub struct WheelsetContact<L, S = Tables> {
+pub struct WheelsetContact<L, S: PatchSource = Tables> {
     /// Of the left wheel (as its mirror image on the right side) and of the right wheel.
-    sources: [Arc<S>; 2],
-    surface: Surface<L>,
-    lengths: [WheelLengths<Tangent>; 2],
-    lengths_of_sides: WheelLengths<Sides>,
+    pub(super) sources: [Arc<S>; 2],
+    pub(super) finder: S::Finder,
+    pub(super) surface: Surface<L>,
+    pub(super) lengths: [WheelLengths<f64>; 2],
+    pub(super) lengths_in_lanes: WheelLengths<[f64; 4]>,
+    pub(super) level: Level,
 }
 
 impl<L: CreepLaw, S: PatchSource> WheelsetContact<L, S> {
@@ -73,16 +73,15 @@ impl<L: CreepLaw, S: PatchSource> WheelsetContact<L, S> {
             normal_damping_s_per_m: 0.0,
         };
         let height_m = mean(|geometry| geometry.pair().installation().wheel_radius_m);
-        let of_side = |side: &Arc<S>| {
-            WheelLengths::new(|of| Tangent::constant(of(side.geometry())), height_m)
-        };
+        let lengths = [&left, &right].map(|side| WheelLengths::new(side.geometry(), height_m));
+        let [left_lengths, right_lengths] = &lengths;
+        let in_lanes = |left: &f64, right: &f64| [*left, *right, *left, *right];
         Ok(Self {
+            finder: S::finder([&left, &right]),
             surface,
-            lengths: [of_side(&left), of_side(&right)],
-            lengths_of_sides: WheelLengths::new(
-                |of| Sides::from([of(left.geometry()), of(right.geometry())]),
-                height_m,
-            ),
+            lengths_in_lanes: left_lengths.zip(right_lengths, in_lanes),
+            lengths,
+            level: Level::new(),
             sources: [left, right],
         })
     }
@@ -130,54 +129,12 @@ impl<L: CreepLaw, S: PatchSource> WheelsetContact<L, S> {
         rails: &[RailDisplacement; 2],
         forces: &mut WheelsetForces,
     ) {
-        if !begin(motion, rails, forces) {
-            return;
-        }
-        let values = motion.numbers();
-        let numbers = from_fn(|field| {
-            let left = if ODD[field] {
-                -values[field]
-            } else {
-                values[field]
-            };
-            Sides::from([left, values[field]])
+        let are_few = dispatch!(self.level, simd => {
+            self.update_side_by_side::<false, _>(simd, motion, rails, forces)
         });
-        let rail = RailNumbers::new(
-            |of| Sides::from([of(&rails[0]), of(&rails[1])]),
-            |of| Sides::from([-of(&rails[0]), of(&rails[1])]),
-        );
-        let place = Place::new(Frame::new(&numbers), rail, self.lengths_of_sides);
-        let [lateral, roll, yaw] = place.pose.map(<[f64; 2]>::from);
-        let depth = <[f64; 2]>::from(place.depth);
-        let [left, right] = &mut forces.wheels;
-        let sources = self.sources.each_ref().map(|source| source.as_ref());
-        let pose = |side: usize| [lateral[side], roll[side], yaw[side]];
-        let left_zones = LoadedZones::of(sources[0], pose(0), depth[0], left);
-        let right_zones = LoadedZones::of(sources[1], pose(1), depth[1], right);
-        let mut wrench = [Sides::constant(0.0); 6];
-        for k in 0..left_zones.count.max(right_zones.count) {
-            // A wheel with fewer patches than the other computes one without load.
-            let (left_depth, left_numbers) = left_zones.patch(k);
-            let (right_depth, right_numbers) = right_zones.patch(k);
-            let patch = place.patch(
-                &self.surface,
-                Sides::from([left_depth, right_depth]),
-                from_fn(|n| Sides::from([left_numbers[n], right_numbers[n]])),
-            );
-            patch.add_to(&mut wrench);
-            let [left_pair, right_pair] = sources.map(|source| source.geometry().pair());
-            if k < left_zones.count {
-                patch.write(0, left_pair, left_zones.zones[k], left);
-            }
-            if k < right_zones.count {
-                patch.write(1, right_pair, right_zones.zones[k], right);
-            }
+        if !are_few {
+            self.update_many(motion, rails, forces);
         }
-        let wrench = wrench.map(<[f64; 2]>::from);
-        for side in 0..2 {
-            forces.wheels[side].set_wrench(wrench.map(|sides| sides[side]));
-        }
-        finish(forces);
     }
 
     /// As [`update`](WheelsetContact::update), and the derivatives of force and moment on the left and the right wheel by
@@ -192,84 +149,6 @@ impl<L: CreepLaw, S: PatchSource> WheelsetContact<L, S> {
         rails: &[RailDisplacement; 2],
         forces: &mut WheelsetForces,
     ) -> [WheelDerivatives; 2] {
-        let mut derivatives = [WheelDerivatives::default(); 2];
-        if !begin(motion, rails, forces) {
-            return derivatives;
-        }
-        let values = motion.numbers();
-        for side in 0..2 {
-            let sign = if side == 0 { -1.0 } else { 1.0 };
-            let numbers = from_fn(|field| {
-                let variable = Tangent::variable(values[field], field);
-                if ODD[field] {
-                    variable * sign
-                } else {
-                    variable
-                }
-            });
-            let rail = RailNumbers::new(
-                |of| Tangent::constant(of(&rails[side])),
-                |of| Tangent::constant(sign * of(&rails[side])),
-            );
-            let place = Place::new(Frame::new(&numbers), rail, self.lengths[side]);
-            let wheel = &mut forces.wheels[side];
-            let source = self.sources[side].as_ref();
-            let pose = place.pose.map(|number| number.value());
-            let loaded = LoadedZones::of(source, pose, place.depth.value(), wheel);
-            let mut wrench = [Tangent::constant(0.0); 6];
-            for &zone in &loaded.zones[..loaded.count] {
-                let value = loaded.interpenetrations[zone];
-                let (interpenetration, numbers) =
-                    functions_of_pose(&loaded.reader, zone, value, place.pose);
-                let depth = interpenetration + place.depth;
-                let patch = place.patch(&self.surface, depth, numbers);
-                patch.add_to(&mut wrench);
-                patch.write(0, source.geometry().pair(), zone, wheel);
-            }
-            wheel.set_wrench(wrench.map(|number| number.value()));
-            derivatives[side] = WheelDerivatives::of(&wrench, sign);
-        }
-        finish(forces);
-        derivatives
-    }
-}
-
-/// Whether the motion is one that forces can be computed of; otherwise they are zero and say so.
-#[inline(always)]
-fn begin(motion: &Motion, rails: &[RailDisplacement; 2], forces: &mut WheelsetForces) -> bool {
-    let accepted = motion.is_accepted() & rails[0].is_accepted() & rails[1].is_accepted();
-    if !accepted {
-        *forces = WheelsetForces::default();
-        forces.status = Status::NotFinite;
-        for wheel in &mut forces.wheels {
-            wheel.status = Status::NotFinite;
-        }
-    }
-    accepted
-}
-
-/// Turns the left wheel back from its mirror image and adds up both wheels.
-#[inline(always)]
-fn finish(forces: &mut WheelsetForces) {
-    let [left, right] = &mut forces.wheels;
-    left.mirror();
-    for k in 0..3 {
-        forces.force_n[k] = left.force_n[k] + right.force_n[k];
-        forces.moment_n_m[k] = left.moment_n_m[k] + right.moment_n_m[k];
-    }
-    forces.status = left.status.max(right.status);
-}
-
-impl WheelDerivatives {
-    /// Those of the wrench on a wheel, or on the mirror image (`sign` -1) of the left wheel.
-    fn of(wrench: &Wrench<Tangent>, sign: f64) -> Self {
-        let by_field = |number: &Tangent, sign: f64| -> [f64; MOTION_FIELDS] {
-            from_fn(|field| sign * f64::from(number.derivatives()[field]))
-        };
-        let [fx, fy, fz, mx, my, mz] = wrench;
-        Self {
-            force: [by_field(fx, 1.0), by_field(fy, sign), by_field(fz, 1.0)],
-            moment: [by_field(mx, sign), by_field(my, 1.0), by_field(mz, sign)],
-        }
+        self.update_one_by_one(motion, rails, forces)
     }
 }

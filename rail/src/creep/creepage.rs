@@ -15,6 +15,16 @@ pub struct Creepage {
 pub const MAX_CREEPAGE: f64 = 1e6;
 
 impl Creepage {
+    /// Longitudinal and lateral creepage and spin.
+    #[inline(always)]
+    pub(crate) fn of([longitudinal, lateral, spin_per_m]: [f64; 3]) -> Self {
+        Self {
+            longitudinal,
+            lateral,
+            spin_per_m,
+        }
+    }
+
     /// The same with every component limited to [`MAX_CREEPAGE`] in magnitude; NaN becomes zero.
     ///
     /// ```
@@ -24,10 +34,7 @@ impl Creepage {
     /// ```
     #[inline]
     pub fn bounded(self) -> Self {
-        let square = self.longitudinal * self.longitudinal
-            + self.lateral * self.lateral
-            + self.spin_per_m * self.spin_per_m;
-        if square <= MAX_CREEPAGE * MAX_CREEPAGE {
+        if self.is_bounded() {
             return self;
         }
         let bound = |x: f64| {
@@ -42,6 +49,15 @@ impl Creepage {
             lateral: bound(self.lateral),
             spin_per_m: bound(self.spin_per_m),
         }
+    }
+
+    /// Whether no component is greater than [`MAX_CREEPAGE`], nor all together, and none is NaN.
+    #[inline(always)]
+    pub(super) fn is_bounded(&self) -> bool {
+        let square = self.longitudinal * self.longitudinal
+            + self.lateral * self.lateral
+            + self.spin_per_m * self.spin_per_m;
+        square <= MAX_CREEPAGE * MAX_CREEPAGE
     }
 
     /// Magnitude of longitudinal and lateral creepage, without spin.

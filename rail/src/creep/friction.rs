@@ -71,6 +71,12 @@ impl Friction {
         Ok(())
     }
 
+    /// Whether the coefficient is the same at every sliding speed.
+    #[inline(always)]
+    pub(crate) fn is_constant(&self) -> bool {
+        self.residual_ratio >= 1.0
+    }
+
     /// Derivative of the coefficient by the sliding speed, s/m.
     #[inline]
     pub(crate) fn slope_at(&self, sliding_speed_m_per_s: f64) -> f64 {
@@ -88,7 +94,7 @@ impl Friction {
     /// ```
     #[inline]
     pub fn at(&self, sliding_speed_m_per_s: f64) -> f64 {
-        if self.residual_ratio >= 1.0 {
+        if self.is_constant() {
             self.static_coefficient
         } else {
             self.static_coefficient

@@ -1,8 +1,13 @@
 //! What a creep law is, and what holds for the forces of every law.
 
+use fearless_simd::{Simd, f64x4};
+
+use super::contact_lanes::ContactLanes;
 use super::creepage::Creepage;
 use super::derivatives::{CreepDerivatives, differences};
 use super::kalker::KalkerCoefficients;
+use crate::math::each::Each;
+use crate::math::number::load;
 
 /// One loaded contact as the creep laws need it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -39,16 +44,20 @@ impl CreepForces {
         [self.longitudinal_n, self.lateral_n, self.moment_n_m]
     }
 
-    /// The forces times `factor`.
-    #[inline]
-    pub fn scaled(&self, factor: f64) -> Self {
-        let [longitudinal_n, lateral_n, moment_n_m] =
-            self.components().map(|component| component * factor);
+    /// Of longitudinal force, lateral force (N) and moment (N m).
+    #[inline(always)]
+    pub(crate) fn of_components([longitudinal_n, lateral_n, moment_n_m]: [f64; 3]) -> Self {
         Self {
             longitudinal_n,
             lateral_n,
             moment_n_m,
         }
+    }
+
+    /// The forces times `factor`.
+    #[inline]
+    pub fn scaled(&self, factor: f64) -> Self {
+        Self::of_components(self.components().map(|component| component * factor))
     }
 
     /// Magnitude of the force, N.
@@ -99,6 +108,17 @@ pub trait CreepLaw: Send + Sync {
         )
     }
 
+    /// Longitudinal force, lateral force and moment of four contacts side by side, each as [`CreepLaw::forces`]; zero in a
+    /// lane that is not `used`.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn forces_in_lanes<S: Simd>(&self, contacts: &ContactLanes<S>, used: [bool; 4]) -> [f64x4<S>; 3]
+    where
+        Self: Sized,
+    {
+        forces_one_by_one(self, contacts, used)
+    }
+
     /// [`CreepLaw::forces`] and their derivatives by the creepages; by differences unless the law knows better.
     fn forces_with_derivatives(
         &self,
@@ -125,6 +145,28 @@ impl<L: CreepLaw + ?Sized> CreepLaw for Box<L> {
     ) -> CreepDerivatives {
         self.as_ref().forces_with_derivatives(contact, creepage)
     }
+}
+
+/// The contacts in lanes one by one.
+#[inline(always)]
+pub(super) fn forces_one_by_one<L: CreepLaw + ?Sized, S: Simd>(
+    law: &L,
+    contacts: &ContactLanes<S>,
+    used: [bool; 4],
+) -> [f64x4<S>; 3] {
+    let mut forces = [[0.0; 4]; 3];
+    for lane in 0..4 {
+        if used[lane] {
+            let (contact, creepage) = contacts.in_lane(lane);
+            for (sum, force) in forces
+                .iter_mut()
+                .zip(law.forces(&contact, &creepage).components())
+            {
+                sum[lane] = force;
+            }
+        }
+    }
+    forces.each(|lanes| load(contacts.load.simd, &lanes))
 }
 
 /// Whether load, friction and semi-axes are positive and finite.

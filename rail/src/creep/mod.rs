@@ -25,6 +25,7 @@
 //! here, and add the law to `laws()` in `rail/tests/contact/common/mod.rs`: every test of the creep laws then runs
 //! on it, and `rail/tests/contact/laws.rs` measures its errors for `docs/contact.md`.
 
+mod contact_lanes;
 mod creepage;
 mod derivatives;
 mod fastsim;
@@ -35,6 +36,7 @@ mod law;
 mod polach;
 mod shen_hedrick_elkins;
 
+pub(crate) use contact_lanes::ContactLanes;
 pub use creepage::{Creepage, MAX_CREEPAGE};
 pub use derivatives::CreepDerivatives;
 pub use fastsim::Fastsim;

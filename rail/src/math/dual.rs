@@ -22,6 +22,15 @@ impl<const N: usize> Dual<N> {
         }
     }
 
+    /// A number that depends on nothing.
+    #[inline(always)]
+    pub fn constant(value: f64) -> Self {
+        Self {
+            value,
+            derivatives: [0.0; N],
+        }
+    }
+
     /// The value without derivatives.
     #[inline(always)]
     pub fn value(&self) -> f64 {
@@ -48,14 +57,6 @@ impl<const N: usize> Dual<N> {
 }
 
 impl<const N: usize> Number for Dual<N> {
-    #[inline(always)]
-    fn constant(value: f64) -> Self {
-        Self {
-            value,
-            derivatives: [0.0; N],
-        }
-    }
-
     #[inline(always)]
     fn lane(self, _: usize) -> f64 {
         self.value
@@ -89,6 +90,11 @@ impl<const N: usize> Number for Dual<N> {
         } else {
             Self::constant(0.0)
         }
+    }
+
+    #[inline(always)]
+    fn sign(self) -> Self {
+        Self::constant(1f64.copysign(self.value))
     }
 }
 
@@ -184,5 +190,6 @@ mod tests {
         assert_eq!((-x).limited(0.9), -x);
         assert_eq!(y.not_negative(), Dual::constant(0.0));
         assert_eq!(x.not_negative(), x);
+        assert_eq!([x.sign(), y.sign()], [1.0, -1.0].map(Dual::constant));
     }
 }

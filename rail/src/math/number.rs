@@ -1,8 +1,8 @@
-//! What formulas compute with: a number, both wheels side by side, or a number with derivatives.
+//! What formulas compute with: a number, four side by side, or a number with derivatives.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use wide::f64x2;
+use fearless_simd::{Simd, SimdBase, f32x4, f64x4};
 
 /// A real number in several lanes, or with derivatives.
 pub trait Number:
@@ -15,9 +15,6 @@ pub trait Number:
     + Add<f64, Output = Self>
     + Mul<f64, Output = Self>
 {
-    /// A number that depends on nothing, the same in every lane.
-    fn constant(value: f64) -> Self;
-
     /// The value in one lane.
     fn lane(self, lane: usize) -> f64;
 
@@ -32,14 +29,12 @@ pub trait Number:
 
     /// The number, or zero where it is negative.
     fn not_negative(self) -> Self;
+
+    /// 1, or -1 where the number has a minus sign.
+    fn sign(self) -> Self;
 }
 
 impl Number for f64 {
-    #[inline(always)]
-    fn constant(value: f64) -> Self {
-        value
-    }
-
     #[inline(always)]
     fn lane(self, _: usize) -> f64 {
         self
@@ -64,94 +59,110 @@ impl Number for f64 {
     fn not_negative(self) -> Self {
         self.max(0.0)
     }
-}
 
-/// The left and the right wheel, one in each lane.
-#[derive(Debug, Clone, Copy)]
-pub struct Sides(f64x2);
-
-impl From<[f64; 2]> for Sides {
     #[inline(always)]
-    fn from(sides: [f64; 2]) -> Self {
-        Self(f64x2::from(sides))
+    fn sign(self) -> Self {
+        1f64.copysign(self)
     }
 }
 
-impl From<Sides> for [f64; 2] {
-    #[inline(always)]
-    fn from(sides: Sides) -> Self {
-        sides.0.to_array()
-    }
-}
-
-impl Number for Sides {
-    #[inline(always)]
-    fn constant(value: f64) -> Self {
-        Self(f64x2::splat(value))
-    }
-
+impl<S: Simd> Number for f64x4<S> {
     #[inline(always)]
     fn lane(self, lane: usize) -> f64 {
-        self.0.as_array()[lane]
+        self[lane]
     }
 
     #[inline(always)]
     fn reciprocal(self) -> Self {
-        Self(f64x2::ONE / self.0)
+        1.0 / self
     }
 
     #[inline(always)]
     fn sqrt(self) -> Self {
-        Self(self.0.sqrt())
+        self.simd.sqrt_f64x4(self)
     }
 
     #[inline(always)]
     fn limited(self, limit: f64) -> Self {
-        let limit = f64x2::splat(limit);
-        Self(self.0.fast_max(-limit).fast_min(limit))
+        let simd = self.simd;
+        let (least, most) = (simd.splat_f64x4(-limit), simd.splat_f64x4(limit));
+        simd.min_f64x4(simd.max_f64x4(self, least), most)
     }
 
     #[inline(always)]
     fn not_negative(self) -> Self {
-        Self(self.0.fast_max(f64x2::ZERO))
+        let simd = self.simd;
+        simd.max_f64x4(self, simd.splat_f64x4(0.0))
     }
-}
-
-/// Operators of [`Sides`], by lane.
-macro_rules! by_lane {
-    ($($operator:ident $function:ident),*) => {$(
-        impl $operator for Sides {
-            type Output = Self;
-
-            #[inline(always)]
-            fn $function(self, other: Self) -> Self {
-                Self($operator::$function(self.0, other.0))
-            }
-        }
-
-        impl $operator<f64> for Sides {
-            type Output = Self;
-
-            #[inline(always)]
-            fn $function(self, other: f64) -> Self {
-                Self($operator::$function(self.0, f64x2::splat(other)))
-            }
-        }
-    )*};
-}
-by_lane!(Add add, Sub sub, Mul mul, Div div);
-
-impl Neg for Sides {
-    type Output = Self;
 
     #[inline(always)]
-    fn neg(self) -> Self {
-        Self(-self.0)
+    fn sign(self) -> Self {
+        let simd = self.simd;
+        simd.copysign_f64x4(simd.splat_f64x4(1.0), self)
     }
+}
+
+/// Four numbers side by side.
+pub trait Lanes {
+    /// The greater number in each lane; either one where one is NaN.
+    fn at_least(self, low: Self) -> Self;
+
+    /// The lesser number in each lane; either one where one is NaN.
+    fn at_most(self, high: Self) -> Self;
+}
+
+impl<S: Simd> Lanes for f64x4<S> {
+    #[inline(always)]
+    fn at_least(self, low: Self) -> Self {
+        self.simd.max_f64x4(self, low)
+    }
+
+    #[inline(always)]
+    fn at_most(self, high: Self) -> Self {
+        self.simd.min_f64x4(self, high)
+    }
+}
+
+/// Whether the numbers in all lanes are greater than `low` and at most `high`; NaN is not.
+#[inline(always)]
+pub fn are_within<S: Simd>(numbers: f64x4<S>, low: f64, high: f64) -> bool {
+    let simd = numbers.simd;
+    let above = simd.simd_gt_f64x4(numbers, simd.splat_f64x4(low));
+    let below = simd.simd_le_f64x4(numbers, simd.splat_f64x4(high));
+    simd.all_true_mask64x4(above & below)
+}
+
+/// Loads an array.
+#[inline(always)]
+pub fn load<S: Simd>(simd: S, lanes: &[f64; 4]) -> f64x4<S> {
+    f64x4::from_slice(simd, lanes)
+}
+
+/// The first numbers of all four vectors, then the second and so on.
+#[inline(always)]
+pub fn rows<S: Simd>([a, b, c, d]: [f64x4<S>; 4]) -> [f64x4<S>; 4] {
+    let simd = a.simd;
+    let (even, odd) = (simd.interleave_f64x4(a, c), simd.interleave_f64x4(b, d));
+    let (first, second) = simd.interleave_f64x4(even.0, odd.0);
+    let (third, last) = simd.interleave_f64x4(even.1, odd.1);
+    [first, second, third, last]
+}
+
+/// The first numbers of all four vectors, then the second and so on.
+#[inline(always)]
+pub fn transposed<S: Simd>(simd: S, [a, b, c, d]: [f32x4<S>; 4]) -> [f64x4<S>; 4] {
+    let (even, odd) = (simd.interleave_f32x4(a, c), simd.interleave_f32x4(b, d));
+    let (first, second) = simd.interleave_f32x4(even.0, odd.0);
+    let (third, last) = simd.interleave_f32x4(even.1, odd.1);
+    let (first, second) = simd.widen_f32x8(simd.combine_f32x4(first, second));
+    let (third, last) = simd.widen_f32x8(simd.combine_f32x4(third, last));
+    [first, second, third, last]
 }
 
 #[cfg(test)]
 mod tests {
+    use fearless_simd::{Level, dispatch};
+
     use super::*;
 
     #[test]
@@ -159,12 +170,46 @@ mod tests {
         fn formula<T: Number>(x: T, y: T) -> T {
             x * x * y / x.sqrt() - x * 2.0 + y.reciprocal()
         }
-        let sides = formula(Sides::from([0.7, 2.0]), Sides::from([-1.3, 0.5]));
-        let alone = [formula(0.7, -1.3), formula(2.0, 0.5)];
-        assert_eq!(<[f64; 2]>::from(sides), alone);
-        let limited = Sides::from([-3.0, 0.2]).limited(1.0);
-        assert_eq!(<[f64; 2]>::from(limited), [-1.0, 0.2]);
-        let not_negative = Sides::from([-3.0, 0.2]).not_negative();
-        assert_eq!(<[f64; 2]>::from(not_negative), [0.0, 0.2]);
+        #[inline(always)]
+        fn check<S: Simd>(simd: S) {
+            let (x, y) = ([0.7, 2.0, 3.0, 0.1], [-1.3, 0.5, -0.0, 7.0]);
+            let lanes = formula(load(simd, &x), load(simd, &y));
+            for lane in 0..4 {
+                assert_eq!(lanes.lane(lane), formula(x[lane], y[lane]));
+            }
+            let numbers = load(simd, &[-3.0, 0.2, 0.0, 5.0]);
+            assert_eq!(
+                <[f64; 4]>::from(numbers.limited(1.0)),
+                [-1.0, 0.2, 0.0, 1.0]
+            );
+            assert_eq!(
+                <[f64; 4]>::from(numbers.not_negative()),
+                [0.0, 0.2, 0.0, 5.0]
+            );
+            assert_eq!(<[f64; 4]>::from(numbers.sign()), [-1.0, 1.0, 1.0, 1.0]);
+            let rows = [0.0f32, 1.0, 2.0, 3.0]
+                .map(|row| f32x4::from_slice(simd, &[row, row + 10.0, row + 20.0, row + 30.0]));
+            let columns = transposed(simd, rows).map(<[f64; 4]>::from);
+            assert_eq!(columns[0], [0.0, 1.0, 2.0, 3.0]);
+            assert_eq!(columns[2], [20.0, 21.0, 22.0, 23.0]);
+            let others = load(simd, &[-2.0, 0.1, 1.0, 6.0]);
+            assert_eq!(
+                <[f64; 4]>::from(numbers.at_least(others)),
+                [-2.0, 0.2, 1.0, 6.0]
+            );
+            assert_eq!(
+                <[f64; 4]>::from(numbers.at_most(others)),
+                [-3.0, 0.1, 0.0, 5.0]
+            );
+            assert!(are_within(numbers, -3.5, 5.0));
+            assert!(!are_within(numbers, -3.0, 5.0));
+            assert!(!are_within(
+                load(simd, &[1.0, f64::NAN, 1.0, 1.0]),
+                0.0,
+                2.0
+            ));
+        }
+        dispatch!(Level::new(), simd => check(simd));
+        dispatch!(Level::baseline(), simd => check(simd));
     }
 }

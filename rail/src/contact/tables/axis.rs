@@ -1,6 +1,12 @@
 //! The axes of the tables: where their nodes lie and how a value finds its cell.
 
+use std::array::from_fn;
+
+use fearless_simd::{Simd, f64x4};
+
 use super::TablesError;
+use crate::math::each::Each;
+use crate::math::number::{Lanes, load};
 
 /// Nodes along one axis in three parts: coarse, fine, coarse.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -50,30 +56,33 @@ impl Axis {
     }
 }
 
-/// Where a value lies on an axis.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Located {
-    pub cell: usize,
+/// Where values lie on an axis.
+#[derive(Clone, Copy)]
+pub(super) struct Located<S: Simd> {
+    /// Number of the cell, a whole number.
+    pub cell: f64x4<S>,
     /// Place within the cell, from 0 to 1.
-    pub place: f64,
-    /// Derivative of the place by the value; zero outside, where the nearest end is read.
-    pub cells_per_unit: f64,
-    pub is_inside: bool,
+    pub place: f64x4<S>,
+    /// Distance to the nearest end, zero inside.
+    pub outside: f64x4<S>,
 }
 
-/// An axis prepared for reading: cells per unit in place of cell widths.
+/// An axis prepared for reading, in four lanes: of the tables of one wheel, or of two.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct AxisReader {
-    ends: [f64; 4],
-    first: [f64; 3],
-    per_unit: [f64; 3],
-    last_cell: u32,
+    ends: [[f64; 4]; 4],
+    cells_per_unit: [[f64; 4]; 3],
+    /// What the position of the first end lacks of zero.
+    offset: [f64; 4],
+    last_cell: [f64; 4],
 }
 
+/// 1.5 2^52: a much smaller number added to it becomes whole, and stands in the lower bits.
+const WHOLE: f64 = 6_755_399_441_055_744.0;
+
 impl AxisReader {
-    pub fn new(axis: Axis) -> Self {
-        let [a, b, _] = axis.cells;
-        let per_unit = [0, 1, 2].map(|part| {
+    pub fn new(axis: &Axis) -> Self {
+        let cells_per_unit = [0, 1, 2].map(|part| {
             let width = axis.ends[part + 1] - axis.ends[part];
             if width > 0.0 {
                 axis.cells[part] as f64 / width
@@ -81,31 +90,74 @@ impl AxisReader {
                 0.0
             }
         });
+        let ends = cells_per_unit.iter().zip(axis.ends);
+        let offset: f64 = -ends.map(|(cells, end)| cells * end).sum::<f64>();
         Self {
-            ends: axis.ends,
-            first: [0.0, a as f64, (a + b) as f64],
-            per_unit,
-            last_cell: axis.nodes() as u32 - 2,
+            ends: axis.ends.map(|end| [end; 4]),
+            cells_per_unit: cells_per_unit.map(|cells| [cells; 4]),
+            offset: [offset; 4],
+            last_cell: [axis.nodes() as f64 - 2.0; 4],
         }
     }
 
-    #[inline(always)]
-    pub fn locate(&self, x: f64) -> Located {
-        let ends = &self.ends;
-        // Plain comparisons: one instruction each, unlike the maximum and minimum that mind NaN.
-        let raised = if x > ends[0] { x } else { ends[0] };
-        let limited = if raised < ends[3] { raised } else { ends[3] };
-        let part = usize::from(limited >= ends[1]) + usize::from(limited > ends[2]);
-        let position = self.first[part] + (limited - ends[part]) * self.per_unit[part];
-        let cell = (position as u32).min(self.last_cell);
-        let is_inside = x == limited;
-        Located {
-            cell: cell as usize,
-            place: position - f64::from(cell),
-            cells_per_unit: if is_inside { self.per_unit[part] } else { 0.0 },
-            is_inside,
+    /// The axes of a left and of a right wheel, each in every other lane.
+    pub fn of_two(left: &Self, right: &Self) -> Self {
+        Self {
+            ends: from_fn(|k| in_lanes(&left.ends[k], &right.ends[k])),
+            cells_per_unit: from_fn(|k| {
+                in_lanes(&left.cells_per_unit[k], &right.cells_per_unit[k])
+            }),
+            offset: in_lanes(&left.offset, &right.offset),
+            last_cell: in_lanes(&left.last_cell, &right.last_cell),
         }
     }
+
+    /// Adds up the cells on the way through the three parts, so that no part need be chosen.
+    #[inline(always)]
+    pub fn locate<S: Simd>(&self, x: f64x4<S>) -> Located<S> {
+        let simd = x.simd;
+        let [first, second, third, last] = self.ends.each(|end| load(simd, &end));
+        let [before, fine, behind] = self.cells_per_unit.each(|cells| load(simd, &cells));
+        let position = x.at_least(first).at_most(second) * before
+            + x.at_least(second).at_most(third) * fine
+            + x.at_least(third).at_most(last) * behind
+            + load(simd, &self.offset);
+        // The nearest whole number below, or at a node either cell.
+        let cell = (position - 0.5 + WHOLE - WHOLE).at_most(load(simd, &self.last_cell));
+        Located {
+            cell,
+            place: position - cell,
+            outside: x - x.at_least(first).at_most(last),
+        }
+    }
+
+    /// Derivative of the place in `cell` by the value.
+    pub fn cells_per_unit(&self, cell: f64) -> f64 {
+        let ([first, second, third, _], [before, fine, behind]) = (
+            self.ends.map(|end| end[0]),
+            self.cells_per_unit.map(|cells| cells[0]),
+        );
+        // The ends of a part are whole numbers of cells but for rounding.
+        let cells_before = before * (second - first);
+        if cell + 0.5 < cells_before {
+            before
+        } else if cell + 0.5 < cells_before + fine * (third - second) {
+            fine
+        } else {
+            behind
+        }
+    }
+}
+
+/// Numbers of a left and of a right wheel, each in every other lane.
+pub(in crate::contact) fn in_lanes(left: &[f64; 4], right: &[f64; 4]) -> [f64; 4] {
+    [left[0], right[0], left[0], right[0]]
+}
+
+/// A whole number from 0 to 2^32.
+#[inline(always)]
+pub(super) fn whole(number: f64) -> usize {
+    (number + WHOLE).to_bits() as u32 as usize
 }
 
 /// Extent and spacing of the tables.

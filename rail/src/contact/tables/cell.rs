@@ -1,96 +1,192 @@
 //! One cell of the tables: what is read at a pose between its eight nodes.
 
-use wide::{f32x4, f64x2};
+use std::array::from_fn;
 
-use super::node::{Node, QUADS};
+use fearless_simd::{Level, Simd, SimdBase, dispatch, f32x4, f32x8, f64x4};
+
+use super::axis::whole;
+use super::node::Node;
 use super::patch::NUMBERS;
+use super::{Finder, Tables};
 use crate::contact::source::{PatchReader, Slopes, with_interpenetration};
 use crate::contact::zones::ZONES;
+use crate::math::each::Each;
+use crate::math::number::{Number, load, transposed};
 
 /// A cell of the tables and a place in it.
 pub struct Cell<'a> {
+    tables: &'a Tables,
     /// The two nodes along the shift, for both rolls at the first yaw, then at the second.
-    pub(super) rows: [&'a [Node; 2]; 4],
+    rows: [&'a [Node; 2]; 4],
+    /// Weights of the eight nodes.
+    weights: [f32; 8],
+    interpenetrations: [f64; ZONES],
+    cells: [f64; 3],
     /// Place within the cell along shift, roll and squared yaw, from 0 to 1.
-    pub(super) place: [f64; 3],
-    /// Derivatives of the place by the value on each axis.
-    pub(super) cells_per_unit: [f64; 3],
-    /// Derivatives of the first and the last value by the yaw.
-    pub(super) yaw_slopes: [f64; 2],
-    pub(super) is_inside: bool,
-    pub(super) weights: Weights,
+    place: [f64; 3],
+    yaw: f64,
+    is_inside: bool,
 }
 
-/// Weights of the eight nodes of a cell: of both ends along the shift, for each row.
-pub(super) struct Weights([[f64; 2]; 4]);
+/// Poses of one wheel or of two in the cells of their tables.
+pub(super) struct Places<S: Simd> {
+    start: f64x4<S>,
+    cells: [f64x4<S>; 3],
+    place: [f64x4<S>; 3],
+    weights: [f64x4<S>; 8],
+    yaw: f64x4<S>,
+    outside_squared: f64x4<S>,
+}
 
-impl Weights {
-    /// Products of the weights of both ends along each axis.
+impl<S: Simd> Places<S> {
     #[inline(always)]
-    pub fn new([shift, roll, yaw]: [[f64; 2]; 3]) -> Self {
-        let shift = f64x2::from(shift);
-        let row = |roll: f64, yaw: f64| (shift * f64x2::splat(roll * yaw)).to_array();
-        Self([
-            row(roll[0], yaw[0]),
-            row(roll[1], yaw[0]),
-            row(roll[0], yaw[1]),
-            row(roll[1], yaw[1]),
-        ])
+    pub fn new(finder: &Finder, [lateral, roll, yaw]: [f64x4<S>; 3]) -> Self {
+        let (simd, yaw_squared) = (yaw.simd, yaw * yaw);
+        let [shifts, rolls, yaws] = &finder.axes;
+        let shift = shifts.locate(lateral + load(simd, &finder.yaw_shift) * yaw_squared);
+        let (roll, yaw_squared) = (rolls.locate(roll), yaws.locate(yaw_squared));
+        let [roll_stride, yaw_stride] = finder.strides.each(|stride| load(simd, &stride));
+        let place = [shift.place, roll.place, yaw_squared.place];
+        Self {
+            start: yaw_squared.cell * yaw_stride + roll.cell * roll_stride + shift.cell,
+            cells: [shift.cell, roll.cell, yaw_squared.cell],
+            place,
+            weights: products(ends(place)),
+            yaw,
+            outside_squared: shift.outside * shift.outside
+                + roll.outside * roll.outside
+                + yaw_squared.outside * yaw_squared.outside,
+        }
     }
 
-    /// The weights at `place`.
+    /// The weights of the eight nodes in one lane, in single precision.
     #[inline(always)]
-    pub fn at(place: [f64; 3]) -> Self {
-        Self::new(ends(place))
+    fn single_weights(&self, lane: usize) -> [f32; 8] {
+        let simd = self.yaw.simd;
+        let [a, b, c, d, e, f, g, h] = self.weights;
+        let pairs = [(a, b), (c, d), (e, f), (g, h)].each(|(a, b)| simd.narrow_f64x4(a, b));
+        let [p, q, r, s] = pairs.each(|pair| (pair[lane], pair[lane + 4]));
+        [p.0, p.1, q.0, q.1, r.0, r.1, s.0, s.1]
     }
 }
 
 /// Weights of both ends of each axis at `place`.
 #[inline(always)]
-fn ends([shift, roll, yaw]: [f64; 3]) -> [[f64; 2]; 3] {
-    [[1.0 - shift, shift], [1.0 - roll, roll], [1.0 - yaw, yaw]]
+fn ends<T: Number>(place: [T; 3]) -> [[T; 2]; 3] {
+    place.each(|place| [-place + 1.0, place])
+}
+
+/// Weights of the eight nodes: products of those of both ends along each axis.
+#[inline(always)]
+fn products<T: Number>([shift, roll, yaw]: [[T; 2]; 3]) -> [T; 8] {
+    let row = |roll: T, yaw: T| {
+        let weight = roll * yaw;
+        [shift[0] * weight, shift[1] * weight]
+    };
+    let ([a, b], [c, d]) = (row(roll[0], yaw[0]), row(roll[1], yaw[0]));
+    let ([e, f], [g, h]) = (row(roll[0], yaw[1]), row(roll[1], yaw[1]));
+    [a, b, c, d, e, f, g, h]
+}
+
+impl<'a> Cell<'a> {
+    /// The cell of the pose in one lane.
+    #[inline(always)]
+    pub(super) fn new<S: Simd>(tables: &'a Tables, places: &Places<S>, lane: usize) -> Self {
+        let start = whole(places.start.lane(lane));
+        let [roll_stride, yaw_stride] = tables.strides;
+        let row = |offset: usize| {
+            let (rows, _) = tables.nodes[start + offset..].as_chunks::<2>();
+            &rows[0]
+        };
+        let rows = [
+            row(0),
+            row(roll_stride),
+            row(yaw_stride),
+            row(yaw_stride + roll_stride),
+        ];
+        let weights = places.weights.each(|weight| weight.lane(lane));
+        Self {
+            tables,
+            rows,
+            weights: places.single_weights(lane),
+            interpenetrations: interpenetrations(places.yaw.simd, &rows, &weights).into(),
+            cells: places.cells.each(|cell| cell.lane(lane)),
+            place: places.place.each(|place| place.lane(lane)),
+            yaw: places.yaw.lane(lane),
+            is_inside: places.outside_squared.lane(lane) == 0.0,
+        }
+    }
+
+    /// The numbers of patches, each node's weight taken once for all of them.
+    #[inline(always)]
+    fn numbers_by<const N: usize, S: Simd>(
+        &self,
+        simd: S,
+        weights: &[f32; 8],
+        zones: [usize; N],
+    ) -> [Quads<S>; N] {
+        let [first, nodes @ ..] = nodes(&self.rows);
+        let mut sums = zones.each(|zone| {
+            let (eight, four) = quads(simd, first, zone);
+            (eight * weights[0], four * weights[0])
+        });
+        for (node, weight) in nodes.into_iter().zip(&weights[1..]) {
+            let (eight_weights, four_weights) =
+                (simd.splat_f32x8(*weight), simd.splat_f32x4(*weight));
+            for (sum, zone) in sums.iter_mut().zip(zones) {
+                let (eight, four) = quads(simd, node, zone);
+                sum.0 = simd.mul_add_f32x8(eight, eight_weights, sum.0);
+                sum.1 = simd.mul_add_f32x4(four, four_weights, sum.1);
+            }
+        }
+        sums
+    }
+}
+
+#[inline(always)]
+fn quads<S: Simd>(simd: S, node: &Node, zone: usize) -> Quads<S> {
+    let (eight, four) = node.numbers[zone].split_at(8);
+    (
+        f32x8::from_slice(simd, eight),
+        f32x4::from_slice(simd, four),
+    )
+}
+
+#[inline(always)]
+fn nodes<'a>([a, b, c, d]: &[&'a [Node; 2]; 4]) -> [&'a Node; 8] {
+    [&a[0], &a[1], &b[0], &b[1], &c[0], &c[1], &d[0], &d[1]]
 }
 
 impl Cell<'_> {
-    /// The weighted sums over the nodes of the vectors that `quads` takes from each.
+    /// The numbers of two patches, or of one that is mentioned twice, as it is of most wheels.
     #[inline(always)]
-    fn sums<const N: usize>(
-        &self,
-        weights: &Weights,
-        quads: impl Fn(&Node) -> [f32x4; N],
-    ) -> [[f32; 4]; N] {
-        let mut sums = [f32x4::ZERO; N];
-        for (row, weights) in self.rows.iter().zip(&weights.0) {
-            for (node, weight) in row.iter().zip(weights) {
-                let weight = f32x4::splat(*weight as f32);
-                for (sum, quad) in sums.iter_mut().zip(quads(node)) {
-                    *sum += quad * weight;
-                }
-            }
+    fn numbers_of_two<S: Simd>(&self, simd: S, zones: [usize; 2]) -> [Quads<S>; 2] {
+        if zones[0] == zones[1] {
+            let [numbers] = self.numbers_by(simd, &self.weights, [zones[0]]);
+            [numbers; 2]
+        } else {
+            self.numbers_by(simd, &self.weights, zones)
         }
-        sums.map(|sum| sum.to_array())
     }
+}
 
-    #[inline(always)]
-    fn interpenetrations(&self, weights: &Weights) -> [f64; ZONES] {
-        let (mut first, mut last) = (f64x2::ZERO, f64x2::ZERO);
-        for (row, weights) in self.rows.iter().zip(&weights.0) {
-            for (node, weight) in row.iter().zip(weights) {
-                let ([a, b, c, d], weight) = (node.interpenetrations, f64x2::splat(*weight));
-                first += f64x2::from([a, b]) * weight;
-                last += f64x2::from([c, d]) * weight;
-            }
-        }
-        let ([a, b], [c, d]) = (first.to_array(), last.to_array());
-        [a, b, c, d]
-    }
+/// Eight numbers of a patch, then the other four.
+type Quads<S> = (f32x8<S>, f32x4<S>);
 
-    #[inline(always)]
-    fn numbers_by(&self, weights: &Weights, zone: usize) -> [f64; NUMBERS] {
-        let sums: [_; QUADS] = self.sums(weights, |node| node.numbers[zone]);
-        let [[a, b, c, d], [e, f, g, h], [i, j, k, l]] = sums;
-        [a, b, c, d, e, f, g, h, i, j, k, l].map(f64::from)
+fn numbers_of<S: Simd>((eight, four): Quads<S>) -> [f64; NUMBERS] {
+    let ([a, b, c, d, e, f, g, h], [i, j, k, l]) = (eight.to_array(), four.to_array());
+    [a, b, c, d, e, f, g, h, i, j, k, l].map(f64::from)
+}
+
+#[inline(always)]
+fn interpenetrations<S: Simd>(simd: S, rows: &[&[Node; 2]; 4], weights: &[f64; 8]) -> f64x4<S> {
+    let [first, nodes @ ..] = nodes(rows);
+    let mut sum = load(simd, &first.interpenetrations) * weights[0];
+    for (node, weight) in nodes.into_iter().zip(&weights[1..]) {
+        let weight = simd.splat_f64x4(*weight);
+        sum = simd.mul_add_f64x4(load(simd, &node.interpenetrations), weight, sum);
     }
+    sum
 }
 
 impl PatchReader for Cell<'_> {
@@ -101,27 +197,56 @@ impl PatchReader for Cell<'_> {
 
     #[inline(always)]
     fn interpenetrations_m(&self) -> [f64; ZONES] {
-        self.interpenetrations(&self.weights)
+        self.interpenetrations
     }
 
-    #[inline(always)]
     fn numbers(&self, zone: usize) -> [f64; NUMBERS] {
-        self.numbers_by(&self.weights, zone)
+        dispatch!(Level::new(), simd => numbers_of(self.numbers_by(simd, &self.weights, [zone])[0]))
     }
 
     #[inline(always)]
+    fn numbers_in_lanes<S: Simd>(
+        simd: S,
+        [left, right]: [&Self; 2],
+        [a, b, c, d]: [usize; 4],
+    ) -> [f64x4<S>; NUMBERS] {
+        let [left_first, left_again] = left.numbers_of_two(simd, [a, c]);
+        let [right_first, right_again] = right.numbers_of_two(simd, [b, d]);
+        let lanes = [left_first, right_first, left_again, right_again];
+        let eight = lanes.each(|(eight, _)| eight.simd.split_f32x8(eight));
+        let [p, q, r, s] = transposed(simd, eight.each(|(four, _)| four));
+        let [t, u, v, w] = transposed(simd, eight.each(|(_, four)| four));
+        let [x, y, z, last] = transposed(simd, lanes.each(|(_, four)| four));
+        [p, q, r, s, t, u, v, w, x, y, z, last]
+    }
+
     fn slopes(&self, zone: usize) -> [Slopes; 3] {
-        let by_axis = |axis: usize| {
+        dispatch!(Level::new(), simd => self.slopes_in(simd, zone))
+    }
+}
+
+impl Cell<'_> {
+    #[inline(always)]
+    fn slopes_in<S: Simd>(&self, simd: S, zone: usize) -> [Slopes; 3] {
+        let mut by_axis = [[0.0; 1 + NUMBERS]; 3];
+        for axis in 0..3 {
+            if !self.is_inside {
+                break;
+            }
             let mut ends = ends(self.place);
             ends[axis] = [-1.0, 1.0];
-            let weights = Weights::new(ends);
-            let interpenetration = self.interpenetrations(&weights)[zone];
-            with_interpenetration(interpenetration, self.numbers_by(&weights, zone))
-                .map(|slope| slope * self.cells_per_unit[axis])
-        };
-        let [by_shift, by_roll, by_yaw_squared] = [by_axis(0), by_axis(1), by_axis(2)];
-        let [shift, squared] = self.yaw_slopes;
-        let by_yaw = std::array::from_fn(|n| shift * by_shift[n] + squared * by_yaw_squared[n]);
+            let weights = products(ends);
+            let interpenetration = interpenetrations(simd, &self.rows, &weights)[zone];
+            let [numbers] = self.numbers_by(simd, &weights.each(|weight| weight as f32), [zone]);
+            let cells_per_unit = self.tables.finder.axes[axis].cells_per_unit(self.cells[axis]);
+            by_axis[axis] = with_interpenetration(interpenetration, numbers_of(numbers))
+                .map(|slope| slope * cells_per_unit);
+        }
+        let [by_shift, by_roll, by_yaw_squared] = by_axis;
+        // The shift at which the tables are read depends on the yaw too.
+        let squared = 2.0 * self.yaw;
+        let shift = squared * self.tables.finder.yaw_shift[0];
+        let by_yaw = from_fn(|n| shift * by_shift[n] + squared * by_yaw_squared[n]);
         [by_shift, by_roll, by_yaw]
     }
 }

@@ -8,18 +8,20 @@ mod patch;
 
 use std::array::from_fn;
 
-use axis::AxisReader;
 pub use axis::{Axis, Grid};
+use axis::{AxisReader, in_lanes};
 pub use cache::CacheError;
-use cell::{Cell, Weights};
+use cell::{Cell, Places};
+use fearless_simd::{Level, Simd, dispatch, f64x4};
 use node::Node;
-pub(super) use patch::NUMBERS;
+pub(super) use patch::{LOAD_FRACTION, NUMBERS};
 pub use patch::{MIN_CURVATURE_PER_M, TabulatedPatch};
 
 use super::geometry::ContactGeometry;
 use super::silhouette::WheelPose;
 use super::source::{PatchReader, sealed};
 use super::zones::ZONES;
+use crate::math::each::Each;
 
 /// Greatest number of nodes of the tables: 224 bytes each, a gigabyte in all.
 pub const MAX_NODES: usize = 4_000_000;
@@ -54,11 +56,20 @@ pub struct Tables {
     geometry: ContactGeometry,
     grid: Grid,
     nodes: Vec<Node>,
-    readers: [AxisReader; 3],
     /// Nodes from one roll to the next and from one yaw to the next.
     strides: [usize; 2],
+    finder: Finder,
+}
+
+/// What finds the cells of poses, in four lanes: in the tables of one wheel, or of two.
+#[derive(Debug, Clone, Copy)]
+pub struct Finder {
+    /// Of shift, roll and squared yaw.
+    axes: [AxisReader; 3],
+    /// Nodes from one roll to the next and from one yaw to the next.
+    strides: [[f64; 4]; 2],
     /// Shift by which a squared yaw moves the contact on the flange, m/rad^2.
-    yaw_shift_m: f64,
+    yaw_shift: [f64; 4],
 }
 
 /// Slope of the flange whose silhouette, which yaw moves outwards by `r slope yaw^2`, stays at its place on the axis of the
@@ -101,13 +112,18 @@ impl Tables {
     /// The tables of nodes that are already computed.
     fn of_nodes(geometry: ContactGeometry, grid: Grid, nodes: Vec<Node>) -> Self {
         let shifts = grid.lateral_m.nodes();
+        let strides = [shifts, shifts * grid.roll_rad.nodes()];
+        let axes = [&grid.lateral_m, &grid.roll_rad, &grid.yaw_squared_rad2];
         Self {
-            yaw_shift_m: yaw_shift_m(&geometry),
+            finder: Finder {
+                axes: axes.map(AxisReader::new),
+                strides: strides.map(|stride| [stride as f64; 4]),
+                yaw_shift: [yaw_shift_m(&geometry); 4],
+            },
             geometry,
             grid,
             nodes,
-            readers: [grid.lateral_m, grid.roll_rad, grid.yaw_squared_rad2].map(AxisReader::new),
-            strides: [shifts, shifts * grid.roll_rad.nodes()],
+            strides,
         }
     }
 
@@ -152,43 +168,42 @@ fn pose(geometry: &ContactGeometry, grid: &Grid, node: usize) -> WheelPose {
 
 impl sealed::Source for Tables {
     type Reader<'a> = Cell<'a>;
+    type Finder = Finder;
 
     fn geometry(&self) -> &ContactGeometry {
         &self.geometry
     }
 
-    // Always inlined: passed through memory, the pose and the weights stall the step.
-    #[inline(always)]
     fn locate(&self, pose: &WheelPose) -> Cell<'_> {
-        let yaw_squared = pose.yaw_rad * pose.yaw_rad;
-        let [shift, roll, yaw] = &self.readers;
-        let shift = shift.locate(pose.lateral_m + self.yaw_shift_m * yaw_squared);
-        let (roll, yaw) = (roll.locate(pose.roll_rad), yaw.locate(yaw_squared));
-        let [roll_stride, yaw_stride] = self.strides;
-        let start = yaw.cell * yaw_stride + roll.cell * roll_stride + shift.cell;
-        let row = |offset: usize| {
-            let (rows, _) = self.nodes[start + offset..].as_chunks::<2>();
-            &rows[0]
-        };
-        let place = [shift.place, roll.place, yaw.place];
-        Cell {
-            rows: [
-                row(0),
-                row(roll_stride),
-                row(yaw_stride),
-                row(yaw_stride + roll_stride),
-            ],
-            place,
-            cells_per_unit: [
-                shift.cells_per_unit,
-                roll.cells_per_unit,
-                yaw.cells_per_unit,
-            ],
-            yaw_slopes: [2.0 * pose.yaw_rad * self.yaw_shift_m, 2.0 * pose.yaw_rad],
-            is_inside: shift.is_inside & roll.is_inside & yaw.is_inside,
-            weights: Weights::at(place),
+        dispatch!(Level::new(), simd => locate(simd, self, pose))
+    }
+
+    fn finder([left, right]: [&Self; 2]) -> Finder {
+        let (left, right) = (&left.finder, &right.finder);
+        Finder {
+            axes: from_fn(|axis| AxisReader::of_two(&left.axes[axis], &right.axes[axis])),
+            strides: from_fn(|k| in_lanes(&left.strides[k], &right.strides[k])),
+            yaw_shift: in_lanes(&left.yaw_shift, &right.yaw_shift),
         }
     }
+
+    #[inline(always)]
+    fn locate_both<'a, S: Simd>(
+        _: S,
+        finder: &Finder,
+        [left, right]: [&'a Self; 2],
+        pose: [f64x4<S>; 3],
+    ) -> [Cell<'a>; 2] {
+        let places = Places::new(finder, pose);
+        [Cell::new(left, &places, 0), Cell::new(right, &places, 1)]
+    }
+}
+
+#[inline(always)]
+fn locate<'a, S: Simd>(simd: S, tables: &'a Tables, pose: &WheelPose) -> Cell<'a> {
+    let pose = [pose.lateral_m, pose.roll_rad, pose.yaw_rad];
+    let pose = pose.each(|number| simd.splat_f64x4(number));
+    Cell::new(tables, &Places::new(&tables.finder, pose), 0)
 }
 
 fn check_grid(grid: &Grid) -> Result<(), TablesError> {

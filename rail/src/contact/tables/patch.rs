@@ -16,6 +16,9 @@ const LIFT_M: f64 = 0.1e-3;
 /// Numbers stored of one patch beside its interpenetration.
 pub(in crate::contact) const NUMBERS: usize = 12;
 
+/// Place of the load fraction among them.
+pub(in crate::contact) const LOAD_FRACTION: usize = 3;
+
 /// One patch as read from the tables.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]

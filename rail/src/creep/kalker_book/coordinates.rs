@@ -1,7 +1,91 @@
 //! Where a contact and its creepage lie in the book: creepages and forces as dimensionless numbers.
 
-use crate::creep::{Creepage, LoadedContact};
-use crate::math::number::Number;
+use std::ops::Mul;
+
+use fearless_simd::{Simd, f64x4};
+
+use super::pages::{GREATEST_SHAPE, Places, shape};
+use crate::creep::{ContactLanes, Creepage, LoadedContact};
+use crate::math::each::Each;
+use crate::math::number::{Lanes, Number, are_within};
+
+/// A contact in one lane or several, with what its creepages and forces are divided by.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Contact<C> {
+    c11: C,
+    c22: C,
+    c23: C,
+    /// `(a + b)/2`, m.
+    mean_axis: C,
+    /// `sqrt(a b)`, m.
+    length: C,
+    /// `G a b / (mu N)`.
+    creepage: C,
+    /// `mu N`, N.
+    pub(super) force: C,
+    /// `(a^2 + b^2)/(2 sqrt(a b))`, m: over this and `mu N` the moment of small spin hardly depends on `a/b`.
+    pub(super) moment_arm: C,
+    /// Place of the ratio of the semi-axes among those of the book, 0 to 1.
+    pub(super) ratio: C,
+}
+
+impl<C: Number> Contact<C> {
+    #[inline(always)]
+    fn new(force: C, [a, b]: [C; 2], shear_modulus: f64, [c11, c22, c23]: [C; 3]) -> Self {
+        let area = a * b;
+        let (length, squares) = (area.sqrt(), a * a + b * b);
+        Self {
+            c11,
+            c22,
+            c23,
+            mean_axis: (a + b) * 0.5,
+            length,
+            creepage: area * shear_modulus / force,
+            force,
+            moment_arm: squares * 0.5 / length,
+            ratio: shape(a, b).limited(GREATEST_SHAPE) * (0.5 / GREATEST_SHAPE) + 0.5,
+        }
+    }
+}
+
+impl Contact<f64> {
+    #[inline(always)]
+    pub(super) fn of(contact: &LoadedContact) -> Self {
+        let k = &contact.kalker;
+        Self::new(
+            contact.friction * contact.load_n,
+            [contact.a_m, contact.b_m],
+            contact.shear_modulus_pa,
+            [k.c11, k.c22, k.c23],
+        )
+    }
+}
+
+impl<S: Simd> Contact<f64x4<S>> {
+    #[inline(always)]
+    pub(super) fn of_lanes(contacts: &ContactLanes<S>) -> Self {
+        let [c11, c22, c23, _] = contacts.kalker;
+        let force = contacts.friction * contacts.load;
+        Self::new(
+            force,
+            contacts.semi_axes,
+            contacts.shear_modulus,
+            [c11, c22, c23],
+        )
+    }
+
+    /// Whether all have a positive and finite friction force and semi-axes, as [`is_loaded`](super::is_loaded) asks for.
+    #[inline(always)]
+    pub(super) fn are_loaded(&self, load: f64x4<S>) -> bool {
+        // Two negative semi-axes have a negative sum, and a product beyond the greatest number is infinite.
+        let least = load
+            .at_most(self.force)
+            .at_most(self.length)
+            .at_most(self.mean_axis);
+        let greatest = self.force.at_least(self.length).at_least(self.mean_axis);
+        are_within(least, 0.0, f64::MAX) & are_within(greatest, 0.0, f64::MAX)
+    }
+}
 
 /// A place in the book, for a creepage that is turned into the book's quarter of all directions.
 #[derive(Debug, Clone, Copy)]
@@ -14,11 +98,11 @@ pub(super) struct Coordinates<R> {
     /// Direction of sliding, -1 to 1: `y / (s + |x|)`, the tangent of half its angle against rolling.
     pub(super) direction: R,
     /// 1 or -1: what the longitudinal force, and what lateral force and moment are multiplied by.
-    pub(super) signs: [f64; 2],
+    pub(super) signs: [R; 2],
 }
 
 /// A square that keeps directions without creepage from being 0/0.
-const TINY: f64 = 1e-60;
+pub(super) const TINY: f64 = 1e-60;
 
 impl<R: Number> Coordinates<R> {
     /// Of the creepages `[longitudinal, lateral, spin]`.
@@ -27,17 +111,19 @@ impl<R: Number> Coordinates<R> {
     /// book are `x = (X C11/C22 + X q)/(1 + q)`, `y = Y` and `z = (Z' C23/C22 + Z q)/(1 + q)`, where `Z'` has `sqrt(a b)`
     /// in place of `(a + b)/2`: forces of the linear theory where creepages are small, directions of sliding where they
     /// are large, whatever Poisson's ratio.
-    #[inline]
-    pub(super) fn new(contact: &LoadedContact, scale: &Scale, creepage: [R; 3]) -> Self {
-        let k = &contact.kalker;
-        let [xi, eta, phi] = creepage.map(|creepage| creepage * scale.creepage);
-        let (large_x, y) = (xi * k.c22, eta * k.c22);
-        let large_z = phi * (k.c22 * 0.5 * (contact.a_m + contact.b_m));
+    #[inline(always)]
+    pub(super) fn new<C: Number>(contact: &Contact<C>, creepage: [R; 3]) -> Self
+    where
+        R: Mul<C, Output = R>,
+    {
+        let [xi, eta, phi] = creepage.each(|creepage| creepage * contact.creepage);
+        let (large_x, y) = (xi * contact.c22, eta * contact.c22);
+        let large_z = phi * (contact.c22 * contact.mean_axis);
         let q = large_x * large_x + y * y + large_z * large_z;
         let weight = (q + 1.0).reciprocal();
-        let x = (xi * k.c11 + large_x * q) * weight;
-        let z = (phi * (k.c23 * scale.length) + large_z * q) * weight;
-        let signs = [x.lane(0), z.lane(0)].map(|value| 1f64.copysign(value));
+        let x = (xi * contact.c11 + large_x * q) * weight;
+        let z = (phi * (contact.c23 * contact.length) + large_z * q) * weight;
+        let signs = [x.sign(), z.sign()];
         let (x, y, z) = (x * signs[0], y * signs[1], z * signs[1]);
         let square = x * x + y * y + TINY;
         let s = square.sqrt();
@@ -50,38 +136,26 @@ impl<R: Number> Coordinates<R> {
             signs,
         }
     }
-}
 
-/// What creepages and forces of a contact are divided by.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Scale {
-    /// `mu N`, N.
-    pub(super) force: f64,
-    /// `sqrt(a b)`, m.
-    pub(super) length: f64,
-    /// `(a^2 + b^2)/(2 sqrt(a b))`, m: over this and `mu N` the moment of small spin hardly depends on `a/b`.
-    pub(super) moment_arm: f64,
-    /// `G a b / (mu N)`.
-    pub(super) creepage: f64,
-}
-
-impl Scale {
-    #[inline]
-    pub(super) fn new(contact: &LoadedContact) -> Self {
-        let area = contact.a_m * contact.b_m;
-        let force = contact.friction * contact.load_n;
-        let length = area.sqrt();
-        Self {
-            force,
-            length,
-            moment_arm: 0.5 * (contact.a_m * contact.a_m + contact.b_m * contact.b_m) / length,
-            creepage: contact.shear_modulus_pa * area / force,
-        }
+    /// The place in the book's pages, in every lane, of a contact in one lane.
+    #[inline(always)]
+    pub(super) fn places<S: Simd>(&self, simd: S, contact: &Contact<f64>) -> Places<S> {
+        let direction = 0.5 + 0.5 * self.direction.lane(0);
+        let coordinates = [
+            contact.ratio,
+            self.size.lane(0),
+            self.spin.lane(0),
+            direction,
+        ];
+        Places::new(
+            simd,
+            coordinates.each(|coordinate| simd.splat_f64x4(coordinate)),
+        )
     }
 }
 
 /// The numbers of a creepage in the order of the coordinates' formulas.
-#[inline]
+#[inline(always)]
 pub(super) fn numbers(creepage: &Creepage) -> [f64; 3] {
     [creepage.longitudinal, creepage.lateral, creepage.spin_per_m]
 }

@@ -3,15 +3,20 @@
 mod coordinates;
 mod pages;
 
-use coordinates::{Coordinates, Scale, numbers};
-pub use pages::Layout;
-use pages::{Coefficient, Near, pages};
+use std::ops::Mul;
 
-use super::creepage::Creepage;
+use coordinates::{Contact, Coordinates, TINY, numbers};
+use fearless_simd::{Level, Simd, SimdBase, dispatch, f64x4};
+pub use pages::Layout;
+use pages::{Coefficients, Places, pages};
+
+use super::contact_lanes::ContactLanes;
+use super::creepage::{Creepage, MAX_CREEPAGE};
 use super::derivatives::CreepDerivatives;
-use super::law::{CreepForces, CreepLaw, LoadedContact, is_loaded};
+use super::law::{CreepForces, CreepLaw, LoadedContact, forces_one_by_one, is_loaded};
 use crate::math::dual::Dual;
-use crate::math::number::Number;
+use crate::math::each::Each;
+use crate::math::number::{Number, are_within, transposed};
 
 /// Kalker's exact theory of rolling contact from a precomputed book of tables (the idea of his USETAB, Vehicle System
 /// Dynamics 27, 1997): the recommended law, with any spin.
@@ -42,22 +47,60 @@ use crate::math::number::Number;
 /// ```
 #[derive(Debug, Clone, Copy)]
 pub struct KalkerBook {
-    pages: &'static [Coefficient],
+    pages: &'static [Coefficients],
+    level: Level,
 }
 
 impl KalkerBook {
     /// The book; its tables are read once in a process and shared.
     pub fn new() -> Self {
-        Self { pages: pages() }
+        Self {
+            pages: pages(),
+            level: Level::new(),
+        }
     }
 
-    #[inline]
-    fn near<R: Number>(&self, contact: &LoadedContact, at: &Coordinates<R>) -> Near<'static> {
-        Near::new(
-            self.pages,
-            [contact.a_m, contact.b_m],
-            [at.size, at.spin, at.direction].map(|coordinate| coordinate.lane(0)),
-        )
+    #[inline(always)]
+    fn forces_in<S: Simd>(
+        &self,
+        simd: S,
+        contact: &LoadedContact,
+        creepage: &Creepage,
+    ) -> [f64; 3] {
+        let contact = Contact::of(contact);
+        let at = Coordinates::new(&contact, numbers(creepage));
+        let places = at.places(simd, &contact);
+        let [x, y, m, _] = places.value(self.pages, 0).to_array();
+        forces([x, y, m].map(f64::from), &at, &contact)
+    }
+
+    #[inline(always)]
+    fn derivatives_in<S: Simd>(
+        &self,
+        simd: S,
+        contact: &LoadedContact,
+        creepage: &Creepage,
+    ) -> CreepDerivatives {
+        let numbers = numbers(creepage);
+        let variables = [0, 1, 2].map(|k| Dual::<3>::variable(numbers[k], k));
+        let of = Contact::of(contact);
+        let at = Coordinates::new(&of, variables);
+        let places = at.places(simd, &of);
+        let (value, gradient) = (places.value(self.pages, 0), places.gradient(self.pages, 0));
+        let of_book = |k: usize| {
+            let [size, spin, direction] = gradient.map(|slopes| f64::from(slopes[k]));
+            // A direction runs over 2.
+            let terms = [
+                (size, at.size),
+                (spin, at.spin),
+                (0.5 * direction, at.direction),
+            ];
+            Dual::function(f64::from(value[k]), terms)
+        };
+        let forces = forces([0, 1, 2].map(of_book), &at, &of);
+        let values = CreepForces::of_components(forces.map(|force| force.value()));
+        let by_creepage = forces.map(|force| force.derivatives().map(f64::from));
+        CreepDerivatives::new(values, by_creepage, contact, creepage)
     }
 }
 
@@ -68,27 +111,47 @@ impl Default for KalkerBook {
 }
 
 impl CreepLaw for KalkerBook {
-    #[inline]
     fn unlimited_forces(&self, contact: &LoadedContact, creepage: &Creepage) -> CreepForces {
-        let scale = Scale::new(contact);
-        let at = Coordinates::new(contact, &scale, numbers(creepage));
-        let [x, y, m, _] = self.near(contact, &at).value().to_array().map(f64::from);
-        let [longitudinal_n, lateral_n, moment_n_m] = forces([x, y, m], &at, &scale);
-        CreepForces {
-            longitudinal_n,
-            lateral_n,
-            moment_n_m,
-        }
+        let forces = dispatch!(self.level, simd => self.forces_in(simd, contact, creepage));
+        CreepForces::of_components(forces)
     }
 
     /// The tables are within friction and dissipate energy.
-    #[inline]
     fn forces(&self, contact: &LoadedContact, creepage: &Creepage) -> CreepForces {
         if is_loaded(contact) {
             self.unlimited_forces(contact, &creepage.bounded())
         } else {
             CreepForces::default()
         }
+    }
+
+    /// All four in one evaluation.
+    #[inline(always)]
+    fn forces_in_lanes<S: Simd>(
+        &self,
+        contacts: &ContactLanes<S>,
+        used: [bool; 4],
+    ) -> [f64x4<S>; 3] {
+        let (contact, creepage) = (Contact::of_lanes(contacts), contacts.creepage);
+        let [xi, eta, phi] = creepage;
+        let square = xi * xi + eta * eta + phi * phi;
+        let bounded = are_within(square, -1.0, MAX_CREEPAGE * MAX_CREEPAGE);
+        if !(contact.are_loaded(contacts.load) & bounded) {
+            // Copied here, so that in the other case they need not be in memory.
+            return self.one_by_one(*contacts, used);
+        }
+        let simd = square.simd;
+        let at = Coordinates::new(&contact, creepage);
+        let direction = at.direction * 0.5 + 0.5;
+        let places = Places::new(simd, [contact.ratio, at.size, at.spin, direction]);
+        let mut values = [simd.splat_f32x4(0.0); 4];
+        for lane in 0..4 {
+            if used[lane] {
+                values[lane] = places.value(self.pages, lane);
+            }
+        }
+        let [x, y, moment, _] = transposed(simd, values);
+        forces([x, y, moment], &at, &contact)
     }
 
     /// With exact derivatives.
@@ -101,27 +164,15 @@ impl CreepLaw for KalkerBook {
             return CreepDerivatives::default();
         }
         let creepage = creepage.bounded();
-        let numbers = numbers(&creepage);
-        let scale = Scale::new(contact);
-        let variables = [0, 1, 2].map(|k| Dual::<3>::variable(numbers[k], k));
-        let at = Coordinates::new(contact, &scale, variables);
-        let near = self.near(contact, &at);
-        let value = near.value().to_array();
-        let gradient = near.gradient().map(|slopes| slopes.to_array());
-        let of_book = |k: usize| {
-            let [size, spin, direction] = gradient.map(|slopes| f64::from(slopes[k]));
-            let terms = [(size, at.size), (spin, at.spin), (direction, at.direction)];
-            Dual::function(f64::from(value[k]), terms)
-        };
-        let forces = forces([0, 1, 2].map(of_book), &at, &scale);
-        let [longitudinal_n, lateral_n, moment_n_m] = forces.map(|force| force.value());
-        let values = CreepForces {
-            longitudinal_n,
-            lateral_n,
-            moment_n_m,
-        };
-        let by_creepage = forces.map(|force| force.derivatives().map(f64::from));
-        CreepDerivatives::new(values, by_creepage, contact, &creepage)
+        dispatch!(self.level, simd => self.derivatives_in(simd, contact, &creepage))
+    }
+}
+
+impl KalkerBook {
+    #[cold]
+    #[inline(never)]
+    fn one_by_one<S: Simd>(&self, contacts: ContactLanes<S>, used: [bool; 4]) -> [f64x4<S>; 3] {
+        forces_one_by_one(self, &contacts, used)
     }
 }
 
@@ -129,29 +180,29 @@ impl CreepLaw for KalkerBook {
 const BEND: f64 = 0.005;
 
 /// Forces in N and N m from the numbers of the book.
-#[inline]
-fn forces<R: Number>([x, y, moment]: [R; 3], at: &Coordinates<R>, scale: &Scale) -> [R; 3] {
+#[inline(always)]
+fn forces<C: Number, R: Number + Mul<C, Output = R>>(
+    [x, y, moment]: [R; 3],
+    at: &Coordinates<R>,
+    contact: &Contact<C>,
+) -> [R; 3] {
     let per = (at.direction * at.direction + 1.0).reciprocal();
     let limited = limited((x * x + y * y) * per * per);
-    let force = per * scale.force;
-    let [along, across] = at.signs.map(|sign| force * sign);
+    let force = per * contact.force;
+    let [along, across] = at.signs.each(|sign| force * sign);
     [
         x * along * limited,
         y * across * limited,
-        moment * across * scale.moment_arm,
+        moment * across * contact.moment_arm,
     ]
 }
 
-/// Factor that keeps a force with this square within 1, where the spline overshoots, and its slope continuous.
-#[inline]
+/// Factor that keeps a force with this square within 1, where the spline overshoots, and its slope continuous: from
+/// `1 - BEND` on, the force falls behind by a parabola whose top is 1.
+#[inline(always)]
 fn limited<R: Number>(square: R) -> R {
-    if square.lane(0) <= (1.0 - BEND) * (1.0 - BEND) {
-        return R::constant(1.0);
-    }
-    let force = square.sqrt();
-    if force.lane(0) >= 1.0 + BEND {
-        return force.reciprocal();
-    }
-    let beyond = force + (BEND - 1.0);
-    (force - beyond * beyond * (0.25 / BEND)) / force
+    let force = (square + TINY).sqrt();
+    let bent = force.limited(1.0 + BEND);
+    let beyond = (bent + (BEND - 1.0)).not_negative();
+    (bent - beyond * beyond * (0.25 / BEND)) / force
 }

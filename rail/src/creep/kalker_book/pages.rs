@@ -2,7 +2,10 @@
 
 use std::sync::OnceLock;
 
-use wide::f32x4;
+use fearless_simd::{Simd, SimdBase, f32x4, f32x8, f64x4};
+
+use crate::math::each::Each;
+use crate::math::number::Number;
 
 /// Layout of the book's file, for what writes and checks it.
 ///
@@ -31,11 +34,15 @@ impl Layout {
 }
 
 /// The number that grows in equal steps, at the greatest ratio.
-const GREATEST_SHAPE: f64 = shape(Layout::GREATEST_RATIO, 1.0);
+pub(super) const GREATEST_SHAPE: f64 = {
+    let ratio = Layout::GREATEST_RATIO;
+    (ratio * ratio - 1.0) / (ratio * ratio + 4.0 * ratio + 1.0)
+};
 
-#[inline]
-const fn shape(a: f64, b: f64) -> f64 {
-    (a * a - b * b) / (a * a + b * b + 4.0 * a * b)
+#[inline(always)]
+pub(super) fn shape<C: Number>(a: C, b: C) -> C {
+    let squares = a * a + b * b;
+    (a * a - b * b) / (squares + a * b * 4.0)
 }
 
 /// Coefficients from one spin, size and ratio to the next.
@@ -46,124 +53,188 @@ const STRIDE: [usize; 3] = {
     [row, page, page * (size + 2)]
 };
 
-/// From the first coefficient that a place needs to the last.
-const SPAN: usize = STRIDE[2] + 2 * STRIDE[1] + 2 * STRIDE[0] + 3;
+/// From the first coefficient that a place needs to the last of the same ratio.
+const SPAN: usize = 2 * STRIDE[1] + 2 * STRIDE[0] + 3;
 
-/// A coefficient: longitudinal force, lateral force, moment, and zero, which fills a vector register.
-pub(super) type Coefficient = f32x4;
+/// Coefficients at a ratio and at the next: of each longitudinal force, lateral force, moment, and zero.
+#[derive(Debug, Clone, Copy)]
+#[repr(align(32))]
+pub(super) struct Coefficients([f32; 8]);
 
 const FILE: &[u8] = include_bytes!("../../../data/kalker_book.bin");
 
 /// The book's coefficients, read once.
-pub(super) fn pages() -> &'static [Coefficient] {
-    static PAGES: OnceLock<Vec<Coefficient>> = OnceLock::new();
+pub(super) fn pages() -> &'static [Coefficients] {
+    static PAGES: OnceLock<Vec<Coefficients>> = OnceLock::new();
     PAGES.get_or_init(|| {
         let (numbers, _) = FILE.as_chunks::<4>();
         let (coefficients, _) = numbers.as_chunks::<3>();
-        coefficients
-            .iter()
-            .map(|three| {
-                let [x, y, m] = three.map(f32::from_le_bytes);
-                f32x4::from([x, y, m, 0.0])
+        let coefficient = |index: usize| coefficients[index].map(f32::from_le_bytes);
+        (0..(Layout::RATIOS - 1) * STRIDE[2])
+            .map(|index| {
+                let ([x, y, m], [u, v, w]) = (coefficient(index), coefficient(index + STRIDE[2]));
+                Coefficients([x, y, m, 0.0, u, v, w, 0.0])
             })
             .collect()
     })
 }
 
-/// The cell of a coordinate from 0 to 1 among `cells`, and the place in it from 0 to 1.
-#[inline]
-fn cell(coordinate: f64, cells: usize) -> (usize, f32) {
-    let scaled = coordinate * cells as f64;
-    // Within an i32 the conversion is one instruction.
-    let cell = (scaled as i32).clamp(0, cells as i32 - 1);
-    (cell as usize, (scaled - f64::from(cell)) as f32)
+/// Cells of ratio, size, spin and direction.
+const CELLS: [f32; 4] = [
+    (Layout::RATIOS - 1) as f32,
+    Layout::CELLS[0] as f32,
+    Layout::CELLS[1] as f32,
+    Layout::CELLS[2] as f32,
+];
+
+/// The cells of four places, and the places in them.
+pub(super) struct Places<S: Simd> {
+    /// Numbers of the first coefficients.
+    first: [u32; 4],
+    /// Ratios in their cells, from 0 to 1.
+    ratio: f32x4<S>,
+    /// Size, spin and direction in their cells, from 0 to 1.
+    at: [f32x4<S>; 3],
+    /// Values of the three B-splines over these cells.
+    weights: [[f32x4<S>; 3]; 3],
 }
 
-/// Values of the three B-splines over a cell.
-#[inline]
-fn weights(at: f32) -> [f32; 3] {
-    let rest = 1.0 - at;
-    [0.5 * rest * rest, 0.5 + at * rest, 0.5 * at * at]
-}
-
-/// Their derivatives by the place in the cell.
-fn slopes(at: f32) -> [f32; 3] {
-    [at - 1.0, 1.0 - 2.0 * at, at]
-}
-
-/// The coefficients around a place.
-pub(super) struct Near<'a> {
-    coefficients: &'a [Coefficient; SPAN],
-    ratio: f32,
-    /// Place in the cell of size, spin and direction.
-    at: [f32; 3],
-}
-
-impl<'a> Near<'a> {
-    /// Around the ratio of the semi-axes and the coordinates size, spin (0 to 1) and direction (-1 to 1).
-    #[inline]
-    pub(super) fn new(
-        pages: &'a [Coefficient],
-        [a, b]: [f64; 2],
-        [size, spin, direction]: [f64; 3],
-    ) -> Self {
-        let shape = (shape(a, b) * (0.5 / GREATEST_SHAPE) + 0.5).clamp(0.0, 1.0);
-        let [sizes, spins, directions] = Layout::CELLS;
-        let (ratio, ratio_at) = cell(shape, Layout::RATIOS - 1);
-        let (size, size_at) = cell(size, sizes);
-        let (spin, spin_at) = cell(spin, spins);
-        let (direction, direction_at) = cell(0.5 + 0.5 * direction, directions);
-        let first = ratio * STRIDE[2] + size * STRIDE[1] + spin * STRIDE[0] + direction;
-        let near = pages[first..].first_chunk().expect("cells within the book");
+impl<S: Simd> Places<S> {
+    /// Of the ratio of the semi-axes and the coordinates size, spin and direction, all from 0 to 1.
+    #[inline(always)]
+    pub(super) fn new(simd: S, [ratio, size, spin, direction]: [f64x4<S>; 4]) -> Self {
+        let (ratio_and_size, spin_and_direction) = (
+            simd.narrow_f64x4(ratio, size),
+            simd.narrow_f64x4(spin, direction),
+        );
+        let [ratios, sizes, spins, directions] = CELLS;
+        let (p, i) = located(
+            simd,
+            ratio_and_size,
+            [ratios, sizes],
+            [STRIDE[2], STRIDE[1]],
+        );
+        let (q, j) = located(
+            simd,
+            spin_and_direction,
+            [spins, directions],
+            [STRIDE[0], 1],
+        );
+        let ([ratio, size], [spin, direction]) = (p, q);
+        // Whole numbers below 2^24 are exact.
+        let first = simd.cvt_u32_f32x4(i + j).to_array();
         Self {
-            coefficients: near,
-            ratio: ratio_at,
-            at: [size_at, spin_at, direction_at],
+            first,
+            ratio,
+            at: [size, spin, direction],
+            weights: [size, spin, direction].each(weights),
         }
     }
 
-    /// `N` of [`Layout`].
-    #[inline]
-    pub(super) fn value(&self) -> Coefficient {
-        self.sum(self.at.map(weights))
+    /// `N` of [`Layout`] in one lane: longitudinal force, lateral force, moment.
+    #[inline(always)]
+    pub(super) fn value(&self, pages: &[Coefficients], lane: usize) -> f32x4<S> {
+        self.sum(pages, &self.weights, lane)
     }
 
-    /// Derivatives of `N` by size, spin and direction.
-    pub(super) fn gradient(&self) -> [Coefficient; 3] {
-        [0, 1, 2].map(|axis| {
-            let mut factors = self.at.map(weights);
+    /// Derivatives of `N` by size, spin and direction in one lane.
+    #[inline(always)]
+    pub(super) fn gradient(&self, pages: &[Coefficients], lane: usize) -> [f32x4<S>; 3] {
+        let mut gradient = [self.ratio; 3];
+        for axis in 0..3 {
+            let mut factors = self.weights;
             factors[axis] = slopes(self.at[axis]);
-            // A direction runs over 2.
-            let cells = Layout::CELLS[axis] as f32 * if axis == 2 { 0.5 } else { 1.0 };
-            self.sum(factors) * cells
-        })
+            gradient[axis] = self.sum(pages, &factors, lane) * CELLS[axis + 1];
+        }
+        gradient
     }
 
     /// Coefficients weighted axis by axis, so that opposite ones cancel without rounding.
     #[inline(always)]
-    fn sum(&self, factors: [[f32; 3]; 3]) -> Coefficient {
-        let factors = factors.map(|three| three.map(f32x4::splat));
-        let (here, next) = (self.ratio(0, &factors), self.ratio(STRIDE[2], &factors));
-        here + (next - here) * self.ratio
+    fn sum(&self, pages: &[Coefficients], factors: &[[f32x4<S>; 3]; 3], lane: usize) -> f32x4<S> {
+        let simd = self.ratio.simd;
+        let near: &[Coefficients; SPAN] = pages[self.first[lane] as usize..]
+            .first_chunk()
+            .expect("cells within the book");
+        let [sizes, spins, directions] =
+            factors.each(|factor| factor.each(|lanes| simd.splat_f32x8(lanes[lane])));
+        let over_spins = [
+            over_spins(near, 0, &spins, &directions),
+            over_spins(near, STRIDE[1], &spins, &directions),
+            over_spins(near, 2 * STRIDE[1], &spins, &directions),
+        ];
+        let sum = weighted(over_spins, &sizes);
+        let (here, next) = simd.split_f32x8(sum);
+        here + (next - here) * self.ratio[lane]
     }
+}
 
-    #[inline(always)]
-    fn ratio(&self, at: usize, factors: &[[f32x4; 3]; 3]) -> Coefficient {
-        self.size(at, factors) * factors[0][0]
-            + self.size(at + STRIDE[1], factors) * factors[0][1]
-            + self.size(at + 2 * STRIDE[1], factors) * factors[0][2]
-    }
+#[inline(always)]
+fn over_spins<S: Simd>(
+    near: &[Coefficients; SPAN],
+    at: usize,
+    spins: &[f32x8<S>; 3],
+    directions: &[f32x8<S>; 3],
+) -> f32x8<S> {
+    let over_directions = [
+        over_directions(near, at, directions),
+        over_directions(near, at + STRIDE[0], directions),
+        over_directions(near, at + 2 * STRIDE[0], directions),
+    ];
+    weighted(over_directions, spins)
+}
 
-    #[inline(always)]
-    fn size(&self, at: usize, factors: &[[f32x4; 3]; 3]) -> Coefficient {
-        self.spin(at, factors) * factors[1][0]
-            + self.spin(at + STRIDE[0], factors) * factors[1][1]
-            + self.spin(at + 2 * STRIDE[0], factors) * factors[1][2]
-    }
+#[inline(always)]
+fn over_directions<S: Simd>(
+    near: &[Coefficients; SPAN],
+    at: usize,
+    directions: &[f32x8<S>; 3],
+) -> f32x8<S> {
+    let simd = directions[0].simd;
+    let three = [&near[at], &near[at + 1], &near[at + 2]];
+    weighted(
+        three.each(|one| f32x8::from_slice(simd, &one.0)),
+        directions,
+    )
+}
 
-    #[inline(always)]
-    fn spin(&self, at: usize, factors: &[[f32x4; 3]; 3]) -> Coefficient {
-        let c = self.coefficients;
-        c[at] * factors[2][0] + c[at + 1] * factors[2][1] + c[at + 2] * factors[2][2]
-    }
+#[inline(always)]
+fn weighted<S: Simd>([a, b, c]: [f32x8<S>; 3], [p, q, r]: &[f32x8<S>; 3]) -> f32x8<S> {
+    let simd = a.simd;
+    simd.mul_add_f32x8(c, *r, simd.mul_add_f32x8(b, *q, a * *p))
+}
+
+/// Places, from 0 to 1, of two sets of four coordinates in their `cells`, and the sum of the cells' numbers times `strides`.
+#[inline(always)]
+fn located<S: Simd>(
+    simd: S,
+    coordinates: f32x8<S>,
+    cells: [f32; 2],
+    strides: [usize; 2],
+) -> ([f32x4<S>; 2], f32x4<S>) {
+    let scaled = coordinates * halves(simd, cells);
+    let last = halves(simd, cells.each(|cells| cells - 1.0));
+    let inside = simd.min_f32x8(simd.max_f32x8(scaled, simd.splat_f32x8(0.0)), last);
+    let cell = simd.trunc_f32x8(inside);
+    let (first, second) = simd.split_f32x8(scaled - cell);
+    let strides = halves(simd, strides.each(|stride| stride as f32));
+    let (p, q) = simd.split_f32x8(cell * strides);
+    ([first, second], p + q)
+}
+
+#[inline(always)]
+fn halves<S: Simd>(simd: S, [p, q]: [f32; 2]) -> f32x8<S> {
+    f32x8::from_slice(simd, &[p, p, p, p, q, q, q, q])
+}
+
+#[inline(always)]
+fn weights<S: Simd>(at: f32x4<S>) -> [f32x4<S>; 3] {
+    let rest = 1.0 - at;
+    [rest * rest * 0.5, at * rest + 0.5, at * at * 0.5]
+}
+
+/// Derivatives of [`weights`] by the place in the cell.
+#[inline(always)]
+fn slopes<S: Simd>(at: f32x4<S>) -> [f32x4<S>; 3] {
+    [at - 1.0, 1.0 - at * 2.0, at]
 }
