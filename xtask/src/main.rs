@@ -25,7 +25,7 @@ Commands:
                          build the C library into an install tree for each target: cortex-m4f,
                          cortex-m7, cortex-m33, x86-64, aarch64; all that this machine can build
                          when none is named; into target/c-library
-  kalker-book            compute the tables of the recommended creep law anew, from exact theory (some twenty minutes)
+  kalker-book            compute the tables of the recommended creep law anew, from exact theory (some fifteen minutes)
   miri                   run the tests of the C interface under Miri (needs a nightly compiler)
   fuzz [--seconds N]     run each fuzz target from its kept seeds for N seconds, 60 when not given (needs a
                          nightly compiler)

@@ -21,7 +21,7 @@ use crate::rolling_contact::{RollingContact, ScaledForces, TOLERANCE, Tractions,
 pub const POISSON_RATIO: f64 = 0.28;
 
 /// Revision of the method; a change of solver, mesh, coordinates or fit raises it.
-pub const REVISION: u32 = 1;
+pub const REVISION: u32 = 2;
 
 const SIZES: usize = Layout::CELLS[0];
 const SPINS: usize = Layout::CELLS[1];

@@ -1,34 +1,70 @@
-//! Slip of two equal elastic half-spaces by a traction along a line across the rolling direction.
+//! Slip of two equal elastic half-spaces by uniform tractions on the rectangles of a strip along the rolling direction.
 
 use std::f64::consts::PI;
 
-/// `[-du_x/dx by px, -du_y/dx by py, -du_x/dx by py]` at `point` by a unit line load from `-width/2` to `width/2`
-/// across, at `x = 0`; shear modulus 1. The last one is also `-du_y/dx by px`.
+use super::mesh::Element;
+
+/// `[-du_x/dx by px, -du_y/dx by py, -du_x/dx by py]`, the last one also `-du_y/dx by px`; shear modulus 1.
+pub(super) type Slip = [f64; 3];
+
+/// Slip at each element of the strip `to` by a unit traction on each of the strip `from`, by element of `to`, then of
+/// `from`: the mean from an element's middle to that of the one ahead.
 ///
 /// Tractions on the wheel and their opposites on the rail displace the two surfaces against each other by
 /// (Cerruti; Johnson 1985, 3.75)
-/// `u_x = 1/(pi G) ∫ ((1 - nu)/R + nu X^2/R^3) px + nu X Y/R^3 py dy`, likewise `u_y` with `Y^2`, where
+/// `u_x = 1/(pi G) ∫∫ ((1 - nu)/R + nu X^2/R^3) px + nu X Y/R^3 py dx dy`, likewise `u_y` with `Y^2`, where
 /// `(X, Y)` leads from the load to the point and `R` is its length.
-pub(super) fn slip_by_line(point: [f64; 2], width: f64, poisson_ratio: f64) -> [f64; 3] {
-    let [x, y] = point;
-    let ends = [y - 0.5 * width, y + 0.5 * width];
-    let difference = |f: &dyn Fn(f64, f64) -> f64| {
-        let [from, to] = ends.map(|end| f(end, x.hypot(end)));
-        to - from
+pub(super) fn slip_by_strip(to: &[Element], from: &[Element], poisson_ratio: f64) -> Vec<Slip> {
+    let (size, from_size) = (to[0].length(), from[0].length());
+    let distance = to[0].y - from[0].y;
+    let sides = [
+        distance + 0.5 * from[0].width,
+        distance - 0.5 * from[0].width,
+    ];
+    // Integrals up to the edges of all rectangles of `from`; their differences are displacements.
+    let displacements = |x: f64| -> Vec<[f64; 3]> {
+        let up_to = |edge: f64| {
+            let [one, other] = sides.map(|side| integrals([x - edge, side]));
+            [0, 1, 2].map(|k| one[k] - other[k])
+        };
+        let leading = from[0].x + 0.5 * from_size;
+        let edges: Vec<[f64; 3]> = std::iter::once(leading)
+            .chain(from.iter().map(|element| element.x - 0.5 * from_size))
+            .map(up_to)
+            .collect();
+        edges
+            .windows(2)
+            .map(|two| {
+                let [xx, yy, xy] = [0, 1, 2].map(|k| (two[1][k] - two[0][k]) / PI);
+                let direct = (1.0 - poisson_ratio) * (xx + yy);
+                [
+                    direct + poisson_ratio * xx,
+                    direct + poisson_ratio * yy,
+                    poisson_ratio * xy,
+                ]
+            })
+            .collect()
     };
-    // ∫ X/R^3 dY = Y/(X R), which is sign(Y) (1/X - X/(R (R + |Y|))): without a pole beside the line.
-    let pole = if ends[0] < 0.0 && ends[1] > 0.0 {
-        2.0 / x
-    } else {
-        0.0
+    let mut ahead = displacements(to[0].x + size);
+    let mut slip = Vec::with_capacity(to.len() * from.len());
+    for element in to {
+        let here = displacements(element.x);
+        let both = here.iter().zip(&ahead);
+        slip.extend(both.map(|(here, ahead)| [0, 1, 2].map(|k| (here[k] - ahead[k]) / size)));
+        ahead = here;
+    }
+    slip
+}
+
+/// Integrals over both coordinates of `X^2/R^3`, `Y^2/R^3` and `X Y/R^3`.
+fn integrals([x, y]: [f64; 2]) -> [f64; 3] {
+    // y asinh(x/|y|), which is zero at y = 0.
+    let product = |x: f64, y: f64| {
+        if y == 0.0 {
+            0.0
+        } else {
+            y * (x / y.abs()).asinh()
+        }
     };
-    let direct = pole - difference(&|y, r| y.signum() * x / (r * (r + y.abs())));
-    let along = difference(&|y, r| x * y / r.powi(3));
-    let cross = difference(&|y, r| y * y / r.powi(3));
-    [
-        (1.0 - poisson_ratio) * direct + poisson_ratio * along,
-        (1.0 - poisson_ratio) * direct + poisson_ratio * (direct - along),
-        poisson_ratio * cross,
-    ]
-    .map(|slip| slip / PI)
+    [product(x, y), product(y, x), -x.hypot(y)]
 }

@@ -2,26 +2,39 @@
 
 use std::f64::consts::{FRAC_1_PI, PI};
 
-/// An element: a line across, at which its traction acts, and a point ahead of it, at which its slip is computed.
-///
-/// Line and point lie a quarter and three quarters of an element from its trailing edge: so placed, they give the
-/// exact solution of plane strain, a traction that is zero at the leading edge (the vortex lattice of wing theory,
-/// James 1972).
+/// An element: a rectangle with a uniform traction, and the way from its middle to that of the one ahead, over which its
+/// slip is the mean.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Element {
-    /// Position of the line.
+    /// Position of the middle along.
     pub(super) x: f64,
-    /// Position of the strip's middle.
+    /// Position of the middle across, the strip's.
     pub(super) y: f64,
-    /// Position of the point along.
+    /// Position of the middle of that way along, the rectangle's leading edge.
     pub(super) slip_x: f64,
-    /// Width of the strip, the line's length.
+    /// Width of the strip and the rectangle.
     pub(super) width: f64,
     /// Area of the element.
     pub(super) area: f64,
-    /// Load on the rectangle of the element's size around the line, over its area.
+    /// Load on the rectangle over its area.
     pub(super) pressure: f64,
 }
+
+impl Element {
+    /// Length in the rolling direction.
+    pub(super) fn length(&self) -> f64 {
+        self.area / self.width
+    }
+}
+
+/// Part of an element between the trailing edge of the contact and the middle of the last rectangle; ahead of the first
+/// leading middle it is half an element more.
+///
+/// A quarter is exact for line loads and slip at points in plane strain (the vortex lattice of wing theory, James 1972).
+/// Loads and slip spread over an element multiply the equations' spectrum by
+/// `A(t) = 4 sin^2(t/2) sum_n (-1)^n sgn(t + 2 pi n)/(t + 2 pi n)^2`, which moves either end of the solution by
+/// `sum_(n > 0) n a_n = 0.0753` elements, where `a_n` are the Fourier coefficients of `ln A` (Wiener and Hopf).
+const END: f64 = 0.25 + 0.0753;
 
 /// Elements of an ellipse with `a b = 1`, strip by strip from the leading to the trailing edge; Hertz pressure of the
 /// load 1. The strips are narrower towards the ends of the ellipse.
@@ -34,19 +47,21 @@ pub(super) fn elements(a_over_b: f64, along: usize, strips: usize) -> Vec<Elemen
         let width = to - from;
         // Of the same area as the ellipse between the edges.
         let half = 0.5 * PI * (disc(to / b) - disc(from / b)) / width;
-        let size = 2.0 * half / along as f64;
+        let size = 2.0 * half / (along as f64 - 0.5 + 2.0 * END);
         let cubic = |y: f64| y - y.powi(3) / (3.0 * b * b);
         let load = 0.75 * a * (cubic(to) - cubic(from));
-        // The quarter element before the first rectangle is left out.
-        let carried = disc(1.0 - 0.25 * size / half) - disc(-1.0);
-        for element in (0..along).rev() {
-            let x = -half + (element as f64 + 0.25) * size;
-            let part = disc((x + 0.5 * size) / half) - disc((x - 0.5 * size) / half);
+        let middle = |element: usize| -half + (element as f64 + END) * size;
+        let below = |x: f64| disc(x / half);
+        // What lies beyond the rectangles at the ends is left out.
+        let carried = below(middle(along - 1) + 0.5 * size) - below(middle(0) - 0.5 * size);
+        for x in (0..along).rev().map(middle) {
+            let slip_x = x + 0.5 * size;
+            let part = below(slip_x) - below(x - 0.5 * size);
             let area = size * width;
             elements.push(Element {
                 x,
                 y: 0.5 * (from + to),
-                slip_x: x + 0.5 * size,
+                slip_x,
                 width,
                 area,
                 pressure: load * part / (carried * area),

@@ -15,7 +15,7 @@ mod sliding;
 mod traction;
 
 use dashpot_rail::creep::{CreepForces, Creepage, LoadedContact};
-use influence::slip_by_line;
+use influence::slip_by_strip;
 use mesh::Element;
 pub use sliding::full_sliding;
 use traction::traction;
@@ -33,9 +33,9 @@ pub const TOLERANCE: f64 = 1e-5;
 
 /// Part of the way to the solution of one element that its traction goes in a sweep. The slip depends on the
 /// tractions before and behind by a kernel without definite sign, so that the whole way diverges.
-const RELAXATION: f64 = 0.35;
+const RELAXATION: f64 = 0.3;
 
-/// Sweeps after which the iteration is given up; 30 to 100 are usual.
+/// Sweeps after which the iteration is given up; 30 to 200 are usual.
 const MAX_SWEEPS: usize = 1000;
 
 /// Rolling contacts with one ratio of semi-axes and one Poisson's ratio, on one mesh.
@@ -66,11 +66,15 @@ impl RollingContact {
         Self::with_mesh(a_over_b, poisson_ratio, along, strips)
     }
 
-    /// Elements along and strips of [`Self::new`]: an element must not be much longer than its strip is wide, nor a strip
-    /// much wider than the contact is long, or the pole of spin steps from strip to strip.
+    /// Elements along and strips of [`Self::new`]: a strip must not be much wider than the contact is long, or the pole of
+    /// spin steps from strip to strip; an element of a long contact is longer than its strip is wide.
     pub fn usual_mesh(a_over_b: f64) -> [usize; 2] {
-        let strips = (6.0 / a_over_b).clamp(12.0, 40.0).ceil();
-        let along = (8.0 * a_over_b).max(400.0 / strips).max(20.0).ceil();
+        let least = 12.0 * (0.5 * a_over_b).max(1.0).powf(0.22);
+        let strips = (10.0 / a_over_b).clamp(least, 40.0).ceil();
+        let along = (24.0 * a_over_b.powf(0.22))
+            .max(400.0 / strips)
+            .max(20.0)
+            .ceil();
         [along as usize, strips as usize]
     }
 
@@ -95,12 +99,19 @@ impl RollingContact {
         }
         let elements = mesh::elements(a_over_b, along, strips);
         let mut slip = [const { Vec::new() }; 3];
-        for to in &elements {
-            for from in &elements {
-                let point = [to.slip_x - from.x, to.y - from.y];
-                let by_line = slip_by_line(point, from.width, poisson_ratio);
-                for (slip, by_line) in slip.iter_mut().zip(by_line) {
-                    slip.push(by_line * from.area / from.width);
+        for to in elements.chunks(along) {
+            let blocks: Vec<_> = elements
+                .chunks(along)
+                .map(|from| slip_by_strip(to, from, poisson_ratio))
+                .collect();
+            for row in 0..along {
+                let of_row = blocks
+                    .iter()
+                    .flat_map(|block| &block[row * along..(row + 1) * along]);
+                for by_element in of_row {
+                    for (slip, by_element) in slip.iter_mut().zip(by_element) {
+                        slip.push(*by_element);
+                    }
                 }
             }
         }

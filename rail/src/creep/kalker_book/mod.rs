@@ -21,7 +21,7 @@ use crate::math::number::{Number, are_within, transposed};
 /// Kalker's exact theory of rolling contact from a precomputed book of tables (the idea of his USETAB, Vehicle System
 /// Dynamics 27, 1997): the recommended law, with any spin.
 ///
-/// The tables are those of the solver in `dashpot-reference` for Poisson's ratio 0.28, over `a/b` from 0.1 to 10 (beyond:
+/// The tables are those of the solver in `dashpot-reference` for Poisson's ratio 0.28, over `a/b` from 0.04 to 25 (beyond:
 /// the tables at that ratio) and every creepage; small creepages give the linear theory with the contact's own
 /// coefficients. The force has continuous derivatives by every creepage and never exceeds friction.
 ///

@@ -19,11 +19,11 @@ pub struct Layout;
 impl Layout {
     /// Number of ratios of the semi-axes, equal steps of `(a^2 - b^2)/(a^2 + 4 a b + b^2)`, which is
     /// nearly a third of `ln(a/b)`.
-    pub const RATIOS: usize = 12;
+    pub const RATIOS: usize = 18;
     /// Cells of size, spin and direction.
     pub const CELLS: [usize; 3] = [16, 10, 14];
     /// Greatest ratio of the semi-axes; the least is its reciprocal.
-    pub const GREATEST_RATIO: f64 = 10.0;
+    pub const GREATEST_RATIO: f64 = 25.0;
 
     /// Ratio `a/b` at an index.
     pub fn a_over_b(index: usize) -> f64 {
