@@ -114,7 +114,7 @@ fn wheelset<L: CreepLaw>(law: L, loaded: Loaded) -> Wheelset<L> {
             0
         }
         Loaded::Two => {
-            motion.vertical_m = 0.08e-3;
+            motion.vertical_m = 0.27e-3;
             2
         }
         Loaded::Three => {

@@ -90,7 +90,7 @@ fn ones(used: [bool; 4]) -> [f64; 4] {
         let mut ones = [[0.0; 4]; 16];
         let mut k = 0;
         while k < 64 {
-            ones[k / 4][k % 4] = (k / 4 >> (k % 4) & 1) as f64;
+            ones[k / 4][k % 4] = ((k / 4) >> (k % 4) & 1) as f64;
             k += 1;
         }
         ones
@@ -230,7 +230,7 @@ mod tests {
                 speed_m_per_s: 20.0,
                 rotation_rad_per_s: 32.01,
                 lateral_m: 4e-5 * f64::from(step),
-                vertical_m: 0.08e-3,
+                vertical_m: 0.25e-3,
                 yaw_rad: 2e-3 + 1e-5 * f64::from(step),
                 ..Motion::default()
             };
