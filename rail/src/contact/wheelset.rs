@@ -111,7 +111,7 @@ impl<L: CreepLaw, S: PatchSource> WheelsetContact<L, S> {
 
     /// Forces on a wheelset in `motion` over the left and the right rail.
     ///
-    /// Does not fail: [`Status`] reports a motion that is beyond the tables or contains NaN.
+    /// Does not fail: [`Status`](super::Status) reports a motion that is beyond the tables or contains NaN.
     #[inline]
     pub fn forces(&self, motion: &Motion, rails: &[RailDisplacement; 2]) -> WheelsetForces {
         let mut forces = WheelsetForces::default();
