@@ -1,0 +1,79 @@
+//! Why a vehicle is refused.
+
+/// Why a vehicle is refused.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum VehicleError {
+    /// A number is out of bounds.
+    #[error("{owner}: {name} = {value}, allowed: {} to {}", .allowed[0], .allowed[1])]
+    OutOfBounds {
+        /// Body, wheelset or element.
+        owner: String,
+        /// The quantity.
+        name: &'static str,
+        /// Its value.
+        value: f64,
+        /// Smallest and greatest allowed value.
+        allowed: [f64; 2],
+    },
+    /// Two parts have the same name.
+    #[error("{name}: used twice; every body, wheelset and element has a name of its own")]
+    NameUsedTwice {
+        /// The name.
+        name: String,
+    },
+    /// An element is attached to something that there is not.
+    #[error("{element}: attached to {to}, which there is not; there are {}", .names.join(", "))]
+    NotThere {
+        /// The element.
+        element: String,
+        /// What it is attached to.
+        to: String,
+        /// What there is.
+        names: Vec<String>,
+    },
+    /// Both ends of an element are on the same body.
+    #[error("{element}: both ends are on {on}")]
+    SameBody {
+        /// The element.
+        element: String,
+        /// The body.
+        on: String,
+    },
+    /// The ends of an element do not lie as its law needs them.
+    #[error("{element}: {reason}")]
+    Ends {
+        /// The element.
+        element: String,
+        /// What is wrong, and what is allowed.
+        reason: &'static str,
+    },
+    /// There is nothing that could move.
+    #[error("no body: a vehicle has one at least")]
+    NoBody,
+    /// A body is not held against its weight or against moving away.
+    #[error("{body}: not held in {coordinate}; add an element that holds it")]
+    NotHeld {
+        /// The body.
+        body: String,
+        /// The coordinate that nothing holds.
+        coordinate: &'static str,
+    },
+}
+
+pub(super) fn finite(
+    owner: &str,
+    name: &'static str,
+    value: f64,
+    allowed: [f64; 2],
+) -> Result<(), VehicleError> {
+    if (allowed[0]..=allowed[1]).contains(&value) {
+        return Ok(());
+    }
+    Err(VehicleError::OutOfBounds {
+        owner: owner.to_owned(),
+        name,
+        value,
+        allowed,
+    })
+}

@@ -1,0 +1,202 @@
+//! Linear equations of motion: `M q'' + C q' + K q = f`, with a state of its own for every dashpot in series with a spring.
+
+use nalgebra::{DMatrix, DVector, Matrix3, RowDVector, Vector3};
+
+use super::body::{Body, COORDINATES};
+use super::element::{Direction, Element, Law};
+
+/// Coordinates of a body.
+const N: usize = COORDINATES.len();
+
+/// Bodies that move, and what acts on them.
+#[derive(Debug, Clone)]
+pub(super) struct Linear {
+    /// Diagonal of `M`.
+    pub inertia: DVector<f64>,
+    pub stiffness: DMatrix<f64>,
+    pub damping: DMatrix<f64>,
+    pub series: Vec<Series>,
+}
+
+/// A dashpot in series with a spring, along a displacement that the coordinates make.
+#[derive(Debug, Clone)]
+pub(super) struct Series {
+    pub displacement: RowDVector<f64>,
+    pub damping: f64,
+    pub stiffness: f64,
+}
+
+/// The end of an element: a body that moves, by its number, or what is held; and the place from its centre, m.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Place {
+    pub body: Option<usize>,
+    pub from_centre: Vector3<f64>,
+}
+
+impl Linear {
+    /// Bodies without elements.
+    pub fn new(bodies: &[Body]) -> Self {
+        let size = N * bodies.len();
+        let inertia = bodies.iter().flat_map(Body::inertia);
+        Self {
+            inertia: DVector::from_iterator(size, inertia),
+            stiffness: DMatrix::zeros(size, size),
+            damping: DMatrix::zeros(size, size),
+            series: Vec::new(),
+        }
+    }
+
+    /// Displacement along x, y and z of the second place against the first, for each coordinate.
+    pub fn displacement(&self, places: &[Place; 2]) -> DMatrix<f64> {
+        let mut rows = DMatrix::zeros(3, self.inertia.len());
+        for (place, sign) in places.iter().zip([-1.0, 1.0]) {
+            if let Some(body) = place.body {
+                let mut block = rows.fixed_view_mut::<3, N>(0, N * body);
+                block[(1, 0)] += sign;
+                block[(2, 1)] += sign;
+                // The rotation vector times the place: minus the place times it.
+                let mut rotations = block.fixed_columns_mut::<3>(2);
+                rotations -= place.from_centre.cross_matrix() * sign;
+            }
+        }
+        rows
+    }
+
+    /// Adds an element between `places`, on `line` from one end to the other.
+    pub fn add(&mut self, element: &Element, places: &[Place; 2], line: Vector3<f64>) {
+        let displacement = self.displacement(places);
+        match element.law {
+            Law::SpringDamper {
+                stiffness_n_per_m,
+                damping_n_s_per_m,
+            } => {
+                for (row, (stiffness, damping)) in displacement
+                    .row_iter()
+                    .zip(stiffness_n_per_m.into_iter().zip(damping_n_s_per_m))
+                {
+                    self.add_along(&row.into_owned(), stiffness, damping);
+                }
+            }
+            Law::Damper {
+                direction,
+                damping_n_s_per_m,
+                stiffness_n_per_m,
+            } => {
+                let row = match direction {
+                    Direction::Longitudinal => 0,
+                    Direction::Lateral => 1,
+                    Direction::Vertical => 2,
+                };
+                self.series.push(Series {
+                    displacement: displacement.row(row).into_owned(),
+                    damping: damping_n_s_per_m,
+                    stiffness: stiffness_n_per_m,
+                });
+            }
+            Law::AntiRollBar {
+                stiffness_n_m_per_rad,
+            } => {
+                let mut roll = RowDVector::zeros(self.inertia.len());
+                for (place, sign) in places.iter().zip([-1.0, 1.0]) {
+                    if let Some(body) = place.body {
+                        roll[N * body + 2] += sign;
+                    }
+                }
+                self.add_along(&roll, stiffness_n_m_per_rad, 0.0);
+            }
+            Law::TractionRod {
+                stiffness_n_per_m,
+                damping_n_s_per_m,
+            } => {
+                let along = line.normalize().transpose() * displacement;
+                self.add_along(&along, stiffness_n_per_m, damping_n_s_per_m);
+            }
+        }
+    }
+
+    fn add_along(&mut self, displacement: &RowDVector<f64>, stiffness: f64, damping: f64) {
+        self.stiffness += displacement.transpose() * displacement * stiffness;
+        self.damping += displacement.transpose() * displacement * damping;
+    }
+
+    /// Adds the geometric stiffness of a constant `force` on the second of `places`, and its opposite on the first: each turns
+    /// with its body, and its moment `(omega x r) x F` with it.
+    pub fn add_preload(&mut self, places: &[Place; 2], force: Vector3<f64>) {
+        for (place, sign) in places.iter().zip([-1.0, 1.0]) {
+            if let Some(body) = place.body {
+                let first = N * body + 2;
+                let moments: Matrix3<f64> =
+                    force.cross_matrix() * place.from_centre.cross_matrix() * sign;
+                let mut block = self.stiffness.fixed_view_mut::<3, 3>(first, first);
+                block -= moments;
+            }
+        }
+    }
+
+    /// Matrix of the first-order equations of coordinates, velocities and the displacements of the dashpots in series.
+    pub fn first_order(&self) -> DMatrix<f64> {
+        let (n, size) = (
+            self.inertia.len(),
+            2 * self.inertia.len() + self.series.len(),
+        );
+        let mut matrix = DMatrix::zeros(size, size);
+        matrix.view_mut((0, n), (n, n)).fill_with_identity();
+        for i in 0..n {
+            for j in 0..n {
+                matrix[(n + i, j)] = -self.stiffness[(i, j)] / self.inertia[i];
+                matrix[(n + i, n + j)] = -self.damping[(i, j)] / self.inertia[i];
+            }
+        }
+        for (number, series) in self.series.iter().enumerate() {
+            // Force `k (x - e)` of the spring, which moves the dashpot: `c e' = k (x - e)`.
+            let column = 2 * n + number;
+            let rate = series.stiffness / series.damping;
+            for i in 0..n {
+                let per_inertia = series.displacement[i] * series.stiffness / self.inertia[i];
+                for j in 0..n {
+                    matrix[(n + i, j)] -= per_inertia * series.displacement[j];
+                }
+                matrix[(n + i, column)] += per_inertia;
+                matrix[(column, i)] += rate * series.displacement[i];
+            }
+            matrix[(column, column)] -= rate;
+        }
+        matrix
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_point_moves_as_its_body_turns() {
+        let body = Body {
+            name: "body".into(),
+            mass_kg: 1.0,
+            inertia_kg_m2: [1.0; 3],
+            x_m: 0.0,
+            height_m: 1.0,
+        };
+        let linear = Linear::new(&[body]);
+        let held = Place {
+            body: None,
+            from_centre: Vector3::zeros(),
+        };
+        let place = Place {
+            body: Some(0),
+            from_centre: Vector3::new(2.0, 3.0, 5.0),
+        };
+        let rows = linear.displacement(&[held, place]);
+        let (roll, pitch, yaw) = (1e-3, 2e-3, -3e-3);
+        let moved = rows * DVector::from_vec(vec![0.1, 0.2, roll, pitch, yaw]);
+        let expected = [
+            5.0 * pitch - 3.0 * yaw,
+            0.1 - 5.0 * roll + 2.0 * yaw,
+            0.2 + 3.0 * roll - 2.0 * pitch,
+        ];
+        for k in 0..3 {
+            assert!((moved[k] - expected[k]).abs() < 1e-15);
+        }
+    }
+}

@@ -1,0 +1,50 @@
+//! A rail vehicle at standstill: rigid bodies on elements, its equilibrium and its modes.
+//!
+//! Axes as everywhere in this crate: x forward, y right, z down, small rotations roll about x, pitch about y and yaw about z.
+//! Every body has the coordinates lateral, vertical, roll, pitch and yaw in a frame that follows the track at constant speed, so
+//! that there is none along the track. A point `r` of a body moves by `(pitch z - yaw y, lateral - roll z + yaw x,
+//! vertical + roll y - pitch x)`, with `r = (x, y, z)` from the centre of gravity.
+//!
+//! ```
+//! use dashpot_rail::vehicle::{Body, Element, End, Law, Standstill, Vehicle};
+//! // A body of 30 t on four springs of 1 MN/m.
+//! let body = Body {
+//!     name: "body".into(),
+//!     mass_kg: 30e3,
+//!     inertia_kg_m2: [40e3, 900e3, 900e3],
+//!     x_m: 0.0,
+//!     height_m: 1.5,
+//! };
+//! let spring = |x: f64, y: f64| Element {
+//!     name: format!("spring {x} {y}"),
+//!     ends: [End::track([x, y, 0.5]), End::body("body", [x, y, 0.5])],
+//!     law: Law::SpringDamper { stiffness_n_per_m: [1e6; 3], damping_n_s_per_m: [0.0; 3] },
+//! };
+//! let vehicle = Vehicle {
+//!     name: "wagon".into(),
+//!     bodies: vec![body],
+//!     wheelsets: vec![],
+//!     elements: vec![spring(5.0, 1.0), spring(5.0, -1.0), spring(-5.0, 1.0), spring(-5.0, -1.0)],
+//! };
+//! let modes = Standstill::new(&vehicle)?.modes();
+//! let bounce = modes.iter().find(|mode| mode.words() == "body bounce").unwrap();
+//! // sqrt(4 MN/m / 30 t) / 2 pi
+//! assert!((bounce.undamped_hz() - 1.8378).abs() < 1e-3);
+//! # Ok::<(), dashpot_rail::vehicle::VehicleError>(())
+//! ```
+
+mod body;
+mod element;
+mod error;
+mod linear;
+mod modes;
+mod standstill;
+
+pub use body::{Body, COORDINATES, Coordinate, Vehicle, Wheelset};
+pub use element::{Direction, Element, End, Law};
+pub use error::VehicleError;
+pub use modes::Mode;
+pub use standstill::Standstill;
+
+/// Acceleration of free fall, m/s^2.
+pub const GRAVITY_M_PER_S2: f64 = 9.81;

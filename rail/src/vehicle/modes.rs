@@ -1,0 +1,148 @@
+//! Natural modes of linear equations of motion.
+
+use nalgebra::{Complex, DMatrix, DVector};
+
+use super::body::{Body, COORDINATES, Coordinate};
+use super::linear::Linear;
+
+/// A natural mode.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Mode {
+    /// Real and imaginary part of the eigenvalue, rad/s; a motion is `exp(lambda t)`.
+    eigenvalue: [f64; 2],
+    /// Every body's coordinate with its share of the kinetic energy, the greatest first, and whether it moves with the first or
+    /// against it.
+    shares: Vec<Share>,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+struct Share {
+    body: String,
+    coordinate: Coordinate,
+    of_energy: f64,
+    moves_with_first: bool,
+}
+
+/// Share of the greatest from which a body, or a coordinate, is named beside it.
+const NAMED: f64 = 0.25;
+
+impl Mode {
+    /// Magnitude of the eigenvalue over a full turn, Hz: the frequency without damping of an oscillator of one mass.
+    pub fn undamped_hz(&self) -> f64 {
+        let [real, imaginary] = self.eigenvalue;
+        real.hypot(imaginary) / (2.0 * std::f64::consts::PI)
+    }
+
+    /// Frequency of the motion, Hz.
+    pub fn damped_hz(&self) -> f64 {
+        self.eigenvalue[1] / (2.0 * std::f64::consts::PI)
+    }
+
+    /// Part of critical damping; negative where the motion grows.
+    pub fn damping_ratio(&self) -> f64 {
+        let [real, imaginary] = self.eigenvalue;
+        -real / real.hypot(imaginary)
+    }
+
+    /// What moves: the bodies with the most kinetic energy, and how.
+    pub fn words(&self) -> String {
+        let first = &self.shares[0];
+        let coordinate = first.coordinate;
+        let mut bodies = vec![first.body.as_str()];
+        let mut opposed = false;
+        for share in &self.shares[1..] {
+            if share.coordinate == coordinate && share.of_energy > NAMED * first.of_energy {
+                bodies.push(&share.body);
+                opposed |= !share.moves_with_first;
+            }
+        }
+        let against = if opposed { ", opposed" } else { "" };
+        format!("{} {}{against}", bodies.join(" and "), self.motion())
+    }
+
+    /// The motion of the first body. One that moves to the side and rolls about a point below is a lower sway, about one above
+    /// an upper sway.
+    fn motion(&self) -> &'static str {
+        let first = &self.shares[0];
+        let other = match first.coordinate {
+            Coordinate::Vertical => return "bounce",
+            Coordinate::Pitch => return "pitch",
+            Coordinate::Yaw => return "yaw",
+            Coordinate::Lateral => Coordinate::Roll,
+            Coordinate::Roll => Coordinate::Lateral,
+        };
+        let beside = self
+            .shares
+            .iter()
+            .find(|share| share.body == first.body && share.coordinate == other);
+        match beside {
+            Some(beside) if beside.of_energy > 0.02 => {
+                if beside.moves_with_first == first.moves_with_first {
+                    "lower sway"
+                } else {
+                    "upper sway"
+                }
+            }
+            _ if first.coordinate == Coordinate::Lateral => "lateral",
+            _ => "roll",
+        }
+    }
+}
+
+/// The oscillating modes by rising frequency.
+pub(super) fn of(linear: &Linear, bodies: &[Body]) -> Vec<Mode> {
+    let matrix = linear.first_order();
+    let values = matrix.complex_eigenvalues();
+    let mut modes: Vec<Mode> = values
+        .iter()
+        .enumerate()
+        .filter(|(_, value)| value.im > 1e-9 * value.norm())
+        .map(|(number, value)| Mode {
+            eigenvalue: [value.re, value.im],
+            shares: shares(&shape(&matrix, *value, number), linear, bodies),
+        })
+        .collect();
+    modes.sort_by(|a, b| a.undamped_hz().total_cmp(&b.undamped_hz()));
+    modes
+}
+
+/// The eigenvector of an eigenvalue by inverse iteration, from a start of its own for every `number`, so that equal eigenvalues
+/// have different ones.
+fn shape(matrix: &DMatrix<f64>, value: Complex<f64>, number: usize) -> DVector<Complex<f64>> {
+    let size = matrix.nrows();
+    // Beside the eigenvalue, where the matrix is singular.
+    let shift = value * (1.0 + 1e-7);
+    let shifted = DMatrix::from_fn(size, size, |i, j| {
+        Complex::from(matrix[(i, j)]) - if i == j { shift } else { Complex::from(0.0) }
+    });
+    let solver = shifted.lu();
+    let mut shape = DVector::from_fn(size, |i, _| {
+        Complex::new(1.0 + ((i * (number + 1)) as f64).sin(), 0.3)
+    });
+    for _ in 0..3 {
+        if let Some(next) = solver.solve(&shape) {
+            shape = &next / Complex::from(next.norm());
+        }
+    }
+    shape
+}
+
+fn shares(shape: &DVector<Complex<f64>>, linear: &Linear, bodies: &[Body]) -> Vec<Share> {
+    let n = linear.inertia.len();
+    let energies: Vec<f64> = (0..n)
+        .map(|i| linear.inertia[i] * shape[i].norm_sqr())
+        .collect();
+    let total: f64 = energies.iter().sum();
+    let mut order: Vec<usize> = (0..n).collect();
+    order.sort_by(|a, b| energies[*b].total_cmp(&energies[*a]));
+    let first = shape[order[0]];
+    order
+        .into_iter()
+        .map(|i| Share {
+            body: bodies[i / COORDINATES.len()].name.clone(),
+            coordinate: COORDINATES[i % COORDINATES.len()],
+            of_energy: energies[i] / total,
+            moves_with_first: (shape[i] * first.conj()).re >= 0.0,
+        })
+        .collect()
+}

@@ -1,0 +1,4 @@
+//! A vehicle at standstill against closed forms and independent computations.
+
+mod closed_forms;
+mod errors;
