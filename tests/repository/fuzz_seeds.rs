@@ -9,6 +9,7 @@ use dashpot::{damper, document};
 use dashpot_core::Damper;
 use dashpot_core::link::{Header, Reals, request_frame};
 use dashpot_hil::files::damper::PRESETS;
+use dashpot_hil::files::vehicle::VEHICLES;
 use dashpot_rail::profile::Body;
 use dashpot_rail::profile::measured::{self, Mirror, Options};
 
@@ -42,6 +43,14 @@ fn damper_files_are_the_presets() {
         .iter()
         .map(|(name, text)| ((*name).to_owned(), text.as_bytes().to_vec()));
     compare("damper_file", seeds.collect());
+}
+
+#[test]
+fn vehicle_files_are_the_shipped_ones() {
+    let seeds = VEHICLES
+        .iter()
+        .map(|(name, text)| ((*name).to_owned(), text.as_bytes().to_vec()));
+    compare("vehicle_file", seeds.collect());
 }
 
 #[test]

@@ -8,6 +8,7 @@ use dashpot_reference::ReferenceError;
 
 use crate::files::FileError;
 use crate::files::damper::{ContentError, DamperError, FORM};
+use crate::files::vehicle::{FORM as VEHICLE_FORM, VehicleFileError};
 use crate::realtime::pacing::RealtimeOption;
 use crate::realtime::timing::span;
 use crate::realtime::{RealtimeError, listed, stopped};
@@ -115,6 +116,21 @@ impl From<DamperError> for Failure {
             | DamperError::Override { .. }
             | DamperError::Overridden { .. } => Self::wrong_use(message),
             _ => Self::new(message),
+        }
+    }
+}
+
+impl From<VehicleFileError> for Failure {
+    fn from(error: VehicleFileError) -> Self {
+        match &error {
+            VehicleFileError::Override { assignment, reason } => Self::wrong_use(format!(
+                "--set {assignment}: {reason}; the form is {VEHICLE_FORM}"
+            )),
+            VehicleFileError::Overridden { name, message } => {
+                Self::wrong_use(format!("{name}: after --set: {message}"))
+            }
+            VehicleFileError::Unknown { .. } => Self::wrong_use(error.to_string()),
+            _ => Self::new(error.to_string()),
         }
     }
 }

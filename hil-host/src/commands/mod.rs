@@ -14,6 +14,7 @@ mod gap_report;
 pub mod interruption;
 pub mod line;
 pub mod link;
+pub mod modes;
 pub mod pil;
 pub mod print;
 pub mod progress;
@@ -39,6 +40,7 @@ pub enum Command {
     Budget(budget::BudgetArguments),
     Export(export::ExportArguments),
     Contact(contact::ContactArguments),
+    Modes(modes::ModesArguments),
     Pil(pil::PilArguments),
     Link(link::LinkArguments),
 }
@@ -57,6 +59,7 @@ impl Command {
             Self::Budget(arguments) => budget::run(arguments),
             Self::Export(arguments) => export::run(arguments),
             Self::Contact(arguments) => contact::run(arguments),
+            Self::Modes(arguments) => modes::run(arguments),
             Self::Pil(arguments) => pil::run(arguments),
             Self::Link(arguments) => link::run(arguments),
         }

@@ -1,13 +1,15 @@
-//! What is read and written: damper files, recordings, profiles, saved states; files whole or not at all.
+//! What is read and written: damper and vehicle files, recordings, profiles, saved states; files whole or not at all.
 
 pub mod damper;
 mod error;
 pub mod input;
 pub mod output;
+mod overrides;
 pub mod profile;
 pub mod recording;
 pub mod states;
 pub mod status_bits;
 pub mod temporary;
+pub mod vehicle;
 
 pub use error::FileError;

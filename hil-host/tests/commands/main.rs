@@ -11,6 +11,7 @@ mod export_c;
 mod firmware_bank;
 mod gaps;
 mod interruption;
+mod modes;
 mod page_layout;
 mod replay;
 mod rig;

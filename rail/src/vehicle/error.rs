@@ -51,6 +51,9 @@ pub enum VehicleError {
     /// There is nothing that could move.
     #[error("no body: a vehicle has one at least")]
     NoBody,
+    /// The iteration for the eigenvalues does not end.
+    #[error("the modes cannot be found: stiffnesses, damping and masses are too far apart")]
+    NoModes,
     /// A body is not held against its weight or against moving away.
     #[error("{body}: not held in {coordinate}; add an element that holds it")]
     NotHeld {

@@ -26,7 +26,7 @@
 //!     wheelsets: vec![],
 //!     elements: vec![spring(5.0, 1.0), spring(5.0, -1.0), spring(-5.0, 1.0), spring(-5.0, -1.0)],
 //! };
-//! let modes = Standstill::new(&vehicle)?.modes();
+//! let modes = Standstill::new(&vehicle)?.modes()?;
 //! let bounce = modes.iter().find(|mode| mode.words() == "body bounce").unwrap();
 //! // sqrt(4 MN/m / 30 t) / 2 pi
 //! assert!((bounce.undamped_hz() - 1.8378).abs() < 1e-3);

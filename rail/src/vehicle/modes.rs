@@ -1,8 +1,10 @@
 //! Natural modes of linear equations of motion.
 
+use nalgebra::linalg::{Schur, balancing::balance_parlett_reinsch};
 use nalgebra::{Complex, DMatrix, DVector};
 
 use super::body::{Body, COORDINATES, Coordinate};
+use super::error::VehicleError;
 use super::linear::Linear;
 
 /// A natural mode.
@@ -22,6 +24,9 @@ struct Share {
     of_energy: f64,
     moves_with_first: bool,
 }
+
+/// Iterations for each eigenvalue, of which a few are needed.
+const ITERATIONS_EACH: usize = 100;
 
 /// Share of the greatest from which a body, or a coordinate, is named beside it.
 const NAMED: f64 = 0.25;
@@ -90,9 +95,14 @@ impl Mode {
 }
 
 /// The oscillating modes by rising frequency.
-pub(super) fn of(linear: &Linear, bodies: &[Body]) -> Vec<Mode> {
+pub(super) fn of(linear: &Linear, bodies: &[Body]) -> Result<Vec<Mode>, VehicleError> {
     let matrix = linear.first_order();
-    let values = matrix.complex_eigenvalues();
+    // Stiffnesses over inertias are large beside the ones of the velocities: balanced first.
+    let mut balanced = matrix.clone();
+    balance_parlett_reinsch(&mut balanced);
+    let values = Schur::try_new(balanced, f64::EPSILON, ITERATIONS_EACH * matrix.nrows())
+        .ok_or(VehicleError::NoModes)?
+        .complex_eigenvalues();
     let mut modes: Vec<Mode> = values
         .iter()
         .enumerate()
@@ -103,7 +113,7 @@ pub(super) fn of(linear: &Linear, bodies: &[Body]) -> Vec<Mode> {
         })
         .collect();
     modes.sort_by(|a, b| a.undamped_hz().total_cmp(&b.undamped_hz()));
-    modes
+    Ok(modes)
 }
 
 /// The eigenvector of an eigenvalue by inverse iteration, from a start of its own for every `number`, so that equal eigenvalues

@@ -62,7 +62,7 @@ impl Standstill {
             .stiffness
             .clone()
             .cholesky()
-            .expect("every body is held")
+            .ok_or(VehicleError::NoModes)?
             .solve(&weight);
         let mut axle_loads_n: Vec<f64> = wheelsets
             .iter()
@@ -100,7 +100,10 @@ impl Standstill {
     }
 
     /// Modes of the bodies by rising frequency; overdamped motion is none.
-    pub fn modes(&self) -> Vec<Mode> {
+    ///
+    /// # Errors
+    /// Numbers so far apart that the eigenvalues are not found.
+    pub fn modes(&self) -> Result<Vec<Mode>, VehicleError> {
         modes::of(&self.linear, &self.bodies)
     }
 }

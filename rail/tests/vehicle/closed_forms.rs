@@ -60,7 +60,7 @@ fn vehicle(bodies: Vec<Body>, elements: Vec<Element>) -> Vehicle {
 }
 
 fn modes(vehicle: &Vehicle) -> Vec<Mode> {
-    Standstill::new(vehicle).unwrap().modes()
+    Standstill::new(vehicle).unwrap().modes().unwrap()
 }
 
 fn named<'a>(modes: &'a [Mode], words: &str) -> &'a Mode {

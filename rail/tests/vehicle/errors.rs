@@ -32,10 +32,12 @@ fn error_of(change: impl FnOnce(&mut Vehicle)) -> String {
     Standstill::new(&vehicle).unwrap_err().to_string()
 }
 
+type Change = fn(&mut Vehicle);
+
 #[test]
 fn every_error_says_what_where_and_what_is_allowed() {
     assert!(Standstill::new(&vehicle()).is_ok());
-    let cases: [(&str, fn(&mut Vehicle)); 9] = [
+    let cases: [(&str, Change); 9] = [
         ("body: mass_kg = -1, allowed: 1 to 1000000", |v| {
             v.bodies[0].mass_kg = -1.0
         }),

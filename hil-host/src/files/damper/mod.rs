@@ -13,7 +13,8 @@ pub(crate) use error::FORM;
 pub use error::{ContentError, DamperError};
 use serde::Deserialize;
 
-use crate::files::input;
+use crate::files::overrides::{explain, nearest};
+use crate::files::{input, overrides};
 
 /// Presets that ship with the program: name and file.
 pub const PRESETS: [(&str, &str); 4] = [
@@ -130,20 +131,7 @@ fn set(tree: &mut toml::Table, assignment: &str) -> Result<(), DamperError> {
         assignment: assignment.to_owned(),
         reason,
     };
-    let (path, value) = assignment
-        .split_once('=')
-        .ok_or_else(|| wrong("no `=`".into()))?;
-    let value: toml::Table = toml::from_str(&format!("value = {}", value.trim()))
-        .map_err(|error| wrong(error.message().to_owned()))?;
-    let value = value
-        .get("value")
-        .cloned()
-        .ok_or_else(|| wrong("no value".into()))?;
-    let mut keys: Vec<&str> = path.trim().split('.').collect();
-    let last = keys
-        .pop()
-        .filter(|key| !key.is_empty())
-        .ok_or_else(|| wrong("no key".into()))?;
+    let (keys, last, value) = overrides::parse(assignment).map_err(wrong)?;
     let mut table = tree;
     for key in keys {
         table = table
@@ -152,11 +140,6 @@ fn set(tree: &mut toml::Table, assignment: &str) -> Result<(), DamperError> {
             .as_table_mut()
             .ok_or_else(|| wrong(format!("`{key}` is not a table")))?;
     }
-    // An integer is a number too, whether the file has a float there or nothing.
-    let value = match value {
-        toml::Value::Integer(number) => toml::Value::Float(number as f64),
-        other => other,
-    };
     table.insert(last.to_owned(), value);
     Ok(())
 }
@@ -201,25 +184,4 @@ fn from_file(file: DamperFile) -> Result<CheckedParameters, ContentError> {
         limits: file.limits,
     };
     Ok(parameters.check()?)
-}
-
-/// The parser's message with the nearest known key where it met an unknown one.
-fn explain(error: &toml::de::Error) -> String {
-    let message = error.to_string();
-    let message = message.trim_end();
-    let quoted: Vec<&str> = error.message().split('`').skip(1).step_by(2).collect();
-    match quoted.split_first() {
-        Some((unknown, known)) if error.message().starts_with("unknown field") => {
-            format!("{message}{}", nearest(unknown, known.iter().copied()))
-        }
-        _ => message.to_owned(),
-    }
-}
-
-fn nearest<'a>(unknown: &str, known: impl Iterator<Item = &'a str>) -> String {
-    known
-        .map(|key| (strsim::jaro_winkler(unknown, key), key))
-        .filter(|(likeness, _)| *likeness > 0.7)
-        .max_by(|a, b| a.0.total_cmp(&b.0))
-        .map_or_else(String::new, |(_, key)| format!("; did you mean `{key}`?"))
 }

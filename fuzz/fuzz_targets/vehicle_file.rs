@@ -1,0 +1,15 @@
+//! Any text as a vehicle file: refused, or a vehicle whose modes are found or refused.
+#![no_main]
+
+use dashpot_hil::files::vehicle;
+use dashpot_rail::vehicle::Standstill;
+use libfuzzer_sys::fuzz_target;
+
+fuzz_target!(|text: &str| {
+    if let Ok(vehicle) = vehicle::parse("fuzz.toml", text, &[])
+        && let Ok(standstill) = Standstill::new(&vehicle)
+        && let Ok(modes) = standstill.modes()
+    {
+        assert!(modes.iter().all(|mode| mode.undamped_hz().is_finite()));
+    }
+});

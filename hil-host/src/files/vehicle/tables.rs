@@ -1,0 +1,226 @@
+//! The tables of a vehicle file.
+
+use dashpot_core::CheckedParameters;
+use dashpot_core::characteristic::Characteristic;
+use dashpot_rail::vehicle::{Body, Direction, Element, End, Law, Vehicle, Wheelset};
+use serde::Deserialize;
+
+use super::error::VehicleFileError;
+use crate::files::damper;
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct VehicleFile {
+    name: String,
+    #[serde(default)]
+    body: Vec<BodyTable>,
+    #[serde(default)]
+    wheelset: Vec<WheelsetTable>,
+    #[serde(default)]
+    spring_damper: Vec<SpringDamperTable>,
+    #[serde(default)]
+    damper: Vec<DamperTable>,
+    #[serde(default)]
+    anti_roll_bar: Vec<AntiRollBarTable>,
+    #[serde(default)]
+    traction_rod: Vec<TractionRodTable>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct BodyTable {
+    name: String,
+    mass_kg: f64,
+    roll_inertia_kg_m2: f64,
+    pitch_inertia_kg_m2: f64,
+    yaw_inertia_kg_m2: f64,
+    x_m: f64,
+    height_m: f64,
+}
+
+/// Equal wheelsets, called by the name and a number from 1, at places along the vehicle.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct WheelsetTable {
+    name: String,
+    mass_kg: f64,
+    roll_inertia_kg_m2: f64,
+    spin_inertia_kg_m2: f64,
+    yaw_inertia_kg_m2: f64,
+    radius_m: f64,
+    x_m: Vec<f64>,
+}
+
+/// Equal elements, called by the name and a number from 1, at places `[x, y, height]`.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct SpringDamperTable {
+    name: String,
+    between: [String; 2],
+    at_m: Vec<[f64; 3]>,
+    stiffness_n_per_m: [f64; 3],
+    damping_n_s_per_m: [f64; 3],
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct DamperTable {
+    name: String,
+    between: [String; 2],
+    at_m: Vec<[f64; 3]>,
+    direction: DirectionName,
+    /// A preset or a file.
+    damper: String,
+    #[serde(default)]
+    set: Vec<String>,
+}
+
+#[derive(Deserialize)]
+#[serde(rename_all = "lowercase")]
+enum DirectionName {
+    Longitudinal,
+    Lateral,
+    Vertical,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct AntiRollBarTable {
+    name: String,
+    between: [String; 2],
+    at_m: [f64; 3],
+    stiffness_n_m_per_rad: f64,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct TractionRodTable {
+    name: String,
+    between: [String; 2],
+    from_m: [f64; 3],
+    to_m: [f64; 3],
+    stiffness_n_per_m: f64,
+    damping_n_s_per_m: f64,
+}
+
+/// What an end on the track is attached to.
+const TRACK: &str = "track";
+
+fn end(on: &str, at_m: [f64; 3]) -> End {
+    if on == TRACK {
+        End::track(at_m)
+    } else {
+        End::body(on, at_m)
+    }
+}
+
+fn elements(name: &str, between: &[String; 2], at_m: &[[f64; 3]], law: &Law) -> Vec<Element> {
+    let [from, to] = between;
+    at_m.iter()
+        .enumerate()
+        .map(|(number, at)| Element {
+            name: format!("{name} {}", number + 1),
+            ends: [end(from, *at), end(to, *at)],
+            law: law.clone(),
+        })
+        .collect()
+}
+
+/// Velocity at which a damper's force is taken for its damping in small motion, m/s.
+const SMALL_VELOCITY_M_PER_S: f64 = 1e-4;
+
+/// A damper in small motion, its clearance taken up: the secant of its characteristic and the stiffness of its mounts.
+fn small_motion(parameters: &CheckedParameters, direction: Direction) -> Law {
+    let characteristic = Characteristic::new(parameters);
+    let force = |velocity| characteristic.force_n(velocity);
+    let v = SMALL_VELOCITY_M_PER_S;
+    Law::Damper {
+        direction,
+        damping_n_s_per_m: (force(v) - force(-v)) / (2.0 * v),
+        stiffness_n_per_m: 1.0 / parameters.mount.compliance_m_per_n(),
+    }
+}
+
+impl VehicleFile {
+    /// The vehicle; `file` stands for it in errors.
+    pub fn vehicle(self, file: &str) -> Result<Vehicle, VehicleFileError> {
+        let bodies = self.body.into_iter().map(|table| Body {
+            name: table.name,
+            mass_kg: table.mass_kg,
+            inertia_kg_m2: [
+                table.roll_inertia_kg_m2,
+                table.pitch_inertia_kg_m2,
+                table.yaw_inertia_kg_m2,
+            ],
+            x_m: table.x_m,
+            height_m: table.height_m,
+        });
+        let mut wheelsets = Vec::new();
+        for table in self.wheelset {
+            for (number, x_m) in table.x_m.into_iter().enumerate() {
+                wheelsets.push(Wheelset {
+                    name: format!("{} {}", table.name, number + 1),
+                    mass_kg: table.mass_kg,
+                    inertia_kg_m2: [
+                        table.roll_inertia_kg_m2,
+                        table.spin_inertia_kg_m2,
+                        table.yaw_inertia_kg_m2,
+                    ],
+                    x_m,
+                    radius_m: table.radius_m,
+                });
+            }
+        }
+        let mut all = Vec::new();
+        for table in &self.spring_damper {
+            let law = Law::SpringDamper {
+                stiffness_n_per_m: table.stiffness_n_per_m,
+                damping_n_s_per_m: table.damping_n_s_per_m,
+            };
+            all.extend(elements(&table.name, &table.between, &table.at_m, &law));
+        }
+        for table in &self.damper {
+            let parameters = damper::load(&table.damper, &table.set).map_err(|source| {
+                VehicleFileError::Damper {
+                    name: file.to_owned(),
+                    element: table.name.clone(),
+                    source: Box::new(source),
+                }
+            })?;
+            let direction = match table.direction {
+                DirectionName::Longitudinal => Direction::Longitudinal,
+                DirectionName::Lateral => Direction::Lateral,
+                DirectionName::Vertical => Direction::Vertical,
+            };
+            let law = small_motion(&parameters, direction);
+            all.extend(elements(&table.name, &table.between, &table.at_m, &law));
+        }
+        for table in self.anti_roll_bar {
+            let [from, to] = &table.between;
+            all.push(Element {
+                name: table.name,
+                ends: [end(from, table.at_m), end(to, table.at_m)],
+                law: Law::AntiRollBar {
+                    stiffness_n_m_per_rad: table.stiffness_n_m_per_rad,
+                },
+            });
+        }
+        for table in self.traction_rod {
+            let [from, to] = &table.between;
+            all.push(Element {
+                name: table.name,
+                ends: [end(from, table.from_m), end(to, table.to_m)],
+                law: Law::TractionRod {
+                    stiffness_n_per_m: table.stiffness_n_per_m,
+                    damping_n_s_per_m: table.damping_n_s_per_m,
+                },
+            });
+        }
+        Ok(Vehicle {
+            name: self.name,
+            bodies: bodies.collect(),
+            wheelsets,
+            elements: all,
+        })
+    }
+}
