@@ -7,3 +7,4 @@ pub mod creep;
 pub mod indices;
 mod math;
 pub mod profile;
+pub mod track;
