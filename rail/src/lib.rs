@@ -7,4 +7,5 @@ pub mod creep;
 pub mod indices;
 mod math;
 pub mod profile;
+pub mod track;
 pub mod vehicle;

@@ -9,6 +9,7 @@ use dashpot_rail::contact::{
     WheelsetContact,
 };
 use dashpot_rail::creep::{Friction, KalkerBook};
+use dashpot_rail::track::{self, Defect, Generation, Rails, Spectrum, Track};
 
 struct Counting;
 
@@ -39,7 +40,16 @@ fn forces_are_computed_without_allocating() {
     let tables = Tables::new(geometry, grid).unwrap();
     let contact =
         WheelsetContact::new(Arc::new(tables), KalkerBook::new(), Friction::default()).unwrap();
-    let rails = [RailDisplacement::default(); 2];
+    let irregularity = Generation::of(Spectrum::german_low())
+        .irregularity()
+        .unwrap();
+    let dip = Defect::CosineDip {
+        rails: Rails::Left,
+        start_m: 500.0,
+        length_m: 1.0,
+        depth_m: 1e-3,
+    };
+    let track = Track::new(track::Layout::default(), irregularity, vec![dip]).unwrap();
     let before = COUNT.load(Ordering::Relaxed);
     assert!(before > 0, "the counter does not count");
     let mut loads = 0.0;
@@ -52,6 +62,8 @@ fn forces_are_computed_without_allocating() {
             yaw_rad: 2e-3,
             ..Motion::default()
         };
+        let point = track.at(0.1 * f64::from(i));
+        let rails: [RailDisplacement; 2] = point.rails.map(|rail| rail.displacement(20.0));
         loads += contact.forces(&motion, &rails).force_n[2];
     }
     let after = COUNT.load(Ordering::Relaxed);

@@ -12,6 +12,7 @@ use dashpot_hil::files::damper::PRESETS;
 use dashpot_hil::files::vehicle::VEHICLES;
 use dashpot_rail::profile::Body;
 use dashpot_rail::profile::measured::{self, Mirror, Options};
+use dashpot_rail::track;
 
 /// Name and bytes of a seed.
 type Seed = (String, Vec<u8>);
@@ -143,4 +144,34 @@ fn profiles_are_the_samples_of_every_format() {
         seeds.push((name.into_owned(), text.into_bytes()));
     }
     compare("measured_profile", seeds);
+}
+
+#[test]
+fn tracks_are_in_m_and_mm_with_and_without_header() {
+    let row = |i: u32| {
+        let distance_m = 0.25 * f64::from(i);
+        format!("{distance_m},0.00{i},-1e-3,0,0\n")
+    };
+    let rows: String = (0..9).map(row).collect();
+    let headed = format!("distance_m,vertical_m,lateral_m,cross_level_m,gauge_m\n{rows}");
+    let one = (0..9).map(|i| format!("-{i}.5 , {}\r\n", 30 + i));
+    let one: String = one.collect();
+    let millimetres = format!("# made\r\ngauge_mm,distance_m\r\n{one}");
+    let options = track::measured::Options {
+        ramp_m: 1.0,
+        ..Default::default()
+    };
+    for text in [&headed, &millimetres] {
+        let read = track::measured::parse(text, &options);
+        assert!(read.is_ok(), "{:?}", read.err());
+    }
+    compare(
+        "measured_track",
+        vec![
+            ("headed.csv".into(), headed.into()),
+            ("millimetres.csv".into(), millimetres.into()),
+            // The target writes the header before it.
+            ("rows.csv".into(), rows.into()),
+        ],
+    );
 }

@@ -1,0 +1,249 @@
+//! The designed line of a track: straight, transition and circular parts, with their cant.
+
+use super::error::{Place, TrackError, within};
+
+/// A part of a layout.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Part {
+    /// No curvature, no cant.
+    Straight {
+        /// Length, m.
+        length_m: f64,
+    },
+    /// Clothoid and linear cant ramp: curvature and cant go linearly from those of the part before to those of the part behind.
+    Transition {
+        /// Length, m.
+        length_m: f64,
+    },
+    /// Constant curvature and cant.
+    Circular {
+        /// Radius of the centre line, m: positive in a curve to the right.
+        radius_m: f64,
+        /// Length, m.
+        length_m: f64,
+        /// Height of the left rail over the right one, m: positive in a curve to the right, where the left rail is the outer one.
+        cant_m: f64,
+    },
+}
+
+/// Bounds of a part's length, m.
+const LENGTH_M: [f64; 2] = [0.1, 1e6];
+/// Bounds of the magnitude of a radius, m: a curve wider than the greatest is straight.
+const RADIUS_M: [f64; 2] = [50.0, 1e6];
+/// Bounds of the height of the outer rail over the inner one, m: some turnouts lie with the inner rail higher.
+const CANT_M: [f64; 2] = [-0.1, 0.3];
+
+/// What a layout is at one place.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Alignment {
+    /// Curvature `k` of the centre line, right positive, 1/m.
+    pub curvature_per_m: f64,
+    /// `dk/ds`, 1/m^2: not zero in transitions only.
+    pub curvature_rate_per_m2: f64,
+    /// Cant: height of the left rail over the right one, m.
+    pub cant_m: f64,
+    /// Change of the cant over the distance, dimensionless.
+    pub cant_slope: f64,
+}
+
+/// A part as it is evaluated.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Piece {
+    start_m: f64,
+    start: Alignment,
+    /// Direction at the start, rad.
+    heading_rad: f64,
+}
+
+impl Piece {
+    fn at(&self, distance_m: f64) -> Alignment {
+        let t = distance_m - self.start_m;
+        Alignment {
+            curvature_per_m: self.start.curvature_per_m + self.start.curvature_rate_per_m2 * t,
+            cant_m: self.start.cant_m + self.start.cant_slope * t,
+            ..self.start
+        }
+    }
+
+    fn heading_rad(&self, distance_m: f64) -> f64 {
+        let t = distance_m - self.start_m;
+        let rate = self.start.curvature_rate_per_m2;
+        self.heading_rad + t * (self.start.curvature_per_m + 0.5 * t * rate)
+    }
+}
+
+/// Curvature and cant over the distance; the first part reaches back and the last part on without end.
+///
+/// Curvature may jump between parts without a transition, as in turnouts; cant may not.
+/// The layout has no gradient, and the cant leaves the height of the centre line as it is.
+///
+/// ```
+/// use dashpot_rail::track::{Layout, Part};
+/// let layout = Layout::new(&[
+///     Part::Straight { length_m: 100.0 },
+///     Part::Transition { length_m: 80.0 },
+///     Part::Circular { radius_m: 400.0, length_m: 200.0, cant_m: 0.12 },
+/// ])?;
+/// let middle = layout.at(140.0);
+/// assert!((middle.curvature_per_m - 0.5 / 400.0).abs() < 1e-15);
+/// assert!((middle.cant_m - 0.06).abs() < 1e-15);
+/// # Ok::<(), dashpot_rail::track::TrackError>(())
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct Layout {
+    pieces: Vec<Piece>,
+    length_m: f64,
+}
+
+impl Default for Layout {
+    /// Straight without end.
+    fn default() -> Self {
+        Self {
+            pieces: vec![Piece {
+                start_m: 0.0,
+                start: Alignment::default(),
+                heading_rad: 0.0,
+            }],
+            length_m: 0.0,
+        }
+    }
+}
+
+impl Layout {
+    /// A layout of `parts` in their order, from the distance 0 on.
+    ///
+    /// # Errors
+    /// No part, a length not within 0.1 m to 1000 km, a radius not within 50 m to 1000 km, an outer rail more than 0.3 m above
+    /// or 0.1 m below the inner one, a transition without a straight or circular part on each side or between parts that are alike, a cant that jumps.
+    pub fn new(parts: &[Part]) -> Result<Self, TrackError> {
+        for (part, number) in parts.iter().zip(1..) {
+            part.check(Place::Part(number))?;
+        }
+        let mut layout = Self {
+            pieces: Vec::with_capacity(parts.len()),
+            length_m: 0.0,
+        };
+        let mut end: Option<Alignment> = None;
+        for (index, part) in parts.iter().enumerate() {
+            let place = Place::Part(index + 1);
+            let start = match part.constant() {
+                Some(constant) => {
+                    let before_m = end.map_or(constant.cant_m, |end| end.cant_m);
+                    // What a transition leads to is met but for rounding.
+                    if (before_m - constant.cant_m).abs() > 1e-9 {
+                        return Err(TrackError::CantJump {
+                            place,
+                            before_m,
+                            after_m: constant.cant_m,
+                        });
+                    }
+                    constant
+                }
+                None => {
+                    let before = index.checked_sub(1).and_then(|i| parts[i].constant());
+                    let after = parts.get(index + 1).and_then(Part::constant);
+                    let (Some(before), Some(after)) = (before, after) else {
+                        return Err(TrackError::TransitionAtEnd { place });
+                    };
+                    if before == after {
+                        return Err(TrackError::NeedlessTransition { place });
+                    }
+                    let length_m = part.length_m();
+                    Alignment {
+                        curvature_rate_per_m2: (after.curvature_per_m - before.curvature_per_m)
+                            / length_m,
+                        cant_slope: (after.cant_m - before.cant_m) / length_m,
+                        ..before
+                    }
+                }
+            };
+            let piece = Piece {
+                start_m: layout.length_m,
+                start,
+                heading_rad: layout
+                    .pieces
+                    .last()
+                    .map_or(0.0, |last| last.heading_rad(layout.length_m)),
+            };
+            layout.length_m += part.length_m();
+            end = Some(piece.at(layout.length_m));
+            layout.pieces.push(piece);
+        }
+        if layout.pieces.is_empty() {
+            return Err(TrackError::Empty);
+        }
+        Ok(layout)
+    }
+
+    /// Curvature and cant at a distance, and their changes; at the end of a part those of the next.
+    #[inline]
+    pub fn at(&self, distance_m: f64) -> Alignment {
+        self.piece(distance_m).at(distance_m)
+    }
+
+    /// Direction of the centre line, right positive, 0 at the distance 0, rad: the integral of the curvature.
+    pub fn heading_rad(&self, distance_m: f64) -> f64 {
+        self.piece(distance_m).heading_rad(distance_m)
+    }
+
+    /// Sum of the lengths of the parts, m.
+    pub fn length_m(&self) -> f64 {
+        self.length_m
+    }
+
+    #[inline]
+    fn piece(&self, distance_m: f64) -> &Piece {
+        let behind = self
+            .pieces
+            .partition_point(|piece| piece.start_m <= distance_m);
+        &self.pieces[behind.saturating_sub(1)]
+    }
+}
+
+impl Part {
+    fn length_m(&self) -> f64 {
+        match *self {
+            Self::Straight { length_m }
+            | Self::Transition { length_m }
+            | Self::Circular { length_m, .. } => length_m,
+        }
+    }
+
+    /// Curvature and cant of a part that has them constant.
+    fn constant(&self) -> Option<Alignment> {
+        match *self {
+            Self::Straight { .. } => Some(Alignment::default()),
+            Self::Transition { .. } => None,
+            Self::Circular {
+                radius_m, cant_m, ..
+            } => Some(Alignment {
+                curvature_per_m: 1.0 / radius_m,
+                cant_m,
+                ..Alignment::default()
+            }),
+        }
+    }
+
+    fn check(&self, place: Place) -> Result<(), TrackError> {
+        within(place, "length_m", self.length_m(), LENGTH_M)?;
+        if let Self::Circular {
+            radius_m, cant_m, ..
+        } = *self
+        {
+            within(place, "radius_m without its sign", radius_m.abs(), RADIUS_M)?;
+            let outer_up = [CANT_M[0], CANT_M[1]];
+            let allowed = if radius_m > 0.0 {
+                outer_up
+            } else {
+                [-outer_up[1], -outer_up[0]]
+            };
+            within(
+                place,
+                "cant_m (left rail over the right one)",
+                cant_m,
+                allowed,
+            )?;
+        }
+        Ok(())
+    }
+}

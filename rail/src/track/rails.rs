@@ -1,0 +1,92 @@
+//! Deviations of both rails, from those of the track as a whole.
+
+use std::ops::{Add, AddAssign};
+
+use crate::contact::RailDisplacement;
+
+/// Deviations of a track from its layout, or their slopes.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Channels {
+    /// Vertical profile: mean of both rails, down positive, m.
+    pub vertical: f64,
+    /// Alignment: mean of both rails, right positive, m.
+    pub lateral: f64,
+    /// Cross level: height of the left rail over the right one beyond the cant, m.
+    pub cross_level: f64,
+    /// Gauge: distance of the rails beyond the nominal one, m.
+    pub gauge: f64,
+}
+
+impl Channels {
+    /// The four in the order vertical, lateral, cross level, gauge.
+    pub(super) fn of([vertical, lateral, cross_level, gauge]: [f64; 4]) -> Self {
+        Self {
+            vertical,
+            lateral,
+            cross_level,
+            gauge,
+        }
+    }
+}
+
+/// Displacement of one rail from the layout, and its change over the distance.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct RailDeviation {
+    /// Lateral displacement, right positive, m.
+    pub lateral_m: f64,
+    /// Vertical displacement, down positive, m.
+    pub vertical_m: f64,
+    /// Change of `lateral_m` over the distance, dimensionless.
+    pub lateral_slope: f64,
+    /// Change of `vertical_m` over the distance, dimensionless.
+    pub vertical_slope: f64,
+}
+
+impl RailDeviation {
+    /// Left and right rail from deviations of the track and their slopes:
+    ///
+    /// - vertical: `vertical - cross_level / 2` left, `vertical + cross_level / 2` right (down is positive);
+    /// - lateral: `lateral - gauge / 2` left, `lateral + gauge / 2` right.
+    #[inline]
+    pub fn of_rails(deviations: &Channels, slopes: &Channels) -> [Self; 2] {
+        [-0.5, 0.5].map(|half| Self {
+            lateral_m: deviations.lateral + half * deviations.gauge,
+            vertical_m: deviations.vertical + half * deviations.cross_level,
+            lateral_slope: slopes.lateral + half * slopes.gauge,
+            vertical_slope: slopes.vertical + half * slopes.cross_level,
+        })
+    }
+
+    /// What the contact is told of the rail under a wheel that moves along it: the rates are the speed times the slopes.
+    #[inline]
+    pub fn displacement(&self, speed_m_per_s: f64) -> RailDisplacement {
+        RailDisplacement {
+            lateral_m: self.lateral_m,
+            vertical_m: self.vertical_m,
+            lateral_velocity_m_per_s: speed_m_per_s * self.lateral_slope,
+            vertical_velocity_m_per_s: speed_m_per_s * self.vertical_slope,
+            ..RailDisplacement::default()
+        }
+    }
+}
+
+impl Add for RailDeviation {
+    type Output = Self;
+
+    #[inline]
+    fn add(self, other: Self) -> Self {
+        Self {
+            lateral_m: self.lateral_m + other.lateral_m,
+            vertical_m: self.vertical_m + other.vertical_m,
+            lateral_slope: self.lateral_slope + other.lateral_slope,
+            vertical_slope: self.vertical_slope + other.vertical_slope,
+        }
+    }
+}
+
+impl AddAssign for RailDeviation {
+    #[inline]
+    fn add_assign(&mut self, other: Self) {
+        *self = *self + other;
+    }
+}

@@ -1,0 +1,126 @@
+//! Published spectra of track irregularities.
+
+use super::error::TrackError;
+
+/// One-sided power spectral density of one channel over the wave number `W` in rad/m,
+/// `S(W) = g W^2 / ((W^2 + p1^2) (W^2 + p2^2) (W^2 + p3^2))`; its integral over a band is the mean square in it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Density {
+    /// `g`, rad^3/m.
+    pub gain_rad3_per_m: f64,
+    /// `p1` to `p3`, rad/m; zero where the published formula has fewer.
+    pub corners_rad_per_m: [f64; 3],
+}
+
+impl Density {
+    /// `S` at a wave number in rad/m, in `m^2/(rad/m)`.
+    pub fn at(&self, wave_number_rad_per_m: f64) -> f64 {
+        let square = wave_number_rad_per_m * wave_number_rad_per_m;
+        let factors = self
+            .corners_rad_per_m
+            .map(|corner| square + corner * corner);
+        self.gain_rad3_per_m * square / (factors[0] * factors[1] * factors[2])
+    }
+}
+
+/// Densities of the four channels.
+///
+/// Of the American spectra in their simplified form (Garg and Dukkipati 1984), with `k = 0.25` and `Wc`, `Ws` in rad/m:
+///
+/// - vertical `k Av Wc^2 / (W^2 (W^2 + Wc^2))`, lateral the same with `Aa`;
+/// - cross level and gauge `4 k Av Wc^2 / ((W^2 + Wc^2) (W^2 + Ws^2))`.
+///
+/// Of the German ones (as in Claus and Schiehlen 1998), with the half distance `b = 0.75 m` of the rails:
+///
+/// - vertical `Av Wc^2 / ((W^2 + Wr^2) (W^2 + Wc^2))`, lateral the same with `Aa`;
+/// - gauge `Ag Wc^2 W^2 / ((W^2 + Wr^2) (W^2 + Wc^2) (W^2 + Ws^2))`;
+/// - cross level the same with `Av`, times `(2 b)^2 / b^2 = 4`: the published one is of the angle, which is the cross level over `2 b`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Spectrum {
+    /// Vertical profile.
+    pub vertical: Density,
+    /// Alignment.
+    pub lateral: Density,
+    /// Cross level.
+    pub cross_level: Density,
+    /// Gauge.
+    pub gauge: Density,
+}
+
+/// `Av` and `Aa` in cm^2 rad/m, `Ws` in rad/m for the classes 1 to 6. `Aa` of the classes 1 to 4 and their `Ws` could not be compared
+/// with the publication.
+const FRA: [[f64; 3]; 6] = [
+    [1.2107, 3.3634, 0.6046],
+    [1.0181, 1.2107, 0.9308],
+    [0.6816, 0.4128, 0.8520],
+    [0.5376, 0.3027, 1.1312],
+    [0.2095, 0.0762, 0.8209],
+    [0.0339, 0.0339, 0.4380],
+];
+/// `Wc` of the American spectra, rad/m.
+const FRA_CORNER: f64 = 0.8245;
+/// `k` of the American spectra.
+const FRA_FACTOR: f64 = 0.25;
+/// `Wr`, `Wc` and `Ws` of the German spectra, rad/m.
+const GERMAN_CORNERS: [f64; 3] = [0.0206, 0.8246, 0.4380];
+
+impl Spectrum {
+    /// American track of a class, from 1 (the poorest) to 6.
+    ///
+    /// # Errors
+    /// Another class.
+    pub fn fra(class: u8) -> Result<Self, TrackError> {
+        let index = usize::from(class).wrapping_sub(1);
+        let &[vertical, lateral, corner] = FRA.get(index).ok_or(TrackError::Class { class })?;
+        let gain = |roughness_cm2| FRA_FACTOR * roughness_cm2 * 1e-4 * FRA_CORNER * FRA_CORNER;
+        let mean = |roughness_cm2| Density {
+            gain_rad3_per_m: gain(roughness_cm2),
+            corners_rad_per_m: [0.0, 0.0, FRA_CORNER],
+        };
+        let difference = Density {
+            gain_rad3_per_m: 4.0 * gain(vertical),
+            corners_rad_per_m: [0.0, FRA_CORNER, corner],
+        };
+        Ok(Self {
+            vertical: mean(vertical),
+            lateral: mean(lateral),
+            cross_level: difference,
+            gauge: difference,
+        })
+    }
+
+    /// German track of low disturbance.
+    pub fn german_low() -> Self {
+        Self::german(4.032e-7, 2.119e-7, 5.32e-8)
+    }
+
+    /// German track of high disturbance.
+    pub fn german_high() -> Self {
+        Self::german(1.08e-6, 6.125e-7, 1.032e-7)
+    }
+
+    /// `Av`, `Aa` and `Ag` in m^2 rad/m.
+    fn german(vertical: f64, lateral: f64, gauge: f64) -> Self {
+        let [wr, wc, ws] = GERMAN_CORNERS;
+        let density = |roughness: f64, corners_rad_per_m| Density {
+            gain_rad3_per_m: roughness * wc * wc,
+            corners_rad_per_m,
+        };
+        Self {
+            vertical: density(vertical, [0.0, wr, wc]),
+            lateral: density(lateral, [0.0, wr, wc]),
+            cross_level: density(4.0 * vertical, [wr, wc, ws]),
+            gauge: density(gauge, [wr, wc, ws]),
+        }
+    }
+
+    /// The four in the order vertical, lateral, cross level, gauge.
+    pub(super) fn densities(&self) -> [&Density; 4] {
+        [
+            &self.vertical,
+            &self.lateral,
+            &self.cross_level,
+            &self.gauge,
+        ]
+    }
+}

@@ -1,0 +1,173 @@
+//! Layouts against closed forms, and what is refused.
+
+use dashpot_rail::track::{Layout, Part, Place, TrackError};
+
+const STRAIGHT: Part = Part::Straight { length_m: 50.0 };
+const TRANSITION: Part = Part::Transition { length_m: 60.0 };
+const LEFT: Part = Part::Circular {
+    radius_m: -300.0,
+    length_m: 100.0,
+    cant_m: -0.15,
+};
+const RIGHT: Part = Part::Circular {
+    radius_m: 300.0,
+    length_m: 100.0,
+    cant_m: 0.15,
+};
+
+#[test]
+fn curvature_and_cant_are_linear_in_transitions_and_constant_elsewhere() {
+    let layout = Layout::new(&[STRAIGHT, TRANSITION, LEFT, TRANSITION, RIGHT]).unwrap();
+    assert_eq!(layout.length_m(), 370.0);
+    // Distance, curvature times 300 m, cant over 0.15 m, and whether they change from left to right (2), to the left (-1) or not.
+    for (distance_m, share, change) in [
+        (-1e6, 0.0, 0.0),
+        (0.0, 0.0, 0.0),
+        (49.9, 0.0, 0.0),
+        (65.0, -0.25, -1.0),
+        (110.0, -1.0, 0.0),
+        (200.0, -1.0, 0.0),
+        (210.0, -1.0, 2.0),
+        (240.0, 0.0, 2.0),
+        (255.0, 0.5, 2.0),
+        (270.0, 1.0, 0.0),
+        (1e6, 1.0, 0.0),
+    ] {
+        let found = layout.at(distance_m);
+        let expected = [
+            share / 300.0,
+            change / (300.0 * 60.0),
+            share * 0.15,
+            change * 0.15 / 60.0,
+        ];
+        let found = [
+            found.curvature_per_m,
+            found.curvature_rate_per_m2,
+            found.cant_m,
+            found.cant_slope,
+        ];
+        for (found, expected) in found.iter().zip(expected) {
+            assert!(
+                (found - expected).abs() < 1e-15,
+                "{distance_m}: {found} {expected}"
+            );
+        }
+    }
+    // Nothing jumps where parts meet.
+    for joint_m in [50.0, 110.0, 210.0, 270.0] {
+        let [before, behind] = [-1e-9, 1e-9].map(|step| layout.at(joint_m + step));
+        assert!((before.curvature_per_m - behind.curvature_per_m).abs() < 1e-12);
+        assert!((before.cant_m - behind.cant_m).abs() < 1e-10);
+    }
+}
+
+#[test]
+fn the_heading_is_the_integral_of_the_curvature() {
+    let layout = Layout::new(&[STRAIGHT, TRANSITION, LEFT, TRANSITION, RIGHT]).unwrap();
+    let step_m = 0.01;
+    let mut integral = 0.0;
+    for i in 0..40_000 {
+        let distance_m = step_m * (f64::from(i) + 0.5);
+        integral += step_m * layout.at(distance_m).curvature_per_m;
+        let heading = layout.heading_rad(distance_m + 0.5 * step_m);
+        assert!((heading - integral).abs() < 1e-9, "{distance_m}");
+    }
+    // A transition turns by half of what a curve of its length does.
+    let heading = layout.heading_rad(110.0);
+    assert!((heading + 60.0 / (2.0 * 300.0)).abs() < 1e-15, "{heading}");
+    assert_eq!(layout.heading_rad(-100.0), 0.0);
+}
+
+/// The clothoid of the length `L` moves the circle of the radius `R` off the straight by `L^2 / (24 R) - L^4 / (2688 R^3)`, and its own
+/// end lies `L^2 / (6 R) - L^4 / (336 R^3)` beside it.
+#[test]
+fn a_clothoid_ends_beside_the_straight_as_its_series_says() {
+    let (length, radius): (f64, f64) = (60.0, 300.0);
+    let parts = [STRAIGHT, TRANSITION, RIGHT];
+    let layout = Layout::new(&parts).unwrap();
+    let step_m = 1e-3;
+    let offset_m: f64 = (0..60_000)
+        .map(|i| layout.heading_rad(50.0 + step_m * (f64::from(i) + 0.5)))
+        .map(|heading| step_m * heading.sin())
+        .sum();
+    let expected = length * length / (6.0 * radius) - length.powi(4) / (336.0 * radius.powi(3));
+    assert!((offset_m - expected).abs() < 2e-6, "{offset_m} {expected}");
+    let shift_m = offset_m - radius * (1.0 - layout.heading_rad(110.0).cos());
+    let expected = length * length / (24.0 * radius) - length.powi(4) / (2688.0 * radius.powi(3));
+    assert!((shift_m - expected).abs() < 2e-6, "{shift_m} {expected}");
+}
+
+#[test]
+fn a_curve_without_transition_and_cant_begins_at_once() {
+    let turnout = Part::Circular {
+        radius_m: 190.0,
+        length_m: 20.0,
+        cant_m: 0.0,
+    };
+    let layout = Layout::new(&[STRAIGHT, turnout, STRAIGHT]).unwrap();
+    assert_eq!(layout.at(50.0 - 1e-9).curvature_per_m, 0.0);
+    assert_eq!(layout.at(50.0).curvature_per_m, 1.0 / 190.0);
+    assert_eq!(layout.at(70.0).curvature_per_m, 0.0);
+    assert!((layout.heading_rad(1000.0) - 20.0 / 190.0).abs() < 1e-15);
+    assert_eq!(Layout::default().at(123.0), Default::default());
+}
+
+#[test]
+fn a_wrong_layout_says_what_where_and_what_is_allowed() {
+    let circular = |radius_m, cant_m| Part::Circular {
+        radius_m,
+        length_m: 100.0,
+        cant_m,
+    };
+    let cases: [(&[Part], &str); 12] = [
+        (&[], "layout without parts, allowed: one or more"),
+        (
+            &[STRAIGHT, Part::Straight { length_m: -1.0 }],
+            "part 2 of the layout: length_m -1, allowed: 0.1 to 1000000",
+        ),
+        (
+            &[Part::Straight { length_m: f64::NAN }],
+            "part 1 of the layout: length_m NaN",
+        ),
+        (
+            &[STRAIGHT, circular(0.0, 0.0)],
+            "part 2 of the layout: radius_m without its sign 0, allowed: 50 to 1000000",
+        ),
+        (&[circular(-49.0, 0.0)], "radius_m without its sign 49"),
+        (
+            &[circular(f64::INFINITY, 0.0)],
+            "radius_m without its sign inf",
+        ),
+        (
+            &[circular(300.0, 0.31)],
+            "cant_m (left rail over the right one) 0.31, allowed: -0.1 to 0.3",
+        ),
+        (
+            &[circular(-300.0, 0.15)],
+            "cant_m (left rail over the right one) 0.15, allowed: -0.3 to 0.1",
+        ),
+        (
+            &[STRAIGHT, RIGHT],
+            "part 2 of the layout: cant_m begins with 0.15 where the part before ends with 0, allowed: a transition between them",
+        ),
+        (
+            &[STRAIGHT, TRANSITION],
+            "part 2 of the layout: a transition without neighbours, allowed: between two",
+        ),
+        (
+            &[STRAIGHT, TRANSITION, TRANSITION, RIGHT],
+            "part 2 of the layout: a transition without neighbours",
+        ),
+        (
+            &[RIGHT, TRANSITION, RIGHT],
+            "part 2 of the layout: a transition between parts of the same curvature and cant",
+        ),
+    ];
+    for (parts, expected) in cases {
+        let error = Layout::new(parts).unwrap_err();
+        assert!(error.to_string().contains(expected), "{error}");
+    }
+    let error = Layout::new(&[TRANSITION, RIGHT]).unwrap_err();
+    let place = Place::Part(1);
+    assert_eq!(error, TrackError::TransitionAtEnd { place });
+}

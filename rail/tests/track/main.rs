@@ -1,0 +1,8 @@
+//! The track: layout, spectra, generated and measured irregularities, defects.
+
+mod defects;
+mod generation;
+mod layout;
+mod measured;
+mod spectrum;
+mod whole;

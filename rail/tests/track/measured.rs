@@ -1,0 +1,247 @@
+//! Measured tracks: what is read, and texts of every wrong kind.
+
+use dashpot_rail::track::measured::{self, MeasuredTrackError, Options, Reading};
+use dashpot_rail::track::{Irregularity, RailDeviation};
+use proptest::prelude::*;
+
+/// Deviations of the four channels, m.
+fn waves(distance_m: f64) -> [f64; 4] {
+    [
+        4e-3 * (0.5 * distance_m).sin(),
+        3e-3 * (0.3 * distance_m).cos(),
+        2e-3 * (0.7 * distance_m).sin(),
+        1e-3 * (0.4 * distance_m).cos(),
+    ]
+}
+
+/// A file with rows at these distances.
+fn file(distances_m: impl Iterator<Item = f64>) -> String {
+    let mut text = String::from("distance_m,vertical_m,lateral_m,cross_level_m,gauge_m\n");
+    for distance_m in distances_m {
+        let [vertical, lateral, cross_level, gauge] = waves(distance_m);
+        text += &format!("{distance_m},{vertical},{lateral},{cross_level},{gauge}\n");
+    }
+    text
+}
+
+fn even() -> String {
+    file((0..=400).map(|i| 0.25 * f64::from(i)))
+}
+
+fn read(text: &str) -> Result<(Irregularity, Reading), MeasuredTrackError> {
+    measured::parse(text, &Options::default())
+}
+
+fn assert_has_the_waves(text: &str, shift_m: f64, allowed_m: f64) {
+    let options = Options {
+        shift_m,
+        ..Options::default()
+    };
+    let (irregularity, reading) = measured::parse(text, &options).unwrap();
+    assert_eq!(reading.channels, [true; 4]);
+    for i in 0..790 {
+        let distance_m = 10.5 + 0.1 * f64::from(i);
+        let [found, slopes] = irregularity.channels(distance_m + shift_m);
+        let expected = waves(distance_m);
+        let found = [
+            found.vertical,
+            found.lateral,
+            found.cross_level,
+            found.gauge,
+        ];
+        for (found, expected) in found.iter().zip(expected) {
+            assert!(
+                (found - expected).abs() < allowed_m,
+                "{distance_m}: {found} {expected}"
+            );
+        }
+        let slope = 2e-3 * (0.5 * distance_m).cos();
+        assert!(
+            (slopes.vertical - slope).abs() < 10.0 * allowed_m,
+            "{distance_m}"
+        );
+    }
+}
+
+#[test]
+fn rows_at_equal_and_unequal_distances_are_read() {
+    assert_has_the_waves(&even(), 0.0, 1e-6);
+    assert_has_the_waves(&even(), 1000.0, 1e-6);
+    let uneven = (0..=400).map(|i| 0.25 * f64::from(i) + 0.08 * f64::from(i).sin());
+    assert_has_the_waves(&file(uneven), 0.0, 3e-6);
+}
+
+#[test]
+fn columns_may_stand_in_any_order_in_mm_and_be_left_out() {
+    let mut text = String::from("\u{feff}# made\r\n gauge_mm , distance_m\r\n");
+    for i in 0..=200 {
+        text += &format!("2.5, {}\r\n# between\r\n\r\n", 100.0 + 0.25 * f64::from(i));
+    }
+    let (irregularity, reading) = read(&text).unwrap();
+    assert_eq!(reading.channels, [false, false, false, true]);
+    assert_eq!((reading.rows, reading.distances_m), (201, [100.0, 150.0]));
+    let [left, right] = irregularity.at(125.0);
+    assert!((left.lateral_m + 1.25e-3).abs() < 1e-15 && (right.lateral_m - 1.25e-3).abs() < 1e-15);
+    assert_eq!((left.vertical_m, right.vertical_m), (0.0, 0.0));
+}
+
+#[test]
+fn the_file_is_ramped_at_its_ends_and_zero_beyond() {
+    let (irregularity, _) = read(&even()).unwrap();
+    assert_eq!(irregularity.ends_m(), [0.0, 100.0]);
+    assert_eq!(irregularity.spacing_m(), 0.25);
+    for distance_m in [-10.0, 110.0] {
+        assert_eq!(irregularity.at(distance_m), [RailDeviation::default(); 2]);
+    }
+    for distance_m in [5.0, 95.0] {
+        let found = irregularity.channels(distance_m)[0].lateral;
+        assert!((found - 0.5 * waves(distance_m)[1]).abs() < 1e-9, "{found}");
+    }
+    assert!(irregularity.channels(0.0)[0].lateral.abs() < 1e-15);
+}
+
+#[test]
+fn a_wrong_file_says_what_where_and_what_is_allowed() {
+    let good = even();
+    let header = good.lines().next().unwrap();
+    let with_header = |text: &str| good.replace(header, text);
+    let cases = [
+        (
+            String::new(),
+            ":1: columns none, allowed: distance_m and one or more of vertical",
+        ),
+        (
+            with_header("distance_m,vertical_m,lateral_m,level_m,gauge_m"),
+            ":1: column \"level_m\", allowed: distance_m, vertical, lateral, cross_level, gauge, each of the four with _m or _mm",
+        ),
+        (
+            good.replace(',', ";"),
+            ":1: column \"distance_m;vertical_m;lateral_m;cross_level_m;gauge_m\", allowed: distance_m, vertical",
+        ),
+        (
+            with_header("distance_m,vertical_m,lateral_m,vertical_mm,gauge_m"),
+            ":1: column \"vertical_mm\" beside another of vertical, allowed: one",
+        ),
+        (
+            "distance_m\n1\n".to_owned(),
+            ":1: columns distance_m, allowed: distance_m and one",
+        ),
+        (
+            "# a\n\nvertical_m,gauge_m\n1\n".to_owned(),
+            ":3: columns vertical_m, gauge_m, allowed: distance_m and",
+        ),
+        (
+            good.replace("\n25,", "\n25,0,"),
+            ":102: 6 cells, allowed: 5, as the header",
+        ),
+        (
+            good.replace("\n25,", "\n# one\n\n25 m,"),
+            ":104: column distance_m: \"25 m\", allowed: a number from -10000000 to 10000000",
+        ),
+        (good.replace("\n25,", "\n25,nan,"), ":102: 6 cells"),
+        (
+            "distance_m,gauge_mm\n0,1\n0.25,NaN\n".to_owned(),
+            ":3: column gauge_mm: \"NaN\", allowed: a number from -500 to 500",
+        ),
+        (
+            "distance_m,gauge_m\n0,1.5\n".to_owned(),
+            ":2: column gauge_m: \"1.5\", allowed: a number from -0.5 to 0.5",
+        ),
+        (
+            good.replace("\n25,", "\n24.75,"),
+            ":102: column distance_m: 0 m behind the row before, allowed: 0.01 to 5 m, rising",
+        ),
+        (
+            good.replace("\n25,", "\n20,"),
+            ":102: column distance_m: -4.75 m behind the row before",
+        ),
+        (
+            good.replace("\n100,", "\n105,"),
+            ":402: column distance_m: 5.25 m behind the row before, allowed: 0.01 to 5 m",
+        ),
+        (
+            good.lines()
+                .take(8)
+                .map(|line| format!("{line}\n"))
+                .collect(),
+            "too few rows: 7, allowed: 8 or more",
+        ),
+    ];
+    for (text, expected) in cases {
+        let error = read(&text).unwrap_err();
+        let line = error
+            .line()
+            .map_or(String::new(), |line| format!(":{line}: "));
+        let column = error
+            .column()
+            .map_or(String::new(), |name| format!("column {name}: "));
+        let message = format!("{line}{column}{error}");
+        assert!(message.starts_with(expected), "{message}\n{expected}");
+    }
+    for (options, expected) in [
+        (
+            Options {
+                ramp_m: 51.0,
+                ..Options::default()
+            },
+            "ramp_m 51, allowed: 0.25 to 50",
+        ),
+        (
+            Options {
+                ramp_m: 0.0,
+                ..Options::default()
+            },
+            "ramp_m 0, allowed: 0.25",
+        ),
+        (
+            Options {
+                spacing_m: Some(0.0),
+                ..Options::default()
+            },
+            "spacing_m 0, allowed: 0.01 to 5",
+        ),
+        (
+            Options {
+                shift_m: f64::NAN,
+                ..Options::default()
+            },
+            "shift_m NaN",
+        ),
+    ] {
+        let error = measured::parse(&good, &options).unwrap_err();
+        assert!(error.to_string().contains(expected), "{error}");
+    }
+}
+
+/// What is read can be relied on.
+fn read_as_anything(text: &str) {
+    if let Ok((irregularity, reading)) = read(text) {
+        assert!(reading.rows >= measured::MIN_ROWS);
+        let [from, to] = irregularity.ends_m();
+        for i in 0..=100 {
+            let distance_m = from + (to - from) * f64::from(i) / 100.0;
+            for rail in irregularity.at(distance_m) {
+                assert!(rail.vertical_m.is_finite() && rail.lateral_slope.is_finite());
+            }
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(256))]
+
+    #[test]
+    fn no_text_makes_the_reader_panic(text in any::<String>(), rows in "([-0-9.,;e \t\r\n\"#]|nan|inf){0,200}") {
+        read_as_anything(&text);
+        read_as_anything(&format!("distance_m,vertical_m\n{rows}"));
+    }
+
+    #[test]
+    fn no_damage_makes_the_reader_panic(place in any::<prop::sample::Index>(), patch in "[-+0-9.e,a-z_\n\"# ]{0,8}") {
+        let mut bytes = even().into_bytes();
+        let start = place.index(bytes.len());
+        let end = (start + patch.len()).min(bytes.len());
+        bytes.splice(start..end, patch.bytes());
+        read_as_anything(&String::from_utf8_lossy(&bytes));
+    }
+}
