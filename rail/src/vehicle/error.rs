@@ -51,6 +51,16 @@ pub enum VehicleError {
     /// There is nothing that could move.
     #[error("no body: a vehicle has one at least")]
     NoBody,
+    /// The rails do not carry a wheelset.
+    #[error(
+        "{wheelset}: a load of {load_n} N, allowed: above 0 and what wheel and rail carry within 2 mm"
+    )]
+    NotCarried {
+        /// The wheelset.
+        wheelset: String,
+        /// Its load, N.
+        load_n: f64,
+    },
     /// The iteration for the eigenvalues does not end.
     #[error("the modes cannot be found: stiffnesses, damping and masses are too far apart")]
     NoModes,

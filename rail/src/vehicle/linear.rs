@@ -26,11 +26,13 @@ pub(super) struct Series {
     pub stiffness: f64,
 }
 
-/// The end of an element: a body that moves, by its number, or what is held; and the place from its centre, m.
+/// The end of an element: a body that moves, by its number, or what is held; the place from its centre, m; and whether it does
+/// not follow the body's pitch, which is the spin of a wheelset in its axleboxes.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Place {
     pub body: Option<usize>,
     pub from_centre: Vector3<f64>,
+    pub is_axlebox: bool,
 }
 
 impl Linear {
@@ -57,6 +59,9 @@ impl Linear {
                 // The rotation vector times the place: minus the place times it.
                 let mut rotations = block.fixed_columns_mut::<3>(2);
                 rotations -= place.from_centre.cross_matrix() * sign;
+                if place.is_axlebox {
+                    block.column_mut(3).fill(0.0);
+                }
             }
         }
         rows
@@ -125,8 +130,12 @@ impl Linear {
         for (place, sign) in places.iter().zip([-1.0, 1.0]) {
             if let Some(body) = place.body {
                 let first = N * body + 2;
-                let moments: Matrix3<f64> =
+                let mut moments: Matrix3<f64> =
                     force.cross_matrix() * place.from_centre.cross_matrix() * sign;
+                if place.is_axlebox {
+                    moments.row_mut(1).fill(0.0);
+                    moments.column_mut(1).fill(0.0);
+                }
                 let mut block = self.stiffness.fixed_view_mut::<3, 3>(first, first);
                 block -= moments;
             }
@@ -182,10 +191,12 @@ mod tests {
         let held = Place {
             body: None,
             from_centre: Vector3::zeros(),
+            is_axlebox: false,
         };
         let place = Place {
             body: Some(0),
             from_centre: Vector3::new(2.0, 3.0, 5.0),
+            is_axlebox: false,
         };
         let rows = linear.displacement(&[held, place]);
         let (roll, pitch, yaw) = (1e-3, 2e-3, -3e-3);

@@ -1,4 +1,4 @@
-//! A rail vehicle at standstill: rigid bodies on elements, its equilibrium and its modes.
+//! A rail vehicle: rigid bodies on elements, its equilibrium, and its modes at standstill and at a speed.
 //!
 //! Axes as everywhere in this crate: x forward, y right, z down, small rotations roll about x, pitch about y and yaw about z.
 //! Every body has the coordinates lateral, vertical, roll, pitch and yaw in a frame that follows the track at constant speed, so
@@ -38,12 +38,14 @@ mod element;
 mod error;
 mod linear;
 mod modes;
+mod running;
 mod standstill;
 
 pub use body::{Body, COORDINATES, Coordinate, Vehicle, Wheelset};
 pub use element::{Direction, Element, End, Law};
 pub use error::VehicleError;
 pub use modes::Mode;
+pub use running::Running;
 pub use standstill::Standstill;
 
 /// Acceleration of free fall, m/s^2.

@@ -3,7 +3,7 @@
 use nalgebra::{DVector, SymmetricEigen, Vector3};
 
 use super::GRAVITY_M_PER_S2;
-use super::body::{Body, COORDINATES, Coordinate, Vehicle};
+use super::body::{Body, COORDINATES, Coordinate, Vehicle, Wheelset};
 use super::element::{Element, End};
 use super::error::VehicleError;
 use super::linear::{Linear, Place};
@@ -15,6 +15,8 @@ pub struct Standstill {
     bodies: Vec<Body>,
     linear: Linear,
     displacements: DVector<f64>,
+    /// Force of each element on its second end, N.
+    forces: Vec<Vector3<f64>>,
     axle_loads_n: Vec<f64>,
 }
 
@@ -29,26 +31,11 @@ impl Standstill {
     /// A number out of bounds, a name used twice, an element without a body, a body that nothing holds.
     pub fn new(vehicle: &Vehicle) -> Result<Self, VehicleError> {
         let bodies = &vehicle.bodies;
-        if bodies.is_empty() {
-            return Err(VehicleError::NoBody);
-        }
-        let wheelsets: Vec<Body> = vehicle.wheelsets.iter().map(|w| w.body()).collect();
-        for body in bodies.iter().chain(&wheelsets) {
-            body.check()?;
-        }
-        check_names(vehicle)?;
+        check(vehicle)?;
         let mut linear = Linear::new(bodies);
-        let mut places = Vec::new();
-        for element in &vehicle.elements {
-            element.check()?;
-            let [first, second] = &element.ends;
-            let ends = [
-                place(element, first, bodies, &wheelsets)?,
-                place(element, second, bodies, &wheelsets)?,
-            ];
-            let [from, to] = [first, second].map(|end| Vector3::from(end.position_m()));
-            linear.add(element, &ends, to - from);
-            places.push((ends, to - from));
+        let ends = places(vehicle, false)?;
+        for (element, (places, line)) in vehicle.elements.iter().zip(&ends) {
+            linear.add(element, places, *line);
         }
         check_held(&linear, bodies)?;
         let weight = DVector::from_fn(linear.inertia.len(), |i, _| {
@@ -64,16 +51,26 @@ impl Standstill {
             .cholesky()
             .ok_or(VehicleError::NoModes)?
             .solve(&weight);
+        let forces: Vec<Vector3<f64>> = vehicle
+            .elements
+            .iter()
+            .zip(&ends)
+            .map(|(element, (places, line))| {
+                let displacement = linear.displacement(places) * &displacements;
+                -element
+                    .law
+                    .spring_force(displacement.fixed_rows::<3>(0).into(), *line)
+            })
+            .collect();
+        for ((places, _), force) in ends.iter().zip(&forces) {
+            linear.add_preload(places, *force);
+        }
+        let wheelsets = wheelset_bodies(vehicle);
         let mut axle_loads_n: Vec<f64> = wheelsets
             .iter()
             .map(|wheelset| wheelset.mass_kg * GRAVITY_M_PER_S2)
             .collect();
-        for (element, (ends, line)) in vehicle.elements.iter().zip(&places) {
-            let displacement = linear.displacement(ends) * &displacements;
-            let force = -element
-                .law
-                .spring_force(displacement.fixed_rows::<3>(0).into(), *line);
-            linear.add_preload(ends, force);
+        for (element, force) in vehicle.elements.iter().zip(&forces) {
             for (end, sign) in element.ends.iter().zip([-1.0, 1.0]) {
                 if let Some(number) = number_of(&wheelsets, end) {
                     axle_loads_n[number] += sign * force.z;
@@ -84,6 +81,7 @@ impl Standstill {
             bodies: bodies.clone(),
             linear,
             displacements,
+            forces,
             axle_loads_n,
         })
     }
@@ -91,6 +89,11 @@ impl Standstill {
     /// Load of each wheelset on the rails, N.
     pub fn axle_loads_n(&self) -> &[f64] {
         &self.axle_loads_n
+    }
+
+    /// Force of each element on its second end, N.
+    pub(super) fn forces(&self) -> &[Vector3<f64>] {
+        &self.forces
     }
 
     /// Displacements of a body in the order of [`COORDINATES`], from where its unloaded elements have it, m and rad.
@@ -108,37 +111,72 @@ impl Standstill {
     }
 }
 
+pub(super) fn wheelset_bodies(vehicle: &Vehicle) -> Vec<Body> {
+    vehicle.wheelsets.iter().map(Wheelset::body).collect()
+}
+
+fn check(vehicle: &Vehicle) -> Result<(), VehicleError> {
+    if vehicle.bodies.is_empty() {
+        return Err(VehicleError::NoBody);
+    }
+    for body in vehicle.bodies.iter().chain(&wheelset_bodies(vehicle)) {
+        body.check()?;
+    }
+    for element in &vehicle.elements {
+        element.check()?;
+    }
+    check_names(vehicle)
+}
+
 fn number_of(bodies: &[Body], end: &End) -> Option<usize> {
     let name = end.on.as_ref()?;
     bodies.iter().position(|body| body.name == *name)
 }
 
-fn place(
-    element: &Element,
-    end: &End,
-    bodies: &[Body],
-    wheelsets: &[Body],
-) -> Result<Place, VehicleError> {
-    let at = Vector3::from(end.position_m());
-    let body = number_of(bodies, end);
-    let owner = match (body, number_of(wheelsets, end), &end.on) {
-        (Some(body), _, _) => Some(&bodies[body]),
-        (None, Some(wheelset), _) => Some(&wheelsets[wheelset]),
-        (None, None, None) => None,
-        (None, None, Some(name)) => {
-            let names = bodies.iter().chain(wheelsets).map(|body| body.name.clone());
+/// The places of every element's ends, and the line from one to the other; wheelsets are held, or move as bodies that follow the
+/// others in number.
+pub(super) fn places(
+    vehicle: &Vehicle,
+    wheelsets_move: bool,
+) -> Result<Vec<([Place; 2], Vector3<f64>)>, VehicleError> {
+    let wheelsets = wheelset_bodies(vehicle);
+    let of_end = |element: &Element, end: &End| {
+        let at = Vector3::from(end.position_m());
+        let Some(name) = &end.on else {
+            return Ok(Place {
+                body: None,
+                from_centre: at,
+                is_axlebox: false,
+            });
+        };
+        if let Some(number) = number_of(&vehicle.bodies, end) {
+            return Ok(Place {
+                body: Some(number),
+                from_centre: at - Vector3::from(vehicle.bodies[number].centre_m()),
+                is_axlebox: false,
+            });
+        }
+        let Some(number) = number_of(&wheelsets, end) else {
+            let all = vehicle.bodies.iter().chain(&wheelsets);
             return Err(VehicleError::NotThere {
                 element: element.name.clone(),
                 to: name.clone(),
-                names: names.collect(),
+                names: all.map(|body| body.name.clone()).collect(),
             });
-        }
+        };
+        Ok(Place {
+            body: wheelsets_move.then_some(vehicle.bodies.len() + number),
+            from_centre: at - Vector3::from(wheelsets[number].centre_m()),
+            is_axlebox: true,
+        })
     };
-    let centre = owner.map_or(Vector3::zeros(), |owner| owner.centre_m().into());
-    Ok(Place {
-        body,
-        from_centre: at - centre,
-    })
+    let of_element = |element: &Element| {
+        let [first, second] = &element.ends;
+        let ends = [of_end(element, first)?, of_end(element, second)?];
+        let line = Vector3::from(second.position_m()) - Vector3::from(first.position_m());
+        Ok((ends, line))
+    };
+    vehicle.elements.iter().map(of_element).collect()
 }
 
 fn check_names(vehicle: &Vehicle) -> Result<(), VehicleError> {

@@ -13,6 +13,7 @@ mod normal;
 mod patches;
 mod profiles;
 mod published;
+mod pure_spin;
 mod safety;
 mod sides;
 mod tables;

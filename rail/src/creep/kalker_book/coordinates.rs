@@ -61,6 +61,24 @@ impl Contact<f64> {
     }
 }
 
+/// Least creepage of the book at which the direction of sliding is differentiated: the book's numbers are in single precision, whose
+/// last digit over a smaller one would be a slope of its own.
+const LEAST_SLIDING: f64 = 1e-5;
+
+impl Contact<f64> {
+    /// The creepages, with as much longitudinal creepage as derivatives need where nothing slides but spins: there the direction
+    /// of sliding has no derivative, though the forces have.
+    #[inline(always)]
+    pub(super) fn beside_pure_spin(&self, [xi, eta, phi]: [f64; 3]) -> [f64; 3] {
+        let least = LEAST_SLIDING / (self.creepage * self.c22);
+        if xi.hypot(eta) < least {
+            [least.copysign(xi), eta, phi]
+        } else {
+            [xi, eta, phi]
+        }
+    }
+}
+
 impl<S: Simd> Contact<f64x4<S>> {
     #[inline(always)]
     pub(super) fn of_lanes(contacts: &ContactLanes<S>) -> Self {

@@ -81,9 +81,9 @@ impl KalkerBook {
         contact: &LoadedContact,
         creepage: &Creepage,
     ) -> CreepDerivatives {
-        let numbers = numbers(creepage);
-        let variables = [0, 1, 2].map(|k| Dual::<3>::variable(numbers[k], k));
         let of = Contact::of(contact);
+        let at = of.beside_pure_spin(numbers(creepage));
+        let variables = [0, 1, 2].map(|k| Dual::<3>::variable(at[k], k));
         let at = Coordinates::new(&of, variables);
         let places = at.places(simd, &of);
         let (value, gradient) = (places.value(self.pages, 0), places.gradient(self.pages, 0));
@@ -98,7 +98,7 @@ impl KalkerBook {
             Dual::function(f64::from(value[k]), terms)
         };
         let forces = forces([0, 1, 2].map(of_book), &at, &of);
-        let values = CreepForces::of_components(forces.map(|force| force.value()));
+        let values = CreepForces::of_components(self.forces_in(simd, contact, creepage));
         let by_creepage = forces.map(|force| force.derivatives().map(f64::from));
         CreepDerivatives::new(values, by_creepage, contact, creepage)
     }
