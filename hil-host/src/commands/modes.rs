@@ -1,18 +1,23 @@
-//! `dashpot modes`: axle loads and natural modes of a vehicle at standstill.
+//! `dashpot modes`: axle loads and natural modes of a vehicle, and its critical speed.
 
 use std::io::{self, Write};
+use std::sync::Arc;
 
-use dashpot_rail::vehicle::{Mode, Standstill};
+use dashpot_rail::contact::{ContactGeometry, Installation, Pair, Steel, WheelsetContact};
+use dashpot_rail::creep::{Friction, KalkerBook};
+use dashpot_rail::vehicle::{Mode, Running, Standstill, Vehicle, VehicleError};
 use serde::Serialize;
 
 use super::{Format, print_report};
-use crate::commands::failure::Outcome;
+use crate::commands::failure::{Failure, Outcome};
 use crate::files::vehicle::{self, VehicleFileError};
 
-/// Axle loads and natural modes of a vehicle at standstill: frequency, damping, and what moves.
+/// Axle loads and natural modes of a vehicle at standstill or at a speed: frequency, damping, and what moves.
 #[derive(Debug, Clone, clap::Args)]
 #[command(after_help = "Examples:
   dashpot modes --vehicle locomotive
+  dashpot modes --vehicle locomotive --speed-km-h 180
+  dashpot modes --vehicle locomotive --hunting
   dashpot modes --vehicle locomotive --set \"front lateral damper.damper='in-service'\" --format json")]
 pub struct ModesArguments {
     /// The vehicle: the name of one that ships (locomotive) or a TOML file.
@@ -21,6 +26,15 @@ pub struct ModesArguments {
     /// Changes a value of the vehicle's file: part.key=value, such as body.mass_kg=70e3; may be given several times.
     #[arg(long = "set", value_name = "PART.KEY=VALUE")]
     pub overrides: Vec<String>,
+    /// Speed on straight track, km/h; the vehicle stands still when not given. S1002 wheels on UIC 60 rails at 1:40.
+    #[arg(long, value_name = "KM/H")]
+    pub speed_km_h: Option<f64>,
+    /// Looks for the linear critical speed, at which a mode begins to grow, up to 500 km/h.
+    #[arg(long, conflicts_with = "speed_km_h")]
+    pub hunting: bool,
+    /// Friction coefficient of wheel and rail.
+    #[arg(long, default_value_t = 0.4, value_name = "MU")]
+    pub friction: f64,
     /// How results are printed.
     #[arg(long, value_enum, default_value_t = Format::Text)]
     pub format: Format,
@@ -30,8 +44,31 @@ pub struct ModesArguments {
 struct Report {
     vehicle: String,
     axle_loads_n: Vec<f64>,
+    /// Of the modes; none at standstill.
+    speed_km_h: Option<f64>,
+    /// With `--hunting`: none when no mode grows up to the greatest speed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    hunting: Option<Hunting>,
     modes: Vec<ModeRow>,
 }
+
+#[derive(Serialize)]
+struct Hunting {
+    critical_speed_km_h: Option<f64>,
+    greatest_speed_km_h: f64,
+}
+
+type Contact = WheelsetContact<KalkerBook, ContactGeometry>;
+
+/// Speeds at which modes are computed, km/h.
+const SPEEDS_KM_H: std::ops::RangeInclusive<f64> = 1.0..=700.0;
+
+/// Greatest speed at which a critical one is looked for, and from one look to the next, km/h.
+const GREATEST_KM_H: f64 = 500.0;
+const LOOK_EACH_KM_H: f64 = 10.0;
+
+/// Modes faster than this are those of wheel and rail, Hz.
+const FASTEST_HZ: f64 = 50.0;
 
 #[derive(Serialize)]
 struct ModeRow {
@@ -52,11 +89,19 @@ impl From<&Mode> for ModeRow {
     }
 }
 
-/// Prints axle loads and modes.
+/// Prints axle loads and modes, and the critical speed if it is asked for.
 ///
 /// # Errors
-/// A vehicle that is refused.
+/// A vehicle, a speed or a friction that is refused.
 pub fn run(arguments: &ModesArguments) -> Outcome<()> {
+    if let Some(speed) = arguments.speed_km_h
+        && !SPEEDS_KM_H.contains(&speed)
+    {
+        let (least, greatest) = (SPEEDS_KM_H.start(), SPEEDS_KM_H.end());
+        return Err(Failure::wrong_use(format!(
+            "--speed-km-h: {speed}, allowed: {least} to {greatest} km/h; without it the vehicle stands still"
+        )));
+    }
     let name = &arguments.vehicle;
     let vehicle = vehicle::load(name, &arguments.overrides)?;
     let refused = |source| VehicleFileError::Vehicle {
@@ -64,17 +109,108 @@ pub fn run(arguments: &ModesArguments) -> Outcome<()> {
         source,
     };
     let standstill = Standstill::new(&vehicle).map_err(refused)?;
-    let modes = standstill.modes().map_err(refused)?;
+    let (mut hunting, mut speed_km_h) = (None, arguments.speed_km_h);
+    let modes = if arguments.hunting || speed_km_h.is_some() {
+        let contact = contact(&vehicle, &standstill, arguments.friction)?;
+        if arguments.hunting {
+            let critical = critical_speed_km_h(&vehicle, &contact).map_err(refused)?;
+            speed_km_h = Some(critical.unwrap_or(GREATEST_KM_H));
+            hunting = Some(Hunting {
+                critical_speed_km_h: critical,
+                greatest_speed_km_h: GREATEST_KM_H,
+            });
+        }
+        let modes =
+            modes_at(&vehicle, &contact, speed_km_h.unwrap_or_default()).map_err(refused)?;
+        modes
+            .into_iter()
+            .filter(|mode| mode.undamped_hz() < FASTEST_HZ)
+            .collect()
+    } else {
+        standstill.modes().map_err(refused)?
+    };
     let report = Report {
         vehicle: vehicle.name,
         axle_loads_n: standstill.axle_loads_n().to_vec(),
+        speed_km_h,
+        hunting,
         modes: modes.iter().map(ModeRow::from).collect(),
     };
     print_report(arguments.format, &report, print)
 }
 
+/// Standard profiles under the mean wheel load of the vehicle, with its first wheelset's radius.
+fn contact(vehicle: &Vehicle, standstill: &Standstill, friction: f64) -> Outcome<Contact> {
+    let loads = standstill.axle_loads_n();
+    let (Some(wheelset), false) = (vehicle.wheelsets.first(), loads.is_empty()) else {
+        return Err(Failure::new(format!(
+            "{}: no wheelset; a vehicle that runs has one at least",
+            vehicle.name
+        )));
+    };
+    let installation = Installation {
+        wheel_radius_m: wheelset.radius_m,
+        ..Installation::default()
+    };
+    let mean_n = loads.iter().sum::<f64>() / (2 * loads.len()) as f64;
+    let refused = |error: &dyn std::fmt::Display| Failure::new(error.to_string());
+    let pair = Pair::standard(installation)?;
+    let geometry =
+        ContactGeometry::new(pair, Steel::default(), mean_n).map_err(|error| refused(&error))?;
+    let friction = Friction {
+        static_coefficient: friction,
+        ..Friction::default()
+    };
+    WheelsetContact::new(Arc::new(geometry), KalkerBook::new(), friction)
+        .map_err(|error| Failure::wrong_use(format!("--friction: {error}")))
+}
+
+fn modes_at(vehicle: &Vehicle, contact: &Contact, km_h: f64) -> Result<Vec<Mode>, VehicleError> {
+    Running::new(vehicle, contact, km_h / 3.6)?.modes()
+}
+
+/// Least speed at which a mode grows: looked for in steps, then halved to a hundredth of a km/h.
+fn critical_speed_km_h(vehicle: &Vehicle, contact: &Contact) -> Result<Option<f64>, VehicleError> {
+    let grows = |km_h: f64| -> Result<bool, VehicleError> {
+        let modes = modes_at(vehicle, contact, km_h)?;
+        Ok(modes.iter().any(|mode| mode.damping_ratio() < 0.0))
+    };
+    let mut stable = 0.0;
+    while stable < GREATEST_KM_H {
+        let mut growing = stable + LOOK_EACH_KM_H;
+        if grows(growing)? {
+            while growing - stable > 0.01 {
+                let middle = 0.5 * (stable + growing);
+                if grows(middle)? {
+                    growing = middle;
+                } else {
+                    stable = middle;
+                }
+            }
+            return Ok(Some(growing));
+        }
+        stable = growing;
+    }
+    Ok(None)
+}
+
 fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
-    writeln!(out, "{} at standstill", report.vehicle)?;
+    match (&report.hunting, report.speed_km_h) {
+        (None, None) => writeln!(out, "{} at standstill", report.vehicle)?,
+        (None, Some(speed)) => writeln!(out, "{} at {speed} km/h", report.vehicle)?,
+        (Some(hunting), _) => match hunting.critical_speed_km_h {
+            Some(speed) => writeln!(
+                out,
+                "{}: linear critical speed {speed:.1} km/h, with its modes",
+                report.vehicle
+            )?,
+            None => writeln!(
+                out,
+                "{}: no mode grows up to {} km/h, with its modes there",
+                report.vehicle, hunting.greatest_speed_km_h
+            )?,
+        },
+    }
     if !report.axle_loads_n.is_empty() {
         let loads: Vec<String> = report
             .axle_loads_n

@@ -114,9 +114,61 @@ fn a_heavier_body_bounces_slower() {
     assert!(text.contains("body bounce"), "{text}");
 }
 
+/// Least damping ratio of all modes at a speed.
+fn least_damping(speed_km_h: f64) -> f64 {
+    let speed = format!("{speed_km_h}");
+    let report = json_of(&modes(&["--speed-km-h", &speed, "--format", "json"]).success());
+    let rows = report["modes"].as_array().unwrap();
+    let ratios = rows
+        .iter()
+        .map(|row| row["damping_ratio"].as_f64().unwrap());
+    ratios.fold(f64::MAX, f64::min)
+}
+
+#[test]
+fn hunting_begins_at_the_critical_speed() {
+    let report = json_of(&modes(&["--hunting", "--format", "json"]).success());
+    let critical = report["hunting"]["critical_speed_km_h"].as_f64().unwrap();
+    assert!(least_damping(critical - 1.0) > 0.0);
+    assert!(least_damping(critical + 1.0) < 0.0);
+    assert!(least_damping(50.0) > 0.01);
+    // Axleboxes that lead their wheelsets softly let them hunt at a lower speed.
+    let soft = [
+        "front",
+        "front middle",
+        "front inner",
+        "rear inner",
+        "rear middle",
+        "rear",
+    ]
+    .map(|place| format!("{place} primary.stiffness_n_per_m=[2e6, 2e6, 2.15e6]"));
+    let mut arguments = vec!["--hunting", "--format", "json"];
+    for assignment in &soft {
+        arguments.extend(["--set", assignment]);
+    }
+    let report = json_of(&modes(&arguments).success());
+    let softer = report["hunting"]["critical_speed_km_h"].as_f64().unwrap();
+    assert!(softer < critical - 20.0, "{softer} for {critical}");
+}
+
+/// Slowly the wheelsets hold the bogies as at standstill: the body moves as there.
+#[test]
+fn at_walking_pace_the_body_moves_as_at_standstill() {
+    let of = |arguments: &[&str], words: &str| {
+        let report = json_of(&modes(&[arguments, &["--format", "json"]].concat()).success());
+        let rows = report["modes"].as_array().unwrap().clone();
+        let row = rows.iter().find(|row| row["mode"] == words).unwrap();
+        row["undamped_hz"].as_f64().unwrap()
+    };
+    for words in ["body bounce", "body pitch", "body lower sway", "body yaw"] {
+        let (slow, still) = (of(&["--speed-km-h", "5"], words), of(&[], words));
+        assert!((slow / still - 1.0).abs() < 0.01, "{words}: {slow} {still}");
+    }
+}
+
 #[test]
 fn errors_say_what_where_and_what_is_allowed() {
-    let cases: [(&[&str], i32, &str); 6] = [
+    let cases: [(&[&str], i32, &str); 8] = [
         (
             &["--vehicle", "locomotiv"],
             2,
@@ -136,6 +188,16 @@ fn errors_say_what_where_and_what_is_allowed() {
             &["--set", "mass_kg=3"],
             2,
             "--set mass_kg=3: one part and one key; the form is part.key=value",
+        ),
+        (
+            &["--speed-km-h", "0"],
+            2,
+            "--speed-km-h: 0, allowed: 1 to 700 km/h; without it the vehicle stands still",
+        ),
+        (
+            &["--speed-km-h", "80", "--friction", "3"],
+            2,
+            "--friction: static friction coefficient: 3, allowed: 0 to 2",
         ),
         (
             &["--set", "body.mass_kg=-3"],

@@ -142,35 +142,51 @@ impl Linear {
         }
     }
 
-    /// Matrix of the first-order equations of coordinates, velocities and the displacements of the dashpots in series.
+    /// Matrix of the first-order equations of the velocities, then of the displacements of the dashpots in series, then of those
+    /// coordinates that something depends on: not of how far a wheelset has spun.
     pub fn first_order(&self) -> DMatrix<f64> {
-        let (n, size) = (
-            self.inertia.len(),
-            2 * self.inertia.len() + self.series.len(),
-        );
+        let n = self.inertia.len();
+        let depended_on: Vec<usize> = (0..n).filter(|i| self.is_depended_on(*i)).collect();
+        let coordinates = n + self.series.len();
+        let size = coordinates + depended_on.len();
         let mut matrix = DMatrix::zeros(size, size);
-        matrix.view_mut((0, n), (n, n)).fill_with_identity();
         for i in 0..n {
             for j in 0..n {
-                matrix[(n + i, j)] = -self.stiffness[(i, j)] / self.inertia[i];
-                matrix[(n + i, n + j)] = -self.damping[(i, j)] / self.inertia[i];
+                matrix[(i, j)] = -self.damping[(i, j)] / self.inertia[i];
+            }
+            for (number, j) in depended_on.iter().enumerate() {
+                matrix[(i, coordinates + number)] = -self.stiffness[(i, *j)] / self.inertia[i];
             }
         }
         for (number, series) in self.series.iter().enumerate() {
             // Force `k (x - e)` of the spring, which moves the dashpot: `c e' = k (x - e)`.
-            let column = 2 * n + number;
+            let dashpot = n + number;
             let rate = series.stiffness / series.damping;
             for i in 0..n {
                 let per_inertia = series.displacement[i] * series.stiffness / self.inertia[i];
-                for j in 0..n {
-                    matrix[(n + i, j)] -= per_inertia * series.displacement[j];
+                matrix[(i, dashpot)] += per_inertia;
+                for (number, j) in depended_on.iter().enumerate() {
+                    matrix[(i, coordinates + number)] -= per_inertia * series.displacement[*j];
                 }
-                matrix[(n + i, column)] += per_inertia;
-                matrix[(column, i)] += rate * series.displacement[i];
             }
-            matrix[(column, column)] -= rate;
+            for (number, j) in depended_on.iter().enumerate() {
+                matrix[(dashpot, coordinates + number)] += rate * series.displacement[*j];
+            }
+            matrix[(dashpot, dashpot)] -= rate;
+        }
+        for (number, j) in depended_on.into_iter().enumerate() {
+            matrix[(coordinates + number, j)] = 1.0;
         }
         matrix
+    }
+
+    fn is_depended_on(&self, coordinate: usize) -> bool {
+        let by_springs = self.stiffness.column(coordinate).iter().any(|k| *k != 0.0);
+        by_springs
+            || self
+                .series
+                .iter()
+                .any(|series| series.displacement[coordinate] != 0.0)
     }
 }
 

@@ -25,6 +25,9 @@ struct Share {
     moves_with_first: bool,
 }
 
+/// What is left of a subdiagonal that counts as nothing, over its neighbours; at the last digit the iteration may not end.
+const CONVERGED: f64 = 1e-14;
+
 /// Iterations for each eigenvalue, of which a few are needed.
 const ITERATIONS_EACH: usize = 100;
 
@@ -97,12 +100,7 @@ impl Mode {
 /// The oscillating modes by rising frequency.
 pub(super) fn of(linear: &Linear, bodies: &[Body]) -> Result<Vec<Mode>, VehicleError> {
     let matrix = linear.first_order();
-    // Stiffnesses over inertias are large beside the ones of the velocities: balanced first.
-    let mut balanced = matrix.clone();
-    balance_parlett_reinsch(&mut balanced);
-    let values = Schur::try_new(balanced, f64::EPSILON, ITERATIONS_EACH * matrix.nrows())
-        .ok_or(VehicleError::NoModes)?
-        .complex_eigenvalues();
+    let values = eigenvalues(&matrix).ok_or(VehicleError::NoModes)?;
     let mut modes: Vec<Mode> = values
         .iter()
         .enumerate()
@@ -114,6 +112,26 @@ pub(super) fn of(linear: &Linear, bodies: &[Body]) -> Result<Vec<Mode>, VehicleE
         .collect();
     modes.sort_by(|a, b| a.undamped_hz().total_cmp(&b.undamped_hz()));
     Ok(modes)
+}
+
+/// The eigenvalues by the QR algorithm. Without exceptional shifts it may turn in a circle, which another order of the same
+/// coordinates, or the transposed matrix, does not.
+fn eigenvalues(matrix: &DMatrix<f64>) -> Option<DVector<Complex<f64>>> {
+    // Stiffnesses over inertias are large beside the ones of the velocities: balanced first.
+    let mut balanced = matrix.clone();
+    balance_parlett_reinsch(&mut balanced);
+    let size = matrix.nrows();
+    let reversed = DMatrix::from_fn(size, size, |i, j| balanced[(size - 1 - i, size - 1 - j)]);
+    let orders = [
+        balanced.transpose(),
+        reversed.transpose(),
+        reversed,
+        balanced,
+    ];
+    orders.into_iter().find_map(|matrix| {
+        let schur = Schur::try_new(matrix, CONVERGED, ITERATIONS_EACH * size)?;
+        Some(schur.complex_eigenvalues())
+    })
 }
 
 /// The eigenvector of an eigenvalue by inverse iteration, from a start of its own for every `number`, so that equal eigenvalues

@@ -133,12 +133,15 @@ fn number_of(bodies: &[Body], end: &End) -> Option<usize> {
     bodies.iter().position(|body| body.name == *name)
 }
 
+/// The places of an element's ends, and the line from the first to the second, m.
+pub(super) type PlacedEnds = ([Place; 2], Vector3<f64>);
+
 /// The places of every element's ends, and the line from one to the other; wheelsets are held, or move as bodies that follow the
 /// others in number.
 pub(super) fn places(
     vehicle: &Vehicle,
     wheelsets_move: bool,
-) -> Result<Vec<([Place; 2], Vector3<f64>)>, VehicleError> {
+) -> Result<Vec<PlacedEnds>, VehicleError> {
     let wheelsets = wheelset_bodies(vehicle);
     let of_end = |element: &Element, end: &End| {
         let at = Vector3::from(end.position_m());
