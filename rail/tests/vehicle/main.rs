@@ -2,4 +2,5 @@
 
 mod closed_forms;
 mod errors;
+mod random;
 mod running;
