@@ -82,8 +82,9 @@ impl KalkerBook {
         creepage: &Creepage,
     ) -> CreepDerivatives {
         let of = Contact::of(contact);
-        let at = of.beside_pure_spin(numbers(creepage));
-        let variables = [0, 1, 2].map(|k| Dual::<3>::variable(at[k], k));
+        let here = numbers(creepage);
+        let beside = of.beside_pure_spin(here);
+        let variables = [0, 1, 2].map(|k| Dual::<3>::variable(beside[k], k));
         let at = Coordinates::new(&of, variables);
         let places = at.places(simd, &of);
         let (value, gradient) = (places.value(self.pages, 0), places.gradient(self.pages, 0));
@@ -98,7 +99,12 @@ impl KalkerBook {
             Dual::function(f64::from(value[k]), terms)
         };
         let forces = forces([0, 1, 2].map(of_book), &at, &of);
-        let values = CreepForces::of_components(self.forces_in(simd, contact, creepage));
+        let values = if beside == here {
+            forces.map(|force| force.value())
+        } else {
+            self.forces_in(simd, contact, creepage)
+        };
+        let values = CreepForces::of_components(values);
         let by_creepage = forces.map(|force| force.derivatives().map(f64::from));
         CreepDerivatives::new(values, by_creepage, contact, creepage)
     }
