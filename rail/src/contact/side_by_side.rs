@@ -128,7 +128,8 @@ impl<L: CreepLaw, P: PatchSource> WheelsetContact<L, P> {
         ];
         let mut left_zones = LoadedZones::new(loaded[0], left);
         let mut right_zones = LoadedZones::new(loaded[1], right);
-        let mut wrench = [simd.splat_f64x4(0.0); 6];
+        // Of both wheels.
+        let mut wrench = [simd.splat_f64x2(0.0); 6];
         let mut penetration = simd.splat_f64x4(0.0);
         let mut wheel_y = simd.splat_f64x4(f64::MAX);
         while left_zones.are_left() | right_zones.are_left() {
@@ -151,7 +152,8 @@ impl<L: CreepLaw, P: PatchSource> WheelsetContact<L, P> {
             let depth = (place.depth + load(simd, &heights)).not_negative();
             let patch = place.patch(&self.surface, depth, numbers, used);
             for (sum, term) in wrench.iter_mut().zip(patch.wrench) {
-                *sum += term;
+                let (first, again) = simd.split_f64x4(term);
+                *sum += first + again;
             }
             penetration = penetration.at_least(patch.penetration);
             wheel_y = wheel_y.at_most(patch.wheel_y);
@@ -182,10 +184,7 @@ impl<L: CreepLaw, P: PatchSource> WheelsetContact<L, P> {
                 wheel_y[side].min(wheel_y[side + 2]),
             );
         }
-        forces.set_wrenches(wrench.each(|sum| {
-            let (first, again) = simd.split_f64x4(sum);
-            (first + again).into()
-        }));
+        forces.set_wrenches(wrench.each(|sum| sum.into()));
         true
     }
 
