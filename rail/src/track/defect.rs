@@ -169,47 +169,41 @@ impl Defect {
         let rounding = |value: f64, straight_m: f64| {
             within(place, "rounding_m", value, [1e-3, straight_m.max(1e-3)])
         };
+        let (Self::CosineDip { start_m, .. }
+        | Self::AlignmentBump { start_m, .. }
+        | Self::AlignmentKink { start_m, .. }
+        | Self::Twist { start_m, .. }) = *self;
+        within(place, "start_m", start_m, DISTANCE_M)?;
         match *self {
             Self::CosineDip {
-                start_m,
-                length_m,
-                depth_m,
-                ..
+                length_m, depth_m, ..
             } => {
-                within(place, "start_m", start_m, DISTANCE_M)?;
                 within(place, "length_m", length_m, LENGTH_M)?;
                 within(place, "depth_m", depth_m, DISPLACEMENT_M)
             }
             Self::AlignmentBump {
-                start_m,
-                length_m,
-                offset_m,
-                ..
+                length_m, offset_m, ..
             } => {
-                within(place, "start_m", start_m, DISTANCE_M)?;
                 within(place, "length_m", length_m, LENGTH_M)?;
                 within(place, "offset_m", offset_m, DISPLACEMENT_M)
             }
             Self::AlignmentKink {
-                start_m,
                 length_m,
                 offset_m,
                 rounding_m,
                 ..
             } => {
-                within(place, "start_m", start_m, DISTANCE_M)?;
                 within(place, "length_m", length_m, LENGTH_M)?;
                 within(place, "offset_m", offset_m, DISPLACEMENT_M)?;
                 rounding(rounding_m, 0.5 * length_m)
             }
             Self::Twist {
-                start_m,
                 base_m,
                 plateau_m,
                 cross_level_m,
                 rounding_m,
+                ..
             } => {
-                within(place, "start_m", start_m, DISTANCE_M)?;
                 within(place, "base_m", base_m, LENGTH_M)?;
                 within(place, "plateau_m", plateau_m, LENGTH_M)?;
                 within(place, "cross_level_m", cross_level_m, DISPLACEMENT_M)?;

@@ -198,13 +198,7 @@ fn check_names(vehicle: &Vehicle) -> Result<(), VehicleError> {
 /// The motion that the springs resist least, against the least frequency that is one of a body that is held.
 fn check_held(linear: &Linear, bodies: &[Body]) -> Result<(), VehicleError> {
     let root = linear.inertia.map(|inertia| 1.0 / inertia.sqrt());
-    let mut scaled = linear.stiffness.clone();
-    for ((i, j), number) in (0..scaled.nrows())
-        .flat_map(|j| (0..linear.inertia.len()).map(move |i| (i, j)))
-        .zip(scaled.iter_mut())
-    {
-        *number *= root[i] * root[j];
-    }
+    let scaled = linear.stiffness.component_mul(&(&root * root.transpose()));
     let eigen = SymmetricEigen::new(scaled);
     let (number, square) = eigen.eigenvalues.argmin();
     let least = (2.0 * std::f64::consts::PI * LEAST_FREQUENCY_HZ).powi(2);
