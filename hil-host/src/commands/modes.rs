@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use dashpot_rail::contact::{ContactGeometry, Installation, Pair, Steel, WheelsetContact};
 use dashpot_rail::creep::{Friction, KalkerBook};
-use dashpot_rail::vehicle::{Mode, Running, Standstill, Vehicle, VehicleError};
+use dashpot_rail::vehicle::{Mode, Running, Standstill, VehicleError, VehicleParameters};
 use serde::Serialize;
 
 use super::{Format, print_report};
@@ -104,7 +104,7 @@ pub fn run(arguments: &ModesArguments) -> Outcome<()> {
     }
     let name = &arguments.vehicle;
     let vehicle = vehicle::load(name, &arguments.overrides)?;
-    let refused = |source| VehicleFileError::Vehicle {
+    let refused = |source| VehicleFileError::VehicleParameters {
         name: name.clone(),
         source,
     };
@@ -140,7 +140,11 @@ pub fn run(arguments: &ModesArguments) -> Outcome<()> {
 }
 
 /// Standard profiles under the mean wheel load of the vehicle, with its first wheelset's radius.
-fn contact(vehicle: &Vehicle, standstill: &Standstill, friction: f64) -> Outcome<Contact> {
+fn contact(
+    vehicle: &VehicleParameters,
+    standstill: &Standstill,
+    friction: f64,
+) -> Outcome<Contact> {
     let loads = standstill.axle_loads_n();
     let (Some(wheelset), false) = (vehicle.wheelsets.first(), loads.is_empty()) else {
         return Err(Failure::new(format!(
@@ -165,12 +169,19 @@ fn contact(vehicle: &Vehicle, standstill: &Standstill, friction: f64) -> Outcome
         .map_err(|error| Failure::wrong_use(format!("--friction: {error}")))
 }
 
-fn modes_at(vehicle: &Vehicle, contact: &Contact, km_h: f64) -> Result<Vec<Mode>, VehicleError> {
+fn modes_at(
+    vehicle: &VehicleParameters,
+    contact: &Contact,
+    km_h: f64,
+) -> Result<Vec<Mode>, VehicleError> {
     Running::new(vehicle, contact, km_h / 3.6)?.modes()
 }
 
 /// Least speed at which a mode grows: looked for in steps, then halved to a hundredth of a km/h.
-fn critical_speed_km_h(vehicle: &Vehicle, contact: &Contact) -> Result<Option<f64>, VehicleError> {
+fn critical_speed_km_h(
+    vehicle: &VehicleParameters,
+    contact: &Contact,
+) -> Result<Option<f64>, VehicleError> {
     let grows = |km_h: f64| -> Result<bool, VehicleError> {
         let modes = modes_at(vehicle, contact, km_h)?;
         Ok(modes.iter().any(|mode| mode.damping_ratio() < 0.0))

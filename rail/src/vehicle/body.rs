@@ -5,7 +5,7 @@ use super::error::{VehicleError, finite};
 
 /// A vehicle: rigid bodies and wheelsets, connected by elements.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Vehicle {
+pub struct VehicleParameters {
     /// Name.
     pub name: String,
     /// Car body, bogie frames, and what else is rigid.

@@ -1,5 +1,6 @@
 //! Elements between two points.
 
+use dashpot_core::DamperParameters;
 use nalgebra::Vector3;
 
 use super::error::{VehicleError, finite};
@@ -56,6 +57,17 @@ pub enum Direction {
     Vertical,
 }
 
+impl Direction {
+    /// Number of its axis: x, y, z.
+    pub(super) fn axis(self) -> usize {
+        match self {
+            Self::Longitudinal => 0,
+            Self::Lateral => 1,
+            Self::Vertical => 2,
+        }
+    }
+}
+
 /// How the force of an element follows from the displacement of its second end against its first.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Law {
@@ -66,15 +78,32 @@ pub enum Law {
         /// Damping along x, y and z, N s/m.
         damping_n_s_per_m: [f64; 3],
     },
-    /// A dashpot in series with a spring in one direction (Maxwell): a hydraulic damper in small motion, whose clearance is
-    /// taken up. The ends are at one place.
+    /// Springs and dashpots side by side along and about x, y and z: a rubber bush. The ends are at one place.
+    Bush {
+        /// Stiffness along x, y and z, N/m.
+        stiffness_n_per_m: [f64; 3],
+        /// Damping along x, y and z, N s/m.
+        damping_n_s_per_m: [f64; 3],
+        /// Stiffness about x, y and z, N m/rad.
+        stiffness_n_m_per_rad: [f64; 3],
+        /// Damping about x, y and z, N m s/rad.
+        damping_n_m_s_per_rad: [f64; 3],
+    },
+    /// A hydraulic damper along one direction. Linear equations have it in small motion, its clearance taken up: the secant of
+    /// its characteristic in series with the stiffness of its mounts (Maxwell). The ends are at one place.
     Damper {
         /// Direction of the axis.
         direction: Direction,
-        /// Force over velocity at small velocity, N s/m.
-        damping_n_s_per_m: f64,
-        /// Stiffness in series, N/m.
-        stiffness_n_per_m: f64,
+        /// The damper; extended where the second end moves along the axis against the first.
+        parameters: Box<DamperParameters>,
+    },
+    /// A stop on both sides: no force within a gap, then linear between points and on beyond the last. The ends are at one place.
+    /// Linear equations have it open.
+    BumpStop {
+        /// Direction of the axis.
+        direction: Direction,
+        /// Magnitudes of displacement, m, and force against it, N: the first is the gap with no force.
+        points: Vec<[f64; 2]>,
     },
     /// A torsion bar that resists the roll of one body against the other.
     AntiRollBar {
@@ -100,6 +129,9 @@ impl Law {
         match self {
             Self::SpringDamper {
                 stiffness_n_per_m, ..
+            }
+            | Self::Bush {
+                stiffness_n_per_m, ..
             } => displacement.component_mul(&Vector3::from(*stiffness_n_per_m)),
             Self::TractionRod {
                 stiffness_n_per_m, ..
@@ -107,15 +139,50 @@ impl Law {
                 let along = line.normalize();
                 along * (along.dot(&displacement) * stiffness_n_per_m)
             }
-            Self::Damper { .. } | Self::AntiRollBar { .. } => Vector3::zeros(),
+            Self::Damper { .. } | Self::BumpStop { .. } | Self::AntiRollBar { .. } => {
+                Vector3::zeros()
+            }
         }
     }
 }
 
 const MAX_STIFFNESS: [f64; 2] = [0.0, 1e12];
 const MAX_DAMPING: [f64; 2] = [0.0, 1e10];
-/// Least stiffness and damping of a damper: it is an element of both.
-const SERIES: [f64; 2] = [1.0, 1e12];
+
+/// Greatest number of points of a stop.
+pub const MAX_STOP_POINTS: usize = 16;
+
+fn check_three(
+    owner: &str,
+    name: &'static str,
+    values: &[f64; 3],
+    allowed: [f64; 2],
+) -> Result<(), VehicleError> {
+    values
+        .iter()
+        .try_for_each(|value| finite(owner, name, *value, allowed))
+}
+
+fn check_stop(points: &[[f64; 2]]) -> Result<(), &'static str> {
+    if !(2..=MAX_STOP_POINTS).contains(&points.len()) {
+        return Err("2 to 16 points");
+    }
+    if !points
+        .iter()
+        .flatten()
+        .all(|number| (0.0..=1e8).contains(number))
+    {
+        return Err("displacements and forces of 0 to 1e8 m and N");
+    }
+    if points[0][1] != 0.0 {
+        return Err("no force at the first displacement, which is the gap");
+    }
+    let rises = |pair: &[[f64; 2]]| pair[1][0] - pair[0][0] >= 1e-6 && pair[1][1] >= pair[0][1];
+    if !points.windows(2).all(rises) {
+        return Err("displacements that rise by 1e-6 m at least, and forces that do not fall");
+    }
+    Ok(())
+}
 
 impl Element {
     pub(super) fn check(&self) -> Result<(), VehicleError> {
@@ -134,33 +201,38 @@ impl Element {
             });
         }
         let apart = self.ends[0].at_m != self.ends[1].at_m;
-        let ends = |reason| VehicleError::Ends {
-            element: owner.clone(),
-            reason,
-        };
         match &self.law {
             Law::SpringDamper {
                 stiffness_n_per_m,
                 damping_n_s_per_m,
             } => {
-                for (stiffness, damping) in stiffness_n_per_m.iter().zip(damping_n_s_per_m) {
-                    finite(owner, "stiffness_n_per_m", *stiffness, MAX_STIFFNESS)?;
-                    finite(owner, "damping_n_s_per_m", *damping, MAX_DAMPING)?;
-                }
-                if apart {
-                    return Err(ends("the ends of a spring-damper are at one place"));
-                }
+                check_three(owner, "stiffness_n_per_m", stiffness_n_per_m, MAX_STIFFNESS)?;
+                check_three(owner, "damping_n_s_per_m", damping_n_s_per_m, MAX_DAMPING)?;
             }
-            Law::Damper {
-                damping_n_s_per_m,
+            Law::Bush {
                 stiffness_n_per_m,
-                ..
+                damping_n_s_per_m,
+                stiffness_n_m_per_rad,
+                damping_n_m_s_per_rad,
             } => {
-                finite(owner, "damping_n_s_per_m", *damping_n_s_per_m, SERIES)?;
-                finite(owner, "stiffness_n_per_m", *stiffness_n_per_m, SERIES)?;
-                if apart {
-                    return Err(ends("the ends of a damper are at one place"));
-                }
+                check_three(owner, "stiffness_n_per_m", stiffness_n_per_m, MAX_STIFFNESS)?;
+                check_three(owner, "damping_n_s_per_m", damping_n_s_per_m, MAX_DAMPING)?;
+                let name = "stiffness_n_m_per_rad";
+                check_three(owner, name, stiffness_n_m_per_rad, MAX_STIFFNESS)?;
+                let name = "damping_n_m_s_per_rad";
+                check_three(owner, name, damping_n_m_s_per_rad, MAX_DAMPING)?;
+            }
+            Law::Damper { parameters, .. } => {
+                parameters.check().map_err(|source| VehicleError::Damper {
+                    element: owner.clone(),
+                    source: Box::new(source),
+                })?;
+            }
+            Law::BumpStop { points, .. } => {
+                check_stop(points).map_err(|reason| VehicleError::Stop {
+                    element: owner.clone(),
+                    reason,
+                })?;
             }
             Law::AntiRollBar {
                 stiffness_n_m_per_rad,
@@ -179,13 +251,18 @@ impl Element {
                     MAX_STIFFNESS,
                 )?;
                 finite(owner, "damping_n_s_per_m", *damping_n_s_per_m, MAX_DAMPING)?;
-                if !apart {
-                    return Err(ends(
-                        "the ends of a traction rod are apart: its line is its direction",
-                    ));
-                }
             }
         }
-        Ok(())
+        match (&self.law, apart) {
+            (Law::TractionRod { .. }, false) => Err(VehicleError::Ends {
+                element: owner.clone(),
+                reason: "the ends of a traction rod are apart: its line is its direction",
+            }),
+            (Law::TractionRod { .. } | Law::AntiRollBar { .. }, _) | (_, false) => Ok(()),
+            (_, true) => Err(VehicleError::Ends {
+                element: owner.clone(),
+                reason: "the ends of this element are at one place",
+            }),
+        }
     }
 }

@@ -48,6 +48,22 @@ pub enum VehicleError {
         /// What is wrong, and what is allowed.
         reason: &'static str,
     },
+    /// A damper is refused.
+    #[error("{element}: {source}")]
+    Damper {
+        /// The element.
+        element: String,
+        /// What is wrong with its parameters.
+        source: Box<dashpot_core::BuildError>,
+    },
+    /// The points of a stop are no stop.
+    #[error("{element}: points of a stop: allowed: {reason}")]
+    Stop {
+        /// The element.
+        element: String,
+        /// What is allowed.
+        reason: &'static str,
+    },
     /// There is nothing that could move.
     #[error("no body: a vehicle has one at least")]
     NoBody,

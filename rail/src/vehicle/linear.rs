@@ -1,9 +1,11 @@
 //! Linear equations of motion: `M q'' + C q' + K q = f`, with a state of its own for every dashpot in series with a spring.
 
+use dashpot_core::DamperParameters;
+use dashpot_core::characteristic::Characteristic;
 use nalgebra::{DMatrix, DVector, Matrix3, RowDVector, Vector3};
 
 use super::body::{Body, COORDINATES};
-use super::element::{Direction, Element, Law};
+use super::element::{Element, Law};
 
 /// Coordinates of a body.
 const N: usize = COORDINATES.len();
@@ -35,6 +37,22 @@ pub(super) struct Place {
     pub is_axlebox: bool,
 }
 
+/// Velocity at which a damper's force is taken for its damping in small motion, m/s.
+const SMALL_VELOCITY_M_PER_S: f64 = 1e-4;
+
+/// Damping and stiffness in series of a damper in small motion, its clearance taken up: the secant of its characteristic, and
+/// its mounts. Of parameters that were checked.
+fn small_motion(parameters: &DamperParameters) -> [f64; 2] {
+    let stiffness = 1.0 / parameters.mount.compliance_m_per_n();
+    let Ok(checked) = parameters.check() else {
+        return [0.0, stiffness];
+    };
+    let characteristic = Characteristic::new(&checked);
+    let v = SMALL_VELOCITY_M_PER_S;
+    let force = |velocity| characteristic.force_n(velocity);
+    [(force(v) - force(-v)) / (2.0 * v), stiffness]
+}
+
 impl Linear {
     /// Bodies without elements.
     pub fn new(bodies: &[Body]) -> Self {
@@ -62,6 +80,21 @@ impl Linear {
                 if place.is_axlebox {
                     block.column_mut(3).fill(0.0);
                 }
+                // Nothing holds a body along the track: it gives way to its pitch there.
+                block[(0, 3)] = 0.0;
+            }
+        }
+        rows
+    }
+
+    /// Rotation about x, y and z of the body of a place, for each coordinate.
+    fn rotation(&self, place: &Place) -> DMatrix<f64> {
+        let mut rows = DMatrix::zeros(3, self.inertia.len());
+        if let Some(body) = place.body {
+            rows.fixed_view_mut::<3, 3>(0, N * body + 2)
+                .fill_with_identity();
+            if place.is_axlebox {
+                rows.column_mut(N * body + 3).fill(0.0);
             }
         }
         rows
@@ -70,34 +103,33 @@ impl Linear {
     /// Adds an element between `places`, on `line` from one end to the other.
     pub fn add(&mut self, element: &Element, places: &[Place; 2], line: Vector3<f64>) {
         let displacement = self.displacement(places);
-        match element.law {
+        match &element.law {
             Law::SpringDamper {
                 stiffness_n_per_m,
                 damping_n_s_per_m,
+            } => self.add_three(&displacement, stiffness_n_per_m, damping_n_s_per_m),
+            Law::Bush {
+                stiffness_n_per_m,
+                damping_n_s_per_m,
+                stiffness_n_m_per_rad,
+                damping_n_m_s_per_rad,
             } => {
-                for (row, (stiffness, damping)) in displacement
-                    .row_iter()
-                    .zip(stiffness_n_per_m.into_iter().zip(damping_n_s_per_m))
-                {
-                    self.add_along(&row.into_owned(), stiffness, damping);
-                }
+                self.add_three(&displacement, stiffness_n_per_m, damping_n_s_per_m);
+                let rotation = self.rotation(&places[1]) - self.rotation(&places[0]);
+                self.add_three(&rotation, stiffness_n_m_per_rad, damping_n_m_s_per_rad);
             }
             Law::Damper {
                 direction,
-                damping_n_s_per_m,
-                stiffness_n_per_m,
+                parameters,
             } => {
-                let row = match direction {
-                    Direction::Longitudinal => 0,
-                    Direction::Lateral => 1,
-                    Direction::Vertical => 2,
-                };
+                let [damping, stiffness] = small_motion(parameters);
                 self.series.push(Series {
-                    displacement: displacement.row(row).into_owned(),
-                    damping: damping_n_s_per_m,
-                    stiffness: stiffness_n_per_m,
+                    displacement: displacement.row(direction.axis()).into_owned(),
+                    damping,
+                    stiffness,
                 });
             }
+            Law::BumpStop { .. } => {}
             Law::AntiRollBar {
                 stiffness_n_m_per_rad,
             } => {
@@ -107,15 +139,21 @@ impl Linear {
                         roll[N * body + 2] += sign;
                     }
                 }
-                self.add_along(&roll, stiffness_n_m_per_rad, 0.0);
+                self.add_along(&roll, *stiffness_n_m_per_rad, 0.0);
             }
             Law::TractionRod {
                 stiffness_n_per_m,
                 damping_n_s_per_m,
             } => {
                 let along = line.normalize().transpose() * displacement;
-                self.add_along(&along, stiffness_n_per_m, damping_n_s_per_m);
+                self.add_along(&along, *stiffness_n_per_m, *damping_n_s_per_m);
             }
+        }
+    }
+
+    fn add_three(&mut self, rows: &DMatrix<f64>, stiffness: &[f64; 3], damping: &[f64; 3]) {
+        for (row, (stiffness, damping)) in rows.row_iter().zip(stiffness.iter().zip(damping)) {
+            self.add_along(&row.into_owned(), *stiffness, *damping);
         }
     }
 
@@ -124,22 +162,21 @@ impl Linear {
         self.damping += displacement.transpose() * displacement * damping;
     }
 
-    /// Adds the geometric stiffness of a constant `force` on the second of `places`, and its opposite on the first: each turns
-    /// with its body, and its moment `(omega x r) x F` with it.
+    /// Adds the geometric stiffness of the static `force` on the second of `places`: the second-order part of the potential
+    /// `-F . R^T d`, where the axes of the element turn by the mean rotation `R` of both bodies, and its ends by
+    /// `omega x (omega x r) / 2` beyond their first-order displacement.
     pub fn add_preload(&mut self, places: &[Place; 2], force: Vector3<f64>) {
-        for (place, sign) in places.iter().zip([-1.0, 1.0]) {
-            if let Some(body) = place.body {
-                let first = N * body + 2;
-                let mut moments: Matrix3<f64> =
-                    force.cross_matrix() * place.from_centre.cross_matrix() * sign;
-                if place.is_axlebox {
-                    moments.row_mut(1).fill(0.0);
-                    moments.column_mut(1).fill(0.0);
-                }
-                let mut block = self.stiffness.fixed_view_mut::<3, 3>(first, first);
-                block -= moments;
-            }
+        for (place, sign) in places.iter().zip([-0.5, 0.5]) {
+            let rotation = self.rotation(place);
+            let r = place.from_centre;
+            let ends = force * r.transpose() + r * force.transpose()
+                - Matrix3::identity() * (2.0 * force.dot(&r));
+            self.stiffness -= rotation.transpose() * ends * &rotation * sign;
         }
+        let mean = (self.rotation(&places[0]) + self.rotation(&places[1])) * 0.5;
+        let turned = mean.transpose() * force.cross_matrix() * self.displacement(places);
+        self.stiffness -= turned.transpose();
+        self.stiffness -= turned;
     }
 
     /// Matrix of the first-order equations of the velocities, then of the displacements of the dashpots in series, then of those
@@ -218,7 +255,7 @@ mod tests {
         let (roll, pitch, yaw) = (1e-3, 2e-3, -3e-3);
         let moved = rows * DVector::from_vec(vec![0.1, 0.2, roll, pitch, yaw]);
         let expected = [
-            5.0 * pitch - 3.0 * yaw,
+            -3.0 * yaw,
             0.1 - 5.0 * roll + 2.0 * yaw,
             0.2 + 3.0 * roll - 2.0 * pitch,
         ];

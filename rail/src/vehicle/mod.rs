@@ -2,11 +2,11 @@
 //!
 //! Axes as everywhere in this crate: x forward, y right, z down, small rotations roll about x, pitch about y and yaw about z.
 //! Every body has the coordinates lateral, vertical, roll, pitch and yaw in a frame that follows the track at constant speed, so
-//! that there is none along the track. A point `r` of a body moves by `(pitch z - yaw y, lateral - roll z + yaw x,
-//! vertical + roll y - pitch x)`, with `r = (x, y, z)` from the centre of gravity.
+//! that there is none along the track. A point `r` of a body moves by `(-yaw y, lateral - roll z + yaw x, vertical + roll y - pitch x)`, with `r = (x, y, z)` from the centre of gravity:
+//! what nothing holds along the track gives way to its pitch there, so that stiffness along the track does not resist it.
 //!
 //! ```
-//! use dashpot_rail::vehicle::{Body, Element, End, Law, Standstill, Vehicle};
+//! use dashpot_rail::vehicle::{Body, Element, End, Law, Standstill, VehicleParameters};
 //! // A body of 30 t on four springs of 1 MN/m.
 //! let body = Body {
 //!     name: "body".into(),
@@ -20,7 +20,7 @@
 //!     ends: [End::track([x, y, 0.5]), End::body("body", [x, y, 0.5])],
 //!     law: Law::SpringDamper { stiffness_n_per_m: [1e6; 3], damping_n_s_per_m: [0.0; 3] },
 //! };
-//! let vehicle = Vehicle {
+//! let vehicle = VehicleParameters {
 //!     name: "wagon".into(),
 //!     bodies: vec![body],
 //!     wheelsets: vec![],
@@ -41,8 +41,8 @@ mod modes;
 mod running;
 mod standstill;
 
-pub use body::{Body, COORDINATES, Coordinate, Vehicle, Wheelset};
-pub use element::{Direction, Element, End, Law};
+pub use body::{Body, COORDINATES, Coordinate, VehicleParameters, Wheelset};
+pub use element::{Direction, Element, End, Law, MAX_STOP_POINTS};
 pub use error::VehicleError;
 pub use modes::Mode;
 pub use running::Running;

@@ -1,6 +1,6 @@
 //! A vehicle that runs on straight track at constant speed, linear about its central position.
 
-use super::body::{Body, COORDINATES, Vehicle};
+use super::body::{Body, COORDINATES, VehicleParameters};
 use super::error::{VehicleError, finite};
 use super::linear::Linear;
 use super::modes::{self, Mode};
@@ -40,7 +40,7 @@ impl Running {
     /// # Errors
     /// As [`Standstill::new`]; a speed out of bounds; a wheelset that the rails of `contact` do not carry.
     pub fn new<L: CreepLaw, S: PatchSource>(
-        vehicle: &Vehicle,
+        vehicle: &VehicleParameters,
         contact: &WheelsetContact<L, S>,
         speed_m_per_s: f64,
     ) -> Result<Self, VehicleError> {

@@ -3,7 +3,7 @@
 use nalgebra::{DVector, SymmetricEigen, Vector3};
 
 use super::GRAVITY_M_PER_S2;
-use super::body::{Body, COORDINATES, Coordinate, Vehicle, Wheelset};
+use super::body::{Body, COORDINATES, Coordinate, VehicleParameters, Wheelset};
 use super::element::{Element, End};
 use super::error::VehicleError;
 use super::linear::{Linear, Place};
@@ -29,7 +29,7 @@ impl Standstill {
     ///
     /// # Errors
     /// A number out of bounds, a name used twice, an element without a body, a body that nothing holds.
-    pub fn new(vehicle: &Vehicle) -> Result<Self, VehicleError> {
+    pub fn new(vehicle: &VehicleParameters) -> Result<Self, VehicleError> {
         let bodies = &vehicle.bodies;
         check(vehicle)?;
         let mut linear = Linear::new(bodies);
@@ -111,11 +111,11 @@ impl Standstill {
     }
 }
 
-pub(super) fn wheelset_bodies(vehicle: &Vehicle) -> Vec<Body> {
+pub(super) fn wheelset_bodies(vehicle: &VehicleParameters) -> Vec<Body> {
     vehicle.wheelsets.iter().map(Wheelset::body).collect()
 }
 
-fn check(vehicle: &Vehicle) -> Result<(), VehicleError> {
+fn check(vehicle: &VehicleParameters) -> Result<(), VehicleError> {
     if vehicle.bodies.is_empty() {
         return Err(VehicleError::NoBody);
     }
@@ -139,7 +139,7 @@ pub(super) type PlacedEnds = ([Place; 2], Vector3<f64>);
 /// The places of every element's ends, and the line from one to the other; wheelsets are held, or move as bodies that follow the
 /// others in number.
 pub(super) fn places(
-    vehicle: &Vehicle,
+    vehicle: &VehicleParameters,
     wheelsets_move: bool,
 ) -> Result<Vec<PlacedEnds>, VehicleError> {
     let wheelsets = wheelset_bodies(vehicle);
@@ -182,7 +182,7 @@ pub(super) fn places(
     vehicle.elements.iter().map(of_element).collect()
 }
 
-fn check_names(vehicle: &Vehicle) -> Result<(), VehicleError> {
+fn check_names(vehicle: &VehicleParameters) -> Result<(), VehicleError> {
     let bodies = vehicle.bodies.iter().map(|body| &body.name);
     let wheelsets = vehicle.wheelsets.iter().map(|wheelset| &wheelset.name);
     let elements = vehicle.elements.iter().map(|element| &element.name);

@@ -1,8 +1,10 @@
 //! What is wrong with a vehicle, where, and what is allowed.
 
-use dashpot_rail::vehicle::{Body, Element, End, Law, Standstill, Vehicle};
+use dashpot_core::DamperParameters;
+use dashpot_core::parameters::Mount;
+use dashpot_rail::vehicle::{Body, Direction, Element, End, Law, Standstill, VehicleParameters};
 
-fn vehicle() -> Vehicle {
+fn vehicle() -> VehicleParameters {
     let at = |x: f64, y: f64| [x, y, 0.5];
     let spring = |name: &str, x: f64, y: f64| Element {
         name: name.into(),
@@ -12,7 +14,7 @@ fn vehicle() -> Vehicle {
             damping_n_s_per_m: [0.0; 3],
         },
     };
-    Vehicle {
+    VehicleParameters {
         name: "test".into(),
         bodies: vec![Body {
             name: "body".into(),
@@ -22,22 +24,45 @@ fn vehicle() -> Vehicle {
             height_m: 1.5,
         }],
         wheelsets: vec![],
-        elements: vec![spring("left", 3.0, -1.0), spring("right", -3.0, 1.0)],
+        elements: vec![
+            spring("left", 3.0, -1.0),
+            spring("right", -3.0, 1.0),
+            spring("third", 3.0, 1.0),
+        ],
     }
 }
 
-fn error_of(change: impl FnOnce(&mut Vehicle)) -> String {
+fn error_of(change: impl FnOnce(&mut VehicleParameters)) -> String {
     let mut vehicle = vehicle();
     change(&mut vehicle);
     Standstill::new(&vehicle).unwrap_err().to_string()
 }
 
-type Change = fn(&mut Vehicle);
+type Change = fn(&mut VehicleParameters);
 
 #[test]
 fn every_error_says_what_where_and_what_is_allowed() {
     assert!(Standstill::new(&vehicle()).is_ok());
-    let cases: [(&str, Change); 9] = [
+    let cases: [(&str, Change); 11] = [
+        (
+            "left: points of a stop: allowed: displacements that rise by 1e-6 m at least, and forces that do not fall",
+            |v| {
+                v.elements[0].law = Law::BumpStop {
+                    direction: Direction::Lateral,
+                    points: vec![[0.02, 0.0], [0.03, 2e3], [0.03, 5e3]],
+                };
+            },
+        ),
+        (
+            "left: mount.stiffness_n_per_m = 0 is not allowed: must be 1e4 to 1e12 N/m",
+            |v| {
+                let parameters = DamperParameters::reduced(120e3, 0.03, Mount::new(0.0));
+                v.elements[0].law = Law::Damper {
+                    direction: Direction::Lateral,
+                    parameters: Box::new(parameters),
+                };
+            },
+        ),
         ("body: mass_kg = -1, allowed: 1 to 1000000", |v| {
             v.bodies[0].mass_kg = -1.0
         }),
@@ -59,7 +84,7 @@ fn every_error_says_what_where_and_what_is_allowed() {
         ("left: both ends are on body", |v| {
             v.elements[0].ends[0].on = Some("body".into());
         }),
-        ("left: the ends of a spring-damper are at one place", |v| {
+        ("left: the ends of this element are at one place", |v| {
             v.elements[0].ends[0].at_m[0] = 1.0;
         }),
         (
@@ -75,7 +100,7 @@ fn every_error_says_what_where_and_what_is_allowed() {
         (
             "body: not held in pitch; add an element that holds it",
             |v| {
-                // Two springs in the middle, which hold no pitch: neither by height nor by length.
+                // All springs in the middle.
                 for element in &mut v.elements {
                     for end in &mut element.ends {
                         end.at_m[0] = 0.0;

@@ -9,7 +9,7 @@ use dashpot_rail::contact::{
 use dashpot_rail::creep::{Friction, KalkerBook};
 use dashpot_rail::profile::{Profile, s1002, uic60};
 use dashpot_rail::vehicle::{
-    Body, Element, End, Law, Mode, Running, Vehicle, VehicleError, Wheelset,
+    Body, Element, End, Law, Mode, Running, VehicleError, VehicleParameters, Wheelset,
 };
 
 const CONICITY: f64 = 0.05;
@@ -50,7 +50,7 @@ fn spring(name: &str, ends: [End; 2], stiffness_n_per_m: [f64; 3]) -> Element {
 }
 
 /// A wheelset that carries a body, which is led along the track, on springs that hold nothing but the load.
-fn free_wheelset() -> Vehicle {
+fn free_wheelset() -> VehicleParameters {
     let mut elements = Vec::new();
     for y in [-1.0, 1.0] {
         let at = [0.0, y, 0.625];
@@ -66,7 +66,18 @@ fn free_wheelset() -> Vehicle {
             [1e7, 1e7, 0.0],
         ));
     }
-    Vehicle {
+    let at = [0.0, 0.0, 1.5];
+    elements.push(Element {
+        name: "pitch guide".into(),
+        ends: [End::track(at), End::body("body", at)],
+        law: Law::Bush {
+            stiffness_n_per_m: [0.0; 3],
+            damping_n_s_per_m: [0.0; 3],
+            stiffness_n_m_per_rad: [0.0, 1e7, 0.0],
+            damping_n_m_s_per_rad: [0.0; 3],
+        },
+    });
+    VehicleParameters {
         name: "one wheelset".into(),
         bodies: vec![Body {
             name: "body".into(),

@@ -5,7 +5,7 @@ mod tables;
 
 use std::path::Path;
 
-use dashpot_rail::vehicle::Vehicle;
+use dashpot_rail::vehicle::VehicleParameters;
 pub(crate) use error::FORM;
 pub use error::VehicleFileError;
 use tables::VehicleFile;
@@ -32,7 +32,7 @@ pub const VEHICLES: [(&str, &str); 1] = [(
 /// assert_eq!(vehicle.wheelsets.len(), 6);
 /// # Ok::<(), dashpot_hil::files::vehicle::VehicleFileError>(())
 /// ```
-pub fn load(name: &str, overrides: &[String]) -> Result<Vehicle, VehicleFileError> {
+pub fn load(name: &str, overrides: &[String]) -> Result<VehicleParameters, VehicleFileError> {
     let path = Path::new(name);
     if let Some((_, text)) = VEHICLES.iter().find(|(vehicle, _)| *vehicle == name) {
         return parse(name, text, overrides);
@@ -53,7 +53,11 @@ pub fn load(name: &str, overrides: &[String]) -> Result<Vehicle, VehicleFileErro
 ///
 /// # Errors
 /// As [`load`].
-pub fn parse(name: &str, text: &str, overrides: &[String]) -> Result<Vehicle, VehicleFileError> {
+pub fn parse(
+    name: &str,
+    text: &str,
+    overrides: &[String],
+) -> Result<VehicleParameters, VehicleFileError> {
     let in_text = |error: toml::de::Error| VehicleFileError::Text {
         name: name.to_owned(),
         message: explain(&error),

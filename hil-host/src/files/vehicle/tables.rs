@@ -1,8 +1,7 @@
 //! The tables of a vehicle file.
 
-use dashpot_core::CheckedParameters;
-use dashpot_core::characteristic::Characteristic;
-use dashpot_rail::vehicle::{Body, Direction, Element, End, Law, Vehicle, Wheelset};
+use dashpot_core::DamperParameters;
+use dashpot_rail::vehicle::{Body, Direction, Element, End, Law, VehicleParameters, Wheelset};
 use serde::Deserialize;
 
 use super::error::VehicleFileError;
@@ -19,7 +18,11 @@ pub(super) struct VehicleFile {
     #[serde(default)]
     spring_damper: Vec<SpringDamperTable>,
     #[serde(default)]
+    bush: Vec<BushTable>,
+    #[serde(default)]
     damper: Vec<DamperTable>,
+    #[serde(default)]
+    bump_stop: Vec<BumpStopTable>,
     #[serde(default)]
     anti_roll_bar: Vec<AntiRollBarTable>,
     #[serde(default)]
@@ -64,6 +67,29 @@ struct SpringDamperTable {
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
+struct BushTable {
+    name: String,
+    between: [String; 2],
+    at_m: Vec<[f64; 3]>,
+    stiffness_n_per_m: [f64; 3],
+    damping_n_s_per_m: [f64; 3],
+    stiffness_n_m_per_rad: [f64; 3],
+    damping_n_m_s_per_rad: [f64; 3],
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct BumpStopTable {
+    name: String,
+    between: [String; 2],
+    at_m: Vec<[f64; 3]>,
+    direction: DirectionName,
+    /// `[displacement, force]`, m and N.
+    points_m_n: Vec<[f64; 2]>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
 struct DamperTable {
     name: String,
     between: [String; 2],
@@ -75,7 +101,7 @@ struct DamperTable {
     set: Vec<String>,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, Clone, Copy)]
 #[serde(rename_all = "lowercase")]
 enum DirectionName {
     Longitudinal,
@@ -103,6 +129,16 @@ struct TractionRodTable {
     damping_n_s_per_m: f64,
 }
 
+impl From<DirectionName> for Direction {
+    fn from(name: DirectionName) -> Self {
+        match name {
+            DirectionName::Longitudinal => Self::Longitudinal,
+            DirectionName::Lateral => Self::Lateral,
+            DirectionName::Vertical => Self::Vertical,
+        }
+    }
+}
+
 /// What an end on the track is attached to.
 const TRACK: &str = "track";
 
@@ -126,24 +162,9 @@ fn elements(name: &str, between: &[String; 2], at_m: &[[f64; 3]], law: &Law) -> 
         .collect()
 }
 
-/// Velocity at which a damper's force is taken for its damping in small motion, m/s.
-const SMALL_VELOCITY_M_PER_S: f64 = 1e-4;
-
-/// A damper in small motion, its clearance taken up: the secant of its characteristic and the stiffness of its mounts.
-fn small_motion(parameters: &CheckedParameters, direction: Direction) -> Law {
-    let characteristic = Characteristic::new(parameters);
-    let force = |velocity| characteristic.force_n(velocity);
-    let v = SMALL_VELOCITY_M_PER_S;
-    Law::Damper {
-        direction,
-        damping_n_s_per_m: (force(v) - force(-v)) / (2.0 * v),
-        stiffness_n_per_m: 1.0 / parameters.mount.compliance_m_per_n(),
-    }
-}
-
 impl VehicleFile {
     /// The vehicle; `file` stands for it in errors.
-    pub fn vehicle(self, file: &str) -> Result<Vehicle, VehicleFileError> {
+    pub fn vehicle(self, file: &str) -> Result<VehicleParameters, VehicleFileError> {
         let bodies = self.body.into_iter().map(|table| Body {
             name: table.name,
             mass_kg: table.mass_kg,
@@ -179,6 +200,22 @@ impl VehicleFile {
             };
             all.extend(elements(&table.name, &table.between, &table.at_m, &law));
         }
+        for table in &self.bush {
+            let law = Law::Bush {
+                stiffness_n_per_m: table.stiffness_n_per_m,
+                damping_n_s_per_m: table.damping_n_s_per_m,
+                stiffness_n_m_per_rad: table.stiffness_n_m_per_rad,
+                damping_n_m_s_per_rad: table.damping_n_m_s_per_rad,
+            };
+            all.extend(elements(&table.name, &table.between, &table.at_m, &law));
+        }
+        for table in &self.bump_stop {
+            let law = Law::BumpStop {
+                direction: table.direction.into(),
+                points: table.points_m_n.clone(),
+            };
+            all.extend(elements(&table.name, &table.between, &table.at_m, &law));
+        }
         for table in &self.damper {
             let parameters = damper::load(&table.damper, &table.set).map_err(|source| {
                 VehicleFileError::Damper {
@@ -187,12 +224,10 @@ impl VehicleFile {
                     source: Box::new(source),
                 }
             })?;
-            let direction = match table.direction {
-                DirectionName::Longitudinal => Direction::Longitudinal,
-                DirectionName::Lateral => Direction::Lateral,
-                DirectionName::Vertical => Direction::Vertical,
+            let law = Law::Damper {
+                direction: table.direction.into(),
+                parameters: Box::new(DamperParameters::clone(&parameters)),
             };
-            let law = small_motion(&parameters, direction);
             all.extend(elements(&table.name, &table.between, &table.at_m, &law));
         }
         for table in self.anti_roll_bar {
@@ -216,7 +251,7 @@ impl VehicleFile {
                 },
             });
         }
-        Ok(Vehicle {
+        Ok(VehicleParameters {
             name: self.name,
             bodies: bodies.collect(),
             wheelsets,
