@@ -109,6 +109,16 @@ impl<L: CreepLaw, S: PatchSource> WheelsetContact<L, S> {
         &self.sources
     }
 
+    /// Mean shear modulus of both sides, Pa.
+    pub fn shear_modulus_pa(&self) -> f64 {
+        self.surface.shear_modulus_pa
+    }
+
+    /// Normal damping, s/m.
+    pub fn normal_damping_s_per_m(&self) -> f64 {
+        self.surface.normal_damping_s_per_m
+    }
+
     /// Forces on a wheelset in `motion` over the left and the right rail.
     ///
     /// Does not fail: [`Status`](super::Status) reports a motion that is beyond the tables or contains NaN.

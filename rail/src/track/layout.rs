@@ -53,6 +53,19 @@ struct Piece {
     start: Alignment,
     /// Direction at the start, rad.
     heading_rad: f64,
+    /// Integral of the direction from the distance 0 to the start, m.
+    offset_m: f64,
+}
+
+/// The centre line at one place: what it is, and where it has led.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Course {
+    /// Curvature and cant.
+    pub alignment: Alignment,
+    /// Direction, right positive, 0 at the distance 0, rad: the integral of the curvature.
+    pub heading_rad: f64,
+    /// Integral of the direction over the distance, m: for small angles the lateral offset from the tangent at the distance 0.
+    pub offset_m: f64,
 }
 
 impl Piece {
@@ -65,10 +78,20 @@ impl Piece {
         }
     }
 
-    fn heading_rad(&self, distance_m: f64) -> f64 {
+    #[inline]
+    fn course(&self, distance_m: f64) -> Course {
         let t = distance_m - self.start_m;
-        let rate = self.start.curvature_rate_per_m2;
-        self.heading_rad + t * (self.start.curvature_per_m + 0.5 * t * rate)
+        let Alignment {
+            curvature_per_m: curvature,
+            curvature_rate_per_m2: rate,
+            ..
+        } = self.start;
+        Course {
+            alignment: self.at(distance_m),
+            heading_rad: self.heading_rad + t * (curvature + 0.5 * t * rate),
+            offset_m: self.offset_m
+                + t * (self.heading_rad + 0.5 * t * (curvature + t * rate / 3.0)),
+        }
     }
 }
 
@@ -103,6 +126,7 @@ impl Default for Layout {
                 start_m: 0.0,
                 start: Alignment::default(),
                 heading_rad: 0.0,
+                offset_m: 0.0,
             }],
             length_m: 0.0,
         }
@@ -157,13 +181,13 @@ impl Layout {
                     }
                 }
             };
+            let last = layout.pieces.last();
+            let led = last.map_or(Course::default(), |last| last.course(layout.length_m));
             let piece = Piece {
                 start_m: layout.length_m,
                 start,
-                heading_rad: layout
-                    .pieces
-                    .last()
-                    .map_or(0.0, |last| last.heading_rad(layout.length_m)),
+                heading_rad: led.heading_rad,
+                offset_m: led.offset_m,
             };
             layout.length_m += part.length_m();
             end = Some(piece.at(layout.length_m));
@@ -183,7 +207,13 @@ impl Layout {
 
     /// Direction of the centre line, right positive, 0 at the distance 0, rad: the integral of the curvature.
     pub fn heading_rad(&self, distance_m: f64) -> f64 {
-        self.piece(distance_m).heading_rad(distance_m)
+        self.course(distance_m).heading_rad
+    }
+
+    /// The centre line at a distance.
+    #[inline]
+    pub fn course(&self, distance_m: f64) -> Course {
+        self.piece(distance_m).course(distance_m)
     }
 
     /// Sum of the lengths of the parts, m.

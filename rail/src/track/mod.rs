@@ -40,7 +40,7 @@ pub use defect::{Defect, Rails};
 pub use error::{Place, TrackError};
 pub use generation::{Band, Generation, MAX_SAMPLES, Seeds};
 pub use irregularity::Irregularity;
-pub use layout::{Alignment, Layout, Part};
+pub use layout::{Alignment, Course, Layout, Part};
 pub use rails::{Channels, RailDeviation};
 pub use spectrum::{Density, Spectrum};
 

@@ -67,6 +67,23 @@ pub enum VehicleError {
     /// There is nothing that could move.
     #[error("no body: a vehicle has one at least")]
     NoBody,
+    /// Nothing rolls.
+    #[error("no wheelset: a vehicle that runs has one at least")]
+    NoWheelset,
+    /// A step is too long for what softens with the load.
+    #[error("step_s = {step_s}: too long for this vehicle; give a shorter one")]
+    StepTooLong {
+        /// The step, s.
+        step_s: f64,
+    },
+    /// There are not so many dampers.
+    #[error("damper {damper}: the vehicle has {dampers}, counted from 0")]
+    NoSuchDamper {
+        /// The number.
+        damper: usize,
+        /// How many there are.
+        dampers: usize,
+    },
     /// The rails do not carry a wheelset.
     #[error(
         "{wheelset}: a load of {load_n} N, allowed: above 0 and what wheel and rail carry within 2 mm"

@@ -1,12 +1,13 @@
 //! A vehicle that runs on straight track at constant speed, linear about its central position.
 
 use super::body::{Body, COORDINATES, VehicleParameters};
+use super::carried::Carried;
 use super::error::{VehicleError, finite};
 use super::linear::Linear;
 use super::modes::{self, Mode};
 use super::standstill::{Standstill, places, wheelset_bodies};
 use crate::contact::{
-    Motion, PatchSource, RailDisplacement, WheelDerivatives, WheelsetContact, WheelsetForces,
+    PatchSource, RailDisplacement, WheelDerivatives, WheelsetContact, WheelsetForces,
 };
 use crate::creep::CreepLaw;
 
@@ -18,10 +19,10 @@ pub struct Running {
     linear: Linear,
 }
 
-/// Fields of [`Motion`] by each coordinate of a wheelset, in the order of the coordinates; the spin only by its rate.
+/// Fields of [`Motion`](crate::contact::Motion) by each coordinate of a wheelset, in the order of the coordinates; the spin only by its rate.
 const DISPLACED: [Option<usize>; COORDINATES.len()] = [Some(1), Some(2), Some(3), None, Some(4)];
 
-/// Fields of [`Motion`] by the rate of each coordinate, and the sign: rolling forward is nose down.
+/// Fields of [`Motion`](crate::contact::Motion) by the rate of each coordinate, and the sign: rolling forward is nose down.
 const RATES: [(usize, f64); COORDINATES.len()] =
     [(5, 1.0), (6, 1.0), (7, 1.0), (8, -1.0), (9, 1.0)];
 
@@ -96,46 +97,10 @@ impl Central {
         speed: f64,
         load: f64,
     ) -> Option<Self> {
-        if load <= 0.0 {
-            return None;
-        }
-        let rails = [RailDisplacement::default(); 2];
-        let mut motion = Motion {
-            speed_m_per_s: speed,
-            rotation_rad_per_s: speed / 0.5,
-            ..Motion::default()
-        };
-        let carried = |motion: &Motion| -contact.forces(motion, &rails).force_n[2];
-        // Down to where the rails carry more, then by halves.
-        let (mut above, mut below) = (-2e-3, 0.0);
-        let mut found = false;
-        for _ in 0..10 {
-            motion.vertical_m = below;
-            if carried(&motion) > load {
-                found = true;
-                break;
-            }
-            (above, below) = (below, below + 0.2e-3);
-        }
-        if !found {
-            return None;
-        }
-        for _ in 0..50 {
-            motion.vertical_m = 0.5 * (above + below);
-            if carried(&motion) > load {
-                below = motion.vertical_m;
-            } else {
-                above = motion.vertical_m;
-            }
-        }
-        // Rolling freely: on the radius of the patch with the most load.
-        let patches = contact.forces(&motion, &rails).wheels[1].patches;
-        let radius = patches
-            .iter()
-            .max_by(|a, b| a.load_n.total_cmp(&b.load_n))?
-            .rolling_radius_m;
-        motion.rotation_rad_per_s = speed / radius;
+        let carried = Carried::new(contact, load)?;
+        let motion = carried.motion(speed);
         let mut forces = WheelsetForces::default();
+        let rails = [RailDisplacement::default(); 2];
         let derivatives = contact.update_with_derivatives(&motion, &rails, &mut forces);
         Some(Self {
             derivatives,

@@ -1,0 +1,299 @@
+//! The vehicle in real time: constants, state, and a step of constant cost.
+
+mod across;
+mod blocks;
+mod guidance;
+mod method;
+mod state;
+mod step;
+mod tangent;
+
+use std::sync::Arc;
+
+use dashpot_core::{Damper, DamperParameters};
+use nalgebra::DMatrix;
+
+use self::across::{Across, DamperElement, StopElement};
+use self::blocks::{Block, Blocks, N, Structure, Vector};
+pub use self::guidance::CANT_BASE_M;
+use self::guidance::{Guidance, Stand};
+use self::method::Method;
+pub use self::state::VehicleState;
+use self::state::Work;
+use self::tangent::SurfaceConstants;
+use super::body::VehicleParameters;
+use super::carried::Carried;
+use super::element::Law;
+use super::error::{VehicleError, finite};
+use super::linear::Linear;
+use super::standstill::{Standstill, places, wheelset_bodies};
+use crate::contact::{PatchSource, Tables, WheelsetContact, WheelsetForces};
+use crate::creep::CreepLaw;
+use crate::track::Track;
+
+/// Bounds of the step size, s.
+const STEP_S: [f64; 2] = [0.1e-3, 2e-3];
+
+/// Bounds of the speed, m/s.
+const SPEED_M_PER_S: [f64; 2] = [1.0, 150.0];
+
+/// A vehicle in real time: constants for one step size, shared by any number of states.
+#[derive(Debug, Clone)]
+pub struct Vehicle<L, S: PatchSource = Tables> {
+    step_s: f64,
+    method: Method,
+    contact: Arc<WheelsetContact<L, S>>,
+    surface: SurfaceConstants,
+    names: Vec<String>,
+    stands: Vec<Stand>,
+    wheelsets: Vec<WheelsetConstants>,
+    inertia: Vec<Vector>,
+    structure: Structure,
+    stiffness: Blocks,
+    damping: Blocks,
+    /// `M + weighted damping and stiffness`: what a step solves without the contact.
+    system: Blocks,
+    /// Bodies that elements hold on the track, with the stiffness and damping of these.
+    on_track: Vec<(usize, Block, Block)>,
+    dampers: Vec<DamperElement>,
+    stops: Vec<StopElement>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct WheelsetConstants {
+    body: usize,
+    carried: Carried,
+    axle_load_n: f64,
+    spin_inertia_kg_m2: f64,
+}
+
+impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
+    /// The vehicle of `parameters`, all of its wheelsets with `contact`, for a step of `step_s`.
+    ///
+    /// # Errors
+    /// As [`Standstill::new`]; a step out of bounds or too long for the stiffness of the elements; a wheelset that the rails do not
+    /// carry; no wheelset.
+    pub fn new(
+        parameters: &VehicleParameters,
+        contact: Arc<WheelsetContact<L, S>>,
+        step_s: f64,
+    ) -> Result<Self, VehicleError> {
+        finite(&parameters.name, "step_s", step_s, STEP_S)?;
+        let standstill = Standstill::new(parameters)?;
+        if parameters.wheelsets.is_empty() {
+            return Err(VehicleError::NoWheelset);
+        }
+        let mut bodies = parameters.bodies.clone();
+        bodies.extend(wheelset_bodies(parameters));
+        let mut linear = Linear::new(&bodies);
+        let mut on_track = Linear::new(&bodies);
+        let (mut dampers, mut stops) = (Vec::new(), Vec::new());
+        let ends = places(parameters, true)?;
+        for ((element, (places, line)), force) in parameters
+            .elements
+            .iter()
+            .zip(&ends)
+            .zip(standstill.forces())
+        {
+            match &element.law {
+                Law::Damper {
+                    direction,
+                    parameters,
+                } => dampers.push(DamperElement {
+                    name: element.name.clone(),
+                    across: Across::new(&linear, places, direction.axis()),
+                    damper: build(&element.name, parameters, step_s)?,
+                }),
+                Law::BumpStop { direction, points } => stops.push(StopElement {
+                    across: Across::new(&linear, places, direction.axis()),
+                    points: points.clone(),
+                }),
+                _ => {
+                    linear.add(element, places, *line);
+                    linear.add_preload(places, *force);
+                    if places.iter().any(|place| place.body.is_none()) {
+                        on_track.add(element, places, *line);
+                        on_track.add_preload(places, *force);
+                    }
+                }
+            }
+        }
+        let mut wheelsets = Vec::with_capacity(parameters.wheelsets.len());
+        for (number, wheelset) in parameters.wheelsets.iter().enumerate() {
+            let load_n = standstill.axle_loads_n()[number];
+            let carried =
+                Carried::new(&contact, load_n).ok_or_else(|| VehicleError::NotCarried {
+                    wheelset: wheelset.name.clone(),
+                    load_n,
+                })?;
+            wheelsets.push(WheelsetConstants {
+                body: parameters.bodies.len() + number,
+                carried,
+                axle_load_n: load_n,
+                spin_inertia_kg_m2: wheelset.inertia_kg_m2[1],
+            });
+        }
+        let method = Method::new(step_s);
+        let system = DMatrix::from_diagonal(&linear.inertia)
+            + &linear.damping * method.damping_weight()
+            + &linear.stiffness * method.stiffness_weight();
+        let structure = Structure::new(&system);
+        let system = structure.blocks(&system);
+        if !structure.factorise(&mut system.clone()) {
+            return Err(VehicleError::StepTooLong { step_s });
+        }
+        let block = |matrix: &DMatrix<f64>, body: usize| -> Block {
+            std::array::from_fn(|i| std::array::from_fn(|j| matrix[(N * body + i, N * body + j)]))
+        };
+        let held = (0..bodies.len())
+            .map(|body| {
+                (
+                    body,
+                    block(&on_track.stiffness, body),
+                    block(&on_track.damping, body),
+                )
+            })
+            .filter(|(_, stiffness, damping)| {
+                [stiffness, damping]
+                    .iter()
+                    .any(|block| block.iter().flatten().any(|k| *k != 0.0))
+            });
+        Ok(Self {
+            step_s,
+            method,
+            surface: SurfaceConstants {
+                shear_modulus_pa: contact.shear_modulus_pa(),
+                normal_damping_s_per_m: contact.normal_damping_s_per_m(),
+            },
+            contact,
+            names: bodies.iter().map(|body| body.name.clone()).collect(),
+            stands: bodies
+                .iter()
+                .map(|body| Stand {
+                    x_m: body.x_m,
+                    height_m: body.height_m,
+                })
+                .collect(),
+            wheelsets,
+            inertia: (0..bodies.len())
+                .map(|body| std::array::from_fn(|i| linear.inertia[N * body + i]))
+                .collect(),
+            stiffness: structure.blocks(&linear.stiffness),
+            damping: structure.blocks(&linear.damping),
+            on_track: held.collect(),
+            structure,
+            system,
+            dampers,
+            stops,
+        })
+    }
+
+    /// The vehicle as it stands on straight level track, its middle at `distance_m`, in motion at `speed_m_per_s`.
+    ///
+    /// # Errors
+    /// A speed or distance out of bounds.
+    pub fn at_rest(
+        &self,
+        track: &Track,
+        distance_m: f64,
+        speed_m_per_s: f64,
+    ) -> Result<VehicleState, VehicleError> {
+        finite("vehicle", "speed_m_per_s", speed_m_per_s, SPEED_M_PER_S)?;
+        finite("vehicle", "distance_m", distance_m, [-1e6, 1e6])?;
+        let bodies = self.names.len();
+        let zeros = vec![[0.0; N]; bodies];
+        let mut guidance = vec![Guidance::default(); bodies];
+        Guidance::update(
+            track.layout(),
+            distance_m,
+            speed_m_per_s,
+            &self.stands,
+            &mut guidance,
+        );
+        let mut state = VehicleState {
+            ticks: 0,
+            distance_m,
+            speed_m_per_s,
+            coordinates: zeros.clone(),
+            velocities: guidance.iter().map(|guidance| guidance.pose_rate).collect(),
+            accelerations: zeros.clone(),
+            last_accelerations: zeros.clone(),
+            forces: zeros.clone(),
+            inertia: self.inertia.clone(),
+            pose: guidance.iter().map(|guidance| guidance.pose).collect(),
+            contacts: vec![WheelsetForces::default(); self.wheelsets.len()],
+            dampers: self
+                .dampers
+                .iter()
+                .map(|element| element.damper.at_rest(0.0))
+                .collect(),
+            damper_displacements_m: vec![0.0; self.dampers.len()],
+            damper_forces_n: vec![0.0; self.dampers.len()],
+            outside_forces_n: vec![None; self.dampers.len()],
+            stop_forces_n: vec![0.0; self.stops.len()],
+            is_diverged: false,
+            work: Work {
+                guidance,
+                system: self.system.clone(),
+                residual: zeros.clone(),
+                in_middle: zeros.clone(),
+                rates_in_middle: zeros,
+                target_damper_forces_n: vec![0.0; self.dampers.len()],
+                target_stop_forces_n: vec![0.0; self.stops.len()],
+            },
+        };
+        self.begin(&mut state, track);
+        Ok(state)
+    }
+
+    /// Step size, s.
+    pub fn step_s(&self) -> f64 {
+        self.step_s
+    }
+
+    /// Names of the bodies, those of the wheelsets after them.
+    pub fn names(&self) -> &[String] {
+        &self.names
+    }
+
+    /// Number of wheelsets.
+    pub fn wheelsets(&self) -> usize {
+        self.wheelsets.len()
+    }
+
+    /// Names of the dampers.
+    pub fn damper_names(&self) -> impl ExactSizeIterator<Item = &str> {
+        self.dampers.iter().map(|element| element.name.as_str())
+    }
+
+    /// Another damper in the place of one: a state goes on with it from its next step, its force carries over.
+    ///
+    /// # Errors
+    /// Parameters that are refused; a number that is no damper's.
+    pub fn set_damper(
+        &mut self,
+        damper: usize,
+        parameters: &DamperParameters,
+    ) -> Result<(), VehicleError> {
+        let step_s = self.step_s;
+        let dampers = self.dampers.len();
+        let Some(element) = self.dampers.get_mut(damper) else {
+            return Err(VehicleError::NoSuchDamper { damper, dampers });
+        };
+        element.damper = build(&element.name, parameters, step_s)?;
+        Ok(())
+    }
+}
+
+fn build(
+    element: &str,
+    parameters: &DamperParameters,
+    step_s: f64,
+) -> Result<Damper<f64>, VehicleError> {
+    parameters
+        .build(step_s)
+        .map_err(|source| VehicleError::Damper {
+            element: element.to_owned(),
+            source: Box::new(source),
+        })
+}

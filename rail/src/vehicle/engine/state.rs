@@ -1,0 +1,123 @@
+//! What changes from one step of a vehicle to the next.
+
+use dashpot_core::DamperState;
+
+use super::blocks::{Blocks, N, Vector};
+use super::guidance::Guidance;
+use crate::contact::{Status, WheelsetForces};
+
+/// The state of a running vehicle: plain data. A clone saves it, [`Clone::clone_from`] restores it without allocation, and a step from
+/// the same state gives the same bits.
+///
+/// Bodies come in the order of the parameters, wheelsets after them; coordinates in that of
+/// [`COORDINATES`](crate::vehicle::COORDINATES).
+#[derive(Debug, Clone, PartialEq)]
+pub struct VehicleState {
+    pub(super) ticks: u64,
+    pub(super) distance_m: f64,
+    pub(super) speed_m_per_s: f64,
+    pub(super) coordinates: Vec<Vector>,
+    pub(super) velocities: Vec<Vector>,
+    /// As the method carries them on, those of the step before beside.
+    pub(super) accelerations: Vec<Vector>,
+    pub(super) last_accelerations: Vec<Vector>,
+    /// All that acts on each body, N and N m, beyond what balances its weight at standstill.
+    pub(super) forces: Vec<Vector>,
+    pub(super) inertia: Vec<Vector>,
+    pub(super) pose: Vec<Vector>,
+    pub(super) contacts: Vec<WheelsetForces>,
+    pub(super) dampers: Vec<DamperState<f64>>,
+    pub(super) damper_displacements_m: Vec<f64>,
+    pub(super) damper_forces_n: Vec<f64>,
+    pub(super) outside_forces_n: Vec<Option<f64>>,
+    pub(super) stop_forces_n: Vec<f64>,
+    pub(super) is_diverged: bool,
+    pub(super) work: Work,
+}
+
+/// What a step writes over.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Work {
+    pub guidance: Vec<Guidance>,
+    pub system: Blocks,
+    pub residual: Vec<Vector>,
+    pub in_middle: Vec<Vector>,
+    pub rates_in_middle: Vec<Vector>,
+    pub target_damper_forces_n: Vec<f64>,
+    pub target_stop_forces_n: Vec<f64>,
+}
+
+impl VehicleState {
+    /// Ticks since the start.
+    pub fn ticks(&self) -> u64 {
+        self.ticks
+    }
+
+    /// Distance of the middle of the vehicle along the track, m.
+    pub fn distance_m(&self) -> f64 {
+        self.distance_m
+    }
+
+    /// Speed along the track, m/s.
+    pub fn speed_m_per_s(&self) -> f64 {
+        self.speed_m_per_s
+    }
+
+    /// Displacement of each body from where it stands on straight track, relative to the track under it, m and rad; the pitch of a
+    /// wheelset is not kept.
+    pub fn coordinates(&self) -> &[[f64; N]] {
+        &self.coordinates
+    }
+
+    /// Velocity of each body over ground in the same axes, m/s and rad/s: in a curve its yaw rate is that of the curve. The pitch rate
+    /// of a wheelset is what its rotation lacks of rolling freely in the middle of the track.
+    pub fn velocities(&self) -> &[[f64; N]] {
+        &self.velocities
+    }
+
+    /// Acceleration of a body in the track's axes, m/s^2 and rad/s^2: forces over inertia, without the centripetal one and the weight's
+    /// part along the cant, as an accelerometer on it has them.
+    pub fn acceleration(&self, body: usize) -> [f64; N] {
+        let guidance = &self.work.guidance[body].acceleration;
+        std::array::from_fn(|i| self.forces[body][i] / self.inertia[body][i] - guidance[i])
+    }
+
+    /// Forces of the rails on each wheelset.
+    pub fn contacts(&self) -> &[WheelsetForces] {
+        &self.contacts
+    }
+
+    /// Displacement of each damper, extension positive, m.
+    pub fn damper_displacements_m(&self) -> &[f64] {
+        &self.damper_displacements_m
+    }
+
+    /// Force of each damper, positive where it resists extension, N.
+    pub fn damper_forces_n(&self) -> &[f64] {
+        &self.damper_forces_n
+    }
+
+    /// Force of each stop, positive where it resists a displacement of its second end along the axis, N.
+    pub fn stop_forces_n(&self) -> &[f64] {
+        &self.stop_forces_n
+    }
+
+    /// Takes the force of a damper from outside from the next tick on, where a number is given, and from its own model again where none
+    /// is. A force that is answered to the displacement of this tick comes one tick late.
+    pub fn set_outside_force_n(&mut self, damper: usize, force_n: Option<f64>) {
+        if let Some(outside) = self.outside_forces_n.get_mut(damper) {
+            *outside = force_n.filter(|force| force.is_finite());
+        }
+    }
+
+    /// The worst status of all wheels.
+    pub fn status(&self) -> Status {
+        let statuses = self.contacts.iter().map(|contact| contact.status);
+        statuses.max().unwrap_or_default()
+    }
+
+    /// Whether a number has grown beyond all bounds; the state stays as it was before.
+    pub fn is_diverged(&self) -> bool {
+        self.is_diverged
+    }
+}

@@ -1,0 +1,86 @@
+//! What the contact resists in one step: a symmetric estimate of its stiffness and damping from the patches themselves.
+
+use super::blocks::{Block, Vector};
+use crate::contact::{PatchForces, WheelsetForces};
+use crate::creep::CreepForces;
+
+/// Coefficient of Kalker that stands for both directions: 4 within a fourth for the ellipses of wheel and rail.
+const KALKER: f64 = 4.0;
+
+/// What the equations of a wheelset count of the contact's stiffness and damping.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Weights {
+    pub stiffness: f64,
+    pub damping: f64,
+}
+
+/// What the surfaces of wheel and rail have in common.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct SurfaceConstants {
+    pub shear_modulus_pa: f64,
+    pub normal_damping_s_per_m: f64,
+}
+
+/// Adds the contact of a wheelset at `speed_m_per_s` to its block.
+///
+/// - Along the normal the stiffness `3/2 N/penetration` of Hertz and the damping `beta N` of Hunt and Crossley.
+/// - Across it the damping `f/speed` in both directions, `f` the force over the creepage, at most `4 G a b`.
+///
+/// A correction by these only has to be stable and small: what it leaves of the force is in the next step.
+#[inline]
+pub(super) fn add_contact(
+    block: &mut Block,
+    forces: &WheelsetForces,
+    surface: SurfaceConstants,
+    speed_m_per_s: f64,
+    weights: Weights,
+) {
+    for (wheel, side) in forces.wheels.iter().zip([-1.0, 1.0]) {
+        for patch in wheel.loaded_patches() {
+            let stiffness = 1.5 * patch.load_n / patch.penetration_m.max(1e-9);
+            let damping = creep_coefficient_n(patch, surface.shear_modulus_pa) / speed_m_per_s;
+            let [x, y, z] = patch.position_m;
+            // The left wheel's slope is that of its mirror image.
+            let slope = -side * patch.slope;
+            let cos = 1.0 / (1.0 + slope * slope).sqrt();
+            let sin = slope * cos;
+            // Lateral, vertical, roll, pitch, yaw; the place does not depend on the spin.
+            let normal = [sin, -cos, -sin * z - cos * y, 0.0, sin * x];
+            let across = [cos, sin, sin * y - cos * z, -sin * x, cos * x];
+            let along = [0.0, 0.0, 0.0, z, -y];
+            let normal_damping = patch.load_n * surface.normal_damping_s_per_m;
+            let resistance = weights.stiffness * stiffness + weights.damping * normal_damping;
+            add(block, &normal, resistance);
+            add(block, &across, weights.damping * damping);
+            add(block, &along, weights.damping * damping);
+        }
+    }
+}
+
+/// Force over creepage, N.
+#[inline]
+fn creep_coefficient_n(patch: &PatchForces, shear_modulus_pa: f64) -> f64 {
+    let [a, b] = patch.semi_axes_m;
+    let most = KALKER * shear_modulus_pa * a * b;
+    let CreepForces {
+        longitudinal_n,
+        lateral_n,
+        ..
+    } = patch.creep;
+    let force = longitudinal_n.hypot(lateral_n);
+    let creepage = patch.creepage.longitudinal.hypot(patch.creepage.lateral);
+    if force < most * creepage {
+        force / creepage
+    } else {
+        most
+    }
+}
+
+#[inline(always)]
+fn add(block: &mut Block, direction: &Vector, weight: f64) {
+    for (row, i) in block.iter_mut().zip(direction) {
+        for (number, j) in row.iter_mut().zip(direction) {
+            *number += weight * i * j;
+        }
+    }
+}
