@@ -71,7 +71,7 @@ pub(super) struct StopElement {
 
 impl StopElement {
     /// Force against a displacement, of its sign: zero in the gap, linear between the points, on with the last slope beyond.
-    #[inline]
+    #[inline(always)]
     pub fn force(&self, displacement: f64) -> f64 {
         let reach = displacement.abs();
         let Some([gap, _]) = self.points.first() else {

@@ -158,6 +158,7 @@ impl Structure {
     }
 
     /// `result -= matrix * vector` for a matrix whose couplings mirror each other.
+    #[inline(always)]
     pub fn subtract_product(&self, matrix: &Blocks, vector: &[Vector], result: &mut [Vector]) {
         for ((block, x), y) in matrix.diagonal.iter().zip(vector).zip(result.iter_mut()) {
             for (row, y) in block.iter().zip(y) {
@@ -177,6 +178,7 @@ impl Structure {
     }
 
     /// Factorises in place, `L D L^T` of each body and what of it the others keep; whether all pivots are positive.
+    #[inline(always)]
     pub fn factorise(&self, blocks: &mut Blocks) -> bool {
         let mut is_positive = true;
         for pivot in &self.pivots {
@@ -209,6 +211,7 @@ impl Structure {
     }
 
     /// Solves with the factors, in place of the right-hand side.
+    #[inline(always)]
     pub fn solve(&self, factors: &Blocks, vector: &mut [Vector]) {
         for pivot in &self.pivots {
             let factor = &factors.diagonal[pivot.body];

@@ -38,7 +38,7 @@ fn cant_angle(sine: f64) -> f64 {
 
 impl Guidance {
     /// Of bodies at their stands, the middle of the vehicle at `distance_m`.
-    #[inline]
+    #[inline(always)]
     pub fn update(
         layout: &Layout,
         distance_m: f64,

@@ -11,6 +11,7 @@ mod tangent;
 use std::sync::Arc;
 
 use dashpot_core::{Damper, DamperParameters};
+use fearless_simd::Level;
 use nalgebra::DMatrix;
 
 use self::across::{Across, DamperElement, StopElement};
@@ -44,6 +45,7 @@ pub struct Vehicle<L, S: PatchSource = Tables> {
     method: Method,
     contact: Arc<WheelsetContact<L, S>>,
     surface: SurfaceConstants,
+    level: Level,
     names: Vec<String>,
     stands: Vec<Stand>,
     wheelsets: Vec<WheelsetConstants>,
@@ -166,6 +168,7 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
                 normal_damping_s_per_m: contact.normal_damping_s_per_m(),
             },
             contact,
+            level: Level::new(),
             names: bodies.iter().map(|body| body.name.clone()).collect(),
             stands: bodies
                 .iter()

@@ -1,5 +1,7 @@
 //! One step: generalised alpha method, linearly implicit.
 
+use fearless_simd::dispatch;
+
 use super::blocks::{N, Vector};
 use super::guidance::Guidance;
 use super::method::Method;
@@ -21,6 +23,11 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
     ///
     /// Cannot fail and does not allocate; every tick costs the same but for the number of patches that carry load.
     pub fn step(&self, state: &mut VehicleState, track: &Track) {
+        dispatch!(self.level, _simd => self.tick(state, track));
+    }
+
+    #[inline(always)]
+    fn tick(&self, state: &mut VehicleState, track: &Track) {
         if state.is_diverged {
             return;
         }
@@ -52,7 +59,7 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
     }
 
     /// Dampers and stops at the end of the tick, where the bodies are predicted to be.
-    #[inline]
+    #[inline(always)]
     fn step_dampers(&self, state: &mut VehicleState, track: &Track) {
         let h = self.step_s;
         let speed = state.speed_m_per_s;
@@ -99,7 +106,7 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     fn substep(&self, state: &mut VehicleState, track: &Track, substep: usize) {
         let distance = state.distance_m + self.method.step_s * state.speed_m_per_s;
         self.predict(state, track, distance);
@@ -107,13 +114,17 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
         let share = substep as f64 / self.method.substeps as f64;
         self.pull(state, share, &mut forces);
         self.act(state, track, distance, &mut forces);
+        // Impacts last longer than two steps: the same factors serve both.
+        if substep % 2 == 1 {
+            self.factorise(state);
+        }
         self.correct(state, &mut forces);
         state.work.residual = forces;
         state.distance_m = distance;
     }
 
     /// Coordinates and velocities at the end of a step with the predicted accelerations.
-    #[inline]
+    #[inline(always)]
     fn predict(&self, state: &mut VehicleState, track: &Track, distance_m: f64) {
         let Method {
             step_s: h,
@@ -145,7 +156,7 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
     }
 
     /// Dampers and stops at their share of the way through the tick.
-    #[inline]
+    #[inline(always)]
     fn pull(&self, state: &VehicleState, share: f64, forces: &mut [Vector]) {
         forces.fill([0.0; N]);
         let tick = state
@@ -168,9 +179,9 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
         }
     }
 
-    /// One Newton correction with the forces at the predicted place.
-    #[inline]
-    fn correct(&self, state: &mut VehicleState, forces: &mut [Vector]) {
+    /// The system with what the contact resists at the predicted place, factorised.
+    #[inline(always)]
+    fn factorise(&self, state: &mut VehicleState) {
         let method = &self.method;
         let weights = Weights {
             stiffness: method.stiffness_weight(),
@@ -182,6 +193,13 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
             let block = &mut system.diagonal[constants.body];
             add_contact(block, forces, self.surface, state.speed_m_per_s, weights);
         }
+        state.is_diverged |= !self.structure.factorise(system);
+    }
+
+    /// One Newton correction with the forces at the predicted place.
+    #[inline(always)]
+    fn correct(&self, state: &mut VehicleState, forces: &mut [Vector]) {
+        let method = &self.method;
         for (body, residual) in forces.iter_mut().enumerate() {
             for i in 0..N {
                 let inertia = self.inertia[body][i];
@@ -194,9 +212,8 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
                     - inertia * (a + method.old_inertia * last);
             }
         }
-        let is_positive = self.structure.factorise(system);
-        self.structure.solve(system, forces);
-        let mut is_bounded = is_positive;
+        self.structure.solve(&state.work.system, forces);
+        let mut is_bounded = true;
         for (body, change) in forces.iter().enumerate() {
             for i in 0..N {
                 let a = state.accelerations[body][i] + change[i];
@@ -215,11 +232,11 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
         for constants in &self.wheelsets {
             state.coordinates[constants.body][3] = 0.0;
         }
-        state.is_diverged = !is_bounded;
+        state.is_diverged |= !is_bounded;
     }
 
     /// Adds what acts on the bodies where they are: springs and dashpots, weight and track, rails.
-    #[inline]
+    #[inline(always)]
     fn act(&self, state: &mut VehicleState, track: &Track, distance_m: f64, forces: &mut [Vector]) {
         let work = &mut state.work;
         for body in 0..self.names.len() {
@@ -249,7 +266,7 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     fn act_on_wheelset(
         &self,
         state: &mut VehicleState,

@@ -27,7 +27,7 @@ pub(super) struct SurfaceConstants {
 /// - Across it the damping `f/speed` in both directions, `f` the force over the creepage, at most `4 G a b`.
 ///
 /// A correction by these only has to be stable and small: what it leaves of the force is in the next step.
-#[inline]
+#[inline(always)]
 pub(super) fn add_contact(
     block: &mut Block,
     forces: &WheelsetForces,
@@ -58,7 +58,7 @@ pub(super) fn add_contact(
 }
 
 /// Force over creepage, N.
-#[inline]
+#[inline(always)]
 fn creep_coefficient_n(patch: &PatchForces, shear_modulus_pa: f64) -> f64 {
     let [a, b] = patch.semi_axes_m;
     let most = KALKER * shear_modulus_pa * a * b;
