@@ -10,6 +10,8 @@ pub(super) struct Carried {
     pub vertical_m: f64,
     /// Rolling radius of the patch with the most load, m.
     pub rolling_radius_m: f64,
+    /// Energy of the patches, `2/5 N penetration` each after Hertz, J.
+    pub contact_j: f64,
 }
 
 /// Speed at which the vertical part of the creep forces is taken, m/s; they do not depend on it.
@@ -43,7 +45,16 @@ impl Carried {
             })?;
             motion.rotation_rad_per_s = SPEED_M_PER_S / radius(&motion)?;
         }
+        let forces = contact.forces(&motion, &rails);
+        let patches = forces
+            .wheels
+            .iter()
+            .flat_map(|wheel| wheel.loaded_patches());
+        let contact_j = patches
+            .map(|patch| 0.4 * patch.load_n * patch.penetration_m)
+            .sum();
         Some(Self {
+            contact_j,
             vertical_m: motion.vertical_m,
             rolling_radius_m: SPEED_M_PER_S / motion.rotation_rad_per_s,
         })

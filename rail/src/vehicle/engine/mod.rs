@@ -2,6 +2,7 @@
 
 mod across;
 mod blocks;
+mod energy;
 mod guidance;
 mod method;
 mod state;
@@ -16,6 +17,7 @@ use nalgebra::DMatrix;
 
 use self::across::{Across, DamperElement, StopElement};
 use self::blocks::{Block, Blocks, N, Structure, Vector};
+pub use self::energy::Energy;
 pub use self::guidance::CANT_BASE_M;
 use self::guidance::{Guidance, Stand};
 use self::method::Method;
@@ -247,6 +249,26 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
         };
         self.begin(&mut state, track);
         Ok(state)
+    }
+
+    /// Moves a body at the start: adds `displacement` to its coordinates, and has the track and the rails act there.
+    pub fn displace(
+        &self,
+        state: &mut VehicleState,
+        track: &Track,
+        body: usize,
+        displacement: [f64; N],
+    ) {
+        if let Some(coordinates) = state.coordinates.get_mut(body) {
+            for (coordinate, by) in coordinates.iter_mut().zip(displacement) {
+                *coordinate += by;
+            }
+        }
+        for (element, damper) in self.dampers.iter().zip(&mut state.dampers) {
+            let displacement = element.across.displacement(|body| state.coordinates[body]);
+            *damper = element.damper.at_rest(displacement);
+        }
+        self.begin(state, track);
     }
 
     /// Step size, s.

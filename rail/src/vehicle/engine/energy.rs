@@ -1,0 +1,66 @@
+//! Energy of a vehicle on straight level track.
+
+use super::blocks::Blocks;
+use super::state::VehicleState;
+use super::{Structure, Vector, Vehicle};
+use crate::contact::PatchSource;
+use crate::creep::CreepLaw;
+
+/// Energy of a vehicle beyond that of its standing on straight level track at the same speed.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Energy {
+    /// Of all bodies in motion across the track, and of the wheels' rotation beyond rolling freely, J.
+    pub kinetic_j: f64,
+    /// Of springs and weight, J; what dampers store in their mounts is not in it.
+    pub potential_j: f64,
+    /// Of the patches, `2/5 N penetration` each after Hertz, J.
+    pub contact_j: f64,
+    /// Power that the dashpots beside the springs dissipate, W.
+    pub dissipation_w: f64,
+}
+
+impl Energy {
+    /// All that is stored, J.
+    pub fn total_j(&self) -> f64 {
+        self.kinetic_j + self.potential_j + self.contact_j
+    }
+}
+
+impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
+    /// Energy of a state on straight level track.
+    pub fn energy(&self, state: &VehicleState) -> Energy {
+        let mut energy = Energy {
+            potential_j: 0.5 * quadratic(&self.structure, &self.stiffness, &state.coordinates),
+            dissipation_w: quadratic(&self.structure, &self.damping, &state.velocities),
+            ..Energy::default()
+        };
+        for (inertia, velocity) in self.inertia.iter().zip(&state.velocities) {
+            for (inertia, velocity) in inertia.iter().zip(velocity) {
+                energy.kinetic_j += 0.5 * inertia * velocity * velocity;
+            }
+        }
+        for (constants, contact) in self.wheelsets.iter().zip(&state.contacts) {
+            let free = state.speed_m_per_s / constants.carried.rolling_radius_m;
+            // Rolling forward is nose down: (free - rate)^2 - free^2 beyond the square above.
+            let rate = state.velocities[constants.body][3];
+            energy.kinetic_j -= constants.spin_inertia_kg_m2 * free * rate;
+            energy.potential_j -= constants.axle_load_n * state.coordinates[constants.body][1];
+            let patches = contact
+                .wheels
+                .iter()
+                .flat_map(|wheel| wheel.loaded_patches());
+            energy.contact_j += patches
+                .map(|patch| 0.4 * patch.load_n * patch.penetration_m)
+                .sum::<f64>();
+            energy.contact_j -= constants.carried.contact_j;
+        }
+        energy
+    }
+}
+
+fn quadratic(structure: &Structure, matrix: &Blocks, vector: &[Vector]) -> f64 {
+    let mut product = vec![[0.0; 5]; vector.len()];
+    structure.subtract_product(matrix, vector, &mut product);
+    let pairs = product.iter().flatten().zip(vector.iter().flatten());
+    -pairs.map(|(product, number)| product * number).sum::<f64>()
+}

@@ -1,0 +1,63 @@
+//! Contacts, tracks and runs that the tests share.
+
+use std::sync::{Arc, OnceLock};
+
+use dashpot_rail::contact::{
+    ContactGeometry, Grid, Installation, Pair, Steel, Tables, WheelsetContact,
+};
+use dashpot_rail::creep::{Friction, KalkerBook};
+use dashpot_rail::track::{Irregularity, Layout, Part, Track};
+use dashpot_rail::vehicle::{Vehicle, VehicleParameters, VehicleState};
+
+pub type Contact = Arc<WheelsetContact<KalkerBook>>;
+
+/// S1002 on UIC 60 under the locomotive's wheel load, friction 0.3, with a normal damping.
+pub fn contact(normal_damping_s_per_m: f64) -> Contact {
+    static TABLES: OnceLock<Arc<Tables>> = OnceLock::new();
+    let tables = TABLES.get_or_init(|| {
+        let installation = Installation {
+            wheel_radius_m: 0.625,
+            ..Installation::default()
+        };
+        let pair = Pair::standard(installation).unwrap();
+        let geometry = ContactGeometry::new(pair, Steel::default(), 101.3e3).unwrap();
+        Arc::new(Tables::new(geometry, Grid::default()).unwrap())
+    });
+    let friction = Friction {
+        static_coefficient: 0.3,
+        ..Friction::default()
+    };
+    let contact = WheelsetContact::new(Arc::clone(tables), KalkerBook::new(), friction).unwrap();
+    Arc::new(contact.with_normal_damping(normal_damping_s_per_m).unwrap())
+}
+
+pub fn locomotive() -> VehicleParameters {
+    dashpot_hil::files::vehicle::load("locomotive", &[]).unwrap()
+}
+
+/// A straight, a transition, and a curve of `radius_m` with 0.12 m of cant, to the right when positive.
+pub fn curve(radius_m: f64) -> Track {
+    let parts = [
+        Part::Straight { length_m: 40.0 },
+        Part::Transition { length_m: 60.0 },
+        Part::Circular {
+            radius_m,
+            length_m: 1e3,
+            cant_m: 0.12_f64.copysign(radius_m),
+        },
+    ];
+    Track::new(
+        Layout::new(&parts).unwrap(),
+        Irregularity::default(),
+        vec![],
+    )
+    .unwrap()
+}
+
+/// After `seconds`.
+pub fn run(vehicle: &Vehicle<KalkerBook>, state: &mut VehicleState, track: &Track, seconds: f64) {
+    for _ in 0..(seconds / vehicle.step_s()).round() as usize {
+        vehicle.step(state, track);
+    }
+    assert!(!state.is_diverged());
+}
