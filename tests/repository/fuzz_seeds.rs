@@ -38,20 +38,22 @@ fn compare(target: &str, seeds: Vec<Seed>) {
     }
 }
 
-#[test]
-fn damper_files_are_the_presets() {
-    let seeds = PRESETS
+/// Those of the texts that ship with the program.
+fn shipped(texts: &[(&str, &str)]) -> Vec<Seed> {
+    let seeds = texts
         .iter()
         .map(|(name, text)| ((*name).to_owned(), text.as_bytes().to_vec()));
-    compare("damper_file", seeds.collect());
+    seeds.collect()
+}
+
+#[test]
+fn damper_files_are_the_presets() {
+    compare("damper_file", shipped(&PRESETS));
 }
 
 #[test]
 fn vehicle_files_are_the_shipped_ones() {
-    let seeds = VEHICLES
-        .iter()
-        .map(|(name, text)| ((*name).to_owned(), text.as_bytes().to_vec()));
-    compare("vehicle_file", seeds.collect());
+    compare("vehicle_file", shipped(&VEHICLES));
 }
 
 #[test]

@@ -112,7 +112,7 @@ impl From<DamperError> for Failure {
             other => other.to_string(),
         };
         match error {
-            DamperError::Unknown { .. }
+            DamperError::Unknown(_)
             | DamperError::Override { .. }
             | DamperError::Overridden { .. } => Self::wrong_use(message),
             _ => Self::new(message),
@@ -129,7 +129,11 @@ impl From<VehicleFileError> for Failure {
             VehicleFileError::Overridden { name, message } => {
                 Self::wrong_use(format!("{name}: after --set: {message}"))
             }
-            VehicleFileError::Unknown { .. } => Self::wrong_use(error.to_string()),
+            VehicleFileError::Replacement {
+                replacement,
+                reason,
+            } => Self::wrong_use(format!("--damper {replacement}: {reason}")),
+            VehicleFileError::Unknown(_) => Self::wrong_use(error.to_string()),
             _ => Self::new(error.to_string()),
         }
     }

@@ -7,9 +7,11 @@ pub mod output;
 mod overrides;
 pub mod profile;
 pub mod recording;
+mod shipped;
 pub mod states;
 pub mod status_bits;
 pub mod temporary;
 pub mod vehicle;
 
 pub use error::FileError;
+pub use shipped::UnknownName;

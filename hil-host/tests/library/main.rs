@@ -4,3 +4,4 @@ mod pacing;
 mod profile_file;
 mod recording_header;
 mod timing;
+mod vehicle_dampers;
