@@ -3,12 +3,15 @@
 
 use std::collections::BTreeSet;
 use std::fs;
+use std::path::Path;
 
 use dashpot::requests::every_request;
 use dashpot::{damper, document};
 use dashpot_core::Damper;
 use dashpot_core::link::{Header, Reals, request_frame};
+use dashpot_hil::files;
 use dashpot_hil::files::damper::PRESETS;
+use dashpot_hil::files::track::TRACKS;
 use dashpot_hil::files::vehicle::VEHICLES;
 use dashpot_rail::profile::Body;
 use dashpot_rail::profile::measured::{self, Mirror, Options};
@@ -54,6 +57,17 @@ fn damper_files_are_the_presets() {
 #[test]
 fn vehicle_files_are_the_shipped_ones() {
     compare("vehicle_file", shipped(&VEHICLES));
+}
+
+/// The shipped ones have no defects and no German spectrum.
+#[test]
+fn track_files_are_the_shipped_ones_and_one_with_all_keys() {
+    let every_key = include_str!("track.toml");
+    let parsed = files::track::parse("track.toml", every_key, Path::new(""));
+    assert!(parsed.is_ok(), "{:?}", parsed.err());
+    let mut seeds = shipped(&TRACKS);
+    seeds.push(("every-key".into(), every_key.into()));
+    compare("track_file", seeds);
 }
 
 #[test]

@@ -8,6 +8,7 @@ use dashpot_reference::ReferenceError;
 
 use crate::files::FileError;
 use crate::files::damper::{ContentError, DamperError, FORM};
+use crate::files::track::TrackFileError;
 use crate::files::vehicle::{FORM as VEHICLE_FORM, VehicleFileError};
 use crate::realtime::pacing::RealtimeOption;
 use crate::realtime::timing::span;
@@ -134,6 +135,16 @@ impl From<VehicleFileError> for Failure {
                 reason,
             } => Self::wrong_use(format!("--damper {replacement}: {reason}")),
             VehicleFileError::Unknown(_) => Self::wrong_use(error.to_string()),
+            _ => Self::new(error.to_string()),
+        }
+    }
+}
+
+impl From<TrackFileError> for Failure {
+    fn from(error: TrackFileError) -> Self {
+        match error {
+            TrackFileError::File(error) => error.into(),
+            TrackFileError::Unknown(_) => Self::wrong_use(error.to_string()),
             _ => Self::new(error.to_string()),
         }
     }

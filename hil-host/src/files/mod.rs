@@ -1,8 +1,9 @@
-//! What is read and written: damper and vehicle files, recordings, profiles, saved states; files whole or not at all.
+//! What is read and written: damper, vehicle and track files, recordings, profiles, saved states; files whole or not at all.
 
 pub mod damper;
 mod error;
 pub mod input;
+mod lines;
 pub mod output;
 mod overrides;
 pub mod profile;
@@ -11,6 +12,7 @@ mod shipped;
 pub mod states;
 pub mod status_bits;
 pub mod temporary;
+pub mod track;
 pub mod vehicle;
 
 pub use error::FileError;

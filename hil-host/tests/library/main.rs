@@ -4,4 +4,5 @@ mod pacing;
 mod profile_file;
 mod recording_header;
 mod timing;
+mod track_file;
 mod vehicle_dampers;
