@@ -10,6 +10,7 @@ use dashpot::{damper, document};
 use dashpot_core::Damper;
 use dashpot_core::link::{Header, Reals, request_frame};
 use dashpot_hil::files;
+use dashpot_hil::files::case::{CASES, CaseOptions};
 use dashpot_hil::files::damper::PRESETS;
 use dashpot_hil::files::track::TRACKS;
 use dashpot_hil::files::vehicle::VEHICLES;
@@ -68,6 +69,17 @@ fn track_files_are_the_shipped_ones_and_one_with_all_keys() {
     let mut seeds = shipped(&TRACKS);
     seeds.push(("every-key".into(), every_key.into()));
     compare("track_file", seeds);
+}
+
+/// The shipped ones have no faults.
+#[test]
+fn case_files_are_the_shipped_ones_and_one_with_all_keys() {
+    let every_key = include_str!("case.toml");
+    let parsed = CaseOptions::parse("case.toml", every_key).and_then(|options| options.case());
+    assert!(parsed.is_ok(), "{:?}", parsed.err());
+    let mut seeds = shipped(&CASES);
+    seeds.push(("every-key".into(), every_key.into()));
+    compare("case_file", seeds);
 }
 
 #[test]

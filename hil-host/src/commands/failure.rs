@@ -7,6 +7,7 @@ use dashpot_rail::contact::PairError;
 use dashpot_reference::ReferenceError;
 
 use crate::files::FileError;
+use crate::files::case::CaseError;
 use crate::files::damper::{ContentError, DamperError, FORM};
 use crate::files::track::TrackFileError;
 use crate::files::vehicle::{FORM as VEHICLE_FORM, VehicleFileError};
@@ -145,6 +146,23 @@ impl From<TrackFileError> for Failure {
         match error {
             TrackFileError::File(error) => error.into(),
             TrackFileError::Unknown(_) => Self::wrong_use(error.to_string()),
+            _ => Self::new(error.to_string()),
+        }
+    }
+}
+
+impl From<CaseError> for Failure {
+    fn from(error: CaseError) -> Self {
+        match error {
+            CaseError::File(error) => error.into(),
+            CaseError::Vehicle(error) => error.into(),
+            CaseError::Track(error) => error.into(),
+            CaseError::Unknown(_) => Self::wrong_use(error.to_string()),
+            // The options are called as the keys of a file are.
+            CaseError::OutOfBounds { key, .. } => {
+                let option = key.replace('_', "-");
+                Self::wrong_use(format!("--{}", error.to_string().replacen(key, &option, 1)))
+            }
             _ => Self::new(error.to_string()),
         }
     }

@@ -1,5 +1,6 @@
-//! What is read and written: damper, vehicle and track files, recordings, profiles, saved states; files whole or not at all.
+//! What is read and written: damper, vehicle, track and case files, recordings, profiles, saved states; files whole or not at all.
 
+pub mod case;
 pub mod damper;
 mod error;
 pub mod input;

@@ -1,5 +1,6 @@
 //! Parts of the host used as a library.
 
+mod case_file;
 mod pacing;
 mod profile_file;
 mod recording_header;

@@ -7,6 +7,7 @@ mod tables;
 
 use std::path::PathBuf;
 
+pub(crate) use dampers::called;
 use dashpot_rail::vehicle::VehicleParameters;
 pub(crate) use error::FORM;
 pub use error::VehicleFileError;
