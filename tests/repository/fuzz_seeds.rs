@@ -3,12 +3,16 @@
 
 use std::collections::BTreeSet;
 use std::fs;
+use std::path::Path;
 
 use dashpot::requests::every_request;
 use dashpot::{damper, document};
 use dashpot_core::Damper;
 use dashpot_core::link::{Header, Reals, request_frame};
+use dashpot_hil::files;
+use dashpot_hil::files::case::{CASES, CaseOptions};
 use dashpot_hil::files::damper::PRESETS;
+use dashpot_hil::files::track::TRACKS;
 use dashpot_hil::files::vehicle::VEHICLES;
 use dashpot_rail::profile::Body;
 use dashpot_rail::profile::measured::{self, Mirror, Options};
@@ -38,20 +42,44 @@ fn compare(target: &str, seeds: Vec<Seed>) {
     }
 }
 
-#[test]
-fn damper_files_are_the_presets() {
-    let seeds = PRESETS
+/// Those of the texts that ship with the program.
+fn shipped(texts: &[(&str, &str)]) -> Vec<Seed> {
+    let seeds = texts
         .iter()
         .map(|(name, text)| ((*name).to_owned(), text.as_bytes().to_vec()));
-    compare("damper_file", seeds.collect());
+    seeds.collect()
+}
+
+#[test]
+fn damper_files_are_the_presets() {
+    compare("damper_file", shipped(&PRESETS));
 }
 
 #[test]
 fn vehicle_files_are_the_shipped_ones() {
-    let seeds = VEHICLES
-        .iter()
-        .map(|(name, text)| ((*name).to_owned(), text.as_bytes().to_vec()));
-    compare("vehicle_file", seeds.collect());
+    compare("vehicle_file", shipped(&VEHICLES));
+}
+
+/// The shipped ones have no defects and no German spectrum.
+#[test]
+fn track_files_are_the_shipped_ones_and_one_with_all_keys() {
+    let every_key = include_str!("track.toml");
+    let parsed = files::track::parse("track.toml", every_key, Path::new(""));
+    assert!(parsed.is_ok(), "{:?}", parsed.err());
+    let mut seeds = shipped(&TRACKS);
+    seeds.push(("every-key".into(), every_key.into()));
+    compare("track_file", seeds);
+}
+
+/// The shipped ones have no faults.
+#[test]
+fn case_files_are_the_shipped_ones_and_one_with_all_keys() {
+    let every_key = include_str!("case.toml");
+    let parsed = CaseOptions::parse("case.toml", every_key).and_then(|options| options.case());
+    assert!(parsed.is_ok(), "{:?}", parsed.err());
+    let mut seeds = shipped(&CASES);
+    seeds.push(("every-key".into(), every_key.into()));
+    compare("case_file", seeds);
 }
 
 #[test]

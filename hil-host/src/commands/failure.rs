@@ -7,7 +7,9 @@ use dashpot_rail::contact::PairError;
 use dashpot_reference::ReferenceError;
 
 use crate::files::FileError;
+use crate::files::case::CaseError;
 use crate::files::damper::{ContentError, DamperError, FORM};
+use crate::files::track::TrackFileError;
 use crate::files::vehicle::{FORM as VEHICLE_FORM, VehicleFileError};
 use crate::realtime::pacing::RealtimeOption;
 use crate::realtime::timing::span;
@@ -112,7 +114,7 @@ impl From<DamperError> for Failure {
             other => other.to_string(),
         };
         match error {
-            DamperError::Unknown { .. }
+            DamperError::Unknown(_)
             | DamperError::Override { .. }
             | DamperError::Overridden { .. } => Self::wrong_use(message),
             _ => Self::new(message),
@@ -129,7 +131,38 @@ impl From<VehicleFileError> for Failure {
             VehicleFileError::Overridden { name, message } => {
                 Self::wrong_use(format!("{name}: after --set: {message}"))
             }
-            VehicleFileError::Unknown { .. } => Self::wrong_use(error.to_string()),
+            VehicleFileError::Replacement {
+                replacement,
+                reason,
+            } => Self::wrong_use(format!("--damper {replacement}: {reason}")),
+            VehicleFileError::Unknown(_) => Self::wrong_use(error.to_string()),
+            _ => Self::new(error.to_string()),
+        }
+    }
+}
+
+impl From<TrackFileError> for Failure {
+    fn from(error: TrackFileError) -> Self {
+        match error {
+            TrackFileError::File(error) => error.into(),
+            TrackFileError::Unknown(_) => Self::wrong_use(error.to_string()),
+            _ => Self::new(error.to_string()),
+        }
+    }
+}
+
+impl From<CaseError> for Failure {
+    fn from(error: CaseError) -> Self {
+        match error {
+            CaseError::File(error) => error.into(),
+            CaseError::Vehicle(error) => error.into(),
+            CaseError::Track(error) => error.into(),
+            CaseError::Unknown(_) => Self::wrong_use(error.to_string()),
+            // The options are called as the keys of a file are.
+            CaseError::OutOfBounds { key, .. } => {
+                let option = key.replace('_', "-");
+                Self::wrong_use(format!("--{}", error.to_string().replacen(key, &option, 1)))
+            }
             _ => Self::new(error.to_string()),
         }
     }

@@ -17,10 +17,10 @@ use crate::files::vehicle::{self, VehicleFileError};
 #[command(after_help = "Examples:
   dashpot modes --vehicle locomotive
   dashpot modes --vehicle locomotive --speed-km-h 180
-  dashpot modes --vehicle locomotive --hunting
+  dashpot modes --vehicle coach --hunting
   dashpot modes --vehicle locomotive --set \"front lateral damper.damper='in-service'\" --format json")]
 pub struct ModesArguments {
-    /// The vehicle: the name of one that ships (locomotive) or a TOML file.
+    /// The vehicle: the name of one that ships (locomotive, coach) or a TOML file.
     #[arg(long, default_value = "locomotive", value_name = "VEHICLE")]
     pub vehicle: String,
     /// Changes a value of the vehicle's file: part.key=value, such as body.mass_kg=70e3; may be given several times.

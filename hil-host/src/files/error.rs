@@ -58,7 +58,7 @@ pub enum FileError {
         /// Line of the file, from 1.
         line: u64,
         /// Name of the column.
-        column: &'static str,
+        column: String,
         /// What is wrong, and what is allowed.
         source: Box<dyn Error + Send + Sync>,
     },
@@ -96,13 +96,13 @@ impl FileError {
     pub fn in_cell(
         path: &Path,
         line: u64,
-        column: &'static str,
+        column: impl Into<String>,
         source: impl Into<Box<dyn Error + Send + Sync>>,
     ) -> Self {
         Self::Cell {
             path: path.to_owned(),
             line,
-            column,
+            column: column.into(),
             source: source.into(),
         }
     }

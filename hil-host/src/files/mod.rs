@@ -1,15 +1,20 @@
-//! What is read and written: damper and vehicle files, recordings, profiles, saved states; files whole or not at all.
+//! What is read and written: damper, vehicle, track and case files, recordings, profiles, saved states; files whole or not at all.
 
+pub mod case;
 pub mod damper;
 mod error;
 pub mod input;
+mod lines;
 pub mod output;
 mod overrides;
 pub mod profile;
 pub mod recording;
+mod shipped;
 pub mod states;
 pub mod status_bits;
 pub mod temporary;
+pub mod track;
 pub mod vehicle;
 
 pub use error::FileError;
+pub use shipped::UnknownName;

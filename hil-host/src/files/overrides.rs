@@ -25,7 +25,10 @@ pub(crate) fn explain(error: &toml::de::Error) -> String {
     let message = message.trim_end();
     let quoted: Vec<&str> = error.message().split('`').skip(1).step_by(2).collect();
     match quoted.split_first() {
-        Some((unknown, known)) if error.message().starts_with("unknown field") => {
+        Some((unknown, known))
+            if error.message().starts_with("unknown field")
+                || error.message().starts_with("unknown variant") =>
+        {
             format!("{message}{}", nearest(unknown, known.iter().copied()))
         }
         _ => message.to_owned(),

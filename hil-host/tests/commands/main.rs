@@ -12,6 +12,7 @@ mod firmware_bank;
 mod gaps;
 mod interruption;
 mod modes;
+mod modes_coach;
 mod page_layout;
 mod replay;
 mod rig;

@@ -188,7 +188,7 @@ fn errors_say_what_where_and_what_is_allowed() {
         (
             &["--vehicle", "locomotiv"],
             2,
-            "vehicle `locomotiv`: no such vehicle or file; give a TOML file or a vehicle: locomotive; did you mean `locomotive`?",
+            "vehicle `locomotiv`: no such vehicle or file; give a TOML file or a vehicle: locomotive, coach; did you mean `locomotive`?",
         ),
         (
             &["--set", "bodi.mass_kg=3"],

@@ -1,6 +1,9 @@
 //! Parts of the host used as a library.
 
+mod case_file;
 mod pacing;
 mod profile_file;
 mod recording_header;
 mod timing;
+mod track_file;
+mod vehicle_dampers;

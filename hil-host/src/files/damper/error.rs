@@ -2,24 +2,15 @@
 
 use dashpot_core::BuildError;
 
-use crate::files::FileError;
+use crate::files::{FileError, UnknownName};
 
 /// Why a name, a file and its overrides are no damper.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum DamperError {
     /// The name is neither a preset's nor a file's.
-    #[error(
-        "damper `{name}`: no such preset or file; give a TOML file or a preset: {presets}{hint}"
-    )]
-    Unknown {
-        /// The name.
-        name: String,
-        /// The presets there are.
-        presets: String,
-        /// The nearest preset, where one is near.
-        hint: String,
-    },
+    #[error(transparent)]
+    Unknown(#[from] UnknownName),
     /// The file cannot be read.
     #[error(transparent)]
     File(#[from] FileError),

@@ -2,8 +2,6 @@
 
 mod error;
 
-use std::path::Path;
-
 use dashpot_core::CheckedParameters;
 use dashpot_core::parameters::{
     DamperParameters, Element, Geometry, Hydraulics, Leakage, Limits, Mount, Oil, Orifice, Reduced,
@@ -11,10 +9,10 @@ use dashpot_core::parameters::{
 };
 pub(crate) use error::FORM;
 pub use error::{ContentError, DamperError};
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
-use crate::files::overrides::{explain, nearest};
-use crate::files::{input, overrides};
+use crate::files::overrides::{self, explain};
+use crate::files::shipped::{Found, Shipped};
 
 /// Presets that ship with the program: name and file.
 pub const PRESETS: [(&str, &str); 4] = [
@@ -35,7 +33,7 @@ pub const PRESETS: [(&str, &str); 4] = [
 
 /// The tables of a damper file. One with `[reduced]` has `[mount]` and `[limits]` beside it, one
 /// without has the hydraulics.
-#[derive(Deserialize)]
+#[derive(Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 struct DamperFile {
     geometry: Option<Geometry>,
@@ -66,29 +64,15 @@ struct DamperFile {
 /// # Ok::<(), dashpot_hil::files::damper::DamperError>(())
 /// ```
 pub fn load(name: &str, overrides: &[String]) -> Result<CheckedParameters, DamperError> {
-    let path = Path::new(name);
-    match PRESETS.iter().find(|(preset, _)| *preset == name) {
-        Some((_, text)) => parse(name, text, overrides),
-        None => parse(
-            &input::name(path).to_string_lossy(),
-            &read(path)?,
-            overrides,
-        ),
-    }
+    let Found { name, text, .. } = SHIPPED.find::<DamperError>(name)?;
+    parse(&name, &text, overrides)
 }
 
-fn read(path: &Path) -> Result<String, DamperError> {
-    if !input::is_file_name(path) && !path.exists() {
-        let names = PRESETS.map(|(preset, _)| preset);
-        let name = path.to_string_lossy().into_owned();
-        return Err(DamperError::Unknown {
-            hint: nearest(&name, names.into_iter()),
-            presets: names.join(", "),
-            name,
-        });
-    }
-    Ok(input::read_text(path)?)
-}
+const SHIPPED: Shipped = Shipped {
+    what: "damper",
+    one: "preset",
+    texts: &PRESETS,
+};
 
 /// The damper written in `text`; `name` stands for it in errors.
 ///
@@ -125,6 +109,38 @@ pub fn parse(
         })
 }
 
+/// A damper with each `table.key=value` of `overrides` applied; `name` stands for it in errors.
+///
+/// # Errors
+/// An override that is not of that form, of a key that there is not, or of a value outside its range.
+///
+/// ```
+/// use dashpot_hil::files::damper;
+/// let damper = damper::load("reduced-vertical", &[])?;
+/// let worn = damper::change("worn", &damper, &["mount.clearance_m=3e-3".into()])?;
+/// assert_eq!(worn.mount.clearance_m, 3e-3);
+/// # Ok::<(), damper::DamperError>(())
+/// ```
+pub fn change(
+    name: &str,
+    damper: &DamperParameters,
+    overrides: &[String],
+) -> Result<CheckedParameters, DamperError> {
+    let in_tables = |source| DamperError::Overridden {
+        name: name.to_owned(),
+        source,
+    };
+    let mut tree = toml::Table::try_from(DamperFile::of(damper.clone()))
+        .map_err(|error| in_tables(ContentError::Tables(error.to_string())))?;
+    for assignment in overrides {
+        set(&mut tree, assignment)?;
+    }
+    tree.try_into()
+        .map_err(|error| ContentError::Tables(explain(&error)))
+        .and_then(from_file)
+        .map_err(in_tables)
+}
+
 /// Applies `table.key=value`, the value written as in TOML.
 fn set(tree: &mut toml::Table, assignment: &str) -> Result<(), DamperError> {
     let wrong = |reason: String| DamperError::Override {
@@ -142,6 +158,43 @@ fn set(tree: &mut toml::Table, assignment: &str) -> Result<(), DamperError> {
     }
     table.insert(last.to_owned(), value);
     Ok(())
+}
+
+impl DamperFile {
+    fn of(damper: DamperParameters) -> Self {
+        let empty = Self {
+            geometry: None,
+            orifice: None,
+            valves: None,
+            leakage: None,
+            relief: None,
+            reservoir: None,
+            seal: None,
+            two_chamber: None,
+            oil: None,
+            reduced: None,
+            mount: damper.mount,
+            limits: damper.limits,
+        };
+        match damper.element {
+            Element::Reduced(reduced) => Self {
+                reduced: Some(reduced),
+                ..empty
+            },
+            Element::Physical(hydraulics) => Self {
+                geometry: Some(hydraulics.geometry),
+                orifice: Some(hydraulics.orifice),
+                valves: Some(hydraulics.valves),
+                leakage: hydraulics.leakage,
+                relief: hydraulics.relief,
+                reservoir: hydraulics.reservoir,
+                seal: hydraulics.seal,
+                two_chamber: hydraulics.two_chamber,
+                oil: Some(hydraulics.oil),
+                ..empty
+            },
+        }
+    }
 }
 
 fn from_file(file: DamperFile) -> Result<CheckedParameters, ContentError> {

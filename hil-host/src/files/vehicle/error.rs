@@ -2,25 +2,17 @@
 
 use dashpot_rail::vehicle::VehicleError;
 
-use crate::files::FileError;
+use super::Replacement;
 use crate::files::damper::DamperError;
+use crate::files::{FileError, UnknownName};
 
 /// Why a name, a file and its overrides are no vehicle.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum VehicleFileError {
     /// The name is neither a shipped vehicle's nor a file's.
-    #[error(
-        "vehicle `{name}`: no such vehicle or file; give a TOML file or a vehicle: {vehicles}{hint}"
-    )]
-    Unknown {
-        /// The name.
-        name: String,
-        /// The vehicles there are.
-        vehicles: String,
-        /// The nearest one, where one is near.
-        hint: String,
-    },
+    #[error(transparent)]
+    Unknown(#[from] UnknownName),
     /// The file cannot be read.
     #[error(transparent)]
     File(#[from] FileError),
@@ -29,6 +21,14 @@ pub enum VehicleFileError {
     Override {
         /// The override.
         assignment: String,
+        /// What is wrong with it.
+        reason: String,
+    },
+    /// Dampers cannot be replaced.
+    #[error("dampers {replacement}: {reason}")]
+    Replacement {
+        /// Which by what.
+        replacement: Replacement,
         /// What is wrong with it.
         reason: String,
     },

@@ -1,23 +1,39 @@
 //! Vehicle files: TOML in SI units, unknown keys refused with the nearest one.
 
+mod dampers;
 mod error;
+mod replacement;
 mod tables;
 
-use std::path::Path;
+use std::path::PathBuf;
 
+pub(crate) use dampers::called;
 use dashpot_rail::vehicle::VehicleParameters;
 pub(crate) use error::FORM;
 pub use error::VehicleFileError;
+pub use replacement::Replacement;
 use tables::VehicleFile;
 
-use crate::files::input;
 use crate::files::overrides::{self, explain, nearest};
+use crate::files::shipped::{Found, Shipped};
 
 /// Vehicles that ship with the program: name and file.
-pub const VEHICLES: [(&str, &str); 1] = [(
-    "locomotive",
-    include_str!("../../../../data/vehicles/locomotive.toml"),
-)];
+pub const VEHICLES: [(&str, &str); 2] = [
+    (
+        "locomotive",
+        include_str!("../../../../data/vehicles/locomotive.toml"),
+    ),
+    (
+        "coach",
+        include_str!("../../../../data/vehicles/coach.toml"),
+    ),
+];
+
+const SHIPPED: Shipped = Shipped {
+    what: "vehicle",
+    one: "vehicle",
+    texts: &VEHICLES,
+};
 
 /// The vehicle called `name`: a shipped one, or the TOML file at that path, `-` being standard input; then each
 /// `part.key=value` of `overrides` in order, where a part is a body, a wheelset or an element of the file.
@@ -33,20 +49,31 @@ pub const VEHICLES: [(&str, &str); 1] = [(
 /// # Ok::<(), dashpot_hil::files::vehicle::VehicleFileError>(())
 /// ```
 pub fn load(name: &str, overrides: &[String]) -> Result<VehicleParameters, VehicleFileError> {
-    let path = Path::new(name);
-    if let Some((_, text)) = VEHICLES.iter().find(|(vehicle, _)| *vehicle == name) {
-        return parse(name, text, overrides);
-    }
-    if !input::is_file_name(path) && !path.exists() {
-        let names = VEHICLES.map(|(vehicle, _)| vehicle);
-        return Err(VehicleFileError::Unknown {
-            hint: nearest(name, names.into_iter()),
-            vehicles: names.join(", "),
-            name: name.to_owned(),
-        });
-    }
-    let text = input::read_text(path)?;
-    parse(&input::name(path).to_string_lossy(), &text, overrides)
+    load_with(name, &[], overrides)
+}
+
+/// As [`load`], with dampers replaced before the overrides are applied.
+///
+/// # Errors
+/// As [`load`]; a replacement of dampers that there are not, or by one that there is not.
+///
+/// ```
+/// use dashpot_hil::files::vehicle::{self, Replacement};
+/// use dashpot_rail::vehicle::Law;
+/// let replaced: Replacement = "vertical=in-service".parse()?;
+/// let vehicle = vehicle::load_with("locomotive", &[replaced], &[])?;
+/// let damper = vehicle.elements.iter().find(|element| element.name == "front vertical damper 1").unwrap();
+/// let Law::Damper { parameters, .. } = &damper.law else { unreachable!() };
+/// assert_eq!(**parameters, *dashpot_hil::files::damper::load("in-service", &[])?);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn load_with(
+    name: &str,
+    replacements: &[Replacement],
+    overrides: &[String],
+) -> Result<VehicleParameters, VehicleFileError> {
+    let found = SHIPPED.find::<VehicleFileError>(name)?;
+    parse_in(&found, replacements, overrides)
 }
 
 /// The vehicle written in `text`; `name` stands for it in errors.
@@ -58,23 +85,36 @@ pub fn parse(
     text: &str,
     overrides: &[String],
 ) -> Result<VehicleParameters, VehicleFileError> {
-    let in_text = |error: toml::de::Error| VehicleFileError::Text {
+    let found = Found {
         name: name.to_owned(),
+        text: text.to_owned().into(),
+        folder: PathBuf::new(),
+    };
+    parse_in(&found, &[], overrides)
+}
+
+fn parse_in(
+    found: &Found,
+    replacements: &[Replacement],
+    overrides: &[String],
+) -> Result<VehicleParameters, VehicleFileError> {
+    let Found { name, text, folder } = found;
+    let in_text = |error: toml::de::Error| VehicleFileError::Text {
+        name: name.clone(),
         message: explain(&error),
     };
     // Typed first, for errors that name line and column.
-    let plain: VehicleFile = toml::from_str(text).map_err(in_text)?;
-    if overrides.is_empty() {
-        return plain.vehicle(name);
-    }
+    let _: VehicleFile = toml::from_str(text).map_err(in_text)?;
     let mut tree: toml::Table = toml::from_str(text).map_err(in_text)?;
+    dampers::name_files_from(folder, &mut tree);
+    replacement::apply(&mut tree, replacements)?;
     for assignment in overrides {
         set(&mut tree, assignment)?;
     }
     let file: VehicleFile = tree
         .try_into()
         .map_err(|error| VehicleFileError::Overridden {
-            name: name.to_owned(),
+            name: name.clone(),
             message: explain(&error),
         })?;
     file.vehicle(name)

@@ -1,0 +1,39 @@
+//! Bounds of the numbers of a case.
+
+use dashpot_core::parameters::STEP_RANGE_S;
+use dashpot_rail::contact::MAX_NORMAL_DAMPING_S_PER_M;
+
+use super::{CaseError, CaseOptions};
+
+/// Checks every number.
+pub(super) fn check(options: &CaseOptions) -> Result<(), CaseError> {
+    let steps_us = [STEP_RANGE_S.start() * 1e6, STEP_RANGE_S.end() * 1e6];
+    let numbers = [
+        ("speed_km_h", options.speed_km_h, [1.0, 700.0]),
+        ("duration_s", options.duration_s, [1e-3, 36e3]),
+        ("start_m", options.start_m, [-1e6, 1e6]),
+        ("friction", options.friction, [0.0, 2.0]),
+        (
+            "normal_damping_s_per_m",
+            options.normal_damping_s_per_m,
+            [0.0, MAX_NORMAL_DAMPING_S_PER_M],
+        ),
+        ("step_us", options.step_us, steps_us),
+    ];
+    for (key, value, allowed) in numbers {
+        within(key, value, allowed)?;
+    }
+    Ok(())
+}
+
+/// Checks one number; NaN is not within.
+fn within(key: &'static str, value: f64, allowed: [f64; 2]) -> Result<(), CaseError> {
+    if (allowed[0]..=allowed[1]).contains(&value) {
+        return Ok(());
+    }
+    Err(CaseError::OutOfBounds {
+        key,
+        value,
+        allowed,
+    })
+}

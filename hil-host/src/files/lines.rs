@@ -1,0 +1,7 @@
+//! Lines of a text.
+
+/// Number of the line at an offset in bytes, from 1.
+pub(crate) fn line_at(text: &str, offset: usize) -> u64 {
+    let before = text.as_bytes().get(..offset).unwrap_or(text.as_bytes());
+    1 + before.iter().filter(|byte| **byte == b'\n').count() as u64
+}

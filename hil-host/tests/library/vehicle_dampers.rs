@@ -1,0 +1,114 @@
+//! Dampers of a vehicle file: by another, changed, and files that count from the vehicle file.
+
+use std::fs;
+
+use dashpot_core::DamperParameters;
+use dashpot_hil::files::damper::{self, PRESETS};
+use dashpot_hil::files::vehicle::{self, Replacement};
+use dashpot_rail::vehicle::{Direction, Law, VehicleParameters};
+
+/// Name, direction and parameters of each damper.
+fn dampers(vehicle: &VehicleParameters) -> Vec<(&str, Direction, &DamperParameters)> {
+    let elements = vehicle.elements.iter();
+    let dampers = elements.filter_map(|element| match &element.law {
+        Law::Damper {
+            direction,
+            parameters,
+        } => Some((element.name.as_str(), *direction, &**parameters)),
+        _ => None,
+    });
+    dampers.collect()
+}
+
+fn replacements(texts: &[&str]) -> Vec<Replacement> {
+    texts.iter().map(|text| text.parse().unwrap()).collect()
+}
+
+#[test]
+fn a_replacement_is_of_a_direction_or_of_one_name_which_counts_more() {
+    let texts = ["front vertical damper=in-service", "vertical=paper"];
+    let vehicle = vehicle::load_with("coach", &replacements(&texts), &[]).unwrap();
+    let paper = damper::load("paper", &[]).unwrap();
+    let in_service = damper::load("in-service", &[]).unwrap();
+    let coach = vehicle::load("coach", &[]).unwrap();
+    for (now, before) in dampers(&vehicle).into_iter().zip(dampers(&coach)) {
+        let expected = match now {
+            (name, ..) if name.starts_with("front vertical damper") => &*in_service,
+            (_, Direction::Vertical, _) => &*paper,
+            _ => before.2,
+        };
+        assert_eq!(now.2, expected, "{}", now.0);
+    }
+}
+
+#[test]
+fn overrides_come_after_replacements() {
+    let set = "rear lateral damper.set=['mount.clearance_m=2e-3']";
+    let replaced = replacements(&["lateral=in-service"]);
+    let vehicle = vehicle::load_with("locomotive", &replaced, &[set.into()]).unwrap();
+    let expected = damper::load("in-service", &["mount.clearance_m=2e-3".into()]).unwrap();
+    let all = dampers(&vehicle);
+    let found = all
+        .iter()
+        .find(|damper| damper.0 == "rear lateral damper 2");
+    assert_eq!(found.unwrap().2, &*expected);
+}
+
+#[test]
+fn dampers_that_there_are_not_are_refused() {
+    for (text, expected) in [
+        (
+            "verticl=paper",
+            "dampers verticl=paper: no damper `verticl`; did you mean `vertical`?",
+        ),
+        (
+            "longitudinal=paper",
+            "dampers longitudinal=paper: no damper `longitudinal`",
+        ),
+        (
+            "vertical=papr",
+            "dampers vertical=papr: damper `papr`: no such preset or file",
+        ),
+    ] {
+        let error = vehicle::load_with("locomotive", &replacements(&[text]), &[]).unwrap_err();
+        let message = error.to_string();
+        assert!(message.starts_with(expected), "{message}");
+    }
+    for text in ["vertical", "=paper", "vertical="] {
+        let message = text.parse::<Replacement>().unwrap_err();
+        assert!(message.contains("allowed: dampers=damper"), "{message}");
+    }
+}
+
+#[test]
+fn damper_files_count_from_the_vehicle_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let worn = "[reduced]\ndamping_n_s_per_m = 5e4\nsaturation_velocity_m_per_s = 0.1\n[mount]\nstiffness_n_per_m = 3e6\n";
+    fs::write(folder.path().join("worn.toml"), worn).unwrap();
+    let text = include_str!("../../../data/vehicles/locomotive.toml");
+    let text = text.replace("\"reduced-lateral\"", "\"worn.toml\"");
+    let path = folder.path().join("own.toml");
+    fs::write(&path, &text).unwrap();
+    let own = vehicle::load(path.to_str().unwrap(), &[]).unwrap();
+    let worn = damper::parse("worn", worn, &[]).unwrap();
+    let lateral = dampers(&own)
+        .into_iter()
+        .filter(|damper| damper.1 == Direction::Lateral);
+    let lateral: Vec<&DamperParameters> = lateral.map(|damper| damper.2).collect();
+    assert_eq!(lateral, [&*worn; 4]);
+}
+
+#[test]
+fn a_changed_damper_is_that_of_its_file_with_the_override() {
+    for (preset, _) in PRESETS {
+        let plain = damper::load(preset, &[]).unwrap();
+        assert_eq!(*damper::change(preset, &plain, &[]).unwrap(), *plain);
+        let overrides = ["mount.clearance_m=4e-3".to_owned()];
+        let changed = damper::change(preset, &plain, &overrides).unwrap();
+        assert_eq!(*changed, *damper::load(preset, &overrides).unwrap());
+    }
+    let paper = damper::load("paper", &[]).unwrap();
+    let refused = damper::change("paper", &paper, &["mount.clearence_m=1".into()]);
+    let message = refused.unwrap_err().to_string();
+    assert!(message.contains("did you mean `clearance_m`?"), "{message}");
+}
