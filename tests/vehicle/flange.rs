@@ -3,18 +3,22 @@
 use dashpot_core::DamperParameters;
 use dashpot_core::parameters::Mount;
 use dashpot_rail::contact::Status;
-use dashpot_rail::track::Track;
+use dashpot_rail::track::{Irregularity, Layout, Part, Track};
 use dashpot_rail::vehicle::{
     Body, Direction, Element, End, Law, Vehicle, VehicleParameters, Wheelset,
 };
 
-use crate::support::contact;
+use crate::support::{contact, run};
 
-/// A wheelset under a body that keeps its yaw, pushed by a force from outside in the place of a damper.
+/// Distance of the wheelset ahead of its body, which goes along a curve and keeps its yaw: the angle of attack is the distance
+/// over the radius.
+const AHEAD_M: f64 = 6.0;
+
+/// A wheelset that a body leads, pushed by a force from outside in the place of a damper.
 fn pushed() -> VehicleParameters {
     let mut elements = Vec::new();
     for y in [-1.0, 1.0] {
-        let at = [0.0, y, 0.625];
+        let at = [AHEAD_M, y, 0.625];
         elements.push(Element {
             name: format!("spring {y}"),
             ends: [End::body("body", at), End::body("wheelset", at)],
@@ -35,7 +39,7 @@ fn pushed() -> VehicleParameters {
             damping_n_m_s_per_rad: [1e6, 1e6, 1e6],
         },
     });
-    let at = [0.0, 0.0, 0.0];
+    let at = [AHEAD_M, 0.0, 0.0];
     elements.push(Element {
         name: "pusher".into(),
         ends: [End::track(at), End::body("wheelset", at)],
@@ -57,7 +61,7 @@ fn pushed() -> VehicleParameters {
             name: "wheelset".into(),
             mass_kg: 1800.0,
             inertia_kg_m2: [900.0, 120.0, 900.0],
-            x_m: 0.0,
+            x_m: AHEAD_M,
             radius_m: 0.625,
         }],
         elements,
@@ -68,19 +72,28 @@ fn pushed() -> VehicleParameters {
 fn a_wheelset_pushed_over_the_rail_meets_nadals_limit() {
     let parameters = pushed();
     let vehicle = Vehicle::new(&parameters, contact(5.0), 1e-3).unwrap();
-    let track = Track::default();
+    let circle = Part::Circular {
+        radius_m: 200.0,
+        length_m: 1e3,
+        cant_m: 0.0,
+    };
+    let parts = [
+        Part::Straight { length_m: 10.0 },
+        Part::Transition { length_m: 20.0 },
+        circle,
+    ];
+    let layout = Layout::new(&parts).unwrap();
+    let track = Track::new(layout, Irregularity::default(), vec![]).unwrap();
     let mut state = vehicle.at_rest(&track, 0.0, 2.0).unwrap();
-    // The nose towards the rail it is pushed against, so that the flange slides down it as it rolls.
-    vehicle.displace(&mut state, &track, 0, [0.0, 0.0, 0.0, 0.0, 30e-3]);
-    vehicle.displace(&mut state, &track, 1, [0.0, 0.0, 0.0, 0.0, 30e-3]);
+    run(&vehicle, &mut state, &track, 20.0);
     let mut greatest = 0.0_f64;
     let mut climbed = false;
     for tick in 0..60_000 {
-        // Slower than anything moves: 5 kN a second; a damper's force pulls its ends together, so that the push is negative.
-        state.set_outside_force_n(0, Some(-5.0 * f64::from(tick)));
+        // To the outer rail, slower than anything moves: 5 kN a second.
+        state.set_outside_force_n(0, Some(5.0 * f64::from(tick)));
         vehicle.step(&mut state, &track);
         assert!(!state.is_diverged());
-        greatest = greatest.max(state.contacts()[0].derailment_coefficients()[1]);
+        greatest = greatest.max(state.contacts()[0].derailment_coefficients()[0]);
         if state.status() >= Status::Climbing {
             climbed = true;
             break;

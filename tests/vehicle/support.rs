@@ -35,6 +35,13 @@ pub fn locomotive() -> VehicleParameters {
     dashpot_hil::files::vehicle::load("locomotive", &[]).unwrap()
 }
 
+/// Of all bodies and wheelsets.
+pub fn mass_kg(parameters: &VehicleParameters) -> f64 {
+    let bodies = parameters.bodies.iter().map(|body| body.mass_kg);
+    let wheelsets = parameters.wheelsets.iter().map(|wheelset| wheelset.mass_kg);
+    bodies.chain(wheelsets).sum()
+}
+
 /// A straight, a transition, and a curve of `radius_m` with 0.12 m of cant, to the right when positive.
 pub fn curve(radius_m: f64) -> Track {
     let parts = [

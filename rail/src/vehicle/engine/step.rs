@@ -304,13 +304,15 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
         let contact = &mut state.contacts[number];
         self.contact.update(&motion, &rails, contact);
         let [_, fy, fz] = contact.force_n;
+        let [mx, my, mz] = contact.moment_n_m;
         let turned = guidance.relative[2];
         let momentum = spin_inertia_kg_m2 * free.rotation_rad_per_s;
         let sums = &mut forces[body];
         sums[0] += fy - turned * fz;
         sums[1] += fz + turned * fy + axle_load_n;
-        sums[2] += contact.moment_n_m[0] - momentum * v[4];
-        sums[3] += contact.moment_n_m[1];
-        sums[4] += contact.moment_n_m[2] + momentum * v[2];
+        sums[2] += mx - momentum * v[4];
+        // About the axle, which is turned and rolled.
+        sums[3] += my - yaw * mx + roll * mz;
+        sums[4] += mz + momentum * v[2];
     }
 }
