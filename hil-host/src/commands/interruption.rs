@@ -1,7 +1,35 @@
 //! SIGINT, SIGTERM and SIGHUP: temporary files are deleted and child processes ended, then the process ends
-//! by the signal as it would have without this.
+//! by the signal as it would have without this. A command that ends gently is asked first, and ended by a second signal.
+
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::commands::failure::{Failure, Outcome};
+
+static ENDS_GENTLY: AtomicBool = AtomicBool::new(false);
+static IS_WANTED: AtomicBool = AtomicBool::new(false);
+
+/// While it lives, the first interruption only asks: see [`is_wanted`].
+#[derive(Debug)]
+pub struct EndsGently(());
+
+/// From now on the command looks at [`is_wanted`] often, and ends with what it has when it is.
+#[must_use]
+pub fn end_gently() -> EndsGently {
+    IS_WANTED.store(false, Ordering::Relaxed);
+    ENDS_GENTLY.store(true, Ordering::Relaxed);
+    EndsGently(())
+}
+
+impl Drop for EndsGently {
+    fn drop(&mut self) {
+        ENDS_GENTLY.store(false, Ordering::Relaxed);
+    }
+}
+
+/// Whether the user wants the command to end.
+pub fn is_wanted() -> bool {
+    IS_WANTED.load(Ordering::Relaxed)
+}
 
 /// Lets interruptions delete this process's temporary files and end its children from now on. A signal that
 /// the process was started to ignore, as `nohup` has it for SIGHUP, stays ignored.
@@ -31,6 +59,10 @@ pub fn clean_up() -> Outcome<()> {
         .stack_size(STACK)
         .spawn(move || {
             for signal in signals.forever() {
+                if ENDS_GENTLY.swap(false, Ordering::Relaxed) {
+                    IS_WANTED.store(true, Ordering::Relaxed);
+                    continue;
+                }
                 let _no_new_files = temporary::delete_all();
                 let _no_new_children = target::end_children();
                 // Ends the process, by the signal.

@@ -23,6 +23,7 @@ pub mod rig;
 pub mod shims;
 pub mod step_size;
 mod streams;
+pub mod vehicle;
 pub mod verify;
 
 use arguments::{DamperArguments, Format, RealtimeArguments};
@@ -41,6 +42,7 @@ pub enum Command {
     Export(export::ExportArguments),
     Contact(contact::ContactArguments),
     Modes(modes::ModesArguments),
+    Vehicle(vehicle::VehicleArguments),
     Pil(pil::PilArguments),
     Link(link::LinkArguments),
 }
@@ -60,6 +62,7 @@ impl Command {
             Self::Export(arguments) => export::run(arguments),
             Self::Contact(arguments) => contact::run(arguments),
             Self::Modes(arguments) => modes::run(arguments),
+            Self::Vehicle(arguments) => vehicle::run(arguments),
             Self::Pil(arguments) => pil::run(arguments),
             Self::Link(arguments) => link::run(arguments),
         }

@@ -3,14 +3,15 @@
 use std::io::{self, Write};
 use std::sync::Arc;
 
-use dashpot_rail::contact::{ContactGeometry, Installation, Pair, Steel, WheelsetContact};
-use dashpot_rail::creep::{Friction, KalkerBook};
+use dashpot_rail::contact::{ContactGeometry, WheelsetContact};
+use dashpot_rail::creep::KalkerBook;
 use dashpot_rail::vehicle::{Mode, Running, Standstill, VehicleError, VehicleParameters};
 use serde::Serialize;
 
 use super::{Format, print_report};
 use crate::commands::failure::{Failure, Outcome};
 use crate::files::vehicle::{self, VehicleFileError};
+use crate::study::vehicle::contact;
 
 /// Axle loads and natural modes of a vehicle at standstill or at a speed: frequency, damping, and what moves.
 #[derive(Debug, Clone, clap::Args)]
@@ -111,7 +112,7 @@ pub fn run(arguments: &ModesArguments) -> Outcome<()> {
     let standstill = Standstill::new(&vehicle).map_err(refused)?;
     let (mut hunting, mut speed_km_h) = (None, arguments.speed_km_h);
     let modes = if arguments.hunting || speed_km_h.is_some() {
-        let contact = contact(&vehicle, &standstill, arguments.friction)?;
+        let contact = contact(name, &vehicle, arguments.friction)?;
         if arguments.hunting {
             let critical = critical_speed_km_h(&vehicle, &contact).map_err(refused)?;
             speed_km_h = Some(critical.unwrap_or(GREATEST_KM_H));
@@ -139,34 +140,16 @@ pub fn run(arguments: &ModesArguments) -> Outcome<()> {
     print_report(arguments.format, &report, print)
 }
 
-/// Standard profiles under the mean wheel load of the vehicle, with its first wheelset's radius.
-fn contact(
-    vehicle: &VehicleParameters,
-    standstill: &Standstill,
-    friction: f64,
-) -> Outcome<Contact> {
-    let loads = standstill.axle_loads_n();
-    let (Some(wheelset), false) = (vehicle.wheelsets.first(), loads.is_empty()) else {
-        return Err(Failure::new(format!(
-            "{}: no wheelset; a vehicle that runs has one at least",
-            vehicle.name
-        )));
-    };
-    let installation = Installation {
-        wheel_radius_m: wheelset.radius_m,
-        ..Installation::default()
-    };
-    let mean_n = loads.iter().sum::<f64>() / (2 * loads.len()) as f64;
-    let refused = |error: &dyn std::fmt::Display| Failure::new(error.to_string());
-    let pair = Pair::standard(installation)?;
+/// The contact itself, without tables.
+fn contact(name: &str, vehicle: &VehicleParameters, friction: f64) -> Outcome<Contact> {
     let geometry =
-        ContactGeometry::new(pair, Steel::default(), mean_n).map_err(|error| refused(&error))?;
-    let friction = Friction {
-        static_coefficient: friction,
-        ..Friction::default()
-    };
-    WheelsetContact::new(Arc::new(geometry), KalkerBook::new(), friction)
-        .map_err(|error| Failure::wrong_use(format!("--friction: {error}")))
+        contact::geometry(vehicle).map_err(|error| Failure::new(format!("{name}: {error}")))?;
+    WheelsetContact::new(
+        Arc::new(geometry),
+        KalkerBook::new(),
+        contact::friction(friction),
+    )
+    .map_err(|error| Failure::wrong_use(format!("--friction: {error}")))
 }
 
 fn modes_at(

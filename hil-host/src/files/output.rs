@@ -162,15 +162,23 @@ fn write_all(file: &mut dyn Write, path: &Path, bytes: &[u8]) -> Result<(), File
         .map_err(|error| cannot_write(path, error))
 }
 
+/// Makes a folder and those above it, where they are missing.
+///
+/// # Errors
+/// It cannot be made.
+pub fn create_folder(folder: &Path) -> Result<(), FileError> {
+    std::fs::create_dir_all(folder).map_err(|source| FileError::Folder {
+        path: folder.to_owned(),
+        source,
+    })
+}
+
 /// Writes each file, a name and its text, into `folder`, made where it is missing; the paths of the files.
 ///
 /// # Errors
 /// The folder cannot be made or a file not be written.
 pub fn write_folder(folder: &Path, files: &[(&str, String)]) -> Result<Vec<String>, FileError> {
-    std::fs::create_dir_all(folder).map_err(|source| FileError::Folder {
-        path: folder.to_owned(),
-        source,
-    })?;
+    create_folder(folder)?;
     files
         .iter()
         .map(|(name, text)| {

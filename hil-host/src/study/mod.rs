@@ -1,4 +1,4 @@
-//! Studies of a damper: replay of a recording, bench test, verification against the reference.
+//! Studies of a damper: replay of a recording, bench test, verification against the reference; of a vehicle on a track.
 
 pub mod accuracy_limits;
 pub mod bench_test;
@@ -8,6 +8,7 @@ pub mod published;
 pub mod replay;
 mod scalar;
 pub mod shim_valves;
+pub mod vehicle;
 pub mod verification;
 
 pub use error::StudyError;

@@ -1,13 +1,13 @@
 //! Bounds of the numbers of a case.
 
-use dashpot_core::parameters::STEP_RANGE_S;
 use dashpot_rail::contact::MAX_NORMAL_DAMPING_S_PER_M;
+use dashpot_rail::vehicle::STEP_S;
 
 use super::{CaseError, CaseOptions};
 
 /// Checks every number.
 pub(super) fn check(options: &CaseOptions) -> Result<(), CaseError> {
-    let steps_us = [STEP_RANGE_S.start() * 1e6, STEP_RANGE_S.end() * 1e6];
+    let steps_us = STEP_S.map(|step_s| (step_s * 1e6).round());
     let numbers = [
         ("speed_km_h", options.speed_km_h, [1.0, 700.0]),
         ("duration_s", options.duration_s, [1e-3, 36e3]),

@@ -34,8 +34,8 @@ use crate::contact::{PatchSource, Tables, WheelsetContact, WheelsetForces};
 use crate::creep::CreepLaw;
 use crate::track::Track;
 
-/// Bounds of the step size, s.
-const STEP_S: [f64; 2] = [0.1e-3, 2e-3];
+/// Bounds of the step size of a [`Vehicle`], s.
+pub const STEP_S: [f64; 2] = [0.1e-3, 2e-3];
 
 /// Bounds of the speed, m/s.
 const SPEED_M_PER_S: [f64; 2] = [1.0, 150.0];

@@ -1,0 +1,139 @@
+//! The vehicle from its side, its axles, bodies and dampers named.
+
+use dashpot_rail::vehicle::{Body, Element, Law, VehicleParameters};
+use maud::{Markup, html};
+
+/// Pixels of a metre.
+const SCALE: f64 = 44.0;
+const MARGIN: f64 = 30.0;
+/// Half the height of a frame between wheelsets, m.
+const HALF_FRAME_M: f64 = 0.17;
+/// Height of the sheet above the rails, m.
+const SKY_M: f64 = 4.4;
+
+/// From metres, forward to the right, to pixels.
+struct Sheet {
+    rear_m: f64,
+    width: f64,
+    height: f64,
+}
+
+impl Sheet {
+    fn x(&self, x_m: f64) -> f64 {
+        MARGIN + SCALE * (x_m - self.rear_m)
+    }
+
+    fn y(&self, height_m: f64) -> f64 {
+        SCALE * (SKY_M - height_m)
+    }
+}
+
+/// Whether an end of an element is on a part of this name.
+fn is_on(element: &Element, name: &str) -> bool {
+    element
+        .ends
+        .iter()
+        .any(|end| end.on.as_deref() == Some(name))
+}
+
+/// Least and greatest place of what is attached to a body, m.
+fn reach(parameters: &VehicleParameters, body: &Body) -> [f64; 2] {
+    let elements = parameters
+        .elements
+        .iter()
+        .filter(|element| is_on(element, &body.name));
+    let places = elements.flat_map(|element| element.ends.iter().map(|end| end.at_m[0]));
+    places.fold([body.x_m, body.x_m], |[least, greatest], x| {
+        [least.min(x), greatest.max(x)]
+    })
+}
+
+/// Whether a body carries wheelsets, as a bogie does.
+fn is_frame(parameters: &VehicleParameters, body: &Body) -> bool {
+    let wheelsets = || {
+        parameters
+            .wheelsets
+            .iter()
+            .map(|wheelset| wheelset.name.as_str())
+    };
+    let on_body = parameters
+        .elements
+        .iter()
+        .filter(|element| is_on(element, &body.name));
+    let mut on_body = on_body.peekable();
+    on_body.any(|element| wheelsets().any(|name| is_on(element, name)))
+        && parameters.bodies.len() > 1
+}
+
+/// The vehicle seen from its right side, running to the right.
+pub(super) fn vehicle(parameters: &VehicleParameters) -> Markup {
+    let places = parameters.wheelsets.iter().map(|wheelset| wheelset.x_m);
+    let [rear, front] = places.fold([0.0_f64; 2], |[rear, front], x| [rear.min(x), front.max(x)]);
+    let sheet = Sheet {
+        rear_m: rear - 2.2,
+        width: SCALE * (front - rear + 4.4) + 2.0 * MARGIN,
+        height: SCALE * (SKY_M + 1.2),
+    };
+    let body_outline = |body: &Body| {
+        let [from, to] = reach(parameters, body);
+        let (x, half) = if is_frame(parameters, body) {
+            ([from - 0.5, to + 0.5], HALF_FRAME_M)
+        } else {
+            ([rear - 2.0, front + 2.0], 0.0)
+        };
+        let [bottom, top] = if half > 0.0 {
+            [body.height_m - half, body.height_m + half]
+        } else {
+            [1.15, SKY_M - 0.4]
+        };
+        (
+            [sheet.x(x[0]), sheet.y(top)],
+            [SCALE * (x[1] - x[0]), SCALE * (top - bottom)],
+            half > 0.0,
+        )
+    };
+    let dampers = parameters
+        .elements
+        .iter()
+        .filter(|element| matches!(element.law, Law::Damper { .. }));
+    html! {
+        svg.desk viewBox=(format!("0 0 {:.0} {:.0}", sheet.width, sheet.height)) role="img"
+            font-family="sans-serif" font-size="15" fill="#263238" {
+            title { "The vehicle from its right side" }
+            rect width="100%" height="100%" fill="#fff" {}
+            @for body in &parameters.bodies {
+                @let ([x, y], [width, height], is_frame) = body_outline(body);
+                rect x=(px(x)) y=(px(y)) width=(px(width)) height=(px(height)) rx="6"
+                    fill=(if is_frame { "#cfd8dc" } else { "#eceff1" }) stroke="#90a4ae" {}
+                @if !is_frame {
+                    text x=(px(x + 0.5 * width)) y=(px(y + 0.45 * height)) text-anchor="middle" { (body.name) }
+                }
+            }
+            line x1=(px(MARGIN)) x2=(px(sheet.width - MARGIN)) y1=(px(sheet.y(0.0))) y2=(px(sheet.y(0.0)))
+                stroke="#263238" stroke-width="3" {}
+            @for (number, wheelset) in parameters.wheelsets.iter().enumerate() {
+                @let (x, y) = (sheet.x(wheelset.x_m), sheet.y(wheelset.radius_m));
+                circle cx=(px(x)) cy=(px(y)) r=(px(SCALE * wheelset.radius_m)) fill="#fff" stroke="#455a64" stroke-width="3" {}
+                text x=(px(x)) y=(px(y + 5.0)) text-anchor="middle" font-weight="bold" { (number + 1) }
+                text x=(px(x)) y=(px(sheet.y(-0.45))) text-anchor="middle" { (wheelset.name) }
+            }
+            @for element in dampers {
+                @let [at, _, height] = element.ends[1].at_m;
+                @let is_vertical = matches!(&element.law, Law::Damper { direction, .. } if *direction == dashpot_rail::vehicle::Direction::Vertical);
+                @if is_vertical {
+                    line x1=(px(sheet.x(at))) x2=(px(sheet.x(at))) y1=(px(sheet.y(height - 0.05)))
+                        y2=(px(sheet.y(height + 0.55))) stroke="#1565c0" stroke-width="6" {}
+                } @else {
+                    circle cx=(px(sheet.x(at))) cy=(px(sheet.y(height + 0.25))) r="6" fill="#c62828" {}
+                }
+            }
+            text x=(px(sheet.width - MARGIN)) y=(px(sheet.y(-0.95))) text-anchor="end" { "runs this way →" }
+            text x=(px(MARGIN)) y=(px(sheet.y(-0.95))) { "blue: vertical dampers, red: lateral and longitudinal ones" }
+        }
+    }
+}
+
+/// A tenth of a pixel.
+fn px(value: f64) -> String {
+    format!("{value:.1}")
+}

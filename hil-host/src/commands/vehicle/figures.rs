@@ -1,0 +1,116 @@
+//! Figures of the page.
+
+use plotters::prelude::SeriesLabelPosition;
+use plotters::style::RGBColor;
+
+use super::history::History;
+use crate::report::page::{Figure, panel};
+use crate::report::plot::curves::{Curve, ramp};
+use crate::report::plot::sheet::{Panel, Scale};
+use crate::report::plot::style::{BLUE_LINE, RED_LINE};
+
+const TIME: &str = "time_s";
+const HEIGHT: u32 = 300;
+
+/// What a body or wheelset is called in the signals.
+fn slug(name: &str) -> String {
+    name.replace(|c: char| !c.is_ascii_alphanumeric(), "_")
+}
+
+fn over_time(history: &History, signal: &str, factor: f64, name: &str, colour: RGBColor) -> Curve {
+    Curve::new(name, colour, history.thinned([TIME, signal], [1.0, factor])).wide(5)
+}
+
+/// Accelerations of a body to the side and up and down.
+pub(super) fn accelerations(history: &History, body: &str) -> Figure {
+    let one = |direction: &str, colour| {
+        let signal = format!("{}_{direction}_acceleration_m_per_s2", slug(body));
+        let curve = over_time(history, &signal, 1.0, "", colour);
+        panel("time, s", &format!("{direction}, m/s²"), None, vec![curve])
+    };
+    Figure {
+        panels: vec![one("lateral", BLUE_LINE), one("vertical", RED_LINE)],
+        height: HEIGHT,
+    }
+}
+
+/// A signal of every wheelset, the leading one darkest.
+fn of_wheelsets(
+    history: &History,
+    wheelsets: &[String],
+    what: &str,
+    factor: f64,
+    y: &str,
+) -> Panel {
+    let mut colours = ramp(wheelsets.len());
+    colours.reverse();
+    // The leading one on top.
+    let curves = wheelsets.iter().zip(colours).rev().map(|(name, colour)| {
+        over_time(
+            history,
+            &format!("{}_{what}", slug(name)),
+            factor,
+            name,
+            colour,
+        )
+    });
+    panel("time, s", y, None, curves.collect())
+}
+
+/// Lateral displacement and yaw of the wheelsets.
+pub(super) fn wheelsets(history: &History, names: &[String]) -> Figure {
+    Figure {
+        panels: vec![
+            of_wheelsets(history, names, "lateral_m", 1e3, "lateral, mm"),
+            of_wheelsets(history, names, "yaw_rad", 1e3, "yaw, mrad"),
+        ],
+        height: HEIGHT,
+    }
+}
+
+/// Loads of the wheels, left and right.
+pub(super) fn loads(history: &History, names: &[String]) -> Figure {
+    Figure {
+        panels: vec![
+            of_wheelsets(history, names, "left_load_n", 1e-3, "Q left, kN"),
+            of_wheelsets(history, names, "right_load_n", 1e-3, "Q right, kN"),
+        ],
+        height: HEIGHT,
+    }
+}
+
+/// `Y/Q` of the wheels, left and right.
+pub(super) fn derailment(history: &History, names: &[String]) -> Figure {
+    Figure {
+        panels: vec![
+            of_wheelsets(history, names, "left_derailment", 1.0, "Y/Q left"),
+            of_wheelsets(history, names, "right_derailment", 1.0, "Y/Q right"),
+        ],
+        height: HEIGHT,
+    }
+}
+
+/// Force over displacement of dampers, two a panel.
+pub(super) fn loops(history: &History, dampers: &[&str]) -> Figure {
+    let colours = [BLUE_LINE, RED_LINE];
+    let panels = dampers.chunks(2).map(|pair| {
+        let curves = pair.iter().zip(colours).map(|(name, colour)| {
+            let name_of = |what: &str| format!("{}_{what}", slug(name));
+            let (x, y) = (name_of("displacement_m"), name_of("force_n"));
+            Curve::new(*name, colour, history.points([&x, &y], [1e3, 1e-3])).wide(4)
+        });
+        Panel {
+            title: String::new(),
+            x_label: "displacement, mm".into(),
+            y_label: "force, kN".into(),
+            legend: Some(SeriesLabelPosition::UpperLeft),
+            sides: true,
+            scale: Scale::Linear,
+            curves: curves.collect(),
+        }
+    });
+    Figure {
+        panels: panels.collect(),
+        height: HEIGHT + 40,
+    }
+}

@@ -1,0 +1,167 @@
+//! `dashpot vehicle`: a vehicle on a track, its histories, indices and page.
+
+mod check;
+mod drawing;
+mod figures;
+mod history;
+mod options;
+mod page;
+mod report;
+
+use std::path::{Path, PathBuf};
+
+use history::History;
+use options::CaseArguments;
+use report::{Pace, Report};
+
+use super::{Format, RealtimeArguments, interruption, print_report, progress};
+use crate::commands::failure::{Failure, Outcome};
+use crate::files::case::Case;
+use crate::files::output::{cannot_write_rows, create_folder, write_bytes, write_whole};
+use crate::realtime::pacing::Pacer;
+use crate::study::vehicle::{Ending, Indexer, Run, signals};
+
+/// A vehicle on a track: time histories, indices and a page.
+#[derive(Debug, Clone, clap::Args)]
+#[command(
+    allow_negative_numbers = true,
+    after_help = "Examples:
+  dashpot vehicle --case straight-180
+  dashpot vehicle --case curve-r600 --damper vertical=in-service --output worn
+  dashpot vehicle --vehicle coach --track straight --speed-km-h 160 --duration-s 20
+  dashpot vehicle --case curve-r300 --check
+  dashpot vehicle --case straight-180 --duration-s 60 --realtime --fifo 80 --core 1
+
+Written into the folder of --output: history.csv, a row a tick; indices.json; report.html, a page to send.
+Displacements are from where the vehicle stands, relative to the track, to the right and down positive; Q is down on the rail, Y towards
+the middle of the track. Exit code 1 and the reason when the vehicle derails, diverges, or is interrupted: what was computed is kept."
+)]
+pub struct VehicleArguments {
+    #[command(flatten)]
+    case: CaseArguments,
+    /// Folder that results are written to.
+    #[arg(long, default_value = "dashpot-vehicle", value_name = "FOLDER")]
+    output: PathBuf,
+    /// Writes no page.
+    #[arg(long)]
+    no_page: bool,
+    /// Holds the run against the reference solution, and fails where it is out of bounds; takes some hundred times as long.
+    #[arg(long, conflicts_with = "realtime")]
+    check: bool,
+    /// Runs in real ticks and reports missed deadlines.
+    #[arg(long)]
+    realtime: bool,
+    #[command(flatten)]
+    options: RealtimeArguments,
+    /// How results are printed.
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    format: Format,
+}
+
+/// Ticks between two looks whether the user wants to end.
+const TICKS_A_LOOK: u64 = 256;
+
+/// Runs the command.
+///
+/// # Errors
+/// A case that is refused; a folder that cannot be written; a run that does not come to its end; a check that fails.
+pub fn run(arguments: &VehicleArguments) -> Outcome<()> {
+    let options = arguments
+        .options
+        .options_under("--realtime", arguments.realtime)?;
+    let case = arguments.case.case()?;
+    if arguments.check {
+        return check::run(&case, arguments.format);
+    }
+    let mut run = Run::new(&case).map_err(|error| options::refused(&case, &error))?;
+    let pacer = if arguments.realtime {
+        Some(Pacer::new(case.step_s, &options)?)
+    } else {
+        None
+    };
+    let folder = &arguments.output;
+    create_folder(folder)?;
+    let (history, mut report) = follow(&case, &mut run, pacer, &folder.join("history.csv"))?;
+    report.files.push(folder.join("history.csv"));
+    if !arguments.no_page {
+        let path = folder.join("report.html");
+        write_bytes(
+            &path,
+            page::write(&case, &run, &report, &history)?.as_bytes(),
+        )?;
+        report.files.push(path);
+    }
+    let path = folder.join("indices.json");
+    report.files.push(path.clone());
+    let text =
+        serde_json::to_string_pretty(&report).map_err(|error| Failure::new(error.to_string()))?;
+    write_bytes(&path, (text + "\n").as_bytes())?;
+    print_report(arguments.format, &report, report::print)?;
+    match &report.ending {
+        Ending::Completed => Ok(()),
+        ending => Err(Failure::new(ending.to_string())),
+    }
+}
+
+/// Runs to the end, and writes a row for each tick.
+fn follow(
+    case: &Case,
+    run: &mut Run,
+    mut pacer: Option<Pacer>,
+    path: &Path,
+) -> Outcome<(History, Report)> {
+    let all = signals::all(run.vehicle());
+    let mut history = History::new(all.clone(), run.ticks());
+    let vehicle = run.vehicle();
+    let mut indexer = Indexer::new(
+        vehicle.names(),
+        vehicle.wheelsets(),
+        run.state().damper_forces_n().len(),
+        case.step_s,
+        case.speed_m_per_s,
+    );
+    let bar = progress::bar(run.ticks(), "vehicle");
+    let _ends_gently = interruption::end_gently();
+    let mut ending = Ending::Completed;
+    let mut work = Pace::default();
+    write_whole::<Failure>(path, |file| {
+        let failed = |error: csv::Error| cannot_write_rows(path, error);
+        let mut rows = csv::Writer::from_writer(file);
+        rows.write_record(all.iter().map(signals::Signal::name))
+            .map_err(failed)?;
+        let mut row: Vec<f64> = Vec::with_capacity(all.len());
+        let mut ticks = 0;
+        loop {
+            let timing = pacer.as_mut().map(|pacer| pacer.wait(ticks));
+            let started = std::time::Instant::now();
+            let ended = run.step().map_err(|error| options::refused(case, &error))?;
+            work.add(started.elapsed());
+            if let (Some(pacer), Some(timing)) = (pacer.as_mut(), timing) {
+                pacer.finish(timing);
+            }
+            if ended == Some(Ending::Completed) {
+                break;
+            }
+            ticks += 1;
+            let time_s = super::nearest_nanosecond(run.time_s());
+            row.clear();
+            row.extend(all.iter().map(|signal| signal.of(run.state(), time_s)));
+            rows.serialize(&row).map_err(failed)?;
+            history.add(&row);
+            indexer.add(run.state());
+            let wants_to_end = ticks % TICKS_A_LOOK == 0 && interruption::is_wanted();
+            if ticks % TICKS_A_LOOK == 0 {
+                bar.set_position(ticks);
+            }
+            if let Some(ended) = ended.or_else(|| wants_to_end.then(|| run.interrupted())) {
+                ending = ended;
+                break;
+            }
+        }
+        Ok(rows.flush().map_err(|error| failed(error.into()))?)
+    })?;
+    bar.finish_and_clear();
+    let pacing = pacer.as_ref().map(Pacer::report);
+    let report = Report::new(case, ending, indexer.indices(), &work, pacing);
+    Ok((history, report))
+}

@@ -1,0 +1,111 @@
+//! Options that make a case.
+
+use crate::commands::failure::{Failure, Outcome};
+use crate::files::case::{CASES, Case, CaseOptions};
+use crate::files::track::TRACKS;
+use crate::files::vehicle::{Replacement, VEHICLES};
+use crate::study::vehicle::VehicleStudyError;
+
+/// The case, by its name or by its parts; a part that is given changes that of the case.
+#[derive(Debug, Clone, clap::Args)]
+pub(super) struct CaseArguments {
+    /// A case.
+    #[arg(long, help = format!("Case: the name of one that ships ({}) or a TOML file", names(&CASES)), value_name = "CASE")]
+    case: Option<String>,
+    /// A vehicle.
+    #[arg(long, help = format!("Vehicle: the name of one that ships ({}) or a TOML file", names(&VEHICLES)), value_name = "VEHICLE")]
+    vehicle: Option<String>,
+    /// A track.
+    #[arg(long, help = format!("Track: the name of one that ships ({}) or a TOML file", names(&TRACKS)), value_name = "TRACK")]
+    track: Option<String>,
+    /// Speed, km/h.
+    #[arg(long, value_name = "KM/H")]
+    speed_km_h: Option<f64>,
+    /// Time that is computed, s.
+    #[arg(long, value_name = "S")]
+    duration_s: Option<f64>,
+    /// Distance along the track at which the vehicle's middle starts, m.
+    #[arg(long, value_name = "M")]
+    start_m: Option<f64>,
+    /// Friction coefficient of wheel and rail.
+    #[arg(long, value_name = "MU")]
+    friction: Option<f64>,
+    /// Damping of wheel on rail along the normal over the load (Hunt and Crossley), s/m.
+    #[arg(long, value_name = "S/M")]
+    normal_damping_s_per_m: Option<f64>,
+    /// Step, us.
+    #[arg(long, value_name = "US")]
+    step_us: Option<f64>,
+    /// Replaces dampers: those along vertical, lateral or longitudinal, or of a name, by a preset or file; may be given several times.
+    #[arg(long = "damper", value_name = "WHICH=DAMPER")]
+    dampers: Vec<Replacement>,
+    /// Changes a value of the vehicle's file: part.key=value, such as body.mass_kg=70e3; may be given several times.
+    #[arg(long = "set", value_name = "PART.KEY=VALUE")]
+    overrides: Vec<String>,
+}
+
+fn names(shipped: &[(&str, &str)]) -> String {
+    let names: Vec<&str> = shipped.iter().map(|(name, _)| *name).collect();
+    names.join(", ")
+}
+
+impl CaseArguments {
+    /// The case that the options make.
+    ///
+    /// # Errors
+    /// Neither a case nor vehicle, track and speed; what [`CaseOptions::case`] refuses.
+    pub(super) fn case(&self) -> Outcome<Case> {
+        let mut options = match (&self.case, &self.vehicle, &self.track, self.speed_km_h) {
+            (Some(case), ..) => CaseOptions::load(case)?,
+            (None, vehicle, Some(track), Some(speed_km_h)) => {
+                let vehicle = vehicle.as_deref().unwrap_or("locomotive");
+                CaseOptions::new(vehicle, track, speed_km_h)
+            }
+            (None, ..) => {
+                return Err(Failure::wrong_use(format!(
+                    "no case: give --case ({}), or --track with --speed-km-h",
+                    names(&CASES)
+                )));
+            }
+        };
+        let CaseOptions {
+            name,
+            vehicle,
+            track,
+            speed_km_h,
+            ..
+        } = &mut options;
+        let changes_the_name = self.case.is_some()
+            && (self.vehicle.is_some() || self.track.is_some() || self.speed_km_h.is_some());
+        if changes_the_name {
+            *name = None;
+        }
+        if let Some(given) = &self.vehicle {
+            vehicle.clone_from(given);
+        }
+        if let Some(given) = &self.track {
+            track.clone_from(given);
+        }
+        *speed_km_h = self.speed_km_h.unwrap_or(*speed_km_h);
+        for (given, number) in [
+            (self.duration_s, &mut options.duration_s),
+            (self.start_m, &mut options.start_m),
+            (self.friction, &mut options.friction),
+            (
+                self.normal_damping_s_per_m,
+                &mut options.normal_damping_s_per_m,
+            ),
+            (self.step_us, &mut options.step_us),
+        ] {
+            *number = given.unwrap_or(*number);
+        }
+        options.dampers.extend(self.dampers.iter().cloned());
+        options.overrides.extend(self.overrides.iter().cloned());
+        Ok(options.case()?)
+    }
+}
+
+/// What a case's vehicle or track is refused for.
+pub(super) fn refused(case: &Case, error: &VehicleStudyError) -> Failure {
+    Failure::new(format!("{}: {error}", case.name))
+}

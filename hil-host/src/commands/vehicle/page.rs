@@ -1,0 +1,165 @@
+//! The page of a run.
+
+use maud::{Markup, html};
+
+use super::report::Report;
+use super::{drawing, figures};
+use crate::commands::vehicle::history::History;
+use crate::files::case::Case;
+use crate::realtime::timing::span;
+use crate::report::DrawError;
+use crate::report::page::{document, figure, footer, tiles};
+use crate::study::vehicle::{Ending, Run};
+
+/// Dampers whose loops share a figure.
+const LOOPS: usize = 4;
+
+/// The run as HTML.
+///
+/// # Errors
+/// A figure cannot be drawn.
+pub(super) fn write(
+    case: &Case,
+    run: &Run,
+    report: &Report,
+    history: &History,
+) -> Result<String, DrawError> {
+    let vehicle = run.vehicle();
+    let names = vehicle.names();
+    let (bodies, wheelsets) = names.split_at(names.len() - vehicle.wheelsets());
+    let dampers: Vec<&str> = vehicle.damper_names().collect();
+    let body = html! {
+        h1 { (case.name) }
+        p.lead {
+            (report.vehicle) " on " (report.track) " at " (format!("{:.0}", report.speed_km_h)) " km/h; friction "
+            (report.friction) ", normal damping " (report.normal_damping_s_per_m) " s/m, step "
+            (format!("{:.0}", 1e6 * report.step_s)) " µs."
+        }
+        @if report.ending != Ending::Completed {
+            p { strong { "The run did not come to its end: " (report.ending) "." } }
+        }
+        (headline(report))
+        figure {
+            (drawing::vehicle(&case.vehicle))
+            figcaption { "The leading wheelset has number 1. Curves of wheelsets are the darker the further in front." }
+        }
+        @if let Some(body) = bodies.first() {
+            h2 { "Accelerations of the " (body) }
+            (figure(&figures::accelerations(history, body), &html! {
+                "At the centre of gravity, in the track's axes, as an accelerometer there has them: right and down positive."
+            })?)
+        }
+        h2 { "Wheelsets" }
+        (figure(&figures::wheelsets(history, wheelsets), &html! {
+            "Relative to the nominal track: right and nose to the right positive."
+        })?)
+        h2 { "Wheel loads" }
+        (figure(&figures::loads(history, wheelsets), &html! { "Vertical force Q of the wheels on the rails." })?)
+        h2 { "Derailment coefficient" }
+        (figure(&figures::derailment(history, wheelsets), &html! {
+            "Lateral over vertical force, positive where the rail pushes the wheel to the middle of the track."
+        })?)
+        @if !dampers.is_empty() {
+            h2 { "Dampers" }
+            @for some in dampers.chunks(LOOPS) {
+                (figure(&figures::loops(history, some), &html! { "Extension and its resistance are positive." })?)
+            }
+        }
+        h2 { "Figures" }
+        (tables(report))
+        (footer(&html! {
+            "Curves over time are thinned to the lowest and highest value of each stretch, so every peak is shown; history.csv has every tick."
+        }))
+    };
+    Ok(document(&format!("Dashpot: {}", case.name), &body))
+}
+
+fn headline(report: &Report) -> Markup {
+    let mut facts = Vec::new();
+    if let Some(indices) = &report.indices {
+        if let Some(body) = indices.bodies.first() {
+            facts.push((
+                html! { (format!("{:.2}", body.vertical_rms_m_per_s2)) " m/s²" },
+                format!(
+                    "vertical acceleration of the {} (rms); lateral {:.2}",
+                    body.body, body.lateral_rms_m_per_s2
+                ),
+            ));
+        }
+        let wheels = || {
+            indices
+                .wheelsets
+                .iter()
+                .flat_map(|wheelset| wheelset.wheels.iter().map(move |wheel| (wheelset, wheel)))
+        };
+        if let Some((wheelset, wheel)) = wheels()
+            .max_by(|(_, a), (_, b)| a.derailment_greatest.total_cmp(&b.derailment_greatest))
+        {
+            facts.push((
+                html! { (format!("{:.2}", wheel.derailment_greatest)) },
+                format!(
+                    "greatest Y/Q, mean over 2 m: {}, {}",
+                    wheelset.wheelset, wheel.side
+                ),
+            ));
+        }
+        if let Some((wheelset, wheel)) =
+            wheels().min_by(|(_, a), (_, b)| a.load_least_n.total_cmp(&b.load_least_n))
+        {
+            facts.push((
+                html! { (format!("{:.0}", 1e-3 * wheel.load_least_n)) " kN" },
+                format!("least wheel load: {}, {}", wheelset.wheelset, wheel.side),
+            ));
+        }
+    }
+    facts.push((
+        html! { (span(1e9 * report.mean_tick_s)) },
+        format!(
+            "for a tick of {:.0} µs on this machine",
+            1e6 * report.step_s
+        ),
+    ));
+    tiles(&facts)
+}
+
+fn tables(report: &Report) -> Markup {
+    html! {
+        @match &report.indices {
+            Some(indices) => {
+                div.wide { table {
+                    tr { th { "m/s²" } th { "lateral rms" } th { "greatest" } th { "vertical rms" } th { "greatest" } }
+                    @for body in &indices.bodies {
+                        tr {
+                            td.text { (body.body) }
+                            td { (format!("{:.3}", body.lateral_rms_m_per_s2)) }
+                            td { (format!("{:.2}", body.lateral_greatest_m_per_s2)) }
+                            td { (format!("{:.3}", body.vertical_rms_m_per_s2)) }
+                            td { (format!("{:.2}", body.vertical_greatest_m_per_s2)) }
+                        }
+                    }
+                } }
+                div.wide { table {
+                    tr {
+                        th { "wheelset" } th { "Q left, kN" } th { "Q right, kN" } th { "Y/Q left" } th { "Y/Q right" }
+                        th { "lateral force, kN" } th { "wear number, N" }
+                    }
+                    @for wheelset in &indices.wheelsets {
+                        tr {
+                            td.text { (wheelset.wheelset) }
+                            @for wheel in &wheelset.wheels {
+                                td { (format!("{:.0} to {:.0}", 1e-3 * wheel.load_least_n, 1e-3 * wheel.load_greatest_n)) }
+                            }
+                            @for wheel in &wheelset.wheels {
+                                td { (format!("{:.2}", wheel.derailment_greatest)) }
+                            }
+                            td { (format!("{:.1}", 1e-3 * wheelset.lateral_force_greatest_n)) }
+                            td { (format!("{:.0}", wheelset.wear_number_n)) }
+                        }
+                    }
+                } }
+                p { "Y/Q and lateral force: greatest mean over 2 m. Wear number: mean power of creep over the speed." }
+            }
+            None => { p { "No figures are given of a run that ended before its time." } }
+        }
+    }
+}

@@ -1,0 +1,162 @@
+//! What is told of a run.
+
+use std::io::{self, Write};
+use std::path::PathBuf;
+use std::time::Duration;
+
+use serde::Serialize;
+
+use crate::commands::counted;
+use crate::files::case::Case;
+use crate::files::output;
+use crate::realtime::pacing::PacingReport;
+use crate::realtime::timing::{Figures, optional_span, span};
+use crate::study::vehicle::{Ending, Indices};
+
+/// What is told of a run.
+#[derive(Serialize)]
+pub(super) struct Report {
+    pub(super) case: String,
+    pub(super) vehicle: String,
+    pub(super) track: String,
+    pub(super) speed_km_h: f64,
+    pub(super) friction: f64,
+    pub(super) normal_damping_s_per_m: f64,
+    pub(super) step_s: f64,
+    pub(super) ticks: u64,
+    pub(super) ending: Ending,
+    /// None of a run that derailed, diverged or left the tables.
+    pub(super) indices: Option<Indices>,
+    /// Mean time of a tick's computation, s.
+    pub(super) mean_tick_s: f64,
+    /// Of a run in real ticks.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) realtime: Option<Realtime>,
+    pub(super) files: Vec<PathBuf>,
+}
+
+#[derive(Serialize)]
+pub(super) struct Realtime {
+    missed_deadlines: u64,
+    lateness: Figures,
+    work: Figures,
+}
+
+/// Time that ticks took.
+#[derive(Default)]
+pub(super) struct Pace {
+    ticks: u64,
+    time: Duration,
+}
+
+impl Pace {
+    pub(super) fn add(&mut self, time: Duration) {
+        self.ticks += 1;
+        self.time += time;
+    }
+}
+
+impl Report {
+    pub(super) fn new(
+        case: &Case,
+        ending: Ending,
+        indices: Option<Indices>,
+        pace: &Pace,
+        pacing: Option<&PacingReport>,
+    ) -> Self {
+        let is_whole = matches!(ending, Ending::Completed | Ending::Interrupted { .. });
+        Self {
+            case: case.name.clone(),
+            vehicle: case.vehicle.name.clone(),
+            track: case.track.name.clone(),
+            speed_km_h: 3.6 * case.speed_m_per_s,
+            friction: case.friction,
+            normal_damping_s_per_m: case.normal_damping_s_per_m,
+            step_s: case.step_s,
+            ticks: pace.ticks,
+            ending,
+            indices: indices.filter(|_| is_whole),
+            mean_tick_s: pace.time.as_secs_f64() / pace.ticks.max(1) as f64,
+            realtime: pacing.map(|report| Realtime {
+                missed_deadlines: report.missed_deadlines,
+                lateness: report.lateness.figures(),
+                work: report.work.figures(),
+            }),
+            files: Vec::new(),
+        }
+    }
+}
+
+pub(super) fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
+    writeln!(
+        out,
+        "{}: {} on {} at {:.1} km/h",
+        report.case, report.vehicle, report.track, report.speed_km_h
+    )?;
+    writeln!(
+        out,
+        "friction {}, normal damping {} s/m, step {} us; {} of {}",
+        report.friction,
+        report.normal_damping_s_per_m,
+        (1e6 * report.step_s).round(),
+        counted(report.ticks, "tick"),
+        span(1e9 * report.mean_tick_s)
+    )?;
+    if let Some(indices) = &report.indices {
+        writeln!(out)?;
+        writeln!(
+            out,
+            "acceleration, m/s^2        lateral rms  greatest  vertical rms  greatest"
+        )?;
+        for body in &indices.bodies {
+            writeln!(
+                out,
+                "{:<26} {:11.3} {:9.2} {:13.3} {:9.2}",
+                body.body,
+                body.lateral_rms_m_per_s2,
+                body.lateral_greatest_m_per_s2,
+                body.vertical_rms_m_per_s2,
+                body.vertical_greatest_m_per_s2
+            )?;
+        }
+        writeln!(out)?;
+        writeln!(
+            out,
+            "wheelset, front first      Q left, kN  Q right, kN  Y/Q left  right  lateral, kN  wear, N"
+        )?;
+        for wheelset in &indices.wheelsets {
+            let [left, right] = &wheelset.wheels[..] else {
+                continue;
+            };
+            writeln!(
+                out,
+                "{:<26} {:>4.0} - {:>3.0} {:>6.0} - {:>3.0} {:9.2} {:6.2} {:12.1} {:8.0}",
+                wheelset.wheelset,
+                1e-3 * left.load_least_n,
+                1e-3 * left.load_greatest_n,
+                1e-3 * right.load_least_n,
+                1e-3 * right.load_greatest_n,
+                left.derailment_greatest,
+                right.derailment_greatest,
+                1e-3 * wheelset.lateral_force_greatest_n,
+                wheelset.wear_number_n
+            )?;
+        }
+        writeln!(out, "Y/Q and lateral force: greatest mean over 2 m")?;
+    }
+    if let Some(realtime) = &report.realtime {
+        writeln!(
+            out,
+            "real ticks: {} deadlines missed; late by {} at most, {} at the 99th percentile; tick {} at most",
+            realtime.missed_deadlines,
+            span(realtime.lateness.worst_ns),
+            optional_span(realtime.lateness.p99_ns),
+            span(realtime.work.worst_ns)
+        )?;
+    }
+    writeln!(out)?;
+    for file in &report.files {
+        writeln!(out, "wrote {}", output::name(file).display())?;
+    }
+    Ok(())
+}

@@ -1,0 +1,12 @@
+//! A vehicle on a track, from a case: the run, what is recorded of it, how it ends.
+
+pub mod contact;
+mod error;
+mod indices;
+mod run;
+pub mod signals;
+pub mod verification;
+
+pub use error::VehicleStudyError;
+pub use indices::{BodyIndices, Indexer, Indices, WheelIndices, WheelsetIndices};
+pub use run::{Ending, Run};

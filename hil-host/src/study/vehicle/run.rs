@@ -1,0 +1,216 @@
+//! A run of a case, tick by tick.
+
+use std::fmt;
+
+use dashpot_rail::contact::Status;
+use dashpot_rail::creep::KalkerBook;
+use dashpot_rail::track::Track;
+use dashpot_rail::vehicle::{Vehicle, VehicleState};
+
+use super::{VehicleStudyError, contact};
+use crate::files::case::{Case, Fault};
+
+/// A vehicle on its track, before or between ticks.
+#[derive(Debug, Clone)]
+pub struct Run {
+    vehicle: Vehicle<KalkerBook>,
+    track: Track,
+    state: VehicleState,
+    faults: Vec<(usize, Fault)>,
+    next_fault: usize,
+    ticks: u64,
+    start_m: f64,
+}
+
+/// Why a run ended.
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
+#[serde(rename_all = "snake_case", tag = "reason")]
+pub enum Ending {
+    /// After its time.
+    Completed,
+    /// A wheel's flange has run over the rail's top, or its tread off it.
+    Derailed {
+        /// Wheelset.
+        wheelset: String,
+        /// When, s.
+        time_s: f64,
+        /// Where its wheelset was, m.
+        distance_m: f64,
+    },
+    /// A wheelset moved beyond what the tables of the contact know.
+    OutsideTables {
+        /// Wheelset.
+        wheelset: String,
+        /// When, s.
+        time_s: f64,
+        /// Where its wheelset was, m.
+        distance_m: f64,
+    },
+    /// Displacements grew beyond all bounds.
+    Diverged {
+        /// When, s.
+        time_s: f64,
+        /// Where, m.
+        distance_m: f64,
+    },
+    /// The user did not want to wait.
+    Interrupted {
+        /// When, s.
+        time_s: f64,
+        /// Where, m.
+        distance_m: f64,
+    },
+}
+
+impl fmt::Display for Ending {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Completed => write!(f, "completed"),
+            Self::Derailed {
+                wheelset,
+                time_s,
+                distance_m,
+            } => write!(
+                f,
+                "derailed: {wheelset} at {time_s:.3} s, {distance_m:.1} m along the track"
+            ),
+            Self::OutsideTables {
+                wheelset,
+                time_s,
+                distance_m,
+            } => write!(
+                f,
+                "{wheelset} left the tables of the contact at {time_s:.3} s, {distance_m:.1} m along the track"
+            ),
+            Self::Diverged { time_s, distance_m } => write!(
+                f,
+                "diverged at {time_s:.3} s, {distance_m:.1} m along the track"
+            ),
+            Self::Interrupted { time_s, distance_m } => write!(
+                f,
+                "interrupted at {time_s:.3} s, {distance_m:.1} m along the track"
+            ),
+        }
+    }
+}
+
+impl Run {
+    /// The vehicle of `case` at its start.
+    ///
+    /// # Errors
+    /// A vehicle, track or contact that is refused.
+    pub fn new(case: &Case) -> Result<Self, VehicleStudyError> {
+        let contact =
+            contact::tabulated(&case.vehicle, case.friction, case.normal_damping_s_per_m)?;
+        let track = case.track.build()?;
+        let vehicle = Vehicle::new(&case.vehicle, contact, case.step_s)?;
+        let state = vehicle.at_rest(&track, case.start_m, case.speed_m_per_s)?;
+        let number_of =
+            |fault: &Fault| vehicle.damper_names().position(|name| name == fault.damper);
+        let faults = case
+            .faults
+            .iter()
+            .filter_map(|fault| Some((number_of(fault)?, fault.clone())))
+            .collect();
+        Ok(Self {
+            ticks: (case.duration_s / case.step_s).round() as u64,
+            vehicle,
+            track,
+            state,
+            faults,
+            next_fault: 0,
+            start_m: case.start_m,
+        })
+    }
+
+    /// Ticks of the whole run.
+    pub fn ticks(&self) -> u64 {
+        self.ticks
+    }
+
+    /// Time since the start, s.
+    pub fn time_s(&self) -> f64 {
+        self.state.ticks() as f64 * self.vehicle.step_s()
+    }
+
+    /// The vehicle.
+    pub fn vehicle(&self) -> &Vehicle<KalkerBook> {
+        &self.vehicle
+    }
+
+    /// The track.
+    pub fn track(&self) -> &Track {
+        &self.track
+    }
+
+    /// Where it is.
+    pub fn state(&self) -> &VehicleState {
+        &self.state
+    }
+
+    /// Where it is, for a force from outside.
+    pub fn state_mut(&mut self) -> &mut VehicleState {
+        &mut self.state
+    }
+
+    /// Distance at the start, m.
+    pub fn start_m(&self) -> f64 {
+        self.start_m
+    }
+
+    /// One tick, with the faults that are due; how the run ended, if it did.
+    ///
+    /// # Errors
+    /// A fault's damper is refused.
+    pub fn step(&mut self) -> Result<Option<Ending>, VehicleStudyError> {
+        if self.state.ticks() >= self.ticks {
+            return Ok(Some(Ending::Completed));
+        }
+        while let Some((damper, fault)) = self.faults.get(self.next_fault) {
+            if fault.time_s > self.time_s() + 0.5 * self.vehicle.step_s() {
+                break;
+            }
+            self.vehicle.set_damper(*damper, &fault.parameters)?;
+            self.next_fault += 1;
+        }
+        self.vehicle.step(&mut self.state, &self.track);
+        Ok(self.ending())
+    }
+
+    /// The run ends here because the user wants it to.
+    pub fn interrupted(&self) -> Ending {
+        Ending::Interrupted {
+            time_s: self.time_s(),
+            distance_m: self.state.distance_m(),
+        }
+    }
+
+    fn ending(&self) -> Option<Ending> {
+        let (time_s, distance_m) = (self.time_s(), self.state.distance_m());
+        if self.state.is_diverged() {
+            return Some(Ending::Diverged { time_s, distance_m });
+        }
+        let first_wheelset = self.vehicle.names().len() - self.vehicle.wheelsets();
+        let worst = self
+            .state
+            .contacts()
+            .iter()
+            .enumerate()
+            .max_by_key(|(_, contact)| contact.status);
+        let (number, contact) = worst?;
+        let wheelset = self.vehicle.names()[first_wheelset + number].clone();
+        match contact.status {
+            Status::PastTip => Some(Ending::Derailed {
+                wheelset,
+                time_s,
+                distance_m,
+            }),
+            Status::OutsideTables | Status::NotFinite => Some(Ending::OutsideTables {
+                wheelset,
+                time_s,
+                distance_m,
+            }),
+            _ => None,
+        }
+    }
+}
