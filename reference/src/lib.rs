@@ -10,5 +10,6 @@ pub mod deviation;
 mod error;
 pub mod kalker_book;
 pub mod rolling_contact;
+pub mod vehicle;
 
 pub use error::ReferenceError;
