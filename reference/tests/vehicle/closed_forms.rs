@@ -36,7 +36,7 @@ fn free_oscillations_after_an_abrupt_curve() {
     let track = track(&parts, vec![]);
     let start_s = 10.0 / SPEED;
     let mut reference = VehicleReference::new(&vehicle, &contact, &track, SPEED, 0.0).unwrap();
-    let samples = reference.run(&times(0.013, 150), 1e-8).unwrap();
+    let samples = reference.run(&times(0.013, 150), 1e-10).unwrap();
 
     let [kx, ky, kz] = SPRINGS.map(|stiffness| 4.0 * stiffness);
     let [m, ix, iz] = [30e3, 40e3, 900e3];
@@ -58,9 +58,9 @@ fn free_oscillations_after_an_abrupt_curve() {
         let lateral = step * (share * slow + (1.0 - share) * fast);
         let roll = step * coupling / ix * (fast - slow) / (2.0 * root);
         let [found_y, _, found_roll, _, found_yaw] = sample.coordinates[0];
-        assert!((found_y - lateral).abs() < 1e-8, "{found_y} {lateral}");
-        assert!((found_roll - roll).abs() < 1e-8, "{found_roll} {roll}");
-        assert!((found_yaw - yaw).abs() < 1e-8, "{found_yaw} {yaw}");
+        assert!((found_y - lateral).abs() < 1e-9, "{found_y} {lateral}");
+        assert!((found_roll - roll).abs() < 1e-9, "{found_roll} {roll}");
+        assert!((found_yaw - yaw).abs() < 1e-9, "{found_yaw} {yaw}");
         largest = largest.max(roll.abs());
         yaw_largest = yaw_largest.max(yaw.abs());
     }

@@ -85,7 +85,7 @@ pub fn wagon(damping_n_s_per_m: [f64; 3]) -> VehicleParameters {
         mass_kg: 1500.0,
         inertia_kg_m2: [800.0, 100.0, 800.0],
         x_m,
-        radius_m: 0.46,
+        radius_m: 0.625,
     };
     VehicleParameters {
         name: "wagon".into(),
@@ -113,8 +113,8 @@ pub fn dip(start_m: f64) -> Defect {
     Defect::CosineDip {
         rails: Rails::Left,
         start_m,
-        length_m: 1.5,
-        depth_m: 2e-3,
+        length_m: 3.0,
+        depth_m: 8e-3,
     }
 }
 
