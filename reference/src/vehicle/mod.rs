@@ -11,6 +11,7 @@
 mod chain;
 mod coupling;
 mod equations;
+mod events;
 mod frame;
 mod place;
 mod ranges;
@@ -101,7 +102,7 @@ impl<'a, L: CreepLaw, S: PatchSource> VehicleReference<'a, L, S> {
             couplings.push(Coupling::new(vehicle, element, ranged.len()));
             match &element.law {
                 Law::Damper { parameters, .. } => {
-                    ranged.push(Ranged::Damper(dampers, Chain::new(parameters)?));
+                    ranged.push(Ranged::Damper(dampers, Box::new(Chain::new(parameters)?)));
                     dampers += 1;
                 }
                 Law::BumpStop { points, .. } => ranged.push(Ranged::Stop(Stop::new(points))),
@@ -212,12 +213,6 @@ impl<'a, L: CreepLaw, S: PatchSource> VehicleReference<'a, L, S> {
     /// What the last run counted.
     pub fn statistics(&self) -> Statistics {
         self.statistics
-    }
-
-    /// Heights of the wheelsets' centres above the place at which the vehicle stands are counted from these vertical places of the contact (m).
-    pub fn standing_vertical_m(&self) -> Vec<f64> {
-        let places = self.equations.wheelsets.iter();
-        places.map(|rolling| rolling.standing.vertical).collect()
     }
 }
 

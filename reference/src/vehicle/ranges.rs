@@ -1,8 +1,8 @@
 //! The ranges between the edges of a law: within one the law is smooth, and the solver stops where it is left.
 
 /// Overlap of neighbouring ranges (m), so that a motion that has just entered a range is well within it. Its force, at a
-/// stiffness of 1e9 N/m, is 1 mN.
-pub(super) const OVERLAP_M: f64 = 1e-12;
+/// stiffness of 1e9 N/m, is 10 mN.
+pub(super) const OVERLAP_M: f64 = 1e-11;
 
 /// Rising edges; range `i` is below edge `i`, the last one above all.
 #[derive(Clone, Debug)]

@@ -259,7 +259,7 @@ pub(super) fn run<'a, L: CreepLaw, S: PatchSource>(
             }
         }
     }
-    while let Some(time) = waiting.next() {
+    for time in waiting {
         told(&mut shared.borrow_mut().situation, time, &state);
     }
     let counted = solver.get_statistics();

@@ -26,6 +26,9 @@ fn nothing_moves_where_nothing_disturbs() {
     }
 }
 
+/// What is compared of a sample.
+type Quantity = fn(&VehicleSample) -> f64;
+
 /// Deviations from a finer solution are small at the tolerance of 1e-8 and greater at a looser one.
 #[test]
 fn the_solution_converges_with_the_tolerance() {
@@ -36,7 +39,7 @@ fn the_solution_converges_with_the_tolerance() {
     let fine = reference.run(&times, 1e-9).unwrap();
     let usual = reference.run(&times, 1e-8).unwrap();
     let loose = reference.run(&times, 1e-6).unwrap();
-    let quantities: [(&str, fn(&VehicleSample) -> f64); 4] = [
+    let quantities: [(&str, Quantity); 4] = [
         ("body acceleration", |sample| sample.accelerations[0][1]),
         ("body roll", |sample| sample.coordinates[0][2]),
         ("axle lateral", |sample| sample.coordinates[1][0]),
