@@ -124,4 +124,7 @@ pub enum ReferenceError {
         /// Longitudinal, lateral and spin creepage, scaled.
         creepage: [f64; 3],
     },
+    /// A vehicle that cannot stand or run, or a number out of bounds.
+    #[error("reference: {0}")]
+    Vehicle(#[from] dashpot_rail::vehicle::VehicleError),
 }

@@ -1,6 +1,6 @@
 //! Independent solutions that the fixed steps and the creep laws are checked against, to a stated tolerance.
 //!
-//! They share the parameters with what they check, and nothing else. [`kalker_book`] computes the tables that the
+//! They share the parameters with what they check, and a [`vehicle`] the contact; nothing else. [`kalker_book`] computes the tables that the
 //! recommended creep law reads.
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
@@ -10,5 +10,6 @@ pub mod deviation;
 mod error;
 pub mod kalker_book;
 pub mod rolling_contact;
+pub mod vehicle;
 
 pub use error::ReferenceError;

@@ -216,6 +216,11 @@ impl Layout {
         self.piece(distance_m).course(distance_m)
     }
 
+    /// Distances at which the parts begin, m: where curvature, cant or their changes may jump.
+    pub fn starts_m(&self) -> impl Iterator<Item = f64> + '_ {
+        self.pieces.iter().map(|piece| piece.start_m)
+    }
+
     /// Sum of the lengths of the parts, m.
     pub fn length_m(&self) -> f64 {
         self.length_m

@@ -14,7 +14,7 @@ mod passage;
 mod paths;
 mod segment;
 mod shim;
-mod side;
+pub(crate) mod side;
 
 use std::rc::Rc;
 

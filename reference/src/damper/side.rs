@@ -27,7 +27,7 @@ enum Law {
 /// One direction of the element with its springs. Force, stretch and velocity are positive in the
 /// direction that works.
 #[derive(Clone, Debug)]
-pub(super) struct Side {
+pub(crate) struct Side {
     law: Law,
     /// Seal friction (N).
     friction: f64,
@@ -35,22 +35,22 @@ pub(super) struct Side {
     stiffness: f64,
     column: Option<ColumnSpring>,
     /// Force up to which the piston stands still (N).
-    pub(super) closed_force: f64,
+    pub(crate) closed_force: f64,
     /// Stretch at that force (m).
-    pub(super) closed_stretch: f64,
+    pub(crate) closed_stretch: f64,
     /// Force at which the damper yields (N).
-    pub(super) yield_force: f64,
+    pub(crate) yield_force: f64,
     /// Coordinate at that force.
-    pub(super) yield_coordinate: f64,
+    pub(crate) yield_coordinate: f64,
     /// Velocity through the valves at that force (m/s).
-    pub(super) yield_velocity: f64,
+    pub(crate) yield_velocity: f64,
     /// Coordinates at which a valve opens.
-    pub(super) kinks: Vec<f64>,
+    pub(crate) kinks: Vec<f64>,
 }
 
 impl Side {
     /// Extension and compression side of a damper.
-    pub(super) fn both(parameters: &DamperParameters) -> Result<[Self; 2], ReferenceError> {
+    pub(crate) fn both(parameters: &DamperParameters) -> Result<[Self; 2], ReferenceError> {
         let limit = parameters.limits.force_n;
         let stiffness = series_stiffness(&parameters.mount);
         match &parameters.element {
@@ -161,7 +161,7 @@ impl Side {
     }
 
     /// Force (N) at a coordinate.
-    pub(super) fn force(&self, y: f64) -> f64 {
+    pub(crate) fn force(&self, y: f64) -> f64 {
         match &self.law {
             Law::Reduced { .. } => y,
             Law::Hydraulic { area, .. } => self.closed_force + area * y * y,
@@ -169,7 +169,7 @@ impl Side {
     }
 
     /// Coordinate of a force of at least the closed one.
-    pub(super) fn coordinate(&self, force: f64) -> f64 {
+    pub(crate) fn coordinate(&self, force: f64) -> f64 {
         match &self.law {
             Law::Reduced { .. } => force,
             Law::Hydraulic { area, .. } => ((force - self.closed_force).max(0.0) / area).sqrt(),
@@ -177,7 +177,7 @@ impl Side {
     }
 
     /// Piston velocity (m/s) at a coordinate; odd, so that a trial stage below 0 stays smooth.
-    pub(super) fn velocity(&self, y: f64) -> f64 {
+    pub(crate) fn velocity(&self, y: f64) -> f64 {
         match &self.law {
             Law::Reduced { damping } => y / damping,
             Law::Hydraulic {
@@ -187,7 +187,7 @@ impl Side {
     }
 
     /// Stretch of mount springs and oil column (m) under a force.
-    pub(super) fn stretch(&self, force: f64) -> f64 {
+    pub(crate) fn stretch(&self, force: f64) -> f64 {
         force / self.stiffness
             + self
                 .column
@@ -204,7 +204,7 @@ impl Side {
     }
 
     /// Force (N) of the still piston at a stretch (m) between 0 and `closed_stretch`.
-    pub(super) fn held_force(&self, stretch: f64) -> f64 {
+    pub(crate) fn held_force(&self, stretch: f64) -> f64 {
         if stretch <= 0.0 {
             0.0
         } else if stretch >= self.closed_stretch {
@@ -217,12 +217,12 @@ impl Side {
     }
 
     /// Coordinate at which the piston moves at `velocity` (m/s), at most the yield coordinate.
-    pub(super) fn coordinate_at(&self, velocity: f64) -> f64 {
+    pub(crate) fn coordinate_at(&self, velocity: f64) -> f64 {
         increasing_root(0.0, self.yield_coordinate, |y| self.velocity(y) - velocity)
     }
 
     /// Coordinate at which the springs are stretched by `stretch` (m), at most the yield one.
-    pub(super) fn coordinate_stretched(&self, stretch: f64) -> f64 {
+    pub(crate) fn coordinate_stretched(&self, stretch: f64) -> f64 {
         increasing_root(0.0, self.yield_coordinate, |y| {
             self.stretch(self.force(y)) - stretch
         })
@@ -233,7 +233,7 @@ impl Side {
     ///
     /// `d delta/dt = speed - v`. In `s`, `d delta/ds` vanishes with `s`: the clock
     /// `dt/d tau = s/sqrt(s^2 + knee^2)` takes that zero out, so `s` passes 0 at a finite rate.
-    pub(super) fn rates(&self, y: f64, speed: f64, knee: f64) -> [f64; 3] {
+    pub(crate) fn rates(&self, y: f64, speed: f64, knee: f64) -> [f64; 3] {
         match &self.law {
             Law::Reduced { .. } => {
                 let velocity = self.velocity(y);

@@ -1,0 +1,180 @@
+//! A damper between two bodies: clearance, springs and velocity law of the reference damper, with its piston's place as state.
+//!
+//! Displacement and force are positive in extension. Ranges of the displacement beyond the piston's place: yielding, flowing and
+//! held in compression, clearance, and the same in extension.
+
+use dashpot_core::DamperParameters;
+
+use super::ranges::Ranges;
+use crate::damper::side::Side;
+use crate::error::ReferenceError;
+
+/// Range of the clearance.
+pub(super) const CLEARANCE: usize = 3;
+
+/// Overlap at the end of yielding (m/s).
+const OVERLAP_M_PER_S: f64 = 1e-10;
+
+/// Step of differences (m).
+const STEP_M: f64 = 1e-9;
+
+/// One direction, and where it yields.
+#[derive(Clone, Debug)]
+struct Direction {
+    side: Side,
+    yield_stretch: f64,
+    /// Change of force and velocity over the stretch at the force at which it yields (N/m, 1/s).
+    slopes: [f64; 2],
+}
+
+/// A damper with clearance and springs.
+#[derive(Clone, Debug)]
+pub(super) struct Chain {
+    directions: [Direction; 2],
+    half_clearance: f64,
+    pub(super) ranges: Ranges,
+}
+
+impl Chain {
+    pub(super) fn new(parameters: &DamperParameters) -> Result<Self, ReferenceError> {
+        let directions = Side::both(parameters)?.map(|side| {
+            let yield_stretch = side.stretch(side.yield_force);
+            let below = 0.999 * side.yield_coordinate;
+            let change = yield_stretch - side.stretch(side.force(below));
+            let slopes = [
+                (side.yield_force - side.force(below)) / change,
+                (side.yield_velocity - side.velocity(below)) / change,
+            ];
+            Direction {
+                side,
+                yield_stretch,
+                slopes,
+            }
+        });
+        let half_clearance = 0.5 * parameters.mount.clearance_m;
+        let edges = |of: &Direction| {
+            [0.0, of.side.closed_stretch, of.yield_stretch].map(|x| x + half_clearance)
+        };
+        let [extension, compression] = &directions;
+        let inward = edges(compression).into_iter().rev().map(|edge| -edge);
+        Ok(Self {
+            ranges: Ranges {
+                edges: inward.chain(edges(extension)).collect(),
+            },
+            directions,
+            half_clearance,
+        })
+    }
+
+    /// The direction that works in a range, and its sign.
+    fn working(&self, range: usize) -> (&Direction, f64) {
+        if range > CLEARANCE {
+            (&self.directions[0], 1.0)
+        } else {
+            (&self.directions[1], -1.0)
+        }
+    }
+
+    /// Force (N) at a displacement from the piston (m).
+    pub(super) fn force(&self, range: usize, from_piston: f64) -> f64 {
+        let (of, sign) = self.working(range);
+        let stretch = sign * from_piston - self.half_clearance;
+        sign * match range.abs_diff(CLEARANCE) {
+            0 => 0.0,
+            1 => of.held_force(stretch),
+            2 => of.flow(stretch)[0],
+            _ => of.side.yield_force,
+        }
+    }
+
+    /// Velocity of the piston (m/s), the ends parting at `velocity`.
+    pub(super) fn piston_velocity(&self, range: usize, from_piston: f64, velocity: f64) -> f64 {
+        let (of, sign) = self.working(range);
+        match range.abs_diff(CLEARANCE) {
+            0 | 1 => 0.0,
+            2 => sign * of.flow(sign * from_piston - self.half_clearance)[1],
+            _ => velocity,
+        }
+    }
+
+    /// Force over the displacement from the piston (N/m), and velocity of the piston over it (1/s) and over that of the ends; by
+    /// differences, good for an iteration.
+    pub(super) fn slopes(&self, range: usize, from_piston: f64) -> [f64; 3] {
+        match range.abs_diff(CLEARANCE) {
+            0 => [0.0; 3],
+            3 => [0.0, 0.0, 1.0],
+            _ => {
+                let at = |x: f64| [self.force(range, x), self.piston_velocity(range, x, 0.0)];
+                let (behind, ahead) = (at(from_piston - STEP_M), at(from_piston + STEP_M));
+                let slope = |of: usize| (ahead[of] - behind[of]) / (2.0 * STEP_M);
+                [slope(0), slope(1), 0.0]
+            }
+        }
+    }
+
+    /// Distances to both ends of a range, positive within: yielding ends by the velocity, not by the displacement.
+    pub(super) fn margins(&self, range: usize, from_piston: f64, velocity: f64) -> [f64; 2] {
+        let (of, sign) = self.working(range);
+        if range.abs_diff(CLEARANCE) == 3 {
+            let speed = sign * velocity;
+            return [speed - of.side.yield_velocity + OVERLAP_M_PER_S, 1.0];
+        }
+        self.ranges.margins(range, from_piston)
+    }
+
+    /// Range and displacement from the piston of a damper that was in `range` before.
+    pub(super) fn settled(&self, range: usize, from_piston: f64, velocity: f64) -> (usize, f64) {
+        let yields = |range: usize| {
+            let (of, sign) = self.working(range);
+            range.abs_diff(CLEARANCE) == 3
+                && sign * velocity - of.side.yield_velocity > -0.5 * OVERLAP_M_PER_S
+        };
+        if range.abs_diff(CLEARANCE) == 3 {
+            if yields(range) {
+                return (range, from_piston);
+            }
+            let (of, sign) = self.working(range);
+            let at_edge = sign * (self.half_clearance + of.yield_stretch);
+            return (if range == 0 { 1 } else { 5 }, at_edge);
+        }
+        let settled = self.ranges.settled(range, from_piston);
+        if settled.abs_diff(CLEARANCE) == 3 && !yields(settled) {
+            return (if settled == 0 { 1 } else { 5 }, from_piston);
+        }
+        (settled, from_piston)
+    }
+}
+
+impl Direction {
+    /// Force of the still piston at a stretch, continued beyond its range by straight lines.
+    fn held_force(&self, stretch: f64) -> f64 {
+        let (force, most) = (self.side.closed_force, self.side.closed_stretch);
+        if most > 0.0 {
+            let within = stretch.clamp(0.0, most);
+            self.side.held_force(within) + (stretch - within) * force / most
+        } else {
+            0.0
+        }
+    }
+
+    /// Force and velocity of the flowing oil at a stretch: mirrored below the range, straight on beyond it.
+    fn flow(&self, stretch: f64) -> [f64; 2] {
+        let least = self.side.closed_stretch;
+        let beyond = stretch - self.yield_stretch;
+        if beyond > 0.0 {
+            return [
+                self.side.yield_force + beyond * self.slopes[0],
+                self.side.yield_velocity + beyond * self.slopes[1],
+            ];
+        }
+        let y = self
+            .side
+            .coordinate_stretched(least + (stretch - least).abs());
+        let (above, velocity) = (
+            self.side.force(y) - self.side.closed_force,
+            self.side.velocity(y),
+        );
+        let sign = if stretch < least { -1.0 } else { 1.0 };
+        [self.side.closed_force + sign * above, sign * velocity]
+    }
+}

@@ -1,0 +1,214 @@
+//! An element between two bodies: the motion of its ends, its force, and what that does to both bodies.
+
+use dashpot_rail::vehicle::{Direction, Element, Law, VehicleParameters};
+
+use super::place::{Coordinates, Place, Pose, Vector, cross, dot};
+
+/// What an element does.
+#[derive(Clone, Debug)]
+pub(super) enum Action {
+    /// Springs and dashpots along and about x, y and z.
+    Springs {
+        stiffness: Vector,
+        damping: Vector,
+        angular_stiffness: Vector,
+        angular_damping: Vector,
+    },
+    /// Spring and dashpot along a unit vector.
+    Rod {
+        along: Vector,
+        stiffness: f64,
+        damping: f64,
+    },
+    /// Spring about x.
+    Bar { stiffness: f64 },
+    /// Force along an axis by the damper or the stop of this number.
+    Nonlinear { axis: usize, number: usize },
+}
+
+/// An element with its places.
+#[derive(Clone, Debug)]
+pub(super) struct Coupling {
+    pub(super) places: [Place; 2],
+    pub(super) action: Action,
+    /// Force on the second end in the standing vehicle (N).
+    pub(super) standing_force: Vector,
+}
+
+/// Second end against the first.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Motion {
+    pub(super) shift: Vector,
+    velocity: Vector,
+    turn: Vector,
+    turn_rate: Vector,
+}
+
+fn minus(a: Vector, b: Vector) -> Vector {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+impl Coupling {
+    /// An element of a vehicle, without a force yet; `number` is that of a damper or stop.
+    pub(super) fn new(vehicle: &VehicleParameters, element: &Element, number: usize) -> Self {
+        let [first, second] = &element.ends;
+        let action = match &element.law {
+            Law::SpringDamper {
+                stiffness_n_per_m,
+                damping_n_s_per_m,
+            } => Action::Springs {
+                stiffness: *stiffness_n_per_m,
+                damping: *damping_n_s_per_m,
+                angular_stiffness: [0.0; 3],
+                angular_damping: [0.0; 3],
+            },
+            Law::Bush {
+                stiffness_n_per_m,
+                damping_n_s_per_m,
+                stiffness_n_m_per_rad,
+                damping_n_m_s_per_rad,
+            } => Action::Springs {
+                stiffness: *stiffness_n_per_m,
+                damping: *damping_n_s_per_m,
+                angular_stiffness: *stiffness_n_m_per_rad,
+                angular_damping: *damping_n_m_s_per_rad,
+            },
+            Law::Damper { direction, .. } | Law::BumpStop { direction, .. } => {
+                let axis = match direction {
+                    Direction::Longitudinal => 0,
+                    Direction::Lateral => 1,
+                    Direction::Vertical => 2,
+                };
+                Action::Nonlinear { axis, number }
+            }
+            Law::AntiRollBar {
+                stiffness_n_m_per_rad,
+            } => Action::Bar {
+                stiffness: *stiffness_n_m_per_rad,
+            },
+            Law::TractionRod {
+                stiffness_n_per_m,
+                damping_n_s_per_m,
+            } => {
+                let line = minus(second.at_m, first.at_m);
+                let length = dot(&line, &line).sqrt();
+                Action::Rod {
+                    // heights are upward
+                    along: [line[0] / length, line[1] / length, -line[2] / length],
+                    stiffness: *stiffness_n_per_m,
+                    damping: *damping_n_s_per_m,
+                }
+            }
+        };
+        Self {
+            places: [first, second].map(|end| Place::new(vehicle, end)),
+            action,
+            standing_force: [0.0; 3],
+        }
+    }
+
+    pub(super) fn motion(&self, poses: &[Pose; 2]) -> Motion {
+        let [first, second] = &self.places;
+        let [from, to] = poses;
+        Motion {
+            shift: minus(
+                second.shift(&to.displacement),
+                first.shift(&from.displacement),
+            ),
+            velocity: minus(second.shift(&to.rate), first.shift(&from.rate)),
+            turn: minus(
+                second.turn(&to.displacement),
+                first.turn(&from.displacement),
+            ),
+            turn_rate: minus(second.turn(&to.rate), first.turn(&from.rate)),
+        }
+    }
+
+    /// Displacement and velocity along the axis of a damper or stop, and its number.
+    pub(super) fn along(&self, motion: &Motion) -> Option<(usize, f64, f64)> {
+        match self.action {
+            Action::Nonlinear { axis, number } => {
+                Some((number, motion.shift[axis], motion.velocity[axis]))
+            }
+            _ => None,
+        }
+    }
+
+    /// Force and moment of springs and dashpots on the second end.
+    pub(super) fn spring_wrench(&self, motion: &Motion) -> [Vector; 2] {
+        let resisting = |k: &Vector, x: &Vector, c: &Vector, v: &Vector| {
+            std::array::from_fn(|i| -k[i] * x[i] - c[i] * v[i])
+        };
+        match &self.action {
+            Action::Springs {
+                stiffness,
+                damping,
+                angular_stiffness,
+                angular_damping,
+            } => [
+                resisting(stiffness, &motion.shift, damping, &motion.velocity),
+                resisting(
+                    angular_stiffness,
+                    &motion.turn,
+                    angular_damping,
+                    &motion.turn_rate,
+                ),
+            ],
+            Action::Rod {
+                along,
+                stiffness,
+                damping,
+            } => {
+                let force =
+                    -stiffness * dot(along, &motion.shift) - damping * dot(along, &motion.velocity);
+                [along.map(|component| component * force), [0.0; 3]]
+            }
+            Action::Bar { stiffness } => [[0.0; 3], [-stiffness * motion.turn[0], 0.0, 0.0]],
+            Action::Nonlinear { .. } => [[0.0; 3]; 2],
+        }
+    }
+
+    /// What `force` and `moment` on the second end, and the opposite on the first, do to the first and the second body.
+    pub(super) fn loads(&self, [force, moment]: &[Vector; 2]) -> [Coordinates; 2] {
+        let opposite = |vector: &Vector| vector.map(|component| -component);
+        [
+            self.places[0].load(&opposite(force), &opposite(moment)),
+            self.places[1].load(force, moment),
+        ]
+    }
+
+    /// What a force along the axis of a damper or stop does to the bodies, per newton on the second end.
+    pub(super) fn loads_along(&self) -> [Coordinates; 2] {
+        let mut force = [0.0; 3];
+        if let Action::Nonlinear { axis, .. } = self.action {
+            force[axis] = 1.0;
+        }
+        self.loads(&[force, [0.0; 3]])
+    }
+
+    /// What the standing force does more as the bodies turn.
+    ///
+    /// Its potential is `U = -F . R^T (u2 - u1)`, the ends displaced by `u = u_c + omega x r + omega x (omega x r)/2` and the axes
+    /// turned by the mean `m` of both rotations. To first order `-dU` is: the force `m x F` on the second end and its opposite on
+    /// the first; half of the moment `F x (u2 - u1)` on either body; and, for `omega x (omega x r)/2`, the moment
+    /// `(F (r . omega) + r (F . omega))/2 - (F . r) omega` on the second body, its opposite with its own `r` on the first.
+    pub(super) fn turned_loads(&self, poses: &[Pose; 2], motion: &Motion) -> [Coordinates; 2] {
+        let f = &self.standing_force;
+        let turns: [Vector; 2] =
+            std::array::from_fn(|end| self.places[end].turn(&poses[end].displacement));
+        let mean = std::array::from_fn(|i| 0.5 * (turns[0][i] + turns[1][i]));
+        let force = cross(&mean, f);
+        let couple = cross(f, &motion.shift);
+        std::array::from_fn(|end| {
+            let sign = if end == 0 { -1.0 } else { 1.0 };
+            let (place, turn) = (&self.places[end], &turns[end]);
+            let r = &place.arm;
+            let (along_arm, along_force) = (0.5 * dot(r, turn), 0.5 * dot(f, turn));
+            let moment: Vector = std::array::from_fn(|i| {
+                let of_end = f[i] * along_arm + r[i] * along_force - dot(f, r) * turn[i];
+                0.5 * couple[i] + sign * of_end
+            });
+            place.load(&force.map(|component| sign * component), &moment)
+        })
+    }
+}

@@ -1,0 +1,295 @@
+//! Equations of motion, body by body: what every element, the rails and the track do to each.
+
+use dashpot_rail::contact::{
+    Motion, PatchSource, RailDisplacement, WheelsetContact, WheelsetForces,
+};
+use dashpot_rail::creep::CreepLaw;
+
+use super::chain::Chain;
+use super::coupling::Coupling;
+use super::frame::{Following, Path};
+use super::place::{Coordinates, Pose};
+use super::standing::Standing;
+use super::stop::Stop;
+
+/// Coordinates of a body.
+pub(super) const N: usize = 5;
+
+/// A damper or a stop: what has ranges.
+#[derive(Clone, Debug)]
+pub(super) enum Ranged {
+    /// Number among the dampers, and the damper.
+    Damper(usize, Box<Chain>),
+    Stop(Stop),
+}
+
+/// A wheelset with its contact.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Rolling {
+    pub(super) standing: Standing,
+    /// Angular momentum about the axle (kg m^2/s).
+    pub(super) momentum: f64,
+    /// What the elements do to it in the standing vehicle but for their load.
+    pub(super) constant: Coordinates,
+}
+
+/// The vehicle; the state is the coordinates of bodies and wheelsets, their velocities, and the places of the dampers' pistons.
+pub(super) struct Equations<'a, L, S: PatchSource> {
+    pub(super) contact: &'a WheelsetContact<L, S>,
+    pub(super) inertia: Vec<Coordinates>,
+    /// The wheelsets, behind the bodies in number.
+    pub(super) wheelsets: Vec<Rolling>,
+    pub(super) couplings: Vec<Coupling>,
+    pub(super) ranged: Vec<Ranged>,
+    pub(super) dampers: usize,
+}
+
+/// What a solver holds constant from one event to the next.
+#[derive(Clone, Debug)]
+pub(super) struct Situation<'a> {
+    pub(super) path: Path<'a>,
+    /// Range of every damper and stop.
+    pub(super) ranges: Vec<usize>,
+    /// What the track did last, and when: stages of a step share it.
+    following: (f64, Vec<Following>),
+}
+
+/// What follows from a state.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Outcome {
+    /// Rates of the coordinates.
+    pub(super) rates: Vec<Coordinates>,
+    pub(super) accelerations: Vec<Coordinates>,
+    pub(super) piston_velocities: Vec<f64>,
+    pub(super) contacts: Vec<WheelsetForces>,
+    pub(super) damper_displacements: Vec<f64>,
+    pub(super) damper_forces: Vec<f64>,
+}
+
+/// A damper's or stop's displacement and velocity.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Extension {
+    pub(super) displacement: f64,
+    pub(super) velocity: f64,
+}
+
+impl<'a> Situation<'a> {
+    pub(super) fn new(path: Path<'a>, ranges: Vec<usize>) -> Self {
+        Self {
+            path,
+            ranges,
+            following: (f64::NAN, Vec::new()),
+        }
+    }
+
+    /// Take the track as it is around `time`.
+    pub(super) fn enter(&mut self, time: f64) {
+        self.path.enter(time);
+        self.following.0 = f64::NAN;
+    }
+
+    pub(super) fn follow(&mut self, time: f64) {
+        if self.following.0 != time {
+            self.following = (time, self.path.following(time));
+        }
+    }
+
+    pub(super) fn following(&self) -> &[Following] {
+        &self.following.1
+    }
+}
+
+impl<L: CreepLaw, S: PatchSource> Equations<'_, L, S> {
+    pub(super) fn bodies(&self) -> usize {
+        self.inertia.len()
+    }
+
+    pub(super) fn size(&self) -> usize {
+        2 * N * self.bodies() + self.dampers
+    }
+
+    fn coordinates(&self, state: &[f64], body: usize) -> Coordinates {
+        std::array::from_fn(|k| state[N * body + k])
+    }
+
+    fn velocities(&self, state: &[f64], body: usize) -> Coordinates {
+        self.coordinates(&state[N * self.bodies()..], body)
+    }
+
+    pub(super) fn pistons<'s>(&self, state: &'s [f64]) -> &'s [f64] {
+        &state[2 * N * self.bodies()..]
+    }
+
+    /// Poses of the bodies at the ends of an element: in the frame of the middle, or in the body's own frame against the track.
+    fn poses(&self, following: &[Following], state: &[f64], coupling: &Coupling) -> [Pose; 2] {
+        let on_track = coupling.places.iter().any(|place| place.body.is_none());
+        std::array::from_fn(|end| {
+            let Some(body) = coupling.places[end].body else {
+                return Pose::default();
+            };
+            let (q, v) = (self.coordinates(state, body), self.velocities(state, body));
+            let of = &following[body];
+            if on_track {
+                Pose {
+                    displacement: q,
+                    rate: std::array::from_fn(|k| v[k] - of.frame_velocity[k]),
+                }
+            } else {
+                Pose {
+                    displacement: std::array::from_fn(|k| q[k] + of.offset[k]),
+                    rate: std::array::from_fn(|k| v[k] + of.offset_rate[k]),
+                }
+            }
+        })
+    }
+
+    /// Displacement and velocity of every damper and stop; dampers from the middle of their ends, not from their pistons.
+    pub(super) fn extensions(&self, following: &[Following], state: &[f64]) -> Vec<Extension> {
+        let mut extensions = vec![Extension::default(); self.ranged.len()];
+        for coupling in &self.couplings {
+            let motion = coupling.motion(&self.poses(following, state, coupling));
+            if let Some((number, displacement, velocity)) = coupling.along(&motion) {
+                extensions[number] = Extension {
+                    displacement,
+                    velocity,
+                };
+            }
+        }
+        extensions
+    }
+
+    /// Motion of a wheelset's contact and of its rails.
+    pub(super) fn contact_motion(
+        &self,
+        situation: &Situation<'_>,
+        time: f64,
+        state: &[f64],
+        wheelset: usize,
+    ) -> (Motion, [RailDisplacement; 2]) {
+        let body = self.bodies() - self.wheelsets.len() + wheelset;
+        let standing = &self.wheelsets[wheelset].standing;
+        let (q, v) = (self.coordinates(state, body), self.velocities(state, body));
+        let frame = &situation.following()[body].frame_velocity;
+        let path = &situation.path;
+        let motion = Motion {
+            speed_m_per_s: path.speed,
+            lateral_m: q[0],
+            vertical_m: q[1] + standing.vertical,
+            roll_rad: q[2],
+            yaw_rad: q[4],
+            lateral_velocity_m_per_s: v[0] - frame[0],
+            vertical_velocity_m_per_s: v[1],
+            roll_rate_rad_per_s: v[2] - frame[2],
+            rotation_rad_per_s: standing.rotation - v[3],
+            yaw_rate_rad_per_s: v[4],
+        };
+        let distance = path.distance_of(body, time);
+        let rails = path
+            .track
+            .rails(distance)
+            .map(|rail| rail.displacement(path.speed));
+        (motion, rails)
+    }
+
+    /// All rates and forces at a state.
+    pub(super) fn outcome(
+        &self,
+        situation: &mut Situation<'_>,
+        time: f64,
+        state: &[f64],
+        outcome: &mut Outcome,
+    ) {
+        situation.follow(time);
+        let following = situation.following();
+        let bodies = self.bodies();
+        let mut loads = vec![[0.0; N]; bodies];
+        let mut add = |coupling: &Coupling, on_ends: &[Coordinates; 2]| {
+            for (place, load) in coupling.places.iter().zip(on_ends) {
+                if let Some(body) = place.body {
+                    for (sum, load) in loads[body].iter_mut().zip(load) {
+                        *sum += load;
+                    }
+                }
+            }
+        };
+        outcome.damper_displacements.resize(self.dampers, 0.0);
+        outcome.damper_forces.resize(self.dampers, 0.0);
+        outcome.piston_velocities.resize(self.dampers, 0.0);
+        for coupling in &self.couplings {
+            let poses = self.poses(following, state, coupling);
+            let motion = coupling.motion(&poses);
+            add(coupling, &coupling.loads(&coupling.spring_wrench(&motion)));
+            add(coupling, &coupling.turned_loads(&poses, &motion));
+            let Some((number, x, v)) = coupling.along(&motion) else {
+                continue;
+            };
+            let range = situation.ranges[number];
+            let resistance = match &self.ranged[number] {
+                Ranged::Damper(number, chain) => {
+                    let from_piston = x - self.pistons(state)[*number];
+                    let force = chain.force(range, from_piston);
+                    outcome.damper_displacements[*number] = x;
+                    outcome.damper_forces[*number] = force;
+                    outcome.piston_velocities[*number] =
+                        chain.piston_velocity(range, from_piston, v);
+                    force
+                }
+                Ranged::Stop(stop) => stop.force(range, x),
+            };
+            let against = coupling
+                .loads_along()
+                .map(|load| load.map(|per| -per * resistance));
+            add(coupling, &against);
+        }
+        self.add_contacts(situation, time, state, (&mut loads, outcome));
+        let following = situation.following();
+        outcome.rates.clear();
+        outcome.accelerations.clear();
+        for (body, load) in loads.iter().enumerate() {
+            let of = &following[body];
+            let v = self.velocities(state, body);
+            let mut rate: Coordinates = std::array::from_fn(|k| load[k] / self.inertia[body][k]);
+            rate[0] += of.acceleration[0];
+            rate[1] += of.acceleration[1];
+            outcome.accelerations.push(rate);
+            outcome
+                .rates
+                .push(std::array::from_fn(|k| v[k] - of.frame_velocity[k]));
+        }
+    }
+
+    /// Forces of the rails and gyroscopic moments.
+    fn add_contacts(
+        &self,
+        situation: &Situation<'_>,
+        time: f64,
+        state: &[f64],
+        (loads, outcome): (&mut [Coordinates], &mut Outcome),
+    ) {
+        outcome
+            .contacts
+            .resize_with(self.wheelsets.len(), WheelsetForces::default);
+        let first = self.bodies() - self.wheelsets.len();
+        for (number, rolling) in self.wheelsets.iter().enumerate() {
+            let body = first + number;
+            let (motion, rails) = self.contact_motion(situation, time, state, number);
+            let contact = &mut outcome.contacts[number];
+            self.contact.update(&motion, &rails, contact);
+            let roll = situation.following()[body].offset[2];
+            let [_, y, z] = contact.force_n;
+            let [about_x, about_y, about_z] = contact.moment_n_m;
+            let v = self.velocities(state, body);
+            let of_rails = [
+                y - roll * z,
+                z + roll * y + rolling.standing.load,
+                about_x - rolling.momentum * v[4],
+                // About the axle, which is turned and rolled.
+                about_y - motion.yaw_rad * about_x + motion.roll_rad * about_z,
+                about_z + rolling.momentum * v[2],
+            ];
+            for (k, sum) in loads[body].iter_mut().enumerate() {
+                *sum += of_rails[k] + rolling.constant[k];
+            }
+        }
+    }
+}

@@ -1,0 +1,61 @@
+//! Where a damper or stop leaves the range of its law.
+
+use dashpot_rail::contact::PatchSource;
+use dashpot_rail::creep::CreepLaw;
+
+use super::equations::{Equations, N, Ranged, Situation};
+
+impl<L: CreepLaw, S: PatchSource> Equations<'_, L, S> {
+    /// Distances of every damper and stop to the ends of its range, two each.
+    pub(super) fn margins(
+        &self,
+        situation: &mut Situation<'_>,
+        time: f64,
+        state: &[f64],
+    ) -> Vec<f64> {
+        situation.follow(time);
+        let extensions = self.extensions(situation.following(), state);
+        let of = |number: usize| {
+            let (range, at) = (situation.ranges[number], extensions[number]);
+            match &self.ranged[number] {
+                Ranged::Damper(damper, chain) => {
+                    let from_piston = at.displacement - self.pistons(state)[*damper];
+                    chain.margins(range, from_piston, at.velocity)
+                }
+                Ranged::Stop(stop) => stop.ranges.margins(range, at.displacement),
+            }
+        };
+        (0..self.ranged.len()).flat_map(of).collect()
+    }
+
+    /// Put every damper and stop into the range it is in; a piston whose damper ceases to yield is where the force is that at which it
+    /// yields. How many changed.
+    pub(super) fn settle(
+        &self,
+        situation: &mut Situation<'_>,
+        time: f64,
+        state: &mut [f64],
+    ) -> usize {
+        situation.follow(time);
+        let extensions = self.extensions(situation.following(), state);
+        let mut changes = 0;
+        for (number, at) in extensions.into_iter().enumerate() {
+            let before = situation.ranges[number];
+            let now = match &self.ranged[number] {
+                Ranged::Damper(damper, chain) => {
+                    let piston = &mut state[2 * N * self.bodies() + damper];
+                    let (range, from_piston) =
+                        chain.settled(before, at.displacement - *piston, at.velocity);
+                    if range != before {
+                        *piston = at.displacement - from_piston;
+                    }
+                    range
+                }
+                Ranged::Stop(stop) => stop.ranges.settled(before, at.displacement),
+            };
+            situation.ranges[number] = now;
+            changes += usize::from(now != before);
+        }
+        changes
+    }
+}

@@ -1,0 +1,262 @@
+//! Reference solution of a vehicle that runs along a track.
+//!
+//! Newton's and Euler's equations, body by body, each element by the motion of its ends, dampers by the laws of the
+//! [reference damper](crate::damper) with clearance, held piston, flow and yielding, integrated by an adaptive stiff solver to a stated
+//! tolerance. The solver stops where a damper or stop passes an edge of its law and where a body passes an edge of the track. The
+//! contact, a model of its own, is that of [`dashpot_rail::contact`]; nothing else is shared but the description of the vehicle.
+//!
+//! Coordinates of each body: lateral, vertical (m), roll, pitch, yaw (rad) in the frame that follows the track at the body, from where the
+//! vehicle stands; velocities are absolute, in the same axes; the pitch of a wheelset is its spin against free rolling.
+
+mod chain;
+mod coupling;
+mod equations;
+mod events;
+mod frame;
+mod place;
+mod ranges;
+mod slopes;
+mod solver;
+mod standing;
+mod stop;
+
+use dashpot_rail::contact::{PatchSource, WheelsetContact, WheelsetForces};
+use dashpot_rail::creep::CreepLaw;
+use dashpot_rail::track::Track;
+use dashpot_rail::vehicle::{GRAVITY_M_PER_S2, Law, Standstill, VehicleError, VehicleParameters};
+
+use self::chain::{CLEARANCE, Chain};
+use self::coupling::Coupling;
+use self::equations::{Equations, N, Outcome, Ranged, Rolling, Situation};
+use self::frame::{Path, Runner};
+use self::standing::Standing;
+use self::stop::Stop;
+use crate::error::ReferenceError;
+
+/// Bounds of the speed (m/s).
+const SPEED_M_PER_S: [f64; 2] = [0.1, 200.0];
+/// Bounds of the tolerance.
+const TOLERANCE: [f64; 2] = [1e-12, 1e-2];
+
+/// Reference solver of a vehicle.
+pub struct VehicleReference<'a, L, S: PatchSource> {
+    equations: Equations<'a, L, S>,
+    situation: Situation<'a>,
+    start: Vec<f64>,
+    statistics: Statistics,
+}
+
+/// A vehicle at a time; bodies are followed by wheelsets.
+#[derive(Clone, Debug, Default)]
+pub struct VehicleSample {
+    /// Time since the start (s).
+    pub time_s: f64,
+    /// Lateral, vertical (m), roll, pitch and yaw (rad) against the track at the body.
+    pub coordinates: Vec<[f64; 5]>,
+    /// Absolute velocities (m/s, rad/s).
+    pub velocities: Vec<[f64; 5]>,
+    /// Rates of the velocities (m/s^2, rad/s^2).
+    pub accelerations: Vec<[f64; 5]>,
+    /// Forces of the rails on each wheelset.
+    pub contacts: Vec<WheelsetForces>,
+    /// Displacement of each damper, in the order of the elements, positive in extension (m).
+    pub damper_displacements_m: Vec<f64>,
+    /// Force of each damper, positive against extension (N).
+    pub damper_forces_n: Vec<f64>,
+}
+
+/// What the last run counted.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Statistics {
+    /// Steps the solver accepted.
+    pub steps: usize,
+    /// Steps it took back for their error.
+    pub rejected: usize,
+    /// Evaluations of the equations.
+    pub evaluations: usize,
+    /// Factorisations of the matrix of its iteration.
+    pub factorisations: usize,
+    /// Changes of range of dampers and stops.
+    pub events: usize,
+}
+
+impl<'a, L: CreepLaw, S: PatchSource> VehicleReference<'a, L, S> {
+    /// A vehicle that starts where it would stand, in free rolling, its middle `start_m` along `track`.
+    ///
+    /// # Errors
+    /// A vehicle that cannot stand, a speed not within 0.1 to 200 m/s, a wheelset that the rails do not carry, a damper whose law has
+    /// no solution.
+    pub fn new(
+        vehicle: &VehicleParameters,
+        contact: &'a WheelsetContact<L, S>,
+        track: &'a Track,
+        speed_m_per_s: f64,
+        start_m: f64,
+    ) -> Result<Self, ReferenceError> {
+        // Checks names and numbers; its solution is not used.
+        Standstill::new(vehicle)?;
+        within(&vehicle.name, "speed_m_per_s", speed_m_per_s, SPEED_M_PER_S)?;
+        within(&vehicle.name, "start_m", start_m, [-1e7, 1e7])?;
+        let (mut couplings, mut ranged, mut dampers) = (Vec::new(), Vec::new(), 0);
+        for element in &vehicle.elements {
+            couplings.push(Coupling::new(vehicle, element, ranged.len()));
+            match &element.law {
+                Law::Damper { parameters, .. } => {
+                    ranged.push(Ranged::Damper(dampers, Box::new(Chain::new(parameters)?)));
+                    dampers += 1;
+                }
+                Law::BumpStop { points, .. } => ranged.push(Ranged::Stop(Stop::new(points))),
+                _ => {}
+            }
+        }
+        let on_wheelsets = standing::load_elements(vehicle, &mut couplings)?;
+        let mut inertia = Vec::new();
+        let mut runners = Vec::new();
+        for body in &vehicle.bodies {
+            inertia.push(with_mass(body.mass_kg, body.inertia_kg_m2));
+            runners.push(Runner {
+                x: body.x_m,
+                height: body.height_m,
+            });
+        }
+        let mut wheelsets = Vec::new();
+        for (wheelset, mut constant) in vehicle.wheelsets.iter().zip(on_wheelsets) {
+            inertia.push(with_mass(wheelset.mass_kg, wheelset.inertia_kg_m2));
+            runners.push(Runner {
+                x: wheelset.x_m,
+                height: wheelset.radius_m,
+            });
+            let load = wheelset.mass_kg * GRAVITY_M_PER_S2 + std::mem::take(&mut constant[1]);
+            let standing = Standing::new(contact, speed_m_per_s, load).ok_or_else(|| {
+                VehicleError::NotCarried {
+                    wheelset: wheelset.name.clone(),
+                    load_n: load,
+                }
+            })?;
+            wheelsets.push(Rolling {
+                standing,
+                momentum: wheelset.inertia_kg_m2[1] * standing.rotation,
+                constant,
+            });
+        }
+        let ranges = ranged.iter().map(|of| match of {
+            Ranged::Damper(..) => CLEARANCE,
+            Ranged::Stop(stop) => stop.ranges.edges.len() / 2,
+        });
+        let path = Path::new(track, speed_m_per_s, start_m, &runners);
+        let mut situation = Situation::new(path, ranges.collect());
+        let equations = Equations {
+            contact,
+            inertia,
+            wheelsets,
+            couplings,
+            ranged,
+            dampers,
+        };
+        situation.follow(0.0);
+        let coordinates = N * equations.bodies();
+        let mut start = vec![0.0; equations.size()];
+        for (k, of) in situation.following().iter().enumerate() {
+            start[coordinates + N * k..][..N].copy_from_slice(&of.frame_velocity);
+        }
+        let extensions = equations.extensions(situation.following(), &start);
+        for (of, at) in equations.ranged.iter().zip(extensions) {
+            if let Ranged::Damper(damper, _) = of {
+                start[2 * coordinates + damper] = at.displacement;
+            }
+        }
+        Ok(Self {
+            equations,
+            situation,
+            start,
+            statistics: Statistics::default(),
+        })
+    }
+
+    /// The vehicle at each of the rising times (s) from the start at 0 on, to a relative tolerance a step.
+    ///
+    /// # Errors
+    /// Times that are negative or do not increase; a tolerance not within 1e-12 to 0.01 or one that the solver cannot reach.
+    pub fn run(
+        &mut self,
+        times_s: &[f64],
+        tolerance: f64,
+    ) -> Result<Vec<VehicleSample>, ReferenceError> {
+        within("reference", "tolerance", tolerance, TOLERANCE)?;
+        for (sample, time_s) in times_s.iter().enumerate() {
+            within("reference", "time_s", *time_s, [0.0, 1e6])?;
+            let before_s = sample.checked_sub(1).map_or(-1.0, |before| times_s[before]);
+            if *time_s <= before_s {
+                return Err(ReferenceError::Times {
+                    sample,
+                    time_s: *time_s,
+                    before_s,
+                });
+            }
+        }
+        let equations = &self.equations;
+        let mut samples = Vec::with_capacity(times_s.len());
+        let told = |situation: &mut Situation<'a>, time: f64, state: &[f64]| {
+            samples.push(sample(equations, situation, time, state));
+        };
+        self.statistics = solver::run(
+            equations,
+            self.situation.clone(),
+            &self.start,
+            times_s,
+            tolerance,
+            told,
+        )?;
+        Ok(samples)
+    }
+
+    /// What the last run counted.
+    pub fn statistics(&self) -> Statistics {
+        self.statistics
+    }
+}
+
+fn sample<'a, L: CreepLaw, S: PatchSource>(
+    equations: &Equations<'a, L, S>,
+    situation: &mut Situation<'a>,
+    time: f64,
+    state: &[f64],
+) -> VehicleSample {
+    let mut outcome = Outcome::default();
+    equations.outcome(situation, time, state, &mut outcome);
+    let coordinates = N * equations.bodies();
+    let fives = |numbers: &[f64]| {
+        let five = |five: &[f64]| std::array::from_fn(|k| five[k]);
+        numbers.chunks_exact(N).map(five).collect()
+    };
+    VehicleSample {
+        time_s: time,
+        coordinates: fives(&state[..coordinates]),
+        velocities: fives(&state[coordinates..2 * coordinates]),
+        accelerations: outcome.accelerations,
+        contacts: outcome.contacts,
+        damper_displacements_m: outcome.damper_displacements,
+        damper_forces_n: outcome.damper_forces,
+    }
+}
+
+fn with_mass(mass: f64, [roll, pitch, yaw]: [f64; 3]) -> [f64; N] {
+    [mass, mass, roll, pitch, yaw]
+}
+
+fn within(
+    owner: &str,
+    name: &'static str,
+    value: f64,
+    allowed: [f64; 2],
+) -> Result<(), VehicleError> {
+    if (allowed[0]..=allowed[1]).contains(&value) {
+        return Ok(());
+    }
+    Err(VehicleError::OutOfBounds {
+        owner: owner.to_owned(),
+        name,
+        value,
+        allowed,
+    })
+}

@@ -1,0 +1,102 @@
+//! Where an element is attached: how its end moves with a body, and what a force there does to the body.
+
+use dashpot_rail::vehicle::{End, VehicleParameters};
+
+/// Lateral, vertical, roll, pitch and yaw of a body.
+pub(super) type Coordinates = [f64; 5];
+
+/// Along or about x, y and z.
+pub(super) type Vector = [f64; 3];
+
+/// Displacement of a body and its rate.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Pose {
+    pub(super) displacement: Coordinates,
+    pub(super) rate: Coordinates,
+}
+
+/// An end of an element.
+#[derive(Clone, Debug)]
+pub(super) struct Place {
+    /// Number of the body, wheelsets behind the bodies; none on the track.
+    pub(super) body: Option<usize>,
+    /// From the body's centre (m).
+    pub(super) arm: Vector,
+    /// In an axlebox, which does not spin with its wheelset.
+    pub(super) is_axlebox: bool,
+}
+
+impl Place {
+    /// Of an end in a vehicle that has what the end is on.
+    pub(super) fn new(vehicle: &VehicleParameters, end: &End) -> Self {
+        let name = end.on.as_ref();
+        let of_body = vehicle
+            .bodies
+            .iter()
+            .position(|body| Some(&body.name) == name);
+        let of_wheelset = vehicle
+            .wheelsets
+            .iter()
+            .position(|wheelset| Some(&wheelset.name) == name);
+        let (body, centre) = match (of_body, of_wheelset) {
+            (Some(number), _) => {
+                let body = &vehicle.bodies[number];
+                (Some(number), [body.x_m, body.height_m])
+            }
+            (None, Some(number)) => {
+                let wheelset = &vehicle.wheelsets[number];
+                let behind = vehicle.bodies.len() + number;
+                (Some(behind), [wheelset.x_m, wheelset.radius_m])
+            }
+            (None, None) => (None, [0.0; 2]),
+        };
+        let [x, y, height] = end.at_m;
+        Self {
+            body,
+            arm: [x - centre[0], y, centre[1] - height],
+            is_axlebox: of_body.is_none() && of_wheelset.is_some(),
+        }
+    }
+
+    /// How far the place is moved: `u + omega x r`, but nothing moves along the track by its pitch.
+    pub(super) fn shift(&self, of_body: &Coordinates) -> Vector {
+        let [roll, pitch, yaw] = self.turn(of_body);
+        let [x, y, z] = self.arm;
+        [
+            -yaw * y,
+            of_body[0] - roll * z + yaw * x,
+            of_body[1] + roll * y - pitch * x,
+        ]
+    }
+
+    /// How far the place is turned about x, y and z.
+    pub(super) fn turn(&self, of_body: &Coordinates) -> Vector {
+        let pitch = if self.is_axlebox { 0.0 } else { of_body[3] };
+        [of_body[2], pitch, of_body[4]]
+    }
+
+    /// Force and moments about the body's centre of `force` and `moment` at the place.
+    pub(super) fn load(&self, force: &Vector, moment: &Vector) -> Coordinates {
+        let [x, y, z] = self.arm;
+        let pitching = moment[1] - x * force[2];
+        [
+            force[1],
+            force[2],
+            moment[0] + y * force[2] - z * force[1],
+            if self.is_axlebox { 0.0 } else { pitching },
+            moment[2] + x * force[1] - y * force[0],
+        ]
+    }
+}
+
+pub(super) fn dot(a: &Vector, b: &Vector) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+pub(super) fn cross(a: &Vector, b: &Vector) -> Vector {
+    [
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    ]
+}

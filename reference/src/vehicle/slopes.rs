@@ -1,0 +1,209 @@
+//! Jacobian matrix of the equations, for the solver's iteration: what is linear once, the rest at each state.
+
+use dashpot_rail::contact::{PatchSource, WheelsetForces};
+use dashpot_rail::creep::CreepLaw;
+
+use super::coupling::Coupling;
+use super::equations::{Equations, N, Ranged, Situation};
+use super::place::{Coordinates, Pose};
+
+/// Fields of a contact's motion by each coordinate of a wheelset, and by each velocity with its sign.
+const BY_COORDINATE: [Option<usize>; N] = [Some(1), Some(2), Some(3), None, Some(4)];
+const BY_VELOCITY: [(usize, f64); N] = [(5, 1.0), (6, 1.0), (7, 1.0), (8, -1.0), (9, 1.0)];
+
+/// A square matrix, row by row.
+#[derive(Clone, Debug)]
+pub(super) struct Matrix {
+    size: usize,
+    entries: Vec<f64>,
+}
+
+impl Matrix {
+    fn zeros(size: usize) -> Self {
+        Self {
+            size,
+            entries: vec![0.0; size * size],
+        }
+    }
+
+    fn add(&mut self, row: usize, column: usize, entry: f64) {
+        self.entries[row * self.size + column] += entry;
+    }
+
+    /// Product with a vector of few entries.
+    pub(super) fn times(&self, vector: &[f64], product: &mut [f64]) {
+        product.fill(0.0);
+        for (column, factor) in vector
+            .iter()
+            .enumerate()
+            .filter(|(_, factor)| **factor != 0.0)
+        {
+            for (row, sum) in product.iter_mut().enumerate() {
+                *sum += self.entries[row * self.size + column] * factor;
+            }
+        }
+    }
+}
+
+impl<L: CreepLaw, S: PatchSource> Equations<'_, L, S> {
+    /// What does not change: springs, dashpots, standing forces, gyroscopic moments, and that velocities move.
+    pub(super) fn linear_slopes(&self) -> Matrix {
+        let coordinates = N * self.bodies();
+        let mut matrix = Matrix::zeros(self.size());
+        for k in 0..coordinates {
+            matrix.add(k, coordinates + k, 1.0);
+        }
+        for coupling in &self.couplings {
+            for (end, place) in coupling.places.iter().enumerate() {
+                let Some(body) = place.body else { continue };
+                for k in 0..N {
+                    let mut unit = [0.0; N];
+                    unit[k] = 1.0;
+                    let column = N * body + k;
+                    let displaced = Pose {
+                        displacement: unit,
+                        rate: [0.0; N],
+                    };
+                    let moving = Pose {
+                        displacement: [0.0; N],
+                        rate: unit,
+                    };
+                    for (pose, column) in [(displaced, column), (moving, coordinates + column)] {
+                        let mut poses = [Pose::default(); 2];
+                        poses[end] = pose;
+                        let motion = coupling.motion(&poses);
+                        let springs = coupling.loads(&coupling.spring_wrench(&motion));
+                        self.add_column(&mut matrix, coupling, &springs, column);
+                        let turned = coupling.turned_loads(&poses, &motion);
+                        self.add_column(&mut matrix, coupling, &turned, column);
+                    }
+                }
+            }
+        }
+        let first = self.bodies() - self.wheelsets.len();
+        for (number, rolling) in self.wheelsets.iter().enumerate() {
+            let body = first + number;
+            let (roll, yaw) = (coordinates + N * body + 2, coordinates + N * body + 4);
+            matrix.add(roll, yaw, -rolling.momentum / self.inertia[body][2]);
+            matrix.add(yaw, roll, rolling.momentum / self.inertia[body][4]);
+        }
+        matrix
+    }
+
+    fn add_column(
+        &self,
+        matrix: &mut Matrix,
+        coupling: &Coupling,
+        loads: &[Coordinates; 2],
+        column: usize,
+    ) {
+        for (place, load) in coupling.places.iter().zip(loads) {
+            if let Some(body) = place.body {
+                for (k, load) in load.iter().enumerate() {
+                    let row = N * (self.bodies() + body) + k;
+                    matrix.add(row, column, load / self.inertia[body][k]);
+                }
+            }
+        }
+    }
+
+    /// The whole matrix at a state.
+    pub(super) fn slopes(
+        &self,
+        linear: &Matrix,
+        situation: &mut Situation<'_>,
+        time: f64,
+        state: &[f64],
+    ) -> Matrix {
+        let mut matrix = linear.clone();
+        situation.follow(time);
+        let coordinates = N * self.bodies();
+        let extensions = self.extensions(situation.following(), state);
+        for coupling in &self.couplings {
+            let at_rest = coupling.motion(&[Pose::default(); 2]);
+            let Some((number, ..)) = coupling.along(&at_rest) else {
+                continue;
+            };
+            let per_newton = coupling.loads_along();
+            let range = situation.ranges[number];
+            let displacement = extensions[number].displacement;
+            // The loads of a unit force are the displacement by unit coordinates.
+            let (slope, damper) = match &self.ranged[number] {
+                Ranged::Stop(stop) => (stop.slope(range), None),
+                Ranged::Damper(damper, chain) => {
+                    let place = 2 * coordinates + damper;
+                    let from_piston = displacement - state[place];
+                    let [slope, of_piston, yields] = chain.slopes(range, from_piston);
+                    matrix.add(place, place, -of_piston);
+                    (slope, Some((place, of_piston, yields)))
+                }
+            };
+            let resisting = per_newton.map(|load| load.map(|per| -per * slope));
+            for (end, place) in coupling.places.iter().enumerate() {
+                let Some(body) = place.body else { continue };
+                for (k, moved) in per_newton[end].iter().enumerate() {
+                    let column = N * body + k;
+                    let loads = resisting.map(|load| load.map(|load| load * moved));
+                    self.add_column(&mut matrix, coupling, &loads, column);
+                    if let Some((place, of_piston, yields)) = damper {
+                        matrix.add(place, column, of_piston * moved);
+                        matrix.add(place, coordinates + column, yields * moved);
+                    }
+                }
+            }
+            if let Some((place, ..)) = damper {
+                let loads = resisting.map(|load| load.map(|load| -load));
+                self.add_column(&mut matrix, coupling, &loads, place);
+            }
+        }
+        self.add_contact_slopes(&mut matrix, situation, time, state);
+        matrix
+    }
+
+    fn add_contact_slopes(
+        &self,
+        matrix: &mut Matrix,
+        situation: &Situation<'_>,
+        time: f64,
+        state: &[f64],
+    ) {
+        let coordinates = N * self.bodies();
+        let mut forces = WheelsetForces::default();
+        for number in 0..self.wheelsets.len() {
+            let body = self.bodies() - self.wheelsets.len() + number;
+            let (motion, rails) = self.contact_motion(situation, time, state, number);
+            let wheels = self
+                .contact
+                .update_with_derivatives(&motion, &rails, &mut forces);
+            for k in 0..N {
+                let by = |field: usize| -> f64 {
+                    let of_wheel = |wheel: &dashpot_rail::contact::WheelDerivatives| match k {
+                        0 | 1 => wheel.force[k + 1][field],
+                        // About the axle, which is turned and rolled.
+                        3 => {
+                            wheel.moment[1][field] - motion.yaw_rad * wheel.moment[0][field]
+                                + motion.roll_rad * wheel.moment[2][field]
+                        }
+                        _ => wheel.moment[k - 2][field],
+                    };
+                    wheels.iter().map(of_wheel).sum::<f64>() / self.inertia[body][k]
+                };
+                let row = coordinates + N * body + k;
+                for column in 0..N {
+                    let place = N * body + column;
+                    if let Some(field) = BY_COORDINATE[column] {
+                        matrix.add(row, place, by(field));
+                    }
+                    let (field, sign) = BY_VELOCITY[column];
+                    matrix.add(row, coordinates + place, sign * by(field));
+                }
+                if k == 3 {
+                    let [about_x, _, about_z] = forces.moment_n_m;
+                    let spin = self.inertia[body][k];
+                    matrix.add(row, N * body + 2, about_z / spin);
+                    matrix.add(row, N * body + 4, -about_x / spin);
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,159 @@
+//! The vehicle as it stands: forces of its elements under its weight, and its wheelsets on the rails.
+
+use dashpot_rail::contact::{Motion, PatchSource, RailDisplacement, WheelsetContact};
+use dashpot_rail::creep::CreepLaw;
+use dashpot_rail::vehicle::{GRAVITY_M_PER_S2, VehicleError, VehicleParameters};
+
+use super::coupling::Coupling;
+use super::place::{Coordinates, Pose};
+
+/// Coordinates of a body.
+const N: usize = 5;
+
+/// Depth below the first touch to which a wheelset is looked for (m).
+const DEEPEST_M: f64 = 2e-3;
+
+/// A wheelset on the rails.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Standing {
+    /// Place of the centre that carries the load (m).
+    pub(super) vertical: f64,
+    /// Load on the rails (N).
+    pub(super) load: f64,
+    /// Speed over the rolling radius (rad/s).
+    pub(super) rotation: f64,
+}
+
+/// Sets the force of every element in the standing vehicle, the wheelsets held; gives what the elements then do to every wheelset.
+pub(super) fn load_elements(
+    vehicle: &VehicleParameters,
+    couplings: &mut [Coupling],
+) -> Result<Vec<Coordinates>, VehicleError> {
+    let bodies = vehicle.bodies.len();
+    let size = N * bodies;
+    let poses = |coupling: &Coupling, displacements: &[f64]| {
+        std::array::from_fn(|end| match coupling.places[end].body {
+            Some(body) if body < bodies => Pose {
+                displacement: std::array::from_fn(|k| displacements[N * body + k]),
+                rate: [0.0; N],
+            },
+            _ => Pose::default(),
+        })
+    };
+    let loads = |couplings: &[Coupling], displacements: &[f64]| {
+        let mut all = vec![0.0; N * (bodies + vehicle.wheelsets.len())];
+        for coupling in couplings {
+            let motion = coupling.motion(&poses(coupling, displacements));
+            let loads = coupling.loads(&coupling.spring_wrench(&motion));
+            for (place, load) in coupling.places.iter().zip(loads) {
+                if let Some(body) = place.body {
+                    for (k, load) in load.into_iter().enumerate() {
+                        all[N * body + k] += load;
+                    }
+                }
+            }
+        }
+        all
+    };
+    // Columns of the forces by unit displacements, and the weight that they carry.
+    let mut rows = vec![vec![0.0; size + 1]; size];
+    for column in 0..size {
+        let mut unit = vec![0.0; size];
+        unit[column] = 1.0;
+        for (row, load) in rows.iter_mut().zip(loads(couplings, &unit)) {
+            row[column] = -load;
+        }
+    }
+    for (body, rows) in vehicle.bodies.iter().zip(rows.chunks_mut(N)) {
+        rows[1][size] = body.mass_kg * GRAVITY_M_PER_S2;
+    }
+    let displacements = solved(rows).ok_or(VehicleError::NoModes)?;
+    let on_wheelsets = loads(couplings, &displacements)[size..]
+        .chunks(N)
+        .map(|load| std::array::from_fn(|k| load[k]))
+        .collect();
+    for coupling in couplings {
+        let motion = coupling.motion(&poses(coupling, &displacements));
+        let [force, _] = coupling.spring_wrench(&motion);
+        coupling.standing_force = force;
+    }
+    Ok(on_wheelsets)
+}
+
+/// Solution of linear equations by elimination with the greatest pivots; the last column is the right side.
+fn solved(mut rows: Vec<Vec<f64>>) -> Option<Vec<f64>> {
+    let size = rows.len();
+    for k in 0..size {
+        let pivot = (k..size).max_by(|a, b| rows[*a][k].abs().total_cmp(&rows[*b][k].abs()))?;
+        rows.swap(k, pivot);
+        let (head, tail) = rows.split_at_mut(k + 1);
+        let top = head.last()?;
+        if top[k] == 0.0 {
+            return None;
+        }
+        for row in tail {
+            let factor = row[k] / top[k];
+            for (number, of_top) in row.iter_mut().zip(top).skip(k) {
+                *number -= factor * of_top;
+            }
+        }
+    }
+    let mut solution = vec![0.0; size];
+    for k in (0..size).rev() {
+        let known: f64 = (k + 1..size).map(|j| rows[k][j] * solution[j]).sum();
+        solution[k] = (rows[k][size] - known) / rows[k][k];
+    }
+    Some(solution)
+}
+
+impl Standing {
+    /// A centred wheelset of `contact` that rolls freely under `load` (N) at `speed` (m/s); none where the rails do not carry it.
+    pub(super) fn new<L: CreepLaw, S: PatchSource>(
+        contact: &WheelsetContact<L, S>,
+        speed: f64,
+        load: f64,
+    ) -> Option<Self> {
+        if load <= 0.0 {
+            return None;
+        }
+        let rails = [RailDisplacement::default(); 2];
+        let mut rotation = speed / 0.5;
+        let mut vertical = 0.0;
+        // The height depends on the creep a little, the radius on the height.
+        for _ in 0..4 {
+            let at = |vertical: f64| Motion {
+                speed_m_per_s: speed,
+                vertical_m: vertical,
+                rotation_rad_per_s: rotation,
+                ..Motion::default()
+            };
+            let carried = |vertical: f64| -contact.forces(&at(vertical), &rails).force_n[2];
+            let (mut above, mut below) = (-DEEPEST_M, DEEPEST_M);
+            if carried(below) < load || carried(above) > load {
+                return None;
+            }
+            while below - above > 1e-16 {
+                let middle = 0.5 * (above + below);
+                if middle <= above || middle >= below {
+                    break;
+                }
+                if carried(middle) > load {
+                    below = middle;
+                } else {
+                    above = middle;
+                }
+            }
+            vertical = below;
+            let patches = contact.forces(&at(vertical), &rails).wheels[1].patches;
+            let heaviest = patches
+                .iter()
+                .max_by(|a, b| a.load_n.total_cmp(&b.load_n))?;
+            rotation = speed / heaviest.rolling_radius_m;
+        }
+        Some(Self {
+            vertical,
+            load,
+            rotation,
+        })
+    }
+}

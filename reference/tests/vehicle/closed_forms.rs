@@ -1,0 +1,84 @@
+//! A body on springs that is set in motion by a curve which begins abruptly.
+
+use dashpot_rail::track::Part;
+use dashpot_rail::vehicle::{GRAVITY_M_PER_S2, VehicleParameters};
+use dashpot_reference::vehicle::VehicleReference;
+
+use crate::common::{contact, on_track, spring, times, track};
+
+const SPEED: f64 = 20.0;
+const RADIUS: f64 = 800.0;
+const SPRINGS: [f64; 3] = [2e6, 1.5e6, 1e6];
+const X: f64 = 4.0;
+const Y: f64 = 1.0;
+
+/// Springs at the height of the centre of gravity.
+fn body_on_springs() -> VehicleParameters {
+    let places = [(X, Y), (X, -Y), (-X, Y), (-X, -Y)];
+    let of_place = |(x, y)| spring([None, Some("body")], [x, y, 1.5], SPRINGS, [0.0; 3]);
+    on_track(places.into_iter().map(of_place).collect())
+}
+
+/// Yaw: the frame turns away with `V/R`, `psi = -V/(R w) sin w t`. Lateral and roll: the step `-m V^2/R`, coupled by the weight, which
+/// turns with half the roll: `-m g/2` between both.
+#[test]
+fn free_oscillations_after_an_abrupt_curve() {
+    let vehicle = body_on_springs();
+    let contact = contact(0.4);
+    let parts = [
+        Part::Straight { length_m: 10.0 },
+        Part::Circular {
+            radius_m: RADIUS,
+            length_m: 500.0,
+            cant_m: 0.0,
+        },
+    ];
+    let track = track(&parts, vec![]);
+    let start_s = 10.0 / SPEED;
+    let mut reference = VehicleReference::new(&vehicle, &contact, &track, SPEED, 0.0).unwrap();
+    let samples = reference.run(&times(0.013, 150), 1e-10).unwrap();
+
+    let [kx, ky, kz] = SPRINGS.map(|stiffness| 4.0 * stiffness);
+    let [m, ix, iz] = [30e3, 40e3, 900e3];
+    let yaw_rate = ((kx * Y * Y + ky * X * X) / iz).sqrt();
+    // [ky/m a; b kz y^2/ix], by its eigenvalues.
+    let (own, other) = (ky / m, kz * Y * Y / ix);
+    let coupling = -0.5 * m * GRAVITY_M_PER_S2;
+    let (mean, half) = (0.5 * (own + other), 0.5 * (own - other));
+    let root = (half * half + coupling * coupling / (m * ix)).sqrt();
+    let step = -SPEED * SPEED / RADIUS;
+    let (mut largest, mut yaw_largest) = (0.0f64, 0.0f64);
+    for sample in &samples {
+        let t = (sample.time_s - start_s).max(0.0);
+        let yaw = -SPEED / RADIUS / yaw_rate * (yaw_rate * t).sin();
+        let part = |square: f64| (1.0 - (square.sqrt() * t).cos()) / square;
+        let (slow, fast) = (part(mean - root), part(mean + root));
+        // Shares of both modes in the lateral motion, and the roll that goes with them.
+        let share = 0.5 * (1.0 - half / root);
+        let lateral = step * (share * slow + (1.0 - share) * fast);
+        let roll = step * coupling / ix * (fast - slow) / (2.0 * root);
+        let [found_y, _, found_roll, _, found_yaw] = sample.coordinates[0];
+        assert!((found_y - lateral).abs() < 1e-9, "{found_y} {lateral}");
+        assert!((found_roll - roll).abs() < 1e-9, "{found_roll} {roll}");
+        assert!((found_yaw - yaw).abs() < 1e-9, "{found_yaw} {yaw}");
+        largest = largest.max(roll.abs());
+        yaw_largest = yaw_largest.max(yaw.abs());
+    }
+    assert!(largest > 1e-4 && yaw_largest > 1e-3);
+}
+
+#[test]
+fn what_is_no_time_or_tolerance_is_refused() {
+    let (vehicle, contact) = (body_on_springs(), contact(0.4));
+    let track = crate::common::straight(vec![]);
+    let mut reference = VehicleReference::new(&vehicle, &contact, &track, 20.0, 0.0).unwrap();
+    for (times, tolerance) in [
+        (vec![0.0, 0.1, 0.1], 1e-8),
+        (vec![-0.1], 1e-8),
+        (vec![f64::NAN], 1e-8),
+        (vec![0.1], 0.0),
+    ] {
+        assert!(reference.run(&times, tolerance).is_err(), "{times:?}");
+    }
+    assert!(VehicleReference::new(&vehicle, &contact, &track, 0.0, 0.0).is_err());
+}

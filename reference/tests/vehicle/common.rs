@@ -1,0 +1,124 @@
+//! A wagon, its contact and tracks.
+
+use std::sync::{Arc, OnceLock};
+
+use dashpot_rail::contact::{
+    ContactGeometry, Grid, Installation, Pair, Steel, Tables, WheelsetContact,
+};
+use dashpot_rail::creep::{Friction, Polach};
+use dashpot_rail::track::{Defect, Irregularity, Layout, Part, Rails, Track};
+use dashpot_rail::vehicle::{Body, Element, End, Law, VehicleParameters, Wheelset};
+
+pub type Contact = WheelsetContact<Polach, Tables>;
+
+/// S1002 on UIC 60 under wheels of 81 kN.
+pub fn contact(static_coefficient: f64) -> Contact {
+    static TABLES: OnceLock<Arc<Tables>> = OnceLock::new();
+    let tables = TABLES.get_or_init(|| {
+        let pair = Pair::standard(Installation::default()).unwrap();
+        let geometry = ContactGeometry::new(pair, Steel::default(), 81e3).unwrap();
+        let mut grid = Grid::default();
+        grid.roll_rad.cells = [1, 2, 1];
+        grid.yaw_squared_rad2.cells = [0, 1, 1];
+        Arc::new(Tables::new(geometry, grid).unwrap())
+    });
+    let friction = Friction {
+        static_coefficient,
+        ..Friction::default()
+    };
+    WheelsetContact::new(Arc::clone(tables), Polach, friction).unwrap()
+}
+
+pub fn body() -> Body {
+    Body {
+        name: "body".into(),
+        mass_kg: 30e3,
+        inertia_kg_m2: [40e3, 900e3, 900e3],
+        x_m: 0.0,
+        height_m: 1.5,
+    }
+}
+
+/// A spring at a place given by x, y and height.
+pub fn spring(
+    between: [Option<&str>; 2],
+    at: [f64; 3],
+    stiffness_n_per_m: [f64; 3],
+    damping_n_s_per_m: [f64; 3],
+) -> Element {
+    let end = |name: Option<&str>| name.map_or(End::track(at), |name| End::body(name, at));
+    Element {
+        name: format!("spring {at:?}"),
+        ends: between.map(end),
+        law: Law::SpringDamper {
+            stiffness_n_per_m,
+            damping_n_s_per_m,
+        },
+    }
+}
+
+pub fn on_track(elements: Vec<Element>) -> VehicleParameters {
+    VehicleParameters {
+        name: "body on springs".into(),
+        bodies: vec![body()],
+        wheelsets: vec![],
+        elements,
+    }
+}
+
+/// Two axles, 8 m apart.
+pub fn wagon(damping_n_s_per_m: [f64; 3]) -> VehicleParameters {
+    let mut elements = Vec::new();
+    for (axle, x) in [("front axle", 4.0), ("rear axle", -4.0)] {
+        for y in [-1.0, 1.0] {
+            let stiffness = [8e6, 3e6, 1e6];
+            elements.push(spring(
+                [Some(axle), Some("body")],
+                [x, y, 0.5],
+                stiffness,
+                damping_n_s_per_m,
+            ));
+        }
+    }
+    let wheelset = |name: &str, x_m: f64| Wheelset {
+        name: name.into(),
+        mass_kg: 1500.0,
+        inertia_kg_m2: [800.0, 100.0, 800.0],
+        x_m,
+        radius_m: 0.625,
+    };
+    VehicleParameters {
+        name: "wagon".into(),
+        bodies: vec![body()],
+        wheelsets: vec![wheelset("front axle", 4.0), wheelset("rear axle", -4.0)],
+        elements,
+    }
+}
+
+pub fn track(parts: &[Part], defects: Vec<Defect>) -> Track {
+    Track::new(
+        Layout::new(parts).unwrap(),
+        Irregularity::default(),
+        defects,
+    )
+    .unwrap()
+}
+
+pub fn straight(defects: Vec<Defect>) -> Track {
+    track(&[Part::Straight { length_m: 1e3 }], defects)
+}
+
+/// A dip of the left rail.
+pub fn dip(start_m: f64) -> Defect {
+    Defect::CosineDip {
+        rails: Rails::Left,
+        start_m,
+        length_m: 3.0,
+        depth_m: 8e-3,
+    }
+}
+
+/// Times from 0 on, `step` apart.
+pub fn times(step: f64, count: usize) -> Vec<f64> {
+    (0..=count).map(|k| step * k as f64).collect()
+}

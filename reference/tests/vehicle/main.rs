@@ -1,0 +1,10 @@
+//! The reference solution of a vehicle against closed forms, balances, the reference damper and itself.
+
+mod balance;
+mod closed_forms;
+mod common;
+#[path = "../damper/common/dampers.rs"]
+#[allow(dead_code)]
+mod damper_parameters;
+mod dampers;
+mod running;

@@ -1,0 +1,65 @@
+//! A wagon at rest on ideal track, and two tolerances.
+
+use dashpot_reference::vehicle::{VehicleReference, VehicleSample};
+
+use crate::common::{contact, dip, straight, times, wagon};
+
+#[test]
+fn nothing_moves_where_nothing_disturbs() {
+    let vehicle = wagon([0.0, 0.0, 20e3]);
+    let (contact, track) = (contact(0.4), straight(vec![]));
+    let mut reference = VehicleReference::new(&vehicle, &contact, &track, 30.0, 0.0).unwrap();
+    for sample in reference.run(&times(0.1, 10), 1e-8).unwrap() {
+        for (body, (q, v)) in sample
+            .coordinates
+            .iter()
+            .zip(&sample.velocities)
+            .enumerate()
+        {
+            for k in 0..5 {
+                // The axles begin at the speed of their heaviest patches, and find that of no moment.
+                let allowed = if body > 0 && k == 3 { 1e-5 } else { 1e-8 };
+                let most = q[k].abs().max(v[k].abs());
+                assert!(most < allowed, "{body} {k}: {most} at {} s", sample.time_s);
+            }
+        }
+    }
+}
+
+/// What is compared of a sample.
+type Quantity = fn(&VehicleSample) -> f64;
+
+/// Deviations from a finer solution are small at the tolerance of 1e-8 and greater at a looser one.
+#[test]
+fn the_solution_converges_with_the_tolerance() {
+    let vehicle = wagon([0.0, 0.0, 20e3]);
+    let (contact, track) = (contact(0.4), straight(vec![dip(5.0)]));
+    let mut reference = VehicleReference::new(&vehicle, &contact, &track, 20.0, 0.0).unwrap();
+    let times = times(1e-3, 1000);
+    let fine = reference.run(&times, 1e-9).unwrap();
+    let usual = reference.run(&times, 1e-8).unwrap();
+    let loose = reference.run(&times, 1e-6).unwrap();
+    let quantities: [(&str, Quantity); 4] = [
+        ("body acceleration", |sample| sample.accelerations[0][1]),
+        ("body roll", |sample| sample.coordinates[0][2]),
+        ("axle lateral", |sample| sample.coordinates[1][0]),
+        ("wheel load", |sample| {
+            sample.contacts[0].wheels[0].force_n[2]
+        }),
+    ];
+    for (name, of) in quantities {
+        let start = of(&fine[0]);
+        let sum = |squares: &mut dyn Iterator<Item = f64>| squares.sum::<f64>().sqrt();
+        let all = sum(&mut fine.iter().map(|sample| (of(sample) - start).powi(2)));
+        let deviation = |other: &[VehicleSample]| {
+            let pairs = fine.iter().zip(other);
+            sum(&mut pairs.map(|(a, b)| (of(a) - of(b)).powi(2))) / all
+        };
+        let (usual, loose) = (deviation(&usual), deviation(&loose));
+        assert!(usual < 1e-3, "{name}: {usual}");
+        assert!(
+            loose > 3.0 * usual && loose < 1e-2,
+            "{name}: {usual} {loose}"
+        );
+    }
+}
