@@ -1,9 +1,151 @@
-//! `dashpot vehicle --check`.
+//! `dashpot vehicle --check`: the step against the reference solution.
 
+use std::io::{self, Write};
+
+use serde::Serialize;
+
+use super::options::refused;
 use crate::commands::arguments::Format;
 use crate::commands::failure::{Failure, Outcome};
+use crate::commands::print::print_report;
+use crate::commands::progress;
 use crate::files::case::Case;
+use crate::study::vehicle::Ending;
+use crate::study::vehicle::verification::{
+    BOUNDS, Deviations, TOLERANCE, Trace, Worst, reference, stepped,
+};
 
-pub(super) fn run(_: &Case, _: Format) -> Outcome<()> {
-    Err(Failure::new("not yet"))
+#[derive(Serialize)]
+struct Report {
+    case: String,
+    step_s: f64,
+    reference_tolerance: f64,
+    deviations: Deviations<Worst>,
+    bounds: Deviations<f64>,
+    with_half_the_inner_step: Deviations<Worst>,
+    /// Where a bound is not kept: how far two reference solutions of different tolerances part.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    parting: Option<Deviations<Worst>>,
+    is_within_bounds: bool,
+}
+
+/// Runs the check.
+///
+/// # Errors
+/// A case that is refused, has faults or does not come to its end; deviations out of bounds.
+pub(super) fn run(case: &Case, format: Format) -> Outcome<()> {
+    if !case.faults.is_empty() {
+        return Err(Failure::wrong_use(format!(
+            "--check: {} changes dampers on the way, which the reference does not; give a case without faults",
+            case.name
+        )));
+    }
+    let failed = |error| refused(case, &error);
+    let bar = progress::bar(0, "step");
+    let traced = |every: u64| -> Outcome<Trace> {
+        let (trace, ending) = stepped(case, every).map_err(failed)?;
+        match ending {
+            Ending::Completed => Ok(trace),
+            ending => Err(Failure::new(format!("--check: {}: {ending}", case.name))),
+        }
+    };
+    let whole = traced(1)?;
+    // Ticks so short that their one step is half as long as those inside a tick of the case.
+    let half = traced((2.0 * case.step_s / whole.inner_step_s()).round() as u64)?;
+    bar.set_message("reference, a second or more for each second");
+    let solution = reference(case, &whole, TOLERANCE).map_err(failed)?;
+    let deviations = whole.deviations(&solution);
+    let is_within_bounds = deviations.is_within_bounds();
+    let parting = if is_within_bounds {
+        None
+    } else {
+        bar.set_message("another reference, to see whether the case is chaotic");
+        let looser = reference(case, &whole, 100.0 * TOLERANCE).map_err(failed)?;
+        Some(looser.deviations(&solution))
+    };
+    bar.finish_and_clear();
+    let report = Report {
+        case: case.name.clone(),
+        step_s: case.step_s,
+        reference_tolerance: TOLERANCE,
+        with_half_the_inner_step: half.deviations(&solution),
+        deviations,
+        bounds: BOUNDS,
+        parting,
+        is_within_bounds,
+    };
+    print_report(format, &report, print)?;
+    if is_within_bounds {
+        Ok(())
+    } else {
+        Err(Failure::new(format!(
+            "--check: {}: out of bounds",
+            case.name
+        )))
+    }
+}
+
+fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
+    writeln!(
+        out,
+        "{}: step of {:.0} us against the reference of tolerance {:e}, worst of all",
+        report.case,
+        1e6 * report.step_s,
+        report.reference_tolerance
+    )?;
+    let half = &report.with_half_the_inner_step;
+    let worst = &report.deviations;
+    let rows = [
+        (
+            "acceleration of bodies, %",
+            1e2,
+            &worst.acceleration,
+            &half.acceleration,
+            BOUNDS.acceleration,
+        ),
+        (
+            "wheelset lateral, um rms",
+            1e6,
+            &worst.lateral_m,
+            &half.lateral_m,
+            BOUNDS.lateral_m,
+        ),
+        (
+            "wheel load, kN rms",
+            1e-3,
+            &worst.load_n,
+            &half.load_n,
+            BOUNDS.load_n,
+        ),
+        ("index, %", 1e2, &worst.index, &half.index, BOUNDS.index),
+    ];
+    writeln!(
+        out,
+        "\n{:<28} {:>9} {:>9} {:>9}  of",
+        "", "deviation", "allowed", "half step*"
+    )?;
+    for (what, factor, worst, half, bound) in rows {
+        writeln!(
+            out,
+            "{what:<28} {:9.4} {:9.4} {:10.4}  {}",
+            factor * worst.deviation,
+            factor * bound,
+            factor * half.deviation,
+            worst.of
+        )?;
+    }
+    writeln!(out, "* steps of half the length inside the ticks")?;
+    if let Some(parting) = &report.parting {
+        writeln!(
+            out,
+            "\ntwo references, the second of tolerance {:e}, part by {:.4} %, {:.4} um, {:.4} kN, {:.4} %: where that is as much, \
+             impacts make the case chaotic",
+            100.0 * report.reference_tolerance,
+            1e2 * parting.acceleration.deviation,
+            1e6 * parting.lateral_m.deviation,
+            1e-3 * parting.load_n.deviation,
+            1e2 * parting.index.deviation
+        )?;
+    }
+    Ok(())
 }

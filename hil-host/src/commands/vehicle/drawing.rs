@@ -97,7 +97,7 @@ pub(super) fn vehicle(parameters: &VehicleParameters) -> Markup {
         .iter()
         .filter(|element| matches!(element.law, Law::Damper { .. }));
     html! {
-        svg.desk viewBox=(format!("0 0 {:.0} {:.0}", sheet.width, sheet.height)) role="img"
+        svg viewBox=(format!("0 0 {:.0} {:.0}", sheet.width, sheet.height)) role="img"
             font-family="sans-serif" font-size="15" fill="#263238" {
             title { "The vehicle from its right side" }
             rect width="100%" height="100%" fill="#fff" {}

@@ -135,7 +135,7 @@ fn follow(
             let timing = pacer.as_mut().map(|pacer| pacer.wait(ticks));
             let started = std::time::Instant::now();
             let ended = run.step().map_err(|error| options::refused(case, &error))?;
-            work.add(started.elapsed());
+            let took = started.elapsed();
             if let (Some(pacer), Some(timing)) = (pacer.as_mut(), timing) {
                 pacer.finish(timing);
             }
@@ -143,6 +143,7 @@ fn follow(
                 break;
             }
             ticks += 1;
+            work.add(took);
             let time_s = super::nearest_nanosecond(run.time_s());
             row.clear();
             row.extend(all.iter().map(|signal| signal.of(run.state(), time_s)));

@@ -1,5 +1,6 @@
 //! Indices of a run: what is told of it in a few numbers.
 
+use dashpot_rail::contact::WheelsetForces;
 use dashpot_rail::vehicle::VehicleState;
 use serde::Serialize;
 
@@ -168,31 +169,44 @@ impl Indexer {
 
     /// Adds the state after a tick.
     pub fn add(&mut self, state: &VehicleState) {
+        let accelerations = |body| state.acceleration(body);
+        self.add_of(
+            accelerations,
+            state.contacts(),
+            state.damper_forces_n(),
+            state.speed_m_per_s(),
+        );
+    }
+
+    /// Adds accelerations of bodies, forces on wheelsets and of dampers.
+    pub fn add_of(
+        &mut self,
+        acceleration: impl Fn(usize) -> [f64; 5],
+        contacts: &[WheelsetForces],
+        damper_forces_n: &[f64],
+        speed_m_per_s: f64,
+    ) {
         self.ticks += 1;
         for (number, (_, spreads)) in self.bodies.iter_mut().enumerate() {
-            let acceleration = state.acceleration(number);
-            for (spread, value) in spreads.iter_mut().zip(acceleration) {
+            for (spread, value) in spreads.iter_mut().zip(acceleration(number)) {
                 spread.add(value);
             }
         }
-        for (number, (wheelset, contact)) in
-            self.wheelsets.iter_mut().zip(state.contacts()).enumerate()
-        {
+        for (wheelset, contact) in self.wheelsets.iter_mut().zip(contacts) {
             wheelset.lateral.add(contact.force_n[1]);
             let patches = contact
                 .wheels
                 .iter()
                 .flat_map(|wheel| wheel.loaded_patches());
-            wheelset.wear +=
-                patches.map(|patch| patch.dissipation_w).sum::<f64>() / state.speed_m_per_s();
+            wheelset.wear += patches.map(|patch| patch.dissipation_w).sum::<f64>() / speed_m_per_s;
             for (side, coefficient) in contact.derailment_coefficients().into_iter().enumerate() {
-                let load = load_n(state, number, side);
+                let load = load_n(contact, side);
                 wheelset.derailment[side].add(coefficient);
                 wheelset.least[side] = wheelset.least[side].min(load);
                 wheelset.greatest[side] = wheelset.greatest[side].max(load);
             }
         }
-        for (greatest, force) in self.dampers.iter_mut().zip(state.damper_forces_n()) {
+        for (greatest, force) in self.dampers.iter_mut().zip(damper_forces_n) {
             *greatest = greatest.max(force.abs());
         }
     }

@@ -1,5 +1,7 @@
 //! What is recorded of a vehicle: one number a tick for each signal, called by body, wheelset or damper, and unit.
 
+use dashpot_rail::contact::{PatchSource, WheelsetForces};
+use dashpot_rail::creep::CreepLaw;
 use dashpot_rail::vehicle::{Vehicle, VehicleState};
 
 /// A number of a state.
@@ -46,11 +48,7 @@ fn slug(name: &str) -> String {
 /// Every signal of a vehicle: time and distance; displacements of bodies and wheelsets from where they stand, relative to the track;
 /// accelerations of bodies as an accelerometer across the track has them; loads `Q` of wheels, down on the rail; lateral forces `Y`, of
 /// the rail on the wheel towards the middle of the track; `Y/Q`; displacement and force of dampers.
-pub fn all<L, S>(vehicle: &Vehicle<L, S>) -> Vec<Signal>
-where
-    L: dashpot_rail::creep::CreepLaw,
-    S: dashpot_rail::contact::PatchSource,
-{
+pub fn all<L: CreepLaw, S: PatchSource>(vehicle: &Vehicle<L, S>) -> Vec<Signal> {
     let mut signals = Vec::new();
     let mut add = |name: String, source: Source| signals.push(Signal { name, source });
     add("time_s".into(), Source::Time);
@@ -115,8 +113,8 @@ impl Signal {
             Source::Distance => state.distance_m(),
             Source::Coordinate { body, coordinate } => state.coordinates()[body][coordinate],
             Source::Acceleration { body, coordinate } => state.acceleration(body)[coordinate],
-            Source::WheelLoad { wheelset, side } => load_n(state, wheelset, side),
-            Source::WheelLateral { wheelset, side } => lateral_n(state, wheelset, side),
+            Source::WheelLoad { wheelset, side } => load_n(&state.contacts()[wheelset], side),
+            Source::WheelLateral { wheelset, side } => lateral_n(&state.contacts()[wheelset], side),
             Source::Derailment { wheelset, side } => {
                 state.contacts()[wheelset].derailment_coefficients()[side]
             }
@@ -127,12 +125,13 @@ impl Signal {
 }
 
 /// Load `Q` of a wheel, down on the rail, N.
-pub fn load_n(state: &VehicleState, wheelset: usize, side: usize) -> f64 {
-    -state.contacts()[wheelset].wheels[side].force_n[2]
+pub fn load_n(contact: &WheelsetForces, side: usize) -> f64 {
+    // A lifted wheel has none, without a sign.
+    0.0 - contact.wheels[side].force_n[2]
 }
 
 /// Lateral force `Y` of the rail on a wheel, towards the middle of the track, N.
-pub fn lateral_n(state: &VehicleState, wheelset: usize, side: usize) -> f64 {
+pub fn lateral_n(contact: &WheelsetForces, side: usize) -> f64 {
     let outward = if side == 0 { 1.0 } else { -1.0 };
-    outward * state.contacts()[wheelset].wheels[side].force_n[1]
+    outward * contact.wheels[side].force_n[1]
 }

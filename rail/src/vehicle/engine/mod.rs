@@ -35,7 +35,7 @@ use crate::creep::CreepLaw;
 use crate::track::Track;
 
 /// Bounds of the step size of a [`Vehicle`], s.
-pub const STEP_S: [f64; 2] = [0.1e-3, 2e-3];
+pub const STEP_S: [f64; 2] = [0.02e-3, 2e-3];
 
 /// Bounds of the speed, m/s.
 const SPEED_M_PER_S: [f64; 2] = [1.0, 150.0];
@@ -274,6 +274,11 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
     /// Step size, s.
     pub fn step_s(&self) -> f64 {
         self.step_s
+    }
+
+    /// Length of the steps inside a tick, s.
+    pub fn inner_step_s(&self) -> f64 {
+        self.method.step_s
     }
 
     /// Names of the bodies, those of the wheelsets after them.

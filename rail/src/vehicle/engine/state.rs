@@ -82,6 +82,12 @@ impl VehicleState {
         std::array::from_fn(|i| self.forces[body][i] / self.inertia[body][i] - guidance[i])
     }
 
+    /// What [`acceleration`](Self::acceleration) of a body at rest in the track's axes would be, with the opposite sign: the weight's part
+    /// along the cant and the centripetal acceleration, m/s^2.
+    pub fn track_acceleration(&self, body: usize) -> [f64; N] {
+        self.work.guidance[body].acceleration
+    }
+
     /// Forces of the rails on each wheelset.
     pub fn contacts(&self) -> &[WheelsetForces] {
         &self.contacts
