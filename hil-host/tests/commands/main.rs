@@ -20,5 +20,6 @@ mod rig_report;
 mod shims;
 mod standard_streams;
 mod step_size;
+mod vehicle;
 mod verify;
 mod wrong_use;

@@ -68,11 +68,17 @@ impl CaseArguments {
                 )));
             }
         };
+        let mut changed = Vec::new();
         let CaseOptions {
             name,
             vehicle,
             track,
             speed_km_h,
+            duration_s,
+            start_m,
+            friction,
+            normal_damping_s_per_m,
+            step_us,
             ..
         } = &mut options;
         let changes_the_name = self.case.is_some()
@@ -80,24 +86,34 @@ impl CaseArguments {
         if changes_the_name {
             *name = None;
         }
-        if let Some(given) = &self.vehicle {
-            vehicle.clone_from(given);
+        for (given, name, key) in [
+            (&self.vehicle, vehicle, "vehicle"),
+            (&self.track, track, "track"),
+        ] {
+            if let Some(given) = given {
+                name.clone_from(given);
+                changed.push(key);
+            }
         }
-        if let Some(given) = &self.track {
-            track.clone_from(given);
-        }
-        *speed_km_h = self.speed_km_h.unwrap_or(*speed_km_h);
-        for (given, number) in [
-            (self.duration_s, &mut options.duration_s),
-            (self.start_m, &mut options.start_m),
-            (self.friction, &mut options.friction),
+        for (given, number, key) in [
+            (self.speed_km_h, speed_km_h, "speed_km_h"),
+            (self.duration_s, duration_s, "duration_s"),
+            (self.start_m, start_m, "start_m"),
+            (self.friction, friction, "friction"),
             (
                 self.normal_damping_s_per_m,
-                &mut options.normal_damping_s_per_m,
+                normal_damping_s_per_m,
+                "normal_damping_s_per_m",
             ),
-            (self.step_us, &mut options.step_us),
+            (self.step_us, step_us, "step_us"),
         ] {
-            *number = given.unwrap_or(*number);
+            if let Some(given) = given {
+                *number = given;
+                changed.push(key);
+            }
+        }
+        for key in changed {
+            options.changed(key);
         }
         options.dampers.extend(self.dampers.iter().cloned());
         options.overrides.extend(self.overrides.iter().cloned());

@@ -185,6 +185,13 @@ impl CaseOptions {
         Ok(tables.options(found))
     }
 
+    /// The value of `key` is no longer the file's: what is wrong with it is not told with the file's line.
+    pub fn changed(&mut self, key: &str) {
+        if let Some(origin) = &mut self.origin {
+            origin.lines.remove(key);
+        }
+    }
+
     /// The case, its vehicle and its track read and every number checked.
     ///
     /// # Errors
