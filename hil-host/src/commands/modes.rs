@@ -10,8 +10,9 @@ use serde::Serialize;
 
 use super::{Format, print_report};
 use crate::commands::failure::{Failure, Outcome};
+use crate::files::case::NORMAL_DAMPING_S_PER_M;
 use crate::files::vehicle::{self, VehicleFileError};
-use crate::study::vehicle::contact;
+use crate::study::vehicle::{VehicleStudyError, contact, hunting};
 
 /// Axle loads and natural modes of a vehicle at standstill or at a speed: frequency, damping, and what moves.
 #[derive(Debug, Clone, clap::Args)]
@@ -30,7 +31,8 @@ pub struct ModesArguments {
     /// Speed on straight track, km/h; the vehicle stands still when not given. S1002 wheels on UIC 60 rails at 1:40.
     #[arg(long, value_name = "KM/H")]
     pub speed_km_h: Option<f64>,
-    /// Looks for the linear critical speed, at which a mode begins to grow, up to 500 km/h.
+    /// Looks for the linear critical speed, at which a mode begins to grow, up to 500 km/h, and for the nonlinear one, from which on a push
+    /// to the flange ends in a limit cycle.
     #[arg(long, conflicts_with = "speed_km_h")]
     pub hunting: bool,
     /// Friction coefficient of wheel and rail.
@@ -49,14 +51,18 @@ struct Report {
     speed_km_h: Option<f64>,
     /// With `--hunting`: none when no mode grows up to the greatest speed.
     #[serde(skip_serializing_if = "Option::is_none")]
-    hunting: Option<Hunting>,
+    hunting: Option<HuntingRow>,
     modes: Vec<ModeRow>,
 }
 
 #[derive(Serialize)]
-struct Hunting {
+struct HuntingRow {
     critical_speed_km_h: Option<f64>,
     greatest_speed_km_h: f64,
+    /// None when a push dies away at the linear critical speed, or at the greatest when there is none.
+    nonlinear_critical_speed_km_h: Option<f64>,
+    /// Greatest lateral displacement of a wheelset in the limit cycle there, m.
+    limit_cycle_m: Option<f64>,
 }
 
 type Contact = WheelsetContact<KalkerBook, ContactGeometry>;
@@ -116,9 +122,12 @@ pub fn run(arguments: &ModesArguments) -> Outcome<()> {
         if arguments.hunting {
             let critical = critical_speed_km_h(&vehicle, &contact).map_err(refused)?;
             speed_km_h = Some(critical.unwrap_or(GREATEST_KM_H));
-            hunting = Some(Hunting {
+            let cycle = limit_cycle(name, &vehicle, arguments.friction, critical)?;
+            hunting = Some(HuntingRow {
                 critical_speed_km_h: critical,
                 greatest_speed_km_h: GREATEST_KM_H,
+                nonlinear_critical_speed_km_h: cycle.map(|cycle| 3.6 * cycle.speed_m_per_s),
+                limit_cycle_m: cycle.map(|cycle| cycle.amplitude_m),
             });
         }
         let modes =
@@ -150,6 +159,22 @@ fn contact(name: &str, vehicle: &VehicleParameters, friction: f64) -> Outcome<Co
         contact::friction(friction),
     )
     .map_err(|error| Failure::wrong_use(format!("--friction: {error}")))
+}
+
+/// The limit cycle at the least speed that has one, from a tenth of the linear critical speed to a little above it.
+fn limit_cycle(
+    name: &str,
+    vehicle: &VehicleParameters,
+    friction: f64,
+    critical_km_h: Option<f64>,
+) -> Outcome<Option<hunting::Outcome>> {
+    let refused = |error: VehicleStudyError| Failure::new(format!("{name}: {error}"));
+    let contact = contact::tabulated(vehicle, friction, NORMAL_DAMPING_S_PER_M).map_err(refused)?;
+    let greatest = 1.02 * critical_km_h.unwrap_or(GREATEST_KM_H) / 3.6;
+    let hunting = hunting::Hunting::new(vehicle, contact).map_err(refused)?;
+    hunting
+        .critical([0.1 * greatest, greatest])
+        .map_err(refused)
 }
 
 fn modes_at(
@@ -212,6 +237,18 @@ fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
             .map(|load| format!("{:.1}", load / 1e3))
             .collect();
         writeln!(out, "axle loads, kN: {}", loads.join(", "))?;
+    }
+    if let Some(HuntingRow {
+        nonlinear_critical_speed_km_h: Some(speed),
+        limit_cycle_m: Some(amplitude_m),
+        ..
+    }) = &report.hunting
+    {
+        writeln!(
+            out,
+            "nonlinear critical speed {speed:.1} km/h: pushed to the flange, wheelsets go on by {:.1} mm to each side or more from there on",
+            1e3 * amplitude_m
+        )?;
     }
     writeln!(out)?;
     writeln!(out, "undamped Hz  damped Hz  damping ratio  mode")?;

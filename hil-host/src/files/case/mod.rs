@@ -43,7 +43,7 @@ const SHIPPED: Shipped = Shipped {
 };
 
 /// Normal damping of a case that gives none, s/m: without any, impacts of the flange are chaotic, and in a curve it never comes to rest.
-const NORMAL_DAMPING_S_PER_M: f64 = 5.0;
+pub const NORMAL_DAMPING_S_PER_M: f64 = 5.0;
 
 /// A vehicle on a track at a speed.
 #[derive(Debug, Clone, PartialEq)]

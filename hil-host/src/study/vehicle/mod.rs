@@ -2,6 +2,7 @@
 
 pub mod contact;
 mod error;
+pub mod hunting;
 mod indices;
 mod run;
 pub mod signals;

@@ -1,0 +1,150 @@
+//! The step against the reference solution, for vehicles, tracks and speeds that nobody chose.
+
+use dashpot_core::DamperParameters;
+use dashpot_core::parameters::Mount;
+use dashpot_rail::track::{Generation, Irregularity, Layout, Part, Seeds, Spectrum, Track};
+use dashpot_rail::vehicle::{Law, Vehicle, VehicleParameters};
+use dashpot_reference::vehicle::VehicleReference;
+use fastrand::Rng;
+
+use crate::support::{contact, locomotive};
+
+fn between(random: &mut Rng, least: f64, greatest: f64) -> f64 {
+    least + random.f64() * (greatest - least)
+}
+
+/// The locomotive with every mass, inertia, stiffness, damping and damper another.
+fn vehicle(random: &mut Rng) -> VehicleParameters {
+    let mut parameters = locomotive();
+    for body in &mut parameters.bodies {
+        let factor = between(random, 0.9, 1.1);
+        body.mass_kg *= factor;
+        for inertia in &mut body.inertia_kg_m2 {
+            *inertia *= factor * between(random, 0.8, 1.2);
+        }
+    }
+    for element in &mut parameters.elements {
+        match &mut element.law {
+            Law::SpringDamper {
+                stiffness_n_per_m: [x, y, _],
+                damping_n_s_per_m,
+            } => {
+                // The vertical ones carry the weight alike, left and right.
+                *x *= between(random, 0.7, 1.3);
+                *y *= between(random, 0.7, 1.3);
+                damping_n_s_per_m[2] *= between(random, 0.5, 1.5);
+            }
+            Law::Damper { parameters, .. } => {
+                let mount = Mount {
+                    clearance_m: between(random, 0.0, 4e-3),
+                    ..Mount::new(between(random, 2e6, 12e6))
+                };
+                let (damping, saturation) =
+                    (between(random, 20e3, 150e3), between(random, 0.02, 0.3));
+                **parameters = DamperParameters::reduced(damping, saturation, mount);
+            }
+            _ => {}
+        }
+    }
+    parameters
+}
+
+/// A straight lead and a curve to either side, or straight on, with irregularities of a random class.
+fn track(random: &mut Rng) -> Track {
+    let side = if random.bool() { 1.0 } else { -1.0 };
+    let parts = [
+        Part::Straight { length_m: 50.0 },
+        Part::Transition {
+            length_m: between(random, 30.0, 80.0),
+        },
+        Part::Circular {
+            radius_m: side / between(random, 1.0 / 3000.0, 1.0 / 350.0),
+            length_m: 1e3,
+            cant_m: side * between(random, 0.0, 0.14),
+        },
+    ];
+    let spectrum = Spectrum::fra(random.u8(5..=6)).unwrap();
+    let irregularity = Generation {
+        length_m: 600.0,
+        seeds: Seeds::from(random.u64(..)),
+        ..Generation::of(spectrum)
+    };
+    let irregularity: Irregularity = irregularity.irregularity().unwrap();
+    Track::new(Layout::new(&parts).unwrap(), irregularity, vec![]).unwrap()
+}
+
+#[test]
+fn random_vehicles_run_as_the_reference_has_them() {
+    let mut random = Rng::with_seed(20_261_122);
+    for case in 0..3 {
+        let parameters = vehicle(&mut random);
+        let track = track(&mut random);
+        let speed = between(&mut random, 15.0, 35.0);
+        let contact = contact(5.0);
+        let engine = Vehicle::new(&parameters, contact.clone(), 1e-3).unwrap();
+        let mut state = engine.at_rest(&track, -15.0, speed).unwrap();
+        let ticks = 3500;
+        let times: Vec<f64> = (1..=ticks).map(|tick| f64::from(tick) * 1e-3).collect();
+        let mut reference =
+            VehicleReference::new(&parameters, &contact, &track, speed, -15.0).unwrap();
+        let samples = reference.run(&times, 1e-7).unwrap();
+        let (mut lateral, mut load) = ([0.0; 6], [0.0; 12]);
+        let (mut acceleration, mut scale, mut damper, mut damper_scale) = (0.0, 0.0, 0.0, 0.0);
+        for sample in &samples {
+            engine.step(&mut state, &track);
+            for (axle, sum) in lateral.iter_mut().enumerate() {
+                let error = state.coordinates()[3 + axle][0] - sample.coordinates[3 + axle][0];
+                *sum += error * error;
+            }
+            for (wheel, sum) in load.iter_mut().enumerate() {
+                let of = |contacts: &[dashpot_rail::contact::WheelsetForces]| {
+                    contacts[wheel / 2].wheels[wheel % 2].force_n[2]
+                };
+                *sum += (of(state.contacts()) - of(&sample.contacts)).powi(2);
+            }
+            for i in 0..2 {
+                let found = state.acceleration(0)[i] + state.track_acceleration(0)[i];
+                acceleration += (found - sample.accelerations[0][i]).powi(2);
+                scale += sample.accelerations[0][i].powi(2);
+            }
+            let forces = state.damper_forces_n().iter().zip(&sample.damper_forces_n);
+            for (found, expected) in forces {
+                damper += (found - expected).powi(2);
+                damper_scale += expected * expected;
+            }
+        }
+        let worst =
+            |sums: &[f64]| (sums.iter().fold(0.0_f64, |a, b| a.max(*b)) / f64::from(ticks)).sqrt();
+        let found = [
+            worst(&lateral),
+            worst(&load),
+            (acceleration / scale).sqrt(),
+            (damper / damper_scale).sqrt(),
+        ];
+        let allowed = [5e-6, 700.0, 0.01, 0.01];
+        for (found, allowed) in found.iter().zip(allowed) {
+            assert!(*found < allowed, "case {case} at {speed} m/s: {found:?}");
+        }
+    }
+}
+
+/// On ideal straight track nothing moves but the spin, from that of the heaviest patches to that without a moment.
+#[test]
+fn the_reference_keeps_its_standing_position() {
+    let parameters = locomotive();
+    let (contact, track) = (contact(0.0), Track::default());
+    let mut reference = VehicleReference::new(&parameters, &contact, &track, 30.0, 0.0).unwrap();
+    let samples = reference.run(&[0.0, 0.5, 1.0], 1e-8).unwrap();
+    let bodies = parameters.bodies.len();
+    for sample in samples {
+        let states = sample.coordinates.iter().zip(&sample.velocities);
+        for (body, (q, v)) in states.enumerate() {
+            for k in 0..5 {
+                let allowed = if body >= bodies && k == 3 { 1e-5 } else { 1e-9 };
+                let most = q[k].abs().max(v[k].abs());
+                assert!(most < allowed, "{body} {k}: {most} at {} s", sample.time_s);
+            }
+        }
+        assert!(sample.damper_forces_n.iter().all(|force| *force == 0.0));
+    }
+}
