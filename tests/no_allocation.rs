@@ -1,12 +1,19 @@
-//! The step, a bank, a live change and telemetry allocate nothing, counted at the global allocator.
+//! The step of a damper, a bank and a vehicle, a live change and telemetry allocate nothing, counted at the global allocator.
 
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 use std::hint::black_box;
+use std::sync::Arc;
 
 use dashpot::damper;
 use dashpot_core::telemetry::{Sample, Telemetry};
 use dashpot_core::{Damper, step_bank};
+use dashpot_hil::files::case::Case;
+use dashpot_rail::contact::{
+    ContactGeometry, Grid, Installation, Pair, Steel, Tables, WheelsetContact,
+};
+use dashpot_rail::creep::{Friction, KalkerBook};
+use dashpot_rail::vehicle::Vehicle;
 
 thread_local! {
     static ALLOCATIONS: Cell<usize> = const { Cell::new(0) };
@@ -92,4 +99,36 @@ fn banks_and_telemetry_allocate_nothing() {
     });
     assert_eq!(found, 0);
     assert!(telemetry.overwritten() > 0, "the ring was never full");
+}
+
+#[test]
+fn a_vehicle_steps_and_goes_back_without_allocation() {
+    let case = Case::load("straight-180").unwrap();
+    let installation = Installation {
+        wheel_radius_m: 0.625,
+        ..Installation::default()
+    };
+    let pair = Pair::standard(installation).unwrap();
+    let geometry = ContactGeometry::new(pair, Steel::default(), 101e3).unwrap();
+    let mut grid = Grid::default();
+    grid.roll_rad.cells = [1, 2, 1];
+    grid.yaw_squared_rad2.cells = [0, 2, 1];
+    let tables = Arc::new(Tables::new(geometry, grid).unwrap());
+    let contact = WheelsetContact::new(tables, KalkerBook::new(), Friction::default()).unwrap();
+    let vehicle = Vehicle::new(&case.vehicle, Arc::new(contact), 1e-3).unwrap();
+    let track = case.track.build().unwrap();
+    let mut state = vehicle.at_rest(&track, 60.0, 50.0).unwrap();
+    let start = state.clone();
+    let found = allocations(|| {
+        for _ in 0..300 {
+            vehicle.step(&mut state, &track);
+        }
+        state.set_outside_force_n(0, Some(1e3));
+        vehicle.step(&mut state, &track);
+    });
+    assert_eq!(found, 0);
+    assert!(!state.is_diverged());
+    assert_ne!(state, start);
+    assert_eq!(allocations(|| state.clone_from(&start)), 0);
+    assert_eq!(state, start);
 }

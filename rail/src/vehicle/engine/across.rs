@@ -2,7 +2,7 @@
 
 use dashpot_core::Damper;
 
-use super::blocks::{N, Vector};
+use super::block::{N, Vector};
 use crate::vehicle::linear::{Linear, Place};
 
 /// The displacement of the second end of an element against the first along its axis, from the coordinates of its bodies.

@@ -1,8 +1,10 @@
 //! Energy of a vehicle on straight level track.
 
-use super::blocks::Blocks;
+use fearless_simd::dispatch;
+
+use super::Vehicle;
+use super::block::Vector;
 use super::state::VehicleState;
-use super::{Structure, Vector, Vehicle};
 use crate::contact::PatchSource;
 use crate::creep::CreepLaw;
 
@@ -29,9 +31,16 @@ impl Energy {
 impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
     /// Energy of a state on straight level track.
     pub fn energy(&self, state: &VehicleState) -> Energy {
+        let zeros = vec![Vector::default(); self.names.len()];
+        let power = |q: &[Vector], v: &[Vector], along: &[Vector]| {
+            let mut forces = zeros.clone();
+            dispatch!(self.level, simd => self.springs.add(simd, 1.0, q, v, &mut forces));
+            let pairs = forces.iter().flatten().zip(along.iter().flatten());
+            pairs.map(|(force, along)| force * along).sum::<f64>()
+        };
         let mut energy = Energy {
-            potential_j: 0.5 * quadratic(&self.structure, &self.stiffness, &state.coordinates),
-            dissipation_w: quadratic(&self.structure, &self.damping, &state.velocities),
+            potential_j: 0.5 * power(&state.coordinates, &zeros, &state.coordinates),
+            dissipation_w: power(&zeros, &state.velocities, &state.velocities),
             ..Energy::default()
         };
         for (inertia, velocity) in self.inertia.iter().zip(&state.velocities) {
@@ -56,11 +65,4 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
         }
         energy
     }
-}
-
-fn quadratic(structure: &Structure, matrix: &Blocks, vector: &[Vector]) -> f64 {
-    let mut product = vec![[0.0; 5]; vector.len()];
-    structure.subtract_product(matrix, vector, &mut product);
-    let pairs = product.iter().flatten().zip(vector.iter().flatten());
-    -pairs.map(|(product, number)| product * number).sum::<f64>()
 }

@@ -1,7 +1,7 @@
 //! What the layout of the track does to the bodies above it.
 
-use super::blocks::Vector;
-use crate::track::Layout;
+use super::block::{N, Vector};
+use crate::track::{Alignment, Layout};
 use crate::vehicle::GRAVITY_M_PER_S2;
 
 /// Lateral distance of the contact points of a centred wheelset, over which cant is measured, m.
@@ -14,19 +14,42 @@ pub(super) struct Stand {
     pub height_m: f64,
 }
 
-/// The track frame under a body, in the order of its coordinates.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+/// The track frame under each body, in the order of its coordinates.
+#[derive(Debug, PartialEq)]
 pub(super) struct Guidance {
     /// How far the frame has moved and turned the body's centre since the distance 0: what its own velocities lack.
-    pub pose: Vector,
+    pub pose: Vec<Vector>,
     /// Rate of `pose`.
-    pub pose_rate: Vector,
+    pub pose_rate: Vec<Vector>,
     /// Place of the body's frame in that of the middle of the vehicle, in which elements lie.
-    pub relative: Vector,
+    pub relative: Vec<Vector>,
     /// Rate of `relative`.
-    pub relative_rate: Vector,
+    pub relative_rate: Vec<Vector>,
     /// Weight and centripetal force over the mass, beyond those of straight level track.
-    pub acceleration: Vector,
+    pub acceleration: Vec<Vector>,
+}
+
+/// The cant as an angle.
+#[derive(Debug, Clone, Copy)]
+struct Bank {
+    sine: f64,
+    cosine: f64,
+    roll: f64,
+    rate: f64,
+}
+
+impl Bank {
+    #[inline(always)]
+    fn of(alignment: &Alignment, speed_m_per_s: f64) -> Self {
+        let sine = alignment.cant_m / CANT_BASE_M;
+        let cosine = (1.0 - sine * sine).sqrt();
+        Self {
+            sine,
+            cosine,
+            roll: cant_angle(sine),
+            rate: speed_m_per_s * alignment.cant_slope / (CANT_BASE_M * cosine),
+        }
+    }
 }
 
 /// Angle whose sine is cant over its base, by the series of the arc sine: within 2e-8 for the greatest cant of a layout.
@@ -37,70 +60,56 @@ fn cant_angle(sine: f64) -> f64 {
 }
 
 impl Guidance {
-    /// Of bodies at their stands, the middle of the vehicle at `distance_m`.
+    /// On straight track.
+    pub fn new(bodies: usize) -> Self {
+        let zeros = vec![[0.0; N]; bodies];
+        Self {
+            pose: zeros.clone(),
+            pose_rate: zeros.clone(),
+            relative: zeros.clone(),
+            relative_rate: zeros.clone(),
+            acceleration: zeros,
+        }
+    }
+
+    /// For bodies at their stands, the middle of the vehicle at `distance_m`.
     #[inline(always)]
     pub fn update(
+        &mut self,
         layout: &Layout,
         distance_m: f64,
         speed_m_per_s: f64,
         stands: &[Stand],
-        guidance: &mut [Self],
     ) {
         let middle = layout.course(distance_m);
-        let sine = middle.alignment.cant_m / CANT_BASE_M;
-        let cosine = (1.0 - sine * sine).sqrt();
-        let roll = cant_angle(sine);
-        let roll_rate = speed_m_per_s * middle.alignment.cant_slope / (CANT_BASE_M * cosine);
+        let middle_bank = Bank::of(&middle.alignment, speed_m_per_s);
         let middle_curvature = middle.alignment.curvature_per_m;
-        for (stand, guidance) in stands.iter().zip(guidance) {
+        let poses = self.pose.iter_mut().zip(&mut self.pose_rate);
+        let relatives = self.relative.iter_mut().zip(&mut self.relative_rate);
+        let frames = poses.zip(relatives).zip(&mut self.acceleration);
+        for (stand, (((pose, pose_rate), (relative, relative_rate)), acceleration)) in
+            stands.iter().zip(frames)
+        {
             let course = layout.course(distance_m + stand.x_m);
-            let own_sine = course.alignment.cant_m / CANT_BASE_M;
-            let own_cosine = (1.0 - own_sine * own_sine).sqrt();
-            let own_roll = cant_angle(own_sine);
-            let own_rate = speed_m_per_s * course.alignment.cant_slope / (CANT_BASE_M * own_cosine);
+            let bank = Bank::of(&course.alignment, speed_m_per_s);
             let curvature = course.alignment.curvature_per_m;
             let heading = course.heading_rad - middle.heading_rad;
-            let (relative_roll, relative_rate) = (own_roll - roll, own_rate - roll_rate);
+            let (roll, rate) = (bank.roll - middle_bank.roll, bank.rate - middle_bank.rate);
             let offset = course.offset_m - middle.offset_m - middle.heading_rad * stand.x_m;
+            let height = stand.height_m;
             let centripetal = speed_m_per_s * speed_m_per_s * curvature;
-            *guidance = Self {
-                pose: [
-                    stand.height_m * own_roll,
-                    0.0,
-                    own_roll,
-                    0.0,
-                    course.heading_rad,
-                ],
-                pose_rate: [
-                    stand.height_m * own_rate,
-                    0.0,
-                    own_rate,
-                    0.0,
-                    speed_m_per_s * curvature,
-                ],
-                relative: [
-                    offset + stand.height_m * relative_roll,
-                    0.0,
-                    relative_roll,
-                    0.0,
-                    heading,
-                ],
-                relative_rate: [
-                    speed_m_per_s * (heading - middle_curvature * stand.x_m)
-                        + stand.height_m * relative_rate,
-                    0.0,
-                    relative_rate,
-                    0.0,
-                    speed_m_per_s * (curvature - middle_curvature),
-                ],
-                acceleration: [
-                    GRAVITY_M_PER_S2 * sine - centripetal * own_cosine,
-                    GRAVITY_M_PER_S2 * (cosine - 1.0) + centripetal * own_sine,
-                    0.0,
-                    0.0,
-                    0.0,
-                ],
-            };
+            // Height and pitch of the frame stay zero.
+            [pose[0], pose[2], pose[4]] = [height * bank.roll, bank.roll, course.heading_rad];
+            let turn = speed_m_per_s * curvature;
+            [pose_rate[0], pose_rate[2], pose_rate[4]] = [height * bank.rate, bank.rate, turn];
+            [relative[0], relative[2], relative[4]] = [offset + height * roll, roll, heading];
+            let drift = speed_m_per_s * (heading - middle_curvature * stand.x_m);
+            let turn = speed_m_per_s * (curvature - middle_curvature);
+            [relative_rate[0], relative_rate[2], relative_rate[4]] =
+                [drift + height * rate, rate, turn];
+            acceleration[0] = GRAVITY_M_PER_S2 * middle_bank.sine - centripetal * bank.cosine;
+            acceleration[1] =
+                GRAVITY_M_PER_S2 * (middle_bank.cosine - 1.0) + centripetal * bank.sine;
         }
     }
 }

@@ -1,28 +1,32 @@
 //! The vehicle in real time: constants, state, and a step of constant cost.
 
 mod across;
-mod blocks;
+mod block;
 mod energy;
 mod guidance;
 mod method;
+mod springs;
 mod state;
 mod step;
+mod structure;
 mod tangent;
 
 use std::sync::Arc;
 
-use dashpot_core::{Damper, DamperParameters};
-use fearless_simd::Level;
+use dashpot_core::{Damper, DamperParameters, DamperState};
+use fearless_simd::{Level, dispatch};
 use nalgebra::DMatrix;
 
 use self::across::{Across, DamperElement, StopElement};
-use self::blocks::{Block, Blocks, N, Structure, Vector};
+use self::block::{N, Vector};
 pub use self::energy::Energy;
 pub use self::guidance::CANT_BASE_M;
 use self::guidance::{Guidance, Stand};
 use self::method::Method;
+use self::springs::Springs;
 pub use self::state::VehicleState;
 use self::state::Work;
+use self::structure::{Blocks, Structure};
 use self::tangent::SurfaceConstants;
 use super::body::VehicleParameters;
 use super::carried::Carried;
@@ -40,6 +44,9 @@ pub const STEP_S: [f64; 2] = [0.02e-3, 2e-3];
 /// Bounds of the speed, m/s.
 const SPEED_M_PER_S: [f64; 2] = [1.0, 150.0];
 
+/// Dampers that take a step together; the last one also takes the places left over.
+const BANK: usize = 8;
+
 /// A vehicle in real time: constants for one step size, shared by any number of states.
 #[derive(Debug, Clone)]
 pub struct Vehicle<L, S: PatchSource = Tables> {
@@ -52,13 +59,12 @@ pub struct Vehicle<L, S: PatchSource = Tables> {
     stands: Vec<Stand>,
     wheelsets: Vec<WheelsetConstants>,
     inertia: Vec<Vector>,
+    springs: Springs,
     structure: Structure,
-    stiffness: Blocks,
-    damping: Blocks,
     /// `M + weighted damping and stiffness`: what a step solves without the contact.
     system: Blocks,
-    /// Bodies that elements hold on the track, with the stiffness and damping of these.
-    on_track: Vec<(usize, Block, Block)>,
+    /// Those of the springs that hold a body on the track; none where no element does.
+    on_track: Option<Springs>,
     dampers: Vec<DamperElement>,
     stops: Vec<StopElement>,
 }
@@ -143,25 +149,11 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
             + &linear.stiffness * method.stiffness_weight();
         let structure = Structure::new(&system);
         let system = structure.blocks(&system);
-        if !structure.factorise(&mut system.clone()) {
+        let level = Level::new();
+        if !dispatch!(level, simd => structure.factorise(simd, &mut system.clone())) {
             return Err(VehicleError::StepTooLong { step_s });
         }
-        let block = |matrix: &DMatrix<f64>, body: usize| -> Block {
-            std::array::from_fn(|i| std::array::from_fn(|j| matrix[(N * body + i, N * body + j)]))
-        };
-        let held = (0..bodies.len())
-            .map(|body| {
-                (
-                    body,
-                    block(&on_track.stiffness, body),
-                    block(&on_track.damping, body),
-                )
-            })
-            .filter(|(_, stiffness, damping)| {
-                [stiffness, damping]
-                    .iter()
-                    .any(|block| block.iter().flatten().any(|k| *k != 0.0))
-            });
+        let is_held = on_track.stiffness.amax() > 0.0 || on_track.damping.amax() > 0.0;
         Ok(Self {
             step_s,
             method,
@@ -170,7 +162,7 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
                 normal_damping_s_per_m: contact.normal_damping_s_per_m(),
             },
             contact,
-            level: Level::new(),
+            level,
             names: bodies.iter().map(|body| body.name.clone()).collect(),
             stands: bodies
                 .iter()
@@ -183,9 +175,8 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
             inertia: (0..bodies.len())
                 .map(|body| std::array::from_fn(|i| linear.inertia[N * body + i]))
                 .collect(),
-            stiffness: structure.blocks(&linear.stiffness),
-            damping: structure.blocks(&linear.damping),
-            on_track: held.collect(),
+            springs: Springs::new(&linear.stiffness, &linear.damping),
+            on_track: is_held.then(|| Springs::new(&on_track.stiffness, &on_track.damping)),
             structure,
             system,
             dampers,
@@ -207,31 +198,21 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
         finite("vehicle", "distance_m", distance_m, [-1e6, 1e6])?;
         let bodies = self.names.len();
         let zeros = vec![[0.0; N]; bodies];
-        let mut guidance = vec![Guidance::default(); bodies];
-        Guidance::update(
-            track.layout(),
-            distance_m,
-            speed_m_per_s,
-            &self.stands,
-            &mut guidance,
-        );
+        let mut guidance = Guidance::new(bodies);
+        guidance.update(track.layout(), distance_m, speed_m_per_s, &self.stands);
         let mut state = VehicleState {
             ticks: 0,
             distance_m,
             speed_m_per_s,
             coordinates: zeros.clone(),
-            velocities: guidance.iter().map(|guidance| guidance.pose_rate).collect(),
+            velocities: guidance.pose_rate.clone(),
             accelerations: zeros.clone(),
             last_accelerations: zeros.clone(),
             forces: zeros.clone(),
             inertia: self.inertia.clone(),
-            pose: guidance.iter().map(|guidance| guidance.pose).collect(),
+            pose: guidance.pose.clone(),
             contacts: vec![WheelsetForces::default(); self.wheelsets.len()],
-            dampers: self
-                .dampers
-                .iter()
-                .map(|element| element.damper.at_rest(0.0))
-                .collect(),
+            dampers: self.dampers_at_rest(&zeros),
             damper_displacements_m: vec![0.0; self.dampers.len()],
             damper_forces_n: vec![0.0; self.dampers.len()],
             outside_forces_n: vec![None; self.dampers.len()],
@@ -242,7 +223,9 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
                 system: self.system.clone(),
                 residual: zeros.clone(),
                 in_middle: zeros.clone(),
-                rates_in_middle: zeros,
+                rates_in_middle: zeros.clone(),
+                tick_forces: zeros.clone(),
+                tick_changes: zeros,
                 target_damper_forces_n: vec![0.0; self.dampers.len()],
                 target_stop_forces_n: vec![0.0; self.stops.len()],
             },
@@ -264,11 +247,21 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
                 *coordinate += by;
             }
         }
-        for (element, damper) in self.dampers.iter().zip(&mut state.dampers) {
-            let displacement = element.across.displacement(|body| state.coordinates[body]);
-            *damper = element.damper.at_rest(displacement);
-        }
+        state.dampers = self.dampers_at_rest(&state.coordinates);
         self.begin(state, track);
+    }
+
+    /// The dampers with the bodies at rest at `coordinates`, in whole banks.
+    fn dampers_at_rest(&self, coordinates: &[Vector]) -> Vec<DamperState<f64>> {
+        let at_rest = |element: &DamperElement| {
+            let displacement = element.across.displacement(|body| coordinates[body]);
+            element.damper.at_rest(displacement)
+        };
+        let mut states: Vec<_> = self.dampers.iter().map(at_rest).collect();
+        if let Some(last) = states.last().copied() {
+            states.resize(states.len().next_multiple_of(BANK), last);
+        }
+        states
     }
 
     /// Step size, s.

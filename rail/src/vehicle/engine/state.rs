@@ -2,8 +2,9 @@
 
 use dashpot_core::DamperState;
 
-use super::blocks::{Blocks, N, Vector};
+use super::block::{N, Vector};
 use super::guidance::Guidance;
+use super::structure::Blocks;
 use crate::contact::{Status, WheelsetForces};
 
 /// The state of a running vehicle: plain data. A clone saves it, [`Clone::clone_from`] restores it without allocation, and a step from
@@ -11,7 +12,7 @@ use crate::contact::{Status, WheelsetForces};
 ///
 /// Bodies come in the order of the parameters, wheelsets after them; coordinates in that of
 /// [`COORDINATES`](crate::vehicle::COORDINATES).
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, PartialEq)]
 pub struct VehicleState {
     pub(super) ticks: u64,
     pub(super) distance_m: f64,
@@ -26,6 +27,7 @@ pub struct VehicleState {
     pub(super) inertia: Vec<Vector>,
     pub(super) pose: Vec<Vector>,
     pub(super) contacts: Vec<WheelsetForces>,
+    /// In whole banks: the last damper also in the places left over.
     pub(super) dampers: Vec<DamperState<f64>>,
     pub(super) damper_displacements_m: Vec<f64>,
     pub(super) damper_forces_n: Vec<f64>,
@@ -36,13 +38,16 @@ pub struct VehicleState {
 }
 
 /// What a step writes over.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, PartialEq)]
 pub(super) struct Work {
-    pub guidance: Vec<Guidance>,
+    pub guidance: Guidance,
     pub system: Blocks,
     pub residual: Vec<Vector>,
     pub in_middle: Vec<Vector>,
     pub rates_in_middle: Vec<Vector>,
+    /// Of dampers and stops at the start of the tick, and their change until its end.
+    pub tick_forces: Vec<Vector>,
+    pub tick_changes: Vec<Vector>,
     pub target_damper_forces_n: Vec<f64>,
     pub target_stop_forces_n: Vec<f64>,
 }
@@ -78,7 +83,7 @@ impl VehicleState {
     /// Acceleration of a body in the track's axes, m/s^2 and rad/s^2: forces over inertia, without the centripetal one and the weight's
     /// part along the cant, as an accelerometer on it has them.
     pub fn acceleration(&self, body: usize) -> [f64; N] {
-        let guidance = &self.work.guidance[body].acceleration;
+        let guidance = &self.work.guidance.acceleration[body];
         std::array::from_fn(|i| self.forces[body][i] / self.inertia[body][i] - guidance[i])
     }
 
@@ -127,3 +132,63 @@ impl VehicleState {
         self.is_diverged
     }
 }
+
+/// [`Clone`] field by field: the one that is derived allocates in [`Clone::clone_from`].
+macro_rules! clone_by_field {
+    ($type:ident { $($field:ident),* $(,)? }) => {
+        impl Clone for $type {
+            fn clone(&self) -> Self {
+                Self { $($field: self.$field.clone()),* }
+            }
+
+            fn clone_from(&mut self, source: &Self) {
+                let Self { $($field),* } = source;
+                $(self.$field.clone_from($field);)*
+            }
+        }
+    };
+}
+
+clone_by_field!(VehicleState {
+    ticks,
+    distance_m,
+    speed_m_per_s,
+    coordinates,
+    velocities,
+    accelerations,
+    last_accelerations,
+    forces,
+    inertia,
+    pose,
+    contacts,
+    dampers,
+    damper_displacements_m,
+    damper_forces_n,
+    outside_forces_n,
+    stop_forces_n,
+    is_diverged,
+    work,
+});
+clone_by_field!(Work {
+    guidance,
+    system,
+    residual,
+    in_middle,
+    rates_in_middle,
+    tick_forces,
+    tick_changes,
+    target_damper_forces_n,
+    target_stop_forces_n,
+});
+clone_by_field!(Guidance {
+    pose,
+    pose_rate,
+    relative,
+    relative_rate,
+    acceleration,
+});
+clone_by_field!(Blocks {
+    diagonal,
+    couplings,
+    carried,
+});

@@ -1,13 +1,16 @@
 //! One step: generalised alpha method, linearly implicit.
 
-use fearless_simd::dispatch;
+use std::array::from_fn;
 
-use super::blocks::{N, Vector};
-use super::guidance::Guidance;
+use dashpot_core::step_bank;
+use fearless_simd::{Simd, dispatch};
+
+use super::across::Across;
+use super::block::{N, Vector};
 use super::method::Method;
 use super::state::VehicleState;
 use super::tangent::{Weights, add_contact};
-use super::{Vehicle, WheelsetConstants};
+use super::{BANK, Vehicle, WheelsetConstants};
 use crate::contact::{Motion, PatchSource};
 use crate::creep::CreepLaw;
 use crate::track::Track;
@@ -23,17 +26,17 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
     ///
     /// Cannot fail and does not allocate; every tick costs the same but for the number of patches that carry load.
     pub fn step(&self, state: &mut VehicleState, track: &Track) {
-        dispatch!(self.level, _simd => self.tick(state, track));
+        dispatch!(self.level, simd => self.tick(simd, state, track));
     }
 
     #[inline(always)]
-    fn tick(&self, state: &mut VehicleState, track: &Track) {
+    fn tick<V: Simd>(&self, simd: V, state: &mut VehicleState, track: &Track) {
         if state.is_diverged {
             return;
         }
         self.step_dampers(state, track);
         for substep in 1..=self.method.substeps {
-            self.substep(state, track, substep);
+            self.substep(simd, state, track, substep);
             if state.is_diverged {
                 return;
             }
@@ -50,10 +53,11 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
     /// Contact and track of the first moment.
     pub(super) fn begin(&self, state: &mut VehicleState, track: &Track) {
         let mut forces = vec![[0.0; N]; self.names.len()];
-        self.act(state, track, state.distance_m, &mut forces);
+        let distance_m = state.distance_m;
+        dispatch!(self.level, simd => self.act(simd, state, track, distance_m, &mut forces));
         state.forces = forces;
         for (body, forces) in state.forces.iter().enumerate() {
-            state.accelerations[body] = std::array::from_fn(|i| forces[i] / self.inertia[body][i]);
+            state.accelerations[body] = from_fn(|i| forces[i] / self.inertia[body][i]);
         }
         state.last_accelerations.clone_from(&state.accelerations);
     }
@@ -64,61 +68,97 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
         let h = self.step_s;
         let speed = state.speed_m_per_s;
         let distance = state.distance_m + h * speed;
-        let guidance = &mut state.work.guidance;
-        Guidance::update(track.layout(), distance, speed, &self.stands, guidance);
-        for body in 0..self.names.len() {
-            let guidance = &guidance[body];
-            let (q, v, a) = (
-                &state.coordinates[body],
-                &state.velocities[body],
-                &state.accelerations[body],
-            );
-            let predicted: Vector = std::array::from_fn(|i| {
-                q[i] + h * (v[i] + 0.5 * h * a[i]) - (guidance.pose[i] - state.pose[body][i])
-            });
-            state.work.residual[body] = predicted;
-            state.work.in_middle[body] =
-                std::array::from_fn(|i| predicted[i] + guidance.relative[i]);
-        }
         let work = &mut state.work;
-        for (number, element) in self.dampers.iter().enumerate() {
-            let from = if element.across.is_on_track() {
-                &work.residual
-            } else {
-                &work.in_middle
-            };
-            let displacement = element.across.displacement(|body| from[body]);
-            state.damper_displacements_m[number] = displacement;
-            // A damper whose force comes from outside follows, so that it can take over.
-            let own = element
-                .damper
-                .step(&mut state.dampers[number], displacement);
-            work.target_damper_forces_n[number] = state.outside_forces_n[number].unwrap_or(own);
+        let guidance = &mut work.guidance;
+        guidance.update(track.layout(), distance, speed, &self.stands);
+        let moved = state
+            .coordinates
+            .as_flattened()
+            .iter()
+            .zip(state.velocities.as_flattened())
+            .zip(state.accelerations.as_flattened())
+            .zip(guidance.pose.as_flattened())
+            .zip(state.pose.as_flattened())
+            .zip(guidance.relative.as_flattened());
+        let places = work
+            .residual
+            .as_flattened_mut()
+            .iter_mut()
+            .zip(work.in_middle.as_flattened_mut());
+        for ((predicted, in_middle), (((((q, v), a), pose), last_pose), relative)) in
+            places.zip(moved)
+        {
+            *predicted = q + h * (v + 0.5 * h * a) - (pose - last_pose);
+            *in_middle = *predicted + relative;
         }
-        for (number, element) in self.stops.iter().enumerate() {
-            let from = if element.across.is_on_track() {
-                &work.residual
+        let (on_track, in_middle) = (&work.residual, &work.in_middle);
+        let displacement = |across: &Across| {
+            let from = if across.is_on_track() {
+                on_track
             } else {
-                &work.in_middle
+                in_middle
             };
-            let displacement = element.across.displacement(|body| from[body]);
-            work.target_stop_forces_n[number] = element.force(displacement);
+            across.displacement(|body| from[body])
+        };
+        let displacements = &mut state.damper_displacements_m;
+        for (element, number) in self.dampers.iter().zip(displacements.iter_mut()) {
+            *number = displacement(&element.across);
+        }
+        let (banks, _) = state.dampers.as_chunks_mut::<BANK>();
+        let elements = self.dampers.chunks(BANK).zip(displacements.chunks(BANK));
+        let forces = work.target_damper_forces_n.chunks_mut(BANK);
+        for ((states, (elements, displacements)), forces) in
+            banks.iter_mut().zip(elements).zip(forces)
+        {
+            let last = elements.len() - 1;
+            let dampers = from_fn(|lane| &elements[lane.min(last)].damper);
+            let displacements = from_fn(|lane| displacements[lane.min(last)]);
+            let mut own = [0.0; BANK];
+            step_bank::<f64, BANK>(&dampers, states, &displacements, &mut own);
+            forces.copy_from_slice(&own[..=last]);
+        }
+        // A damper whose force comes from outside was stepped too, so that it can take over.
+        let outside = state.outside_forces_n.iter();
+        for (force, outside) in work.target_damper_forces_n.iter_mut().zip(outside) {
+            *force = outside.unwrap_or(*force);
+        }
+        for (element, force) in self.stops.iter().zip(&mut work.target_stop_forces_n) {
+            *force = element.force(displacement(&element.across));
+        }
+
+        work.tick_forces.fill([0.0; N]);
+        work.tick_changes.fill([0.0; N]);
+        let dampers = self.dampers.iter().map(|element| &element.across);
+        let stops = self.stops.iter().map(|element| &element.across);
+        let before = state.damper_forces_n.iter().chain(&state.stop_forces_n);
+        let after = work
+            .target_damper_forces_n
+            .iter()
+            .chain(&work.target_stop_forces_n);
+        for (across, (before, after)) in dampers.chain(stops).zip(before.zip(after)) {
+            across.pull(*before, &mut work.tick_forces);
+            across.pull(after - before, &mut work.tick_changes);
         }
     }
 
     #[inline(always)]
-    fn substep(&self, state: &mut VehicleState, track: &Track, substep: usize) {
+    fn substep<V: Simd>(&self, simd: V, state: &mut VehicleState, track: &Track, substep: usize) {
         let distance = state.distance_m + self.method.step_s * state.speed_m_per_s;
         self.predict(state, track, distance);
         let mut forces = std::mem::take(&mut state.work.residual);
         let share = substep as f64 / self.method.substeps as f64;
-        self.pull(state, share, &mut forces);
-        self.act(state, track, distance, &mut forces);
+        let pull = state.work.tick_forces.iter().zip(&state.work.tick_changes);
+        for (force, (before, change)) in forces.iter_mut().zip(pull) {
+            for i in 0..N {
+                force[i] = before[i] + share * change[i];
+            }
+        }
+        self.act(simd, state, track, distance, &mut forces);
         // Impacts last longer than two steps: the same factors serve both.
         if substep % 2 == 1 {
-            self.factorise(state);
+            self.factorise(simd, state);
         }
-        self.correct(state, &mut forces);
+        self.correct(simd, state, &mut forces);
         state.work.residual = forces;
         state.distance_m = distance;
     }
@@ -134,100 +174,88 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
         } = self.method;
         let speed = state.speed_m_per_s;
         let guidance = &mut state.work.guidance;
-        Guidance::update(track.layout(), distance_m, speed, &self.stands, guidance);
+        guidance.update(track.layout(), distance_m, speed, &self.stands);
         let bodies = state.coordinates.iter_mut().zip(&mut state.velocities);
         let accelerations = state
             .accelerations
             .iter_mut()
             .zip(&mut state.last_accelerations);
-        let poses = state.pose.iter_mut().zip(guidance.iter());
-        for (((q, v), (a, last)), (pose, guidance)) in bodies.zip(accelerations).zip(poses) {
-            for i in 0..N {
-                let predicted = self.method.predicted(a[i], last[i]);
-                let change = predicted - a[i];
-                q[i] += h * (v[i] + 0.5 * h * a[i]) + to_displacement * change
-                    - (guidance.pose[i] - pose[i]);
-                v[i] += h * a[i] + to_velocity * change;
-                last[i] = a[i];
-                a[i] = predicted;
-            }
-            *pose = guidance.pose;
-        }
-    }
-
-    /// Dampers and stops at their share of the way through the tick.
-    #[inline(always)]
-    fn pull(&self, state: &VehicleState, share: f64, forces: &mut [Vector]) {
-        forces.fill([0.0; N]);
-        let tick = state
-            .damper_forces_n
-            .iter()
-            .zip(&state.work.target_damper_forces_n);
-        for (element, (before, after)) in self.dampers.iter().zip(tick) {
-            element
-                .across
-                .pull(before + share * (after - before), forces);
-        }
-        let tick = state
-            .stop_forces_n
-            .iter()
-            .zip(&state.work.target_stop_forces_n);
-        for (element, (before, after)) in self.stops.iter().zip(tick) {
-            element
-                .across
-                .pull(before + share * (after - before), forces);
+        let poses = state.pose.iter_mut().zip(&guidance.pose);
+        for (((place, velocity), (acceleration, last)), (pose, new_pose)) in
+            bodies.zip(accelerations).zip(poses)
+        {
+            // All read before one is written: the five then go through vector instructions.
+            let (q, v, a) = (*place, *velocity, *acceleration);
+            let predicted: Vector = from_fn(|i| self.method.predicted(a[i], last[i]));
+            let change: Vector = from_fn(|i| predicted[i] - a[i]);
+            let moved: Vector = from_fn(|i| new_pose[i] - pose[i]);
+            *place = from_fn(|i| {
+                q[i] + h * (v[i] + 0.5 * h * a[i]) + to_displacement * change[i] - moved[i]
+            });
+            *velocity = from_fn(|i| v[i] + h * a[i] + to_velocity * change[i]);
+            *acceleration = predicted;
+            *last = a;
+            *pose = *new_pose;
         }
     }
 
     /// The system with what the contact resists at the predicted place, factorised.
     #[inline(always)]
-    fn factorise(&self, state: &mut VehicleState) {
+    fn factorise<V: Simd>(&self, simd: V, state: &mut VehicleState) {
         let method = &self.method;
         let weights = Weights {
             stiffness: method.stiffness_weight(),
             damping: method.damping_weight(),
         };
         let system = &mut state.work.system;
-        system.clone_from(&self.system);
+        system.set(&self.system);
         for (constants, forces) in self.wheelsets.iter().zip(&state.contacts) {
             let block = &mut system.diagonal[constants.body];
-            add_contact(block, forces, self.surface, state.speed_m_per_s, weights);
+            let speed = state.speed_m_per_s;
+            add_contact(simd, block, forces, self.surface, speed, weights);
         }
-        state.is_diverged |= !self.structure.factorise(system);
+        state.is_diverged |= !self.structure.factorise(simd, system);
     }
 
     /// One Newton correction with the forces at the predicted place.
     #[inline(always)]
-    fn correct(&self, state: &mut VehicleState, forces: &mut [Vector]) {
+    fn correct<V: Simd>(&self, simd: V, state: &mut VehicleState, forces: &mut [Vector]) {
         let method = &self.method;
-        for (body, residual) in forces.iter_mut().enumerate() {
-            for i in 0..N {
-                let inertia = self.inertia[body][i];
-                let (a, last) = (
-                    state.accelerations[body][i],
-                    state.last_accelerations[body][i],
-                );
-                residual[i] = method.new_force * residual[i]
-                    + method.old_force * state.forces[body][i]
-                    - inertia * (a + method.old_inertia * last);
-            }
+        let motion = state
+            .accelerations
+            .as_flattened()
+            .iter()
+            .zip(state.last_accelerations.as_flattened())
+            .zip(state.forces.as_flattened())
+            .zip(self.inertia.as_flattened());
+        for (residual, (((a, last), old), inertia)) in
+            forces.as_flattened_mut().iter_mut().zip(motion)
+        {
+            *residual = method.new_force * *residual + method.old_force * old
+                - inertia * (a + method.old_inertia * last);
         }
-        self.structure.solve(&state.work.system, forces);
+        self.structure.solve(simd, &state.work.system, forces);
+        let to_force = 1.0 / method.new_force;
+        let bodies = state.coordinates.iter_mut().zip(&mut state.velocities);
+        let accelerations = state
+            .accelerations
+            .iter_mut()
+            .zip(&state.last_accelerations);
+        let loads = state.forces.iter_mut().zip(&self.inertia);
         let mut is_bounded = true;
-        for (body, change) in forces.iter().enumerate() {
-            for i in 0..N {
-                let a = state.accelerations[body][i] + change[i];
-                let last = state.last_accelerations[body][i];
-                state.accelerations[body][i] = a;
-                state.velocities[body][i] += method.to_velocity * change[i];
-                let q = state.coordinates[body][i] + method.to_displacement * change[i];
-                state.coordinates[body][i] = q;
-                // The force that the method has at the end of the step.
-                let inertia_force = self.inertia[body][i] * (a + method.old_inertia * last);
-                let force = &mut state.forces[body][i];
-                *force = (inertia_force - method.old_force * *force) / method.new_force;
-                is_bounded &= q.abs() < DIVERGED && a.abs() < DIVERGED_RATE;
-            }
+        for (((change, (place, velocity)), (acceleration, last)), (force, inertia)) in
+            forces.iter().zip(bodies).zip(accelerations).zip(loads)
+        {
+            let (q, v, a, old) = (*place, *velocity, *acceleration, *force);
+            let a: Vector = from_fn(|i| a[i] + change[i]);
+            let q: Vector = from_fn(|i| q[i] + method.to_displacement * change[i]);
+            // The force that the method has at the end of the step.
+            let inertia: Vector = from_fn(|i| inertia[i] * (a[i] + method.old_inertia * last[i]));
+            *place = q;
+            *velocity = from_fn(|i| v[i] + method.to_velocity * change[i]);
+            *acceleration = a;
+            *force = from_fn(|i| (inertia[i] - method.old_force * old[i]) * to_force);
+            is_bounded &= (0..N).all(|i| (q[i].abs() < DIVERGED) & (a[i].abs() < DIVERGED_RATE));
         }
         for constants in &self.wheelsets {
             state.coordinates[constants.body][3] = 0.0;
@@ -237,29 +265,50 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
 
     /// Adds what acts on the bodies where they are: springs and dashpots, weight and track, rails.
     #[inline(always)]
-    fn act(&self, state: &mut VehicleState, track: &Track, distance_m: f64, forces: &mut [Vector]) {
+    fn act<V: Simd>(
+        &self,
+        simd: V,
+        state: &mut VehicleState,
+        track: &Track,
+        distance_m: f64,
+        forces: &mut [Vector],
+    ) {
         let work = &mut state.work;
-        for body in 0..self.names.len() {
-            let guidance = &work.guidance[body];
-            for i in 0..N {
-                work.in_middle[body][i] = state.coordinates[body][i] + guidance.relative[i];
-                work.rates_in_middle[body][i] =
-                    state.velocities[body][i] - guidance.pose_rate[i] + guidance.relative_rate[i];
-                forces[body][i] += self.inertia[body][i] * guidance.acceleration[i];
-            }
+        let guidance = &work.guidance;
+        let places = work
+            .in_middle
+            .as_flattened_mut()
+            .iter_mut()
+            .zip(state.coordinates.as_flattened())
+            .zip(guidance.relative.as_flattened());
+        for ((in_middle, q), relative) in places {
+            *in_middle = q + relative;
         }
-        self.structure
-            .subtract_product(&self.stiffness, &work.in_middle, forces);
-        self.structure
-            .subtract_product(&self.damping, &work.rates_in_middle, forces);
-        for (body, stiffness, damping) in &self.on_track {
-            let guidance = &work.guidance[*body];
-            for i in 0..N {
-                for j in 0..N {
-                    forces[*body][i] += stiffness[i][j] * guidance.relative[j]
-                        + damping[i][j] * guidance.relative_rate[j];
-                }
-            }
+        let rates = work
+            .rates_in_middle
+            .as_flattened_mut()
+            .iter_mut()
+            .zip(state.velocities.as_flattened())
+            .zip(guidance.pose_rate.as_flattened())
+            .zip(guidance.relative_rate.as_flattened());
+        for (((in_middle, v), pose_rate), relative_rate) in rates {
+            *in_middle = v - pose_rate + relative_rate;
+        }
+        let accelerations = self
+            .inertia
+            .as_flattened()
+            .iter()
+            .zip(guidance.acceleration.as_flattened());
+        for (force, (inertia, acceleration)) in
+            forces.as_flattened_mut().iter_mut().zip(accelerations)
+        {
+            *force += inertia * acceleration;
+        }
+        let (displacements, rates) = (&work.in_middle, &work.rates_in_middle);
+        self.springs.add(simd, -1.0, displacements, rates, forces);
+        if let Some(on_track) = &self.on_track {
+            let (relative, rate) = (&guidance.relative, &guidance.relative_rate);
+            on_track.add(simd, 1.0, relative, rate, forces);
         }
         for (number, constants) in self.wheelsets.iter().enumerate() {
             self.act_on_wheelset(state, track, distance_m, number, constants, forces);
@@ -283,7 +332,8 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
             spin_inertia_kg_m2,
         } = *constants;
         let speed = state.speed_m_per_s;
-        let guidance = &state.work.guidance[body];
+        let guidance = &state.work.guidance;
+        let pose_rate = &guidance.pose_rate[body];
         let [lateral, vertical, roll, _, yaw] = state.coordinates[body];
         let v = state.velocities[body];
         let free = carried.motion(speed);
@@ -292,9 +342,9 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
             vertical_m: carried.vertical_m + vertical,
             roll_rad: roll,
             yaw_rad: yaw,
-            lateral_velocity_m_per_s: v[0] - guidance.pose_rate[0],
+            lateral_velocity_m_per_s: v[0] - pose_rate[0],
             vertical_velocity_m_per_s: v[1],
-            roll_rate_rad_per_s: v[2] - guidance.pose_rate[2],
+            roll_rate_rad_per_s: v[2] - pose_rate[2],
             rotation_rad_per_s: free.rotation_rad_per_s - v[3],
             yaw_rate_rad_per_s: v[4],
             ..free
@@ -305,7 +355,7 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
         self.contact.update(&motion, &rails, contact);
         let [_, fy, fz] = contact.force_n;
         let [mx, my, mz] = contact.moment_n_m;
-        let turned = guidance.relative[2];
+        let turned = guidance.relative[body][2];
         let momentum = spin_inertia_kg_m2 * free.rotation_rad_per_s;
         let sums = &mut forces[body];
         sums[0] += fy - turned * fz;

@@ -1,7 +1,9 @@
 //! What the contact resists in one step: a symmetric estimate of its stiffness and damping from the patches themselves.
 
-use super::blocks::{Block, Vector};
-use crate::contact::{PatchForces, WheelsetForces};
+use fearless_simd::Simd;
+
+use super::block::{Block, Weighted};
+use crate::contact::{PatchForces, WheelsetForces, ZONES};
 use crate::creep::CreepForces;
 
 /// Coefficient of Kalker that stands for both directions: 4 within a fourth for the ellipses of wheel and rail.
@@ -28,7 +30,8 @@ pub(super) struct SurfaceConstants {
 ///
 /// A correction by these only has to be stable and small: what it leaves of the force is in the next step.
 #[inline(always)]
-pub(super) fn add_contact(
+pub(super) fn add_contact<S: Simd>(
+    simd: S,
     block: &mut Block,
     forces: &WheelsetForces,
     surface: SurfaceConstants,
@@ -36,6 +39,8 @@ pub(super) fn add_contact(
     weights: Weights,
 ) {
     for (wheel, side) in forces.wheels.iter().zip([-1.0, 1.0]) {
+        let mut all = [Weighted::NONE; 3 * ZONES];
+        let mut places = all.iter_mut();
         for patch in wheel.loaded_patches() {
             let stiffness = 1.5 * patch.load_n / patch.penetration_m.max(1e-9);
             let damping = creep_coefficient_n(patch, surface.shear_modulus_pa) / speed_m_per_s;
@@ -50,10 +55,14 @@ pub(super) fn add_contact(
             let along = [0.0, 0.0, 0.0, z, -y];
             let normal_damping = patch.load_n * surface.normal_damping_s_per_m;
             let resistance = weights.stiffness * stiffness + weights.damping * normal_damping;
-            add(block, &normal, resistance);
-            add(block, &across, weights.damping * damping);
-            add(block, &along, weights.damping * damping);
+            let damping = weights.damping * damping;
+            let three = [(normal, resistance), (across, damping), (along, damping)];
+            for ((direction, weight), place) in three.into_iter().zip(&mut places) {
+                *place = Weighted::new(direction, weight);
+            }
         }
+        let left = places.len();
+        block.add_along(simd, &all[..3 * ZONES - left]);
     }
 }
 
@@ -67,8 +76,8 @@ fn creep_coefficient_n(patch: &PatchForces, shear_modulus_pa: f64) -> f64 {
         lateral_n,
         ..
     } = patch.creep;
-    let force = longitudinal_n.hypot(lateral_n);
-    let creepage = patch.creepage.longitudinal.hypot(patch.creepage.lateral);
+    let force = magnitude(longitudinal_n, lateral_n);
+    let creepage = magnitude(patch.creepage.longitudinal, patch.creepage.lateral);
     if force < most * creepage {
         force / creepage
     } else {
@@ -76,11 +85,8 @@ fn creep_coefficient_n(patch: &PatchForces, shear_modulus_pa: f64) -> f64 {
     }
 }
 
+/// Of numbers whose squares neither overflow nor matter where they underflow.
 #[inline(always)]
-fn add(block: &mut Block, direction: &Vector, weight: f64) {
-    for (row, i) in block.iter_mut().zip(direction) {
-        for (number, j) in row.iter_mut().zip(direction) {
-            *number += weight * i * j;
-        }
-    }
+fn magnitude(x: f64, y: f64) -> f64 {
+    (x * x + y * y).sqrt()
 }

@@ -1,17 +1,9 @@
 //! Symmetric positive definite equations in blocks of one body each, factorised along the order in which the bodies hang on one another.
 
+use fearless_simd::{Simd, f64x8};
 use nalgebra::DMatrix;
 
-use crate::vehicle::body::COORDINATES;
-
-/// Coordinates of a body.
-pub(super) const N: usize = COORDINATES.len();
-
-/// One number for each coordinate of a body.
-pub(super) type Vector = [f64; N];
-
-/// One number for each pair of coordinates of two bodies.
-pub(super) type Block = [[f64; N]; N];
+use super::block::{Block, N, Vector, coordinates};
 
 /// A block that is not on the diagonal: its row and column.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -54,10 +46,22 @@ pub(super) struct Structure {
 }
 
 /// The numbers of a structure: the matrix, or its factors in the same place.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, PartialEq)]
 pub(super) struct Blocks {
+    /// Factorised, the inverse of each body's block when its turn comes.
     pub diagonal: Vec<Block>,
-    couplings: Vec<Block>,
+    pub couplings: Vec<Block>,
+    /// Of the factors: each coupling's transpose times the inverse.
+    pub carried: Vec<Block>,
+}
+
+impl Blocks {
+    /// Takes the numbers of a matrix of the same structure.
+    #[inline(always)]
+    pub fn set(&mut self, matrix: &Self) {
+        self.diagonal.copy_from_slice(&matrix.diagonal);
+        self.couplings.copy_from_slice(&matrix.couplings);
+    }
 }
 
 impl Structure {
@@ -144,9 +148,8 @@ impl Structure {
 
     /// The blocks of a matrix.
     pub fn blocks(&self, matrix: &DMatrix<f64>) -> Blocks {
-        let block = |row: usize, column: usize| -> Block {
-            std::array::from_fn(|i| std::array::from_fn(|j| matrix[(N * row + i, N * column + j)]))
-        };
+        let block =
+            |row: usize, column: usize| Block::new(|i, j| matrix[(N * row + i, N * column + j)]);
         Blocks {
             diagonal: (0..self.bodies).map(|body| block(body, body)).collect(),
             couplings: self
@@ -154,57 +157,35 @@ impl Structure {
                 .iter()
                 .map(|place| block(place.row, place.column))
                 .collect(),
+            carried: vec![Block::ZERO; self.couplings.len()],
         }
     }
 
-    /// `result -= matrix * vector` for a matrix whose couplings mirror each other.
+    /// Factorises in place; whether all pivots are positive.
+    ///
+    /// Each body in its turn: with its block `A` and a coupling `C`, `C^T A^-1 C` leaves what is left.
     #[inline(always)]
-    pub fn subtract_product(&self, matrix: &Blocks, vector: &[Vector], result: &mut [Vector]) {
-        for ((block, x), y) in matrix.diagonal.iter().zip(vector).zip(result.iter_mut()) {
-            for (row, y) in block.iter().zip(y) {
-                *y -= dot(row, x);
-            }
-        }
-        for (block, place) in matrix.couplings.iter().zip(&self.couplings) {
-            let across = vector[place.column];
-            let along = vector[place.row];
-            for (i, row) in block.iter().enumerate() {
-                result[place.row][i] -= dot(row, &across);
-                for (j, number) in row.iter().enumerate() {
-                    result[place.column][j] -= number * along[i];
-                }
-            }
-        }
-    }
-
-    /// Factorises in place, `L D L^T` of each body and what of it the others keep; whether all pivots are positive.
-    #[inline(always)]
-    pub fn factorise(&self, blocks: &mut Blocks) -> bool {
+    pub fn factorise<S: Simd>(&self, simd: S, blocks: &mut Blocks) -> bool {
+        let Blocks {
+            diagonal,
+            couplings,
+            carried,
+        } = blocks;
         let mut is_positive = true;
         for pivot in &self.pivots {
-            let factor = &mut blocks.diagonal[pivot.body];
-            is_positive &= factorise(factor);
-            let factor = *factor;
+            let inverse = &mut diagonal[pivot.body];
+            is_positive &= inverse.invert(simd);
             for (number, _) in &pivot.couplings {
-                forward(&factor, &mut blocks.couplings[*number]);
+                carried[*number].set_transposed_product(simd, &couplings[*number], inverse);
             }
             for fill in &pivot.fills {
-                let right = blocks.couplings[pivot.couplings[fill.column].0];
-                let mut left = blocks.couplings[pivot.couplings[fill.row].0];
-                for (k, row) in left.iter_mut().enumerate() {
-                    *row = row.map(|number| number * factor[k][k]);
-                }
+                let left = &carried[pivot.couplings[fill.row].0];
+                let right = couplings[pivot.couplings[fill.column].0];
                 let into = match fill.into {
-                    Place::Diagonal(body) => &mut blocks.diagonal[body],
-                    Place::Coupling(number) => &mut blocks.couplings[number],
+                    Place::Diagonal(body) => &mut diagonal[body],
+                    Place::Coupling(number) => &mut couplings[number],
                 };
-                for (left, right) in left.iter().zip(&right) {
-                    for (into, left) in into.iter_mut().zip(left) {
-                        for (into, right) in into.iter_mut().zip(right) {
-                            *into -= left * right;
-                        }
-                    }
-                }
+                into.subtract_product(simd, left, &right);
             }
         }
         is_positive
@@ -212,93 +193,39 @@ impl Structure {
 
     /// Solves with the factors, in place of the right-hand side.
     #[inline(always)]
-    pub fn solve(&self, factors: &Blocks, vector: &mut [Vector]) {
+    pub fn solve<S: Simd>(&self, simd: S, factors: &Blocks, vector: &mut [Vector]) {
+        let Blocks {
+            diagonal,
+            couplings,
+            carried,
+        } = factors;
         for pivot in &self.pivots {
-            let factor = &factors.diagonal[pivot.body];
-            let mut own = vector[pivot.body];
-            for i in 1..N {
-                for j in 0..i {
-                    own[i] -= factor[i][j] * own[j];
-                }
-            }
-            for (i, number) in own.iter_mut().enumerate() {
-                *number *= factor[i][i];
-            }
-            for (number, other) in &pivot.couplings {
-                for (row, own) in factors.couplings[*number].iter().zip(own) {
-                    for (left, number) in vector[*other].iter_mut().zip(row) {
-                        *left -= number * own;
-                    }
-                }
-            }
+            let own = coordinates(diagonal[pivot.body].product(simd, &vector[pivot.body]));
             vector[pivot.body] = own;
+            for (number, other) in &pivot.couplings {
+                subtract(&mut vector[*other], couplings[*number].product(simd, &own));
+            }
         }
         for pivot in self.pivots.iter().rev() {
-            let factor = &factors.diagonal[pivot.body];
-            let mut own = vector[pivot.body];
+            let mut sum = simd.splat_f64x8(0.0);
             for (number, other) in &pivot.couplings {
-                let other = &vector[*other];
-                for (i, row) in factors.couplings[*number].iter().enumerate() {
-                    own[i] -= factor[i][i] * dot(row, other);
-                }
+                sum = carried[*number].add_product(simd, &vector[*other], sum);
             }
-            for i in (0..N).rev() {
-                for j in i + 1..N {
-                    own[i] -= factor[j][i] * own[j];
-                }
-            }
-            vector[pivot.body] = own;
+            subtract(&mut vector[pivot.body], sum);
         }
     }
 }
 
 #[inline(always)]
-fn dot(a: &Vector, b: &Vector) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
-}
-
-/// `L D L^T` of the lower half: unit `L` below the diagonal, `1/D` on it.
-#[inline(always)]
-fn factorise(block: &mut Block) -> bool {
-    let mut is_positive = true;
-    for j in 0..N {
-        let mut scaled = [0.0; N];
-        let mut pivot = block[j][j];
-        for k in 0..j {
-            // `1/D` lies on the diagonal, so that the scaled row was kept in the upper half.
-            scaled[k] = block[k][j];
-            pivot -= block[j][k] * scaled[k];
-        }
-        is_positive &= pivot > 0.0;
-        let inverse = 1.0 / pivot;
-        block[j][j] = inverse;
-        for i in j + 1..N {
-            let mut number = block[i][j];
-            for k in 0..j {
-                number -= block[i][k] * scaled[k];
-            }
-            block[j][i] = number;
-            block[i][j] = number * inverse;
-        }
-    }
-    is_positive
-}
-
-/// `L^-1` times a block, in place.
-#[inline(always)]
-fn forward(factor: &Block, block: &mut Block) {
-    for i in 1..N {
-        for j in 0..i {
-            let above = block[j];
-            for (number, above) in block[i].iter_mut().zip(above) {
-                *number -= factor[i][j] * above;
-            }
-        }
+fn subtract<S: Simd>(vector: &mut Vector, row: f64x8<S>) {
+    for (number, by) in vector.iter_mut().zip(coordinates(row)) {
+        *number -= by;
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use fearless_simd::{Level, dispatch};
     use nalgebra::DVector;
 
     use super::*;
@@ -339,22 +266,22 @@ mod tests {
         for pairs in [tree, ring, &[]] {
             let matrix = matrix(pairs);
             let structure = Structure::new(&matrix);
-            let blocks = structure.blocks(&matrix);
             let right: Vec<Vector> = (0..5)
                 .map(|body| std::array::from_fn(|i| f64::from((3 * body + i as i32) % 7) - 2.5))
                 .collect();
             let dense = DVector::from_iterator(5 * N, right.iter().flatten().copied());
             let expected = matrix.clone().cholesky().unwrap().solve(&dense);
-            let mut found = right.clone();
-            let mut factors = blocks.clone();
-            assert!(structure.factorise(&mut factors));
-            structure.solve(&factors, &mut found);
+            let mut found = right;
+            let mut factors = structure.blocks(&matrix);
+            let is_positive = dispatch!(Level::new(), simd => {
+                let is_positive = structure.factorise(simd, &mut factors);
+                structure.solve(simd, &factors, &mut found);
+                is_positive
+            });
+            assert!(is_positive);
             for (found, expected) in found.iter().flatten().zip(expected.iter()) {
                 assert!((found - expected).abs() < 1e-14, "{found} {expected}");
             }
-            let mut rest = right;
-            structure.subtract_product(&blocks, &found, &mut rest);
-            assert!(rest.iter().flatten().all(|number| number.abs() < 1e-12));
         }
     }
 
@@ -364,6 +291,6 @@ mod tests {
         let structure = Structure::new(&tree);
         assert_eq!(structure.couplings.len(), 4);
         let mut blocks = structure.blocks(&(-tree));
-        assert!(!structure.factorise(&mut blocks));
+        assert!(!dispatch!(Level::new(), simd => structure.factorise(simd, &mut blocks)));
     }
 }

@@ -1,0 +1,172 @@
+//! Numbers for pairs of coordinates of two bodies, each row in one vector of the processor.
+
+use fearless_simd::{Simd, SimdBase, f64x8};
+
+use crate::vehicle::body::COORDINATES;
+
+/// Coordinates of a body.
+pub(super) const N: usize = COORDINATES.len();
+
+/// One number for each coordinate of a body.
+pub(super) type Vector = [f64; N];
+
+/// Numbers of a vector of the processor: a row is filled up with zeros.
+const WIDTH: usize = 8;
+
+/// The places in a row.
+const PLACES: [f64; WIDTH] = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0];
+
+/// A direction in the coordinates of a body, filled up with zeros, and what it weighs.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[repr(align(64))]
+pub(super) struct Weighted {
+    direction: [f64; WIDTH],
+    weight: f64,
+}
+
+impl Weighted {
+    pub const NONE: Self = Self {
+        direction: [0.0; WIDTH],
+        weight: 0.0,
+    };
+
+    #[inline(always)]
+    pub fn new([lateral, vertical, roll, pitch, yaw]: Vector, weight: f64) -> Self {
+        Self {
+            direction: [lateral, vertical, roll, pitch, yaw, 0.0, 0.0, 0.0],
+            weight,
+        }
+    }
+}
+
+/// One number for each pair of coordinates of two bodies.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[repr(align(64))]
+pub(super) struct Block([[f64; WIDTH]; N]);
+
+/// The numbers of the coordinates in a row.
+#[inline(always)]
+pub(super) fn coordinates<S: Simd>(row: f64x8<S>) -> Vector {
+    let numbers: [f64; WIDTH] = row.into();
+    std::array::from_fn(|i| numbers[i])
+}
+
+impl Block {
+    pub const ZERO: Self = Self([[0.0; WIDTH]; N]);
+
+    /// Of what `number` is for a row and a column.
+    pub fn new(number: impl Fn(usize, usize) -> f64) -> Self {
+        let mut block = Self::ZERO;
+        for (i, row) in block.0.iter_mut().enumerate() {
+            for (j, place) in row.iter_mut().take(N).enumerate() {
+                *place = number(i, j);
+            }
+        }
+        block
+    }
+
+    pub fn is_zero(&self) -> bool {
+        *self == Self::ZERO
+    }
+
+    #[inline(always)]
+    fn load<S: Simd>(&self, simd: S) -> [f64x8<S>; N] {
+        // An array's own map copies it.
+        let mut rows = [simd.splat_f64x8(0.0); N];
+        for (row, numbers) in rows.iter_mut().zip(&self.0) {
+            *row = f64x8::from_slice(simd, numbers);
+        }
+        rows
+    }
+
+    #[inline(always)]
+    fn store<S: Simd>(&mut self, rows: [f64x8<S>; N]) {
+        for (row, numbers) in self.0.iter_mut().zip(rows) {
+            *row = numbers.into();
+        }
+    }
+
+    /// `sum + vector * block`: rows, each times one number of the vector.
+    #[inline(always)]
+    pub fn add_product<S: Simd>(&self, simd: S, vector: &Vector, sum: f64x8<S>) -> f64x8<S> {
+        let mut sum = sum;
+        for (row, number) in self.0.iter().zip(vector) {
+            let row = f64x8::from_slice(simd, row);
+            sum = simd.mul_add_f64x8(simd.splat_f64x8(*number), row, sum);
+        }
+        sum
+    }
+
+    /// `vector * block`.
+    #[inline(always)]
+    pub fn product<S: Simd>(&self, simd: S, vector: &Vector) -> f64x8<S> {
+        self.add_product(simd, vector, simd.splat_f64x8(0.0))
+    }
+
+    /// Adds `weight * direction * direction^T` of each.
+    #[inline(always)]
+    pub fn add_along<S: Simd>(&mut self, simd: S, all: &[Weighted]) {
+        let mut rows = self.load(simd);
+        for Weighted { direction, weight } in all {
+            let across = f64x8::from_slice(simd, direction) * *weight;
+            for (row, number) in rows.iter_mut().zip(direction) {
+                *row = simd.mul_add_f64x8(simd.splat_f64x8(*number), across, *row);
+            }
+        }
+        self.store(rows);
+    }
+
+    /// `self -= left * right`.
+    #[inline(always)]
+    pub fn subtract_product<S: Simd>(&mut self, simd: S, left: &Self, right: &Self) {
+        let right = right.load(simd);
+        for (row, left) in self.0.iter_mut().zip(&left.0) {
+            let mut sum = f64x8::from_slice(simd, row);
+            for (number, right) in left.iter().zip(right) {
+                sum = simd.mul_add_f64x8(simd.splat_f64x8(-number), right, sum);
+            }
+            *row = sum.into();
+        }
+    }
+
+    /// `self = left^T * right`.
+    #[inline(always)]
+    pub fn set_transposed_product<S: Simd>(&mut self, simd: S, left: &Self, right: &Self) {
+        let right = right.load(simd);
+        for (i, row) in self.0.iter_mut().enumerate() {
+            let mut sum = simd.splat_f64x8(0.0);
+            for (left, right) in left.0.iter().zip(right) {
+                sum = simd.mul_add_f64x8(simd.splat_f64x8(left[i]), right, sum);
+            }
+            *row = sum.into();
+        }
+    }
+
+    /// Replaces a symmetric block by its inverse (Gauss and Jordan, in place, without exchange of rows); whether it is positive
+    /// definite: all pivots are positive.
+    #[inline(always)]
+    pub fn invert<S: Simd>(&mut self, simd: S) -> bool {
+        let mut is_positive = true;
+        let places = f64x8::from_slice(simd, &PLACES);
+        let zero = simd.splat_f64x8(0.0);
+        let mut rows = self.load(simd);
+        for j in 0..N {
+            let at_pivot = simd.simd_eq_f64x8(places, simd.splat_f64x8(PLACES[j]));
+            let pivot = rows[j][j];
+            is_positive &= pivot > 0.0;
+            let inverse = simd.splat_f64x8(1.0 / pivot);
+            let scaled = simd.select_f64x8(at_pivot, inverse, rows[j] * inverse);
+            for (i, row) in rows.iter_mut().enumerate() {
+                if i == j {
+                    *row = scaled;
+                } else {
+                    let factor = simd.splat_f64x8(-row[j]);
+                    let left = simd.select_f64x8(at_pivot, zero, *row);
+                    *row = simd.mul_add_f64x8(factor, scaled, left);
+                }
+            }
+        }
+        self.store(rows);
+        is_positive
+    }
+}
