@@ -4,6 +4,7 @@ mod curving;
 mod energy;
 mod flange;
 mod mirror;
+mod rails;
 mod reference;
 mod rest;
 mod states;

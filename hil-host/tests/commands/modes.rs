@@ -146,8 +146,13 @@ fn hunting_begins_at_the_critical_speed() {
     let report = json_of(&modes(&["--hunting", "--format", "json"]).success());
     let critical = report["hunting"]["critical_speed_km_h"].as_f64().unwrap();
     // A push to the flange ends in a limit cycle from a speed on that is not above it by more than what is looked at.
-    let nonlinear = report["hunting"]["nonlinear_critical_speed_km_h"].as_f64().unwrap();
-    assert!((150.0..=1.02 * critical).contains(&nonlinear), "{nonlinear}");
+    let nonlinear = report["hunting"]["nonlinear_critical_speed_km_h"]
+        .as_f64()
+        .unwrap();
+    assert!(
+        (150.0..=1.02 * critical).contains(&nonlinear),
+        "{nonlinear}"
+    );
     let amplitude = report["hunting"]["limit_cycle_m"].as_f64().unwrap();
     assert!((0.5e-3..8e-3).contains(&amplitude), "{amplitude}");
     assert!(least_damping(critical - 1.0) > 0.0);

@@ -12,6 +12,8 @@ pub(super) struct Carried {
     pub rolling_radius_m: f64,
     /// Energy of the patches, `2/5 N penetration` each after Hertz, J.
     pub contact_j: f64,
+    /// Forces of the left and the right rail on their wheels, N.
+    pub wheel_forces_n: [[f64; 3]; 2],
 }
 
 /// Speed at which the vertical part of the creep forces is taken, m/s; they do not depend on it.
@@ -55,6 +57,7 @@ impl Carried {
             .sum();
         Some(Self {
             contact_j,
+            wheel_forces_n: [forces.wheels[0].force_n, forces.wheels[1].force_n],
             vertical_m: motion.vertical_m,
             rolling_radius_m: SPEED_M_PER_S / motion.rotation_rad_per_s,
         })

@@ -116,6 +116,19 @@ impl Block {
         self.store(rows);
     }
 
+    /// Adds `weight * row * column^T` of each row with its column, by the weight of the row.
+    #[inline(always)]
+    pub fn add_between<S: Simd>(&mut self, simd: S, rows: &[Weighted], columns: &[Weighted]) {
+        let mut sums = self.load(simd);
+        for (row, column) in rows.iter().zip(columns) {
+            let across = f64x8::from_slice(simd, &column.direction) * row.weight;
+            for (sum, number) in sums.iter_mut().zip(&row.direction) {
+                *sum = simd.mul_add_f64x8(simd.splat_f64x8(*number), across, *sum);
+            }
+        }
+        self.store(sums);
+    }
+
     /// `self -= left * right`.
     #[inline(always)]
     pub fn subtract_product<S: Simd>(&mut self, simd: S, left: &Self, right: &Self) {

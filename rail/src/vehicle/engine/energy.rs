@@ -5,6 +5,7 @@ use fearless_simd::dispatch;
 use super::Vehicle;
 use super::block::Vector;
 use super::state::VehicleState;
+use super::tangent::ContactPlace;
 use crate::contact::PatchSource;
 use crate::creep::CreepLaw;
 
@@ -31,7 +32,7 @@ impl Energy {
 impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
     /// Energy of a state on straight level track.
     pub fn energy(&self, state: &VehicleState) -> Energy {
-        let zeros = vec![Vector::default(); self.names.len()];
+        let zeros = vec![Vector::default(); self.inertia.len()];
         let power = |q: &[Vector], v: &[Vector], along: &[Vector]| {
             let mut forces = zeros.clone();
             dispatch!(self.level, simd => self.springs.add(simd, 1.0, q, v, &mut forces));
@@ -51,9 +52,15 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
         for (constants, contact) in self.wheelsets.iter().zip(&state.contacts) {
             let free = state.speed_m_per_s / constants.carried.rolling_radius_m;
             // Rolling forward is nose down: (free - rate)^2 - free^2 beyond the square above.
-            let rate = state.velocities[constants.body][3];
+            let rate = state.velocities[constants.place.wheelset][3];
             energy.kinetic_j -= constants.spin_inertia_kg_m2 * free * rate;
-            energy.potential_j -= constants.axle_load_n * state.coordinates[constants.body][1];
+            let ContactPlace { wheelset, rails } = constants.place;
+            energy.potential_j -= constants.axle_load_n * state.coordinates[wheelset][1];
+            if let Some((rails, _)) = rails {
+                // What the standing wheelset pushes them with, they are held against.
+                let pairs = constants.standing_n.iter().zip(&state.coordinates[rails]);
+                energy.potential_j += pairs.map(|(force, q)| force * q).sum::<f64>();
+            }
             let patches = contact
                 .wheels
                 .iter()

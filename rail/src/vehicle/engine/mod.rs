@@ -5,6 +5,7 @@ mod block;
 mod energy;
 mod guidance;
 mod method;
+mod rails;
 mod springs;
 mod state;
 mod step;
@@ -23,11 +24,12 @@ pub use self::energy::Energy;
 pub use self::guidance::CANT_BASE_M;
 use self::guidance::{Guidance, Stand};
 use self::method::Method;
+pub use self::rails::RailSupport;
 use self::springs::Springs;
 pub use self::state::VehicleState;
 use self::state::Work;
 use self::structure::{Blocks, Structure};
-use self::tangent::SurfaceConstants;
+use self::tangent::{ContactPlace, SurfaceConstants};
 use super::body::VehicleParameters;
 use super::carried::Carried;
 use super::element::Law;
@@ -71,7 +73,9 @@ pub struct Vehicle<L, S: PatchSource = Tables> {
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct WheelsetConstants {
-    body: usize,
+    place: ContactPlace,
+    /// Forces on rails that give way, N.
+    standing_n: Vector,
     carried: Carried,
     axle_load_n: f64,
     spin_inertia_kg_m2: f64,
@@ -87,6 +91,19 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
         parameters: &VehicleParameters,
         contact: Arc<WheelsetContact<L, S>>,
         step_s: f64,
+    ) -> Result<Self, VehicleError> {
+        Self::on_rails(parameters, contact, step_s, None)
+    }
+
+    /// The vehicle on rails that give way under each wheel, where a support is given.
+    ///
+    /// # Errors
+    /// As [`Vehicle::new`]; a support that is refused.
+    pub fn on_rails(
+        parameters: &VehicleParameters,
+        contact: Arc<WheelsetContact<L, S>>,
+        step_s: f64,
+        support: Option<RailSupport>,
     ) -> Result<Self, VehicleError> {
         finite(&parameters.name, "step_s", step_s, STEP_S)?;
         let standstill = Standstill::new(parameters)?;
@@ -128,7 +145,35 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
                 }
             }
         }
-        let mut wheelsets = Vec::with_capacity(parameters.wheelsets.len());
+        let (first, count) = (parameters.bodies.len(), parameters.wheelsets.len());
+        let Linear {
+            mut inertia,
+            mut stiffness,
+            mut damping,
+            ..
+        } = linear;
+        if let Some(support) = support {
+            support.check()?;
+            support.append(count, &mut inertia, &mut stiffness, &mut damping);
+        }
+        let method = Method::new(step_s);
+        let system = DMatrix::from_diagonal(&inertia)
+            + &damping * method.damping_weight()
+            + &stiffness * method.stiffness_weight();
+        let mut pattern = system.clone();
+        let rails_of = |number: usize| support.is_some().then_some(first + count + number);
+        for number in 0..count {
+            if let Some(rails) = rails_of(number) {
+                pattern[(N * rails, N * (first + number))] = 1.0;
+            }
+        }
+        let structure = Structure::new(&pattern);
+        let system = structure.blocks(&system);
+        let level = Level::new();
+        if !dispatch!(level, simd => structure.factorise(simd, &mut system.clone())) {
+            return Err(VehicleError::StepTooLong { step_s });
+        }
+        let mut wheelsets = Vec::with_capacity(count);
         for (number, wheelset) in parameters.wheelsets.iter().enumerate() {
             let load_n = standstill.axle_loads_n()[number];
             let carried =
@@ -136,22 +181,20 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
                     wheelset: wheelset.name.clone(),
                     load_n,
                 })?;
+            let body = first + number;
+            // Rails hang on their wheelset alone, so that they go before it.
+            let rails = rails_of(number);
+            let coupled = rails.and_then(|rails| Some((rails, structure.coupling(rails, body)?)));
             wheelsets.push(WheelsetConstants {
-                body: parameters.bodies.len() + number,
+                place: ContactPlace {
+                    wheelset: body,
+                    rails: coupled,
+                },
+                standing_n: rails::standing_n(&carried.wheel_forces_n),
                 carried,
                 axle_load_n: load_n,
                 spin_inertia_kg_m2: wheelset.inertia_kg_m2[1],
             });
-        }
-        let method = Method::new(step_s);
-        let system = DMatrix::from_diagonal(&linear.inertia)
-            + &linear.damping * method.damping_weight()
-            + &linear.stiffness * method.stiffness_weight();
-        let structure = Structure::new(&system);
-        let system = structure.blocks(&system);
-        let level = Level::new();
-        if !dispatch!(level, simd => structure.factorise(simd, &mut system.clone())) {
-            return Err(VehicleError::StepTooLong { step_s });
         }
         let is_held = on_track.stiffness.amax() > 0.0 || on_track.damping.amax() > 0.0;
         Ok(Self {
@@ -172,10 +215,10 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
                 })
                 .collect(),
             wheelsets,
-            inertia: (0..bodies.len())
-                .map(|body| std::array::from_fn(|i| linear.inertia[N * body + i]))
+            inertia: (0..inertia.len() / N)
+                .map(|body| std::array::from_fn(|i| inertia[N * body + i]))
                 .collect(),
-            springs: Springs::new(&linear.stiffness, &linear.damping),
+            springs: Springs::new(&stiffness, &damping),
             on_track: is_held.then(|| Springs::new(&on_track.stiffness, &on_track.damping)),
             structure,
             system,
@@ -196,11 +239,12 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
     ) -> Result<VehicleState, VehicleError> {
         finite("vehicle", "speed_m_per_s", speed_m_per_s, SPEED_M_PER_S)?;
         finite("vehicle", "distance_m", distance_m, [-1e6, 1e6])?;
-        let bodies = self.names.len();
-        let zeros = vec![[0.0; N]; bodies];
-        let mut guidance = Guidance::new(bodies);
+        let places = self.inertia.len();
+        let zeros = vec![[0.0; N]; places];
+        let mut guidance = Guidance::new(places);
         guidance.update(track.layout(), distance_m, speed_m_per_s, &self.stands);
         let mut state = VehicleState {
+            bodies: self.names.len(),
             ticks: 0,
             distance_m,
             speed_m_per_s,
@@ -242,7 +286,8 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
         body: usize,
         displacement: [f64; N],
     ) {
-        if let Some(coordinates) = state.coordinates.get_mut(body) {
+        if body < self.names.len() {
+            let coordinates = &mut state.coordinates[body];
             for (coordinate, by) in coordinates.iter_mut().zip(displacement) {
                 *coordinate += by;
             }

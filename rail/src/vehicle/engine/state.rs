@@ -14,6 +14,8 @@ use crate::contact::{Status, WheelsetForces};
 /// [`COORDINATES`](crate::vehicle::COORDINATES).
 #[derive(Debug, PartialEq)]
 pub struct VehicleState {
+    /// Bodies and wheelsets; rails that give way follow them.
+    pub(super) bodies: usize,
     pub(super) ticks: u64,
     pub(super) distance_m: f64,
     pub(super) speed_m_per_s: f64,
@@ -71,13 +73,19 @@ impl VehicleState {
     /// Displacement of each body from where it stands on straight track, relative to the track under it, m and rad; the pitch of a
     /// wheelset is not kept.
     pub fn coordinates(&self) -> &[[f64; N]] {
-        &self.coordinates
+        &self.coordinates[..self.bodies]
+    }
+
+    /// Displacements of the rails under each wheelset where they give way, beyond those under the standing vehicle: lateral and vertical of
+    /// the left one, then of the right one, m; the fifth number is zero.
+    pub fn rail_coordinates(&self) -> &[[f64; N]] {
+        &self.coordinates[self.bodies..]
     }
 
     /// Velocity of each body over ground in the same axes, m/s and rad/s: in a curve its yaw rate is that of the curve. The pitch rate
     /// of a wheelset is what its rotation lacks of rolling freely in the middle of the track.
     pub fn velocities(&self) -> &[[f64; N]] {
-        &self.velocities
+        &self.velocities[..self.bodies]
     }
 
     /// Acceleration of a body in the track's axes, m/s^2 and rad/s^2: forces over inertia, without the centripetal one and the weight's
@@ -90,7 +98,7 @@ impl VehicleState {
     /// What [`acceleration`](Self::acceleration) of a body at rest in the track's axes would be, with the opposite sign: the weight's part
     /// along the cant and the centripetal acceleration, m/s^2.
     pub fn track_acceleration(&self, body: usize) -> [f64; N] {
-        self.work.guidance[body].acceleration
+        self.work.guidance.acceleration[body]
     }
 
     /// Forces of the rails on each wheelset.
@@ -150,6 +158,7 @@ macro_rules! clone_by_field {
 }
 
 clone_by_field!(VehicleState {
+    bodies,
     ticks,
     distance_m,
     speed_m_per_s,

@@ -8,8 +8,9 @@ use fearless_simd::{Simd, dispatch};
 use super::across::Across;
 use super::block::{N, Vector};
 use super::method::Method;
+use super::rails::{displace, push};
 use super::state::VehicleState;
-use super::tangent::{Weights, add_contact};
+use super::tangent::{ContactPlace, Weights, add_contact};
 use super::{BANK, Vehicle, WheelsetConstants};
 use crate::contact::{Motion, PatchSource};
 use crate::creep::CreepLaw;
@@ -52,7 +53,7 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
 
     /// Contact and track of the first moment.
     pub(super) fn begin(&self, state: &mut VehicleState, track: &Track) {
-        let mut forces = vec![[0.0; N]; self.names.len()];
+        let mut forces = vec![[0.0; N]; self.inertia.len()];
         let distance_m = state.distance_m;
         dispatch!(self.level, simd => self.act(simd, state, track, distance_m, &mut forces));
         state.forces = forces;
@@ -210,9 +211,8 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
         let system = &mut state.work.system;
         system.set(&self.system);
         for (constants, forces) in self.wheelsets.iter().zip(&state.contacts) {
-            let block = &mut system.diagonal[constants.body];
-            let speed = state.speed_m_per_s;
-            add_contact(simd, block, forces, self.surface, speed, weights);
+            let (place, speed) = (&constants.place, state.speed_m_per_s);
+            add_contact(simd, system, place, forces, self.surface, speed, weights);
         }
         state.is_diverged |= !self.structure.factorise(simd, system);
     }
@@ -258,7 +258,7 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
             is_bounded &= (0..N).all(|i| (q[i].abs() < DIVERGED) & (a[i].abs() < DIVERGED_RATE));
         }
         for constants in &self.wheelsets {
-            state.coordinates[constants.body][3] = 0.0;
+            state.coordinates[constants.place.wheelset][3] = 0.0;
         }
         state.is_diverged |= !is_bounded;
     }
@@ -326,7 +326,12 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
         forces: &mut [Vector],
     ) {
         let WheelsetConstants {
-            body,
+            place:
+                ContactPlace {
+                    wheelset: body,
+                    rails: on_rails,
+                },
+            standing_n,
             carried,
             axle_load_n,
             spin_inertia_kg_m2,
@@ -350,7 +355,14 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
             ..free
         };
         let rails = track.rails(distance_m + self.stands[body].x_m);
-        let rails = rails.map(|rail| rail.displacement(speed));
+        let mut rails = rails.map(|rail| rail.displacement(speed));
+        if let Some((rail, _)) = on_rails {
+            displace(
+                &mut rails,
+                &state.coordinates[rail],
+                &state.velocities[rail],
+            );
+        }
         let contact = &mut state.contacts[number];
         self.contact.update(&motion, &rails, contact);
         let [_, fy, fz] = contact.force_n;
@@ -364,5 +376,8 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
         // About the axle, which is turned and rolled.
         sums[3] += my - yaw * mx + roll * mz;
         sums[4] += mz + momentum * v[2];
+        if let Some((rail, _)) = on_rails {
+            push(contact, &standing_n, &mut forces[rail]);
+        }
     }
 }

@@ -146,6 +146,14 @@ impl Structure {
         }
     }
 
+    /// Number of the coupling with this row and column.
+    pub fn coupling(&self, row: usize, column: usize) -> Option<usize> {
+        let place = Coupling { row, column };
+        self.couplings
+            .iter()
+            .position(|coupling| *coupling == place)
+    }
+
     /// The blocks of a matrix.
     pub fn blocks(&self, matrix: &DMatrix<f64>) -> Blocks {
         let block =

@@ -2,7 +2,9 @@
 
 use fearless_simd::Simd;
 
-use super::block::{Block, Weighted};
+use super::block::Weighted;
+use super::rails::against;
+use super::structure::Blocks;
 use crate::contact::{PatchForces, WheelsetForces, ZONES};
 use crate::creep::CreepForces;
 
@@ -23,7 +25,14 @@ pub(super) struct SurfaceConstants {
     pub normal_damping_s_per_m: f64,
 }
 
-/// Adds the contact of a wheelset at `speed_m_per_s` to its block.
+/// Blocks that a contact changes: of the wheelset, and of its rails, where they give way, with their coupling.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct ContactPlace {
+    pub wheelset: usize,
+    pub rails: Option<(usize, usize)>,
+}
+
+/// Adds the contact of a wheelset at `speed_m_per_s` to the blocks of its place.
 ///
 /// - Along the normal the stiffness `3/2 N/penetration` of Hertz and the damping `beta N` of Hunt and Crossley.
 /// - Across it the damping `f/speed` in both directions, `f` the force over the creepage, at most `4 G a b`.
@@ -32,15 +41,18 @@ pub(super) struct SurfaceConstants {
 #[inline(always)]
 pub(super) fn add_contact<S: Simd>(
     simd: S,
-    block: &mut Block,
+    system: &mut Blocks,
+    place: &ContactPlace,
     forces: &WheelsetForces,
     surface: SurfaceConstants,
     speed_m_per_s: f64,
     weights: Weights,
 ) {
-    for (wheel, side) in forces.wheels.iter().zip([-1.0, 1.0]) {
+    for (number, wheel) in forces.wheels.iter().enumerate() {
+        let side = if number == 0 { -1.0 } else { 1.0 };
         let mut all = [Weighted::NONE; 3 * ZONES];
-        let mut places = all.iter_mut();
+        let mut on_rails = all;
+        let mut places = all.iter_mut().zip(&mut on_rails);
         for patch in wheel.loaded_patches() {
             let stiffness = 1.5 * patch.load_n / patch.penetration_m.max(1e-9);
             let damping = creep_coefficient_n(patch, surface.shear_modulus_pa) / speed_m_per_s;
@@ -57,12 +69,20 @@ pub(super) fn add_contact<S: Simd>(
             let resistance = weights.stiffness * stiffness + weights.damping * normal_damping;
             let damping = weights.damping * damping;
             let three = [(normal, resistance), (across, damping), (along, damping)];
-            for ((direction, weight), place) in three.into_iter().zip(&mut places) {
-                *place = Weighted::new(direction, weight);
+            for ((direction, weight), (of_wheelset, of_rails)) in three.into_iter().zip(&mut places)
+            {
+                *of_wheelset = Weighted::new(direction, weight);
+                if place.rails.is_some() {
+                    *of_rails = Weighted::new(against(&direction, number), weight);
+                }
             }
         }
-        let left = places.len();
-        block.add_along(simd, &all[..3 * ZONES - left]);
+        let used = 3 * ZONES - places.len();
+        system.diagonal[place.wheelset].add_along(simd, &all[..used]);
+        if let Some((rails, coupling)) = place.rails {
+            system.diagonal[rails].add_along(simd, &on_rails[..used]);
+            system.couplings[coupling].add_between(simd, &on_rails[..used], &all[..used]);
+        }
     }
 }
 
