@@ -6,6 +6,7 @@ use dashpot_hil::commands::failure::{Failure, Kind};
 use dashpot_hil::files::case::{CASES, Case, CaseOptions, FaultOptions};
 use dashpot_hil::files::track::{self, IrregularityParameters};
 use dashpot_hil::files::{damper, vehicle};
+use dashpot_rail::vehicle::RailSupport;
 
 fn case(text: &str) -> Case {
     CaseOptions::parse("case.toml", text)
@@ -28,6 +29,12 @@ fn every_key_counts() {
         normal_damping_s_per_m = 0.5
         step_us = 500
         set = [\"body.mass_kg=35e3\"]
+        [rails]
+        mass_kg = 60
+        lateral_stiffness_n_per_m = 40e6
+        lateral_damping_n_s_per_m = 50e3
+        vertical_stiffness_n_per_m = 80e6
+        vertical_damping_n_s_per_m = 60e3
         [dampers]
         vertical = \"in-service\"\n";
     let found = case(&format!("{CASE}{all}"));
@@ -43,6 +50,13 @@ fn every_key_counts() {
         friction: 0.25,
         normal_damping_s_per_m: 0.5,
         step_s: 500e-6,
+        rails: Some(RailSupport {
+            mass_kg: 60.0,
+            lateral_stiffness_n_per_m: 40e6,
+            lateral_damping_n_s_per_m: 50e3,
+            vertical_stiffness_n_per_m: 80e6,
+            vertical_damping_n_s_per_m: 60e3,
+        }),
         faults: Vec::new(),
     };
     assert_eq!(found, expected);
@@ -179,11 +193,18 @@ fn errors_have_file_line_and_name() {
         ),
         (
             with("step_us = 0.5"),
-            "case.toml:5: step_us 0.5, allowed: 1 to 20000",
+            "case.toml:5: step_us 0.5, allowed: 20 to 2000",
         ),
         (
             with("normal_damping_s_per_m = -1"),
             "case.toml:5: normal_damping_s_per_m -1, allowed: 0 to 100",
+        ),
+        (
+            with(
+                "[rails]\nmass_kg = 0\nlateral_stiffness_n_per_m = 4e7\nlateral_damping_n_s_per_m = 0\n\
+                 vertical_stiffness_n_per_m = 8e7\nvertical_damping_n_s_per_m = 0",
+            ),
+            "case.toml:5: rails: mass_kg = 0, allowed: 1 to 100000",
         ),
         (
             CASE.replace("90", "900"),

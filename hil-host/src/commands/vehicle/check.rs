@@ -40,6 +40,12 @@ pub(super) fn run(case: &Case, format: Format) -> Outcome<()> {
             case.name
         )));
     }
+    if case.rails.is_some() {
+        return Err(Failure::wrong_use(format!(
+            "--check: {} has rails that give way, which the reference does not; give a case without [rails]",
+            case.name
+        )));
+    }
     let failed = |error| refused(case, &error);
     let bar = progress::bar(0, "step");
     let traced = |every: u64| -> Outcome<Trace> {

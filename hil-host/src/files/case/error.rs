@@ -3,6 +3,8 @@
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
+use dashpot_rail::vehicle::VehicleError;
+
 use crate::files::track::TrackFileError;
 use crate::files::vehicle::VehicleFileError;
 use crate::files::{FileError, UnknownName};
@@ -41,6 +43,9 @@ pub enum CaseError {
     /// There is no such track.
     #[error(transparent)]
     Track(#[from] TrackFileError),
+    /// Rails cannot give way as they shall.
+    #[error(transparent)]
+    Rails(VehicleError),
     /// A fault cannot be.
     #[error("fault {number}: {reason}")]
     Fault {
@@ -72,6 +77,7 @@ impl Origin {
             }
             CaseError::Vehicle(_) => "vehicle".into(),
             CaseError::Track(_) => "track".into(),
+            CaseError::Rails(_) => "rails".into(),
             _ => String::new(),
         };
         let line = match error {

@@ -5,7 +5,7 @@ mod error;
 mod fault;
 mod tables;
 
-use dashpot_rail::vehicle::VehicleParameters;
+use dashpot_rail::vehicle::{RailSupport, VehicleParameters};
 pub use error::CaseError;
 use error::Origin;
 pub use fault::{Fault, FaultOptions};
@@ -66,6 +66,8 @@ pub struct Case {
     pub normal_damping_s_per_m: f64,
     /// Step, s.
     pub step_s: f64,
+    /// What carries the rails; they do not give way where there is none.
+    pub rails: Option<RailSupport>,
     /// Changes of dampers on the way, by rising time.
     pub faults: Vec<Fault>,
 }
@@ -129,6 +131,8 @@ pub struct CaseOptions {
     pub normal_damping_s_per_m: f64,
     /// Step, us.
     pub step_us: f64,
+    /// What carries the rails.
+    pub rails: Option<RailSupport>,
     /// Changes of dampers on the way.
     pub faults: Vec<FaultOptions>,
     /// The file that this is from.
@@ -150,6 +154,7 @@ impl CaseOptions {
             friction: 0.4,
             normal_damping_s_per_m: NORMAL_DAMPING_S_PER_M,
             step_us: 1000.0,
+            rails: None,
             faults: Vec::new(),
             origin: None,
         }
@@ -206,6 +211,9 @@ impl CaseOptions {
 
     fn read(&self) -> Result<Case, CaseError> {
         bounds::check(self)?;
+        if let Some(rails) = &self.rails {
+            rails.check().map_err(CaseError::Rails)?;
+        }
         let vehicle = vehicle::load_with(&self.vehicle, &self.dampers, &self.overrides)?;
         let track = track::load(&self.track)?;
         let faults = fault::read(&self.faults, &vehicle, self.duration_s)?;
@@ -228,6 +236,7 @@ impl CaseOptions {
             friction: self.friction,
             normal_damping_s_per_m: self.normal_damping_s_per_m,
             step_s: self.step_us * 1e-6,
+            rails: self.rails,
             faults,
         })
     }

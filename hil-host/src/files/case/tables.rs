@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
+use dashpot_rail::vehicle::RailSupport;
 use serde::Deserialize;
 use toml::Spanned;
 
@@ -24,6 +25,7 @@ pub(super) struct CaseTables {
     friction: Option<Spanned<f64>>,
     normal_damping_s_per_m: Option<Spanned<f64>>,
     step_us: Option<Spanned<f64>>,
+    rails: Option<Spanned<RailsTable>>,
     #[serde(default)]
     set: Vec<Spanned<String>>,
     /// Which, and what they become.
@@ -31,6 +33,29 @@ pub(super) struct CaseTables {
     dampers: BTreeMap<String, Spanned<String>>,
     #[serde(default)]
     fault: Vec<Spanned<FaultTable>>,
+}
+
+/// Rails that give way.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RailsTable {
+    mass_kg: f64,
+    lateral_stiffness_n_per_m: f64,
+    lateral_damping_n_s_per_m: f64,
+    vertical_stiffness_n_per_m: f64,
+    vertical_damping_n_s_per_m: f64,
+}
+
+impl From<RailsTable> for RailSupport {
+    fn from(table: RailsTable) -> Self {
+        Self {
+            mass_kg: table.mass_kg,
+            lateral_stiffness_n_per_m: table.lateral_stiffness_n_per_m,
+            lateral_damping_n_s_per_m: table.lateral_damping_n_s_per_m,
+            vertical_stiffness_n_per_m: table.vertical_stiffness_n_per_m,
+            vertical_damping_n_s_per_m: table.vertical_damping_n_s_per_m,
+        }
+    }
 }
 
 #[derive(Deserialize)]
@@ -85,6 +110,10 @@ impl CaseTables {
             new.normal_damping_s_per_m,
         );
         let step_us = number("step_us", self.step_us, new.step_us);
+        let rails = self.rails.map(|rails| {
+            at("rails", rails.span().start);
+            rails.into_inner().into()
+        });
         let mut dampers = Vec::new();
         for (which, by) in self.dampers {
             let start = by.span().start;
@@ -116,6 +145,7 @@ impl CaseTables {
             friction,
             normal_damping_s_per_m,
             step_us,
+            rails,
             faults: faults.collect(),
             origin: Some(origin),
             ..new

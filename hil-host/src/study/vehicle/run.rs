@@ -103,7 +103,7 @@ impl Run {
         let contact =
             contact::tabulated(&case.vehicle, case.friction, case.normal_damping_s_per_m)?;
         let track = case.track.build()?;
-        let vehicle = Vehicle::new(&case.vehicle, contact, case.step_s)?;
+        let vehicle = Vehicle::on_rails(&case.vehicle, contact, case.step_s, case.rails)?;
         let state = vehicle.at_rest(&track, case.start_m, case.speed_m_per_s)?;
         let number_of =
             |fault: &Fault| vehicle.damper_names().position(|name| name == fault.damper);
