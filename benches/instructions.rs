@@ -1,4 +1,4 @@
-//! Instructions per step of the damper and of a wheelset's contact on this machine, counted by Valgrind:
+//! Instructions per step of the damper, of a wheelset's contact and of a vehicle on this machine, counted by Valgrind:
 //! `cargo xtask bench --instructions`. Each figure is of 1000 steps.
 #![allow(missing_docs)] // gungraun's macros
 
@@ -8,12 +8,15 @@ use std::sync::Arc;
 use dashpot::damper;
 use dashpot::newton::NewtonDamper;
 use dashpot_core::{Damper, step_bank};
+use dashpot_hil::files::case::{Case, CaseOptions};
 use dashpot_hil::study::excitation::Excitation;
 use dashpot_rail::contact::{
     ContactGeometry, Grid, Installation, Motion, Pair, RailDisplacement, Steel, Tables,
     WheelsetContact, WheelsetForces,
 };
 use dashpot_rail::creep::{CreepLaw, Friction, KalkerBook, ShenHedrickElkins};
+use dashpot_rail::track::Track;
+use dashpot_rail::vehicle::{Vehicle, VehicleState};
 use gungraun::prelude::*;
 
 const STEP_S: f64 = 1e-3;
@@ -177,6 +180,44 @@ fn contact_with_derivatives((contact, motion, rails): Wheelset<KalkerBook>) -> W
     forces
 }
 
+type Running = (Vehicle<KalkerBook>, VehicleState, Track);
+
+/// The case's vehicle after `seconds`.
+fn running(case: Case, seconds: f64) -> Running {
+    let (contact, ..) = wheelset(KalkerBook::new(), Loaded::Two);
+    let vehicle =
+        Vehicle::new(&case.vehicle, Arc::new(contact), STEP_S).expect("a shipped vehicle");
+    let track = case.track.build().expect("a shipped track");
+    let mut state = vehicle
+        .at_rest(&track, case.start_m, case.speed_m_per_s)
+        .expect("a shipped case");
+    for _ in 0..(seconds / STEP_S) as usize {
+        vehicle.step(&mut state, &track);
+    }
+    (vehicle, state, track)
+}
+
+fn ideal() -> Running {
+    let case = CaseOptions::new("locomotive", "ideal", 180.0).case();
+    running(case.expect("vehicle and track ship"), 0.1)
+}
+
+fn shipped(case: &str, seconds: f64) -> Running {
+    running(Case::load(case).expect("the case ships"), seconds)
+}
+
+#[library_benchmark]
+#[bench::ideal_straight(ideal())]
+#[bench::straight_of_class_6(shipped("straight-180", 1.0))]
+#[bench::curve_of_300_m(shipped("curve-r300", 8.0))]
+fn locomotive((vehicle, mut state, track): Running) -> VehicleState {
+    for _ in 0..STEPS {
+        vehicle.step(&mut state, black_box(&track));
+    }
+    assert!(!state.is_diverged());
+    state
+}
+
 library_benchmark_group!(
     name = steps,
     benchmarks = [single, bank_of_16, plain_newton]
@@ -189,4 +230,5 @@ library_benchmark_group!(
         contact_with_derivatives
     ]
 );
-main!(library_benchmark_groups = steps, contact);
+library_benchmark_group!(name = vehicle, benchmarks = [locomotive]);
+main!(library_benchmark_groups = steps, contact, vehicle);

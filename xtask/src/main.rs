@@ -51,7 +51,15 @@ fn main() -> ExitCode {
         ["target"] => measure_target(false),
         ["target", "--format", "json"] => measure_target(true),
         ["target", "--format", "text"] => measure_target(false),
-        ["bench"] => cargo(&["bench", "--package", "dashpot", "--bench", "step"]),
+        ["bench"] => cargo(&[
+            "bench",
+            "--package",
+            "dashpot",
+            "--bench",
+            "step",
+            "--bench",
+            "vehicle",
+        ]),
         ["bench", "--instructions"] => count_instructions(),
         ["c-library", ref options @ ..] => match Options::parse(options) {
             Ok(options) => c_library(&options),

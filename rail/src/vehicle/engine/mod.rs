@@ -2,6 +2,7 @@
 
 mod across;
 mod block;
+mod dampers;
 mod energy;
 mod guidance;
 mod method;
@@ -14,7 +15,7 @@ mod tangent;
 
 use std::sync::Arc;
 
-use dashpot_core::{Damper, DamperParameters, DamperState};
+use dashpot_core::{Damper, DamperParameters};
 use fearless_simd::{Level, dispatch};
 use nalgebra::DMatrix;
 
@@ -45,9 +46,6 @@ pub const STEP_S: [f64; 2] = [0.02e-3, 2e-3];
 
 /// Bounds of the speed, m/s.
 const SPEED_M_PER_S: [f64; 2] = [1.0, 150.0];
-
-/// Dampers that take a step together; the last one also takes the places left over.
-const BANK: usize = 8;
 
 /// A vehicle in real time: constants for one step size, shared by any number of states.
 #[derive(Debug, Clone)]
@@ -294,19 +292,6 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
         }
         state.dampers = self.dampers_at_rest(&state.coordinates);
         self.begin(state, track);
-    }
-
-    /// The dampers with the bodies at rest at `coordinates`, in whole banks.
-    fn dampers_at_rest(&self, coordinates: &[Vector]) -> Vec<DamperState<f64>> {
-        let at_rest = |element: &DamperElement| {
-            let displacement = element.across.displacement(|body| coordinates[body]);
-            element.damper.at_rest(displacement)
-        };
-        let mut states: Vec<_> = self.dampers.iter().map(at_rest).collect();
-        if let Some(last) = states.last().copied() {
-            states.resize(states.len().next_multiple_of(BANK), last);
-        }
-        states
     }
 
     /// Step size, s.

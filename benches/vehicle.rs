@@ -1,0 +1,161 @@
+//! Time of a millisecond tick of the six-axle locomotive, and of its parts beside it in the same run.
+//!
+//! Elements are ticks. `contact` is the contact of six wheelsets in each of the four steps of a tick, two loaded patches each;
+//! `dampers` the step of the twelve dampers; what is left of a tick is springs, track, factors and solution.
+#![allow(missing_docs)] // criterion's macros
+
+use std::hint::black_box;
+use std::sync::Arc;
+
+use criterion::{Criterion, Throughput, criterion_group, criterion_main};
+use dashpot_core::step_bank;
+use dashpot_hil::files::case::{Case, CaseOptions};
+use dashpot_rail::contact::{
+    ContactGeometry, Grid, Installation, Motion, Pair, RailDisplacement, Steel, Tables,
+    WheelsetContact, WheelsetForces,
+};
+use dashpot_rail::creep::{Friction, KalkerBook};
+use dashpot_rail::vehicle::{Law, Vehicle, VehicleParameters};
+
+const STEP_S: f64 = 1e-3;
+/// Ticks from the same state on in one sample.
+const TICKS: usize = 200;
+const STEPS_A_TICK: usize = 4;
+const WHEELSETS: usize = 6;
+const DAMPERS: usize = 12;
+/// Dampers take a step in eights.
+const LANES: usize = 16;
+
+type Contact = Arc<WheelsetContact<KalkerBook>>;
+
+fn contact(tables: &Arc<Tables>, case: &Case) -> Contact {
+    let friction = Friction {
+        static_coefficient: case.friction,
+        ..Friction::default()
+    };
+    let contact = WheelsetContact::new(Arc::clone(tables), KalkerBook::new(), friction)
+        .and_then(|contact| contact.with_normal_damping(case.normal_damping_s_per_m))
+        .expect("a shipped case is valid");
+    Arc::new(contact)
+}
+
+/// From where the case is after `seconds`.
+fn ticks(criterion: &mut Criterion, tables: &Arc<Tables>, name: &str, case: &Case, seconds: f64) {
+    let contact = contact(tables, case);
+    let vehicle = Vehicle::new(&case.vehicle, contact, STEP_S).expect("a shipped vehicle is valid");
+    let track = case.track.build().expect("a shipped track is valid");
+    let mut start = vehicle
+        .at_rest(&track, case.start_m, case.speed_m_per_s)
+        .expect("a shipped case is valid");
+    for _ in 0..(seconds / STEP_S) as usize {
+        vehicle.step(&mut start, &track);
+    }
+    let wheels = start.contacts().iter().flat_map(|contact| &contact.wheels);
+    let patches: usize = wheels.map(|wheel| wheel.loaded_patches().count()).sum();
+    let mut group = criterion.benchmark_group("vehicle");
+    group.throughput(Throughput::Elements(TICKS as u64));
+    group.bench_function(format!("{name} ({patches} patches)"), |bencher| {
+        let mut state = start.clone();
+        bencher.iter(|| {
+            state.clone_from(&start);
+            for _ in 0..TICKS {
+                vehicle.step(&mut state, black_box(&track));
+            }
+            assert!(!state.is_diverged());
+        });
+    });
+    group.finish();
+}
+
+fn contacts(criterion: &mut Criterion, tables: &Arc<Tables>, case: &Case) {
+    let contact = contact(tables, case);
+    let rails = [RailDisplacement::default(); 2];
+    let motion = Motion {
+        speed_m_per_s: 50.0,
+        rotation_rad_per_s: 50.0 / 0.625,
+        vertical_m: 0.27e-3,
+        yaw_rad: 8e-3,
+        ..Motion::default()
+    };
+    let found = contact.forces(&motion, &rails);
+    for wheel in &found.wheels {
+        assert_eq!(wheel.loaded_patches().count(), 1, "{wheel:?}");
+    }
+    let mut group = criterion.benchmark_group("vehicle");
+    group.throughput(Throughput::Elements(1));
+    group.bench_function("contact", |bencher| {
+        let mut forces: [WheelsetForces; WHEELSETS] = Default::default();
+        bencher.iter(|| {
+            for _ in 0..STEPS_A_TICK {
+                for forces in &mut forces {
+                    contact.update(black_box(&motion), black_box(&rails), forces);
+                }
+            }
+            black_box(&forces);
+        });
+    });
+    group.finish();
+}
+
+fn dampers(criterion: &mut Criterion, vehicle: &VehicleParameters) {
+    let laws = vehicle.elements.iter().map(|element| &element.law);
+    let mut dampers: Vec<_> = laws
+        .filter_map(|law| match law {
+            Law::Damper { parameters, .. } => Some(parameters.build::<f64>(STEP_S)),
+            _ => None,
+        })
+        .map(|built| built.expect("a shipped damper builds"))
+        .collect();
+    assert_eq!(dampers.len(), DAMPERS);
+    dampers.resize(LANES, dampers[DAMPERS - 1]);
+    let bank: [_; LANES] = std::array::from_fn(|lane| &dampers[lane]);
+    let mut group = criterion.benchmark_group("vehicle");
+    group.throughput(Throughput::Elements(TICKS as u64));
+    group.bench_function("dampers", |bencher| {
+        let at_rest = bank.map(|damper| damper.at_rest(0.0));
+        bencher.iter(|| {
+            let (mut states, mut forces) = (at_rest, [0.0; LANES]);
+            for tick in 0..TICKS {
+                let x = 0.1e-3 * (tick % 50) as f64;
+                step_bank(&bank, &mut states, &black_box([x; LANES]), &mut forces);
+                black_box(&forces);
+            }
+        });
+    });
+    group.finish();
+}
+
+fn vehicle(criterion: &mut Criterion) {
+    let installation = Installation {
+        wheel_radius_m: 0.625,
+        ..Installation::default()
+    };
+    let pair = Pair::standard(installation).expect("the standard pair is valid");
+    let geometry =
+        ContactGeometry::new(pair, Steel::default(), 101e3).expect("the default steel is valid");
+    let tables = Tables::new(geometry, Grid::default()).expect("the default grid is valid");
+    let tables = Arc::new(tables);
+    let ideal = CaseOptions::new("locomotive", "ideal", 180.0).case();
+    let ideal = ideal.expect("vehicle and track ship");
+    let shipped = |name| Case::load(name).expect("the case ships");
+    ticks(criterion, &tables, "ideal straight", &ideal, 1.0);
+    ticks(
+        criterion,
+        &tables,
+        "straight of class 6",
+        &shipped("straight-180"),
+        2.0,
+    );
+    ticks(
+        criterion,
+        &tables,
+        "curve of 300 m",
+        &shipped("curve-r300"),
+        8.0,
+    );
+    contacts(criterion, &tables, &ideal);
+    dampers(criterion, &ideal.vehicle);
+}
+
+criterion_group!(benches, vehicle);
+criterion_main!(benches);

@@ -1,0 +1,116 @@
+//! Dampers and stops, once a tick.
+
+use std::array::from_fn;
+
+use dashpot_core::{DamperState, step_bank};
+
+use super::Vehicle;
+use super::across::{Across, DamperElement};
+use super::block::{N, Vector};
+use super::state::VehicleState;
+use crate::contact::PatchSource;
+use crate::creep::CreepLaw;
+use crate::track::Track;
+
+/// Dampers that take a step together; the last one also takes the places left over.
+const BANK: usize = 8;
+
+impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
+    /// The dampers with the bodies at rest at `coordinates`, in whole banks.
+    pub(super) fn dampers_at_rest(&self, coordinates: &[Vector]) -> Vec<DamperState<f64>> {
+        let at_rest = |element: &DamperElement| {
+            let displacement = element.across.displacement(|body| coordinates[body]);
+            element.damper.at_rest(displacement)
+        };
+        let mut states: Vec<_> = self.dampers.iter().map(at_rest).collect();
+        if let Some(last) = states.last().copied() {
+            states.resize(states.len().next_multiple_of(BANK), last);
+        }
+        states
+    }
+
+    /// Dampers and stops at the end of the tick, where the bodies are predicted to be.
+    #[inline(always)]
+    pub(super) fn step_dampers(&self, state: &mut VehicleState, track: &Track) {
+        let h = self.step_s;
+        let speed = state.speed_m_per_s;
+        let distance = state.distance_m + h * speed;
+        let work = &mut state.work;
+        let guidance = &mut work.guidance;
+        guidance.update(track.layout(), distance, speed, &self.stands);
+        let moved = state
+            .coordinates
+            .as_flattened()
+            .iter()
+            .zip(state.velocities.as_flattened())
+            .zip(state.accelerations.as_flattened())
+            .zip(guidance.pose.as_flattened())
+            .zip(state.pose.as_flattened())
+            .zip(guidance.relative.as_flattened());
+        let places = work
+            .residual
+            .as_flattened_mut()
+            .iter_mut()
+            .zip(work.in_middle.as_flattened_mut());
+        for ((predicted, in_middle), (((((q, v), a), pose), last_pose), relative)) in
+            places.zip(moved)
+        {
+            *predicted = q + h * (v + 0.5 * h * a) - (pose - last_pose);
+            *in_middle = *predicted + relative;
+        }
+        let (on_track, in_middle) = (&work.residual, &work.in_middle);
+        let displacement = |across: &Across| {
+            let from = if across.is_on_track() {
+                on_track
+            } else {
+                in_middle
+            };
+            across.displacement(|body| from[body])
+        };
+        let displacements = &mut state.damper_displacements_m;
+        for (element, number) in self.dampers.iter().zip(displacements.iter_mut()) {
+            *number = displacement(&element.across);
+        }
+        let (banks, _) = state.dampers.as_chunks_mut::<BANK>();
+        let elements = self.dampers.chunks(BANK).zip(displacements.chunks(BANK));
+        let forces = work.target_damper_forces_n.chunks_mut(BANK);
+        for ((states, (elements, displacements)), forces) in
+            banks.iter_mut().zip(elements).zip(forces)
+        {
+            let last = elements.len() - 1;
+            let dampers = from_fn(|lane| &elements[lane.min(last)].damper);
+            let displacements = from_fn(|lane| displacements[lane.min(last)]);
+            let mut own = [0.0; BANK];
+            step_bank::<f64, BANK>(&dampers, states, &displacements, &mut own);
+            forces.copy_from_slice(&own[..=last]);
+        }
+        // A damper whose force comes from outside was stepped too, so that it can take over.
+        let outside = state.outside_forces_n.iter();
+        for (force, outside) in work.target_damper_forces_n.iter_mut().zip(outside) {
+            *force = outside.unwrap_or(*force);
+        }
+        for (element, force) in self.stops.iter().zip(&mut work.target_stop_forces_n) {
+            *force = element.force(displacement(&element.across));
+        }
+        self.pull(state);
+    }
+
+    /// Forces of dampers and stops on the bodies at the start of the tick, and their change.
+    #[inline(always)]
+    fn pull(&self, state: &mut VehicleState) {
+        let work = &mut state.work;
+        work.tick_forces.fill([0.0; N]);
+        work.tick_changes.fill([0.0; N]);
+        let dampers = self.dampers.iter().map(|element| &element.across);
+        let stops = self.stops.iter().map(|element| &element.across);
+        let before = state.damper_forces_n.iter().chain(&state.stop_forces_n);
+        let after = work
+            .target_damper_forces_n
+            .iter()
+            .chain(&work.target_stop_forces_n);
+        for (across, (before, after)) in dampers.chain(stops).zip(before.zip(after)) {
+            across.pull(*before, &mut work.tick_forces);
+            across.pull(after - before, &mut work.tick_changes);
+        }
+    }
+}
