@@ -111,7 +111,7 @@ pub fn run(arguments: &ModesArguments) -> Outcome<()> {
     }
     let name = &arguments.vehicle;
     let vehicle = vehicle::load(name, &arguments.overrides)?;
-    let refused = |source| VehicleFileError::VehicleParameters {
+    let refused = |source| VehicleFileError::Vehicle {
         name: name.clone(),
         source,
     };

@@ -228,7 +228,7 @@ fn errors_say_what_where_and_what_is_allowed() {
         (
             &["--set", "body.mass_kg=-3"],
             1,
-            "locomotive: body: mass_kg = -3, allowed: 1 to 1000000",
+            "locomotive:10: body: mass_kg = -3, allowed: 1 to 1000000",
         ),
         (
             &["--set", "front lateral damper.damper='none'"],

@@ -7,3 +7,4 @@ mod recording_header;
 mod timing;
 mod track_file;
 mod vehicle_dampers;
+mod vehicle_file;

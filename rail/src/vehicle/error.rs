@@ -107,6 +107,28 @@ pub enum VehicleError {
     },
 }
 
+impl VehicleError {
+    /// The body, wheelset or element that is wrong, where it is one.
+    pub fn part(&self) -> Option<&str> {
+        match self {
+            Self::OutOfBounds { owner: part, .. }
+            | Self::NameUsedTwice { name: part }
+            | Self::NotThere { element: part, .. }
+            | Self::SameBody { element: part, .. }
+            | Self::Ends { element: part, .. }
+            | Self::Damper { element: part, .. }
+            | Self::Stop { element: part, .. }
+            | Self::NotCarried { wheelset: part, .. }
+            | Self::NotHeld { body: part, .. } => Some(part),
+            Self::NoWheelset
+            | Self::StepTooLong { .. }
+            | Self::NoSuchDamper { .. }
+            | Self::NoBody
+            | Self::NoModes => None,
+        }
+    }
+}
+
 pub(super) fn finite(
     owner: &str,
     name: &'static str,

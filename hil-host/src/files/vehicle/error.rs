@@ -60,7 +60,7 @@ pub enum VehicleFileError {
     },
     /// The parts are no vehicle.
     #[error("{name}: {source}")]
-    VehicleParameters {
+    Vehicle {
         /// The file or vehicle.
         name: String,
         /// What is wrong with them.

@@ -8,7 +8,7 @@ mod tables;
 use std::path::PathBuf;
 
 pub(crate) use dampers::called;
-use dashpot_rail::vehicle::VehicleParameters;
+use dashpot_rail::vehicle::{Standstill, VehicleParameters};
 pub(crate) use error::FORM;
 pub use error::VehicleFileError;
 pub use replacement::Replacement;
@@ -40,7 +40,7 @@ const SHIPPED: Shipped = Shipped {
 ///
 /// # Errors
 /// Neither vehicle nor readable file; text that is no TOML; unknown or missing keys; a damper that there is not; an override of
-/// a part that there is not.
+/// a part that there is not; parts that are no vehicle.
 ///
 /// ```
 /// let vehicle = dashpot_hil::files::vehicle::load("locomotive", &["body.mass_kg=70e3".into()])?;
@@ -117,7 +117,39 @@ fn parse_in(
             name: name.clone(),
             message: explain(&error),
         })?;
-    file.vehicle(name)
+    let vehicle = file.vehicle(|part| located(name, text, part))?;
+    // What no equation can be made of is told with its line here.
+    Standstill::new(&vehicle).map_err(|source| VehicleFileError::Vehicle {
+        name: source
+            .part()
+            .map_or_else(|| name.clone(), |part| located(name, text, part)),
+        source,
+    })?;
+    Ok(vehicle)
+}
+
+/// The file with the line of the part of that name; equal parts are called by their name and a number.
+fn located(file: &str, text: &str, part: &str) -> String {
+    let of_equals = part.rsplit_once(' ').map(|(name, _)| name);
+    let line_of = |wanted: &str| {
+        let is_name = |line: &str| {
+            let value = line
+                .trim()
+                .strip_prefix("name")?
+                .trim_start()
+                .strip_prefix('=')?;
+            let quoted = value.trim_start().get(1..)?;
+            quoted
+                .strip_prefix(wanted)?
+                .starts_with(['"', '\''])
+                .then_some(())
+        };
+        text.lines().position(|line| is_name(line).is_some())
+    };
+    match line_of(part).or_else(|| line_of(of_equals?)) {
+        Some(line) => format!("{file}:{}", line + 1),
+        None => file.to_owned(),
+    }
 }
 
 /// Applies `part.key=value` to the part of that name.

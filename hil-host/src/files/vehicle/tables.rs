@@ -163,8 +163,11 @@ fn elements(name: &str, between: &[String; 2], at_m: &[[f64; 3]], law: &Law) -> 
 }
 
 impl VehicleFile {
-    /// The vehicle; `file` stands for it in errors.
-    pub fn vehicle(self, file: &str) -> Result<VehicleParameters, VehicleFileError> {
+    /// The vehicle; in errors a part is where `located` has it.
+    pub fn vehicle(
+        self,
+        located: impl Fn(&str) -> String,
+    ) -> Result<VehicleParameters, VehicleFileError> {
         let bodies = self.body.into_iter().map(|table| Body {
             name: table.name,
             mass_kg: table.mass_kg,
@@ -219,7 +222,7 @@ impl VehicleFile {
         for table in &self.damper {
             let parameters = damper::load(&table.damper, &table.set).map_err(|source| {
                 VehicleFileError::Damper {
-                    name: file.to_owned(),
+                    name: located(&table.name),
                     element: table.name.clone(),
                     source: Box::new(source),
                 }
