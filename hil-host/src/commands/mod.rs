@@ -15,6 +15,7 @@ pub mod interruption;
 pub mod line;
 pub mod link;
 pub mod modes;
+mod paced;
 pub mod pil;
 pub mod print;
 pub mod progress;

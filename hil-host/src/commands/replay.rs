@@ -7,6 +7,7 @@ use dashpot_core::{CheckedParameters, Real};
 use serde::Serialize;
 
 use super::gap_report::write_gaps;
+use super::paced::Paced;
 use super::step_size::{self, StepSize};
 use super::{
     DamperArguments, Format, RealtimeArguments, counted, nearest_nanosecond, print_report_beside,
@@ -17,7 +18,6 @@ use crate::files::input;
 use crate::files::output::{self, cannot_write_rows, write_whole};
 use crate::files::recording::{Gaps, Recording};
 use crate::realtime::pacing::Pacer;
-use crate::realtime::timing::{Figures, optional_span, span};
 use crate::study::Scalar;
 use crate::study::replay::{Summary, TickGrid, replay};
 
@@ -79,14 +79,7 @@ struct Report {
     saturated: bool,
     gaps: Gaps,
     #[serde(skip_serializing_if = "Option::is_none")]
-    realtime: Option<Realtime>,
-}
-
-#[derive(Serialize)]
-struct Realtime {
-    missed_deadlines: u64,
-    lateness: Figures,
-    work: Figures,
+    realtime: Option<Paced>,
 }
 
 /// Runs the command.
@@ -125,11 +118,7 @@ pub fn run(arguments: &ReplayArguments) -> Outcome<()> {
         input_limited: summary.limited_inputs > 0,
         saturated: summary.saturated_ticks > 0,
         gaps,
-        realtime: pacer.as_ref().map(|pacer| Realtime {
-            missed_deadlines: pacer.report().missed_deadlines,
-            lateness: pacer.report().lateness.figures(),
-            work: pacer.report().work.figures(),
-        }),
+        realtime: pacer.as_ref().map(|pacer| Paced::from(pacer.report())),
     };
     print_report_beside(
         &arguments.output,
@@ -224,14 +213,7 @@ fn print(
         )?;
     }
     if let Some(realtime) = &report.realtime {
-        writeln!(
-            out,
-            "real ticks: {} deadlines missed; late by {} at most, {} at the 99th percentile; step {} at most",
-            realtime.missed_deadlines,
-            span(realtime.lateness.worst_ns),
-            optional_span(realtime.lateness.p99_ns),
-            span(realtime.work.worst_ns)
-        )?;
+        realtime.write(out, "step")?;
     }
     writeln!(out, "wrote {}", output::name(&arguments.output).display())
 }

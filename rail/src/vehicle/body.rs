@@ -1,7 +1,7 @@
 //! What a vehicle consists of.
 
 use super::element::Element;
-use super::error::{VehicleError, finite};
+use super::error::VehicleError;
 
 /// A vehicle: rigid bodies and wheelsets, connected by elements.
 #[derive(Debug, Clone, PartialEq)]
@@ -85,12 +85,12 @@ pub const COORDINATES: [Coordinate; 5] = [
 impl Body {
     pub(super) fn check(&self) -> Result<(), VehicleError> {
         let owner = &self.name;
-        finite(owner, "mass_kg", self.mass_kg, [1.0, 1e6])?;
+        VehicleError::check(owner, "mass_kg", self.mass_kg, [1.0, 1e6])?;
         for (name, value) in ["roll", "pitch", "yaw"].into_iter().zip(self.inertia_kg_m2) {
-            finite(owner, name, value, [1e-3, 1e9])?;
+            VehicleError::check(owner, name, value, [1e-3, 1e9])?;
         }
-        finite(owner, "x_m", self.x_m, [-100.0, 100.0])?;
-        finite(owner, "height_m", self.height_m, [0.0, 10.0])
+        VehicleError::check(owner, "x_m", self.x_m, [-100.0, 100.0])?;
+        VehicleError::check(owner, "height_m", self.height_m, [0.0, 10.0])
     }
 
     /// Mass or moment of inertia of each coordinate, kg or kg m^2.

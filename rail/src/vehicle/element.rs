@@ -3,7 +3,7 @@
 use dashpot_core::DamperParameters;
 use nalgebra::Vector3;
 
-use super::error::{VehicleError, finite};
+use super::error::VehicleError;
 
 /// An element between two points.
 #[derive(Debug, Clone, PartialEq)]
@@ -160,7 +160,7 @@ fn check_three(
 ) -> Result<(), VehicleError> {
     values
         .iter()
-        .try_for_each(|value| finite(owner, name, *value, allowed))
+        .try_for_each(|value| VehicleError::check(owner, name, *value, allowed))
 }
 
 fn check_stop(points: &[[f64; 2]]) -> Result<(), &'static str> {
@@ -189,7 +189,7 @@ impl Element {
         let owner = &self.name;
         for end in &self.ends {
             for (name, value) in ["x_m", "y_m", "height_m"].into_iter().zip(end.at_m) {
-                finite(owner, name, value, [-100.0, 100.0])?;
+                VehicleError::check(owner, name, value, [-100.0, 100.0])?;
             }
         }
         if let (Some(first), Some(second)) = (&self.ends[0].on, &self.ends[1].on)
@@ -238,19 +238,19 @@ impl Element {
                 stiffness_n_m_per_rad,
             } => {
                 let value = *stiffness_n_m_per_rad;
-                finite(owner, "stiffness_n_m_per_rad", value, MAX_STIFFNESS)?;
+                VehicleError::check(owner, "stiffness_n_m_per_rad", value, MAX_STIFFNESS)?;
             }
             Law::TractionRod {
                 stiffness_n_per_m,
                 damping_n_s_per_m,
             } => {
-                finite(
+                VehicleError::check(
                     owner,
                     "stiffness_n_per_m",
                     *stiffness_n_per_m,
                     MAX_STIFFNESS,
                 )?;
-                finite(owner, "damping_n_s_per_m", *damping_n_s_per_m, MAX_DAMPING)?;
+                VehicleError::check(owner, "damping_n_s_per_m", *damping_n_s_per_m, MAX_DAMPING)?;
             }
         }
         match (&self.law, apart) {

@@ -108,6 +108,27 @@ pub enum VehicleError {
 }
 
 impl VehicleError {
+    /// Checks that a number of `owner` is within its bounds; NaN is not.
+    ///
+    /// # Errors
+    /// It is not.
+    pub fn check(
+        owner: &str,
+        name: &'static str,
+        value: f64,
+        allowed: [f64; 2],
+    ) -> Result<(), Self> {
+        if (allowed[0]..=allowed[1]).contains(&value) {
+            return Ok(());
+        }
+        Err(Self::OutOfBounds {
+            owner: owner.to_owned(),
+            name,
+            value,
+            allowed,
+        })
+    }
+
     /// The body, wheelset or element that is wrong, where it is one.
     pub fn part(&self) -> Option<&str> {
         match self {
@@ -127,21 +148,4 @@ impl VehicleError {
             | Self::NoModes => None,
         }
     }
-}
-
-pub(super) fn finite(
-    owner: &str,
-    name: &'static str,
-    value: f64,
-    allowed: [f64; 2],
-) -> Result<(), VehicleError> {
-    if (allowed[0]..=allowed[1]).contains(&value) {
-        return Ok(());
-    }
-    Err(VehicleError::OutOfBounds {
-        owner: owner.to_owned(),
-        name,
-        value,
-        allowed,
-    })
 }

@@ -2,7 +2,7 @@
 
 use super::body::{Body, COORDINATES, VehicleParameters};
 use super::carried::Carried;
-use super::error::{VehicleError, finite};
+use super::error::VehicleError;
 use super::linear::Linear;
 use super::modes::{self, Mode};
 use super::standstill::{Standstill, places, wheelset_bodies};
@@ -45,7 +45,7 @@ impl Running {
         contact: &WheelsetContact<L, S>,
         speed_m_per_s: f64,
     ) -> Result<Self, VehicleError> {
-        finite(&vehicle.name, "speed_m_per_s", speed_m_per_s, SPEED_M_PER_S)?;
+        VehicleError::check(&vehicle.name, "speed_m_per_s", speed_m_per_s, SPEED_M_PER_S)?;
         let standstill = Standstill::new(vehicle)?;
         let mut bodies = vehicle.bodies.clone();
         bodies.extend(wheelset_bodies(vehicle));

@@ -95,8 +95,8 @@ impl<'a, L: CreepLaw, S: PatchSource> VehicleReference<'a, L, S> {
     ) -> Result<Self, ReferenceError> {
         // Checks names and numbers; its solution is not used.
         Standstill::new(vehicle)?;
-        within(&vehicle.name, "speed_m_per_s", speed_m_per_s, SPEED_M_PER_S)?;
-        within(&vehicle.name, "start_m", start_m, [-1e7, 1e7])?;
+        VehicleError::check(&vehicle.name, "speed_m_per_s", speed_m_per_s, SPEED_M_PER_S)?;
+        VehicleError::check(&vehicle.name, "start_m", start_m, [-1e7, 1e7])?;
         let (mut couplings, mut ranged, mut dampers) = (Vec::new(), Vec::new(), 0);
         for element in &vehicle.elements {
             couplings.push(Coupling::new(vehicle, element, ranged.len()));
@@ -182,9 +182,9 @@ impl<'a, L: CreepLaw, S: PatchSource> VehicleReference<'a, L, S> {
         times_s: &[f64],
         tolerance: f64,
     ) -> Result<Vec<VehicleSample>, ReferenceError> {
-        within("reference", "tolerance", tolerance, TOLERANCE)?;
+        VehicleError::check("reference", "tolerance", tolerance, TOLERANCE)?;
         for (sample, time_s) in times_s.iter().enumerate() {
-            within("reference", "time_s", *time_s, [0.0, 1e6])?;
+            VehicleError::check("reference", "time_s", *time_s, [0.0, 1e6])?;
             let before_s = sample.checked_sub(1).map_or(-1.0, |before| times_s[before]);
             if *time_s <= before_s {
                 return Err(ReferenceError::Times {
@@ -242,21 +242,4 @@ fn sample<'a, L: CreepLaw, S: PatchSource>(
 
 fn with_mass(mass: f64, [roll, pitch, yaw]: [f64; 3]) -> [f64; N] {
     [mass, mass, roll, pitch, yaw]
-}
-
-fn within(
-    owner: &str,
-    name: &'static str,
-    value: f64,
-    allowed: [f64; 2],
-) -> Result<(), VehicleError> {
-    if (allowed[0]..=allowed[1]).contains(&value) {
-        return Ok(());
-    }
-    Err(VehicleError::OutOfBounds {
-        owner: owner.to_owned(),
-        name,
-        value,
-        allowed,
-    })
 }

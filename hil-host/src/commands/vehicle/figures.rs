@@ -8,14 +8,10 @@ use crate::report::page::{Figure, panel};
 use crate::report::plot::curves::{Curve, ramp};
 use crate::report::plot::sheet::{Panel, Scale};
 use crate::report::plot::style::{BLUE_LINE, RED_LINE};
+use crate::study::vehicle::signals::slug;
 
 const TIME: &str = "time_s";
 const HEIGHT: u32 = 300;
-
-/// What a body or wheelset is called in the signals.
-fn slug(name: &str) -> String {
-    name.replace(|c: char| !c.is_ascii_alphanumeric(), "_")
-}
 
 fn over_time(history: &History, signal: &str, factor: f64, name: &str, colour: RGBColor) -> Curve {
     Curve::new(name, colour, history.thinned([TIME, signal], [1.0, factor])).wide(5)

@@ -7,10 +7,11 @@ use std::time::Duration;
 use serde::Serialize;
 
 use crate::commands::counted;
+use crate::commands::paced::Paced;
 use crate::files::case::Case;
 use crate::files::output;
 use crate::realtime::pacing::PacingReport;
-use crate::realtime::timing::{Figures, optional_span, span};
+use crate::realtime::timing::span;
 use crate::study::vehicle::{Ending, Indices};
 
 /// What is told of a run.
@@ -31,15 +32,8 @@ pub(super) struct Report {
     pub(super) mean_tick_s: f64,
     /// Of a run in real ticks.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub(super) realtime: Option<Realtime>,
+    pub(super) realtime: Option<Paced>,
     pub(super) files: Vec<PathBuf>,
-}
-
-#[derive(Serialize)]
-pub(super) struct Realtime {
-    missed_deadlines: u64,
-    lateness: Figures,
-    work: Figures,
 }
 
 /// Time that ticks took.
@@ -77,11 +71,7 @@ impl Report {
             ending,
             indices: indices.filter(|_| is_whole),
             mean_tick_s: pace.time.as_secs_f64() / pace.ticks.max(1) as f64,
-            realtime: pacing.map(|report| Realtime {
-                missed_deadlines: report.missed_deadlines,
-                lateness: report.lateness.figures(),
-                work: report.work.figures(),
-            }),
+            realtime: pacing.map(Paced::from),
             files: Vec::new(),
         }
     }
@@ -145,14 +135,7 @@ pub(super) fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
         writeln!(out, "Y/Q and lateral force: greatest mean over 2 m")?;
     }
     if let Some(realtime) = &report.realtime {
-        writeln!(
-            out,
-            "real ticks: {} deadlines missed; late by {} at most, {} at the 99th percentile; tick {} at most",
-            realtime.missed_deadlines,
-            span(realtime.lateness.worst_ns),
-            optional_span(realtime.lateness.p99_ns),
-            span(realtime.work.worst_ns)
-        )?;
+        realtime.write(out, "tick")?;
     }
     writeln!(out)?;
     for file in &report.files {

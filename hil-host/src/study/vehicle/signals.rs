@@ -40,8 +40,8 @@ const ACCELERATIONS: [&str; 2] = [
 /// The sides of a wheelset.
 pub const SIDES: [&str; 2] = ["left", "right"];
 
-/// `name` with underscores.
-fn slug(name: &str) -> String {
+/// What a body, wheelset or damper is called in the names of its signals: with underscores.
+pub fn slug(name: &str) -> String {
     name.replace(|c: char| !c.is_ascii_alphanumeric(), "_")
 }
 

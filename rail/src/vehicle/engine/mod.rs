@@ -34,7 +34,7 @@ use self::tangent::{ContactPlace, SurfaceConstants};
 use super::body::VehicleParameters;
 use super::carried::Carried;
 use super::element::Law;
-use super::error::{VehicleError, finite};
+use super::error::VehicleError;
 use super::linear::Linear;
 use super::standstill::{Standstill, places, wheelset_bodies};
 use crate::contact::{PatchSource, Tables, WheelsetContact, WheelsetForces};
@@ -103,7 +103,7 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
         step_s: f64,
         support: Option<RailSupport>,
     ) -> Result<Self, VehicleError> {
-        finite(&parameters.name, "step_s", step_s, STEP_S)?;
+        VehicleError::check(&parameters.name, "step_s", step_s, STEP_S)?;
         let standstill = Standstill::new(parameters)?;
         if parameters.wheelsets.is_empty() {
             return Err(VehicleError::NoWheelset);
@@ -235,8 +235,8 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
         distance_m: f64,
         speed_m_per_s: f64,
     ) -> Result<VehicleState, VehicleError> {
-        finite("vehicle", "speed_m_per_s", speed_m_per_s, SPEED_M_PER_S)?;
-        finite("vehicle", "distance_m", distance_m, [-1e6, 1e6])?;
+        VehicleError::check("vehicle", "speed_m_per_s", speed_m_per_s, SPEED_M_PER_S)?;
+        VehicleError::check("vehicle", "distance_m", distance_m, [-1e6, 1e6])?;
         let places = self.inertia.len();
         let zeros = vec![[0.0; N]; places];
         let mut guidance = Guidance::new(places);

@@ -4,7 +4,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::block::{N, Vector};
 use crate::contact::{RailDisplacement, WheelsetForces};
-use crate::vehicle::error::{VehicleError, finite};
+use crate::vehicle::error::VehicleError;
 
 /// What carries a rail under a wheel: a mass that moves with the wheel along the track, on a spring and a dashpot each way.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -59,7 +59,7 @@ impl RailSupport {
                 DAMPING,
             ),
         ] {
-            finite("rails", name, value, allowed)?;
+            VehicleError::check("rails", name, value, allowed)?;
         }
         Ok(())
     }
