@@ -6,6 +6,7 @@ use std::time::Duration;
 
 use serde::Serialize;
 
+use super::outside::{self, OutsideReport};
 use crate::commands::counted;
 use crate::files::case::Case;
 use crate::files::output;
@@ -32,6 +33,9 @@ pub(super) struct Report {
     /// Of a run in real ticks.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) realtime: Option<Realtime>,
+    /// Where some are.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) outside: Option<OutsideReport>,
     pub(super) files: Vec<PathBuf>,
 }
 
@@ -64,7 +68,10 @@ impl Report {
         pace: &Pace,
         pacing: Option<&PacingReport>,
     ) -> Self {
-        let is_whole = matches!(ending, Ending::Completed | Ending::Interrupted { .. });
+        let is_whole = matches!(
+            ending,
+            Ending::Completed | Ending::Interrupted { .. } | Ending::OutsideLost { .. }
+        );
         Self {
             case: case.name.clone(),
             vehicle: case.vehicle.name.clone(),
@@ -82,6 +89,7 @@ impl Report {
                 lateness: report.lateness.figures(),
                 work: report.work.figures(),
             }),
+            outside: None,
             files: Vec::new(),
         }
     }
@@ -153,6 +161,9 @@ pub(super) fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
             optional_span(realtime.lateness.p99_ns),
             span(realtime.work.worst_ns)
         )?;
+    }
+    if let Some(found) = &report.outside {
+        outside::print(out, found)?;
     }
     writeln!(out)?;
     for file in &report.files {
