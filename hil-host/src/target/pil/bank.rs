@@ -32,7 +32,7 @@ impl<L: Link> Bank<L> {
             });
         };
         let mut all = dampers.to_vec();
-        all.resize(places, first.clone());
+        all.resize(places, *first);
         let host = HostReplica::at_rest(&all, session.target(), 0.0)?;
         let mut measured = Measured::default();
         session.recover(&host, &mut measured)?;

@@ -27,7 +27,7 @@ impl HostReplica {
     ) -> Result<Self, SessionError> {
         let places = target.dampers;
         let dampers = match dampers {
-            [one] => vec![one.clone(); places],
+            [one] => vec![*one; places],
             each if each.len() == places => each.to_vec(),
             other => {
                 let dampers = other.len();

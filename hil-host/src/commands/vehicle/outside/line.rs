@@ -135,8 +135,7 @@ impl Line {
 fn desk(case: &Case, run: &Run, dampers: &[usize]) -> Outcome<Box<dyn Link>> {
     let first = dampers.first().copied().unwrap_or_default();
     let damper = build(case, run, first, case.step_s)?;
-    let bank: [Damper<f32>; DESK_PLACES] = std::array::from_fn(|_| damper.clone());
-    let desk = Desk::new(bank).map_err(LinkError::from)?;
+    let desk = Desk::new([damper; DESK_PLACES]).map_err(LinkError::from)?;
     Ok(Box::new(desk))
 }
 
