@@ -84,8 +84,11 @@ pub fn run(arguments: &VehicleArguments) -> Outcome<()> {
     if arguments.check {
         return check::run(&case, arguments.format);
     }
+    let mut outside = arguments.outside.read(&case)?;
     let mut run = Run::new(&case).map_err(|error| options::refused(&case, &error))?;
-    let mut outside = arguments.outside.open(&case, &mut run)?;
+    if let Some(outside) = &mut outside {
+        arguments.outside.connect(outside, &case, &mut run)?;
+    }
     let pacer = if arguments.realtime {
         Some(Pacer::new(case.step_s, &options)?)
     } else {

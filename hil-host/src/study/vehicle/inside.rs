@@ -12,6 +12,7 @@ const MOST_TICKS: u64 = 600_000;
 
 /// Keeps of a run what is compared.
 pub struct Beside {
+    start: Run,
     dampers: Vec<usize>,
     ticks: u64,
     trace: Trace,
@@ -52,9 +53,10 @@ pub struct Forces {
 }
 
 impl Beside {
-    /// Of a run that has not begun, and the numbers of its dampers outside.
+    /// Of a run that has not begun, its dampers still inside, and the numbers of those that will be outside.
     pub fn new(run: &Run, case: &Case, dampers: Vec<usize>) -> Self {
         Self {
+            start: run.clone(),
             outside_n: vec![Vec::new(); dampers.len()],
             dampers,
             ticks: 0,
@@ -78,12 +80,12 @@ impl Beside {
     /// Runs the same case with all dampers inside, as far as both go; nothing of a run without a tick.
     ///
     /// # Errors
-    /// As [`Run::new`] and [`Run::step`].
+    /// As [`Run::step`].
     pub fn compare(self, case: &Case) -> Result<Option<(Effect, Vec<Forces>)>, VehicleStudyError> {
         if self.ticks == 0 {
             return Ok(None);
         }
-        let mut run = Run::new(case)?;
+        let mut run = self.start;
         let mut inside = Self::new(&run, case, self.dampers.clone());
         while inside.ticks < self.ticks && run.step()?.is_none() {
             inside.add(&run);

@@ -2,9 +2,9 @@
 
 use dashpot_core::Damper;
 use dashpot_core::link::MOST_DAMPERS;
-use dashpot_rail::vehicle::Law;
 
 use super::choice::{Choice, Source};
+use super::parameters;
 use super::report::Target;
 use crate::commands::failure::{Failure, Outcome};
 use crate::commands::line::LineOptions;
@@ -42,14 +42,13 @@ impl Line {
         choice: &Choice,
         dampers: Vec<usize>,
         case: &Case,
-        run: &Run,
         options: &LineOptions,
     ) -> Outcome<Self> {
         let name = &choice.name;
         let failed = |error: SessionError| refused(name, &error);
         let link = match &choice.source {
             Source::Link(link) => options.open(link).map_err(|error| failed(error.into()))?,
-            Source::Desk | Source::File(_) => desk(case, run, &dampers)?,
+            Source::Desk | Source::File(_) => desk(case, &dampers)?,
         };
         let client = Client::new(link, options.retry_limits(), fastrand::u16(..));
         let session = Session::open(client).map_err(failed)?;
@@ -63,7 +62,7 @@ impl Line {
         }
         let built: Vec<Damper<f32>> = dampers
             .iter()
-            .map(|damper| build(case, run, *damper, step.step_s()))
+            .map(|damper| build(case, *damper, step.step_s()))
             .collect::<Outcome<_>>()?;
         Ok(Self {
             name: name.clone(),
@@ -132,22 +131,19 @@ impl Line {
 }
 
 /// A target in this process that steps as the case does.
-fn desk(case: &Case, run: &Run, dampers: &[usize]) -> Outcome<Box<dyn Link>> {
+fn desk(case: &Case, dampers: &[usize]) -> Outcome<Box<dyn Link>> {
     let first = dampers.first().copied().unwrap_or_default();
-    let damper = build(case, run, first, case.step_s)?;
+    let damper = build(case, first, case.step_s)?;
     let desk = Desk::new([damper; DESK_PLACES]).map_err(LinkError::from)?;
     Ok(Box::new(desk))
 }
 
 /// The damper of a number in single precision.
-fn build(case: &Case, run: &Run, damper: usize, step_s: f64) -> Outcome<Damper<f32>> {
-    let name = run.vehicle().damper_names().nth(damper);
-    let mut elements = case.vehicle.elements.iter();
-    let parameters = elements.find_map(|element| match &element.law {
-        Law::Damper { parameters, .. } if Some(element.name.as_str()) == name => Some(parameters),
-        _ => None,
-    });
-    let parameters = parameters.ok_or_else(|| Failure::new("no such damper"))?;
+fn build(case: &Case, damper: usize, step_s: f64) -> Outcome<Damper<f32>> {
+    let all = parameters(case);
+    let (_, parameters) = all
+        .get(damper)
+        .ok_or_else(|| Failure::new(format!("no damper {damper}")))?;
     Ok(parameters.build(step_s)?)
 }
 

@@ -5,6 +5,8 @@ mod line;
 mod report;
 
 use choice::{Choice, Source};
+use dashpot_core::DamperParameters;
+use dashpot_rail::vehicle::Law;
 use line::Line;
 pub(super) use report::{OutsideReport, print};
 
@@ -42,11 +44,11 @@ pub(super) struct Outside {
 }
 
 impl OutsideArguments {
-    /// Reads the files and opens the links.
+    /// Finds the dampers and reads the files.
     ///
     /// # Errors
-    /// A damper that there is not, is given twice or has a fault on the way; a file or link that cannot be used.
-    pub(super) fn open(&self, case: &Case, run: &mut Run) -> Outcome<Option<Outside>> {
+    /// A damper that there is not, is given twice or has a fault on the way; a file that cannot be used.
+    pub(super) fn read(&self, case: &Case) -> Outcome<Option<Outside>> {
         if self.choices.is_empty() {
             return match self.options == LineOptions::default() {
                 true => Ok(None),
@@ -55,56 +57,31 @@ impl OutsideArguments {
                 )),
             };
         }
-        let dampers = self.dampers(case, run)?;
-        let mut outside = Outside {
-            choices: self.choices.clone(),
-            lines: Vec::new(),
-            recorded: Vec::new(),
-            beside: None,
-            dampers,
-        };
-        let numbered = || self.choices.iter().zip(outside.dampers.iter().copied());
-        for (choice, damper) in numbered() {
+        let dampers = self.dampers(case)?;
+        let last_s = (case.duration_s / case.step_s).round() * case.step_s;
+        let mut recorded = Vec::new();
+        for (choice, damper) in self.choices.iter().zip(&dampers) {
             if let Source::File(path) = &choice.source {
-                let needed_s = [case.step_s, run.ticks() as f64 * case.step_s];
+                let needed_s = [case.step_s, last_s];
                 let history = ForceHistory::open(path, needed_s).map_err(|error| {
                     Failure::new(format!("--outside \"{}\": {error}", choice.damper))
                 })?;
-                outside.recorded.push((damper, history));
+                recorded.push((*damper, history));
             }
         }
-        // Dampers behind one link are one bank.
-        let mut links: Vec<(&Choice, Vec<usize>)> = Vec::new();
-        for (choice, damper) in numbered() {
-            match links
-                .iter_mut()
-                .find(|(other, _)| other.source == choice.source)
-            {
-                _ if matches!(choice.source, Source::File(_)) => {}
-                Some((_, dampers)) => dampers.push(damper),
-                None => links.push((choice, vec![damper])),
-            }
-        }
-        let mut behind = Vec::new();
-        for (choice, dampers) in links {
-            behind.extend(&dampers);
-            for damper in &dampers {
-                // At rest, until the first displacement is answered.
-                run.state_mut().set_outside_force_n(*damper, Some(0.0));
-            }
-            outside
-                .lines
-                .push(Line::open(choice, dampers, case, run, &self.options)?);
-        }
-        if !behind.is_empty() {
-            outside.beside = Some(Beside::new(run, case, behind));
-        }
-        Ok(Some(outside))
+        Ok(Some(Outside {
+            choices: self.choices.clone(),
+            dampers,
+            lines: Vec::new(),
+            recorded,
+            beside: None,
+        }))
     }
 
     /// Numbers of the dampers.
-    fn dampers(&self, case: &Case, run: &Run) -> Outcome<Vec<usize>> {
-        let names = || run.vehicle().damper_names();
+    fn dampers(&self, case: &Case) -> Outcome<Vec<usize>> {
+        let all = parameters(case);
+        let names = || all.iter().map(|(name, _)| *name);
         let mut dampers = Vec::new();
         for choice in &self.choices {
             let name = &choice.damper;
@@ -127,6 +104,52 @@ impl OutsideArguments {
         }
         Ok(dampers)
     }
+
+    /// Opens the links and loads the dampers behind them.
+    ///
+    /// # Errors
+    /// A link that cannot be used.
+    pub(super) fn connect(&self, outside: &mut Outside, case: &Case, run: &mut Run) -> Outcome<()> {
+        // Dampers behind one link are one bank.
+        let mut links: Vec<(&Choice, Vec<usize>)> = Vec::new();
+        let mut behind = Vec::new();
+        for (choice, damper) in self.choices.iter().zip(&outside.dampers) {
+            if matches!(choice.source, Source::File(_)) {
+                continue;
+            }
+            behind.push(*damper);
+            match links
+                .iter_mut()
+                .find(|(other, _)| other.source == choice.source)
+            {
+                Some((_, dampers)) => dampers.push(*damper),
+                None => links.push((choice, vec![*damper])),
+            }
+        }
+        for (choice, dampers) in links {
+            let line = Line::open(choice, dampers, case, &self.options)?;
+            outside.lines.push(line);
+        }
+        if !behind.is_empty() {
+            outside.beside = Some(Beside::new(run, case, behind.clone()));
+        }
+        for damper in behind {
+            // At rest, until the first displacement is answered.
+            run.state_mut().set_outside_force_n(damper, Some(0.0));
+        }
+        Ok(())
+    }
+}
+
+/// Names and parameters of the vehicle's dampers, by their numbers.
+fn parameters(case: &Case) -> Vec<(&str, &DamperParameters)> {
+    let elements = case.vehicle.elements.iter();
+    elements
+        .filter_map(|element| match &element.law {
+            Law::Damper { parameters, .. } => Some((element.name.as_str(), &**parameters)),
+            _ => None,
+        })
+        .collect()
 }
 
 impl Outside {
