@@ -1,6 +1,8 @@
 //! `dashpot vehicle`: a vehicle on a track, its histories, indices and page.
 
 mod check;
+#[cfg(feature = "parquet")]
+mod columns;
 mod drawing;
 mod figures;
 mod history;
@@ -36,7 +38,7 @@ use crate::study::vehicle::{Ending, Indexer, Run, signals};
   dashpot vehicle --case curve-r600 --outside \"front lateral damper 1=serial:/dev/ttyACM0\" --realtime
   dashpot vehicle --case straight-180 --outside \"rear vertical damper 2=force.csv\"
 
-Written into the folder of --output: history.csv, a row a tick; indices.json; report.html, a page to send.
+Written into the folder of --output: history.csv, a row a tick, with --parquet history.parquet too; indices.json; report.html, a page to send.
 Displacements are from where the vehicle stands, relative to the track, to the right and down positive; Q is down on the rail, Y towards
 the middle of the track. Exit code 1 and the reason when the vehicle derails, diverges, or is interrupted, or a link to a damper outside is
 lost: what was computed is kept.
@@ -54,6 +56,9 @@ pub struct VehicleArguments {
     /// Writes no page.
     #[arg(long)]
     no_page: bool,
+    /// Writes history.parquet too, the columns of history.csv as float64; only in a build with the feature `parquet`.
+    #[arg(long)]
+    parquet: bool,
     /// Holds the run against the reference solution, and fails where it is out of bounds; takes some hundred times as long.
     #[arg(long, conflicts_with = "realtime")]
     check: bool,
@@ -80,6 +85,11 @@ pub fn run(arguments: &VehicleArguments) -> Outcome<()> {
     let options = arguments
         .options
         .options_under("--realtime", arguments.realtime)?;
+    if arguments.parquet && !cfg!(feature = "parquet") {
+        return Err(Failure::wrong_use(
+            "--parquet is left out of this build; build dashpot-hil with the feature `parquet`",
+        ));
+    }
     let case = arguments.case.case()?;
     if arguments.check {
         return check::run(&case, arguments.format);
@@ -104,7 +114,13 @@ pub fn run(arguments: &VehicleArguments) -> Outcome<()> {
         report.outside = Some(found);
         forces = in_both;
     }
-    report.files.push(folder.join("history.csv"));
+    #[cfg(feature = "parquet")]
+    if arguments.parquet {
+        let columns = folder.join("history.parquet");
+        columns::write(&path, &columns)?;
+        report.files.push(columns);
+    }
+    report.files.push(path);
     if !arguments.no_page {
         let path = folder.join("report.html");
         write_bytes(
