@@ -80,7 +80,7 @@ impl Line {
     /// # Errors
     /// The link and what happened to it.
     pub(super) fn exchange(&mut self, run: &mut Run) -> Result<(), String> {
-        let named = |error: SessionError| format!("{}: {error}", self.name);
+        let named = |error: SessionError| named(&self.name, &error);
         for step in 1..=self.steps {
             let share = f64::from(step) / f64::from(self.steps);
             let all = run.state().damper_displacements_m();
@@ -125,8 +125,18 @@ impl Line {
                 steps_a_tick: steps,
                 found,
             }),
-            Err(error) => Err(format!("{name}: {error}")),
+            Err(error) => Err(named(&name, &error)),
         }
+    }
+}
+
+/// What happened, with the link's name once.
+fn named(name: &str, error: &SessionError) -> String {
+    let text = error.to_string();
+    if text.contains(name) {
+        text
+    } else {
+        format!("{name}: {text}")
     }
 }
 
