@@ -10,7 +10,7 @@ use crate::workspaces::WORKSPACES;
 const ALLOWED: [&str; 5] = ["Apache-2.0", "BSD-2-Clause", "MIT", "Unicode-3.0", "Zlib"];
 
 /// Other licences: package, licence, why it may be used.
-const EXCEPTIONS: [(&str, &str, &str); 3] = [
+const EXCEPTIONS: [(&str, &str, &str); 4] = [
     (
         "serialport",
         "MPL-2.0",
@@ -20,6 +20,11 @@ const EXCEPTIONS: [(&str, &str, &str); 3] = [
         "cbindgen",
         "MPL-2.0",
         "makes the C header, part of no product",
+    ),
+    (
+        "tiny-keccak",
+        "CC0-1.0",
+        "asks for nothing; behind the feature `parquet`, at compile time only",
     ),
     ("libfuzzer-sys", "NCSA", "part of fuzz targets only"),
 ];

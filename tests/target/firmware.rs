@@ -5,10 +5,11 @@ use std::fmt::Write;
 use dashpot::in_turn::{InTurn, MOST_ANSWERS, RETRY_LIMITS, images};
 use dashpot::target::first_line;
 use dashpot::{damper, document};
+use dashpot_core::Damper;
 use dashpot_core::link::{Counters, LossOfLink, Reals, Refusal, Request, Response, SafeOutput};
 use dashpot_hil::study::excitation::Excitation;
 use dashpot_hil::target::pil::{
-    Client, FaultRates, FaultyLink, LinkError, Pace, Report, Session, SessionError,
+    Bank, Client, FaultRates, FaultyLink, LinkError, Pace, Report, Session, SessionError,
 };
 use object::{Object, ObjectSection, ObjectSymbol};
 use xtask::processor::CORTEX_M7;
@@ -64,6 +65,31 @@ fn the_target_has_the_hosts_bits_through_every_fault() {
     );
     assert!(report.recoveries >= 2, "{report:?}");
     assert!(report.link_faults.repeated_requests > 0);
+}
+
+#[test]
+fn dampers_that_are_stepped_one_tick_at_a_time_have_the_hosts_bits() {
+    let Some(images) = images() else {
+        return;
+    };
+    // Reset while it steps: two dampers outside a vehicle go on as they were.
+    let link = InTurn::start(&images.join("dashpot-firmware"), &[150], None);
+    let session = Session::open(Client::new(link, RETRY_LIMITS, 4)).unwrap();
+    let dampers: [Damper<f32>; 2] =
+        ["reduced-lateral", "in-service"].map(|name| damper(name, &[]).build(1e-3).unwrap());
+    let mut bank = Bank::start(session, &dampers).unwrap();
+    let mut states = [0, 1].map(|place: usize| dampers[place].at_rest(0.0));
+    for x in Excitation::Ride.displacements_m(1e-3).iter().take(300) {
+        let displacements_m = [*x as f32, -*x as f32];
+        let found_n = bank.step(&displacements_m).unwrap();
+        for place in [0, 1] {
+            let expected_n = dampers[place].step(&mut states[place], displacements_m[place]);
+            assert_eq!(found_n[place].to_bits(), expected_n.to_bits());
+        }
+    }
+    let report = bank.finish().unwrap();
+    assert_eq!((report.ticks, report.mismatches), (300, 0));
+    assert!(report.recoveries > 0, "{report:?}");
 }
 
 #[test]

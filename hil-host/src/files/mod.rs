@@ -17,4 +17,5 @@ pub mod track;
 pub mod vehicle;
 
 pub use error::FileError;
+pub(crate) use overrides::nearest;
 pub use shipped::UnknownName;

@@ -275,3 +275,13 @@ fn contact() {
     failed(&contact, &["--wheel", "none.csv"], "none.csv: cannot read");
     failed(&contact, &["--rail", "bad.csv"], "bad.csv: too few points");
 }
+
+#[cfg(not(feature = "parquet"))]
+#[test]
+fn what_is_left_out_of_the_build_is_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let options = ["vehicle", "--case", "straight-180", "--parquet"];
+    dashpot(&options, folder.path())
+        .code(2)
+        .stderr(contains("build dashpot-hil with the feature `parquet`"));
+}

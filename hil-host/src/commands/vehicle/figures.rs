@@ -6,8 +6,10 @@ use plotters::style::RGBColor;
 use super::history::History;
 use crate::report::page::{Figure, panel};
 use crate::report::plot::curves::{Curve, ramp};
+use crate::report::plot::envelope::Envelope;
 use crate::report::plot::sheet::{Panel, Scale};
-use crate::report::plot::style::{BLUE_LINE, RED_LINE};
+use crate::report::plot::style::{BLUE_LINE, PALE, RED_LINE};
+use crate::study::vehicle::Forces;
 use crate::study::vehicle::signals::slug;
 
 const TIME: &str = "time_s";
@@ -81,6 +83,37 @@ pub(super) fn derailment(history: &History, names: &[String]) -> Figure {
         panels: vec![
             of_wheelsets(history, names, "left_derailment", 1.0, "Y/Q left"),
             of_wheelsets(history, names, "right_derailment", 1.0, "Y/Q right"),
+        ],
+        height: HEIGHT,
+    }
+}
+
+/// Force of a damper outside and inside, and the difference.
+pub(super) fn outside(forces: &Forces, step_s: f64) -> Figure {
+    let over_time = |values: &mut dyn Iterator<Item = f64>, factor: f64, colour| {
+        let mut envelope = Envelope::default();
+        for (tick, value) in (1..).zip(values) {
+            envelope.record(tick, value);
+        }
+        let points = envelope.samples();
+        let points = points.map(|(tick, value)| (f64::from(tick) * step_s, value * factor));
+        Curve::new("", colour, points.collect::<Vec<_>>())
+    };
+    let Forces {
+        outside_n,
+        inside_n,
+        ..
+    } = forces;
+    let both = vec![
+        over_time(&mut inside_n.iter().copied(), 1e-3, PALE).wide(16),
+        over_time(&mut outside_n.iter().copied(), 1e-3, BLUE_LINE).wide(5),
+    ];
+    let mut difference = outside_n.iter().zip(inside_n).map(|(a, b)| a - b);
+    let difference = over_time(&mut difference, 1.0, RED_LINE).wide(5);
+    Figure {
+        panels: vec![
+            panel("time, s", "force, kN", None, both),
+            panel("time, s", "outside less inside, N", None, vec![difference]),
         ],
         height: HEIGHT,
     }

@@ -1,10 +1,13 @@
 //! `dashpot vehicle`: a vehicle on a track, its histories, indices and page.
 
 mod check;
+#[cfg(feature = "parquet")]
+mod columns;
 mod drawing;
 mod figures;
 mod history;
 mod options;
+mod outside;
 mod page;
 mod report;
 
@@ -12,6 +15,7 @@ use std::path::{Path, PathBuf};
 
 use history::History;
 use options::CaseArguments;
+use outside::{Outside, OutsideArguments};
 use report::{Pace, Report};
 
 use super::{Format, RealtimeArguments, interruption, print_report, progress};
@@ -31,10 +35,17 @@ use crate::study::vehicle::{Ending, Indexer, Run, signals};
   dashpot vehicle --vehicle coach --track straight --speed-km-h 160 --duration-s 20
   dashpot vehicle --case curve-r300 --check
   dashpot vehicle --case straight-180 --duration-s 60 --realtime --fifo 80 --core 1
+  dashpot vehicle --case curve-r600 --outside \"front lateral damper 1=serial:/dev/ttyACM0\" --realtime
+  dashpot vehicle --case straight-180 --outside \"rear vertical damper 2=force.csv\"
 
-Written into the folder of --output: history.csv, a row a tick; indices.json; report.html, a page to send.
+Written into the folder of --output: history.csv, a row a tick, with --parquet history.parquet too; indices.json; report.html, a page to send.
 Displacements are from where the vehicle stands, relative to the track, to the right and down positive; Q is down on the rail, Y towards
-the middle of the track. Exit code 1 and the reason when the vehicle derails, diverges, or is interrupted: what was computed is kept."
+the middle of the track. Exit code 1 and the reason when the vehicle derails, diverges, or is interrupted, or a link to a damper outside is
+lost: what was computed is kept.
+
+A damper outside is given its displacement at the end of a tick; the force that it answers acts at the end of the next, one tick late. The
+same run with all dampers inside is computed after it, and the difference told. A recorded force acts at its time; its file must last as long as
+the run."
 )]
 pub struct VehicleArguments {
     #[command(flatten)]
@@ -45,6 +56,9 @@ pub struct VehicleArguments {
     /// Writes no page.
     #[arg(long)]
     no_page: bool,
+    /// Writes history.parquet too, the columns of history.csv as float64; only in a build with the feature `parquet`.
+    #[arg(long)]
+    parquet: bool,
     /// Holds the run against the reference solution, and fails where it is out of bounds; takes some hundred times as long.
     #[arg(long, conflicts_with = "realtime")]
     check: bool,
@@ -53,6 +67,8 @@ pub struct VehicleArguments {
     realtime: bool,
     #[command(flatten)]
     options: RealtimeArguments,
+    #[command(flatten)]
+    outside: OutsideArguments,
     /// How results are printed.
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
@@ -69,11 +85,20 @@ pub fn run(arguments: &VehicleArguments) -> Outcome<()> {
     let options = arguments
         .options
         .options_under("--realtime", arguments.realtime)?;
+    if arguments.parquet && !cfg!(feature = "parquet") {
+        return Err(Failure::wrong_use(
+            "--parquet is left out of this build; build dashpot-hil with the feature `parquet`",
+        ));
+    }
     let case = arguments.case.case()?;
     if arguments.check {
         return check::run(&case, arguments.format);
     }
+    let mut outside = arguments.outside.read(&case)?;
     let mut run = Run::new(&case).map_err(|error| options::refused(&case, &error))?;
+    if let Some(outside) = &mut outside {
+        arguments.outside.connect(outside, &case, &mut run)?;
+    }
     let pacer = if arguments.realtime {
         Some(Pacer::new(case.step_s, &options)?)
     } else {
@@ -81,13 +106,26 @@ pub fn run(arguments: &VehicleArguments) -> Outcome<()> {
     };
     let folder = &arguments.output;
     create_folder(folder)?;
-    let (history, mut report) = follow(&case, &mut run, pacer, &folder.join("history.csv"))?;
-    report.files.push(folder.join("history.csv"));
+    let path = folder.join("history.csv");
+    let (history, mut report) = follow(&case, &mut run, outside.as_mut(), pacer, &path)?;
+    let mut forces = Vec::new();
+    if let Some(outside) = outside {
+        let (found, in_both) = outside.finish(&case, &run, &mut report.ending)?;
+        report.outside = Some(found);
+        forces = in_both;
+    }
+    #[cfg(feature = "parquet")]
+    if arguments.parquet {
+        let columns = folder.join("history.parquet");
+        columns::write(&path, &columns)?;
+        report.files.push(columns);
+    }
+    report.files.push(path);
     if !arguments.no_page {
         let path = folder.join("report.html");
         write_bytes(
             &path,
-            page::write(&case, &run, &report, &history)?.as_bytes(),
+            page::write(&case, &run, &report, &history, &forces)?.as_bytes(),
         )?;
         report.files.push(path);
     }
@@ -107,6 +145,7 @@ pub fn run(arguments: &VehicleArguments) -> Outcome<()> {
 fn follow(
     case: &Case,
     run: &mut Run,
+    mut outside: Option<&mut Outside>,
     mut pacer: Option<Pacer>,
     path: &Path,
 ) -> Outcome<(History, Report)> {
@@ -133,9 +172,15 @@ fn follow(
         let mut ticks = 0;
         loop {
             let timing = pacer.as_mut().map(|pacer| pacer.wait(ticks));
+            if let Some(outside) = &outside {
+                outside.before(run);
+            }
             let started = std::time::Instant::now();
-            let ended = run.step().map_err(|error| options::refused(case, &error))?;
+            let mut ended = run.step().map_err(|error| options::refused(case, &error))?;
             let took = started.elapsed();
+            if let (Some(outside), None) = (&mut outside, &ended) {
+                ended = outside.exchange(run);
+            }
             if let (Some(pacer), Some(timing)) = (pacer.as_mut(), timing) {
                 pacer.finish(timing);
             }

@@ -9,7 +9,7 @@ use crate::files::case::Case;
 use crate::realtime::timing::span;
 use crate::report::DrawError;
 use crate::report::page::{document, figure, footer, tiles};
-use crate::study::vehicle::{Ending, Run};
+use crate::study::vehicle::{Ending, Forces, Run};
 
 /// Dampers whose loops share a figure.
 const LOOPS: usize = 4;
@@ -23,6 +23,7 @@ pub(super) fn write(
     run: &Run,
     report: &Report,
     history: &History,
+    forces: &[Forces],
 ) -> Result<String, DrawError> {
     let vehicle = run.vehicle();
     let names = vehicle.names();
@@ -64,6 +65,18 @@ pub(super) fn write(
             @for some in dampers.chunks(LOOPS) {
                 (figure(&figures::loops(history, some), &html! { "Extension and its resistance are positive." })?)
             }
+        }
+        @if let Some(outside) = &report.outside {
+            h2 { "Dampers outside" }
+            @for forces in forces {
+                h3 { (forces.damper) }
+                (figure(&figures::outside(forces, report.step_s), &html! {
+                    "Blue: outside. Grey, under it: in the same run with all dampers inside. Red: the difference."
+                })?)
+            }
+            div.wide { table {
+                @for (what, text) in outside.lines() { tr { td { (what) } td.text { (text) } } }
+            } }
         }
         h2 { "Figures" }
         (tables(report))

@@ -6,6 +6,7 @@ use std::time::Duration;
 
 use serde::Serialize;
 
+use super::outside::{self, OutsideReport};
 use crate::commands::counted;
 use crate::commands::paced::Paced;
 use crate::files::case::Case;
@@ -33,6 +34,9 @@ pub(super) struct Report {
     /// Of a run in real ticks.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) realtime: Option<Paced>,
+    /// Where some are.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) outside: Option<OutsideReport>,
     pub(super) files: Vec<PathBuf>,
 }
 
@@ -58,7 +62,10 @@ impl Report {
         pace: &Pace,
         pacing: Option<&PacingReport>,
     ) -> Self {
-        let is_whole = matches!(ending, Ending::Completed | Ending::Interrupted { .. });
+        let is_whole = matches!(
+            ending,
+            Ending::Completed | Ending::Interrupted { .. } | Ending::OutsideLost { .. }
+        );
         Self {
             case: case.name.clone(),
             vehicle: case.vehicle.name.clone(),
@@ -72,6 +79,7 @@ impl Report {
             indices: indices.filter(|_| is_whole),
             mean_tick_s: pace.time.as_secs_f64() / pace.ticks.max(1) as f64,
             realtime: pacing.map(Paced::from),
+            outside: None,
             files: Vec::new(),
         }
     }
@@ -136,6 +144,9 @@ pub(super) fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
     }
     if let Some(realtime) = &report.realtime {
         realtime.write(out, "tick")?;
+    }
+    if let Some(found) = &report.outside {
+        outside::print(out, found)?;
     }
     writeln!(out)?;
     for file in &report.files {

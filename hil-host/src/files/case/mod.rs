@@ -235,7 +235,7 @@ impl CaseOptions {
             start_m: self.start_m,
             friction: self.friction,
             normal_damping_s_per_m: self.normal_damping_s_per_m,
-            step_s: self.step_us * 1e-6,
+            step_s: self.step_us / 1e6,
             rails: self.rails,
             faults,
         })

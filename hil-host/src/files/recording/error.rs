@@ -3,9 +3,8 @@
 /// Most ticks that a recording may span: 24 hours at 10 kHz, so that one mistyped time does not fill a disk.
 pub(crate) const MOST_TICKS: f64 = 864e6;
 
-/// What a recording must be.
-const ACCEPTED: &str = "accepted is UTF-8 text with a header that names time_s and displacement_m, cells \
-                        separated by commas, numbers with a decimal point";
+/// What a recording must be beside its columns.
+const ACCEPTED: &str = "cells separated by commas, numbers with a decimal point";
 
 /// What is wrong with the text of a recording; the file, and the line and column where there is one, are
 /// in [`FileError`](crate::files::FileError).
@@ -13,8 +12,11 @@ const ACCEPTED: &str = "accepted is UTF-8 text with a header that names time_s a
 #[non_exhaustive]
 pub enum RecordingError {
     /// The file holds nothing.
-    #[error("empty; a header `time_s,displacement_m` and at least one row are needed")]
-    Empty,
+    #[error("empty; a header `time_s,{value}` and at least one row are needed")]
+    Empty {
+        /// Name of the column beside the time.
+        value: &'static str,
+    },
     /// The header has a column more than once.
     #[error("column {column} is in the header {times} times")]
     RepeatedColumn {
@@ -24,10 +26,14 @@ pub enum RecordingError {
         times: usize,
     },
     /// The header lacks a column: it is missing, or the file is of another kind.
-    #[error("{found}; {ACCEPTED}")]
+    #[error(
+        "{found}; accepted is UTF-8 text with a header that names time_s and {value}, {ACCEPTED}"
+    )]
     Header {
         /// What was found instead.
         found: String,
+        /// Name of the column beside the time.
+        value: &'static str,
     },
     /// The header is all there is.
     #[error("no row after the header")]
@@ -60,6 +66,14 @@ pub enum RecordingError {
         time_s: f64,
         /// Time of the row before (s).
         before_s: f64,
+    },
+    /// The recording does not last as long as it is needed.
+    #[error("it lasts from {} s to {} s, the run takes a force from {} s to {} s", lasts_s[0], lasts_s[1], needed_s[0], needed_s[1])]
+    Short {
+        /// Times of its first and last row (s).
+        lasts_s: [f64; 2],
+        /// Times between which there must be a force (s).
+        needed_s: [f64; 2],
     },
     /// The recording is too long for the step.
     #[error(

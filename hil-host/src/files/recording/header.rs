@@ -8,30 +8,41 @@ use csv::{ByteRecord, Reader};
 use super::RecordingError;
 use crate::files::FileError;
 
-/// The columns a recording must have; others are passed over.
-pub(super) const COLUMNS: [&str; 2] = ["time_s", "displacement_m"];
+/// Names of the columns a recording must have, time and value; others are passed over.
+pub(super) type Names = [&'static str; 2];
+
+/// Those of a motion.
+pub(super) const MOTION: Names = ["time_s", "displacement_m"];
+
+/// Those of a force.
+pub(super) const FORCE: Names = ["time_s", "force_n"];
 
 /// Separators of other files: the byte and its name.
 const SEPARATORS: [(u8, &str); 2] = [(b';', "semicolons"), (b'\t', "tabs")];
 
-/// Indices of [`COLUMNS`] in the header of `reader`.
+/// Indices of the columns called `names` in the header of `reader`.
 ///
 /// # Errors
 /// An empty file, another kind of file, or a column that is missing or repeated.
 pub(super) fn columns<R: Read>(
     path: &Path,
     reader: &mut Reader<R>,
+    names: Names,
 ) -> Result<[usize; 2], FileError> {
-    find_columns(reader).map_err(|error| FileError::in_file(path, error))
+    find_columns(reader, names).map_err(|error| FileError::in_file(path, error))
 }
 
-fn find_columns<R: Read>(reader: &mut Reader<R>) -> Result<[usize; 2], RecordingError> {
+fn find_columns<R: Read>(
+    reader: &mut Reader<R>,
+    names: Names,
+) -> Result<[usize; 2], RecordingError> {
+    let [_, value] = names;
     let header = reader.byte_headers()?.clone();
     if header.is_empty() {
-        return Err(RecordingError::Empty);
+        return Err(RecordingError::Empty { value });
     }
-    let indices = COLUMNS.map(|name| indices(&header, name));
-    for (column, indices) in COLUMNS.into_iter().zip(&indices) {
+    let indices = names.map(|name| indices(&header, name));
+    for (column, indices) in names.into_iter().zip(&indices) {
         let times = indices.len();
         if times > 1 {
             return Err(RecordingError::RepeatedColumn { column, times });
@@ -41,12 +52,12 @@ fn find_columns<R: Read>(reader: &mut Reader<R>) -> Result<[usize; 2], Recording
         [Some(&time), Some(&displacement)] => Ok([time, displacement]),
         [time, _] => {
             let found = binary_kind(&header).map(str::to_owned).unwrap_or_else(|| {
-                let missing = COLUMNS[usize::from(time.is_some())];
+                let missing = names[usize::from(time.is_some())];
                 let what = separators(&header, reader)
                     .unwrap_or_else(|| format!("column {missing} is missing from the header"));
                 format!("{what} (found `{}`)", shown(&header))
             });
-            Err(RecordingError::Header { found })
+            Err(RecordingError::Header { found, value })
         }
     }
 }

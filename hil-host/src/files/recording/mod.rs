@@ -1,6 +1,7 @@
-//! Recorded motion as a logger writes it: time and displacement, uneven, with gaps.
+//! Recorded motion as a logger writes it: time and displacement, uneven, with gaps. Forces over time are read likewise.
 
 mod error;
+mod force_history;
 mod gaps;
 mod header;
 mod line_ends;
@@ -11,9 +12,10 @@ use std::path::{Path, PathBuf};
 use csv::{ByteRecord, Reader, ReaderBuilder};
 pub(crate) use error::MOST_TICKS;
 pub use error::RecordingError;
+pub use force_history::ForceHistory;
 use gaps::Intervals;
 pub use gaps::{GAP_IN_MEDIANS, Gap, Gaps};
-use header::COLUMNS;
+use header::{MOTION, Names};
 use line_ends::LineEnds;
 
 use crate::files::{FileError, input};
@@ -32,6 +34,7 @@ pub struct Sample {
 pub struct Recording {
     path: PathBuf,
     reader: Reader<LineEnds<Box<dyn Read>>>,
+    names: Names,
     columns: [usize; 2],
     record: ByteRecord,
     last_time_s: Option<f64>,
@@ -52,14 +55,20 @@ impl Recording {
     /// # Errors
     /// As [`Recording::open`].
     pub fn read(path: &Path, source: Box<dyn Read>) -> Result<Self, FileError> {
+        Self::read_columns(path, source, MOTION)
+    }
+
+    /// As [`Recording::read`], of columns of other names.
+    fn read_columns(path: &Path, source: Box<dyn Read>, names: Names) -> Result<Self, FileError> {
         let mut reader = ReaderBuilder::new()
             .comment(Some(b'#'))
             .trim(csv::Trim::Headers)
             .from_reader(LineEnds::new(source));
-        let columns = header::columns(path, &mut reader)?;
+        let columns = header::columns(path, &mut reader, names)?;
         Ok(Self {
             path: path.to_owned(),
             reader,
+            names,
             columns,
             record: ByteRecord::new(),
             last_time_s: None,
@@ -73,6 +82,15 @@ impl Recording {
     /// A cell that is no finite number, a row of other length, or time that does not grow; with line
     /// and column.
     pub fn next_sample(&mut self) -> Result<Option<Sample>, FileError> {
+        let row = self.next_row()?;
+        Ok(row.map(|[time_s, displacement_m]| Sample {
+            time_s,
+            displacement_m,
+        }))
+    }
+
+    /// Time (s) and value of the next row.
+    fn next_row(&mut self) -> Result<Option<[f64; 2]>, FileError> {
         let more = self
             .reader
             .read_byte_record(&mut self.record)
@@ -84,7 +102,7 @@ impl Recording {
             return Ok(None);
         }
         let time_s = self.number(0)?;
-        let displacement_m = self.number(1)?;
+        let value = self.number(1)?;
         if let Some(before_s) = self.last_time_s {
             if time_s <= before_s {
                 return Err(self.in_time(RecordingError::Time { time_s, before_s }));
@@ -92,10 +110,7 @@ impl Recording {
             self.intervals.add(before_s, time_s, self.line());
         }
         self.last_time_s = Some(time_s);
-        Ok(Some(Sample {
-            time_s,
-            displacement_m,
-        }))
+        Ok(Some([time_s, value]))
     }
 
     /// All rows left.
@@ -149,7 +164,7 @@ impl Recording {
     }
 
     fn in_cell(&self, column: usize, error: RecordingError) -> FileError {
-        FileError::in_cell(&self.path, self.line(), COLUMNS[column], error)
+        FileError::in_cell(&self.path, self.line(), self.names[column], error)
     }
 
     /// Line of the row read last.

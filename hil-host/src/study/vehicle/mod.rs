@@ -4,10 +4,12 @@ pub mod contact;
 mod error;
 pub mod hunting;
 mod indices;
+mod inside;
 mod run;
 pub mod signals;
 pub mod verification;
 
 pub use error::VehicleStudyError;
 pub use indices::{BodyIndices, Indexer, Indices, WheelIndices, WheelsetIndices};
+pub use inside::{Beside, DamperEffect, Effect, Forces};
 pub use run::{Ending, Run};

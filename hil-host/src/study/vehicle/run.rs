@@ -53,6 +53,15 @@ pub enum Ending {
         /// Where, m.
         distance_m: f64,
     },
+    /// A damper outside gave no force any more.
+    OutsideLost {
+        /// The link that it is behind, and why.
+        message: String,
+        /// When, s.
+        time_s: f64,
+        /// Where, m.
+        distance_m: f64,
+    },
     /// The user did not want to wait.
     Interrupted {
         /// When, s.
@@ -85,6 +94,14 @@ impl fmt::Display for Ending {
             Self::Diverged { time_s, distance_m } => write!(
                 f,
                 "diverged at {time_s:.3} s, {distance_m:.1} m along the track"
+            ),
+            Self::OutsideLost {
+                message,
+                time_s,
+                distance_m,
+            } => write!(
+                f,
+                "a damper outside was lost at {time_s:.3} s, {distance_m:.1} m along the track: {message}"
             ),
             Self::Interrupted { time_s, distance_m } => write!(
                 f,
@@ -180,6 +197,15 @@ impl Run {
     /// The run ends here because the user wants it to.
     pub fn interrupted(&self) -> Ending {
         Ending::Interrupted {
+            time_s: self.time_s(),
+            distance_m: self.state.distance_m(),
+        }
+    }
+
+    /// The run ends here because a damper outside gives no force.
+    pub fn outside_lost(&self, message: String) -> Ending {
+        Ending::OutsideLost {
+            message,
             time_s: self.time_s(),
             distance_m: self.state.distance_m(),
         }

@@ -1,7 +1,7 @@
 //! The step of a vehicle against the reference solution.
 
 use dashpot_rail::contact::WheelsetForces;
-use dashpot_rail::vehicle::Vehicle;
+use dashpot_rail::vehicle::{Vehicle, VehicleState};
 use dashpot_reference::deviation::{errors, root_mean_square};
 use dashpot_reference::vehicle::VehicleReference;
 use serde::Serialize;
@@ -63,6 +63,23 @@ pub struct Trace {
 }
 
 impl Trace {
+    /// Of a run that has not begun.
+    pub(super) fn of(run: &Run, case: &Case) -> Self {
+        let (vehicle, dampers) = (run.vehicle(), run.state().damper_forces_n().len());
+        Self::new(vehicle.names(), vehicle.wheelsets(), dampers, case)
+    }
+
+    /// Adds a tick.
+    pub(super) fn add_state(&mut self, state: &VehicleState) {
+        let acceleration = |body| state.acceleration(body);
+        self.add(
+            acceleration,
+            state.coordinates(),
+            state.contacts(),
+            state.damper_forces_n(),
+        );
+    }
+
     fn new(names: &[String], wheelsets: usize, dampers: usize, case: &Case) -> Self {
         let bodies = names.len() - wheelsets;
         Self {
@@ -233,9 +250,7 @@ pub fn stepped(case: &Case, every: u64) -> Result<(Trace, Ending), VehicleStudyE
         ..case.clone()
     };
     let mut run = Run::new(&finer)?;
-    let dampers = run.state().damper_forces_n().len();
-    let vehicle = run.vehicle();
-    let mut trace = Trace::new(vehicle.names(), vehicle.wheelsets(), dampers, case);
+    let mut trace = Trace::of(&run, case);
     let bodies = trace.accelerations.len();
     loop {
         if let Some(ending) = run.step()? {
@@ -247,13 +262,7 @@ pub fn stepped(case: &Case, every: u64) -> Result<(Trace, Ending), VehicleStudyE
             trace.times_s.push(run.time_s());
             let of_track = (0..bodies).map(|body| state.track_acceleration(body));
             trace.track_accelerations.push(of_track.collect());
-            let acceleration = |body| state.acceleration(body);
-            trace.add(
-                acceleration,
-                state.coordinates(),
-                state.contacts(),
-                state.damper_forces_n(),
-            );
+            trace.add_state(state);
         }
     }
 }

@@ -7,28 +7,28 @@ use super::SessionError;
 use super::report::{Measured, Mismatch, Target};
 
 /// The same dampers on the host, at the last tick that both sides confirmed.
-pub(super) struct HostReplica<'a> {
+pub(super) struct HostReplica {
     /// One for each place.
-    pub(super) dampers: Vec<&'a Damper<f32>>,
+    pub(super) dampers: Vec<Damper<f32>>,
     pub(super) tick: u32,
     states: Vec<DamperState<f32>>,
     forces_n: Vec<f32>,
 }
 
-impl<'a> HostReplica<'a> {
+impl HostReplica {
     /// At rest at `start_m` (m), `dampers` being one for all places of `target` or one for each.
     ///
     /// # Errors
     /// Another number of dampers, or one built for another step than the target's.
     pub(super) fn at_rest(
-        dampers: &'a [Damper<f32>],
+        dampers: &[Damper<f32>],
         target: &Target,
         start_m: f32,
     ) -> Result<Self, SessionError> {
         let places = target.dampers;
-        let dampers: Vec<&Damper<f32>> = match dampers {
-            [one] => vec![one; places],
-            each if each.len() == places => each.iter().collect(),
+        let dampers = match dampers {
+            [one] => vec![*one; places],
+            each if each.len() == places => each.to_vec(),
             other => {
                 let dampers = other.len();
                 return Err(SessionError::Dampers { dampers, places });

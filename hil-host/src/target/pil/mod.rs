@@ -1,6 +1,7 @@
 //! Processor in the loop: the host drives a bank of dampers on a target over the link of
 //! [`dashpot_core::link`] and compares every force with its own core, bit for bit.
 
+mod bank;
 mod client;
 mod desk;
 mod emulator_error;
@@ -18,6 +19,7 @@ mod session;
 mod session_error;
 mod tcp;
 
+pub use bank::Bank;
 pub use client::{Client, LinkFaults, RetryLimits};
 pub use desk::Desk;
 pub use emulator_error::EmulatorError;

@@ -73,7 +73,17 @@ impl<L: Link> Session<L> {
             self.tick(&mut host, all, pace, &mut measured, &mut sink)?;
             next = motion()?;
         }
-        let state_mismatches = self.compare_states(&host, &mut measured)?;
+        Ok(self.report(&host, measured, pace)?)
+    }
+
+    /// What was found up to here, the states of both sides compared.
+    pub(super) fn report<C: Clock>(
+        &mut self,
+        host: &HostReplica,
+        mut measured: Measured,
+        pace: &Pace<C>,
+    ) -> Result<Report, SessionError> {
+        let state_mismatches = self.compare_states(host, &mut measured)?;
         let target_counters = self.counters()?;
         let clock_ticks = measured.cost();
         let per_tick = self.client.link().instructions_per_s();
@@ -95,9 +105,9 @@ impl<L: Link> Session<L> {
     }
 
     /// One tick on both sides: compared, and its record handed to `sink`.
-    fn tick<C: Clock, E: From<SessionError>>(
+    pub(super) fn tick<C: Clock, E: From<SessionError>>(
         &mut self,
-        host: &mut HostReplica<'_>,
+        host: &mut HostReplica,
         displacements_m: &[f32],
         pace: &mut Pace<C>,
         measured: &mut Measured,
@@ -160,7 +170,7 @@ impl<L: Link> Session<L> {
     /// Asks until the target does it, bringing it back to the host's last state when it was lost.
     fn insist<R>(
         &mut self,
-        host: &HostReplica<'_>,
+        host: &HostReplica,
         measured: &mut Measured,
         ask: impl Fn(&mut Client<L>) -> Result<R, LinkError>,
     ) -> Result<R, SessionError> {
@@ -180,9 +190,9 @@ impl<L: Link> Session<L> {
     }
 
     /// Gives the target the host's dampers, states and tick.
-    fn recover(
+    pub(super) fn recover(
         &mut self,
-        host: &HostReplica<'_>,
+        host: &HostReplica,
         measured: &mut Measured,
     ) -> Result<(), SessionError> {
         measured.recoveries += 1;
@@ -201,7 +211,7 @@ impl<L: Link> Session<L> {
 
     fn compare_states(
         &mut self,
-        host: &HostReplica<'_>,
+        host: &HostReplica,
         measured: &mut Measured,
     ) -> Result<usize, SessionError> {
         let saved = self.insist(host, measured, |client| {
@@ -254,7 +264,7 @@ fn target<L: Link>(client: &mut Client<L>) -> Result<Target, LinkError> {
 fn give<L: Link>(
     client: &mut Client<L>,
     expected: &Target,
-    host: &HostReplica<'_>,
+    host: &HostReplica,
 ) -> Result<(), LinkError> {
     let found = target(client)?;
     if (found.dampers, found.step_s) != (expected.dampers, expected.step_s) {

@@ -54,6 +54,22 @@ pub enum SessionError {
         /// Step of the target (s).
         target_s: f32,
     },
+    /// More dampers than the target has places.
+    #[error("{dampers} dampers, the target has {places} places; allowed: 1 to {places}")]
+    Places {
+        /// Dampers given.
+        dampers: usize,
+        /// Places of the target.
+        places: usize,
+    },
+    /// A force that is no finite number.
+    #[error("at tick {tick}: the target gave the force {force_n} N, allowed: a finite number")]
+    Force {
+        /// Tick of the target.
+        tick: u32,
+        /// The force (N).
+        force_n: f32,
+    },
     /// The motion has no displacement.
     #[error("the motion has no tick")]
     NoTick,

@@ -1,0 +1,60 @@
+//! What `--outside` names: a damper, and what gives its force.
+
+use std::path::PathBuf;
+use std::str::FromStr;
+
+use crate::target::pil::LinkChoice;
+
+/// A damper of the vehicle and what gives its force, in words `damper=link` or `damper=file`.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct Choice {
+    pub(super) damper: String,
+    /// The source as it was named.
+    pub(super) name: String,
+    pub(super) source: Source,
+}
+
+/// What gives a force.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) enum Source {
+    /// The code of a target, in this process.
+    Desk,
+    /// A target.
+    Link(LinkChoice),
+    /// A recorded force.
+    File(PathBuf),
+}
+
+/// How names of links start.
+const LINKS: [&str; 3] = ["tcp:", "serial:", "qemu:"];
+
+impl FromStr for Choice {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let words = text.split_once('=');
+        let words = words.map(|(damper, source)| (damper.trim(), source.trim()));
+        let Some((damper, name)) =
+            words.filter(|(damper, name)| !damper.is_empty() && !name.is_empty())
+        else {
+            return Err(
+                "allowed: DAMPER=LINK or DAMPER=FILE, such as \"front lateral damper 1=qemu\""
+                    .into(),
+            );
+        };
+        let is_link = name == "qemu" || LINKS.iter().any(|start| name.starts_with(start));
+        let source = if name == "desk" {
+            Source::Desk
+        } else if is_link {
+            let link = name.parse();
+            Source::Link(link.map_err(|allowed: String| format!("{allowed}, desk, a CSV file"))?)
+        } else {
+            Source::File(name.into())
+        };
+        Ok(Self {
+            damper: damper.to_owned(),
+            name: name.to_owned(),
+            source,
+        })
+    }
+}

@@ -1,0 +1,169 @@
+//! Dampers behind one link.
+
+use dashpot_core::Damper;
+use dashpot_core::link::MOST_DAMPERS;
+
+use super::choice::{Choice, Source};
+use super::parameters;
+use super::report::Target;
+use crate::commands::failure::{Failure, Outcome};
+use crate::commands::line::LineOptions;
+use crate::commands::step_size::StepSize;
+use crate::files::case::Case;
+use crate::study::vehicle::Run;
+use crate::target::pil::{
+    Bank, Client, Desk, EmulatorError, Link, LinkError, Session, SessionError,
+};
+
+/// Places of a target on the desk: as many as a target may have.
+const DESK_PLACES: usize = MOST_DAMPERS;
+
+/// How far the steps of case and target may be from whole multiples of each other: a target tells its own in single precision.
+const SAME_STEP: f64 = 1e-6;
+
+/// A target and the dampers that it has.
+pub(super) struct Line {
+    name: String,
+    bank: Bank<Box<dyn Link>>,
+    dampers: Vec<usize>,
+    /// Steps of the target in a tick of the case.
+    steps: u32,
+    /// Displacements sent last, m.
+    sent_m: Vec<f64>,
+    displacements_m: Vec<f32>,
+}
+
+impl Line {
+    /// Opens the link that `choice` names, and loads `dampers` of the run's vehicle.
+    ///
+    /// # Errors
+    /// A link that cannot be opened; a target with too few places, or whose step does not divide the case's.
+    pub(super) fn open(
+        choice: &Choice,
+        dampers: Vec<usize>,
+        case: &Case,
+        options: &LineOptions,
+    ) -> Outcome<Self> {
+        let name = &choice.name;
+        let failed = |error: SessionError| refused(name, &error);
+        let link = match &choice.source {
+            Source::Link(link) => options.open(link).map_err(|error| failed(error.into()))?,
+            Source::Desk | Source::File(_) => desk(case, &dampers)?,
+        };
+        let client = Client::new(link, options.retry_limits(), fastrand::u16(..));
+        let session = Session::open(client).map_err(failed)?;
+        let step = StepSize::of_target(session.target().step_s)?;
+        let steps = (case.step_s / step.step_s()).round();
+        if steps < 1.0 || (case.step_s / step.step_s() - steps).abs() > SAME_STEP * steps {
+            return Err(Failure::wrong_use(format!(
+                "--outside {name}: the target steps {step} us, the case {} us; allowed: --step-us {step} or a whole multiple",
+                1e6 * case.step_s
+            )));
+        }
+        let built: Vec<Damper<f32>> = dampers
+            .iter()
+            .map(|damper| build(case, *damper, step.step_s()))
+            .collect::<Outcome<_>>()?;
+        Ok(Self {
+            name: name.clone(),
+            bank: Bank::start(session, &built).map_err(failed)?,
+            steps: steps as u32,
+            sent_m: vec![0.0; dampers.len()],
+            displacements_m: vec![0.0; dampers.len()],
+            dampers,
+        })
+    }
+
+    /// Sends the displacements, on the way there on a straight line where the target steps more often; the forces that are answered act
+    /// from the next tick on.
+    ///
+    /// # Errors
+    /// The link and what happened to it.
+    pub(super) fn exchange(&mut self, run: &mut Run) -> Result<(), String> {
+        let named = |error: SessionError| named(&self.name, &error);
+        for step in 1..=self.steps {
+            let share = f64::from(step) / f64::from(self.steps);
+            let all = run.state().damper_displacements_m();
+            for ((displacement_m, from_m), damper) in self
+                .displacements_m
+                .iter_mut()
+                .zip(&self.sent_m)
+                .zip(&self.dampers)
+            {
+                // The last is the displacement to the bit.
+                *displacement_m = if step == self.steps {
+                    all[*damper] as f32
+                } else {
+                    (from_m + share * (all[*damper] - from_m)) as f32
+                };
+            }
+            let forces_n = self.bank.step(&self.displacements_m).map_err(named)?;
+            if step == self.steps {
+                for (damper, force_n) in self.dampers.iter().zip(forces_n) {
+                    let force_n = Some(f64::from(*force_n));
+                    run.state_mut().set_outside_force_n(*damper, force_n);
+                }
+            }
+        }
+        for (sent_m, damper) in self.sent_m.iter_mut().zip(&self.dampers) {
+            *sent_m = run.state().damper_displacements_m()[*damper];
+        }
+        Ok(())
+    }
+
+    /// What was found of the target.
+    ///
+    /// # Errors
+    /// The link and what happened to it.
+    pub(super) fn finish(self) -> Result<Target, String> {
+        let Self {
+            name, bank, steps, ..
+        } = self;
+        match bank.finish() {
+            Ok(found) => Ok(Target {
+                link: name,
+                steps_a_tick: steps,
+                found,
+            }),
+            Err(error) => Err(named(&name, &error)),
+        }
+    }
+}
+
+/// What happened, with the link's name once.
+fn named(name: &str, error: &SessionError) -> String {
+    let text = error.to_string();
+    if text.contains(name) {
+        text
+    } else {
+        format!("{name}: {text}")
+    }
+}
+
+/// A target in this process that steps as the case does.
+fn desk(case: &Case, dampers: &[usize]) -> Outcome<Box<dyn Link>> {
+    let first = dampers.first().copied().unwrap_or_default();
+    let damper = build(case, first, case.step_s)?;
+    let desk = Desk::new([damper; DESK_PLACES]).map_err(LinkError::from)?;
+    Ok(Box::new(desk))
+}
+
+/// The damper of a number in single precision.
+fn build(case: &Case, damper: usize, step_s: f64) -> Outcome<Damper<f32>> {
+    let all = parameters(case);
+    let (_, parameters) = all
+        .get(damper)
+        .ok_or_else(|| Failure::new(format!("no damper {damper}")))?;
+    Ok(parameters.build(step_s)?)
+}
+
+/// What a target is refused for, in the words of `--outside`.
+fn refused(name: &str, error: &SessionError) -> Failure {
+    match error {
+        SessionError::Places { .. } => Failure::wrong_use(format!("--outside {name}: {error}")),
+        SessionError::Link(LinkError::Emulator(EmulatorError::NoImage(_))) => Failure::new(
+            format!("--outside {name}: {error}, or name one with qemu:IMAGE"),
+        ),
+        _ => Failure::new(format!("--outside {name}: {error}")),
+    }
+}

@@ -1,0 +1,206 @@
+//! Dampers outside the simulated vehicle: behind a link, or as a recorded force.
+
+mod choice;
+mod line;
+mod report;
+
+use choice::{Choice, Source};
+use dashpot_core::DamperParameters;
+use dashpot_rail::vehicle::Law;
+use line::Line;
+pub(super) use report::{OutsideReport, print};
+
+use crate::commands::failure::{Failure, Outcome};
+use crate::commands::line::LineOptions;
+use crate::files::case::Case;
+use crate::files::nearest;
+use crate::files::recording::ForceHistory;
+use crate::study::vehicle::{Beside, Effect, Ending, Forces, Run};
+
+/// Which dampers are outside, and how their links are used.
+#[derive(Debug, Clone, clap::Args)]
+pub(super) struct OutsideArguments {
+    /// Takes the force of one damper from outside: from a target (desk, tcp:HOST:PORT, serial:DEVICE, qemu, qemu:IMAGE) that has its
+    /// parameters, or from a CSV file with columns time_s,force_n; may be given several times.
+    #[arg(
+        long = "outside",
+        value_name = "DAMPER=LINK|FILE",
+        conflicts_with = "check"
+    )]
+    choices: Vec<Choice>,
+    #[command(flatten)]
+    options: LineOptions,
+}
+
+/// The dampers outside, before or between ticks.
+pub(super) struct Outside {
+    choices: Vec<Choice>,
+    /// Number of each chosen damper.
+    dampers: Vec<usize>,
+    lines: Vec<Line>,
+    recorded: Vec<(usize, ForceHistory)>,
+    /// None where no damper is behind a link.
+    beside: Option<Beside>,
+}
+
+impl OutsideArguments {
+    /// Finds the dampers and reads the files.
+    ///
+    /// # Errors
+    /// A damper that there is not, is given twice or has a fault on the way; a file that cannot be used.
+    pub(super) fn read(&self, case: &Case) -> Outcome<Option<Outside>> {
+        if self.choices.is_empty() {
+            return match self.options == LineOptions::default() {
+                true => Ok(None),
+                false => Err(Failure::wrong_use(
+                    "--timeout-ms, --tries and --baud go with --outside",
+                )),
+            };
+        }
+        let dampers = self.dampers(case)?;
+        let last_s = (case.duration_s / case.step_s).round() * case.step_s;
+        let mut recorded = Vec::new();
+        for (choice, damper) in self.choices.iter().zip(&dampers) {
+            if let Source::File(path) = &choice.source {
+                let needed_s = [case.step_s, last_s];
+                let history = ForceHistory::open(path, needed_s).map_err(|error| {
+                    Failure::new(format!("--outside \"{}\": {error}", choice.damper))
+                })?;
+                recorded.push((*damper, history));
+            }
+        }
+        Ok(Some(Outside {
+            choices: self.choices.clone(),
+            dampers,
+            lines: Vec::new(),
+            recorded,
+            beside: None,
+        }))
+    }
+
+    /// Numbers of the dampers.
+    fn dampers(&self, case: &Case) -> Outcome<Vec<usize>> {
+        let all = parameters(case);
+        let names = || all.iter().map(|(name, _)| *name);
+        let mut dampers = Vec::new();
+        for choice in &self.choices {
+            let name = &choice.damper;
+            let wrong = |reason: &str| {
+                Failure::wrong_use(format!("--outside \"{name}={}\": {reason}", choice.name))
+            };
+            let damper = names()
+                .position(|other| other == name)
+                .ok_or_else(|| wrong(&format!("no damper `{name}`{}", nearest(name, names()))))?;
+            if dampers.contains(&damper) {
+                return Err(wrong("the damper is given twice, allowed: once"));
+            }
+            if let Some(fault) = case.faults.iter().find(|fault| fault.damper == *name) {
+                return Err(wrong(&format!(
+                    "the case changes this damper at {} s, allowed: dampers without faults",
+                    fault.time_s
+                )));
+            }
+            dampers.push(damper);
+        }
+        Ok(dampers)
+    }
+
+    /// Opens the links and loads the dampers behind them.
+    ///
+    /// # Errors
+    /// A link that cannot be used.
+    pub(super) fn connect(&self, outside: &mut Outside, case: &Case, run: &mut Run) -> Outcome<()> {
+        // Dampers behind one link are one bank.
+        let mut links: Vec<(&Choice, Vec<usize>)> = Vec::new();
+        let mut behind = Vec::new();
+        for (choice, damper) in self.choices.iter().zip(&outside.dampers) {
+            if matches!(choice.source, Source::File(_)) {
+                continue;
+            }
+            behind.push(*damper);
+            match links
+                .iter_mut()
+                .find(|(other, _)| other.source == choice.source)
+            {
+                Some((_, dampers)) => dampers.push(*damper),
+                None => links.push((choice, vec![*damper])),
+            }
+        }
+        for (choice, dampers) in links {
+            let line = Line::open(choice, dampers, case, &self.options)?;
+            outside.lines.push(line);
+        }
+        if !behind.is_empty() {
+            outside.beside = Some(Beside::new(run, case, behind.clone()));
+        }
+        for damper in behind {
+            // At rest, until the first displacement is answered.
+            run.state_mut().set_outside_force_n(damper, Some(0.0));
+        }
+        Ok(())
+    }
+}
+
+/// Names and parameters of the vehicle's dampers, by their numbers.
+fn parameters(case: &Case) -> Vec<(&str, &DamperParameters)> {
+    let elements = case.vehicle.elements.iter();
+    elements
+        .filter_map(|element| match &element.law {
+            Law::Damper { parameters, .. } => Some((element.name.as_str(), &**parameters)),
+            _ => None,
+        })
+        .collect()
+}
+
+impl Outside {
+    /// Recorded forces at the end of the tick that comes.
+    pub(super) fn before(&self, run: &mut Run) {
+        let time_s = run.time_s() + run.vehicle().step_s();
+        for (damper, history) in &self.recorded {
+            let force_n = history.force_n(time_s);
+            run.state_mut().set_outside_force_n(*damper, Some(force_n));
+        }
+    }
+
+    /// Displacements of the tick that was go out, the forces that come back act at the end of the next; how the run ended, where a target
+    /// is lost.
+    pub(super) fn exchange(&mut self, run: &mut Run) -> Option<Ending> {
+        if let Some(beside) = &mut self.beside {
+            beside.add(run);
+        }
+        let mut lines = self.lines.iter_mut();
+        let message = lines.find_map(|line| line.exchange(run).err())?;
+        Some(run.outside_lost(message))
+    }
+
+    /// What is told, and the forces in both runs; an ending, where a target is lost at last.
+    ///
+    /// # Errors
+    /// The run with the dampers inside fails.
+    pub(super) fn finish(
+        self,
+        case: &Case,
+        run: &Run,
+        ending: &mut Ending,
+    ) -> Outcome<(OutsideReport, Vec<Forces>)> {
+        let mut targets = Vec::new();
+        let is_lost = matches!(ending, Ending::OutsideLost { .. });
+        for line in self.lines.into_iter().filter(|_| !is_lost) {
+            match line.finish() {
+                Ok(target) => targets.push(target),
+                Err(message) if *ending == Ending::Completed => {
+                    *ending = run.outside_lost(message);
+                }
+                Err(_) => {}
+            }
+        }
+        let compared = self.beside.map(|beside| beside.compare(case)).transpose();
+        let compared = compared.map_err(|error| super::options::refused(case, &error))?;
+        let (effect, forces): (Option<Effect>, Vec<Forces>) = match compared.flatten() {
+            Some((effect, forces)) => (Some(effect), forces),
+            None => (None, Vec::new()),
+        };
+        let report = OutsideReport::new(&self.choices, case, targets, effect);
+        Ok((report, forces))
+    }
+}
