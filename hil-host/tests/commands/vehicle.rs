@@ -219,6 +219,28 @@ fn the_step_is_within_its_bounds_of_the_reference() {
     assert!((2.5..6.0).contains(&ratio), "{ratio}");
 }
 
+/// Without normal damping impacts of the flange part any two solutions; the means over seeds still agree.
+#[test]
+fn a_chaotic_case_is_compared_over_seeds() {
+    let arguments = [
+        "vehicle",
+        "--case",
+        "straight-180",
+        "--normal-damping-s-per-m",
+        "0",
+        "--duration-s",
+        "2.2",
+        "--check",
+        "--format",
+        "json",
+    ];
+    let report = json_of(&dashpot(&arguments, Path::new(".")).success());
+    assert_eq!(report["is_within_bounds"], false);
+    assert!(number(&report["parting"]["load_n"]["deviation"]) > 700.0);
+    assert_eq!(report["over_seeds"]["seeds"], 8);
+    assert!(number(&report["over_seeds"]["greatest"]) < 4.0);
+}
+
 #[test]
 fn wrong_words_are_told_with_what_is_allowed() {
     let folder = tempdir().unwrap();

@@ -81,6 +81,22 @@ impl TrackParameters {
             .map_err(|error| self.in_irregularity(error))
     }
 
+    /// The same with an irregularity of another seed; none where it is not generated.
+    pub fn with_seed(&self, seed: u64) -> Option<Self> {
+        let mut other = self.clone();
+        let IrregularityParameters::Generated {
+            seed: of_file,
+            generation,
+            ..
+        } = &mut other.irregularity
+        else {
+            return None;
+        };
+        *of_file = seed;
+        generation.seeds = seed.into();
+        Some(other)
+    }
+
     fn in_irregularity(&self, error: impl Into<Box<dyn Error + Send + Sync>>) -> FileError {
         FileError::in_line(&self.file, self.irregularity_line, error)
     }

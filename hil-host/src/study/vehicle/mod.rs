@@ -6,6 +6,7 @@ pub mod hunting;
 mod indices;
 mod inside;
 mod run;
+pub mod seeds;
 pub mod signals;
 pub mod verification;
 

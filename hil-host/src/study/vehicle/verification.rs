@@ -186,6 +186,11 @@ impl Trace {
 }
 
 impl Deviations<Worst> {
+    /// Whether even two reference solutions that are so far from each other would be out of bounds: the case is chaotic.
+    pub fn is_chaos(&self) -> bool {
+        !self.is_within_bounds()
+    }
+
     /// Whether every deviation is within [`BOUNDS`].
     pub fn is_within_bounds(&self) -> bool {
         self.acceleration.deviation <= BOUNDS.acceleration
@@ -238,6 +243,16 @@ fn told(indices: &Indices) -> Vec<(f64, String)> {
         }
     }
     told
+}
+
+/// The indices of a run that are compared, and what each is.
+pub(super) fn indices(trace: &Trace) -> Vec<(f64, String)> {
+    trace
+        .indexer
+        .indices()
+        .as_ref()
+        .map(told)
+        .unwrap_or_default()
 }
 
 /// The run in ticks of the case over `every`, told at the ticks of the case.
