@@ -1,0 +1,151 @@
+//! Indices of a ride against published values and closed forms.
+
+use std::f64::consts::PI;
+
+use dashpot_rail::indices::{
+    RideDirection, SpectrumError, Weighting, mean_comfort, sperling, weighted_rms, welch,
+};
+
+const RATE_HZ: f64 = 500.0;
+
+fn sine(amplitude: f64, frequency_hz: f64, seconds: f64) -> Vec<f64> {
+    (0..(seconds * RATE_HZ) as usize)
+        .map(|i| amplitude * (2.0 * PI * frequency_hz * i as f64 / RATE_HZ).sin())
+        .collect()
+}
+
+/// Rows of numbers of a table with comments and a header.
+fn rows(text: &str) -> Vec<Vec<f64>> {
+    let lines = text.lines().filter(|line| !line.starts_with('#')).skip(1);
+    lines
+        .map(|line| {
+            line.split(',')
+                .map(|field| field.parse().unwrap())
+                .collect()
+        })
+        .collect()
+}
+
+#[test]
+fn the_ride_index_of_a_line_is_the_published_one() {
+    let table = rows(include_str!("../../data/sperling_lines.csv"));
+    assert_eq!(table.len(), 18);
+    for row in table {
+        let [frequency, amplitude, vertical, lateral] = row[..] else {
+            panic!("{row:?}")
+        };
+        let signal = sine(amplitude, frequency, 10.0);
+        for (direction, expected) in [
+            (RideDirection::Vertical, vertical),
+            (RideDirection::Lateral, lateral),
+        ] {
+            let found = sperling(&signal, RATE_HZ, 5.0, direction).unwrap();
+            assert!(
+                (found - expected).abs() < 1e-4,
+                "{frequency} Hz: {found} for {expected}"
+            );
+        }
+    }
+}
+
+/// The tenth powers of the lines add up; what is outside the band, and the mean, do not count.
+#[test]
+fn lines_add_up_by_their_tenth_powers() {
+    let of = |signal: &[f64]| sperling(signal, RATE_HZ, 5.0, RideDirection::Vertical).unwrap();
+    let (a, b) = (sine(0.3, 2.0, 5.0), sine(0.2, 6.0, 5.0));
+    let outside = sine(3.0, 0.2, 5.0);
+    let beyond = sine(2.0, 60.0, 5.0);
+    let sum: Vec<f64> = (0..a.len())
+        .map(|i| 1.7 + a[i] + b[i] + outside[i] + beyond[i])
+        .collect();
+    let expected = (of(&a).powi(10) + of(&b).powi(10)).powf(0.1);
+    assert!(
+        (of(&sum) - expected).abs() < 1e-6,
+        "{} {expected}",
+        of(&sum)
+    );
+}
+
+#[test]
+fn weightings_have_the_published_gains() {
+    let table = rows(include_str!("../../data/en12299_weighting_gains.csv"));
+    assert!(table.len() > 10);
+    for row in table {
+        let [frequency, vertical, horizontal, _] = row[..] else {
+            panic!("{row:?}")
+        };
+        for (weighting, expected) in [
+            (Weighting::Vertical, vertical),
+            (Weighting::Horizontal, horizontal),
+        ] {
+            let found = weighting.gain(frequency);
+            assert!(
+                (found - expected).abs() < 2e-5,
+                "{frequency} Hz: {found} for {expected}"
+            );
+        }
+    }
+}
+
+#[test]
+fn comfort_is_that_of_weighted_sines() {
+    let (x, y, z) = (
+        sine(0.0, 1.0, 60.0),
+        sine(0.2, 1.0, 60.0),
+        sine(0.5, 5.0, 60.0),
+    );
+    let comfort = mean_comfort([&x, &y, &z], RATE_HZ).unwrap();
+    let rms = |amplitude: f64, gain: f64| amplitude * gain / 2.0_f64.sqrt();
+    // Gains of the published table.
+    let expected = 6.0 * rms(0.2, 1.01102).hypot(rms(0.5, 0.95703));
+    assert!(
+        (comfort / expected - 1.0).abs() < 1e-4,
+        "{comfort} for {expected}"
+    );
+    let windows = weighted_rms(&z, RATE_HZ, Weighting::Vertical).unwrap();
+    assert_eq!(windows.len(), 12);
+}
+
+/// White noise of variance `v` has the density `2 v/rate` at every frequency, and the integral of any density is the variance.
+#[test]
+fn the_density_of_noise_is_flat_and_its_integral_the_variance() {
+    // By a generator of Lehmer, uniform between -1 and 1: variance 1/3.
+    let mut seed = 1_u64;
+    let noise: Vec<f64> = (0..200_000)
+        .map(|_| {
+            seed = seed * 48_271 % 2_147_483_647;
+            2.0 * seed as f64 / 2_147_483_647.0 - 1.0
+        })
+        .collect();
+    let density = welch(&noise, RATE_HZ, 2.0).unwrap();
+    let variance: f64 = density.iter().map(|[_, density]| 0.5 * density).sum();
+    assert!((variance * 3.0 - 1.0).abs() < 0.01, "{variance}");
+    let expected = 2.0 / 3.0 / RATE_HZ;
+    for band in density[10..490].chunks(80) {
+        let mean = band.iter().map(|[_, density]| density).sum::<f64>() / band.len() as f64;
+        assert!(
+            (mean / expected - 1.0).abs() < 0.05,
+            "{mean} for {expected}"
+        );
+    }
+}
+
+#[test]
+fn what_has_no_spectrum_is_told() {
+    let short = sperling(&[0.0; 100], RATE_HZ, 5.0, RideDirection::Lateral).unwrap_err();
+    assert_eq!(
+        short.to_string(),
+        "100 samples, allowed: at least those of a window, 2500"
+    );
+    let mut signal = sine(1.0, 1.0, 5.0);
+    signal[7] = f64::NAN;
+    assert!(matches!(
+        welch(&signal, RATE_HZ, 1.0),
+        Err(SpectrumError::NotFinite { sample: 7, .. })
+    ));
+    let rate = welch(&signal, f64::NAN, 1.0).unwrap_err().to_string();
+    assert!(
+        rate.starts_with("rate_hz: NaN, allowed: 0.001 to"),
+        "{rate}"
+    );
+}
