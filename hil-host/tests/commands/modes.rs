@@ -233,7 +233,7 @@ fn errors_say_what_where_and_what_is_allowed() {
         (
             &["--set", "front lateral damper.damper='none'"],
             1,
-            "locomotive: front lateral damper: damper `none`: no such preset or file",
+            "locomotive:119: front lateral damper: damper `none`: no such preset or file",
         ),
     ];
     for (arguments, code, expected) in cases {
