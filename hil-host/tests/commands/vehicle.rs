@@ -254,7 +254,7 @@ fn wrong_words_are_told_with_what_is_allowed() {
         (
             &["--case", "straight-180", "--speed-km-h", "-3"],
             2,
-            &["--speed-km-h", "1 to 700"],
+            &["--speed-km-h", "3.6 to 540"],
         ),
         (
             &["--case", "straight-180", "--step-us", "9000"],

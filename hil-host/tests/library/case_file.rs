@@ -208,7 +208,7 @@ fn errors_have_file_line_and_name() {
         ),
         (
             CASE.replace("90", "900"),
-            "case.toml:4: speed_km_h 900, allowed: 1 to 700",
+            "case.toml:4: speed_km_h 900, allowed: 3.6 to 540",
         ),
         (
             CASE.replace("coach", "coch"),
@@ -270,7 +270,7 @@ fn wrong_options_are_wrong_use() {
     let failure = |options: &CaseOptions| Failure::from(options.case().unwrap_err());
     let found = failure(&fast);
     assert_eq!(found.kind(), Kind::WrongUse);
-    assert_eq!(found.to_string(), "--speed-km-h 900, allowed: 1 to 700");
+    assert_eq!(found.to_string(), "--speed-km-h 900, allowed: 3.6 to 540");
     fast.speed_km_h = 90.0;
     fast.dampers.push("verticl=paper".parse().unwrap());
     let found = failure(&fast).to_string();

@@ -1,7 +1,7 @@
 //! Bounds of the numbers of a case.
 
 use dashpot_rail::contact::MAX_NORMAL_DAMPING_S_PER_M;
-use dashpot_rail::vehicle::STEP_S;
+use dashpot_rail::vehicle::{SPEED_M_PER_S, STEP_S};
 
 use super::{CaseError, CaseOptions};
 
@@ -9,7 +9,11 @@ use super::{CaseError, CaseOptions};
 pub(super) fn check(options: &CaseOptions) -> Result<(), CaseError> {
     let steps_us = STEP_S.map(|step_s| (step_s * 1e6).round());
     let numbers = [
-        ("speed_km_h", options.speed_km_h, [1.0, 700.0]),
+        (
+            "speed_km_h",
+            options.speed_km_h,
+            SPEED_M_PER_S.map(|speed| 3.6 * speed),
+        ),
         ("duration_s", options.duration_s, [1e-3, 36e3]),
         ("start_m", options.start_m, [-1e6, 1e6]),
         ("friction", options.friction, [0.0, 2.0]),

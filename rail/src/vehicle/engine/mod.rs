@@ -44,8 +44,8 @@ use crate::track::Track;
 /// Bounds of the step size of a [`Vehicle`], s.
 pub const STEP_S: [f64; 2] = [0.02e-3, 2e-3];
 
-/// Bounds of the speed, m/s.
-const SPEED_M_PER_S: [f64; 2] = [1.0, 150.0];
+/// Bounds of the speed of a [`Vehicle`], m/s.
+pub const SPEED_M_PER_S: [f64; 2] = [1.0, 150.0];
 
 /// A vehicle in real time: constants for one step size, shared by any number of states.
 #[derive(Debug, Clone)]
