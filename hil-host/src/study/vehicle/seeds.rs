@@ -44,7 +44,7 @@ type Pair = [Vec<(f64, String)>; 2];
 /// Runs a case with seeds 1 to [`SEEDS`] of its irregularity, on all cores; none when it has no seed or a run does not come to its end.
 ///
 /// # Errors
-/// As [`reference`].
+/// As [`reference()`].
 pub fn over_seeds(case: &Case) -> Result<Option<OverSeeds>, VehicleStudyError> {
     let next = AtomicU64::new(1);
     let workers = thread::available_parallelism().map_or(1, usize::from);
