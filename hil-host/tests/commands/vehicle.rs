@@ -3,6 +3,7 @@
 use std::fs;
 use std::path::Path;
 
+use dashpot_rail::indices::{RideDirection, sperling};
 use tempfile::tempdir;
 
 use crate::common::{dashpot, error_of, files_in, json_of, text_of};
@@ -64,6 +65,18 @@ fn a_case_writes_histories_indices_and_a_page() {
         least,
         number(&report["indices"]["wheelsets"][0]["wheels"][1]["load_least_n"])
     );
+    // Over the front bogie, 5.39 m ahead, the body's pitch counts; two windows of 5 s.
+    let vertical = column(&history, "body_vertical_acceleration_m_per_s2");
+    let middle = sperling(&vertical, 1000.0, 5.0, RideDirection::Vertical).unwrap();
+    let ride = report["indices"]["ride"].as_array().unwrap();
+    assert_eq!(
+        (ride.len(), &ride[1]["point"]),
+        (3, &"body, over the front bogie".into())
+    );
+    assert_eq!(ride[0]["windows"], 2);
+    let told = number(&ride[0]["sperling_vertical"]);
+    assert!((told / middle - 1.0).abs() < 1e-9, "{told} {middle}");
+    assert!(number(&ride[1]["sperling_vertical"]) > told);
     // In the curve the rails carry weight and centripetal force.
     let sum: f64 = (1..=6)
         .flat_map(|axle| ["left", "right"].map(|side| format!("wheelset_{axle}_{side}_load_n")))

@@ -2,6 +2,7 @@
 //!
 //! - [`RollingRadiusDifference`]: rolling radius difference function and equivalent conicity (EN 15302).
 //! - [`sperling`]: ride index of an acceleration; [`mean_comfort`]: that of EN 12299, with its [`Weighting`]; [`welch`]: power spectral density.
+//! - [`nadal_limit`], [`prudhomme_limit_n`]: limits of wheel forces.
 //! - Derailment coefficients belong to the forces: [`WheelsetForces`](crate::contact::WheelsetForces).
 //!
 //! # To add an index
@@ -12,10 +13,12 @@
 
 mod comfort;
 mod conicity;
+mod limits;
 mod spectrum;
 mod sperling;
 
 pub use comfort::{Weighting, mean_comfort, weighted_rms};
 pub use conicity::{CONTACT_DISTANCE_M, RollingRadiusDifference, RollingRadiusError};
+pub use limits::{nadal_limit, prudhomme_limit_n};
 pub use spectrum::{SpectrumError, welch};
 pub use sperling::{RideDirection, sperling};

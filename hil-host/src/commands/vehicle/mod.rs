@@ -151,14 +151,7 @@ fn follow(
 ) -> Outcome<(History, Report)> {
     let all = signals::all(run.vehicle());
     let mut history = History::new(all.clone(), run.ticks());
-    let vehicle = run.vehicle();
-    let mut indexer = Indexer::new(
-        vehicle.names(),
-        vehicle.wheelsets(),
-        run.state().damper_forces_n().len(),
-        case.step_s,
-        case.speed_m_per_s,
-    );
+    let mut indexer = Indexer::new(case, run.state().damper_forces_n().len());
     let bar = progress::bar(run.ticks(), "vehicle");
     let _ends_gently = interruption::end_gently();
     let mut ending = Ending::Completed;

@@ -151,6 +151,20 @@ fn tables(report: &Report) -> Markup {
                         }
                     }
                 } }
+                @if indices.ride.iter().any(|ride| ride.windows > 0) {
+                    div.wide { table {
+                        tr { th { "Sperling's ride index" } th { "lateral" } th { "vertical" } }
+                        @for ride in &indices.ride {
+                            tr {
+                                td.text { (ride.point) }
+                                @for index in [ride.sperling_lateral, ride.sperling_vertical] {
+                                    td { (index.map_or_else(|| "-".into(), |index| format!("{index:.3}"))) }
+                                }
+                            }
+                        }
+                    } }
+                    p { "At the height of the centre of gravity, 0.5 to 40 Hz, mean of windows of 5 s." }
+                }
                 div.wide { table {
                     tr {
                         th { "wheelset" } th { "Q left, kN" } th { "Q right, kN" } th { "Y/Q left" } th { "Y/Q right" }

@@ -117,6 +117,18 @@ pub(super) fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
                 body.vertical_greatest_m_per_s2
             )?;
         }
+        let rides = indices.ride.iter();
+        let rides =
+            rides.filter_map(|ride| Some((ride, ride.sperling_lateral?, ride.sperling_vertical?)));
+        for (number, (ride, lateral, vertical)) in rides.enumerate() {
+            if number == 0 {
+                writeln!(
+                    out,
+                    "\nSperling's ride index                lateral  vertical"
+                )?;
+            }
+            writeln!(out, "{:<36} {lateral:8.3} {vertical:9.3}", ride.point)?;
+        }
         writeln!(out)?;
         writeln!(
             out,

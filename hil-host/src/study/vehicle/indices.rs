@@ -4,7 +4,9 @@ use dashpot_rail::contact::WheelsetForces;
 use dashpot_rail::vehicle::VehicleState;
 use serde::Serialize;
 
+use super::ride::{Ride, RideIndices};
 use super::signals::{SIDES, load_n};
+use crate::files::case::Case;
 
 /// Distance over which wheel forces are averaged, m.
 const WINDOW_M: f64 = 2.0;
@@ -16,6 +18,8 @@ pub struct Indices {
     pub duration_s: f64,
     /// Bodies.
     pub bodies: Vec<BodyIndices>,
+    /// Ride of the car body.
+    pub ride: Vec<RideIndices>,
     /// Wheelsets.
     pub wheelsets: Vec<WheelsetIndices>,
     /// Greatest magnitude of each damper's force, N.
@@ -72,6 +76,7 @@ pub struct WheelIndices {
 pub struct Indexer {
     ticks: u64,
     step_s: f64,
+    ride: Ride,
     bodies: Vec<(String, [Spread; 2])>,
     wheelsets: Vec<Wheelset>,
     dampers: Vec<f64>,
@@ -135,27 +140,29 @@ impl Windowed {
 }
 
 impl Indexer {
-    /// Of bodies, wheelsets and dampers by name and number, at a speed.
-    pub fn new(
-        names: &[String],
-        wheelsets: usize,
-        dampers: usize,
-        step_s: f64,
-        speed_m_per_s: f64,
-    ) -> Self {
+    /// Of the vehicle of a case, with so many dampers.
+    pub fn new(case: &Case, dampers: usize) -> Self {
+        let Case {
+            vehicle,
+            step_s,
+            speed_m_per_s,
+            ..
+        } = case;
         let window = ((WINDOW_M / (speed_m_per_s * step_s)).round() as usize).max(1);
-        let (bodies, wheelset_names) = names.split_at(names.len() - wheelsets);
         Self {
             ticks: 0,
-            step_s,
-            bodies: bodies
+            step_s: *step_s,
+            ride: Ride::new(vehicle, *step_s),
+            bodies: vehicle
+                .bodies
                 .iter()
-                .map(|name| (name.clone(), [Spread::default(); 2]))
+                .map(|body| (body.name.clone(), [Spread::default(); 2]))
                 .collect(),
-            wheelsets: wheelset_names
+            wheelsets: vehicle
+                .wheelsets
                 .iter()
-                .map(|name| Wheelset {
-                    name: name.clone(),
+                .map(|wheelset| Wheelset {
+                    name: wheelset.name.clone(),
                     lateral: Windowed::new(window),
                     wear: 0.0,
                     derailment: [Windowed::new(window), Windowed::new(window)],
@@ -187,6 +194,7 @@ impl Indexer {
         speed_m_per_s: f64,
     ) {
         self.ticks += 1;
+        self.ride.add(acceleration(0));
         for (number, (_, spreads)) in self.bodies.iter_mut().enumerate() {
             for (spread, value) in spreads.iter_mut().zip(acceleration(number)) {
                 spread.add(value);
@@ -237,6 +245,7 @@ impl Indexer {
                     vertical_greatest_m_per_s2: vertical.greatest,
                 })
                 .collect(),
+            ride: self.ride.indices(),
             wheelsets: self
                 .wheelsets
                 .iter()

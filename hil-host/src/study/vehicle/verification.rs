@@ -90,7 +90,7 @@ impl Trace {
             track_accelerations: Vec::new(),
             lateral: vec![Vec::new(); wheelsets],
             loads: vec![Default::default(); wheelsets],
-            indexer: Indexer::new(names, wheelsets, dampers, case.step_s, case.speed_m_per_s),
+            indexer: Indexer::new(case, dampers),
             speed_m_per_s: case.speed_m_per_s,
             inner_step_s: case.step_s,
         }
@@ -223,6 +223,17 @@ fn told(indices: &Indices) -> Vec<(f64, String)> {
         let name = &body.body;
         told.push((body.lateral_rms_m_per_s2, format!("{name}, lateral rms")));
         told.push((body.vertical_rms_m_per_s2, format!("{name}, vertical rms")));
+    }
+    for ride in &indices.ride {
+        let point = &ride.point;
+        let both = [
+            ("lateral", ride.sperling_lateral),
+            ("vertical", ride.sperling_vertical),
+        ];
+        told.extend(
+            both.into_iter()
+                .filter_map(|(direction, index)| Some((index?, format!("{point}, W {direction}")))),
+        );
     }
     for wheelset in &indices.wheelsets {
         let name = &wheelset.wheelset;

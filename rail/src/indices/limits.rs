@@ -1,0 +1,22 @@
+//! Limits of wheel forces.
+
+/// Limit of `Y/Q` at which a wheel climbs: `(tan d - mu)/(1 + mu tan d)` with the flange angle `d` (Nadal 1896).
+///
+/// ```
+/// let limit = dashpot_rail::indices::nadal_limit(70_f64.to_radians(), 0.36);
+/// assert!((limit - 1.1995).abs() < 1e-3);
+/// ```
+pub fn nadal_limit(flange_angle_rad: f64, friction: f64) -> f64 {
+    let tan = flange_angle_rad.tan();
+    (tan - friction) / (1.0 + friction * tan)
+}
+
+/// Limit of the lateral force of a wheelset on the track, mean over 2 m, N: `10 kN + P/3` with the axle load `P` (Prud'homme 1967), which
+/// track of poor quality does not hold: for it 0.85 times as much counts.
+///
+/// ```
+/// assert_eq!(dashpot_rail::indices::prudhomme_limit_n(201e3), 77e3);
+/// ```
+pub fn prudhomme_limit_n(axle_load_n: f64) -> f64 {
+    10e3 + axle_load_n / 3.0
+}
