@@ -1,4 +1,4 @@
-//! A rail vehicle: rigid bodies on elements, its equilibrium, and its modes at standstill and at a speed.
+//! A rail vehicle: rigid bodies on elements, its equilibrium, its modes at standstill and at a speed, and its step along a track.
 //!
 //! Axes as everywhere in this crate: x forward, y right, z down, small rotations roll about x, pitch about y and yaw about z.
 //! Every body has the coordinates lateral, vertical, roll, pitch and yaw in a frame that follows the track at constant speed, so

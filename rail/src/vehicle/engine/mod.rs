@@ -1,6 +1,7 @@
 //! The vehicle in real time: constants, state, and a step of constant cost.
 
 mod across;
+mod assembly;
 mod block;
 mod dampers;
 mod energy;
@@ -15,11 +16,11 @@ mod tangent;
 
 use std::sync::Arc;
 
-use dashpot_core::{Damper, DamperParameters};
-use fearless_simd::{Level, dispatch};
-use nalgebra::DMatrix;
+use dashpot_core::DamperParameters;
+use fearless_simd::Level;
 
-use self::across::{Across, DamperElement, StopElement};
+use self::across::{DamperElement, StopElement};
+use self::assembly::build;
 use self::block::{N, Vector};
 pub use self::energy::Energy;
 pub use self::guidance::CANT_BASE_M;
@@ -31,12 +32,8 @@ pub use self::state::VehicleState;
 use self::state::Work;
 use self::structure::{Blocks, Structure};
 use self::tangent::{ContactPlace, SurfaceConstants};
-use super::body::VehicleParameters;
 use super::carried::Carried;
-use super::element::Law;
 use super::error::VehicleError;
-use super::linear::Linear;
-use super::standstill::{Standstill, places, wheelset_bodies};
 use crate::contact::{PatchSource, Tables, WheelsetContact, WheelsetForces};
 use crate::creep::CreepLaw;
 use crate::track::Track;
@@ -48,6 +45,58 @@ pub const STEP_S: [f64; 2] = [0.02e-3, 2e-3];
 pub const SPEED_M_PER_S: [f64; 2] = [1.0, 150.0];
 
 /// A vehicle in real time: constants for one step size, shared by any number of states.
+///
+/// ```
+/// # use std::sync::Arc;
+/// # use dashpot_rail::contact::{ContactGeometry, Grid, Installation, Pair, Steel, Tables, WheelsetContact};
+/// # use dashpot_rail::creep::{Friction, KalkerBook};
+/// use dashpot_rail::track::Track;
+/// use dashpot_rail::vehicle::{Body, Element, End, Law, Vehicle, VehicleParameters, Wheelset};
+/// # let mut grid = Grid::default();
+/// # grid.roll_rad.cells = [1, 2, 1];
+/// # grid.yaw_squared_rad2.cells = [0, 1, 1];
+/// # let pair = Pair::standard(Installation { wheel_radius_m: 0.46, ..Installation::default() })?;
+/// # let tables = Tables::new(ContactGeometry::new(pair, Steel::default(), 75e3)?, grid)?;
+/// # let contact = Arc::new(WheelsetContact::new(Arc::new(tables), KalkerBook::new(), Friction::default())?);
+/// // A wagon of 27 t on two wheelsets of 1.5 t; `contact` is that of its wheels.
+/// let wheelset = |name: &str, x_m: f64| Wheelset {
+///     name: name.into(),
+///     mass_kg: 1500.0,
+///     inertia_kg_m2: [800.0, 100.0, 800.0],
+///     x_m,
+///     radius_m: 0.46,
+/// };
+/// let spring = |on: &str, x: f64, y: f64| Element {
+///     name: format!("{on} spring {y}"),
+///     ends: [End::body(on, [x, y, 0.46]), End::body("body", [x, y, 0.46])],
+///     law: Law::SpringDamper { stiffness_n_per_m: [5e6, 5e6, 1e6], damping_n_s_per_m: [0.0, 0.0, 20e3] },
+/// };
+/// let wagon = VehicleParameters {
+///     name: "wagon".into(),
+///     bodies: vec![Body {
+///         name: "body".into(),
+///         mass_kg: 27e3,
+///         inertia_kg_m2: [40e3, 800e3, 800e3],
+///         x_m: 0.0,
+///         height_m: 1.5,
+///     }],
+///     wheelsets: vec![wheelset("front", 4.0), wheelset("rear", -4.0)],
+///     elements: vec![
+///         spring("front", 4.0, 1.0), spring("front", 4.0, -1.0),
+///         spring("rear", -4.0, 1.0), spring("rear", -4.0, -1.0),
+///     ],
+/// };
+/// let vehicle = Vehicle::new(&wagon, contact, 1e-3)?;
+/// let track = Track::default();
+/// let mut state = vehicle.at_rest(&track, 0.0, 20.0)?;
+/// for _ in 0..500 {
+///     vehicle.step(&mut state, &track);
+/// }
+/// assert!((state.distance_m() - 10.0).abs() < 1e-9);
+/// let carried: f64 = state.contacts().iter().map(|contact| -contact.force_n[2]).sum();
+/// assert!((carried / (30e3 * 9.81) - 1.0).abs() < 1e-6);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug, Clone)]
 pub struct Vehicle<L, S: PatchSource = Tables> {
     step_s: f64,
@@ -80,151 +129,6 @@ struct WheelsetConstants {
 }
 
 impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
-    /// The vehicle of `parameters`, all of its wheelsets with `contact`, for a step of `step_s`.
-    ///
-    /// # Errors
-    /// As [`Standstill::new`]; a step out of bounds or too long for the stiffness of the elements; a wheelset that the rails do not
-    /// carry; no wheelset.
-    pub fn new(
-        parameters: &VehicleParameters,
-        contact: Arc<WheelsetContact<L, S>>,
-        step_s: f64,
-    ) -> Result<Self, VehicleError> {
-        Self::on_rails(parameters, contact, step_s, None)
-    }
-
-    /// The vehicle on rails that give way under each wheel, where a support is given.
-    ///
-    /// # Errors
-    /// As [`Vehicle::new`]; a support that is refused.
-    pub fn on_rails(
-        parameters: &VehicleParameters,
-        contact: Arc<WheelsetContact<L, S>>,
-        step_s: f64,
-        support: Option<RailSupport>,
-    ) -> Result<Self, VehicleError> {
-        VehicleError::check(&parameters.name, "step_s", step_s, STEP_S)?;
-        let standstill = Standstill::new(parameters)?;
-        if parameters.wheelsets.is_empty() {
-            return Err(VehicleError::NoWheelset);
-        }
-        let mut bodies = parameters.bodies.clone();
-        bodies.extend(wheelset_bodies(parameters));
-        let mut linear = Linear::new(&bodies);
-        let mut on_track = Linear::new(&bodies);
-        let (mut dampers, mut stops) = (Vec::new(), Vec::new());
-        let ends = places(parameters, true)?;
-        for ((element, (places, line)), force) in parameters
-            .elements
-            .iter()
-            .zip(&ends)
-            .zip(standstill.forces())
-        {
-            match &element.law {
-                Law::Damper {
-                    direction,
-                    parameters,
-                } => dampers.push(DamperElement {
-                    name: element.name.clone(),
-                    across: Across::new(&linear, places, direction.axis()),
-                    damper: build(&element.name, parameters, step_s)?,
-                }),
-                Law::BumpStop { direction, points } => stops.push(StopElement {
-                    across: Across::new(&linear, places, direction.axis()),
-                    points: points.clone(),
-                }),
-                _ => {
-                    linear.add(element, places, *line);
-                    linear.add_preload(places, *force);
-                    if places.iter().any(|place| place.body.is_none()) {
-                        on_track.add(element, places, *line);
-                        on_track.add_preload(places, *force);
-                    }
-                }
-            }
-        }
-        let (first, count) = (parameters.bodies.len(), parameters.wheelsets.len());
-        let Linear {
-            mut inertia,
-            mut stiffness,
-            mut damping,
-            ..
-        } = linear;
-        if let Some(support) = support {
-            support.check()?;
-            support.append(count, &mut inertia, &mut stiffness, &mut damping);
-        }
-        let method = Method::new(step_s);
-        let system = DMatrix::from_diagonal(&inertia)
-            + &damping * method.damping_weight()
-            + &stiffness * method.stiffness_weight();
-        let mut pattern = system.clone();
-        let rails_of = |number: usize| support.is_some().then_some(first + count + number);
-        for number in 0..count {
-            if let Some(rails) = rails_of(number) {
-                pattern[(N * rails, N * (first + number))] = 1.0;
-            }
-        }
-        let structure = Structure::new(&pattern);
-        let system = structure.blocks(&system);
-        let level = Level::new();
-        if !dispatch!(level, simd => structure.factorise(simd, &mut system.clone())) {
-            return Err(VehicleError::StepTooLong { step_s });
-        }
-        let mut wheelsets = Vec::with_capacity(count);
-        for (number, wheelset) in parameters.wheelsets.iter().enumerate() {
-            let load_n = standstill.axle_loads_n()[number];
-            let carried =
-                Carried::new(&contact, load_n).ok_or_else(|| VehicleError::NotCarried {
-                    wheelset: wheelset.name.clone(),
-                    load_n,
-                })?;
-            let body = first + number;
-            // Rails hang on their wheelset alone, so that they go before it.
-            let rails = rails_of(number);
-            let coupled = rails.and_then(|rails| Some((rails, structure.coupling(rails, body)?)));
-            wheelsets.push(WheelsetConstants {
-                place: ContactPlace {
-                    wheelset: body,
-                    rails: coupled,
-                },
-                standing_n: rails::standing_n(&carried.wheel_forces_n),
-                carried,
-                axle_load_n: load_n,
-                spin_inertia_kg_m2: wheelset.inertia_kg_m2[1],
-            });
-        }
-        let is_held = on_track.stiffness.amax() > 0.0 || on_track.damping.amax() > 0.0;
-        Ok(Self {
-            step_s,
-            method,
-            surface: SurfaceConstants {
-                shear_modulus_pa: contact.shear_modulus_pa(),
-                normal_damping_s_per_m: contact.normal_damping_s_per_m(),
-            },
-            contact,
-            level,
-            names: bodies.iter().map(|body| body.name.clone()).collect(),
-            stands: bodies
-                .iter()
-                .map(|body| Stand {
-                    x_m: body.x_m,
-                    height_m: body.height_m,
-                })
-                .collect(),
-            wheelsets,
-            inertia: (0..inertia.len() / N)
-                .map(|body| std::array::from_fn(|i| inertia[N * body + i]))
-                .collect(),
-            springs: Springs::new(&stiffness, &damping),
-            on_track: is_held.then(|| Springs::new(&on_track.stiffness, &on_track.damping)),
-            structure,
-            system,
-            dampers,
-            stops,
-        })
-    }
-
     /// The vehicle as it stands on straight level track, its middle at `distance_m`, in motion at `speed_m_per_s`.
     ///
     /// # Errors
@@ -336,17 +240,4 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
         element.damper = build(&element.name, parameters, step_s)?;
         Ok(())
     }
-}
-
-fn build(
-    element: &str,
-    parameters: &DamperParameters,
-    step_s: f64,
-) -> Result<Damper<f64>, VehicleError> {
-    parameters
-        .build(step_s)
-        .map_err(|source| VehicleError::Damper {
-            element: element.to_owned(),
-            source: Box::new(source),
-        })
 }

@@ -1,0 +1,185 @@
+//! The constants of a vehicle, from its parameters.
+
+use std::sync::Arc;
+
+use dashpot_core::{Damper, DamperParameters};
+use fearless_simd::{Level, dispatch};
+use nalgebra::DMatrix;
+
+use super::across::{Across, DamperElement, StopElement};
+use super::block::N;
+use super::guidance::Stand;
+use super::method::Method;
+use super::rails::{self, RailSupport};
+use super::springs::Springs;
+use super::structure::Structure;
+use super::tangent::{ContactPlace, SurfaceConstants};
+use super::{STEP_S, Vehicle, WheelsetConstants};
+use crate::contact::{PatchSource, WheelsetContact};
+use crate::creep::CreepLaw;
+use crate::vehicle::body::VehicleParameters;
+use crate::vehicle::carried::Carried;
+use crate::vehicle::element::Law;
+use crate::vehicle::error::VehicleError;
+use crate::vehicle::linear::Linear;
+use crate::vehicle::standstill::{Standstill, places, wheelset_bodies};
+
+impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
+    /// The vehicle of `parameters`, all of its wheelsets with `contact`, for a step of `step_s`.
+    ///
+    /// # Errors
+    /// As [`Standstill::new`]; a step out of bounds or too long for the stiffness of the elements; a wheelset that the rails do not
+    /// carry; no wheelset.
+    pub fn new(
+        parameters: &VehicleParameters,
+        contact: Arc<WheelsetContact<L, S>>,
+        step_s: f64,
+    ) -> Result<Self, VehicleError> {
+        Self::on_rails(parameters, contact, step_s, None)
+    }
+
+    /// The vehicle on rails that give way under each wheel, where a support is given.
+    ///
+    /// # Errors
+    /// As [`Vehicle::new`]; a support that is refused.
+    pub fn on_rails(
+        parameters: &VehicleParameters,
+        contact: Arc<WheelsetContact<L, S>>,
+        step_s: f64,
+        support: Option<RailSupport>,
+    ) -> Result<Self, VehicleError> {
+        VehicleError::check(&parameters.name, "step_s", step_s, STEP_S)?;
+        let standstill = Standstill::new(parameters)?;
+        if parameters.wheelsets.is_empty() {
+            return Err(VehicleError::NoWheelset);
+        }
+        let mut bodies = parameters.bodies.clone();
+        bodies.extend(wheelset_bodies(parameters));
+        let mut linear = Linear::new(&bodies);
+        let mut on_track = Linear::new(&bodies);
+        let (mut dampers, mut stops) = (Vec::new(), Vec::new());
+        let ends = places(parameters, true)?;
+        for ((element, (places, line)), force) in parameters
+            .elements
+            .iter()
+            .zip(&ends)
+            .zip(standstill.forces())
+        {
+            match &element.law {
+                Law::Damper {
+                    direction,
+                    parameters,
+                } => dampers.push(DamperElement {
+                    name: element.name.clone(),
+                    across: Across::new(&linear, places, direction.axis()),
+                    damper: build(&element.name, parameters, step_s)?,
+                }),
+                Law::BumpStop { direction, points } => stops.push(StopElement {
+                    across: Across::new(&linear, places, direction.axis()),
+                    points: points.clone(),
+                }),
+                _ => {
+                    linear.add(element, places, *line);
+                    linear.add_preload(places, *force);
+                    if places.iter().any(|place| place.body.is_none()) {
+                        on_track.add(element, places, *line);
+                        on_track.add_preload(places, *force);
+                    }
+                }
+            }
+        }
+        let (first, count) = (parameters.bodies.len(), parameters.wheelsets.len());
+        let Linear {
+            mut inertia,
+            mut stiffness,
+            mut damping,
+            ..
+        } = linear;
+        if let Some(support) = support {
+            support.check()?;
+            support.append(count, &mut inertia, &mut stiffness, &mut damping);
+        }
+        let method = Method::new(step_s);
+        let system = DMatrix::from_diagonal(&inertia)
+            + &damping * method.damping_weight()
+            + &stiffness * method.stiffness_weight();
+        let mut pattern = system.clone();
+        let rails_of = |number: usize| support.is_some().then_some(first + count + number);
+        for number in 0..count {
+            if let Some(rails) = rails_of(number) {
+                pattern[(N * rails, N * (first + number))] = 1.0;
+            }
+        }
+        let structure = Structure::new(&pattern);
+        let system = structure.blocks(&system);
+        let level = Level::new();
+        if !dispatch!(level, simd => structure.factorise(simd, &mut system.clone())) {
+            return Err(VehicleError::StepTooLong { step_s });
+        }
+        let mut wheelsets = Vec::with_capacity(count);
+        for (number, wheelset) in parameters.wheelsets.iter().enumerate() {
+            let load_n = standstill.axle_loads_n()[number];
+            let carried =
+                Carried::new(&contact, load_n).ok_or_else(|| VehicleError::NotCarried {
+                    wheelset: wheelset.name.clone(),
+                    load_n,
+                })?;
+            let body = first + number;
+            // Rails hang on their wheelset alone, so that they go before it.
+            let rails = rails_of(number);
+            let coupled = rails.and_then(|rails| Some((rails, structure.coupling(rails, body)?)));
+            wheelsets.push(WheelsetConstants {
+                place: ContactPlace {
+                    wheelset: body,
+                    rails: coupled,
+                },
+                standing_n: rails::standing_n(&carried.wheel_forces_n),
+                carried,
+                axle_load_n: load_n,
+                spin_inertia_kg_m2: wheelset.inertia_kg_m2[1],
+            });
+        }
+        let is_held = on_track.stiffness.amax() > 0.0 || on_track.damping.amax() > 0.0;
+        Ok(Self {
+            step_s,
+            method,
+            surface: SurfaceConstants {
+                shear_modulus_pa: contact.shear_modulus_pa(),
+                normal_damping_s_per_m: contact.normal_damping_s_per_m(),
+            },
+            contact,
+            level,
+            names: bodies.iter().map(|body| body.name.clone()).collect(),
+            stands: bodies
+                .iter()
+                .map(|body| Stand {
+                    x_m: body.x_m,
+                    height_m: body.height_m,
+                })
+                .collect(),
+            wheelsets,
+            inertia: (0..inertia.len() / N)
+                .map(|body| std::array::from_fn(|i| inertia[N * body + i]))
+                .collect(),
+            springs: Springs::new(&stiffness, &damping),
+            on_track: is_held.then(|| Springs::new(&on_track.stiffness, &on_track.damping)),
+            structure,
+            system,
+            dampers,
+            stops,
+        })
+    }
+}
+
+pub(super) fn build(
+    element: &str,
+    parameters: &DamperParameters,
+    step_s: f64,
+) -> Result<Damper<f64>, VehicleError> {
+    parameters
+        .build(step_s)
+        .map_err(|source| VehicleError::Damper {
+            element: element.to_owned(),
+            source: Box::new(source),
+        })
+}
