@@ -11,10 +11,9 @@ use crate::commands::print::print_report;
 use crate::commands::progress;
 use crate::files::case::Case;
 use crate::study::vehicle::Ending;
+use crate::study::vehicle::deviations::{BOUNDS, Deviations, Trace, Worst};
 use crate::study::vehicle::seeds::{OverSeeds, STANDARD_ERRORS, over_seeds};
-use crate::study::vehicle::verification::{
-    BOUNDS, Deviations, TOLERANCE, Trace, Worst, reference, stepped,
-};
+use crate::study::vehicle::verification::{TOLERANCE, reference, stepped};
 
 #[derive(Serialize)]
 struct Report {

@@ -3,7 +3,7 @@
 use dashpot_reference::deviation::{errors, root_mean_square};
 use serde::Serialize;
 
-use super::verification::{Deviations, Trace, Worst};
+use super::deviations::{Deviations, Trace, Worst};
 use super::{Run, VehicleStudyError};
 use crate::files::case::Case;
 

@@ -1,6 +1,7 @@
 //! A vehicle on a track, from a case: the run, what is recorded of it, how it ends.
 
 pub mod contact;
+pub mod deviations;
 mod error;
 pub mod hunting;
 mod indices;

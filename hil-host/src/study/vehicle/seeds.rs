@@ -5,7 +5,8 @@ use std::thread;
 
 use serde::Serialize;
 
-use super::verification::{indices, reference, stepped};
+use super::deviations::indices;
+use super::verification::{reference, stepped};
 use super::{Ending, VehicleStudyError};
 use crate::files::case::Case;
 
