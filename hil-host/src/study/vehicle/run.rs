@@ -19,7 +19,6 @@ pub struct Run {
     faults: Vec<(usize, Fault)>,
     next_fault: usize,
     ticks: u64,
-    start_m: f64,
 }
 
 /// Why a run ended.
@@ -136,7 +135,6 @@ impl Run {
             state,
             faults,
             next_fault: 0,
-            start_m: case.start_m,
         })
     }
 
@@ -155,11 +153,6 @@ impl Run {
         &self.vehicle
     }
 
-    /// The track.
-    pub fn track(&self) -> &Track {
-        &self.track
-    }
-
     /// Where it is.
     pub fn state(&self) -> &VehicleState {
         &self.state
@@ -168,11 +161,6 @@ impl Run {
     /// Where it is, for a force from outside.
     pub fn state_mut(&mut self) -> &mut VehicleState {
         &mut self.state
-    }
-
-    /// Distance at the start, m.
-    pub fn start_m(&self) -> f64 {
-        self.start_m
     }
 
     /// One tick, with the faults that are due; how the run ended, if it did.
