@@ -1,6 +1,6 @@
 //! What a vehicle consists of.
 
-use super::element::Element;
+use super::element::{Element, Law};
 use super::error::VehicleError;
 
 /// A vehicle: rigid bodies and wheelsets, connected by elements.
@@ -81,6 +81,14 @@ pub const COORDINATES: [Coordinate; 5] = [
     Coordinate::Pitch,
     Coordinate::Yaw,
 ];
+
+impl VehicleParameters {
+    /// The hydraulic dampers, in the order in which a [`Vehicle`](super::Vehicle) counts them.
+    pub fn dampers(&self) -> impl Iterator<Item = &Element> {
+        let elements = self.elements.iter();
+        elements.filter(|element| matches!(element.law, Law::Damper { .. }))
+    }
+}
 
 impl Body {
     pub(super) fn check(&self) -> Result<(), VehicleError> {

@@ -72,7 +72,11 @@ pub(super) fn run(case: &Case, format: Format) -> Outcome<()> {
         let looser = reference(case, &whole, 100.0 * TOLERANCE).map_err(failed)?;
         Some(looser.deviations(&solution))
     };
-    let over_seeds = if parting.as_ref().is_some_and(Deviations::is_chaos) {
+    // Where even two references part by more than the bounds.
+    let is_chaotic = parting
+        .as_ref()
+        .is_some_and(|parting| !parting.is_within_bounds());
+    let over_seeds = if is_chaotic {
         bar.set_message("both with other seeds, for their means");
         over_seeds(case).map_err(failed)?
     } else {

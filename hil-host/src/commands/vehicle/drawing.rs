@@ -50,19 +50,13 @@ fn reach(parameters: &VehicleParameters, body: &Body) -> [f64; 2] {
 
 /// Whether a body carries wheelsets, as a bogie does.
 fn is_frame(parameters: &VehicleParameters, body: &Body) -> bool {
-    let wheelsets = || {
-        parameters
-            .wheelsets
-            .iter()
-            .map(|wheelset| wheelset.name.as_str())
+    let is_wheelset = |element: &Element| {
+        let mut wheelsets = parameters.wheelsets.iter();
+        wheelsets.any(|wheelset| is_on(element, &wheelset.name))
     };
-    let on_body = parameters
-        .elements
-        .iter()
-        .filter(|element| is_on(element, &body.name));
-    let mut on_body = on_body.peekable();
-    on_body.any(|element| wheelsets().any(|name| is_on(element, name)))
-        && parameters.bodies.len() > 1
+    let mut elements = parameters.elements.iter();
+    parameters.bodies.len() > 1
+        && elements.any(|element| is_on(element, &body.name) && is_wheelset(element))
 }
 
 /// The vehicle seen from its right side, running to the right.
@@ -75,27 +69,20 @@ pub(super) fn vehicle(parameters: &VehicleParameters) -> Markup {
         height: SCALE * (SKY_M + 1.2),
     };
     let body_outline = |body: &Body| {
-        let [from, to] = reach(parameters, body);
-        let (x, half) = if is_frame(parameters, body) {
-            ([from - 0.5, to + 0.5], HALF_FRAME_M)
+        let is_frame = is_frame(parameters, body);
+        let ([from, to], [bottom, top]) = if is_frame {
+            let [from, to] = reach(parameters, body);
+            let height = body.height_m;
+            (
+                [from - 0.5, to + 0.5],
+                [height - HALF_FRAME_M, height + HALF_FRAME_M],
+            )
         } else {
-            ([rear - 2.0, front + 2.0], 0.0)
+            ([rear - 2.0, front + 2.0], [1.15, SKY_M - 0.4])
         };
-        let [bottom, top] = if half > 0.0 {
-            [body.height_m - half, body.height_m + half]
-        } else {
-            [1.15, SKY_M - 0.4]
-        };
-        (
-            [sheet.x(x[0]), sheet.y(top)],
-            [SCALE * (x[1] - x[0]), SCALE * (top - bottom)],
-            half > 0.0,
-        )
+        let size = [SCALE * (to - from), SCALE * (top - bottom)];
+        ([sheet.x(from), sheet.y(top)], size, is_frame)
     };
-    let dampers = parameters
-        .elements
-        .iter()
-        .filter(|element| matches!(element.law, Law::Damper { .. }));
     html! {
         svg viewBox=(format!("0 0 {:.0} {:.0}", sheet.width, sheet.height)) role="img"
             font-family="sans-serif" font-size="15" fill="#263238" {
@@ -117,7 +104,7 @@ pub(super) fn vehicle(parameters: &VehicleParameters) -> Markup {
                 text x=(px(x)) y=(px(y + 5.0)) text-anchor="middle" font-weight="bold" { (number + 1) }
                 text x=(px(x)) y=(px(sheet.y(-0.45))) text-anchor="middle" { (wheelset.name) }
             }
-            @for element in dampers {
+            @for element in parameters.dampers() {
                 @let [at, _, height] = element.ends[1].at_m;
                 @let is_vertical = matches!(&element.law, Law::Damper { direction, .. } if *direction == dashpot_rail::vehicle::Direction::Vertical);
                 @if is_vertical {

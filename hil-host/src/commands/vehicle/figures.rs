@@ -3,10 +3,9 @@
 use plotters::prelude::SeriesLabelPosition;
 use plotters::style::RGBColor;
 
-use super::history::History;
+use super::history::{History, thin};
 use crate::report::page::{Figure, panel};
 use crate::report::plot::curves::{Curve, ramp};
-use crate::report::plot::envelope::Envelope;
 use crate::report::plot::sheet::{Panel, Scale};
 use crate::report::plot::style::{BLUE_LINE, PALE, RED_LINE};
 use crate::study::vehicle::Forces;
@@ -55,49 +54,49 @@ fn of_wheelsets(
     panel("time, s", y, None, curves.collect())
 }
 
-/// Lateral displacement and yaw of the wheelsets.
-pub(super) fn wheelsets(history: &History, names: &[String]) -> Figure {
+/// Two signals of every wheelset, each with its factor and what its axis says.
+fn of_both(history: &History, names: &[String], signals: [(&str, f64, &str); 2]) -> Figure {
+    let panels = signals.map(|(what, factor, y)| of_wheelsets(history, names, what, factor, y));
     Figure {
-        panels: vec![
-            of_wheelsets(history, names, "lateral_m", 1e3, "lateral, mm"),
-            of_wheelsets(history, names, "yaw_rad", 1e3, "yaw, mrad"),
-        ],
+        panels: panels.into(),
         height: HEIGHT,
     }
+}
+
+/// Lateral displacement and yaw of the wheelsets.
+pub(super) fn wheelsets(history: &History, names: &[String]) -> Figure {
+    let lateral = ("lateral_m", 1e3, "lateral, mm");
+    of_both(history, names, [lateral, ("yaw_rad", 1e3, "yaw, mrad")])
 }
 
 /// Loads of the wheels, left and right.
 pub(super) fn loads(history: &History, names: &[String]) -> Figure {
-    Figure {
-        panels: vec![
-            of_wheelsets(history, names, "left_load_n", 1e-3, "Q left, kN"),
-            of_wheelsets(history, names, "right_load_n", 1e-3, "Q right, kN"),
-        ],
-        height: HEIGHT,
-    }
+    let left = ("left_load_n", 1e-3, "Q left, kN");
+    of_both(
+        history,
+        names,
+        [left, ("right_load_n", 1e-3, "Q right, kN")],
+    )
 }
 
 /// `Y/Q` of the wheels, left and right.
 pub(super) fn derailment(history: &History, names: &[String]) -> Figure {
-    Figure {
-        panels: vec![
-            of_wheelsets(history, names, "left_derailment", 1.0, "Y/Q left"),
-            of_wheelsets(history, names, "right_derailment", 1.0, "Y/Q right"),
-        ],
-        height: HEIGHT,
-    }
+    let left = ("left_derailment", 1.0, "Y/Q left");
+    of_both(
+        history,
+        names,
+        [left, ("right_derailment", 1.0, "Y/Q right")],
+    )
 }
 
 /// Force of a damper outside and inside, and the difference.
 pub(super) fn outside(forces: &Forces, step_s: f64) -> Figure {
     let over_time = |values: &mut dyn Iterator<Item = f64>, factor: f64, colour| {
-        let mut envelope = Envelope::default();
-        for (tick, value) in (1..).zip(values) {
-            envelope.record(tick, value);
-        }
-        let points = envelope.samples();
-        let points = points.map(|(tick, value)| (f64::from(tick) * step_s, value * factor));
-        Curve::new("", colour, points.collect::<Vec<_>>())
+        let ticks = (1..).map(|tick| f64::from(tick) * step_s);
+        let points = ticks
+            .zip(values)
+            .map(|(time_s, value)| (time_s, value * factor));
+        Curve::new("", colour, thin(&points.collect::<Vec<_>>()))
     };
     let Forces {
         outside_n,

@@ -50,14 +50,18 @@ impl History {
 
     /// As [`Self::points`], thinned to the lowest and highest of each stretch of rows.
     pub(super) fn thinned(&self, names: [&str; 2], factors: [f64; 2]) -> Vec<(f64, f64)> {
-        let points = self.points(names, factors);
-        let mut envelope = Envelope::default();
-        for (tick, (_, y)) in points.iter().enumerate() {
-            envelope.record(tick as u32, *y);
-        }
-        envelope
-            .samples()
-            .map(|(tick, y)| (points[tick as usize].0, y))
-            .collect()
+        thin(&self.points(names, factors))
     }
+}
+
+/// The lowest and highest point of each stretch.
+pub(super) fn thin(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
+    let mut envelope = Envelope::default();
+    for (tick, (_, y)) in points.iter().enumerate() {
+        envelope.record(tick as u32, *y);
+    }
+    envelope
+        .samples()
+        .map(|(tick, y)| (points[tick as usize].0, y))
+        .collect()
 }

@@ -151,7 +151,7 @@ fn follow(
 ) -> Outcome<(History, Report)> {
     let all = signals::all(run.vehicle());
     let mut history = History::new(all.clone(), run.ticks());
-    let mut indexer = Indexer::new(case, run.state().damper_forces_n().len());
+    let mut indexer = Indexer::new(case);
     let bar = progress::bar(run.ticks(), "vehicle");
     let _ends_gently = interruption::end_gently();
     let mut ending = Ending::Completed;

@@ -60,8 +60,10 @@ pub struct Trace {
 impl Trace {
     /// Of a run that has not begun.
     pub(super) fn of(run: &Run, case: &Case) -> Self {
-        let (vehicle, dampers) = (run.vehicle(), run.state().damper_forces_n().len());
-        Self::new(vehicle.names(), vehicle.wheelsets(), dampers, case)
+        Self {
+            inner_step_s: run.vehicle().inner_step_s(),
+            ..Self::new(case)
+        }
     }
 
     /// Adds a tick.
@@ -75,17 +77,19 @@ impl Trace {
         );
     }
 
-    pub(super) fn new(names: &[String], wheelsets: usize, dampers: usize, case: &Case) -> Self {
-        let bodies = names.len() - wheelsets;
+    pub(super) fn new(case: &Case) -> Self {
+        let (bodies, wheelsets) = (&case.vehicle.bodies, &case.vehicle.wheelsets);
+        let names = bodies.iter().map(|body| &body.name);
+        let names = names.chain(wheelsets.iter().map(|wheelset| &wheelset.name));
         Self {
-            names: names.to_vec(),
-            wheelsets,
+            names: names.cloned().collect(),
+            wheelsets: wheelsets.len(),
             times_s: Vec::new(),
-            accelerations: vec![Default::default(); bodies],
+            accelerations: vec![Default::default(); bodies.len()],
             track_accelerations: Vec::new(),
-            lateral: vec![Vec::new(); wheelsets],
-            loads: vec![Default::default(); wheelsets],
-            indexer: Indexer::new(case, dampers),
+            lateral: vec![Vec::new(); wheelsets.len()],
+            loads: vec![Default::default(); wheelsets.len()],
+            indexer: Indexer::new(case),
             speed_m_per_s: case.speed_m_per_s,
             inner_step_s: case.step_s,
         }
@@ -181,11 +185,6 @@ impl Trace {
 }
 
 impl Deviations<Worst> {
-    /// Whether even two reference solutions that are so far from each other would be out of bounds: the case is chaotic.
-    pub fn is_chaos(&self) -> bool {
-        !self.is_within_bounds()
-    }
-
     /// Whether every deviation is within [`BOUNDS`].
     pub fn is_within_bounds(&self) -> bool {
         self.acceleration.deviation <= BOUNDS.acceleration

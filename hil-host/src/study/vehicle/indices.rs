@@ -105,6 +105,8 @@ struct Windowed {
     square: f64,
     greatest: f64,
     ring: Vec<f64>,
+    /// Sum of the ring.
+    sum: f64,
     next: usize,
     seen: usize,
 }
@@ -122,6 +124,7 @@ impl Windowed {
             square: 0.0,
             greatest: 0.0,
             ring: vec![0.0; ticks],
+            sum: 0.0,
             next: 0,
             seen: 0,
         }
@@ -129,19 +132,20 @@ impl Windowed {
 
     fn add(&mut self, value: f64) {
         self.square += value * value;
+        self.sum += value - self.ring[self.next];
         self.ring[self.next] = value;
         self.next = (self.next + 1) % self.ring.len();
         self.seen += 1;
         if self.seen >= self.ring.len() {
-            let mean = self.ring.iter().sum::<f64>() / self.ring.len() as f64;
+            let mean = self.sum / self.ring.len() as f64;
             self.greatest = self.greatest.max(mean.abs());
         }
     }
 }
 
 impl Indexer {
-    /// Of the vehicle of a case, with so many dampers.
-    pub fn new(case: &Case, dampers: usize) -> Self {
+    /// Of the vehicle of a case.
+    pub fn new(case: &Case) -> Self {
         let Case {
             vehicle,
             step_s,
@@ -170,7 +174,7 @@ impl Indexer {
                     greatest: [0.0; 2],
                 })
                 .collect(),
-            dampers: vec![0.0; dampers],
+            dampers: vec![0.0; vehicle.dampers().count()],
         }
     }
 

@@ -1,6 +1,5 @@
 //! The step of a vehicle against the reference solution.
 
-use dashpot_rail::vehicle::Vehicle;
 use dashpot_reference::vehicle::VehicleReference;
 
 use super::deviations::Trace;
@@ -29,7 +28,6 @@ pub fn stepped(case: &Case, every: u64) -> Result<(Trace, Ending), VehicleStudyE
         }
         if run.state().ticks() % every == 0 {
             let state = run.state();
-            trace.inner_step_s = run.vehicle().inner_step_s();
             trace.times_s.push(run.time_s());
             let of_track = (0..bodies).map(|body| state.track_acceleration(body));
             trace.track_accelerations.push(of_track.collect());
@@ -45,7 +43,6 @@ pub fn stepped(case: &Case, every: u64) -> Result<(Trace, Ending), VehicleStudyE
 pub fn reference(case: &Case, like: &Trace, tolerance: f64) -> Result<Trace, VehicleStudyError> {
     let contact = contact::tabulated(&case.vehicle, case.friction, case.normal_damping_s_per_m)?;
     let track = case.track.build()?;
-    let vehicle = Vehicle::new(&case.vehicle, contact.clone(), case.step_s)?;
     let mut solver = VehicleReference::new(
         &case.vehicle,
         &contact,
@@ -54,8 +51,7 @@ pub fn reference(case: &Case, like: &Trace, tolerance: f64) -> Result<Trace, Veh
         case.start_m,
     )?;
     let samples = solver.run(&like.times_s, tolerance)?;
-    let dampers = vehicle.damper_names().len();
-    let mut trace = Trace::new(vehicle.names(), vehicle.wheelsets(), dampers, case);
+    let mut trace = Trace::new(case);
     trace.times_s.clone_from(&like.times_s);
     for (sample, of_track) in samples.iter().zip(&like.track_accelerations) {
         // An accelerometer does not feel the weight, and feels the curve.
