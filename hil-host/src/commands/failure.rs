@@ -9,6 +9,7 @@ use dashpot_reference::ReferenceError;
 use crate::files::FileError;
 use crate::files::case::CaseError;
 use crate::files::damper::{ContentError, DamperError, FORM};
+use crate::files::study::StudyFileError;
 use crate::files::track::TrackFileError;
 use crate::files::vehicle::{FORM as VEHICLE_FORM, VehicleFileError};
 use crate::realtime::pacing::RealtimeOption;
@@ -163,6 +164,16 @@ impl From<CaseError> for Failure {
                 let option = key.replace('_', "-");
                 Self::wrong_use(format!("--{}", error.to_string().replacen(key, &option, 1)))
             }
+            _ => Self::new(error.to_string()),
+        }
+    }
+}
+
+impl From<StudyFileError> for Failure {
+    fn from(error: StudyFileError) -> Self {
+        match error {
+            StudyFileError::File(error) => error.into(),
+            StudyFileError::Unknown(_) => Self::wrong_use(error.to_string()),
             _ => Self::new(error.to_string()),
         }
     }

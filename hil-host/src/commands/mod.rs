@@ -14,6 +14,7 @@ mod gap_report;
 pub mod interruption;
 pub mod line;
 pub mod link;
+pub mod merge;
 pub mod modes;
 mod paced;
 pub mod pil;
@@ -24,6 +25,7 @@ pub mod rig;
 pub mod shims;
 pub mod step_size;
 mod streams;
+pub mod sweep;
 pub mod vehicle;
 pub mod verify;
 
@@ -44,6 +46,8 @@ pub enum Command {
     Contact(contact::ContactArguments),
     Modes(modes::ModesArguments),
     Vehicle(vehicle::VehicleArguments),
+    Sweep(sweep::SweepArguments),
+    Merge(merge::MergeArguments),
     Pil(pil::PilArguments),
     Link(link::LinkArguments),
 }
@@ -64,6 +68,8 @@ impl Command {
             Self::Contact(arguments) => contact::run(arguments),
             Self::Modes(arguments) => modes::run(arguments),
             Self::Vehicle(arguments) => vehicle::run(arguments),
+            Self::Sweep(arguments) => sweep::run(arguments),
+            Self::Merge(arguments) => merge::run(arguments),
             Self::Pil(arguments) => pil::run(arguments),
             Self::Link(arguments) => link::run(arguments),
         }

@@ -12,6 +12,7 @@ use super::{Format, print_report};
 use crate::commands::failure::{Failure, Outcome};
 use crate::files::case::NORMAL_DAMPING_S_PER_M;
 use crate::files::vehicle::{self, VehicleFileError};
+use crate::study::vehicle::contact::ContactOf;
 use crate::study::vehicle::{VehicleStudyError, contact, hunting};
 
 /// Axle loads and natural modes of a vehicle at standstill or at a speed: frequency, damping, and what moves.
@@ -151,8 +152,12 @@ pub fn run(arguments: &ModesArguments) -> Outcome<()> {
 
 /// The contact itself, without tables.
 fn contact(name: &str, vehicle: &VehicleParameters, friction: f64) -> Outcome<Contact> {
-    let geometry =
-        contact::geometry(vehicle).map_err(|error| Failure::new(format!("{name}: {error}")))?;
+    let refused = |error: VehicleStudyError| Failure::new(format!("{name}: {error}"));
+    let of = ContactOf::new(vehicle, friction, NORMAL_DAMPING_S_PER_M);
+    let geometry = of
+        .map_err(VehicleStudyError::from)
+        .and_then(|of| of.geometry());
+    let geometry = geometry.map_err(refused)?;
     WheelsetContact::new(
         Arc::new(geometry),
         KalkerBook::new(),

@@ -1,4 +1,4 @@
-//! What is read and written: damper, vehicle, track and case files, recordings, profiles, saved states; files whole or not at all.
+//! What is read and written: damper, vehicle, track, case and study files, recordings, profiles, saved states; files whole or not at all.
 
 pub mod case;
 pub mod damper;
@@ -12,6 +12,7 @@ pub mod recording;
 mod shipped;
 pub mod states;
 pub mod status_bits;
+pub mod study;
 pub mod temporary;
 pub mod track;
 pub mod vehicle;

@@ -8,6 +8,7 @@ pub mod published;
 pub mod replay;
 mod scalar;
 pub mod shim_valves;
+pub mod sweep;
 pub mod vehicle;
 pub mod verification;
 

@@ -55,6 +55,33 @@ fn overrides_come_after_replacements() {
 }
 
 #[test]
+fn a_value_changes_in_dampers_of_a_direction_a_name_or_one_of_them() {
+    let [sets @ .., refused] = [
+        ("vertical.mount.clearance_m=2e-3", 8),
+        ("front vertical damper.mount.clearance_m=2e-3", 4),
+        ("rear vertical damper 3.mount.clearance_m=2e-3", 1),
+        ("vertical.mount.clearence_m=2e-3", 0),
+    ];
+    let plain = vehicle::load("locomotive", &[]).unwrap();
+    let preset = ["vertical.mount.clearance_m=2e-3".to_owned()];
+    let changed = |set: &str| vehicle::load("locomotive", &[set.to_owned()]);
+    for (set, count) in sets {
+        let now = changed(set).unwrap();
+        let now = dampers(&now).into_iter().zip(dampers(&plain));
+        let others: Vec<_> = now.filter(|(now, before)| now != before).collect();
+        assert_eq!(others.len(), count, "{set}");
+        let expected = damper::load("reduced-vertical", &[preset[0][9..].to_owned()]).unwrap();
+        assert!(others.iter().all(|(now, _)| *now.2 == *expected), "{set}");
+    }
+    let message = changed(refused.0).unwrap_err().to_string();
+    assert!(message.contains("did you mean `clearance_m`?"), "{message}");
+    let message = changed("verticl.mount.clearance_m=1")
+        .unwrap_err()
+        .to_string();
+    assert!(message.contains("did you mean `vertical`?"), "{message}");
+}
+
+#[test]
 fn dampers_that_there_are_not_are_refused() {
     for (text, expected) in [
         (

@@ -37,17 +37,21 @@ struct Report {
 /// # Errors
 /// A case that is refused, has faults or does not come to its end; deviations out of bounds.
 pub(super) fn run(case: &Case, format: Format) -> Outcome<()> {
-    if !case.faults.is_empty() {
-        return Err(Failure::wrong_use(format!(
-            "--check: {} changes dampers on the way, which the reference does not; give a case without faults",
-            case.name
-        )));
-    }
-    if case.rails.is_some() {
-        return Err(Failure::wrong_use(format!(
-            "--check: {} has rails that give way, which the reference does not; give a case without [rails]",
-            case.name
-        )));
+    for (has, what, without) in [
+        (
+            !case.faults.is_empty(),
+            "changes dampers on the way",
+            "faults",
+        ),
+        (case.rails.is_some(), "has rails that give way", "[rails]"),
+        (case.push_m != 0.0, "starts with a push", "push_m"),
+    ] {
+        if has {
+            return Err(Failure::wrong_use(format!(
+                "--check: {} {what}, which the reference does not; give a case without {without}",
+                case.name
+            )));
+        }
     }
     let failed = |error| refused(case, &error);
     let bar = progress::bar(0, "step");

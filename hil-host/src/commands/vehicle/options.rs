@@ -36,10 +36,14 @@ pub(super) struct CaseArguments {
     /// Step, us.
     #[arg(long, value_name = "US")]
     step_us: Option<f64>,
+    /// By how much bogies and wheelsets stand to the right at the start, m.
+    #[arg(long, value_name = "M")]
+    push_m: Option<f64>,
     /// Replaces dampers: those along vertical, lateral or longitudinal, or of a name, by a preset or file; may be given several times.
     #[arg(long = "damper", value_name = "WHICH=DAMPER")]
     dampers: Vec<Replacement>,
-    /// Changes a value of the vehicle's file: part.key=value, such as body.mass_kg=70e3; may be given several times.
+    /// Changes a value of the vehicle's file: part.key=value, such as body.mass_kg=70e3, or of its dampers: dampers.table.key=value,
+    /// such as vertical.mount.clearance_m=2e-3; may be given several times.
     #[arg(long = "set", value_name = "PART.KEY=VALUE")]
     overrides: Vec<String>,
 }
@@ -68,52 +72,24 @@ impl CaseArguments {
                 )));
             }
         };
-        let mut changed = Vec::new();
-        let CaseOptions {
-            name,
-            vehicle,
-            track,
-            speed_km_h,
-            duration_s,
-            start_m,
-            friction,
-            normal_damping_s_per_m,
-            step_us,
-            ..
-        } = &mut options;
-        let changes_the_name = self.case.is_some()
-            && (self.vehicle.is_some() || self.track.is_some() || self.speed_km_h.is_some());
-        if changes_the_name {
-            *name = None;
+        if let (Some(_), Some(vehicle)) = (&self.case, &self.vehicle) {
+            options.set_vehicle(vehicle);
         }
-        for (given, name, key) in [
-            (&self.vehicle, vehicle, "vehicle"),
-            (&self.track, track, "track"),
+        if let (Some(_), Some(track)) = (&self.case, &self.track) {
+            options.set_track(track);
+        }
+        for (key, given) in [
+            ("speed_km_h", self.speed_km_h),
+            ("duration_s", self.duration_s),
+            ("start_m", self.start_m),
+            ("friction", self.friction),
+            ("normal_damping_s_per_m", self.normal_damping_s_per_m),
+            ("step_us", self.step_us),
+            ("push_m", self.push_m),
         ] {
             if let Some(given) = given {
-                name.clone_from(given);
-                changed.push(key);
+                options.set_number(key, given);
             }
-        }
-        for (given, number, key) in [
-            (self.speed_km_h, speed_km_h, "speed_km_h"),
-            (self.duration_s, duration_s, "duration_s"),
-            (self.start_m, start_m, "start_m"),
-            (self.friction, friction, "friction"),
-            (
-                self.normal_damping_s_per_m,
-                normal_damping_s_per_m,
-                "normal_damping_s_per_m",
-            ),
-            (self.step_us, step_us, "step_us"),
-        ] {
-            if let Some(given) = given {
-                *number = given;
-                changed.push(key);
-            }
-        }
-        for key in changed {
-            options.changed(key);
         }
         options.dampers.extend(self.dampers.iter().cloned());
         options.overrides.extend(self.overrides.iter().cloned());

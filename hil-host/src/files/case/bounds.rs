@@ -5,6 +5,9 @@ use dashpot_rail::vehicle::{SPEED_M_PER_S, STEP_S};
 
 use super::{CaseError, CaseOptions};
 
+/// Greatest push, m: the flange is some 6 mm away.
+const PUSH_M: f64 = 0.02;
+
 /// Checks every number.
 pub(super) fn check(options: &CaseOptions) -> Result<(), CaseError> {
     let steps_us = STEP_S.map(|step_s| (step_s * 1e6).round());
@@ -23,6 +26,7 @@ pub(super) fn check(options: &CaseOptions) -> Result<(), CaseError> {
             [0.0, MAX_NORMAL_DAMPING_S_PER_M],
         ),
         ("step_us", options.step_us, steps_us),
+        ("push_m", options.push_m, [-PUSH_M, PUSH_M]),
     ];
     for (key, value, allowed) in numbers {
         within(key, value, allowed)?;

@@ -66,6 +66,8 @@ pub struct Case {
     pub normal_damping_s_per_m: f64,
     /// Step, s.
     pub step_s: f64,
+    /// By how much all bodies but the first stand to the right at the start, m.
+    pub push_m: f64,
     /// What carries the rails; they do not give way where there is none.
     pub rails: Option<RailSupport>,
     /// Changes of dampers on the way, by rising time.
@@ -131,6 +133,8 @@ pub struct CaseOptions {
     pub normal_damping_s_per_m: f64,
     /// Step, us.
     pub step_us: f64,
+    /// By how much all bodies but the first stand to the right at the start, m.
+    pub push_m: f64,
     /// What carries the rails.
     pub rails: Option<RailSupport>,
     /// Changes of dampers on the way.
@@ -154,6 +158,7 @@ impl CaseOptions {
             friction: 0.4,
             normal_damping_s_per_m: NORMAL_DAMPING_S_PER_M,
             step_us: 1000.0,
+            push_m: 0.0,
             rails: None,
             faults: Vec::new(),
             origin: None,
@@ -190,8 +195,52 @@ impl CaseOptions {
         Ok(tables.options(found))
     }
 
+    /// Keys of the numbers of a case.
+    pub const NUMBERS: [&str; 7] = [
+        "speed_km_h",
+        "duration_s",
+        "start_m",
+        "friction",
+        "normal_damping_s_per_m",
+        "step_us",
+        "push_m",
+    ];
+
+    /// Another number for one of [`Self::NUMBERS`]; nothing for any other key.
+    pub fn set_number(&mut self, key: &str, value: f64) {
+        let number = match key {
+            "speed_km_h" => &mut self.speed_km_h,
+            "duration_s" => &mut self.duration_s,
+            "start_m" => &mut self.start_m,
+            "friction" => &mut self.friction,
+            "normal_damping_s_per_m" => &mut self.normal_damping_s_per_m,
+            "step_us" => &mut self.step_us,
+            "push_m" => &mut self.push_m,
+            _ => return,
+        };
+        *number = value;
+        if key == "speed_km_h" {
+            self.name = None;
+        }
+        self.forget_line(key);
+    }
+
+    /// Another vehicle.
+    pub fn set_vehicle(&mut self, name: &str) {
+        name.clone_into(&mut self.vehicle);
+        self.name = None;
+        self.forget_line("vehicle");
+    }
+
+    /// Another track.
+    pub fn set_track(&mut self, name: &str) {
+        name.clone_into(&mut self.track);
+        self.name = None;
+        self.forget_line("track");
+    }
+
     /// The value of `key` is no longer the file's: what is wrong with it is not told with the file's line.
-    pub fn changed(&mut self, key: &str) {
+    fn forget_line(&mut self, key: &str) {
         if let Some(origin) = &mut self.origin {
             origin.lines.remove(key);
         }
@@ -236,6 +285,7 @@ impl CaseOptions {
             friction: self.friction,
             normal_damping_s_per_m: self.normal_damping_s_per_m,
             step_s: self.step_us / 1e6,
+            push_m: self.push_m,
             rails: self.rails,
             faults,
         })

@@ -25,6 +25,7 @@ pub(super) struct CaseTables {
     friction: Option<Spanned<f64>>,
     normal_damping_s_per_m: Option<Spanned<f64>>,
     step_us: Option<Spanned<f64>>,
+    push_m: Option<Spanned<f64>>,
     rails: Option<Spanned<RailsTable>>,
     #[serde(default)]
     set: Vec<Spanned<String>>,
@@ -110,6 +111,7 @@ impl CaseTables {
             new.normal_damping_s_per_m,
         );
         let step_us = number("step_us", self.step_us, new.step_us);
+        let push_m = number("push_m", self.push_m, new.push_m);
         let rails = self.rails.map(|rails| {
             at("rails", rails.span().start);
             rails.into_inner().into()
@@ -145,6 +147,7 @@ impl CaseTables {
             friction,
             normal_damping_s_per_m,
             step_us,
+            push_m,
             rails,
             faults: faults.collect(),
             origin: Some(origin),

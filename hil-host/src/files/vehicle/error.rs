@@ -69,4 +69,4 @@ pub enum VehicleFileError {
 }
 
 /// The form of an override.
-pub(crate) const FORM: &str = "part.key=value with a TOML value, such as body.mass_kg=70e3 or \"front lateral damper.damper='in-service'\"";
+pub(crate) const FORM: &str = "part.key=value with a TOML value, such as body.mass_kg=70e3, or dampers.table.key=value, such as vertical.mount.clearance_m=2e-3";

@@ -1,5 +1,6 @@
 //! Vehicle files: TOML in SI units, unknown keys refused with the nearest one.
 
+mod change;
 mod dampers;
 mod error;
 mod replacement;
@@ -36,7 +37,8 @@ const SHIPPED: Shipped = Shipped {
 };
 
 /// The vehicle called `name`: a shipped one, or the TOML file at that path, `-` being standard input; then each
-/// `part.key=value` of `overrides` in order, where a part is a body, a wheelset or an element of the file.
+/// `part.key=value` of `overrides` in order, where a part is a body, a wheelset or an element of the file, and then each
+/// `dampers.table.key=value`, which changes the dampers along vertical, lateral or longitudinal, or of a name.
 ///
 /// # Errors
 /// Neither vehicle nor readable file; text that is no TOML; unknown or missing keys; a damper that there is not; an override of
@@ -46,6 +48,13 @@ const SHIPPED: Shipped = Shipped {
 /// let vehicle = dashpot_hil::files::vehicle::load("locomotive", &["body.mass_kg=70e3".into()])?;
 /// assert_eq!(vehicle.bodies[0].mass_kg, 70e3);
 /// assert_eq!(vehicle.wheelsets.len(), 6);
+///
+/// let worn = dashpot_hil::files::vehicle::load("locomotive", &["vertical.mount.clearance_m=3e-3".into()])?;
+/// let is_worn = |law: &dashpot_rail::vehicle::Law| match law {
+///     dashpot_rail::vehicle::Law::Damper { parameters, .. } => parameters.mount.clearance_m == 3e-3,
+///     _ => false,
+/// };
+/// assert_eq!(worn.dampers().filter(|damper| is_worn(&damper.law)).count(), 8);
 /// # Ok::<(), dashpot_hil::files::vehicle::VehicleFileError>(())
 /// ```
 pub fn load(name: &str, overrides: &[String]) -> Result<VehicleParameters, VehicleFileError> {
@@ -108,7 +117,10 @@ fn parse_in(
     let mut tree: toml::Table = toml::from_str(text).map_err(in_text)?;
     dampers::name_files_from(folder, &mut tree);
     replacement::apply(&mut tree, replacements)?;
-    for assignment in overrides {
+    let (of_dampers, of_parts): (Vec<_>, Vec<_>) = overrides
+        .iter()
+        .partition(|assignment| change::of_dampers(assignment).is_some());
+    for assignment in of_parts {
         set(&mut tree, assignment)?;
     }
     let file: VehicleFile = tree
@@ -117,7 +129,10 @@ fn parse_in(
             name: name.clone(),
             message: explain(&error),
         })?;
-    let vehicle = file.vehicle(|part| located(name, text, part))?;
+    let mut vehicle = file.vehicle(|part| located(name, text, part))?;
+    for assignment in of_dampers {
+        change::apply(&mut vehicle, assignment)?;
+    }
     // What no equation can be made of is told with its line here.
     Standstill::new(&vehicle).map_err(|source| VehicleFileError::Vehicle {
         name: source

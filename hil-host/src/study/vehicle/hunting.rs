@@ -5,7 +5,7 @@ use std::sync::Arc;
 use dashpot_rail::contact::WheelsetContact;
 use dashpot_rail::creep::KalkerBook;
 use dashpot_rail::track::Track;
-use dashpot_rail::vehicle::{Vehicle, VehicleParameters};
+use dashpot_rail::vehicle::{Vehicle, VehicleParameters, VehicleState};
 use serde::Serialize;
 
 use super::VehicleStudyError;
@@ -42,6 +42,18 @@ impl Outcome {
     }
 }
 
+/// Moves all bodies but the first, which is the car body, to the right.
+pub(super) fn push_aside(
+    vehicle: &Vehicle<KalkerBook>,
+    state: &mut VehicleState,
+    track: &Track,
+    by_m: f64,
+) {
+    for body in 1..vehicle.names().len() {
+        vehicle.displace(state, track, body, [by_m, 0.0, 0.0, 0.0, 0.0]);
+    }
+}
+
 /// A vehicle that is pushed, on straight ideal track.
 pub struct Hunting {
     vehicle: Vehicle<KalkerBook>,
@@ -70,12 +82,8 @@ impl Hunting {
     pub fn push(&self, speed_m_per_s: f64) -> Result<Outcome, VehicleStudyError> {
         let vehicle = &self.vehicle;
         let mut state = vehicle.at_rest(&self.track, 0.0, speed_m_per_s)?;
-        let bodies = vehicle.names().len();
-        // All but the first, which is the car body.
-        for body in 1..bodies {
-            vehicle.displace(&mut state, &self.track, body, [PUSH_M, 0.0, 0.0, 0.0, 0.0]);
-        }
-        let wheelsets = bodies - vehicle.wheelsets();
+        push_aside(vehicle, &mut state, &self.track, PUSH_M);
+        let wheelsets = vehicle.names().len() - vehicle.wheelsets();
         let mut amplitudes = [0.0_f64; 2];
         let ticks = |seconds: f64| (seconds / STEP_S) as u64;
         for tick in 0..ticks(SETTLING_S + 2.0 * WINDOW_S) {

@@ -1,12 +1,14 @@
 //! A run of a case, tick by tick.
 
 use std::fmt;
+use std::sync::Arc;
 
-use dashpot_rail::contact::Status;
+use dashpot_rail::contact::{Status, WheelsetContact};
 use dashpot_rail::creep::KalkerBook;
 use dashpot_rail::track::Track;
 use dashpot_rail::vehicle::{Vehicle, VehicleState};
 
+use super::hunting::push_aside;
 use super::{VehicleStudyError, contact};
 use crate::files::case::{Case, Fault};
 
@@ -14,7 +16,7 @@ use crate::files::case::{Case, Fault};
 #[derive(Debug, Clone)]
 pub struct Run {
     vehicle: Vehicle<KalkerBook>,
-    track: Track,
+    track: Arc<Track>,
     state: VehicleState,
     faults: Vec<(usize, Fault)>,
     next_fault: usize,
@@ -118,9 +120,23 @@ impl Run {
     pub fn new(case: &Case) -> Result<Self, VehicleStudyError> {
         let contact =
             contact::tabulated(&case.vehicle, case.friction, case.normal_damping_s_per_m)?;
-        let track = case.track.build()?;
+        Self::on(case, contact, Arc::new(case.track.build()?))
+    }
+
+    /// As [`Self::new`], with the contact of [`contact::tabulated`] and the built track, which runs may share.
+    ///
+    /// # Errors
+    /// A vehicle that is refused.
+    pub fn on(
+        case: &Case,
+        contact: Arc<WheelsetContact<KalkerBook>>,
+        track: Arc<Track>,
+    ) -> Result<Self, VehicleStudyError> {
         let vehicle = Vehicle::on_rails(&case.vehicle, contact, case.step_s, case.rails)?;
-        let state = vehicle.at_rest(&track, case.start_m, case.speed_m_per_s)?;
+        let mut state = vehicle.at_rest(&track, case.start_m, case.speed_m_per_s)?;
+        if case.push_m != 0.0 {
+            push_aside(&vehicle, &mut state, &track, case.push_m);
+        }
         let number_of =
             |fault: &Fault| vehicle.damper_names().position(|name| name == fault.damper);
         let faults = case

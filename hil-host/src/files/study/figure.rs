@@ -1,0 +1,149 @@
+//! Figures of a study's page.
+
+use serde::Deserialize;
+
+use super::axis::Value;
+
+/// A figure.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Figure {
+    /// Heading.
+    pub title: String,
+    /// What is told under it.
+    pub caption: String,
+    /// What is drawn.
+    pub shown: Shown,
+}
+
+/// What a figure draws.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Shown {
+    /// Observed indices over the first axis of each sweep, a panel each: mean over seeds with its confidence.
+    Indices {
+        /// Sweeps.
+        sweeps: Vec<String>,
+        /// Observed indices.
+        observed: Vec<String>,
+    },
+    /// Force of dampers over time, displacement and velocity, at the first seed of a sweep's first case.
+    Dampers {
+        /// The sweep.
+        sweep: String,
+        /// Dampers by name.
+        dampers: Vec<String>,
+    },
+    /// A signal over time at the first seed, and its spectrum over all seeds.
+    Signal {
+        /// The sweep.
+        sweep: String,
+        /// Values of its first axis.
+        values: Vec<Value>,
+        /// The signal, called as in a history.
+        signal: String,
+    },
+    /// Amplitude-frequency characteristic of a damper.
+    Response {
+        /// The sweep.
+        sweep: String,
+        /// Values of its first axis.
+        values: Vec<Value>,
+        /// The damper.
+        damper: String,
+        /// Amplitude of its displacement, m.
+        amplitude_m: f64,
+    },
+}
+
+impl Shown {
+    /// The sweeps that are drawn.
+    pub fn sweeps(&self) -> &[String] {
+        match self {
+            Self::Indices { sweeps, .. } => sweeps,
+            Self::Dampers { sweep, .. }
+            | Self::Signal { sweep, .. }
+            | Self::Response { sweep, .. } => std::slice::from_ref(sweep),
+        }
+    }
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct FigureTable {
+    title: String,
+    #[serde(default)]
+    caption: String,
+    indices: Option<IndicesTable>,
+    dampers: Option<DampersTable>,
+    signal: Option<SignalTable>,
+    response: Option<ResponseTable>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct IndicesTable {
+    sweeps: Vec<String>,
+    observed: Vec<String>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct DampersTable {
+    sweep: String,
+    dampers: Vec<String>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct SignalTable {
+    sweep: String,
+    values: Vec<f64>,
+    signal: String,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ResponseTable {
+    sweep: String,
+    values: Vec<f64>,
+    damper: String,
+    amplitude_m: f64,
+}
+
+impl FigureTable {
+    /// The figure.
+    ///
+    /// # Errors
+    /// Not one thing to draw; in words.
+    pub fn figure(self) -> Result<Figure, String> {
+        let numbers = |values: Vec<f64>| values.into_iter().map(Value::Number).collect();
+        let shown = match (self.indices, self.dampers, self.signal, self.response) {
+            (Some(table), None, None, None) => Shown::Indices {
+                sweeps: table.sweeps,
+                observed: table.observed,
+            },
+            (None, Some(table), None, None) => Shown::Dampers {
+                sweep: table.sweep,
+                dampers: table.dampers,
+            },
+            (None, None, Some(table), None) => Shown::Signal {
+                sweep: table.sweep,
+                values: numbers(table.values),
+                signal: table.signal,
+            },
+            (None, None, None, Some(table)) => Shown::Response {
+                sweep: table.sweep,
+                values: numbers(table.values),
+                damper: table.damper,
+                amplitude_m: table.amplitude_m,
+            },
+            _ => {
+                return Err("allowed: one of `indices`, `dampers`, `signal`, `response`".into());
+            }
+        };
+        Ok(Figure {
+            title: self.title,
+            caption: self.caption,
+            shown,
+        })
+    }
+}

@@ -1,0 +1,116 @@
+//! Study files: cases of a vehicle on a track whose parameters vary, and the figures drawn of them.
+
+mod axis;
+mod error;
+mod figure;
+mod tables;
+
+pub use axis::{Axis, Value};
+pub use error::StudyFileError;
+pub use figure::{Figure, Shown};
+use tables::StudyTables;
+
+use crate::files::case::CaseOptions;
+use crate::files::overrides::explain;
+use crate::files::shipped::{Found, Shipped};
+
+/// Studies that ship with the program: name and file.
+pub const STUDIES: [(&str, &str); 4] = [
+    ("paper", include_str!("../../../../data/studies/paper.toml")),
+    (
+        "hunting",
+        include_str!("../../../../data/studies/hunting.toml"),
+    ),
+    (
+        "temperature",
+        include_str!("../../../../data/studies/temperature.toml"),
+    ),
+    (
+        "worn-damper",
+        include_str!("../../../../data/studies/worn-damper.toml"),
+    ),
+];
+
+const SHIPPED: Shipped = Shipped {
+    what: "study",
+    one: "study",
+    texts: &STUDIES,
+};
+
+/// A study as its file gives it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StudyParameters {
+    /// Name.
+    pub name: String,
+    /// Names of the indices of a row.
+    pub observed: Vec<String>,
+    /// Sweeps, in the order of their cases.
+    pub sweeps: Vec<Sweep>,
+    /// Figures of the page.
+    pub figures: Vec<Figure>,
+    /// What stands for the file in errors.
+    pub file: String,
+}
+
+/// A case, and what varies of it: every combination of the values of all axes, each with every seed.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Sweep {
+    /// Name, which no other sweep of the study has.
+    pub name: String,
+    /// What a figure is called.
+    pub title: String,
+    /// The case that values are changed of.
+    pub case: CaseOptions,
+    /// What varies; the last axis varies fastest.
+    pub axes: Vec<Axis>,
+    /// Seeds of the irregularity; that of the track file when empty.
+    pub seeds: Vec<u64>,
+    /// Line in the file.
+    pub line: u64,
+}
+
+impl StudyParameters {
+    /// The study called `name`: a shipped one, or the TOML file at that path, `-` being standard input. Names of files in it count
+    /// from the study file, those within `set` from the working folder.
+    ///
+    /// # Errors
+    /// Neither study nor readable file; text that is no TOML; unknown or missing keys; axes without values, names that there are twice
+    /// or not at all; with file and line.
+    ///
+    /// ```
+    /// let study = dashpot_hil::files::study::StudyParameters::load("paper")?;
+    /// let clearance = study.sweeps.iter().find(|sweep| sweep.name == "12d").unwrap();
+    /// assert_eq!(clearance.axes[0].parameter, "vertical.mount.clearance_m");
+    /// assert_eq!(clearance.seeds.len(), 8);
+    /// # Ok::<(), dashpot_hil::files::study::StudyFileError>(())
+    /// ```
+    pub fn load(name: &str) -> Result<Self, StudyFileError> {
+        Self::parse_in(&SHIPPED.find::<StudyFileError>(name)?)
+    }
+
+    /// The study written in `text`; `name` stands for it in errors.
+    ///
+    /// # Errors
+    /// As [`Self::load`].
+    pub fn parse(name: &str, text: &str) -> Result<Self, StudyFileError> {
+        Self::parse_in(&Found {
+            name: name.to_owned(),
+            text: text.to_owned().into(),
+            folder: std::path::PathBuf::new(),
+        })
+    }
+
+    fn parse_in(found: &Found) -> Result<Self, StudyFileError> {
+        let tables: StudyTables =
+            toml::from_str(&found.text).map_err(|error| StudyFileError::Text {
+                name: found.name.clone(),
+                message: explain(&error),
+            })?;
+        tables.parameters(found)
+    }
+
+    /// The sweep of a name.
+    pub fn sweep(&self, name: &str) -> Option<&Sweep> {
+        self.sweeps.iter().find(|sweep| sweep.name == name)
+    }
+}

@@ -1,0 +1,285 @@
+//! The tables of a study file.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use serde::Deserialize;
+use toml::Spanned;
+
+use super::axis::{Axis, MOST_VALUES, Value, WORN_DAMPER, range};
+use super::figure::{Figure, FigureTable};
+use super::{StudyFileError, StudyParameters, Sweep};
+use crate::files::case::{CaseError, CaseOptions};
+use crate::files::lines::line_at;
+use crate::files::overrides::nearest;
+use crate::files::shipped::{Found, named_in};
+use crate::files::vehicle::Replacement;
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct StudyTables {
+    name: String,
+    #[serde(default)]
+    seeds: Vec<u64>,
+    observed: Vec<String>,
+    sweep: Vec<Spanned<SweepTable>>,
+    #[serde(default)]
+    figure: Vec<Spanned<FigureTable>>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct SweepTable {
+    name: String,
+    title: Option<String>,
+    case: Option<String>,
+    vehicle: Option<String>,
+    track: Option<String>,
+    speed_km_h: Option<f64>,
+    duration_s: Option<f64>,
+    start_m: Option<f64>,
+    friction: Option<f64>,
+    normal_damping_s_per_m: Option<f64>,
+    step_us: Option<f64>,
+    push_m: Option<f64>,
+    #[serde(default)]
+    dampers: BTreeMap<String, String>,
+    #[serde(default)]
+    set: Vec<String>,
+    seeds: Option<Vec<u64>>,
+    #[serde(default)]
+    vary: Vec<Spanned<VaryTable>>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct VaryTable {
+    parameter: String,
+    values: Option<Vec<toml::Value>>,
+    from: Option<f64>,
+    to: Option<f64>,
+    count: Option<usize>,
+    #[serde(default)]
+    spacing: Spacing,
+    #[serde(default)]
+    set: Vec<String>,
+    label: Option<String>,
+    factor: Option<f64>,
+}
+
+#[derive(Deserialize, Default, PartialEq, Clone, Copy)]
+#[serde(rename_all = "lowercase")]
+enum Spacing {
+    #[default]
+    Linear,
+    Geometric,
+}
+
+impl StudyTables {
+    /// The study in the file that was found.
+    pub fn parameters(self, found: &Found) -> Result<StudyParameters, StudyFileError> {
+        let wrong_at = |start: usize, message: String| StudyFileError::Line {
+            name: found.name.clone(),
+            line: line_at(&found.text, start),
+            message,
+        };
+        let mut sweeps = Vec::new();
+        let mut names = BTreeSet::new();
+        for table in self.sweep {
+            let start = table.span().start;
+            let table = table.into_inner();
+            if !names.insert(table.name.clone()) {
+                return Err(wrong_at(start, format!("a second sweep `{}`", table.name)));
+            }
+            sweeps.push(table.sweep(&self.seeds, start, found)?);
+        }
+        let mut study = StudyParameters {
+            name: self.name,
+            observed: self.observed,
+            sweeps,
+            figures: Vec::new(),
+            file: found.name.clone(),
+        };
+        for table in self.figure {
+            let start = table.span().start;
+            let figure = table.into_inner().figure();
+            let figure = figure.and_then(|figure| study.check(figure));
+            let figure = figure.map_err(|message| wrong_at(start, message))?;
+            study.figures.push(figure);
+        }
+        Ok(study)
+    }
+}
+
+impl StudyParameters {
+    /// The figure, if the study has what it draws.
+    fn check(&self, figure: Figure) -> Result<Figure, String> {
+        let names = || self.sweeps.iter().map(|sweep| sweep.name.as_str());
+        for wanted in figure.shown.sweeps() {
+            if self.sweep(wanted).is_none() {
+                return Err(format!("no sweep `{wanted}`{}", nearest(wanted, names())));
+            }
+        }
+        if let super::Shown::Indices { observed, .. } = &figure.shown {
+            let names = || self.observed.iter().map(String::as_str);
+            if let Some(wanted) = observed
+                .iter()
+                .find(|wanted| !self.observed.contains(wanted))
+            {
+                return Err(format!(
+                    "`{wanted}` is not among the observed{}",
+                    nearest(wanted, names())
+                ));
+            }
+        }
+        Ok(figure)
+    }
+}
+
+impl SweepTable {
+    fn sweep(self, seeds: &[u64], start: usize, found: &Found) -> Result<Sweep, StudyFileError> {
+        let Found { name, text, folder } = found;
+        let line = line_at(text, start);
+        let wrong = |line: u64, message: String| StudyFileError::Line {
+            name: name.clone(),
+            line,
+            message,
+        };
+        let named = |name: &String| named_in(folder, name);
+        let mut case = match (&self.case, &self.track, self.speed_km_h) {
+            (Some(case), ..) => CaseOptions::load(&named(case))
+                .map_err(|source| self.refused(name, line, source))?,
+            (None, Some(track), Some(speed_km_h)) => {
+                let vehicle = self.vehicle.as_ref().map_or("locomotive".into(), named);
+                CaseOptions::new(&vehicle, &named(track), speed_km_h)
+            }
+            _ => {
+                return Err(wrong(
+                    line,
+                    format!(
+                        "sweep {}: give `case`, or `track` and `speed_km_h`",
+                        self.name
+                    ),
+                ));
+            }
+        };
+        if let (Some(_), Some(vehicle)) = (&self.case, &self.vehicle) {
+            case.set_vehicle(&named(vehicle));
+        }
+        if let (Some(_), Some(track)) = (&self.case, &self.track) {
+            case.set_track(&named(track));
+        }
+        let numbers = [
+            ("speed_km_h", self.speed_km_h),
+            ("duration_s", self.duration_s),
+            ("start_m", self.start_m),
+            ("friction", self.friction),
+            ("normal_damping_s_per_m", self.normal_damping_s_per_m),
+            ("step_us", self.step_us),
+            ("push_m", self.push_m),
+        ];
+        for (key, number) in numbers {
+            if let Some(number) = number {
+                case.set_number(key, number);
+            }
+        }
+        let replacements = self.dampers.iter().map(|(dampers, by)| Replacement {
+            dampers: dampers.clone(),
+            by: named(by),
+        });
+        case.dampers.extend(replacements);
+        case.overrides.extend(self.set);
+        let mut axes = Vec::new();
+        for vary in self.vary {
+            let at = line_at(text, vary.span().start);
+            axes.push(vary.into_inner().axis().map_err(|error| wrong(at, error))?);
+        }
+        let seeds = self.seeds.unwrap_or_else(|| seeds.to_vec());
+        let once: BTreeSet<u64> = seeds.iter().copied().collect();
+        if once.len() < seeds.len() {
+            return Err(wrong(line, format!("sweep {}: a seed twice", self.name)));
+        }
+        Ok(Sweep {
+            title: self.title.unwrap_or_else(|| self.name.clone()),
+            name: self.name,
+            case,
+            axes,
+            seeds,
+            line,
+        })
+    }
+
+    fn refused(&self, name: &str, line: u64, source: CaseError) -> StudyFileError {
+        StudyFileError::Case {
+            name: name.to_owned(),
+            line,
+            sweep: self.name.clone(),
+            at: String::new(),
+            source: Box::new(source),
+        }
+    }
+}
+
+impl VaryTable {
+    /// The axis.
+    ///
+    /// # Errors
+    /// What is wrong, in words.
+    fn axis(self) -> Result<Axis, String> {
+        let parameter = self.parameter;
+        let wrong = |reason: String| format!("{parameter}: {reason}");
+        let values = match (self.values, self.from, self.to, self.count) {
+            (Some(values), None, None, None) => {
+                let values = values.into_iter().map(|value| match value {
+                    toml::Value::Integer(number) => Ok(Value::Number(number as f64)),
+                    toml::Value::Float(number) => Ok(Value::Number(number)),
+                    toml::Value::String(word) => Ok(Value::Word(word)),
+                    other => Err(wrong(format!("value {other}, allowed: numbers and names"))),
+                });
+                values.collect::<Result<Vec<_>, _>>()?
+            }
+            (None, Some(from), Some(to), Some(count)) => {
+                let geometric = self.spacing == Spacing::Geometric;
+                if !(2..=MOST_VALUES).contains(&count) {
+                    return Err(wrong(format!("count {count}, allowed: 2 to {MOST_VALUES}")));
+                }
+                if geometric && !(from > 0.0 && to > 0.0) {
+                    let reason = format!("from {from} to {to} in equal ratios, allowed: above 0");
+                    return Err(wrong(reason));
+                }
+                range(from, to, count, geometric)
+            }
+            _ => {
+                return Err(wrong(
+                    "allowed: either `values`, or `from`, `to` and `count`".into(),
+                ));
+            }
+        };
+        if values.is_empty() || values.len() > MOST_VALUES {
+            let count = values.len();
+            return Err(wrong(format!(
+                "{count} values, allowed: 1 to {MOST_VALUES}"
+            )));
+        }
+        let finite = |value: &Value| !matches!(value, Value::Number(number) if !number.is_finite());
+        if !values.iter().all(finite) {
+            return Err(wrong("a value that is no finite number".into()));
+        }
+        for (number, value) in values.iter().enumerate() {
+            if values[..number].contains(value) {
+                return Err(wrong(format!("value {value} twice")));
+            }
+        }
+        if (parameter == WORN_DAMPER) == self.set.is_empty() {
+            return Err(wrong(format!(
+                "`set` belongs to `{WORN_DAMPER}`, and it cannot be without"
+            )));
+        }
+        Ok(Axis {
+            label: self.label.unwrap_or_else(|| parameter.clone()),
+            parameter,
+            values,
+            set: self.set,
+            factor: self.factor.unwrap_or(1.0),
+        })
+    }
+}

@@ -1,0 +1,66 @@
+//! Of what the cases of a study are, so that rows of different studies are not mixed.
+
+use std::fmt::Debug;
+
+use sha2::{Digest as _, Sha256};
+
+use crate::files::case::Case;
+use crate::files::input;
+use crate::files::track::IrregularityParameters;
+use crate::files::{FileError, study::StudyFileError};
+
+/// SHA-256 of what it is given.
+#[derive(Default)]
+pub(super) struct Digest(Sha256);
+
+impl Digest {
+    /// Adds what a value is written as, which for numbers is exact.
+    pub fn add(&mut self, value: &impl Debug) {
+        self.0.update(format!("{value:?}\n"));
+    }
+
+    /// Adds a case: its numbers, its vehicle and its track, whatever their files are called.
+    ///
+    /// # Errors
+    /// A measured irregularity that cannot be read.
+    pub fn add_case(&mut self, case: &Case) -> Result<(), StudyFileError> {
+        let Case {
+            name: _,
+            vehicle,
+            track,
+            speed_m_per_s,
+            duration_s,
+            start_m,
+            friction,
+            normal_damping_s_per_m,
+            step_s,
+            push_m,
+            rails,
+            faults,
+        } = case;
+        self.add(&(vehicle, rails, faults));
+        self.add(&(speed_m_per_s, duration_s, start_m, friction));
+        self.add(&(normal_damping_s_per_m, step_s, push_m));
+        self.add(&(&track.layout, &track.defects));
+        match &track.irregularity {
+            IrregularityParameters::Measured { file, options } => {
+                let bytes =
+                    input::read(file).map_err(|error: FileError| StudyFileError::File(error))?;
+                self.add(options);
+                self.0.update(bytes);
+            }
+            other => self.add(other),
+        }
+        Ok(())
+    }
+
+    /// The first 16 hexadecimal digits.
+    pub fn hexadecimal(self) -> String {
+        let bytes = self.0.finalize();
+        bytes
+            .iter()
+            .take(8)
+            .map(|byte| format!("{byte:02x}"))
+            .collect()
+    }
+}

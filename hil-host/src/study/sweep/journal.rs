@@ -1,0 +1,124 @@
+//! Rows of a study that is being run: added one by one, so that an interruption loses none.
+
+use std::fs::{self, File, TryLockError};
+use std::io::{self, Read, Seek, SeekFrom, Write};
+use std::path::{Path, PathBuf};
+
+use super::row::Row;
+use super::rows::{self, Rows};
+use super::study::Study;
+use crate::files::FileError;
+use crate::files::output::cannot_write;
+
+/// The rows there are, and the file that new ones are added to: that of the rows with `.partial` behind its name.
+#[derive(Debug)]
+pub struct Journal {
+    path: PathBuf,
+    partial: PathBuf,
+    file: File,
+    rows: Rows,
+}
+
+impl Journal {
+    /// The rows of the file at `path` and of an earlier run that was interrupted; none of them when it begins `anew`.
+    ///
+    /// # Errors
+    /// Files that cannot be read or written, or hold rows of another study; another process that adds rows.
+    pub fn open(study: &Study, path: &Path, anew: bool) -> Result<Self, FileError> {
+        let mut name = path.as_os_str().to_owned();
+        name.push(".partial");
+        let partial = PathBuf::from(name);
+        let mut file = locked(&partial)?;
+        let mut known = Rows::new();
+        if anew {
+            file.set_len(0)
+                .map_err(|error| cannot_write(&partial, error))?;
+        } else {
+            if path.exists() {
+                known = rows::read_once(study, path)?;
+            }
+            let mut bytes = Vec::new();
+            file.read_to_end(&mut bytes)
+                .map_err(|error| FileError::read(&partial, error))?;
+            // What follows the last end of a line was being written when the process ended.
+            let whole = bytes.iter().rposition(|byte| *byte == b'\n');
+            bytes.truncate(whole.map_or(0, |last| last + 1));
+            file.set_len(bytes.len() as u64)
+                .map_err(|error| cannot_write(&partial, error))?;
+            if !bytes.is_empty() {
+                let read = rows::parse(study, &partial, &bytes)?;
+                known.extend(rows::once(&partial, read)?);
+            }
+        }
+        let mut journal = Self {
+            path: path.to_owned(),
+            partial,
+            file,
+            rows: known,
+        };
+        let end = journal.file.seek(SeekFrom::End(0));
+        if end.map_err(|error| cannot_write(&journal.partial, error))? == 0 {
+            journal.line(study.columns())?;
+        }
+        Ok(journal)
+    }
+
+    /// The rows there are.
+    pub fn rows(&self) -> &Rows {
+        &self.rows
+    }
+
+    /// Adds a row.
+    ///
+    /// # Errors
+    /// The file cannot be written.
+    pub fn add(&mut self, study: &Study, row: Row) -> Result<(), FileError> {
+        let record = rows::record(study, &row);
+        self.line(record.map_err(|error| cannot_write(&self.partial, error))?)?;
+        self.rows.insert(row.case, row);
+        Ok(())
+    }
+
+    /// Writes all rows whole, in the order of the cases, and returns them.
+    ///
+    /// # Errors
+    /// The file cannot be written.
+    pub fn finish(self, study: &Study) -> Result<Rows, FileError> {
+        rows::write(study, &self.rows, &self.path)?;
+        fs::remove_file(&self.partial).map_err(|error| cannot_write(&self.partial, error))?;
+        Ok(self.rows)
+    }
+
+    fn line(&mut self, cells: Vec<String>) -> Result<(), FileError> {
+        let mut writer = csv::Writer::from_writer(Vec::new());
+        let written = writer.write_record(cells).map_err(io::Error::other);
+        let bytes = written.and_then(|()| writer.into_inner().map_err(|error| error.into_error()));
+        let bytes = bytes.and_then(|bytes| self.file.write_all(&bytes));
+        bytes.map_err(|error| cannot_write(&self.partial, error))
+    }
+}
+
+/// The file at `path`, which no other process adds to while this one has it open.
+fn locked(path: &Path) -> Result<File, FileError> {
+    loop {
+        let file = File::options()
+            .read(true)
+            .write(true)
+            .create(true)
+            .truncate(false)
+            .open(path)
+            .map_err(|error| cannot_write(path, error))?;
+        match file.try_lock() {
+            Ok(()) => {}
+            Err(TryLockError::WouldBlock) => {
+                let other = "another process is adding rows to it";
+                return Err(cannot_write(path, io::Error::other(other)));
+            }
+            Err(TryLockError::Error(error)) => return Err(cannot_write(path, error)),
+        }
+        // A process that has just finished may have removed it between opening and locking.
+        if path.exists() {
+            return Ok(file);
+        }
+    }
+}

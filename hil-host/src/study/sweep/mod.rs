@@ -1,0 +1,21 @@
+//! Studies: many cases of a vehicle on a track, one row of indices each, the same bits in any order and on any number of threads.
+
+mod digest;
+mod journal;
+mod merge;
+mod observed;
+mod row;
+pub mod rows;
+mod run;
+mod shared;
+mod study;
+mod summary;
+
+pub use journal::Journal;
+pub use merge::{Gaps, MergeError, merge};
+pub use observed::{OBSERVED, Observed};
+pub use row::{Row, RowError, VERSION};
+pub use run::{Observation, RunError, observe, run};
+pub use shared::Shared;
+pub use study::{Shard, Study, StudyCase};
+pub use summary::Estimate;

@@ -1,0 +1,131 @@
+//! Indices that a study can observe, by name.
+
+use super::run::Observation;
+use crate::study::vehicle::{WheelIndices, WheelsetIndices};
+
+/// An index of a row.
+#[derive(Debug, Clone, Copy)]
+pub struct Observed {
+    /// Name, with the unit where it has one.
+    pub name: &'static str,
+    /// What it is, for a figure.
+    pub meaning: &'static str,
+    /// What it is of a run.
+    pub of: fn(&Observation) -> Option<f64>,
+}
+
+impl PartialEq for Observed {
+    fn eq(&self, other: &Self) -> bool {
+        self.name == other.name
+    }
+}
+
+impl Observed {
+    /// The index of a name.
+    pub fn called(name: &str) -> Option<&'static Self> {
+        OBSERVED.iter().find(|index| index.name == name)
+    }
+}
+
+fn greatest(values: impl Iterator<Item = f64>) -> Option<f64> {
+    values.reduce(f64::max)
+}
+
+fn leading(observation: &Observation) -> Option<&WheelsetIndices> {
+    observation.indices.wheelsets.first()
+}
+
+fn wheels(observation: &Observation) -> impl Iterator<Item = &WheelIndices> {
+    let wheelsets = observation.indices.wheelsets.iter();
+    wheelsets.flat_map(|wheelset| &wheelset.wheels)
+}
+
+/// All of them.
+pub const OBSERVED: [Observed; 14] = [
+    Observed {
+        name: "sperling_vertical",
+        meaning: "Sperling's ride index up and down, greatest of the ride points",
+        of: |run| {
+            let points = run.indices.ride.iter();
+            greatest(points.filter_map(|point| point.sperling_vertical))
+        },
+    },
+    Observed {
+        name: "sperling_lateral",
+        meaning: "Sperling's ride index to the side, greatest of the ride points",
+        of: |run| {
+            let points = run.indices.ride.iter();
+            greatest(points.filter_map(|point| point.sperling_lateral))
+        },
+    },
+    Observed {
+        name: "sperling_vertical_middle",
+        meaning: "Sperling's ride index up and down, first ride point",
+        of: |run| run.indices.ride.first()?.sperling_vertical,
+    },
+    Observed {
+        name: "sperling_lateral_middle",
+        meaning: "Sperling's ride index to the side, first ride point",
+        of: |run| run.indices.ride.first()?.sperling_lateral,
+    },
+    Observed {
+        name: "body_vertical_rms_m_per_s2",
+        meaning: "vertical acceleration of the body, rms, m/s²",
+        of: |run| Some(run.indices.bodies.first()?.vertical_rms_m_per_s2),
+    },
+    Observed {
+        name: "body_lateral_rms_m_per_s2",
+        meaning: "lateral acceleration of the body, rms, m/s²",
+        of: |run| Some(run.indices.bodies.first()?.lateral_rms_m_per_s2),
+    },
+    Observed {
+        name: "derailment_rms",
+        meaning: "Y/Q of the leading wheelset, rms, greater of its wheels",
+        of: |run| {
+            greatest(
+                leading(run)?
+                    .wheels
+                    .iter()
+                    .map(|wheel| wheel.derailment_rms),
+            )
+        },
+    },
+    Observed {
+        name: "derailment_greatest",
+        meaning: "Y/Q, greatest mean over 2 m of all wheels",
+        of: |run| greatest(wheels(run).map(|wheel| wheel.derailment_greatest)),
+    },
+    Observed {
+        name: "wear_number_n",
+        meaning: "wear number of the leading wheelset, mean, N",
+        of: |run| Some(leading(run)?.wear_number_n),
+    },
+    Observed {
+        name: "lateral_force_rms_n",
+        meaning: "lateral force of the leading wheelset, rms, N",
+        of: |run| Some(leading(run)?.lateral_force_rms_n),
+    },
+    Observed {
+        name: "lateral_force_greatest_n",
+        meaning: "lateral force, greatest mean over 2 m of all wheelsets, N",
+        of: |run| {
+            let wheelsets = run.indices.wheelsets.iter();
+            greatest(wheelsets.map(|wheelset| wheelset.lateral_force_greatest_n))
+        },
+    },
+    Observed {
+        name: "wheel_load_greatest_n",
+        meaning: "wheel load, greatest of all wheels, N",
+        of: |run| greatest(wheels(run).map(|wheel| wheel.load_greatest_n)),
+    },
+    Observed {
+        name: "damper_force_greatest_n",
+        meaning: "force of a damper, greatest of all, N",
+        of: |run| greatest(run.indices.greatest_damper_forces_n.iter().copied()),
+    },
+    Observed {
+        name: "last_lateral_m",
+        meaning: "greatest lateral displacement of a wheelset in the last 3 s, m",
+        of: |run| Some(run.last_lateral_m),
+    },
+];

@@ -1,0 +1,122 @@
+//! A row of a study: what a case is, and what was observed of it.
+
+use super::study::{Study, StudyCase};
+
+/// What was observed of a case.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Row {
+    /// Number of the case.
+    pub case: u64,
+    /// How its run ended.
+    pub ending: String,
+    /// The observed indices; none of a run that did not come to its end, or was too short.
+    pub observed: Vec<Option<f64>>,
+}
+
+/// Why a record is no row of a study.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum RowError {
+    /// It has too few or too many columns.
+    #[error("{found} columns, allowed: {expected}")]
+    Columns {
+        /// Columns it has.
+        found: usize,
+        /// Columns of the study.
+        expected: usize,
+    },
+    /// A cell is not what the study has there.
+    #[error("column {column}: `{found}`, allowed: {expected}")]
+    Cell {
+        /// Column.
+        column: String,
+        /// What is there.
+        found: String,
+        /// What may be there.
+        expected: String,
+    },
+}
+
+/// The version that rows are of.
+pub const VERSION: &str = env!("CARGO_PKG_VERSION");
+
+impl Study {
+    /// Names of the columns of its rows.
+    pub fn columns(&self) -> Vec<String> {
+        let mut columns = vec!["case".to_owned(), "sweep".to_owned()];
+        columns.extend(self.varied.iter().cloned());
+        columns.extend(["seed".to_owned(), "ending".to_owned()]);
+        columns.extend(self.observed.iter().map(|index| index.name.to_owned()));
+        columns.extend(["study".to_owned(), "version".to_owned()]);
+        columns
+    }
+
+    /// A row as text, a cell a column.
+    pub fn record(&self, case: &StudyCase<'_>, row: &Row) -> Vec<String> {
+        let mut record = vec![case.number.to_string(), case.sweep.name.clone()];
+        let values = case.values();
+        record.extend(self.varied.iter().map(|parameter| {
+            let of_axis = |axis: &crate::files::study::Axis| axis.parameter == *parameter;
+            let axis = case.sweep.axes.iter().position(of_axis);
+            axis.map_or_else(String::new, |axis| values[axis].to_string())
+        }));
+        record.push(case.seed.map_or_else(String::new, |seed| seed.to_string()));
+        record.push(row.ending.clone());
+        let number =
+            |value: &Option<f64>| value.map_or_else(String::new, |value| format!("{value:?}"));
+        record.extend(row.observed.iter().map(number));
+        record.extend([self.digest().to_owned(), VERSION.to_owned()]);
+        record
+    }
+
+    /// The row of a record.
+    ///
+    /// # Errors
+    /// A record that is not one of this study and version.
+    pub fn row<'a>(&self, record: impl Iterator<Item = &'a str>) -> Result<Row, RowError> {
+        let columns = self.columns();
+        let cells: Vec<&str> = record.collect();
+        if cells.len() != columns.len() {
+            return Err(RowError::Columns {
+                found: cells.len(),
+                expected: columns.len(),
+            });
+        }
+        let wrong = |column: usize, expected: String| RowError::Cell {
+            column: columns[column].clone(),
+            found: cells[column].to_owned(),
+            expected,
+        };
+        // Of another study or version nothing else need be told.
+        for (back, expected) in [(2, self.digest()), (1, VERSION)] {
+            let column = columns.len() - back;
+            if cells[column] != expected {
+                return Err(wrong(column, expected.to_owned()));
+            }
+        }
+        let number = cells[0].parse::<u64>().ok();
+        let case = number.and_then(|number| self.case(number));
+        let case = case.ok_or_else(|| wrong(0, format!("0 to {}", self.cases() - 1)))?;
+        let ending = 3 + self.varied.len();
+        let first = ending + 1;
+        let mut observed = Vec::with_capacity(self.observed.len());
+        for column in first..first + self.observed.len() {
+            observed.push(match cells[column] {
+                "" => None,
+                text => match text.parse::<f64>() {
+                    Ok(value) if value.is_finite() => Some(value),
+                    _ => return Err(wrong(column, "a finite number or nothing".into())),
+                },
+            });
+        }
+        let row = Row {
+            case: case.number,
+            ending: cells[ending].to_owned(),
+            observed,
+        };
+        let expected = self.record(&case, &row);
+        match (0..first).find(|column| expected[*column] != cells[*column]) {
+            Some(column) => Err(wrong(column, format!("`{}`", expected[column]))),
+            None => Ok(row),
+        }
+    }
+}

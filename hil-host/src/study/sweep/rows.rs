@@ -1,0 +1,103 @@
+//! Files of rows: CSV with a header, read strictly, and written whole in the order of the cases.
+
+use std::collections::BTreeMap;
+use std::io;
+use std::path::Path;
+
+use super::row::Row;
+use super::study::Study;
+use crate::files::FileError;
+use crate::files::input;
+use crate::files::output::{cannot_write_rows, write_whole};
+
+/// Rows by the numbers of their cases.
+pub type Rows = BTreeMap<u64, Row>;
+
+/// The rows of a study in the file at `path`, each with its line.
+///
+/// # Errors
+/// A file that cannot be read; a header or a row that is not of this study, with line and column.
+pub fn read(study: &Study, path: &Path) -> Result<Vec<(u64, Row)>, FileError> {
+    parse(study, path, &input::read(path)?)
+}
+
+/// The rows in `bytes`, which are those of the file at `path`.
+pub(super) fn parse(
+    study: &Study,
+    path: &Path,
+    bytes: &[u8],
+) -> Result<Vec<(u64, Row)>, FileError> {
+    let mut reader = csv::ReaderBuilder::new()
+        .has_headers(false)
+        .flexible(true)
+        .from_reader(bytes);
+    let mut rows = Vec::new();
+    let columns = study.columns();
+    for (number, record) in reader.records().enumerate() {
+        let record = record.map_err(|error| FileError::in_file(path, error))?;
+        let line = record.position().map_or(0, csv::Position::line);
+        if number == 0 {
+            if !record.iter().eq(columns.iter()) {
+                let reason = format!(
+                    "not the columns of the study, which are {}",
+                    columns.join(",")
+                );
+                return Err(FileError::in_line(path, line, reason));
+            }
+            continue;
+        }
+        let row = study
+            .row(record.iter())
+            .map_err(|error| FileError::in_line(path, line, error))?;
+        rows.push((line, row));
+    }
+    if rows.is_empty() && bytes.is_empty() {
+        let reason = format!("empty, allowed: rows under {}", columns.join(","));
+        return Err(FileError::in_file(path, reason));
+    }
+    Ok(rows)
+}
+
+/// The rows of [`read`] by their cases.
+///
+/// # Errors
+/// As [`read`]; a case twice.
+pub fn read_once(study: &Study, path: &Path) -> Result<Rows, FileError> {
+    once(path, read(study, path)?)
+}
+
+pub(super) fn once(path: &Path, read: Vec<(u64, Row)>) -> Result<Rows, FileError> {
+    let mut rows = Rows::new();
+    for (line, row) in read {
+        let case = row.case;
+        if rows.insert(case, row).is_some() {
+            let reason = format!("case {case} a second time, allowed: once");
+            return Err(FileError::in_line(path, line, reason));
+        }
+    }
+    Ok(rows)
+}
+
+/// Writes rows under a header, in the order of the cases.
+///
+/// # Errors
+/// The file cannot be written.
+pub fn write(study: &Study, rows: &Rows, path: &Path) -> Result<(), FileError> {
+    write_whole(path, |file| {
+        let failed = |error: csv::Error| cannot_write_rows(path, error);
+        let mut writer = csv::Writer::from_writer(file);
+        writer.write_record(study.columns()).map_err(failed)?;
+        for row in rows.values() {
+            let record = record(study, row).map_err(|error| failed(error.into()))?;
+            writer.write_record(record).map_err(failed)?;
+        }
+        writer.flush().map_err(|error| failed(error.into()))
+    })
+}
+
+/// The cells of a row.
+pub(super) fn record(study: &Study, row: &Row) -> io::Result<Vec<String>> {
+    let case = study.case(row.case);
+    let case = case.ok_or_else(|| io::Error::other(format!("no case {}", row.case)))?;
+    Ok(study.record(&case, row))
+}

@@ -1,0 +1,84 @@
+//! What the cases of a study share: contacts and tracks, each made once.
+
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+use dashpot_rail::contact::WheelsetContact;
+use dashpot_rail::creep::KalkerBook;
+use dashpot_rail::track::Track;
+
+use crate::files::case::Case;
+use crate::files::track::TrackParameters;
+use crate::study::vehicle::contact::{self, ContactOf};
+use crate::study::vehicle::{Run, VehicleStudyError};
+
+/// Tracks that are kept; half a megabyte a kilometre.
+const TRACKS: usize = 64;
+
+/// Contacts that are kept: a few megabytes each.
+const CONTACTS: usize = 16;
+
+type Contact = Arc<WheelsetContact<KalkerBook>>;
+
+/// Contacts and tracks of cases that have been run.
+#[derive(Default)]
+pub struct Shared {
+    contacts: Kept<ContactOf, Contact>,
+    tracks: Kept<TrackParameters, Arc<Track>>,
+}
+
+impl Shared {
+    /// The vehicle of a case at its start.
+    ///
+    /// # Errors
+    /// As [`Run::new`].
+    pub fn run(&self, case: &Case) -> Result<Run, VehicleStudyError> {
+        let of = ContactOf::new(&case.vehicle, case.friction, case.normal_damping_s_per_m)?;
+        let contact = self.contacts.get(CONTACTS, of, contact::of)?;
+        let track = self.tracks.get(TRACKS, case.track.clone(), |track| {
+            track.build().map(Arc::new)
+        })?;
+        Run::on(case, contact, track)
+    }
+}
+
+/// What is made of keys, the last ones asked for.
+struct Kept<K, V>(Mutex<Vec<Entry<K, V>>>);
+
+/// Made by whoever asks first, while others wait.
+type Entry<K, V> = (K, Arc<Mutex<Option<V>>>);
+
+impl<K, V> Default for Kept<K, V> {
+    fn default() -> Self {
+        Self(Mutex::default())
+    }
+}
+
+impl<K: PartialEq + Clone, V: Clone> Kept<K, V> {
+    fn get<E>(&self, most: usize, key: K, make: impl FnOnce(&K) -> Result<V, E>) -> Result<V, E> {
+        let place = {
+            let mut entries = held(&self.0);
+            let found = entries.iter().position(|(other, _)| *other == key);
+            let entry = match found {
+                Some(found) => entries.remove(found),
+                None => (key.clone(), Arc::default()),
+            };
+            if entries.len() >= most {
+                entries.remove(0);
+            }
+            let place = entry.1.clone();
+            entries.push(entry);
+            place
+        };
+        let mut made = held(&place);
+        if let Some(made) = &*made {
+            return Ok(made.clone());
+        }
+        let new = make(&key)?;
+        *made = Some(new.clone());
+        Ok(new)
+    }
+}
+
+fn held<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
