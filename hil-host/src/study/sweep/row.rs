@@ -99,14 +99,15 @@ impl Study {
         let ending = 3 + self.varied.len();
         let first = ending + 1;
         let mut observed = Vec::with_capacity(self.observed.len());
-        for column in first..first + self.observed.len() {
-            observed.push(match cells[column] {
-                "" => None,
-                text => match text.parse::<f64>() {
-                    Ok(value) if value.is_finite() => Some(value),
-                    _ => return Err(wrong(column, "a finite number or nothing".into())),
-                },
-            });
+        let of_indices = cells.iter().enumerate().skip(first);
+        for (column, cell) in of_indices.take(self.observed.len()) {
+            let value = cell.parse::<f64>().ok();
+            match value.filter(|value| value.is_finite()) {
+                None if !cell.is_empty() => {
+                    return Err(wrong(column, "a finite number or nothing".into()));
+                }
+                value => observed.push(value),
+            }
         }
         let row = Row {
             case: case.number,
