@@ -134,7 +134,7 @@ fn draw(
             }
         }
     }
-    let mut panels = loops::panels(displacement, velocity, None);
+    let mut panels = loops::panels(displacement, velocity);
     // The middle of a loop is empty.
     panels[0].legend = Some(SeriesLabelPosition::MiddleMiddle);
     for (panel, over) in panels.iter_mut().zip(["displacement", "velocity"]) {

@@ -1,7 +1,5 @@
 //! Figures of the page.
 
-use plotters::prelude::SeriesLabelPosition;
-
 use super::results::{Bench, LOOP_AMPLITUDES_M, Ride};
 use crate::report::page::{Figure, panel};
 use crate::report::plot::curves::{Curve, ramp};
@@ -12,28 +10,20 @@ use crate::report::plot::style::{BLUE_LINE, PALE, RED_LINE};
 pub(super) const WINDOW_S: (f64, f64) = (1.0, 2.0);
 
 /// A figure of one panel whose curves fill the width.
-fn single(
-    x: &str,
-    y: &str,
-    height: u32,
-    legend: Option<SeriesLabelPosition>,
-    curves: Vec<Curve>,
-) -> Figure {
+fn single(x: &str, y: &str, height: u32, curves: Vec<Curve>) -> Figure {
     Figure {
-        panels: vec![panel(x, y, legend, curves)],
+        panels: vec![panel(x, y, curves)],
         height,
+        shares: None,
     }
 }
 
 /// A figure of two panels, see [`loops::panels`].
-fn loop_figure(
-    displacement: Vec<Curve>,
-    velocity: Vec<Curve>,
-    legend: Option<SeriesLabelPosition>,
-) -> Figure {
+fn loop_figure(displacement: Vec<Curve>, velocity: Vec<Curve>) -> Figure {
     Figure {
-        panels: loops::panels(displacement, velocity, legend),
-        height: 400,
+        panels: loops::panels(displacement, velocity),
+        height: 380,
+        shares: None,
     }
 }
 
@@ -57,8 +47,7 @@ pub(super) fn force(ride: &Ride) -> Figure {
         Curve::new("reference", PALE, shown(&ride.reference_n)).wide(22),
         Curve::new("fixed step", BLUE_LINE, shown(&ride.fixed_step_n)).wide(6),
     ];
-    let legend = Some(SeriesLabelPosition::LowerRight);
-    single("time, s", "computed force, kN", 360, legend, curves)
+    single("time, s", "computed force, kN", 340, curves)
 }
 
 /// Error of the fixed step over the whole ride.
@@ -67,7 +56,7 @@ pub(super) fn error(ride: &Ride) -> Figure {
         .zip(&ride.reference_n)
         .map(|((time, force), reference)| (time, force - reference));
     let curve = Curve::new("error", RED_LINE, errors).wide(4);
-    single("time, s", "error, N", 260, None, vec![curve])
+    single("time, s", "error, N", 240, vec![curve])
 }
 
 /// Force over displacement and velocity along the whole ride.
@@ -80,7 +69,7 @@ pub(super) fn ride_loops(ride: &Ride) -> Figure {
         .map(|pair| (pair[1] - pair[0]) / ride.step_s)
         .zip(forces.skip(1));
     let thin = |points: Vec<(f64, f64)>| vec![Curve::new("ride", BLUE_LINE, points).wide(3)];
-    loop_figure(thin(displacement.collect()), thin(velocity.collect()), None)
+    loop_figure(thin(displacement.collect()), thin(velocity.collect()))
 }
 
 /// Settled loops of harmonic motions of rising amplitude.
@@ -92,7 +81,7 @@ pub(super) fn bench_loops(bench: &Bench) -> Figure {
             loops::of_cycle(&format!("{} mm", amplitude_m * 1e3), colour, cycle)
         })
         .unzip();
-    loop_figure(displacement, velocity, Some(SeriesLabelPosition::UpperLeft))
+    loop_figure(displacement, velocity)
 }
 
 /// Force over constant velocity of every damper.
@@ -107,12 +96,5 @@ pub(super) fn characteristics(benches: &[Bench]) -> Figure {
             });
             Curve::new(bench.damper, colour, points).wide(10)
         });
-    let legend = Some(SeriesLabelPosition::UpperLeft);
-    single(
-        "velocity, m/s",
-        "computed force, kN",
-        400,
-        legend,
-        curves.collect(),
-    )
+    single("velocity, m/s", "computed force, kN", 360, curves.collect())
 }

@@ -43,7 +43,7 @@ fn over_time(history: &History, y: &str, scale: Scale, mut curves: Vec<Curve>) -
     curves.extend(marks(history));
     Panel {
         scale,
-        ..panel(TIME, y, None, curves)
+        ..panel(TIME, y, curves)
     }
 }
 
@@ -56,16 +56,12 @@ pub(super) fn forces(history: &History, place: &Forces) -> Figure {
     let mut panels = vec![over_time(history, "force, kN", Scale::Linear, curves)];
     if place.differ {
         let error = curve(history, RED_LINE, &place.difference_n, 1.0);
-        panels.push(panel(
-            TIME,
-            "target less host, N",
-            None,
-            vec![error.wide(6)],
-        ));
+        panels.push(panel(TIME, "target less host, N", vec![error.wide(6)]));
     }
     Figure {
         panels,
         height: 280,
+        shares: Some(TIME),
     }
 }
 
@@ -76,16 +72,12 @@ pub(super) fn clock_ticks(history: &History) -> Figure {
         panels: vec![
             Panel {
                 sides: true,
-                ..panel(
-                    "clock ticks",
-                    "ticks of the bank",
-                    None,
-                    vec![bars(history)],
-                )
+                ..panel("clock ticks", "ticks of the bank", vec![bars(history)])
             },
             over_time(history, "clock ticks", Scale::Linear, vec![over]),
         ],
         height: 340,
+        shares: Some(TIME),
     }
 }
 
@@ -120,5 +112,6 @@ pub(super) fn round_trip(history: &History, paced: bool) -> Figure {
     Figure {
         panels: vec![over_time(history, "round trip, ms", Scale::Decades, curves)],
         height: 300,
+        shares: Some(TIME),
     }
 }

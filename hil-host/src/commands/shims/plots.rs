@@ -95,6 +95,7 @@ fn lift(location: &ValveLocation, report: &ValveReport, tables_end_pa: f64) -> P
         y_label: "lift of the edge, mm".into(),
         legend: Some(SeriesLabelPosition::LowerRight),
         sides: false,
+        x_scale: Scale::Linear,
         scale: Scale::Decades,
         curves,
     }
@@ -141,6 +142,7 @@ fn deflection(
         y_label: "deflection under uniform pressure, mm".into(),
         legend: Some(SeriesLabelPosition::UpperLeft),
         sides: false,
+        x_scale: Scale::Linear,
         scale: Scale::Linear,
         curves: curves.collect(),
     }))
@@ -164,6 +166,7 @@ fn flow(
         y_label: "flow through the pack, cm³/s".into(),
         legend: Some(SeriesLabelPosition::UpperLeft),
         sides: false,
+        x_scale: Scale::Linear,
         scale: Scale::Linear,
         curves: vec![Curve::new(name, GREEN_LINE, points).wide(11)],
     }

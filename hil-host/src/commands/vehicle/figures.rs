@@ -1,6 +1,5 @@
 //! Figures of the page.
 
-use plotters::prelude::SeriesLabelPosition;
 use plotters::style::RGBColor;
 
 use super::history::{History, thin};
@@ -23,11 +22,12 @@ pub(super) fn accelerations(history: &History, body: &str) -> Figure {
     let one = |direction: &str, colour| {
         let signal = format!("{}_{direction}_acceleration_m_per_s2", slug(body));
         let curve = over_time(history, &signal, 1.0, "", colour);
-        panel("time, s", &format!("{direction}, m/s²"), None, vec![curve])
+        panel("time, s", &format!("{direction}, m/s²"), vec![curve])
     };
     Figure {
         panels: vec![one("lateral", BLUE_LINE), one("vertical", RED_LINE)],
         height: HEIGHT,
+        shares: Some(TIME),
     }
 }
 
@@ -51,7 +51,7 @@ fn of_wheelsets(
             colour,
         )
     });
-    panel("time, s", y, None, curves.collect())
+    panel("time, s", y, curves.collect())
 }
 
 /// Two signals of every wheelset, each with its factor and what its axis says.
@@ -60,6 +60,7 @@ fn of_both(history: &History, names: &[String], signals: [(&str, f64, &str); 2])
     Figure {
         panels: panels.into(),
         height: HEIGHT,
+        shares: Some(TIME),
     }
 }
 
@@ -111,10 +112,11 @@ pub(super) fn outside(forces: &Forces, step_s: f64) -> Figure {
     let difference = over_time(&mut difference, 1.0, RED_LINE).wide(5);
     Figure {
         panels: vec![
-            panel("time, s", "force, kN", None, both),
-            panel("time, s", "outside less inside, N", None, vec![difference]),
+            panel("time, s", "force, kN", both),
+            panel("time, s", "outside less inside, N", vec![difference]),
         ],
         height: HEIGHT,
+        shares: Some(TIME),
     }
 }
 
@@ -131,8 +133,9 @@ pub(super) fn loops(history: &History, dampers: &[&str]) -> Figure {
             title: String::new(),
             x_label: "displacement, mm".into(),
             y_label: "force, kN".into(),
-            legend: Some(SeriesLabelPosition::UpperLeft),
+            legend: None,
             sides: true,
+            x_scale: Scale::Linear,
             scale: Scale::Linear,
             curves: curves.collect(),
         }
@@ -140,5 +143,6 @@ pub(super) fn loops(history: &History, dampers: &[&str]) -> Figure {
     Figure {
         panels: panels.collect(),
         height: HEIGHT + 40,
+        shares: None,
     }
 }

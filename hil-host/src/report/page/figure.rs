@@ -1,59 +1,126 @@
-//! A figure of a page, as wide as a desk or as a phone.
+//! A figure of a page: panels that are looked at together.
 
-use plotters::prelude::SeriesLabelPosition;
+use std::ops::Range;
 
+use maud::{Markup, PreEscaped, html};
+use serde::Serialize;
+
+use super::series::{Series, key};
 use crate::report::DrawError;
 use crate::report::plot::curves::Curve;
-use crate::report::plot::sheet::{Layout, Panel, Scale, sheet};
+use crate::report::plot::sheet::{Panel, Scale};
+use crate::report::plot::style::failed;
 
-/// Width of a figure on a desk (pixels).
-const DESK_WIDTH: u32 = 1040;
-/// Width of a figure on a phone (pixels), where panels stand one below the other.
-const PHONE_WIDTH: u32 = 360;
-/// Height of a panel on a phone (pixels).
-const PHONE_HEIGHT: u32 = 280;
-
-/// Panels that are shown together.
+/// Panels that are shown together, side by side on a desk and one below the other on a phone. They share the cursor.
 pub(crate) struct Figure {
     pub(crate) panels: Vec<Panel>,
-    /// Height on a desk (pixels).
+    /// Height of a panel on a desk (pixels).
     pub(crate) height: u32,
+    /// Name of the figures of the page that share the cursor with this one, where their abscissas are the same quantity.
+    pub(crate) shares: Option<&'static str>,
 }
 
-impl Figure {
-    /// Panels in one row, for a desk.
-    ///
-    /// # Errors
-    /// The drawing fails.
-    pub(super) fn desk(&self) -> Result<String, DrawError> {
-        let columns = self.panels.len();
-        let layout = Layout::row(columns, DESK_WIDTH / columns as u32, self.height);
-        sheet(layout, &self.panels)
-    }
-
-    /// Panels in one column, for a phone.
-    ///
-    /// # Errors
-    /// The drawing fails.
-    pub(super) fn phone(&self) -> Result<String, DrawError> {
-        sheet(Layout::column(PHONE_WIDTH, PHONE_HEIGHT), &self.panels)
-    }
-}
-
-/// A panel whose curves fill the width.
-pub(crate) fn panel(
-    x: &str,
-    y: &str,
-    legend: Option<SeriesLabelPosition>,
-    curves: Vec<Curve>,
-) -> Panel {
+/// A panel whose curves fill the width; those with a name are in its legend.
+pub(crate) fn panel(x: &str, y: &str, curves: Vec<Curve>) -> Panel {
     Panel {
         title: String::new(),
         x_label: x.into(),
         y_label: y.into(),
-        legend,
+        legend: None,
         sides: false,
+        x_scale: Scale::Linear,
         scale: Scale::Linear,
         curves,
+    }
+}
+
+/// What the page's script draws a panel from.
+#[derive(Serialize)]
+struct Plot {
+    height: u32,
+    x: Axis,
+    y: Axis,
+    curves: Vec<Series>,
+}
+
+/// What an axis says and shows.
+#[derive(Serialize)]
+struct Axis {
+    label: String,
+    decades: bool,
+    range: [f64; 2],
+}
+
+impl Axis {
+    fn new(label: &str, scale: Scale, Range { start, end }: Range<f64>) -> Self {
+        Self {
+            label: label.into(),
+            decades: scale == Scale::Decades,
+            range: [start, end],
+        }
+    }
+}
+
+impl Figure {
+    /// The figure in HTML, drawn by the page's script.
+    ///
+    /// # Errors
+    /// A panel cannot be written as JSON.
+    pub(super) fn html(&self, caption: &Markup) -> Result<Markup, DrawError> {
+        let panels = self.panels.iter().map(|panel| self.panel(panel));
+        let panels: Vec<Markup> = panels.collect::<Result<_, _>>()?;
+        let columns = panels.len().min(3);
+        Ok(html! {
+            figure data-shares=[self.shares] {
+                div class=(format!("panels columns-{columns}")) {
+                    @for panel in &panels { (panel) }
+                }
+                figcaption { (caption) }
+            }
+        })
+    }
+
+    fn panel(&self, panel: &Panel) -> Result<Markup, DrawError> {
+        let [x, y] = panel.ranges();
+        let plot = Plot {
+            height: self.height,
+            x: Axis::new(&panel.x_label, panel.x_scale, x),
+            y: Axis::new(&panel.y_label, panel.scale, y),
+            curves: panel.curves.iter().map(Series::of).collect(),
+        };
+        // No end tag can be in it.
+        let data = serde_json::to_string(&plot).map_err(failed)?;
+        let data = data.replace('<', "\\u003c");
+        let what = format!("{} over {}", panel.y_label, panel.x_label);
+        let title = [&panel.title, &what].map(String::as_str);
+        let title = title.into_iter().filter(|text| !text.is_empty());
+        Ok(html! {
+            div.panel {
+                div.head {
+                    b { @if panel.title.is_empty() { (panel.y_label) } @else { (panel.title) } }
+                    (legend(&panel.curves))
+                    span.at {}
+                }
+                div.plot role="img" aria-label=(title.collect::<Vec<_>>().join(": ")) {}
+                script type="application/json" { (PreEscaped(data)) }
+            }
+        })
+    }
+}
+
+/// Key, name and place for the value under the cursor of each curve that has a name; of one alone, its value.
+fn legend(curves: &[Curve]) -> Markup {
+    let is_alone = curves.iter().filter(|curve| curve.has_values()).count() == 1;
+    html! {
+        ul {
+            @for (number, curve) in curves.iter().enumerate() {
+                @if !curve.name.is_empty() || is_alone && curve.has_values() {
+                    li data-curve=(number) {
+                        @if !curve.name.is_empty() { (key(curve)) (curve.name) }
+                        span.value {}
+                    }
+                }
+            }
+        }
     }
 }

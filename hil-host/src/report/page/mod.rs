@@ -1,14 +1,26 @@
-//! Pages: self-contained HTML with inline SVG, all in one style, for light and dark screens, phones and
-//! desks.
+//! Pages: self-contained HTML, all in one style, for light and dark screens, phones and desks. Their plots are drawn
+//! by the page itself, with zoom and shared cursor, from the numbers it carries.
 
+mod colour;
 mod figure;
+mod policy;
+mod series;
 
 pub(crate) use figure::{Figure, panel};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use crate::report::DrawError;
 
-const STYLE: &str = include_str!("page.css");
+/// The plotting library (uplot/README.md), then what uses it.
+const SCRIPTS: [&str; 2] = [
+    include_str!("uplot/uPlot.iife.min.js"),
+    include_str!("plots.js"),
+];
+/// The library's style, then the page's own.
+const STYLES: [&str; 2] = [
+    include_str!("uplot/uPlot.min.css"),
+    include_str!("page.css"),
+];
 
 /// The text of a page with `title` and `body`.
 pub(crate) fn document(title: &str, body: &Markup) -> String {
@@ -17,11 +29,23 @@ pub(crate) fn document(title: &str, body: &Markup) -> String {
         html lang="en" {
             head {
                 meta charset="utf-8";
+                meta http-equiv="Content-Security-Policy" content=(policy::of(&SCRIPTS, &STYLES));
                 meta name="viewport" content="width=device-width, initial-scale=1";
                 title { (title) }
-                style { (PreEscaped(STYLE)) }
+                @for style in STYLES { style { (PreEscaped(style)) } }
             }
-            body { main { (body) } }
+            body {
+                main {
+                    noscript {
+                        p.note {
+                            "The plots are missing: they are drawn by the page's own script, which does not run here. Text and tables are \
+                             complete."
+                        }
+                    }
+                    (body)
+                }
+                @for script in SCRIPTS { script { (PreEscaped(script)) } }
+            }
         }
     };
     page.into_string() + "\n"
@@ -38,25 +62,12 @@ pub(crate) fn tiles(tiles: &[(Markup, String)]) -> Markup {
     }
 }
 
-/// A figure drawn twice, for a desk and for a phone; the style shows the one that fits.
+/// A figure with its caption.
 ///
 /// # Errors
-/// The drawing fails.
+/// Its numbers cannot be written.
 pub(crate) fn figure(figure: &Figure, caption: &Markup) -> Result<Markup, DrawError> {
-    // Sized by the page; inline SVG has its namespace from HTML.
-    let inline = |svg: String, class: &str| {
-        let svg = svg
-            .replacen(" xmlns=\"http://www.w3.org/2000/svg\"", "", 1)
-            .replacen("<svg", &format!("<svg class=\"{class}\""), 1);
-        PreEscaped(svg)
-    };
-    Ok(html! {
-        figure {
-            (inline(figure.desk()?, "desk"))
-            (inline(figure.phone()?, "phone"))
-            figcaption { (caption) }
-        }
-    })
+    figure.html(caption)
 }
 
 /// What made the page, and `text`.

@@ -1,4 +1,4 @@
-//! Curves: lines, dashes or points, and their keys in the legend.
+//! Curves: lines, dashes, points, bands or bars, and their keys in the legend.
 
 use plotters::coord::ranged1d::Ranged;
 use plotters::prelude::*;
@@ -7,8 +7,8 @@ use super::style::{FINE, failed};
 use crate::report::DrawError;
 
 /// How a curve is drawn.
-#[derive(Clone, Copy)]
-enum Stroke {
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(in crate::report) enum Stroke {
     Line,
     Dashes,
     Points,
@@ -16,16 +16,21 @@ enum Stroke {
     Marks,
     /// A line over its filled area, down to zero.
     Filled,
+    /// The area between a lowest and a highest value.
+    Band,
+    /// A vertical stroke from the lowest to the highest value.
+    Bars,
 }
 
 /// One curve: its name in the legend, its colour and its points.
 pub(crate) struct Curve {
-    name: String,
-    colour: RGBColor,
+    pub(in crate::report) name: String,
+    pub(in crate::report) colour: RGBColor,
     /// Width of the line in quarters of a pixel.
-    width: u32,
-    stroke: Stroke,
-    points: Vec<(f64, f64)>,
+    pub(in crate::report) width: u32,
+    pub(in crate::report) stroke: Stroke,
+    /// Abscissa, lowest and highest ordinate; these are the same but for bands and bars.
+    pub(in crate::report) points: Vec<(f64, f64, f64)>,
 }
 
 /// A set of axes that curves are drawn on.
@@ -38,11 +43,41 @@ impl Curve {
         colour: RGBColor,
         points: impl IntoIterator<Item = (f64, f64)>,
     ) -> Self {
+        let points = points.into_iter().map(|(x, y)| (x, y, y));
+        Self::of(Stroke::Line, name, colour, points)
+    }
+
+    /// The area from the lowest to the highest value at each abscissa, `(x, low, high)`: what many runs spread over.
+    #[allow(dead_code)]
+    pub(crate) fn band(
+        name: impl Into<String>,
+        colour: RGBColor,
+        points: impl IntoIterator<Item = (f64, f64, f64)>,
+    ) -> Self {
+        Self::of(Stroke::Band, name, colour, points)
+    }
+
+    /// Vertical strokes from the lowest to the highest value at each abscissa, `(x, low, high)`: bars of uncertainty.
+    #[allow(dead_code)]
+    pub(crate) fn bars(
+        name: impl Into<String>,
+        colour: RGBColor,
+        points: impl IntoIterator<Item = (f64, f64, f64)>,
+    ) -> Self {
+        Self::of(Stroke::Bars, name, colour, points)
+    }
+
+    fn of(
+        stroke: Stroke,
+        name: impl Into<String>,
+        colour: RGBColor,
+        points: impl IntoIterator<Item = (f64, f64, f64)>,
+    ) -> Self {
         Self {
             name: name.into(),
             colour,
             width: 2 * FINE,
-            stroke: Stroke::Line,
+            stroke,
             points: points.into_iter().collect(),
         }
     }
@@ -89,7 +124,7 @@ impl Curve {
 
     /// Where its points lie along the horizontal axis.
     pub(crate) fn abscissas(&self) -> impl Iterator<Item = f64> {
-        self.points.iter().map(|(x, _)| *x)
+        self.points.iter().map(|(x, ..)| *x)
     }
 
     /// How high its points lie; marks lie on the axis wherever that is.
@@ -98,7 +133,7 @@ impl Curve {
             Stroke::Marks => &[],
             _ => &self.points[..],
         };
-        points.iter().map(|(_, y)| *y)
+        points.iter().flat_map(|(_, low, high)| [*low, *high])
     }
 
     /// Draws it and enters its key into the legend.
@@ -119,7 +154,7 @@ impl Curve {
         let style = self.colour.stroke_width(self.width);
         let mark = self.colour.filled();
         let radius = 4 * FINE;
-        let points = self.points.iter().copied();
+        let points = self.points.iter().map(|(x, y, _)| (*x, *y));
         let bottom = chart.y_range().start;
         let drawn = match self.stroke {
             Stroke::Line => chart.draw_series(LineSeries::new(points, style)),
@@ -132,6 +167,15 @@ impl Curve {
                 let area = AreaSeries::new(points, 0.0, self.colour.mix(0.25));
                 chart.draw_series(area.border_style(style))
             }
+            Stroke::Band => {
+                let highs = self.points.iter().rev().map(|(x, _, high)| (*x, *high));
+                let outline: Vec<_> = points.chain(highs).collect();
+                chart.draw_series([Polygon::new(outline, self.colour.mix(0.25))])
+            }
+            Stroke::Bars => chart.draw_series(
+                (self.points.iter())
+                    .map(|(x, low, high)| PathElement::new([(*x, *low), (*x, *high)], style)),
+            ),
         }
         .map_err(failed)?;
         if self.name.is_empty() {
@@ -139,7 +183,7 @@ impl Curve {
         }
         drawn.label(&self.name);
         match self.stroke {
-            Stroke::Line | Stroke::Filled | Stroke::Marks => {
+            Stroke::Line | Stroke::Filled | Stroke::Marks | Stroke::Bars => {
                 drawn.legend(move |(x, y)| PathElement::new([(x, y), (x + KEY, y)], style))
             }
             Stroke::Dashes => drawn.legend(move |at| {
@@ -149,6 +193,12 @@ impl Curve {
             }),
             Stroke::Points => {
                 drawn.legend(move |(x, y)| Circle::new((x + KEY / 2, y), radius, mark))
+            }
+            Stroke::Band => {
+                let pale = self.colour.mix(0.25).filled();
+                drawn.legend(move |(x, y)| {
+                    Rectangle::new([(x, y - DASH / 2), (x + KEY, y + DASH / 2)], pale)
+                })
             }
         };
         Ok(())

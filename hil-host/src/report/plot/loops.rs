@@ -1,31 +1,26 @@
 //! Force loops: force over displacement and over velocity, side by side.
 
-use plotters::prelude::SeriesLabelPosition;
 use plotters::style::RGBColor;
 
 use super::curves::Curve;
 use super::sheet::{Panel, Scale};
 use crate::study::bench_test::Cycle;
 
-/// Two panels: force (kN) over displacement (mm) and over velocity (m/s). The legend, if there is one,
-/// stands in the second, whose upper left is free.
-pub(crate) fn panels(
-    displacement: Vec<Curve>,
-    velocity: Vec<Curve>,
-    legend: Option<SeriesLabelPosition>,
-) -> Vec<Panel> {
-    let panel = |x: &str, legend, curves| Panel {
+/// Two panels: force (kN) over displacement (mm) and over velocity (m/s).
+pub(crate) fn panels(displacement: Vec<Curve>, velocity: Vec<Curve>) -> Vec<Panel> {
+    let panel = |x: &str, curves| Panel {
         title: String::new(),
         x_label: x.into(),
         y_label: "force, kN".into(),
-        legend,
+        legend: None,
         sides: true,
+        x_scale: Scale::Linear,
         scale: Scale::Linear,
         curves,
     };
     vec![
-        panel("displacement, mm", None, displacement),
-        panel("velocity, m/s", legend, velocity),
+        panel("displacement, mm", displacement),
+        panel("velocity, m/s", velocity),
     ]
 }
 

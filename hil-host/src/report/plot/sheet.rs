@@ -11,8 +11,8 @@ use crate::report::DrawError;
 /// Margin above and below the curves on a scale of decades, as a ratio.
 const DECADE_MARGIN: f64 = 1.6;
 
-/// How a panel's vertical axis is divided.
-#[derive(Clone, Copy)]
+/// How an axis is divided.
+#[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Scale {
     /// Equal lengths are equal differences.
     Linear,
@@ -25,12 +25,44 @@ pub(crate) struct Panel {
     pub(crate) title: String,
     pub(crate) x_label: String,
     pub(crate) y_label: String,
-    /// Where the legend stands, if there is one.
+    /// Where the legend stands on a sheet, if there is one; on a page it stands above the curves.
     pub(crate) legend: Option<SeriesLabelPosition>,
     /// Whether the curves keep off the sides, as loops do, or fill the width.
     pub(crate) sides: bool,
+    /// The horizontal axis.
+    pub(crate) x_scale: Scale,
+    /// The vertical axis.
     pub(crate) scale: Scale,
     pub(crate) curves: Vec<Curve>,
+}
+
+impl Panel {
+    /// What the axes show, horizontal and vertical.
+    pub(in crate::report) fn ranges(&self) -> [Range<f64>; 2] {
+        let on = |scale: Scale| move |value: &f64| scale == Scale::Linear || *value > 0.0;
+        let abscissas = self.curves.iter().flat_map(Curve::abscissas);
+        let abscissas = abscissas.filter(on(self.x_scale));
+        let x = match (self.x_scale, self.sides) {
+            (Scale::Linear, true) => extent(abscissas),
+            (Scale::Linear, false) => from_zero(span(abscissas)),
+            (Scale::Decades, true) => widened(span(abscissas)),
+            (Scale::Decades, false) => span(abscissas),
+        };
+        let ordinates = || self.curves.iter().flat_map(Curve::ordinates);
+        let y = match self.scale {
+            Scale::Linear => {
+                let mut y = extent(ordinates());
+                // A curve that starts at zero, but for rounding, keeps zero at the edge.
+                let rounding = 1e-9 * y.end;
+                if ordinates().all(|y| y >= -rounding) {
+                    y.start = 0.0;
+                }
+                y
+            }
+            Scale::Decades => widened(span(ordinates().filter(on(self.scale)))),
+        };
+        [x, y].map(|range| if range.is_empty() { 0.0..1.0 } else { range })
+    }
 }
 
 /// How panels lie on a sheet.
@@ -51,15 +83,6 @@ impl Layout {
             width: width * panels as u32,
             row_height: height,
             columns: panels,
-        }
-    }
-
-    /// One panel a row, each `width` by `height` pixels.
-    pub(crate) fn column(width: u32, height: u32) -> Self {
-        Self {
-            width,
-            row_height: height,
-            columns: 1,
         }
     }
 }
@@ -108,32 +131,22 @@ macro_rules! draw_on {
 }
 
 fn draw_panel(area: &Area<'_>, panel: &Panel) -> Result<(), DrawError> {
-    let abscissas = panel.curves.iter().flat_map(Curve::abscissas);
-    let ordinates = || panel.curves.iter().flat_map(Curve::ordinates);
-    let x = if panel.sides {
-        extent(abscissas)
-    } else {
-        from_zero(span(abscissas))
-    };
-    let x_digits = digits(&x);
-    match panel.scale {
-        Scale::Linear => {
-            let mut y = extent(ordinates());
-            // A curve that starts at zero, but for rounding, keeps zero at the edge.
-            let rounding = 1e-9 * y.end;
-            if ordinates().all(|y| y >= -rounding) {
-                y.start = 0.0;
-            }
-            let y_digits = digits(&y);
-            draw_on!(area, panel, x, y, (x_digits, y_digits));
-        }
-        Scale::Decades => {
-            let y = span(ordinates());
-            let y = y.start / DECADE_MARGIN..y.end * DECADE_MARGIN;
-            draw_on!(area, panel, x, y.log_scale(), (x_digits, Digits::OfDecade));
+    let [x, y] = panel.ranges();
+    let digits = (digits(&x, panel.x_scale), digits(&y, panel.scale));
+    match (panel.x_scale, panel.scale) {
+        (Scale::Linear, Scale::Linear) => draw_on!(area, panel, x, y, digits),
+        (Scale::Linear, Scale::Decades) => draw_on!(area, panel, x, y.log_scale(), digits),
+        (Scale::Decades, Scale::Linear) => draw_on!(area, panel, x.log_scale(), y, digits),
+        (Scale::Decades, Scale::Decades) => {
+            draw_on!(area, panel, x.log_scale(), y.log_scale(), digits)
         }
     }
     Ok(())
+}
+
+/// A scale of decades with room at its ends.
+fn widened(range: Range<f64>) -> Range<f64> {
+    range.start / DECADE_MARGIN..range.end * DECADE_MARGIN
 }
 
 /// An axis that nearly begins at zero begins there.
@@ -143,7 +156,10 @@ fn from_zero(range: Range<f64>) -> Range<f64> {
 }
 
 /// Digits behind the point that make the labels of an axis differ.
-fn digits(range: &Range<f64>) -> Digits {
+fn digits(range: &Range<f64>, scale: Scale) -> Digits {
+    if scale == Scale::Decades {
+        return Digits::OfDecade;
+    }
     let apart = (range.end - range.start).max(1e-12) / 6.0;
     Digits::Behind((-apart.log10().floor()).clamp(0.0, 6.0) as usize)
 }

@@ -1,0 +1,260 @@
+"use strict";
+// Draws the plots of a page from the JSON beside each (figure.rs, series.rs) by uPlot, and shares cursor and zoom between them.
+{
+  const FONT = '12px system-ui, -apple-system, "Segoe UI", Roboto, "Helvetica Neue", sans-serif';
+  const DARK = matchMedia("(prefers-color-scheme: dark)");
+  const NARROW = matchMedia("(max-width: 760px)");
+  const NARROW_HEIGHT = 230;
+  const HIDDEN = { left: -10, top: -10 };
+
+  // Panels by what they share the cursor with: the name of their figure's group, or the figure alone.
+  const groups = new Map();
+  const panels = [];
+  let printing = false;
+
+  const isDark = () => DARK.matches && !printing;
+  const colour = curve => curve.colours[isDark() ? 1 : 0];
+  const style = name => getComputedStyle(document.documentElement).getPropertyValue(name);
+  const column = text => new Float32Array(Uint8Array.from(atob(text), byte => byte.charCodeAt(0)).buffer);
+  const minus = text => text.replace("-", "−");
+
+  // A value in as many digits as tell a thousandth of what the axis shows.
+  function number(u, axis, value) {
+    const { min, max, distr } = u.scales[axis];
+    if (Number.isNaN(value)) return "–";
+    if (distr === 3) return String(Number(value.toPrecision(4)));
+    const digits = Math.min(9, Math.max(0, 3 - Math.floor(Math.log10(max - min))));
+    return minus(value.toFixed(digits));
+  }
+
+  // Numbers on an axis, in as many digits as their distance has.
+  function labels(u, splits, axis, space, distance) {
+    let digits = 0;
+    while (digits < 9 && Math.abs(distance * 10 ** digits - Math.round(distance * 10 ** digits)) > 1e-6) digits++;
+    return splits.map(value => minus((value === 0 ? 0 : value).toFixed(digits)));
+  }
+
+  const decadeLabels = (u, splits) => splits.map(value => (value === null ? "" : String(Number(value.toPrecision(6)))));
+
+  function decades(u, axis, min, max) {
+    const splits = [];
+    for (let power = Math.floor(Math.log10(min)); power <= Math.log10(max); power++)
+      for (let digit = 1; digit < 10; digit++) splits.push(Number(`${digit}e${power}`));
+    return splits.filter(value => value >= min && value <= max);
+  }
+
+  // What is stroked and what is filled of a curve, on the canvas.
+  function paths(u, curve) {
+    const [xs, lows, highs] = curve.columns;
+    const x = index => u.valToPos(xs[index], "x", true);
+    const y = value => u.valToPos(value, "y", true);
+    const stroke = new Path2D();
+    const fill = new Path2D();
+    const last = xs.length - 1;
+    const { top, height } = u.bbox;
+    const thickness = devicePixelRatio;
+    if (curve.stroke === "points") {
+      for (let i = 0; i <= last; i++) {
+        fill.moveTo(x(i), y(lows[i]));
+        fill.arc(x(i), y(lows[i]), 3.5 * thickness, 0, 2 * Math.PI);
+      }
+    } else if (curve.stroke === "marks" || curve.stroke === "bars") {
+      for (let i = 0; i <= last; i++) {
+        stroke.moveTo(x(i), highs ? y(lows[i]) : top + height);
+        stroke.lineTo(x(i), highs ? y(highs[i]) : top + height - 10 * thickness);
+      }
+    } else if (curve.stroke === "band") {
+      for (let i = 0; i <= last; i++) fill.lineTo(x(i), y(lows[i]));
+      for (let i = last; i >= 0; i--) fill.lineTo(x(i), y(highs[i]));
+    } else {
+      // A number that is none parts the line.
+      let isDown = false;
+      for (let i = 0; i <= last; i++) {
+        const isThere = !Number.isNaN(lows[i]);
+        if (isThere) stroke[isDown ? "lineTo" : "moveTo"](x(i), y(lows[i]));
+        isDown = isThere;
+      }
+      if (curve.stroke === "filled") {
+        fill.addPath(stroke);
+        fill.lineTo(x(last), y(0));
+        fill.lineTo(x(0), y(0));
+      }
+    }
+    return { stroke, fill, clip: null, flags: 0 };
+  }
+
+  function series(curve) {
+    const isSolid = curve.stroke === "points";
+    return {
+      auto: false,
+      pxAlign: 0,
+      width: isSolid || curve.stroke === "band" ? 0 : curve.width,
+      stroke: () => colour(curve),
+      fill: () => colour(curve) + (isSolid ? "" : "40"),
+      dash: curve.stroke === "dashes" ? [6 * devicePixelRatio, 5 * devicePixelRatio] : undefined,
+      paths: u => paths(u, curve),
+      points: { show: false },
+    };
+  }
+
+  const scale = axis => ({ time: false, distr: axis.decades ? 3 : 1, auto: false, range: () => axis.range });
+
+  function axis(name, { label, decades: isDecades }) {
+    return {
+      scale: name,
+      label: name === "x" ? label : undefined,
+      labelSize: 18,
+      labelFont: FONT,
+      font: FONT,
+      stroke: () => style("--soft"),
+      space: name === "x" ? 56 : 34,
+      gap: 4,
+      size: (u, values) => (name === "x" ? 24 : Math.max(44, 14 + 7 * Math.max(0, ...(values ?? []).map(text => text.length)))),
+      grid: { stroke: () => style("--line"), width: 1 },
+      ticks: { stroke: () => style("--line"), width: 1, size: 4 },
+      border: { show: true, stroke: () => style("--soft"), width: 1 },
+      values: isDecades ? decadeLabels : labels,
+      ...(isDecades ? { splits: decades } : {}),
+    };
+  }
+
+  // The sample of a curve that is nearest to an abscissa.
+  function nearest([xs], x) {
+    let [from, to] = [0, xs.length - 1];
+    while (to - from > 1) {
+      const middle = (from + to) >> 1;
+      if (xs[middle] <= x) from = middle;
+      else to = middle;
+    }
+    return x - xs[from] <= xs[to] - x ? from : to;
+  }
+
+  // How far along its loop the curve comes nearest to the mouse.
+  function along(panel, left, top) {
+    let [least, part] = [Infinity, 0];
+    for (const { columns: [xs, ys] } of panel.curves) {
+      for (let i = 0; i < xs.length; i++) {
+        const distance = Math.hypot(panel.u.valToPos(xs[i], "x") - left, panel.u.valToPos(ys[i], "y") - top);
+        if (distance < least) [least, part] = [distance, i / Math.max(1, xs.length - 1)];
+      }
+    }
+    return part;
+  }
+
+  // The cursor of histories is an abscissa; that of loops an instant, the same part of every loop.
+  function point(panel, cursor) {
+    panel.cursor = cursor;
+    panel.shown = panel.curves.map(({ columns, stroke }) => {
+      if (!cursor || stroke === "marks" || columns[0].length === 0) return null;
+      return panel.isLoop ? Math.round(cursor.part * (columns[0].length - 1)) : nearest(columns, cursor.x);
+    });
+  }
+
+  // Values under the cursor.
+  function tell({ u, head, x, cursor, isLoop, curves, shown }) {
+    for (const item of head.querySelectorAll("li")) {
+      const [index, [xs, lows, highs]] = [shown[item.dataset.curve], curves[item.dataset.curve].columns];
+      const value = of => number(u, "y", of[index]);
+      const text = () => (isLoop ? `${number(u, "x", xs[index])}; ${value(lows)}` : highs ? `${value(lows)} to ${value(highs)}` : value(lows));
+      item.querySelector(".value").textContent = index == null ? "" : text();
+    }
+    const [quantity, unit] = x.label.split(/, (?=[^,]*$)/);
+    head.querySelector(".at").textContent = cursor && !isLoop ? `${quantity} ${number(u, "x", cursor.x)} ${unit ?? ""}` : "";
+  }
+
+  const peers = panel => panel.group.filter(other => other !== panel && other.isLoop === panel.isLoop && (panel.isLoop || other.x.label === panel.x.label));
+
+  function shareCursor(panel) {
+    for (const other of panel.group) {
+      const cursor = peers(panel).includes(other) ? panel.cursor : null;
+      if (other === panel || (!cursor && !other.cursor)) continue;
+      point(other, cursor);
+      const left = !cursor ? -10 : other.isLoop ? 0 : other.u.valToPos(cursor.x, "x");
+      const isWithin = left >= 0 && left <= other.u.over.clientWidth;
+      if (!isWithin) point(other, null);
+      other.u.setCursor(isWithin ? { left, top: 0 } : HIDDEN);
+    }
+  }
+
+  // Histories show the same stretch, as far as they have it.
+  function shareZoom(panel) {
+    if (panel.isLoop) return;
+    const { min, max } = panel.u.scales.x;
+    const isWhole = min === panel.x.range[0] && max === panel.x.range[1];
+    for (const other of peers(panel)) {
+      const [first, last] = other.x.range;
+      const [from, to] = isWhole ? [first, last] : [min, max];
+      const shown = other.u.scales.x;
+      if (from < last && to > first && (shown.min !== from || shown.max !== to)) other.u.setScale("x", { min: from, max: to });
+    }
+  }
+
+  function options(panel, plot) {
+    const moved = (u, over, handle) => event => {
+      panel.isMoved = true;
+      handle(event);
+      panel.isMoved = false;
+    };
+    const whole = u => () => ["x", "y"].forEach(name => u.setScale(name, { min: null, max: null }));
+    return {
+      mode: 2,
+      width: plot.clientWidth,
+      height: NARROW.matches ? Math.min(NARROW_HEIGHT, panel.height) : panel.height,
+      padding: [8, 12, 0, 0],
+      legend: { show: false },
+      scales: { x: scale(panel.x), y: scale(panel.y) },
+      axes: [axis("x", panel.x), axis("y", panel.y)],
+      series: [null, ...panel.curves.map(series)],
+      cursor: {
+        x: !panel.isLoop,
+        y: false,
+        bind: { mousemove: moved, mouseleave: moved, dblclick: whole },
+        drag: { x: true, y: true, dist: 5, uni: panel.isLoop ? null : 30 },
+        dataIdx: (u, number) => panel.shown[number - 1],
+        points: { size: 8, width: 1.5, stroke: () => style("--paper"), fill: (u, number) => colour(panel.curves[number - 1]) },
+        move(u, left, top) {
+          if (panel.isMoved) point(panel, left < 0 ? null : panel.isLoop ? { part: along(panel, left, top) } : { x: u.posToVal(left, "x") });
+          return [left, top];
+        },
+      },
+      hooks: {
+        setCursor: [() => { tell(panel); if (panel.isMoved) shareCursor(panel); }],
+        setScale: [(u, name) => { if (name === "x") shareZoom(panel); }],
+      },
+    };
+  }
+
+  function paint() {
+    for (const { u, curves, head } of panels) {
+      for (const key of head.querySelectorAll(".key")) key.style.color = colour(curves[key.parentElement.dataset.curve]);
+      u.redraw();
+    }
+  }
+
+  function draw(plot) {
+    const panel = JSON.parse(plot.nextElementSibling.textContent);
+    for (const curve of panel.curves) curve.columns = curve.columns.map(column);
+    const figure = plot.closest("figure");
+    const group = figure.dataset.shares ?? figure;
+    if (!groups.has(group)) groups.set(group, []);
+    panel.group = groups.get(group);
+    panel.head = plot.previousElementSibling;
+    panel.isLoop = panel.curves.some(curve => !curve.rises);
+    point(panel, null);
+    panel.u = new uPlot(options(panel, plot), [null, ...panel.curves.map(curve => curve.columns)], plot);
+    panel.group.push(panel);
+    panels.push(panel);
+    new ResizeObserver(() => panel.u.setSize({ width: plot.clientWidth, height: options(panel, plot).height })).observe(plot);
+  }
+
+  document.querySelectorAll(".plot").forEach(draw);
+  paint();
+  DARK.addEventListener("change", paint);
+  for (const [event, isPrinting] of [["beforeprint", true], ["afterprint", false]]) {
+    addEventListener(event, () => {
+      printing = isPrinting;
+      document.documentElement.classList.toggle("print", printing);
+      paint();
+    });
+  }
+}
