@@ -36,7 +36,7 @@ const SHIPPED: Shipped = Shipped {
 };
 
 /// The vehicle called `name`: a shipped one, or the TOML file at that path, `-` being standard input; then each
-/// `part.key=value` of `overrides` in order, where a part is a body, a wheelset or an element of the file.
+/// `part.key=value` of `overrides` in order, where a part is a body, a wheelset, an element or a ride point of the file.
 ///
 /// # Errors
 /// Neither vehicle nor readable file; text that is no TOML; unknown or missing keys; a damper that there is not; an override of
