@@ -65,6 +65,7 @@ fn pushed() -> VehicleParameters {
             radius_m: 0.625,
         }],
         elements,
+        ride_points: vec![],
     }
 }
 

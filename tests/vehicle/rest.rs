@@ -77,6 +77,7 @@ fn suspended(elements: Vec<Element>) -> VehicleParameters {
             radius_m: 0.625,
         }],
         elements: all,
+        ride_points: vec![],
     }
 }
 

@@ -146,6 +146,19 @@ impl Pair {
         self.steepest_flange_m
     }
 
+    /// Flange angle: the steepest one of the flange's face against the axle, rad.
+    ///
+    /// ```
+    /// use dashpot_rail::contact::{Installation, Pair};
+    /// // S1002: 70 degrees.
+    /// let pair = Pair::standard(Installation::default())?;
+    /// assert!((pair.flange_angle_rad().to_degrees() - 70.0).abs() < 0.1);
+    /// # Ok::<(), dashpot_rail::contact::PairError>(())
+    /// ```
+    pub fn flange_angle_rad(&self) -> f64 {
+        -self.wheel.at(self.steepest_flange_m).angle_rad
+    }
+
     /// Position of the flange tip, m from the tread datum.
     pub fn flange_tip_m(&self) -> f64 {
         self.flange_tip_m

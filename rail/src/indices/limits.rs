@@ -20,3 +20,12 @@ pub fn nadal_limit(flange_angle_rad: f64, friction: f64) -> f64 {
 pub fn prudhomme_limit_n(axle_load_n: f64) -> f64 {
     10e3 + axle_load_n / 3.0
 }
+
+/// Wheel unloading `(Q0 - Q)/Q0` of a load `Q` from that at standstill `Q0`, N: 1 of a lifted wheel, negative of one that carries more.
+///
+/// ```
+/// assert_eq!(dashpot_rail::indices::wheel_unloading(100e3, 40e3), 0.6);
+/// ```
+pub fn wheel_unloading(static_load_n: f64, load_n: f64) -> f64 {
+    (static_load_n - load_n) / static_load_n
+}

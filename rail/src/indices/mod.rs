@@ -2,7 +2,8 @@
 //!
 //! - [`RollingRadiusDifference`]: rolling radius difference function and equivalent conicity (EN 15302).
 //! - [`sperling`]: ride index of an acceleration; [`mean_comfort`]: that of EN 12299, with its [`Weighting`]; [`welch`]: power spectral density.
-//! - [`nadal_limit`], [`prudhomme_limit_n`]: limits of wheel forces.
+//! - [`Sperling`], [`WeightingFilter`], [`Welch`]: the same of a signal that is still coming.
+//! - [`nadal_limit`], [`prudhomme_limit_n`], [`wheel_unloading`]: limits of wheel forces.
 //! - Derailment coefficients belong to the forces: [`WheelsetForces`](crate::contact::WheelsetForces).
 //!
 //! # To add an index
@@ -16,9 +17,15 @@ mod conicity;
 mod limits;
 mod spectrum;
 mod sperling;
+mod weighting;
+mod weighting_filter;
+mod welch;
 
-pub use comfort::{Weighting, mean_comfort, weighted_rms};
+pub use comfort::{mean_comfort, mean_comfort_of_windows, weighted_rms};
 pub use conicity::{CONTACT_DISTANCE_M, RollingRadiusDifference, RollingRadiusError};
-pub use limits::{nadal_limit, prudhomme_limit_n};
-pub use spectrum::{SpectrumError, welch};
-pub use sperling::{RideDirection, sperling};
+pub use limits::{nadal_limit, prudhomme_limit_n, wheel_unloading};
+pub use spectrum::SpectrumError;
+pub use sperling::{RideDirection, SPERLING_BAND_HZ, Sperling, sperling};
+pub use weighting::{COMFORT_BAND_HZ, Weighting};
+pub use weighting_filter::WeightingFilter;
+pub use welch::{Welch, welch};

@@ -1,8 +1,10 @@
 //! Spectra of a signal that was sampled at equal times.
 
-use std::f64::consts::PI;
+use std::fmt;
+use std::sync::Arc;
 
-use realfft::RealFftPlanner;
+use realfft::num_complex::Complex;
+use realfft::{RealFftPlanner, RealToComplex};
 
 /// Why there is no spectrum.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -39,12 +41,8 @@ pub enum SpectrumError {
 /// Samples of the shortest window.
 const LEAST_SAMPLES: usize = 8;
 
-/// Checks a signal against a window, s, at a rate, Hz; the samples of the window.
-pub(super) fn window_samples(
-    signal: &[f64],
-    rate_hz: f64,
-    window_s: f64,
-) -> Result<usize, SpectrumError> {
+/// Samples of a window, s, at a rate, Hz.
+pub(super) fn samples_of_window(rate_hz: f64, window_s: f64) -> Result<usize, SpectrumError> {
     for (name, value, allowed) in [
         ("rate_hz", rate_hz, [1e-3, 1e9]),
         ("window_s", window_s, [1e-6, 1e9]),
@@ -57,13 +55,22 @@ pub(super) fn window_samples(
             });
         }
     }
+    Ok((window_s * rate_hz).round().max(LEAST_SAMPLES as f64) as usize)
+}
+
+/// Checks a signal against a window, s, at a rate, Hz; the samples of the window.
+pub(super) fn window_samples(
+    signal: &[f64],
+    rate_hz: f64,
+    window_s: f64,
+) -> Result<usize, SpectrumError> {
+    let window = samples_of_window(rate_hz, window_s)?;
     if let Some(sample) = signal.iter().position(|value| !value.is_finite()) {
         return Err(SpectrumError::NotFinite {
             sample,
             value: signal[sample],
         });
     }
-    let window = (window_s * rate_hz).round().max(LEAST_SAMPLES as f64) as usize;
     if signal.len() < window {
         return Err(SpectrumError::Short {
             samples: signal.len(),
@@ -73,72 +80,54 @@ pub(super) fn window_samples(
     Ok(window)
 }
 
-/// Complex amplitudes of the lines of a window, from 0 to half the rate.
-pub(super) fn lines(window: &[f64]) -> Vec<[f64; 2]> {
-    let transform = RealFftPlanner::<f64>::new().plan_fft_forward(window.len());
-    let mut input = window.to_vec();
-    let mut output = transform.make_output_vec();
-    // The lengths are the plan's own.
-    match transform.process(&mut input, &mut output) {
-        Ok(()) => output.iter().map(|line| [line.re, line.im]).collect(),
-        Err(_) => Vec::new(),
+/// Fourier transform of windows of one length: planned once, and nothing is allocated for a window.
+#[derive(Clone)]
+pub(super) struct Transform {
+    plan: Arc<dyn RealToComplex<f64>>,
+    input: Vec<f64>,
+    lines: Vec<Complex<f64>>,
+    scratch: Vec<Complex<f64>>,
+}
+
+impl fmt::Debug for Transform {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut shown = f.debug_struct("Transform");
+        shown.field("samples", &self.plan.len());
+        shown.finish_non_exhaustive()
     }
 }
 
-/// One-sided amplitudes of the lines of a window, of which line `i` is at `i rate/len`: `2/len` times the magnitude.
-pub(super) fn amplitudes(window: &[f64]) -> Vec<f64> {
-    let scale = 2.0 / window.len() as f64;
-    let magnitude = |[re, im]: [f64; 2]| scale * re.hypot(im);
-    lines(window).into_iter().map(magnitude).collect()
-}
-
-/// One-sided power spectral density after Welch (1967): Hann windows that overlap by half, each without its mean.
-///
-/// Returns frequency, Hz, and density, the signal's unit squared per Hz. Its integral is the variance of the signal.
-///
-/// # Errors
-/// A signal shorter than a window, numbers that are not finite or out of bounds.
-///
-/// ```
-/// use dashpot_rail::indices::welch;
-/// let sine = |i: usize| 3.0 * (2.0 * std::f64::consts::PI * 5.0 * i as f64 / 200.0).sin();
-/// let signal: Vec<f64> = (0..4000).map(sine).collect();
-/// let density = welch(&signal, 200.0, 4.0)?;
-/// let variance: f64 = density.iter().map(|[_, density]| density * 0.25).sum();
-/// assert!((variance - 4.5).abs() < 1e-3);
-/// let [peak, _] = density.iter().copied().max_by(|a, b| a[1].total_cmp(&b[1])).unwrap();
-/// assert_eq!(peak, 5.0);
-/// # Ok::<(), dashpot_rail::indices::SpectrumError>(())
-/// ```
-pub fn welch(signal: &[f64], rate_hz: f64, window_s: f64) -> Result<Vec<[f64; 2]>, SpectrumError> {
-    let length = window_samples(signal, rate_hz, window_s)?;
-    let hann: Vec<f64> = (0..length)
-        .map(|i| 0.5 - 0.5 * (2.0 * PI * i as f64 / length as f64).cos())
-        .collect();
-    let power: f64 = hann.iter().map(|weight| weight * weight).sum();
-    let mut density = vec![0.0; length / 2 + 1];
-    let mut windows = 0.0;
-    for start in (0..=signal.len() - length).step_by((length / 2).max(1)) {
-        let window = &signal[start..start + length];
-        let mean = window.iter().sum::<f64>() / length as f64;
-        let weighted: Vec<f64> = window
-            .iter()
-            .zip(&hann)
-            .map(|(value, weight)| (value - mean) * weight)
-            .collect();
-        for (sum, [re, im]) in density.iter_mut().zip(lines(&weighted)) {
-            *sum += re * re + im * im;
+impl Transform {
+    /// For windows of so many samples.
+    pub fn new(samples: usize) -> Self {
+        let plan = RealFftPlanner::<f64>::new().plan_fft_forward(samples);
+        Self {
+            input: plan.make_input_vec(),
+            lines: plan.make_output_vec(),
+            scratch: plan.make_scratch_vec(),
+            plan,
         }
-        windows += 1.0;
     }
-    let is_doubled = |line: usize| line > 0 && 2 * line != length;
-    Ok(density
-        .iter()
-        .enumerate()
-        .map(|(line, sum)| {
-            let sides = if is_doubled(line) { 2.0 } else { 1.0 };
-            let density = sides * sum / (windows * rate_hz * power);
-            [line as f64 * rate_hz / length as f64, density]
-        })
-        .collect())
+
+    /// Samples of a window.
+    pub fn samples(&self) -> usize {
+        self.plan.len()
+    }
+
+    /// Complex amplitudes of the lines, from 0 to half the rate, of a window of [`samples`](Self::samples) values.
+    pub fn lines(&mut self, window: impl Iterator<Item = f64>) -> &[Complex<f64>] {
+        for (place, value) in self.input.iter_mut().zip(window) {
+            *place = value;
+        }
+        // The lengths are the plan's own.
+        let _ = self
+            .plan
+            .process_with_scratch(&mut self.input, &mut self.lines, &mut self.scratch);
+        &self.lines
+    }
+}
+
+/// Mean of a window.
+pub(super) fn mean(window: &[f64]) -> f64 {
+    window.iter().sum::<f64>() / window.len() as f64
 }

@@ -1,6 +1,8 @@
 //! Sperling's ride index.
 
-use super::spectrum::{SpectrumError, amplitudes, window_samples};
+use realfft::num_complex::Complex;
+
+use super::spectrum::{SpectrumError, Transform, mean, samples_of_window, window_samples};
 
 /// Direction of an acceleration across the track.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -11,8 +13,8 @@ pub enum RideDirection {
     Vertical,
 }
 
-/// Band whose lines count, Hz.
-const BAND_HZ: [f64; 2] = [0.5, 40.0];
+/// Band whose lines count in Sperling's index, Hz.
+pub const SPERLING_BAND_HZ: [f64; 2] = [0.5, 40.0];
 
 impl RideDirection {
     /// Correction `F(f)` for what people feel: a rising part, a falling part, 1 beyond (GB/T 5599).
@@ -29,6 +31,73 @@ impl RideDirection {
         } else {
             1.0
         }
+    }
+}
+
+/// Sperling's ride index of windows of one length, its transform planned and its band weighted once.
+///
+/// ```
+/// use dashpot_rail::indices::{RideDirection, Sperling};
+/// let sine = |i: usize| 0.5 * (2.0 * std::f64::consts::PI * 2.0 * i as f64 / 500.0).sin();
+/// let acceleration: Vec<f64> = (0..2500).map(sine).collect();
+/// let mut ride = Sperling::new(500.0, 5.0)?;
+/// assert!((ride.of_window(&acceleration, RideDirection::Vertical) - 2.7775).abs() < 1e-4);
+/// # Ok::<(), dashpot_rail::indices::SpectrumError>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct Sperling {
+    transform: Transform,
+    /// First line of the band.
+    first: usize,
+    /// What the cube of the magnitude of each line of the band counts, lateral and vertical.
+    weights: [Vec<f64>; 2],
+}
+
+impl Sperling {
+    /// Of accelerations sampled at `rate_hz`, in windows of `window_s`.
+    ///
+    /// # Errors
+    /// A rate or a window out of bounds.
+    pub fn new(rate_hz: f64, window_s: f64) -> Result<Self, SpectrumError> {
+        let length = samples_of_window(rate_hz, window_s)?;
+        let frequency_hz = |line: usize| line as f64 * rate_hz / length as f64;
+        let is_in_band = |line: &usize| {
+            (SPERLING_BAND_HZ[0]..=SPERLING_BAND_HZ[1]).contains(&frequency_hz(*line))
+        };
+        let band: Vec<usize> = (1..=length / 2).filter(is_in_band).collect();
+        // One-sided: the amplitude is 2/length times the magnitude of the line.
+        let scale = (2.0 / length as f64).powi(3);
+        let weights = [RideDirection::Lateral, RideDirection::Vertical].map(|direction| {
+            let of_line = |line: &usize| {
+                let f = frequency_hz(*line);
+                scale * direction.correction(f) / f
+            };
+            band.iter().map(of_line).collect()
+        });
+        Ok(Self {
+            transform: Transform::new(length),
+            first: band.first().copied().unwrap_or(0),
+            weights,
+        })
+    }
+
+    /// Samples of a window.
+    pub fn samples(&self) -> usize {
+        self.transform.samples()
+    }
+
+    /// The index of a window of [`samples`](Self::samples) accelerations, m/s^2, about their mean.
+    pub fn of_window(&mut self, acceleration_m_per_s2: &[f64], direction: RideDirection) -> f64 {
+        let mean = mean(acceleration_m_per_s2);
+        let about_mean = acceleration_m_per_s2.iter().map(|value| value - mean);
+        let lines = self.transform.lines(about_mean);
+        let weights = &self.weights[usize::from(direction == RideDirection::Vertical)];
+        let of_line = |(line, weight): (&Complex<f64>, &f64)| {
+            let square = line.norm_sqr();
+            weight * square * square.sqrt()
+        };
+        let sum: f64 = lines[self.first..].iter().zip(weights).map(of_line).sum();
+        3.57 * sum.powf(0.1)
     }
 }
 
@@ -54,19 +123,11 @@ pub fn sperling(
     window_s: f64,
     direction: RideDirection,
 ) -> Result<f64, SpectrumError> {
-    let length = window_samples(acceleration_m_per_s2, rate_hz, window_s)?;
+    window_samples(acceleration_m_per_s2, rate_hz, window_s)?;
+    let mut ride = Sperling::new(rate_hz, window_s)?;
     let (mut sum, mut windows) = (0.0, 0.0);
-    for window in acceleration_m_per_s2.chunks_exact(length) {
-        let mean = window.iter().sum::<f64>() / length as f64;
-        let about_mean: Vec<f64> = window.iter().map(|value| value - mean).collect();
-        let of_lines: f64 = amplitudes(&about_mean)
-            .into_iter()
-            .enumerate()
-            .map(|(line, amplitude)| (line as f64 * rate_hz / length as f64, amplitude))
-            .filter(|(f, _)| (BAND_HZ[0]..=BAND_HZ[1]).contains(f))
-            .map(|(f, amplitude)| amplitude.powi(3) * direction.correction(f) / f)
-            .sum();
-        sum += 3.57 * of_lines.powf(0.1);
+    for window in acceleration_m_per_s2.chunks_exact(ride.samples()) {
+        sum += ride.of_window(window, direction);
         windows += 1.0;
     }
     Ok(sum / windows)

@@ -2,6 +2,7 @@
 
 use super::element::{Element, Law};
 use super::error::VehicleError;
+use super::ride_point::RidePoint;
 
 /// A vehicle: rigid bodies and wheelsets, connected by elements.
 #[derive(Debug, Clone, PartialEq)]
@@ -14,6 +15,8 @@ pub struct VehicleParameters {
     pub wheelsets: Vec<Wheelset>,
     /// What connects them.
     pub elements: Vec<Element>,
+    /// Where the ride is told of; nothing moves otherwise for them.
+    pub ride_points: Vec<RidePoint>,
 }
 
 /// A rigid body.

@@ -7,7 +7,7 @@ pub enum VehicleError {
     /// A number is out of bounds.
     #[error("{owner}: {name} = {value}, allowed: {} to {}", .allowed[0], .allowed[1])]
     OutOfBounds {
-        /// Body, wheelset or element.
+        /// Body, wheelset, element or ride point.
         owner: String,
         /// The quantity.
         name: &'static str,
@@ -17,7 +17,9 @@ pub enum VehicleError {
         allowed: [f64; 2],
     },
     /// Two parts have the same name.
-    #[error("{name}: used twice; every body, wheelset and element has a name of its own")]
+    #[error(
+        "{name}: used twice; every body, wheelset, element and ride point has a name of its own"
+    )]
     NameUsedTwice {
         /// The name.
         name: String,
@@ -30,6 +32,16 @@ pub enum VehicleError {
         /// What it is attached to.
         to: String,
         /// What there is.
+        names: Vec<String>,
+    },
+    /// A ride point is on a body that there is not.
+    #[error("{point}: on {on}, which is no body; there are {}", .names.join(", "))]
+    NoSuchBody {
+        /// The ride point.
+        point: String,
+        /// What it is on.
+        on: String,
+        /// The bodies.
         names: Vec<String>,
     },
     /// Both ends of an element are on the same body.
@@ -129,12 +141,13 @@ impl VehicleError {
         })
     }
 
-    /// The body, wheelset or element that is wrong, where it is one.
+    /// The body, wheelset, element or ride point that is wrong, where it is one.
     pub fn part(&self) -> Option<&str> {
         match self {
             Self::OutOfBounds { owner: part, .. }
             | Self::NameUsedTwice { name: part }
             | Self::NotThere { element: part, .. }
+            | Self::NoSuchBody { point: part, .. }
             | Self::SameBody { element: part, .. }
             | Self::Ends { element: part, .. }
             | Self::Damper { element: part, .. }

@@ -25,6 +25,7 @@
 //!     bodies: vec![body],
 //!     wheelsets: vec![],
 //!     elements: vec![spring(5.0, 1.0), spring(5.0, -1.0), spring(-5.0, 1.0), spring(-5.0, -1.0)],
+//!     ride_points: vec![],
 //! };
 //! let modes = Standstill::new(&vehicle)?.modes()?;
 //! let bounce = modes.iter().find(|mode| mode.words() == "body bounce").unwrap();
@@ -40,6 +41,7 @@ mod engine;
 mod error;
 mod linear;
 mod modes;
+mod ride_point;
 mod running;
 mod standstill;
 
@@ -48,6 +50,7 @@ pub use element::{Direction, Element, End, Law, MAX_STOP_POINTS};
 pub use engine::{CANT_BASE_M, Energy, RailSupport, SPEED_M_PER_S, STEP_S, Vehicle, VehicleState};
 pub use error::VehicleError;
 pub use modes::Mode;
+pub use ride_point::RidePoint;
 pub use running::Running;
 pub use standstill::Standstill;
 

@@ -125,6 +125,9 @@ fn check(vehicle: &VehicleParameters) -> Result<(), VehicleError> {
     for element in &vehicle.elements {
         element.check()?;
     }
+    for point in &vehicle.ride_points {
+        point.check(vehicle)?;
+    }
     check_names(vehicle)
 }
 
@@ -186,8 +189,9 @@ fn check_names(vehicle: &VehicleParameters) -> Result<(), VehicleError> {
     let bodies = vehicle.bodies.iter().map(|body| &body.name);
     let wheelsets = vehicle.wheelsets.iter().map(|wheelset| &wheelset.name);
     let elements = vehicle.elements.iter().map(|element| &element.name);
+    let points = vehicle.ride_points.iter().map(|point| &point.name);
     let mut names = std::collections::HashSet::new();
-    for name in bodies.chain(wheelsets).chain(elements) {
+    for name in bodies.chain(wheelsets).chain(elements).chain(points) {
         if !names.insert(name) {
             return Err(VehicleError::NameUsedTwice { name: name.clone() });
         }

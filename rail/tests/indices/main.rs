@@ -3,7 +3,8 @@
 use std::f64::consts::PI;
 
 use dashpot_rail::indices::{
-    RideDirection, SpectrumError, Weighting, mean_comfort, sperling, weighted_rms, welch,
+    RideDirection, SpectrumError, Weighting, WeightingFilter, mean_comfort,
+    mean_comfort_of_windows, nadal_limit, prudhomme_limit_n, sperling, weighted_rms, welch,
 };
 
 const RATE_HZ: f64 = 500.0;
@@ -104,6 +105,82 @@ fn comfort_is_that_of_weighted_sines() {
     );
     let windows = weighted_rms(&z, RATE_HZ, Weighting::Vertical).unwrap();
     assert_eq!(windows.len(), 12);
+}
+
+/// What comes sample by sample is weighted as the published table has it, within what the bilinear transform leaves at 1 kHz.
+#[test]
+fn the_filter_has_the_published_gains() {
+    const RATE_HZ: f64 = 1000.0;
+    let table = rows(include_str!("../../data/en12299_weighting_gains.csv"));
+    let mut compared = 0;
+    for row in table {
+        let [frequency, vertical, horizontal, _] = row[..] else {
+            panic!("{row:?}")
+        };
+        if frequency > 40.0 {
+            continue;
+        }
+        compared += 1;
+        for (weighting, expected) in [
+            (Weighting::Vertical, vertical),
+            (Weighting::Horizontal, horizontal),
+        ] {
+            let mut filter = WeightingFilter::new(weighting, RATE_HZ).unwrap();
+            // Sine and cosine over whole periods, once the corner at 0.4 Hz has settled.
+            let period = (RATE_HZ / frequency).round();
+            let settled = 20_000_u32;
+            let cycles = (40.0 * frequency).ceil();
+            let measured = (cycles * period) as u32;
+            let (mut sine, mut cosine) = (0.0, 0.0);
+            for i in 0..settled + measured {
+                let angle = 2.0 * PI * f64::from(i) / period;
+                let out = filter.next(angle.sin());
+                if i >= settled {
+                    sine += 2.0 * out * angle.sin() / f64::from(measured);
+                    cosine += 2.0 * out * angle.cos() / f64::from(measured);
+                }
+            }
+            // A whole number of samples a period is not quite the frequency of the table.
+            let gain = weighting.gain(RATE_HZ / period);
+            assert!((gain / expected - 1.0).abs() < 0.05, "{frequency} Hz");
+            let found = sine.hypot(cosine);
+            assert!(
+                (found / gain - 1.0).abs() < 5e-3,
+                "{frequency} Hz: {found} for {gain}"
+            );
+        }
+    }
+    assert!(compared > 8, "{compared}");
+}
+
+/// A constant acceleration, as in a curve, has no weight from its first sample on.
+#[test]
+fn a_constant_has_no_weight() {
+    for weighting in [Weighting::Vertical, Weighting::Horizontal] {
+        let mut filter = WeightingFilter::new(weighting, 1000.0).unwrap();
+        let greatest = (0..10_000).fold(0.0_f64, |most, _| most.max(filter.next(1.3).abs()));
+        assert!(greatest < 1e-6, "{greatest}");
+    }
+    let error = WeightingFilter::new(Weighting::Vertical, 100.0).unwrap_err();
+    assert_eq!(error.to_string(), "rate_hz: 100, allowed: 400 to 1000000");
+}
+
+/// The 95th percentile of 1 to 21 is 20; `6 sqrt(0 + 20^2 + 15^2)`.
+#[test]
+fn comfort_is_that_of_the_percentiles_of_windows() {
+    let rising: Vec<f64> = (1..=21).rev().map(f64::from).collect();
+    let comfort = mean_comfort_of_windows([&[], &rising, &[15.0]]);
+    assert!((comfort - 150.0).abs() < 1e-9, "{comfort}");
+}
+
+/// Nadal's limit of a flange of 75 degrees and friction 0.5 is 1.13 (TCRP Report 71), Prud'homme's of an axle load of 201 kN is 77 kN.
+#[test]
+fn limits_are_the_published_ones() {
+    let limit = nadal_limit(75_f64.to_radians(), 0.5);
+    assert!((limit - 1.13).abs() < 0.005, "{limit}");
+    // Without friction the wheel climbs at the slope of its flange.
+    assert!((nadal_limit(45_f64.to_radians(), 0.0) - 1.0).abs() < 1e-12);
+    assert!((prudhomme_limit_n(201e3) - 77e3).abs() < 1e-6);
 }
 
 /// White noise of variance `v` has the density `2 v/rate` at every frequency, and the integral of any density is the variance.

@@ -59,6 +59,7 @@ fn vehicle(bodies: Vec<Body>, elements: Vec<Element>) -> VehicleParameters {
         bodies,
         wheelsets: vec![],
         elements,
+        ride_points: vec![],
     }
 }
 
@@ -283,6 +284,7 @@ fn springs_give_way_under_the_weight_and_the_axles_carry_it() {
         bodies: vec![wagon],
         wheelsets: vec![wheelset("front", 4.0), wheelset("rear", -4.0)],
         elements,
+        ride_points: vec![],
     })
     .unwrap();
     let weight = 30e3 * GRAVITY_M_PER_S2;

@@ -2,7 +2,9 @@
 
 use dashpot_core::DamperParameters;
 use dashpot_core::parameters::Mount;
-use dashpot_rail::vehicle::{Body, Direction, Element, End, Law, Standstill, VehicleParameters};
+use dashpot_rail::vehicle::{
+    Body, Direction, Element, End, Law, RidePoint, Standstill, VehicleParameters,
+};
 
 fn vehicle() -> VehicleParameters {
     let at = |x: f64, y: f64| [x, y, 0.5];
@@ -29,6 +31,11 @@ fn vehicle() -> VehicleParameters {
             spring("right", -3.0, 1.0),
             spring("third", 3.0, 1.0),
         ],
+        ride_points: vec![RidePoint {
+            name: "seat".into(),
+            on: "body".into(),
+            at_m: at(3.0, 1.0),
+        }],
     }
 }
 
@@ -43,7 +50,7 @@ type Change = fn(&mut VehicleParameters);
 #[test]
 fn every_error_says_what_where_and_what_is_allowed() {
     assert!(Standstill::new(&vehicle()).is_ok());
-    let cases: [(&str, Change); 11] = [
+    let cases: [(&str, Change); 14] = [
         (
             "left: points of a stop: allowed: displacements that rise by 1e-6 m at least, and forces that do not fall",
             |v| {
@@ -70,7 +77,7 @@ fn every_error_says_what_where_and_what_is_allowed() {
             v.bodies[0].inertia_kg_m2[1] = f64::NAN;
         }),
         (
-            "left: used twice; every body, wheelset and element has a name of its own",
+            "left: used twice; every body, wheelset, element and ride point has a name of its own",
             |v| {
                 v.elements[1].name = "left".into();
             },
@@ -95,6 +102,16 @@ fn every_error_says_what_where_and_what_is_allowed() {
                     damping_n_s_per_m: [0.0; 3],
                 };
             },
+        ),
+        ("seat: on bogie, which is no body; there are body", |v| {
+            v.ride_points[0].on = "bogie".into()
+        }),
+        ("seat: height_m = -1, allowed: 0 to 10", |v| {
+            v.ride_points[0].at_m[2] = -1.0
+        }),
+        (
+            "body: used twice; every body, wheelset, element and ride point has a name of its own",
+            |v| v.ride_points[0].name = "body".into(),
         ),
         ("no body: a vehicle has one at least", |v| v.bodies.clear()),
         (

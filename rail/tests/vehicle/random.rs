@@ -76,7 +76,7 @@ prop_compose! {
                 parameters: Box::new(DamperParameters::reduced(damping, 1.0, Mount::new(stiffness))),
             },
         });
-        VehicleParameters { name: "any".into(), bodies: vec![upper, lower], wheelsets: vec![], elements }
+        VehicleParameters { name: "any".into(), bodies: vec![upper, lower], wheelsets: vec![], elements, ride_points: vec![] }
     }
 }
 

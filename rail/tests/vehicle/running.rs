@@ -94,6 +94,7 @@ fn free_wheelset() -> VehicleParameters {
             radius_m: 0.625,
         }],
         elements,
+        ride_points: vec![],
     }
 }
 

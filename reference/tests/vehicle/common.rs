@@ -63,6 +63,7 @@ pub fn on_track(elements: Vec<Element>) -> VehicleParameters {
         bodies: vec![body()],
         wheelsets: vec![],
         elements,
+        ride_points: vec![],
     }
 }
 
@@ -92,6 +93,7 @@ pub fn wagon(damping_n_s_per_m: [f64; 3]) -> VehicleParameters {
         bodies: vec![body()],
         wheelsets: vec![wheelset("front axle", 4.0), wheelset("rear axle", -4.0)],
         elements,
+        ride_points: vec![],
     }
 }
 

@@ -10,6 +10,7 @@ mod options;
 mod outside;
 mod page;
 mod report;
+mod spectra;
 
 use std::path::{Path, PathBuf};
 
@@ -38,7 +39,8 @@ use crate::study::vehicle::{Ending, Indexer, Run, signals};
   dashpot vehicle --case curve-r600 --outside \"front lateral damper 1=serial:/dev/ttyACM0\" --realtime
   dashpot vehicle --case straight-180 --outside \"rear vertical damper 2=force.csv\"
 
-Written into the folder of --output: history.csv, a row a tick, with --parquet history.parquet too; indices.json; report.html, a page to send.
+Written into the folder of --output: history.csv, a row a tick, with --parquet history.parquet too; spectra.csv, power spectral densities at
+the ride points and of the leading wheels' Y/Q; indices.json; report.html, a page to send.
 Displacements are from where the vehicle stands, relative to the track, to the right and down positive; Q is down on the rail, Y towards
 the middle of the track. Exit code 1 and the reason when the vehicle derails, diverges, or is interrupted, or a link to a damper outside is
 lost: what was computed is kept.
@@ -120,12 +122,20 @@ pub fn run(arguments: &VehicleArguments) -> Outcome<()> {
         columns::write(&path, &columns)?;
         report.files.push(columns);
     }
+    let spectra = if report.indices.is_some() {
+        spectra::of_history(&case, &path)?
+    } else {
+        Vec::new()
+    };
+    report.files.push(path);
+    let path = folder.join("spectra.csv");
+    spectra::write(&spectra, &path)?;
     report.files.push(path);
     if !arguments.no_page {
         let path = folder.join("report.html");
         write_bytes(
             &path,
-            page::write(&case, &run, &report, &history, &forces)?.as_bytes(),
+            page::write(&case, &run, &report, &history, &spectra, &forces)?.as_bytes(),
         )?;
         report.files.push(path);
     }
@@ -149,7 +159,8 @@ fn follow(
     mut pacer: Option<Pacer>,
     path: &Path,
 ) -> Outcome<(History, Report)> {
-    let all = signals::all(run.vehicle());
+    let mut all = signals::all(run.vehicle());
+    all.extend(signals::of_ride(&case.vehicle));
     let mut history = History::new(all.clone(), run.ticks());
     let mut indexer = Indexer::new(case);
     let bar = progress::bar(run.ticks(), "vehicle");

@@ -2,14 +2,15 @@
 
 use maud::{Markup, html};
 
-use super::report::Report;
-use super::{drawing, figures};
+use super::report::{Limits, Report, counted_windows, percent};
+use super::{drawing, figures, spectra};
 use crate::commands::vehicle::history::History;
 use crate::files::case::Case;
 use crate::realtime::timing::span;
 use crate::report::DrawError;
 use crate::report::page::{document, figure, footer, tiles};
-use crate::study::vehicle::{Ending, Forces, Run};
+use crate::study::vehicle::spectra::Spectrum;
+use crate::study::vehicle::{Ending, Forces, Indices, RideIndices, Run};
 
 /// Dampers whose loops share a figure.
 const LOOPS: usize = 4;
@@ -23,6 +24,7 @@ pub(super) fn write(
     run: &Run,
     report: &Report,
     history: &History,
+    densities: &[Spectrum],
     forces: &[Forces],
 ) -> Result<String, DrawError> {
     let vehicle = run.vehicle();
@@ -60,6 +62,7 @@ pub(super) fn write(
         (figure(&figures::derailment(history, wheelsets), &html! {
             "Lateral over vertical force, positive where the rail pushes the wheel to the middle of the track."
         })?)
+        (spectra::section(densities)?)
         @if !dampers.is_empty() {
             h2 { "Dampers" }
             @for some in dampers.chunks(LOOPS) {
@@ -150,20 +153,32 @@ fn tables(report: &Report) -> Markup {
                             td { (format!("{:.2}", body.vertical_greatest_m_per_s2)) }
                         }
                     }
+                    tr {
+                        td.text { "unbalanced, of the layout" }
+                        td { (format!("{:.3}", indices.unbalanced.rms_m_per_s2)) }
+                        td { (format!("{:.2}", indices.unbalanced.greatest_m_per_s2)) }
+                        td {} td {}
+                    }
                 } }
                 @if indices.ride.iter().any(|ride| ride.windows > 0) {
                     div.wide { table {
-                        tr { th { "Sperling's ride index" } th { "lateral" } th { "vertical" } }
+                        tr {
+                            th { "Ride" } th { "height, m" } th { "Sperling lateral" } th { "Sperling vertical" }
+                            th { "N_MV" }
+                        }
                         @for ride in &indices.ride {
                             tr {
                                 td.text { (ride.point) }
-                                @for index in [ride.sperling_lateral, ride.sperling_vertical] {
+                                td { (format!("{:.2}", ride.at_m[2])) }
+                                @for index in [ride.sperling_lateral, ride.sperling_vertical, ride.mean_comfort] {
                                     td { (index.map_or_else(|| "-".into(), |index| format!("{index:.3}"))) }
                                 }
                             }
                         }
                     } }
-                    p { "At the height of the centre of gravity, 0.5 to 40 Hz, mean of windows of 5 s." }
+                    @if let Some(ride) = indices.ride.first() {
+                        p { (ride_note(ride)) }
+                    }
                 }
                 div.wide { table {
                     tr {
@@ -185,8 +200,50 @@ fn tables(report: &Report) -> Markup {
                     }
                 } }
                 p { "Y/Q and lateral force: greatest mean over 2 m. Wear number: mean power of creep over the speed." }
+                (limits(indices))
             }
             None => { p { "No figures are given of a run that ended before its time." } }
+        }
+    }
+}
+
+/// Of what the ride is.
+fn ride_note(ride: &RideIndices) -> String {
+    let ([from, to], [low, high]) = (ride.sperling_band_hz, ride.comfort_band_hz);
+    format!(
+        "Of {}. Sperling's index: {from} to {to} Hz, mean of the windows. N_MV, mean comfort of EN 12299: {low} to {high} Hz, 95th percentile of \
+         the windows, along the track nothing accelerates; the standard takes five minutes.",
+        counted_windows(ride)
+    )
+}
+
+/// Forces of wheels and wheelsets against their limits.
+fn limits(indices: &Indices) -> Markup {
+    html! {
+        div.wide { table {
+            tr {
+                th { "worse wheel" } th { "unloading, %" } th { "of the mean, %" } th { "lifted, %" } th { "Y/Q of Nadal's, %" }
+                th { "beyond for, m" } th { "lateral force of Prud'homme's, %" } th { "wear rms, N" } th { "greatest, N" }
+            }
+            @for wheelset in &indices.wheelsets {
+                @let worse = Limits::of(wheelset);
+                tr {
+                    td.text { (wheelset.wheelset) }
+                    td { (percent(worse.unloading)) }
+                    td { (percent(worse.unloading_of_mean)) }
+                    td { (format!("{:.1}", 1e2 * worse.lifted_share)) }
+                    td { (format!("{:.0}", 1e2 * worse.over_nadal)) }
+                    td { (format!("{:.2}", worse.longest_over_nadal_m)) }
+                    td { (percent(wheelset.lateral_force_over_limit)) }
+                    td { (format!("{:.0}", wheelset.wear_number_rms_n)) }
+                    td { (format!("{:.0}", wheelset.wear_number_greatest_n)) }
+                }
+            }
+        } }
+        p {
+            "Unloading from the load at standstill, at once and of the mean over 2 m. Nadal's limit is "
+            (format!("{:.2}", indices.nadal.limit)) " for a flange of " (format!("{:.1}", indices.nadal.flange_angle_rad.to_degrees()))
+            "° and friction " (indices.nadal.friction) "; Prud'homme's is 10 kN and a third of the axle's load at standstill."
         }
     }
 }

@@ -13,7 +13,7 @@ use crate::files::case::Case;
 use crate::files::output;
 use crate::realtime::pacing::PacingReport;
 use crate::realtime::timing::span;
-use crate::study::vehicle::{Ending, Indices};
+use crate::study::vehicle::{Ending, Indices, RideIndices, WheelIndices, WheelsetIndices};
 
 /// What is told of a run.
 #[derive(Serialize)]
@@ -117,18 +117,12 @@ pub(super) fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
                 body.vertical_greatest_m_per_s2
             )?;
         }
-        let rides = indices.ride.iter();
-        let rides =
-            rides.filter_map(|ride| Some((ride, ride.sperling_lateral?, ride.sperling_vertical?)));
-        for (number, (ride, lateral, vertical)) in rides.enumerate() {
-            if number == 0 {
-                writeln!(
-                    out,
-                    "\nSperling's ride index                lateral  vertical"
-                )?;
-            }
-            writeln!(out, "{:<36} {lateral:8.3} {vertical:9.3}", ride.point)?;
-        }
+        writeln!(
+            out,
+            "unbalanced, of the layout  {:11.3} {:9.2}",
+            indices.unbalanced.rms_m_per_s2, indices.unbalanced.greatest_m_per_s2
+        )?;
+        print_ride(out, &indices.ride)?;
         writeln!(out)?;
         writeln!(
             out,
@@ -153,6 +147,7 @@ pub(super) fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
             )?;
         }
         writeln!(out, "Y/Q and lateral force: greatest mean over 2 m")?;
+        print_limits(out, indices)?;
     }
     if let Some(realtime) = &report.realtime {
         realtime.write(out, "tick")?;
@@ -165,4 +160,99 @@ pub(super) fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
         writeln!(out, "wrote {}", output::name(file).display())?;
     }
     Ok(())
+}
+
+/// Of a run that has a window.
+fn print_ride(out: &mut dyn Write, all: &[RideIndices]) -> io::Result<()> {
+    let told = all.iter().filter_map(|ride| {
+        let sperling = (ride.sperling_lateral?, ride.sperling_vertical?);
+        Some((ride, sperling, ride.mean_comfort?))
+    });
+    for (number, (ride, (lateral, vertical), comfort)) in told.enumerate() {
+        if number == 0 {
+            let [from, to] = ride.sperling_band_hz;
+            writeln!(
+                out,
+                "\nride in {}, Sperling's index of {from} to {to} Hz and mean comfort of EN 12299",
+                counted_windows(ride)
+            )?;
+            writeln!(
+                out,
+                "point                       height, m  W lateral  W vertical     N_MV"
+            )?;
+        }
+        writeln!(
+            out,
+            "{:<27} {:9.2} {lateral:10.3} {vertical:11.3} {comfort:8.3}",
+            ride.point, ride.at_m[2]
+        )?;
+    }
+    Ok(())
+}
+
+/// The windows of a ride, in words.
+pub(super) fn counted_windows(ride: &RideIndices) -> String {
+    format!("{} of {} s", counted(ride.windows, "window"), ride.window_s)
+}
+
+/// Forces against their limits.
+fn print_limits(out: &mut dyn Write, indices: &Indices) -> io::Result<()> {
+    writeln!(
+        out,
+        "\nwheelset, front first      unloading, %  of mean, %  lifted, %  Y/Q of Nadal's, %  lateral of Prud'homme's, %  wear rms, N  greatest"
+    )?;
+    for wheelset in &indices.wheelsets {
+        let limits = Limits::of(wheelset);
+        writeln!(
+            out,
+            "{:<26} {:>12} {:>11} {:10.1} {:18.0} {:>27} {:12.0} {:9.0}",
+            wheelset.wheelset,
+            percent(limits.unloading),
+            percent(limits.unloading_of_mean),
+            1e2 * limits.lifted_share,
+            1e2 * limits.over_nadal,
+            percent(wheelset.lateral_force_over_limit),
+            wheelset.wear_number_rms_n,
+            wheelset.wear_number_greatest_n
+        )?;
+    }
+    writeln!(
+        out,
+        "the worse wheel; Nadal's limit {:.2} of a flange of {:.1} degrees and friction {}; Prud'homme's of the load at standstill",
+        indices.nadal.limit,
+        indices.nadal.flange_angle_rad.to_degrees(),
+        indices.nadal.friction
+    )
+}
+
+/// The worse of both wheels.
+pub(super) struct Limits {
+    pub(super) unloading: Option<f64>,
+    pub(super) unloading_of_mean: Option<f64>,
+    pub(super) lifted_share: f64,
+    pub(super) over_nadal: f64,
+    pub(super) longest_over_nadal_m: f64,
+}
+
+impl Limits {
+    pub(super) fn of(wheelset: &WheelsetIndices) -> Self {
+        let wheels = &wheelset.wheels;
+        let greatest = |of: &dyn Fn(&WheelIndices) -> Option<f64>| {
+            wheels.iter().filter_map(of).reduce(f64::max)
+        };
+        let greatest_or_none =
+            |of: &dyn Fn(&WheelIndices) -> f64| greatest(&|wheel| Some(of(wheel))).unwrap_or(0.0);
+        Self {
+            unloading: greatest(&|wheel| wheel.unloading_greatest),
+            unloading_of_mean: greatest(&|wheel| wheel.unloading_of_mean_greatest),
+            lifted_share: greatest_or_none(&|wheel| wheel.lifted_share),
+            over_nadal: greatest_or_none(&|wheel| wheel.derailment_over_nadal),
+            longest_over_nadal_m: greatest_or_none(&|wheel| wheel.longest_over_nadal_m),
+        }
+    }
+}
+
+/// In whole percent.
+pub(super) fn percent(part: Option<f64>) -> String {
+    part.map_or_else(|| "-".into(), |part| format!("{:.0}", 1e2 * part))
 }

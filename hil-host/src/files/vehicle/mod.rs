@@ -37,7 +37,7 @@ const SHIPPED: Shipped = Shipped {
 };
 
 /// The vehicle called `name`: a shipped one, or the TOML file at that path, `-` being standard input; then each
-/// `part.key=value` of `overrides` in order, where a part is a body, a wheelset or an element of the file, and then each
+/// `part.key=value` of `overrides` in order, where a part is a body, a wheelset, an element or a ride point of the file, and then each
 /// `dampers.table.key=value`, which changes the dampers along vertical, lateral or longitudinal, or of a name.
 ///
 /// # Errors

@@ -1,7 +1,9 @@
 //! The tables of a vehicle file.
 
 use dashpot_core::DamperParameters;
-use dashpot_rail::vehicle::{Body, Direction, Element, End, Law, VehicleParameters, Wheelset};
+use dashpot_rail::vehicle::{
+    Body, Direction, Element, End, Law, RidePoint, VehicleParameters, Wheelset,
+};
 use serde::Deserialize;
 
 use super::error::VehicleFileError;
@@ -27,6 +29,8 @@ pub(super) struct VehicleFile {
     anti_roll_bar: Vec<AntiRollBarTable>,
     #[serde(default)]
     traction_rod: Vec<TractionRodTable>,
+    #[serde(default)]
+    ride_point: Vec<RidePointTable>,
 }
 
 #[derive(Deserialize)]
@@ -127,6 +131,15 @@ struct TractionRodTable {
     to_m: [f64; 3],
     stiffness_n_per_m: f64,
     damping_n_s_per_m: f64,
+}
+
+/// Where the ride is told of: a place `[x, y, height]` of a body.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RidePointTable {
+    name: String,
+    body: String,
+    at_m: [f64; 3],
 }
 
 impl From<DirectionName> for Direction {
@@ -254,11 +267,17 @@ impl VehicleFile {
                 },
             });
         }
+        let ride_points = self.ride_point.into_iter().map(|table| RidePoint {
+            name: table.name,
+            on: table.body,
+            at_m: table.at_m,
+        });
         Ok(VehicleParameters {
             name: self.name,
             bodies: bodies.collect(),
             wheelsets,
             elements: all,
+            ride_points: ride_points.collect(),
         })
     }
 }

@@ -1,7 +1,7 @@
 //! Indices that a study can observe, by name.
 
 use super::run::Observation;
-use crate::study::vehicle::{WheelIndices, WheelsetIndices};
+use crate::study::vehicle::{RideIndices, WheelIndices, WheelsetIndices};
 
 /// An index of a row.
 #[derive(Debug, Clone, Copy)]
@@ -31,52 +31,73 @@ fn greatest(values: impl Iterator<Item = f64>) -> Option<f64> {
     values.reduce(f64::max)
 }
 
+fn points(observation: &Observation) -> impl Iterator<Item = &RideIndices> {
+    observation.indices.ride.iter()
+}
+
+fn wheelsets(observation: &Observation) -> impl Iterator<Item = &WheelsetIndices> {
+    observation.indices.wheelsets.iter()
+}
+
 fn leading(observation: &Observation) -> Option<&WheelsetIndices> {
-    observation.indices.wheelsets.first()
+    wheelsets(observation).next()
 }
 
 fn wheels(observation: &Observation) -> impl Iterator<Item = &WheelIndices> {
-    let wheelsets = observation.indices.wheelsets.iter();
-    wheelsets.flat_map(|wheelset| &wheelset.wheels)
+    wheelsets(observation).flat_map(|wheelset| &wheelset.wheels)
 }
 
 /// All of them.
-pub const OBSERVED: [Observed; 14] = [
+pub const OBSERVED: [Observed; 22] = [
     Observed {
         name: "sperling_vertical",
         meaning: "Sperling's ride index up and down, greatest of the ride points",
-        of: |run| {
-            let points = run.indices.ride.iter();
-            greatest(points.filter_map(|point| point.sperling_vertical))
-        },
+        of: |run| greatest(points(run).filter_map(|point| point.sperling_vertical)),
     },
     Observed {
         name: "sperling_lateral",
         meaning: "Sperling's ride index to the side, greatest of the ride points",
-        of: |run| {
-            let points = run.indices.ride.iter();
-            greatest(points.filter_map(|point| point.sperling_lateral))
-        },
+        of: |run| greatest(points(run).filter_map(|point| point.sperling_lateral)),
     },
     Observed {
-        name: "sperling_vertical_middle",
+        name: "sperling_vertical_first",
         meaning: "Sperling's ride index up and down, first ride point",
-        of: |run| run.indices.ride.first()?.sperling_vertical,
+        of: |run| points(run).next()?.sperling_vertical,
     },
     Observed {
-        name: "sperling_lateral_middle",
+        name: "sperling_lateral_first",
         meaning: "Sperling's ride index to the side, first ride point",
-        of: |run| run.indices.ride.first()?.sperling_lateral,
+        of: |run| points(run).next()?.sperling_lateral,
+    },
+    Observed {
+        name: "mean_comfort",
+        meaning: "mean comfort (EN 12299), greatest of the ride points",
+        of: |run| greatest(points(run).filter_map(|point| point.mean_comfort)),
     },
     Observed {
         name: "body_vertical_rms_m_per_s2",
-        meaning: "vertical acceleration of the body, rms, m/s²",
+        meaning: "vertical acceleration of the first body, rms, m/s²",
         of: |run| Some(run.indices.bodies.first()?.vertical_rms_m_per_s2),
     },
     Observed {
+        name: "body_vertical_greatest_m_per_s2",
+        meaning: "vertical acceleration of the first body, greatest, m/s²",
+        of: |run| Some(run.indices.bodies.first()?.vertical_greatest_m_per_s2),
+    },
+    Observed {
         name: "body_lateral_rms_m_per_s2",
-        meaning: "lateral acceleration of the body, rms, m/s²",
+        meaning: "lateral acceleration of the first body, rms, m/s²",
         of: |run| Some(run.indices.bodies.first()?.lateral_rms_m_per_s2),
+    },
+    Observed {
+        name: "body_lateral_greatest_m_per_s2",
+        meaning: "lateral acceleration of the first body, greatest, m/s²",
+        of: |run| Some(run.indices.bodies.first()?.lateral_greatest_m_per_s2),
+    },
+    Observed {
+        name: "unbalanced_rms_m_per_s2",
+        meaning: "unbalanced lateral acceleration, rms, m/s²",
+        of: |run| Some(run.indices.unbalanced.rms_m_per_s2),
     },
     Observed {
         name: "derailment_rms",
@@ -96,9 +117,19 @@ pub const OBSERVED: [Observed; 14] = [
         of: |run| greatest(wheels(run).map(|wheel| wheel.derailment_greatest)),
     },
     Observed {
+        name: "derailment_over_nadal",
+        meaning: "Y/Q over Nadal's limit, greatest mean over 2 m of all wheels",
+        of: |run| greatest(wheels(run).map(|wheel| wheel.derailment_over_nadal)),
+    },
+    Observed {
         name: "wear_number_n",
         meaning: "wear number of the leading wheelset, mean, N",
         of: |run| Some(leading(run)?.wear_number_n),
+    },
+    Observed {
+        name: "wear_number_rms_n",
+        meaning: "wear number of the leading wheelset, rms, N",
+        of: |run| Some(leading(run)?.wear_number_rms_n),
     },
     Observed {
         name: "lateral_force_rms_n",
@@ -108,10 +139,17 @@ pub const OBSERVED: [Observed; 14] = [
     Observed {
         name: "lateral_force_greatest_n",
         meaning: "lateral force, greatest mean over 2 m of all wheelsets, N",
-        of: |run| {
-            let wheelsets = run.indices.wheelsets.iter();
-            greatest(wheelsets.map(|wheelset| wheelset.lateral_force_greatest_n))
-        },
+        of: |run| greatest(wheelsets(run).map(|wheelset| wheelset.lateral_force_greatest_n)),
+    },
+    Observed {
+        name: "lateral_force_over_limit",
+        meaning: "lateral force over Prud'homme's limit, greatest mean over 2 m of all wheelsets",
+        of: |run| greatest(wheelsets(run).filter_map(|wheelset| wheelset.lateral_force_over_limit)),
+    },
+    Observed {
+        name: "unloading_greatest",
+        meaning: "wheel unloading, greatest mean over 2 m of all wheels",
+        of: |run| greatest(wheels(run).filter_map(|wheel| wheel.unloading_of_mean_greatest)),
     },
     Observed {
         name: "wheel_load_greatest_n",

@@ -1,11 +1,10 @@
 //! How far two runs of a case are apart.
 
-use dashpot_rail::contact::WheelsetForces;
 use dashpot_rail::vehicle::VehicleState;
 use dashpot_reference::deviation::{errors, root_mean_square};
 use serde::Serialize;
 
-use super::indices::{Indexer, Indices};
+use super::indices::{Indexer, Indices, Sample};
 use super::run::Run;
 use super::signals::{SIDES, load_n};
 use crate::files::case::Case;
@@ -53,7 +52,6 @@ pub struct Trace {
     pub(super) lateral: Vec<Vec<f64>>,
     pub(super) loads: Vec<[Vec<f64>; 2]>,
     pub(super) indexer: Indexer,
-    pub(super) speed_m_per_s: f64,
     pub(super) inner_step_s: f64,
 }
 
@@ -68,13 +66,13 @@ impl Trace {
 
     /// Adds a tick.
     pub(super) fn add_state(&mut self, state: &VehicleState) {
-        let acceleration = |body| state.acceleration(body);
-        self.add(
-            acceleration,
-            state.coordinates(),
-            state.contacts(),
-            state.damper_forces_n(),
-        );
+        let sample = Sample {
+            acceleration: |body| state.acceleration(body),
+            unbalanced_m_per_s2: -state.track_acceleration(0)[0],
+            contacts: state.contacts(),
+            damper_forces_n: state.damper_forces_n(),
+        };
+        self.add(&sample, state.coordinates());
     }
 
     pub(super) fn new(case: &Case) -> Self {
@@ -90,21 +88,18 @@ impl Trace {
             lateral: vec![Vec::new(); wheelsets.len()],
             loads: vec![Default::default(); wheelsets.len()],
             indexer: Indexer::new(case),
-            speed_m_per_s: case.speed_m_per_s,
             inner_step_s: case.step_s,
         }
     }
 
-    pub(super) fn add(
+    pub(super) fn add<A: Fn(usize) -> [f64; 5]>(
         &mut self,
-        acceleration: impl Fn(usize) -> [f64; 5],
+        sample: &Sample<A>,
         coordinates: &[[f64; 5]],
-        contacts: &[WheelsetForces],
-        damper_forces_n: &[f64],
     ) {
         let bodies = self.accelerations.len();
         for (body, series) in self.accelerations.iter_mut().enumerate() {
-            let acceleration = acceleration(body);
+            let acceleration = (sample.acceleration)(body);
             for (series, value) in series.iter_mut().zip(acceleration) {
                 series.push(value);
             }
@@ -112,13 +107,12 @@ impl Trace {
         for (series, coordinates) in self.lateral.iter_mut().zip(&coordinates[bodies..]) {
             series.push(coordinates[0]);
         }
-        for (series, contact) in self.loads.iter_mut().zip(contacts) {
+        for (series, contact) in self.loads.iter_mut().zip(sample.contacts) {
             for (side, series) in series.iter_mut().enumerate() {
                 series.push(load_n(contact, side));
             }
         }
-        self.indexer
-            .add_of(acceleration, contacts, damper_forces_n, self.speed_m_per_s);
+        self.indexer.add_sample(sample);
     }
 
     /// Length of the steps inside a tick, s.

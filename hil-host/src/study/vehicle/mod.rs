@@ -1,19 +1,23 @@
 //! A vehicle on a track, from a case: the run, what is recorded of it, how it ends.
 
+mod accelerometer;
 pub mod contact;
 pub mod deviations;
 mod error;
 pub mod hunting;
 mod indices;
 mod inside;
-mod ride;
 mod run;
 pub mod seeds;
 pub mod signals;
+pub mod spectra;
 pub mod verification;
 
+pub use accelerometer::Accelerometer;
 pub use error::VehicleStudyError;
-pub use indices::{BodyIndices, Indexer, Indices, WheelIndices, WheelsetIndices};
+pub use indices::{
+    BodyIndices, Indexer, Indices, Nadal, RideIndices, Sample, UnbalancedIndices, WINDOW_M,
+    WheelIndices, WheelsetIndices,
+};
 pub use inside::{Beside, DamperEffect, Effect, Forces};
-pub use ride::RideIndices;
 pub use run::{Ending, Run};

@@ -2,15 +2,18 @@
 
 use dashpot_rail::contact::{PatchSource, WheelsetForces};
 use dashpot_rail::creep::CreepLaw;
-use dashpot_rail::vehicle::{Vehicle, VehicleState};
+use dashpot_rail::vehicle::{Vehicle, VehicleParameters, VehicleState};
+
+use super::Accelerometer;
 
 /// A number of a state.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 enum Source {
     Time,
     Distance,
     Coordinate { body: usize, coordinate: usize },
     Acceleration { body: usize, coordinate: usize },
+    Ride { at: Accelerometer, across: usize },
     WheelLoad { wheelset: usize, side: usize },
     WheelLateral { wheelset: usize, side: usize },
     Derailment { wheelset: usize, side: usize },
@@ -19,7 +22,7 @@ enum Source {
 }
 
 /// A signal.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Signal {
     name: String,
     source: Source,
@@ -100,6 +103,27 @@ pub fn all<L: CreepLaw, S: PatchSource>(vehicle: &Vehicle<L, S>) -> Vec<Signal> 
     signals
 }
 
+/// Accelerations of a vehicle's ride points: of each the lateral one, then the vertical one.
+pub fn of_ride(vehicle: &VehicleParameters) -> Vec<Signal> {
+    let of_point = |at: Accelerometer| {
+        // "body, middle" is body_middle.
+        let name = slug(&at.name().replace(", ", " "));
+        let signal = |(across, what): (usize, &&str)| Signal {
+            name: format!("{name}_{what}"),
+            source: Source::Ride {
+                at: at.clone(),
+                across,
+            },
+        };
+        let signals: Vec<Signal> = ACCELERATIONS.iter().enumerate().map(signal).collect();
+        signals
+    };
+    Accelerometer::all(vehicle)
+        .into_iter()
+        .flat_map(of_point)
+        .collect()
+}
+
 impl Signal {
     /// Name with the unit.
     pub fn name(&self) -> &str {
@@ -108,18 +132,23 @@ impl Signal {
 
     /// Its number in a state at `time_s`.
     pub fn of(&self, state: &VehicleState, time_s: f64) -> f64 {
-        match self.source {
+        match &self.source {
             Source::Time => time_s,
             Source::Distance => state.distance_m(),
-            Source::Coordinate { body, coordinate } => state.coordinates()[body][coordinate],
-            Source::Acceleration { body, coordinate } => state.acceleration(body)[coordinate],
-            Source::WheelLoad { wheelset, side } => load_n(&state.contacts()[wheelset], side),
-            Source::WheelLateral { wheelset, side } => lateral_n(&state.contacts()[wheelset], side),
-            Source::Derailment { wheelset, side } => {
-                state.contacts()[wheelset].derailment_coefficients()[side]
+            Source::Coordinate { body, coordinate } => state.coordinates()[*body][*coordinate],
+            Source::Acceleration { body, coordinate } => state.acceleration(*body)[*coordinate],
+            Source::Ride { at, across } => {
+                at.acceleration(|body| state.acceleration(body))[*across]
             }
-            Source::DamperDisplacement(damper) => state.damper_displacements_m()[damper],
-            Source::DamperForce(damper) => state.damper_forces_n()[damper],
+            Source::WheelLoad { wheelset, side } => load_n(&state.contacts()[*wheelset], *side),
+            Source::WheelLateral { wheelset, side } => {
+                lateral_n(&state.contacts()[*wheelset], *side)
+            }
+            Source::Derailment { wheelset, side } => {
+                state.contacts()[*wheelset].derailment_coefficients()[*side]
+            }
+            Source::DamperDisplacement(damper) => state.damper_displacements_m()[*damper],
+            Source::DamperForce(damper) => state.damper_forces_n()[*damper],
         }
     }
 }

@@ -3,6 +3,7 @@
 use dashpot_reference::vehicle::VehicleReference;
 
 use super::deviations::Trace;
+use super::indices::Sample;
 use super::run::{Ending, Run};
 use super::{VehicleStudyError, contact};
 use crate::files::case::Case;
@@ -58,12 +59,13 @@ pub fn reference(case: &Case, like: &Trace, tolerance: f64) -> Result<Trace, Veh
         let acceleration = |body: usize| {
             std::array::from_fn(|i| sample.accelerations[body][i] - of_track[body][i])
         };
-        trace.add(
+        let tick = Sample {
             acceleration,
-            &sample.coordinates,
-            &sample.contacts,
-            &sample.damper_forces_n,
-        );
+            unbalanced_m_per_s2: -of_track[0][0],
+            contacts: &sample.contacts,
+            damper_forces_n: &sample.damper_forces_n,
+        };
+        trace.add(&tick, &sample.coordinates);
     }
     Ok(trace)
 }

@@ -85,6 +85,7 @@ pub const SPEED_M_PER_S: [f64; 2] = [1.0, 150.0];
 ///         spring("front", 4.0, 1.0), spring("front", 4.0, -1.0),
 ///         spring("rear", -4.0, 1.0), spring("rear", -4.0, -1.0),
 ///     ],
+///     ride_points: vec![],
 /// };
 /// let vehicle = Vehicle::new(&wagon, contact, 1e-3)?;
 /// let track = Track::default();

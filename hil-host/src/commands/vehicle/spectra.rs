@@ -1,0 +1,143 @@
+//! Spectra of a run: spectra.csv and their figures.
+
+use std::path::Path;
+
+use maud::{Markup, html};
+
+use super::history::thin;
+use crate::commands::failure::{Failure, Outcome};
+use crate::files::FileError;
+use crate::files::case::Case;
+use crate::files::output::{cannot_write_rows, write_whole};
+use crate::report::DrawError;
+use crate::report::page::{Figure, figure, panel};
+use crate::report::plot::curves::{Curve, ramp};
+use crate::report::plot::sheet::{Panel, Scale};
+use crate::study::vehicle::spectra::{Spectrum, WINDOW_S, signals};
+
+/// Highest frequency that figures show, Hz.
+const SHOWN_HZ: f64 = 40.0;
+
+/// Spectra of the history at `from`: it is read once the run is over, so that no tick has to wait for a transform.
+///
+/// # Errors
+/// A file that cannot be read; a step that there are no spectra for.
+pub(super) fn of_history(case: &Case, from: &Path) -> Outcome<Vec<Spectrum>> {
+    let unreadable = |error: csv::Error| FileError::in_file(from, error);
+    let mut rows = csv::Reader::from_path(from).map_err(unreadable)?;
+    let header = rows.headers().map_err(unreadable)?.clone();
+    let mut spectra = Vec::new();
+    for signal in signals(&case.vehicle) {
+        let Some(column) = header.iter().position(|name| name == signal) else {
+            continue;
+        };
+        let spectrum = Spectrum::new(signal, case.step_s);
+        spectra.push((column, spectrum.map_err(|e| Failure::new(e.to_string()))?));
+    }
+    let mut row = csv::StringRecord::new();
+    while rows.read_record(&mut row).map_err(unreadable)? {
+        for (column, spectrum) in &mut spectra {
+            let number = row.get(*column).unwrap_or_default().parse::<f64>();
+            spectrum.add(number.map_err(|error| FileError::in_file(from, error))?);
+        }
+    }
+    Ok(spectra.into_iter().map(|(_, spectrum)| spectrum).collect())
+}
+
+/// Writes a row for each frequency; none where the run has no spectra.
+///
+/// # Errors
+/// A file that cannot be written.
+pub(super) fn write(spectra: &[Spectrum], to: &Path) -> Outcome<()> {
+    let densities: Vec<_> = spectra.iter().map(Spectrum::density).collect();
+    write_whole::<Failure>(to, |file| {
+        let failed = |error: csv::Error| cannot_write_rows(to, error);
+        let mut rows = csv::Writer::from_writer(file);
+        let names = spectra.iter().map(Spectrum::name);
+        rows.write_record(std::iter::once("frequency_hz".to_owned()).chain(names))
+            .map_err(failed)?;
+        let lines = densities.first().map_or(0, Vec::len);
+        for line in 0..lines {
+            let frequency_hz = densities[0][line][0];
+            let of_line = densities.iter().map(|density| density[line][1]);
+            let row: Vec<f64> = std::iter::once(frequency_hz).chain(of_line).collect();
+            rows.serialize(row).map_err(failed)?;
+        }
+        Ok(rows.flush().map_err(|error| failed(error.into()))?)
+    })
+}
+
+/// Their part of the page; nothing of a run without spectra.
+///
+/// # Errors
+/// A figure cannot be drawn.
+pub(super) fn section(spectra: &[Spectrum]) -> Result<Markup, DrawError> {
+    let is_told =
+        |spectrum: &Spectrum| spectrum.density().iter().any(|[_, density]| *density > 0.0);
+    // On ideal track nothing moves, and nothing has no decades.
+    if spectra.is_empty() || !spectra.iter().all(is_told) {
+        return Ok(html! {});
+    }
+    let windows = format!("Welch's mean of Hann windows of {WINDOW_S} s that overlap by half.");
+    Ok(html! {
+        h2 { "Spectra" }
+        (figure(&accelerations(spectra), &html! {
+            "Power spectral density of the accelerations at the ride points, the darker the further down in their table. " (windows)
+        })?)
+        (figure(&derailment(spectra), &html! {
+            "Power spectral density of Y/Q of the leading wheels. " (windows)
+        })?)
+    })
+}
+
+/// Densities of the accelerations at the ride points, lateral and vertical.
+fn accelerations(spectra: &[Spectrum]) -> Figure {
+    let one = |direction: &str| {
+        let what = format!("_{direction}_acceleration_m_per_s2");
+        curves(spectra, &what, &format!("{direction}, (m/s²)²/Hz"))
+    };
+    panels(vec![one("lateral"), one("vertical")])
+}
+
+/// Densities of `Y/Q` of the leading wheels, left and right.
+fn derailment(spectra: &[Spectrum]) -> Figure {
+    let one = |side: &str| {
+        let what = format!("_{side}_derailment");
+        curves(spectra, &what, &format!("Y/Q {side}, 1/Hz"))
+    };
+    panels(vec![one("left"), one("right")])
+}
+
+fn panels(panels: Vec<Panel>) -> Figure {
+    Figure {
+        panels,
+        height: 300,
+        shares: None,
+    }
+}
+
+/// Those spectra whose signal ends so.
+fn curves(spectra: &[Spectrum], ending: &str, y: &str) -> Panel {
+    let chosen: Vec<_> = spectra
+        .iter()
+        .filter_map(|spectrum| Some((spectrum, spectrum.signal().strip_suffix(ending)?)))
+        .collect();
+    let colours = ramp(chosen.len());
+    let curves = chosen
+        .iter()
+        .zip(colours)
+        .map(|((spectrum, name), colour)| {
+            let shown = spectrum
+                .density()
+                .into_iter()
+                .map(|[f, density]| (f, density));
+            // Without the mean, which is taken off.
+            let shown: Vec<_> = shown.filter(|(f, _)| *f > 0.0 && *f <= SHOWN_HZ).collect();
+            Curve::new(name.replace('_', " "), colour, thin(&shown)).wide(5)
+        });
+    Panel {
+        x_scale: Scale::Decades,
+        scale: Scale::Decades,
+        ..panel("frequency, Hz", y, curves.collect())
+    }
+}
