@@ -11,6 +11,7 @@ pub mod shim_valves;
 pub mod sweep;
 pub mod vehicle;
 pub mod verification;
+pub mod workers;
 
 pub use error::StudyError;
 pub use scalar::Scalar;

@@ -3,7 +3,6 @@
 mod report;
 
 use std::path::{Path, PathBuf};
-use std::thread;
 use std::time::Instant;
 
 pub(super) use report::{Report, print};
@@ -14,6 +13,7 @@ use crate::files::output::create_folder;
 use crate::files::study::{STUDIES, StudyParameters};
 use crate::study::sweep::rows::Rows;
 use crate::study::sweep::{self, Journal, Row, RunError, Shard, Study};
+use crate::study::workers;
 
 /// A study: many cases of a vehicle on a track, one row of indices each, and a page.
 #[derive(Debug, Clone, clap::Args)]
@@ -161,8 +161,7 @@ fn run_missing(
     all: usize,
     threads: Option<u16>,
 ) -> Outcome<()> {
-    let cores = || thread::available_parallelism().map_or(1, usize::from);
-    let threads = threads.map_or_else(cores, usize::from);
+    let threads = threads.map_or_else(workers::threads, usize::from);
     let bar = progress::bar(all as u64, "cases");
     bar.set_position((all - missing.len()) as u64);
     bar.reset_eta();
@@ -205,7 +204,7 @@ impl From<RunError> for Failure {
     fn from(error: RunError) -> Self {
         match error {
             RunError::Case(error) => error.into(),
-            RunError::Run { .. } => Self::new(error.to_string()),
+            other => Self::new(other.to_string()),
         }
     }
 }

@@ -1,6 +1,7 @@
 //! Studies: many cases of a vehicle on a track, one row of indices each, the same bits in any order and on any number of threads.
 
 mod digest;
+mod history;
 mod journal;
 mod merge;
 mod observed;
@@ -11,6 +12,7 @@ mod shared;
 mod study;
 mod summary;
 
+pub use history::{History, record};
 pub use journal::Journal;
 pub use merge::{Gaps, MergeError, merge};
 pub use observed::{OBSERVED, Observed};

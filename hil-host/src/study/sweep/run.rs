@@ -1,16 +1,13 @@
 //! The cases of a study, run.
 
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-use std::sync::mpsc;
-use std::thread;
-
 use super::observed::Observed;
 use super::row::Row;
 use super::shared::Shared;
 use super::study::Study;
 use crate::files::case::Case;
-use crate::files::study::StudyFileError;
+use crate::files::study::{StudyFileError, Sweep};
 use crate::study::vehicle::{Ending, Indexer, Indices, VehicleStudyError};
+use crate::study::workers;
 
 /// Last time of a run in which a limit cycle's amplitude is taken, s.
 const LAST_S: f64 = 3.0;
@@ -27,7 +24,7 @@ pub struct Observation {
     pub last_lateral_m: f64,
 }
 
-/// Runs a case to its end, looking at every state.
+/// Runs a case to its end, or until it is unwanted; no observation of a run that does not come to its end.
 ///
 /// # Errors
 /// As [`Shared::run`].
@@ -35,7 +32,6 @@ pub fn observe(
     case: &Case,
     shared: &Shared,
     is_unwanted: &dyn Fn() -> bool,
-    mut look: impl FnMut(&crate::study::vehicle::Run),
 ) -> Result<(Ending, Option<Observation>), VehicleStudyError> {
     let mut run = shared.run(case)?;
     let mut indexer = Indexer::new(case);
@@ -47,7 +43,6 @@ pub fn observe(
             break ending;
         }
         indexer.add(run.state());
-        look(&run);
         if run.state().ticks() > last {
             let lateral = run.state().coordinates()[wheelsets..].iter();
             last_lateral_m = lateral.fold(last_lateral_m, |most, q| most.max(q[0].abs()));
@@ -71,15 +66,31 @@ pub enum RunError {
     #[error(transparent)]
     Case(#[from] StudyFileError),
     /// A case cannot be run.
-    #[error("case {number} of sweep {sweep}: {source}")]
+    #[error("sweep {sweep}: {source}")]
     Run {
-        /// Number of the case.
-        number: u64,
         /// Its sweep.
         sweep: String,
         /// What is wrong with it.
         source: VehicleStudyError,
     },
+    /// A figure cannot be drawn.
+    #[error("figure of sweep {sweep}: {reason}")]
+    Figure {
+        /// The sweep.
+        sweep: String,
+        /// What it lacks.
+        reason: String,
+    },
+}
+
+impl RunError {
+    /// A case of `sweep` cannot be run.
+    pub fn of_sweep(sweep: &Sweep, source: VehicleStudyError) -> Self {
+        Self::Run {
+            sweep: sweep.name.clone(),
+            source,
+        }
+    }
 }
 
 /// Runs the cases of these numbers on so many threads, and gives each row as soon as there is one; those of an interruption are left out.
@@ -96,36 +107,16 @@ pub fn run<E: From<RunError>>(
     mut take: impl FnMut(Row) -> Result<(), E>,
 ) -> Result<(), E> {
     let shared = Shared::default();
-    let (next, stopped) = (AtomicUsize::new(0), AtomicBool::new(false));
-    let is_unwanted = || stopped.load(Ordering::Relaxed) || is_unwanted();
-    let (send, rows) = mpsc::channel::<Result<Row, RunError>>();
-    thread::scope(|scope| {
-        for _ in 0..threads.max(1) {
-            let send = send.clone();
-            let (shared, next, is_unwanted) = (&shared, &next, &is_unwanted);
-            scope.spawn(move || {
-                while !is_unwanted() {
-                    let Some(number) = numbers.get(next.fetch_add(1, Ordering::Relaxed)) else {
-                        return;
-                    };
-                    let row = one(study, *number, shared, is_unwanted);
-                    let row = row.transpose().map(|row| send.send(row));
-                    if let Some(Err(_)) = row {
-                        return;
-                    }
-                }
-            });
+    let work = |number: &u64, is_ended: &dyn Fn() -> bool| {
+        let is_unwanted = || is_ended() || is_unwanted();
+        if is_unwanted() {
+            return Ok(None);
         }
-        drop(send);
-        let mut done = Ok(());
-        for row in rows {
-            // Rows that come after a failure are of cases that had begun.
-            if done.is_ok() {
-                done = row.map_err(E::from).and_then(&mut take);
-                stopped.store(done.is_err(), Ordering::Relaxed);
-            }
-        }
-        done
+        one(study, *number, &shared, &is_unwanted)
+    };
+    workers::in_parallel(numbers, threads, work, |_, row| match row? {
+        Some(row) => take(row),
+        None => Ok(()),
     })
 }
 
@@ -139,13 +130,9 @@ fn one(
     let Some(of_study) = study.case(number) else {
         return Ok(None);
     };
-    let case = of_study.build(&study.parameters.file)?;
-    let (ending, observation) =
-        observe(&case, shared, is_unwanted, |_| ()).map_err(|source| RunError::Run {
-            number,
-            sweep: of_study.sweep.name.clone(),
-            source,
-        })?;
+    let case = study.build(&of_study)?;
+    let (ending, observation) = observe(&case, shared, is_unwanted)
+        .map_err(|source| RunError::of_sweep(of_study.sweep, source))?;
     if matches!(ending, Ending::Interrupted { .. }) {
         return Ok(None);
     }

@@ -207,27 +207,48 @@ impl StudyCase<'_> {
     pub fn values(&self) -> Vec<&Value> {
         self.sweep.values(self.point)
     }
+}
 
-    /// The case, with its seed.
+impl Study {
+    /// The case of one of its cases.
     ///
     /// # Errors
-    /// As [`StudyFileError::Case`] tells them, with `file` for the study's.
-    pub fn build(&self, file: &str) -> Result<Case, StudyFileError> {
-        let case = build(file, self.sweep, &self.values())?;
-        let Some(seed) = self.seed else {
-            return Ok(case);
-        };
-        match case.track.with_seed(seed) {
-            Some(track) => Ok(Case { track, ..case }),
-            None => Err(StudyFileError::Line {
-                name: file.to_owned(),
-                line: self.sweep.line,
-                message: format!(
-                    "sweep {}: seeds, but the track has no irregularity of a spectrum",
-                    self.sweep.name
-                ),
-            }),
+    /// As [`Self::case_at`].
+    pub fn build(&self, case: &StudyCase<'_>) -> Result<Case, StudyFileError> {
+        self.case_at(case.sweep, &case.values(), case.seed)
+    }
+
+    /// The case of a sweep with a value of each axis, and a seed.
+    ///
+    /// # Errors
+    /// A value or a case that is refused, with file and line.
+    pub fn case_at(
+        &self,
+        sweep: &Sweep,
+        values: &[&Value],
+        seed: Option<u64>,
+    ) -> Result<Case, StudyFileError> {
+        let file = &self.parameters.file;
+        let case = build(file, sweep, values)?;
+        match seed {
+            Some(seed) => seeded(file, sweep, case, seed),
+            None => Ok(case),
         }
+    }
+}
+
+/// The case with another seed.
+fn seeded(file: &str, sweep: &Sweep, case: Case, seed: u64) -> Result<Case, StudyFileError> {
+    match case.track.with_seed(seed) {
+        Some(track) => Ok(Case { track, ..case }),
+        None => Err(StudyFileError::Line {
+            name: file.to_owned(),
+            line: sweep.line,
+            message: format!(
+                "sweep {}: seeds, but the track {} has no irregularity of a spectrum",
+                sweep.name, case.track.name
+            ),
+        }),
     }
 }
 
@@ -269,17 +290,10 @@ fn check(
     let first = sweep.values(0);
     let mut add = |values: &[&Value]| -> Result<(), StudyFileError> {
         let case = build(&study.file, sweep, values)?;
-        let has_seed = sweep.seeds.first().map(|seed| case.track.with_seed(*seed));
-        if let Some(None) = has_seed {
-            return Err(StudyFileError::Line {
-                name: study.file.clone(),
-                line: sweep.line,
-                message: format!(
-                    "sweep {}: seeds, but the track {} has no irregularity of a spectrum",
-                    sweep.name, case.track.name
-                ),
-            });
-        }
+        let case = match sweep.seeds.first() {
+            Some(seed) => seeded(&study.file, sweep, case, *seed)?,
+            None => case,
+        };
         digest.add_case(&case)?;
         Ok(())
     };

@@ -1,14 +1,12 @@
 //! A chaotic case against the reference: by the means of its indices over seeds of the irregularity.
 
-use std::sync::atomic::{AtomicU64, Ordering};
-use std::thread;
-
 use serde::Serialize;
 
 use super::deviations::indices;
 use super::verification::{reference, stepped};
 use super::{Ending, VehicleStudyError};
 use crate::files::case::Case;
+use crate::study::workers;
 
 /// Seeds.
 pub const SEEDS: u64 = 8;
@@ -47,28 +45,9 @@ type Pair = [Vec<(f64, String)>; 2];
 /// # Errors
 /// As [`reference()`].
 pub fn over_seeds(case: &Case) -> Result<Option<OverSeeds>, VehicleStudyError> {
-    let next = AtomicU64::new(1);
-    let workers = thread::available_parallelism().map_or(1, usize::from);
-    let work = || {
-        let mut found = Vec::new();
-        loop {
-            let seed = next.fetch_add(1, Ordering::Relaxed);
-            if seed > SEEDS {
-                return found;
-            }
-            found.push((seed, pair(case, seed)));
-        }
-    };
-    let mut pairs: Vec<(u64, Result<Option<Pair>, VehicleStudyError>)> = thread::scope(|scope| {
-        let threads: Vec<_> = (0..workers).map(|_| scope.spawn(work)).collect();
-        threads
-            .into_iter()
-            .flat_map(|thread| thread.join().unwrap_or_default())
-            .collect()
-    });
-    pairs.sort_by_key(|(seed, _)| *seed);
-    let pairs: Result<Vec<Option<Pair>>, _> = pairs.into_iter().map(|(_, pair)| pair).collect();
-    let Some(pairs) = pairs?.into_iter().collect::<Option<Vec<Pair>>>() else {
+    let seeds: Vec<u64> = (1..=SEEDS).collect();
+    let pairs = workers::map(&seeds, |seed| pair(case, *seed))?;
+    let Some(pairs) = pairs.into_iter().collect::<Option<Vec<Pair>>>() else {
         return Ok(None);
     };
     Ok(compare(&pairs))
