@@ -55,9 +55,15 @@ fn damper_files_are_the_presets() {
     compare("damper_file", shipped(&PRESETS));
 }
 
+/// The shipped ones have no ride points.
 #[test]
-fn vehicle_files_are_the_shipped_ones() {
-    compare("vehicle_file", shipped(&VEHICLES));
+fn vehicle_files_are_the_shipped_ones_and_one_with_a_ride_point() {
+    let ride_points = include_str!("vehicle.toml");
+    let parsed = files::vehicle::parse("vehicle.toml", ride_points, &[]);
+    assert!(parsed.is_ok(), "{:?}", parsed.err());
+    let mut seeds = shipped(&VEHICLES);
+    seeds.push(("ride-points".into(), ride_points.into()));
+    compare("vehicle_file", seeds);
 }
 
 /// The shipped ones have no defects and no German spectrum.

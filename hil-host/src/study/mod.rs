@@ -6,6 +6,7 @@ mod error;
 pub mod excitation;
 pub mod published;
 pub mod replay;
+pub mod response;
 mod scalar;
 pub mod shim_valves;
 pub mod sweep;

@@ -1,6 +1,7 @@
 //! Parts of the host used as a library.
 
 mod case_file;
+mod damper_response;
 mod pacing;
 mod profile_file;
 mod recording_header;
@@ -8,3 +9,4 @@ mod timing;
 mod track_file;
 mod vehicle_dampers;
 mod vehicle_file;
+mod vehicle_indices;

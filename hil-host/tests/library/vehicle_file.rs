@@ -44,6 +44,11 @@ between = ["axle 2", "body"]
 direction = "lateral"
 damper = "reduced-lateral"
 at_m = [[-4, 0, 0.46]]
+
+[[ride_point]]
+name = "seat"
+body = "body"
+at_m = [4, 0.5, 1.1]
 "#;
 
 #[test]
@@ -89,6 +94,21 @@ fn errors_have_file_line_and_name() {
             "\"reduced-lateral\"",
             "\"none.toml\"",
             "wagon.toml:38: damper: none.toml: cannot read",
+        ),
+        (
+            "body = \"body\"",
+            "body = \"axle 1\"",
+            "wagon.toml:45: seat: on axle 1, which is no body; there are body",
+        ),
+        (
+            "0.5, 1.1]",
+            "0.5, 11]",
+            "wagon.toml:45: seat: height_m = 11, allowed: 0 to 10",
+        ),
+        (
+            "[4, 0.5, 1.1]",
+            "[4, 0.5]",
+            "wagon.toml: TOML parse error at line 47, column 8",
         ),
         (
             "direction = \"lateral\"\npoints",

@@ -199,13 +199,13 @@ pub(super) fn counted_windows(ride: &RideIndices) -> String {
 fn print_limits(out: &mut dyn Write, indices: &Indices) -> io::Result<()> {
     writeln!(
         out,
-        "\nwheelset, front first      unloading, %  of mean, %  lifted, %  Y/Q of Nadal's, %  lateral of Prud'homme's, %  wear rms, N  greatest"
+        "\n%, worse wheel             unloaded  mean  lifted  of Nadal's  of Prud'homme's  wear rms, N  greatest"
     )?;
     for wheelset in &indices.wheelsets {
         let limits = Limits::of(wheelset);
         writeln!(
             out,
-            "{:<26} {:>12} {:>11} {:10.1} {:18.0} {:>27} {:12.0} {:9.0}",
+            "{:<26} {:>8} {:>5} {:7.1} {:11.0} {:>16} {:12.0} {:9.0}",
             wheelset.wheelset,
             percent(limits.unloading),
             percent(limits.unloading_of_mean),
@@ -218,7 +218,8 @@ fn print_limits(out: &mut dyn Write, indices: &Indices) -> io::Result<()> {
     }
     writeln!(
         out,
-        "the worse wheel; Nadal's limit {:.2} of a flange of {:.1} degrees and friction {}; Prud'homme's of the load at standstill",
+        "unloaded at once and in the mean over 2 m, from the load at standstill; Y/Q of Nadal's limit, {:.2} for a flange of {:.1} degrees\n\
+         and friction {}; lateral force of Prud'homme's for the load at standstill",
         indices.nadal.limit,
         indices.nadal.flange_angle_rad.to_degrees(),
         indices.nadal.friction

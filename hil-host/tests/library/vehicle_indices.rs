@@ -1,0 +1,300 @@
+//! Indices of signals whose indices are known in closed form, and of a run in a curve.
+
+use std::f64::consts::PI;
+use std::fs;
+
+use dashpot_hil::files::case::{Case, CaseOptions};
+use dashpot_hil::study::vehicle::{Indexer, Indices, Run, Sample};
+use dashpot_rail::contact::WheelsetForces;
+use dashpot_rail::indices::{RideDirection, nadal_limit, prudhomme_limit_n, sperling};
+use tempfile::tempdir;
+
+const STEP_S: f64 = 1e-3;
+/// 2 m are 100 ticks.
+const SPEED_M_PER_S: f64 = 20.0;
+
+/// The coach on ideal track at 20 m/s.
+fn coach() -> Case {
+    CaseOptions::new("coach", "ideal", 3.6 * SPEED_M_PER_S)
+        .case()
+        .unwrap()
+}
+
+/// What a tick of a test has, the same on every wheelset.
+#[derive(Clone, Copy, Default)]
+struct Tick {
+    /// Of the first body, in the order of its coordinates.
+    acceleration: [f64; 5],
+    unbalanced: f64,
+    /// Loads and lateral forces towards the middle of the left and the right wheel, N.
+    loads_n: [f64; 2],
+    lateral_n: [f64; 2],
+    /// Creep forces times creepages, N.
+    wear_n: f64,
+}
+
+fn indices(case: &Case, ticks: impl Iterator<Item = Tick>) -> Indices {
+    let mut indexer = Indexer::new(case);
+    for tick in ticks {
+        let mut forces = WheelsetForces::default();
+        for side in 0..2 {
+            let wheel = &mut forces.wheels[side];
+            let outward = if side == 0 { 1.0 } else { -1.0 };
+            wheel.force_n = [0.0, outward * tick.lateral_n[side], -tick.loads_n[side]];
+            forces.force_n[1] += wheel.force_n[1];
+            // Half of the wear in each wheel.
+            wheel.patches[1].load_n = 1.0;
+            wheel.patches[1].dissipation_w = 0.5 * tick.wear_n * SPEED_M_PER_S;
+        }
+        let contacts = vec![forces; case.vehicle.wheelsets.len()];
+        indexer.add_sample(&Sample {
+            acceleration: |body| {
+                if body == 0 {
+                    tick.acceleration
+                } else {
+                    [0.0; 5]
+                }
+            },
+            unbalanced_m_per_s2: tick.unbalanced,
+            contacts: &contacts,
+            damper_forces_n: &[],
+        });
+    }
+    indexer.indices().unwrap()
+}
+
+fn is_near(found: f64, expected: f64, part: f64) {
+    assert!(
+        (found - expected).abs() <= part * expected.abs(),
+        "{found} for {expected}"
+    );
+}
+
+#[test]
+fn unloading_is_from_the_load_at_standstill() {
+    let case = coach();
+    // 44.5 t on four equal axles.
+    let bodies = case.vehicle.bodies.iter().map(|body| body.mass_kg);
+    let wheelsets = case.vehicle.wheelsets.iter().map(|axle| axle.mass_kg);
+    let static_n = bodies.chain(wheelsets).sum::<f64>() * 9.81 / 8.0;
+    // The right wheel falls on a ramp to a quarter of its load in 1 s, then lifts for 25 ticks of 2000.
+    let load = |tick: usize| match tick {
+        0..1000 => static_n * (1.0 - 0.75 * tick as f64 / 1000.0),
+        1500..1525 => 0.0,
+        _ => static_n,
+    };
+    let ticks = (0..2000).map(|tick| Tick {
+        loads_n: [static_n, load(tick)],
+        ..Tick::default()
+    });
+    let found = indices(&case, ticks);
+    assert_eq!((found.window_m, found.wheelsets.len()), (2.0, 4));
+    for wheelset in &found.wheelsets {
+        let [left, right] = &wheelset.wheels[..] else {
+            panic!()
+        };
+        is_near(left.load_static_n.unwrap(), static_n, 1e-9);
+        assert!(left.unloading_greatest.unwrap().abs() < 1e-9);
+        assert_eq!(left.lifted_share, 0.0);
+        assert_eq!(right.unloading_greatest, Some(1.0));
+        assert_eq!(right.lifted_share, 25.0 / 2000.0);
+        // The last 2 m of the ramp are lower than those with a quarter of them lifted: their middle is at 0.9495 s.
+        is_near(
+            right.unloading_of_mean_greatest.unwrap(),
+            0.75 * 0.9495,
+            1e-9,
+        );
+    }
+}
+
+#[test]
+fn forces_are_held_against_nadal_and_prudhomme() {
+    let mut case = coach();
+    case.friction = 0.36;
+    let nadal = nadal_limit(70_f64.to_radians(), 0.36);
+    let load_n = 50e3;
+    // A step of 0.5 m of the window of 2 m, half as high again as Nadal's limit, on a quarter of it; the other wheel's force is outward.
+    let step = |tick: usize| {
+        if (1000..1025).contains(&tick) {
+            1.5
+        } else {
+            0.25
+        }
+    };
+    let ticks = (0..2000).map(|tick| Tick {
+        loads_n: [load_n; 2],
+        lateral_n: [step(tick) * nadal * load_n, -0.5 * load_n],
+        ..Tick::default()
+    });
+    let found = indices(&case, ticks);
+    is_near(found.nadal.flange_angle_rad.to_degrees(), 70.0, 1e-3);
+    is_near(found.nadal.limit, nadal, 2e-3);
+    let wheelset = &found.wheelsets[0];
+    let [left, right] = &wheelset.wheels[..] else {
+        panic!()
+    };
+    let mean = (25.0 * 1.5 + 75.0 * 0.25) / 100.0;
+    is_near(left.derailment_greatest, mean * nadal, 1e-9);
+    is_near(left.derailment_over_nadal, mean, 2e-3);
+    is_near(left.longest_over_nadal_m, 0.5, 1e-9);
+    // Its magnitude is told, but it does not climb.
+    is_near(right.derailment_greatest, 0.5, 1e-9);
+    assert_eq!(
+        (right.derailment_over_nadal, right.longest_over_nadal_m),
+        (0.0, 0.0)
+    );
+    // Both push to the right.
+    let lateral_n = load_n * (mean * nadal + 0.5);
+    is_near(wheelset.lateral_force_greatest_n, lateral_n, 1e-9);
+    let static_n: f64 = wheelset
+        .wheels
+        .iter()
+        .filter_map(|wheel| wheel.load_static_n)
+        .sum();
+    let limit_n = prudhomme_limit_n(static_n);
+    is_near(wheelset.lateral_force_limit_n.unwrap(), limit_n, 1e-12);
+    is_near(
+        wheelset.lateral_force_over_limit.unwrap(),
+        lateral_n / limit_n,
+        1e-9,
+    );
+}
+
+/// A mean with a sine on it: mean, root mean square and greatest value in closed form.
+#[test]
+fn wear_numbers_and_unbalanced_acceleration_have_mean_rms_and_greatest() {
+    let ticks = (0..4000).map(|tick| {
+        let sine = (2.0 * PI * tick as f64 / 1000.0).sin();
+        Tick {
+            wear_n: 300.0 + 200.0 * sine,
+            unbalanced: -0.5 + 0.2 * sine,
+            acceleration: [0.3 * sine, 0.0, 0.0, 0.0, 0.0],
+            ..Tick::default()
+        }
+    });
+    let found = indices(&coach(), ticks);
+    let wheelset = &found.wheelsets[3];
+    is_near(wheelset.wear_number_n, 300.0, 1e-9);
+    is_near(
+        wheelset.wear_number_rms_n,
+        (300_f64.powi(2) + 0.5 * 200_f64.powi(2)).sqrt(),
+        1e-9,
+    );
+    is_near(wheelset.wear_number_greatest_n, 500.0, 1e-9);
+    is_near(
+        found.unbalanced.rms_m_per_s2,
+        (0.25_f64 + 0.02).sqrt(),
+        1e-9,
+    );
+    is_near(found.unbalanced.greatest_m_per_s2, 0.7, 1e-9);
+    is_near(
+        found.bodies[0].lateral_rms_m_per_s2,
+        0.3 / 2_f64.sqrt(),
+        1e-9,
+    );
+}
+
+/// A sine of one line: `N_MV` is six times its weighted root mean square, Sperling's index that of the whole signal.
+#[test]
+fn ride_is_told_at_the_points_of_the_vehicle_file() {
+    let folder = tempdir().unwrap();
+    let file = folder.path().join("coach.toml");
+    let points = "\n[[ride_point]]\nname = \"seat\"\nbody = \"BODY\"\nat_m = [4.0, 0.5, HEIGHT]\n";
+    let plain = coach();
+    let body = plain.vehicle.bodies[0].clone();
+    let height_m = body.height_m + 0.25;
+    let (_, text) = dashpot_hil::files::vehicle::VEHICLES[1];
+    let points = points
+        .replace("BODY", &body.name)
+        .replace("HEIGHT", &height_m.to_string());
+    fs::write(&file, format!("{text}{points}")).unwrap();
+    let case = CaseOptions::new(file.to_str().unwrap(), "ideal", 72.0)
+        .case()
+        .unwrap();
+    // Roll of 2 rad/s^2 at 2 Hz: 0.5 m/s^2 to the side above the centre of gravity, 1 m/s^2 down on its right.
+    let roll = |tick: usize| 2.0 * (2.0 * PI * 2.0 * tick as f64 * STEP_S).sin();
+    let ticks = || {
+        (0..12_000).map(|tick| Tick {
+            acceleration: [0.0, 0.0, roll(tick), 0.0, 0.0],
+            ..Tick::default()
+        })
+    };
+    let found = indices(&case, ticks());
+    let [seat] = &found.ride[..] else {
+        panic!("{:?}", found.ride)
+    };
+    assert_eq!((seat.point.as_str(), seat.windows), ("seat", 2));
+    assert_eq!((seat.window_s, seat.sperling_band_hz), (5.0, [0.5, 40.0]));
+    assert_eq!(seat.at_m, [4.0, 0.5, height_m]);
+    for (found, amplitude, direction) in [
+        (seat.sperling_lateral, 0.5, RideDirection::Lateral),
+        (seat.sperling_vertical, 1.0, RideDirection::Vertical),
+    ] {
+        let signal: Vec<f64> = (0..5000).map(|tick| 0.5 * amplitude * roll(tick)).collect();
+        let expected = sperling(&signal, 1000.0, 5.0, direction).unwrap();
+        is_near(found.unwrap(), expected, 1e-9);
+    }
+    // Published gains at 2 Hz.
+    let expected = 6.0 * f64::hypot(0.5 * 0.89024, 1.0 * 0.43668) / 2_f64.sqrt();
+    is_near(seat.mean_comfort.unwrap(), expected, 5e-3);
+    // Where the file gives none: the middle and over the bogies, at the height of the centre of gravity.
+    let found = indices(&plain, ticks());
+    assert_eq!(found.ride.len(), plain.vehicle.bodies.len());
+    assert!(found.ride.iter().all(|ride| ride.at_m[2] == body.height_m));
+    assert_eq!(found.ride[0].mean_comfort, Some(0.0));
+}
+
+/// R 300 m at 70 km/h with 0.12 m of cant over 1.5 m, on ideal track: in the circle `V^2 k cos p - g sin p`, and the loads carry weight and
+/// centripetal force.
+#[test]
+fn a_curve_leaves_what_the_cant_does_not_balance() {
+    let folder = tempdir().unwrap();
+    let track = "name = \"curve\"\n[[part]]\nkind = \"straight\"\nlength_m = 20\n[[part]]\nkind = \"transition\"\nlength_m = 50\n\
+                 [[part]]\nkind = \"circular\"\nlength_m = 400\nradius_m = 300\ncant_m = 0.12\n";
+    let file = folder.path().join("curve.toml");
+    fs::write(&file, track).unwrap();
+    let mut options = CaseOptions::new("locomotive", file.to_str().unwrap(), 70.0);
+    options.friction = 0.3;
+    options.duration_s = 14.0;
+    let case = options.case().unwrap();
+    let mut run = Run::new(&case).unwrap();
+    let mut indexer = Indexer::new(&case);
+    let mut loads_n = 0.0;
+    while run.step().unwrap().is_none() {
+        // From the time on when the last axle is in the circle and the body has swayed.
+        if run.time_s() > 8.0 {
+            indexer.add(run.state());
+            let contacts = run.state().contacts().iter();
+            loads_n -= contacts.map(|contact| contact.force_n[2]).sum::<f64>();
+        }
+    }
+    let found = indexer.indices().unwrap();
+    let centripetal = (70.0_f64 / 3.6).powi(2) / 300.0;
+    let sine: f64 = 0.12 / 1.5;
+    let cosine = (1.0 - sine * sine).sqrt();
+    let expected = centripetal * cosine - 9.81 * sine;
+    is_near(expected, 0.4714, 1e-3);
+    is_near(found.unbalanced.rms_m_per_s2, expected, 1e-9);
+    is_near(found.unbalanced.greatest_m_per_s2, expected, 1e-9);
+    // The body has it as an accelerometer tells, but for its swaying.
+    is_near(found.bodies[0].lateral_rms_m_per_s2, expected, 0.02);
+    let ticks = (found.duration_s / STEP_S).round();
+    let mass_kg = 123_960.0;
+    let down = 9.81 * cosine + centripetal * sine;
+    is_near(loads_n / ticks, mass_kg * down, 1e-3);
+    let static_n: f64 = found
+        .wheelsets
+        .iter()
+        .flat_map(|wheelset| {
+            wheelset
+                .wheels
+                .iter()
+                .filter_map(|wheel| wheel.load_static_n)
+        })
+        .sum();
+    is_near(static_n, mass_kg * 9.81, 1e-9);
+    // The outer wheel of the leading axle has most to bear; it does not climb.
+    let outer = &found.wheelsets[0].wheels[0];
+    assert!((0.3..0.6).contains(&outer.derailment_over_nadal));
+    assert_eq!((outer.longest_over_nadal_m, outer.lifted_share), (0.0, 0.0));
+}
