@@ -38,14 +38,15 @@ pub fn run(arguments: &MergeArguments) -> Outcome<()> {
     let results = &arguments.results;
     results.check()?;
     let study = sweep::read(&arguments.study)?;
+    results.check_figures(&study)?;
     let rows = merge(&study, &arguments.files)?;
     let folder = sweep::folder(&arguments.study, arguments.output.as_ref());
     create_folder(&folder)?;
     let path = folder.join("rows.csv");
     rows::write(&study, &rows, &path)?;
     let mut report = Report::new(&study, &rows, 0, Duration::ZERO);
-    report.files.push(path.clone());
-    report.files.extend(results.write(&study, &rows, &path)?);
+    report.files.push(path);
+    results.write(&study, &rows, &folder, &mut report)?;
     print_report(results.format(), &report, sweep::print)
 }
 

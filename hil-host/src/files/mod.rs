@@ -1,6 +1,8 @@
 //! What is read and written: damper, vehicle, track, case and study files, recordings, profiles, saved states; files whole or not at all.
 
 pub mod case;
+#[cfg(feature = "parquet")]
+pub mod columns;
 pub mod damper;
 mod error;
 pub mod input;

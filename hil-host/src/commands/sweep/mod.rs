@@ -1,5 +1,6 @@
 //! `dashpot sweep`: the cases of a study, a row each, and their page.
 
+mod page;
 mod report;
 
 use std::path::{Path, PathBuf};
@@ -9,7 +10,9 @@ pub(super) use report::{Report, print};
 
 use super::{Format, interruption, print_report, progress};
 use crate::commands::failure::{Failure, Outcome};
-use crate::files::output::create_folder;
+#[cfg(feature = "parquet")]
+use crate::files::columns;
+use crate::files::output::{create_folder, write_bytes};
 use crate::files::study::{STUDIES, StudyParameters};
 use crate::study::sweep::rows::Rows;
 use crate::study::sweep::{self, Journal, Row, RunError, Shard, Study};
@@ -113,6 +116,9 @@ pub fn run(arguments: &SweepArguments) -> Outcome<()> {
     if arguments.list {
         return report::list(&study, results.format);
     }
+    if shard.is_none() {
+        results.check_figures(&study)?;
+    }
     let folder = folder(&arguments.study, arguments.output.as_ref());
     create_folder(&folder)?;
     let name = match shard {
@@ -148,7 +154,7 @@ pub fn run(arguments: &SweepArguments) -> Outcome<()> {
     let mut report = Report::new(&study, &rows, missing.len(), took);
     report.files.push(path.clone());
     if shard.is_none() {
-        report.files.extend(results.write(&study, &rows, &path)?);
+        results.write(&study, &rows, &folder, &mut report)?;
     }
     print_report(results.format, &report, print)
 }
@@ -192,11 +198,35 @@ impl ResultArguments {
         self.format
     }
 
-    /// Writes what is made of all rows, beside their file; the paths.
-    pub(super) fn write(&self, study: &Study, rows: &Rows, path: &Path) -> Outcome<Vec<PathBuf>> {
-        let files = Vec::new();
-        let _ = (study, rows, path);
-        Ok(files)
+    /// Refuses figures that cannot be drawn.
+    pub(super) fn check_figures(&self, study: &Study) -> Outcome<()> {
+        if self.no_page {
+            Ok(())
+        } else {
+            page::check(study)
+        }
+    }
+
+    /// Writes what is made of all rows into the folder, and names it in the report.
+    pub(super) fn write(
+        &self,
+        study: &Study,
+        rows: &Rows,
+        folder: &Path,
+        report: &mut Report,
+    ) -> Outcome<()> {
+        #[cfg(feature = "parquet")]
+        if self.parquet {
+            let path = folder.join("rows.parquet");
+            columns::write(&folder.join("rows.csv"), &path)?;
+            report.files.push(path);
+        }
+        if !self.no_page {
+            let path = folder.join("report.html");
+            write_bytes(&path, page::write(study, rows, report)?.as_bytes())?;
+            report.files.push(path);
+        }
+        Ok(())
     }
 }
 

@@ -60,6 +60,21 @@ impl Report {
     }
 }
 
+impl Report {
+    /// What is told of cases that did not come to their end.
+    pub(super) fn not_completed(&self) -> Option<String> {
+        let told = self.not_completed.iter().map(|(reason, cases)| {
+            let count = counted(cases.len() as u64, "case");
+            let first: Vec<String> = cases.iter().take(8).map(u64::to_string).collect();
+            let more = if cases.len() > 8 { ", ..." } else { "" };
+            let first = first.join(", ");
+            format!("{count} did not come to the end ({reason}), without indices: {first}{more}")
+        });
+        let told: Vec<String> = told.collect();
+        (!told.is_empty()).then(|| told.join("; "))
+    }
+}
+
 pub(in crate::commands) fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
     let Report {
         study,
@@ -68,8 +83,8 @@ pub(in crate::commands) fn print(out: &mut dyn Write, report: &Report) -> io::Re
         rows,
         run_now,
         took_s,
-        not_completed,
         files,
+        ..
     } = report;
     writeln!(out, "{study}\nstudy {digest}, version {version}")?;
     let rows = counted(*rows as u64, "case");
@@ -77,15 +92,8 @@ pub(in crate::commands) fn print(out: &mut dyn Write, report: &Report) -> io::Re
         0 => writeln!(out, "{rows}, none run now")?,
         run_now => writeln!(out, "{rows}, {run_now} run now in {took_s:.1} s")?,
     }
-    for (reason, cases) in not_completed {
-        let count = counted(cases.len() as u64, "case");
-        let first: Vec<String> = cases.iter().take(8).map(u64::to_string).collect();
-        let more = if cases.len() > 8 { ", ..." } else { "" };
-        writeln!(
-            out,
-            "{count} did not come to the end ({reason}), without indices: {}{more}",
-            first.join(", ")
-        )?;
+    if let Some(told) = report.not_completed() {
+        writeln!(out, "{told}")?;
     }
     writeln!(out)?;
     for file in files {

@@ -2,9 +2,10 @@
 
 use plotters::style::RGBColor;
 
-use super::history::{History, thin};
+use super::history::History;
 use crate::report::page::{Figure, panel};
 use crate::report::plot::curves::{Curve, ramp};
+use crate::report::plot::envelope::thin;
 use crate::report::plot::sheet::{Panel, Scale};
 use crate::report::plot::style::{BLUE_LINE, PALE, RED_LINE};
 use crate::study::vehicle::Forces;

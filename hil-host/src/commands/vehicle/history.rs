@@ -1,6 +1,6 @@
 //! The rows of a run that its page shows.
 
-use crate::report::plot::envelope::Envelope;
+use crate::report::plot::envelope::thin;
 use crate::study::vehicle::signals::Signal;
 
 /// Rows kept at most; of a longer run every second, third, ...
@@ -52,16 +52,4 @@ impl History {
     pub(super) fn thinned(&self, names: [&str; 2], factors: [f64; 2]) -> Vec<(f64, f64)> {
         thin(&self.points(names, factors))
     }
-}
-
-/// The lowest and highest point of each stretch.
-pub(super) fn thin(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
-    let mut envelope = Envelope::default();
-    for (tick, (_, y)) in points.iter().enumerate() {
-        envelope.record(tick as u32, *y);
-    }
-    envelope
-        .samples()
-        .map(|(tick, y)| (points[tick as usize].0, y))
-        .collect()
 }

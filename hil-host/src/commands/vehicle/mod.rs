@@ -1,8 +1,6 @@
 //! `dashpot vehicle`: a vehicle on a track, its histories, indices and page.
 
 mod check;
-#[cfg(feature = "parquet")]
-mod columns;
 mod drawing;
 mod figures;
 mod history;
@@ -22,6 +20,8 @@ use report::{Pace, Report};
 use super::{Format, RealtimeArguments, interruption, print_report, progress};
 use crate::commands::failure::{Failure, Outcome};
 use crate::files::case::Case;
+#[cfg(feature = "parquet")]
+use crate::files::columns;
 use crate::files::output::{cannot_write_rows, create_folder, write_bytes, write_whole};
 use crate::realtime::pacing::Pacer;
 use crate::study::vehicle::{Ending, Indexer, Run, signals};

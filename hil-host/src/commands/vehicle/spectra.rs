@@ -4,7 +4,6 @@ use std::path::Path;
 
 use maud::{Markup, html};
 
-use super::history::thin;
 use crate::commands::failure::{Failure, Outcome};
 use crate::files::FileError;
 use crate::files::case::Case;
@@ -12,6 +11,7 @@ use crate::files::output::{cannot_write_rows, write_whole};
 use crate::report::DrawError;
 use crate::report::page::{Figure, figure, panel};
 use crate::report::plot::curves::{Curve, ramp};
+use crate::report::plot::envelope::thin;
 use crate::report::plot::sheet::{Panel, Scale};
 use crate::study::vehicle::spectra::{Spectrum, WINDOW_S, signals};
 

@@ -5,7 +5,8 @@ mod error;
 mod fault;
 mod tables;
 
-use dashpot_rail::vehicle::{RailSupport, VehicleParameters};
+use dashpot_core::DamperParameters;
+use dashpot_rail::vehicle::{Law, RailSupport, VehicleParameters};
 pub use error::CaseError;
 use error::Origin;
 pub use fault::{Fault, FaultOptions};
@@ -88,6 +89,15 @@ impl Case {
     /// ```
     pub fn load(name: &str) -> Result<Self, CaseError> {
         CaseOptions::load(name)?.case()
+    }
+
+    /// The parameters of one of the vehicle's dampers, by its name and number.
+    pub fn damper(&self, name: &str) -> Option<&DamperParameters> {
+        let mut dampers = self.vehicle.dampers();
+        match &dampers.find(|element| element.name == name)?.law {
+            Law::Damper { parameters, .. } => Some(parameters),
+            _ => None,
+        }
     }
 
     /// Distance of the vehicle's middle along the track at the end, m.

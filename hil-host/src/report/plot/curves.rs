@@ -48,7 +48,6 @@ impl Curve {
     }
 
     /// The area from the lowest to the highest value at each abscissa, `(x, low, high)`: what many runs spread over.
-    #[allow(dead_code)]
     pub(crate) fn band(
         name: impl Into<String>,
         colour: RGBColor,
@@ -58,7 +57,6 @@ impl Curve {
     }
 
     /// Vertical strokes from the lowest to the highest value at each abscissa, `(x, low, high)`: bars of uncertainty.
-    #[allow(dead_code)]
     pub(crate) fn bars(
         name: impl Into<String>,
         colour: RGBColor,

@@ -88,6 +88,18 @@ impl Envelope {
     }
 }
 
+/// The lowest and highest point of each stretch.
+pub(crate) fn thin(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
+    let mut envelope = Envelope::default();
+    for (tick, (_, y)) in points.iter().enumerate() {
+        envelope.record(tick as u32, *y);
+    }
+    envelope
+        .samples()
+        .map(|(tick, y)| (points[tick as usize].0, y))
+        .collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

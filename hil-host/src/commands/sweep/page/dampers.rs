@@ -1,0 +1,73 @@
+//! Dampers in service: force over time, displacement and velocity.
+
+use maud::{Markup, html};
+
+use super::{Drawn, HEIGHT, failed};
+use crate::commands::failure::Outcome;
+use crate::files::study::Sweep;
+use crate::report::page::{Figure, figure, panel};
+use crate::report::plot::curves::Curve;
+use crate::report::plot::envelope::thin;
+use crate::report::plot::sheet::Panel;
+use crate::report::plot::style::{BLUE_LINE, RED_LINE};
+use crate::study::sweep::record;
+use crate::study::vehicle::signals::slug;
+
+/// Displacement and force of each damper.
+pub(super) fn signals(dampers: &[String]) -> Vec<String> {
+    let of = |name: &String| {
+        let name = slug(name);
+        [format!("{name}_displacement_m"), format!("{name}_force_n")]
+    };
+    dampers.iter().flat_map(of).collect()
+}
+
+/// The first case of a sweep at its first seed.
+///
+/// # Errors
+/// The case cannot be run, or the figure not be drawn.
+pub(super) fn part(
+    drawn: &Drawn<'_>,
+    sweep: &Sweep,
+    dampers: &[String],
+    caption: &str,
+) -> Outcome<Markup> {
+    let case = drawn
+        .study
+        .case_with(sweep, None, sweep.seeds.first().copied())?;
+    let history = record(&case, &signals(dampers), &drawn.shared).map_err(failed(sweep))?;
+    let mut panels = [
+        ("time, s", false),
+        ("displacement, mm", true),
+        ("velocity, m/s", true),
+    ]
+    .map(|(x, sides)| Panel {
+        sides,
+        ..panel(x, "force, kN", Vec::new())
+    });
+    let colours = [BLUE_LINE, RED_LINE];
+    let pairs = history.signals.chunks_exact(2).zip(dampers);
+    for (number, (pair, name)) in pairs.enumerate() {
+        let [x, force] = pair else { continue };
+        let colour = colours[number % colours.len()];
+        let name = if dampers.len() > 1 { name.as_str() } else { "" };
+        let force = || force.iter().map(|force| force * 1e-3);
+        let times = (1..).map(|tick| f64::from(tick) * history.step_s);
+        let over_time: Vec<(f64, f64)> = times.zip(force()).collect();
+        let over_displacement = x.iter().map(|x| x * 1e3).zip(force());
+        let velocities = x
+            .windows(2)
+            .map(|pair| (pair[1] - pair[0]) / history.step_s);
+        let over_velocity = velocities.zip(force().skip(1));
+        let curve = |points: Vec<(f64, f64)>| Curve::new(name, colour, points).wide(4);
+        panels[0].curves.push(curve(thin(&over_time)));
+        panels[1].curves.push(curve(over_displacement.collect()));
+        panels[2].curves.push(curve(over_velocity.collect()));
+    }
+    let drawn = Figure {
+        panels: panels.into(),
+        height: HEIGHT,
+        shares: None,
+    };
+    Ok(figure(&drawn, &html! { (caption) })?)
+}

@@ -1,0 +1,200 @@
+//! The page of a study.
+
+mod dampers;
+mod indices;
+mod response;
+mod signal;
+
+use maud::{Markup, html};
+
+use super::report::Report;
+use crate::commands::failure::{Failure, Outcome};
+use crate::commands::progress;
+use crate::files::study::{Figure, Shown, Sweep};
+use crate::report::page::{document, footer, tiles};
+use crate::study::sweep::rows::Rows;
+use crate::study::sweep::{Observed, RunError, Shared, Study, VERSION};
+use crate::study::vehicle::signals::slug;
+
+/// Height of a panel (pixels).
+const HEIGHT: u32 = 260;
+
+/// A study, its rows, and what its figures share.
+struct Drawn<'a> {
+    study: &'a Study,
+    rows: &'a Rows,
+    shared: Shared,
+}
+
+/// Whether there is what the figures of a study draw: before hours of runs.
+///
+/// # Errors
+/// A signal or damper that there is not; a value that is refused.
+pub(super) fn check(study: &Study) -> Outcome<()> {
+    let shared = Shared::default();
+    for figure in &study.parameters.figures {
+        for name in figure.shown.sweeps() {
+            let Some(sweep) = study.parameters.sweep(name) else {
+                continue;
+            };
+            let names = match &figure.shown {
+                Shown::Indices { .. } => continue,
+                Shown::Dampers { dampers, .. } => dampers::signals(dampers),
+                Shown::Signal { signal, .. } => vec![signal.clone()],
+                Shown::Response { damper, .. } => vec![format!("{}_force_n", slug(damper))],
+            };
+            study.has_signals(sweep, &names, &shared)?;
+            if let Shown::Signal { values, .. } | Shown::Response { values, .. } = &figure.shown {
+                for value in values {
+                    study.case_with(sweep, Some(value), None)?;
+                }
+            }
+        }
+    }
+    Ok(())
+}
+
+/// The study as HTML.
+///
+/// # Errors
+/// A figure cannot be drawn or its cases not be run.
+pub(super) fn write(study: &Study, rows: &Rows, report: &Report) -> Outcome<String> {
+    let drawn = Drawn {
+        study,
+        rows,
+        shared: Shared::default(),
+    };
+    let figures = &study.parameters.figures;
+    let bar = progress::bar(figures.len() as u64, "figures");
+    let mut parts = Vec::new();
+    for figure in figures {
+        parts.push(drawn.part(figure)?);
+        bar.inc(1);
+    }
+    bar.finish_and_clear();
+    let body = html! {
+        h1 { (study.parameters.name) }
+        p.lead {
+            "Each point is a mean over seeds of the track's irregularity; its bar is the confidence interval of 95 % of that mean."
+        }
+        (headline(study))
+        @if let Some(note) = report.not_completed() {
+            div.note { p { (note) } }
+        }
+        @for (figure, part) in figures.iter().zip(&parts) {
+            h2 { (figure.title) }
+            (part)
+        }
+        h2 { "Cases" }
+        (cases(study))
+        (footer(&html! {
+            "Study " (study.digest()) ", version " (VERSION) ". rows.csv has every case with its seed; `ending` tells how it ended."
+        }))
+    };
+    Ok(document(
+        &format!("Dashpot: {}", study.parameters.name),
+        &body,
+    ))
+}
+
+impl Drawn<'_> {
+    fn part(&self, figure: &Figure) -> Outcome<Markup> {
+        let sweep = |name: &String| -> Outcome<&Sweep> {
+            let sweep = self.study.parameters.sweep(name);
+            sweep.ok_or_else(|| Failure::new(format!("no sweep `{name}`")))
+        };
+        let caption = &figure.caption;
+        match &figure.shown {
+            Shown::Indices { sweeps, observed } => {
+                let sweeps: Outcome<Vec<&Sweep>> = sweeps.iter().map(sweep).collect();
+                let observed: Vec<usize> = observed
+                    .iter()
+                    .filter_map(|name| self.number(name))
+                    .collect();
+                indices::part(self, &sweeps?, &observed, caption)
+            }
+            Shown::Dampers { sweep: of, dampers } => {
+                dampers::part(self, sweep(of)?, dampers, caption)
+            }
+            Shown::Signal {
+                sweep: of,
+                values,
+                signal,
+            } => signal::part(self, sweep(of)?, values, signal, caption),
+            Shown::Response {
+                sweep: of,
+                values,
+                damper,
+                amplitude_m,
+            } => response::part(self, sweep(of)?, values, (damper, *amplitude_m), caption),
+        }
+    }
+
+    /// The number of an observed index.
+    fn number(&self, name: &str) -> Option<usize> {
+        let observed = self.study.observed.iter();
+        observed
+            .enumerate()
+            .find_map(|(number, index): (usize, &Observed)| (index.name == name).then_some(number))
+    }
+
+    /// Observed values of an index at a point of a sweep, over the seeds.
+    fn values(&self, sweep: &Sweep, point: u64, index: usize) -> Vec<f64> {
+        let numbers = self.study.numbers(sweep, point);
+        let rows = numbers.filter_map(|number| self.rows.get(&number));
+        rows.filter_map(|row| row.observed.get(index).copied().flatten())
+            .collect()
+    }
+}
+
+fn headline(study: &Study) -> Markup {
+    let seeds = study
+        .parameters
+        .sweeps
+        .iter()
+        .map(|sweep| sweep.seeds.len());
+    let mut facts = vec![
+        (html! { (study.cases()) }, "cases".to_owned()),
+        (
+            html! { (study.parameters.sweeps.len()) },
+            "sweeps of parameters".to_owned(),
+        ),
+    ];
+    if let Some(most) = seeds.max().filter(|most| *most > 0) {
+        facts.push((html! { (most) }, "seeds of the irregularity".to_owned()));
+    }
+    tiles(&facts)
+}
+
+/// What the cases are.
+fn cases(study: &Study) -> Markup {
+    html! {
+        div.wide.worded { table {
+            tr { th { "sweep" } th { "case" } th { "varied" } th { "values" } th { "seeds" } }
+            @for sweep in &study.parameters.sweeps {
+                tr {
+                    td { (sweep.name) }
+                    td.text { (sweep.case.name.clone().unwrap_or_else(|| format!("{} on {}", sweep.case.vehicle, sweep.case.track))) }
+                    td.text { @for axis in &sweep.axes { (axis.parameter) br; } }
+                    td.text {
+                        @for axis in &sweep.axes {
+                            (axis.values.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")) br;
+                        }
+                    }
+                    td { (sweep.seeds.len()) }
+                }
+            }
+        } }
+    }
+}
+
+impl From<crate::study::vehicle::VehicleStudyError> for Failure {
+    fn from(error: crate::study::vehicle::VehicleStudyError) -> Self {
+        Self::new(error.to_string())
+    }
+}
+
+/// A case of a sweep that is drawn cannot be run.
+fn failed(sweep: &Sweep) -> impl Fn(crate::study::vehicle::VehicleStudyError) -> RunError + '_ {
+    |error| RunError::of_sweep(sweep, error)
+}

@@ -1,0 +1,135 @@
+//! A signal over time and its spectrum, by the value of what varies.
+
+use maud::{Markup, html};
+
+use super::{Drawn, HEIGHT, failed};
+use crate::commands::failure::{Failure, Outcome};
+use crate::files::study::{Sweep, Value};
+use crate::report::page::{Figure, figure, panel};
+use crate::report::plot::curves::{Curve, ramp};
+use crate::report::plot::envelope::thin;
+use crate::report::plot::sheet::{Panel, Scale};
+use crate::study::sweep::{History, RunError, record};
+use crate::study::vehicle::spectra::{Spectrum, WINDOW_S};
+use crate::study::workers;
+
+/// Highest frequency that is drawn, Hz.
+const SHOWN_HZ: f64 = 40.0;
+
+/// Over time at the first seed; the spectrum as the mean of all seeds, the band from the least to the greatest.
+///
+/// # Errors
+/// A case cannot be run, or the figure not be drawn.
+pub(super) fn part(
+    drawn: &Drawn<'_>,
+    sweep: &Sweep,
+    values: &[Value],
+    signal: &str,
+    caption: &str,
+) -> Outcome<Markup> {
+    let seeds: Vec<Option<u64>> = match &sweep.seeds[..] {
+        [] => vec![None],
+        seeds => seeds.iter().copied().map(Some).collect(),
+    };
+    let of_seeds = |value: &Value| {
+        seeds
+            .iter()
+            .map(|seed| (value.clone(), *seed))
+            .collect::<Vec<_>>()
+    };
+    let cases: Vec<(Value, Option<u64>)> = values.iter().flat_map(of_seeds).collect();
+    let names = [signal.to_owned()];
+    let histories = workers::map(&cases, |(value, seed)| -> Result<History, RunError> {
+        let case = drawn.study.case_with(sweep, Some(value), *seed)?;
+        record(&case, &names, &drawn.shared).map_err(failed(sweep))
+    })?;
+    let what = signal.replace('_', " ");
+    let mut over_time = panel("time, s", &what, Vec::new());
+    let mut over_frequency = Panel {
+        x_scale: Scale::Decades,
+        scale: Scale::Decades,
+        ..panel(
+            "frequency, Hz",
+            "power spectral density, unit squared per Hz",
+            Vec::new(),
+        )
+    };
+    let of_values = histories.chunks_exact(seeds.len()).zip(values);
+    for ((histories, value), colour) in of_values.zip(ramp(values.len())) {
+        let name = label(sweep, value);
+        let [first, ..] = histories else { continue };
+        let times = (1..).map(|tick| f64::from(tick) * first.step_s);
+        let shown: Vec<(f64, f64)> = times.zip(first.signals[0].iter().copied()).collect();
+        let curve = Curve::new(name.clone(), colour, thin(&shown)).wide(4);
+        over_time.curves.push(curve);
+        let (mean, band) = densities(signal, histories)?;
+        if mean.is_empty() {
+            continue;
+        }
+        over_frequency.curves.push(Curve::band("", colour, band));
+        over_frequency
+            .curves
+            .push(Curve::new(name, colour, mean).wide(6));
+    }
+    let panels = if over_frequency.curves.is_empty() {
+        vec![over_time]
+    } else {
+        vec![over_time, over_frequency]
+    };
+    let of_panels = Figure {
+        panels,
+        height: HEIGHT,
+        shares: None,
+    };
+    let spread = match seeds.len() {
+        1 => String::new(),
+        count => format!(
+            "Over time: seed {}. Spectra (Welch, windows of {WINDOW_S} s): mean of {count} seeds, the band from the least to the greatest.",
+            seeds[0].unwrap_or_default()
+        ),
+    };
+    Ok(figure(&of_panels, &html! { (caption) " " (spread) })?)
+}
+
+/// The value as figures have it.
+pub(super) fn label(sweep: &Sweep, value: &Value) -> String {
+    match (value, sweep.axes.first()) {
+        (Value::Number(number), Some(axis)) => {
+            // A factor is decimal, its product not quite.
+            let scaled = format!("{:.6}", number * axis.factor);
+            let scaled = scaled.trim_end_matches('0').trim_end_matches('.');
+            let (what, unit) = axis.label.rsplit_once(", ").unwrap_or((&axis.label, ""));
+            let symbol = what.rsplit(' ').next().unwrap_or(what);
+            format!("{symbol} = {scaled} {unit}").trim_end().to_owned()
+        }
+        _ => value.to_string(),
+    }
+}
+
+type Mean = Vec<(f64, f64)>;
+type Band = Vec<(f64, f64, f64)>;
+
+/// Mean density over the histories, and its least and greatest.
+fn densities(signal: &str, histories: &[History]) -> Outcome<(Mean, Band)> {
+    let mut all = Vec::new();
+    for history in histories {
+        let spectrum = Spectrum::new(signal.to_owned(), history.step_s);
+        let mut spectrum = spectrum.map_err(|error| Failure::new(error.to_string()))?;
+        history.signals[0]
+            .iter()
+            .for_each(|value| spectrum.add(*value));
+        all.push(spectrum.density());
+    }
+    let lines = all.iter().map(Vec::len).min().unwrap_or(0);
+    let (mut mean, mut band) = (Mean::new(), Band::new());
+    for line in 0..lines {
+        let frequency_hz = all[0][line][0];
+        let here = || all.iter().map(|density| density[line][1]);
+        let least = here().fold(f64::INFINITY, f64::min);
+        if frequency_hz > 0.0 && frequency_hz <= SHOWN_HZ && least > 0.0 {
+            mean.push((frequency_hz, here().sum::<f64>() / all.len() as f64));
+            band.push((frequency_hz, least, here().fold(0.0, f64::max)));
+        }
+    }
+    Ok((mean, band))
+}
