@@ -20,6 +20,7 @@ mod rig_report;
 mod shims;
 mod standard_streams;
 mod step_size;
+mod sweep;
 mod vehicle;
 mod verify;
 mod wrong_use;

@@ -1,0 +1,443 @@
+//! `dashpot sweep` and `dashpot merge`: the same rows by any way, and none lost.
+
+use std::fs::{self, File};
+use std::path::Path;
+use std::process::Stdio;
+
+use tempfile::TempDir;
+
+use crate::common::{command, dashpot, error_of, files_in, json_of, text_of};
+
+/// Twelve cases of half a second.
+const STUDY: &str = r#"name = "small"
+seeds = [1, 2]
+observed = ["body_vertical_rms_m_per_s2", "derailment_greatest", "sperling_vertical"]
+
+[[sweep]]
+name = "clearance"
+track = "straight"
+speed_km_h = 120
+duration_s = 0.5
+vary = [
+  { parameter = "vertical.mount.clearance_m", values = [0, 5e-3] },
+  { parameter = "speed_km_h", from = 100, to = 140, count = 2 },
+]
+
+[[sweep]]
+name = "worn"
+track = "straight"
+speed_km_h = 120
+duration_s = 0.5
+vary = [{ parameter = "worn_damper", values = ["none", "rear vertical damper 4"], set = ["mount.stiffness_n_per_m=1e5"] }]
+
+[[figure]]
+title = "Ride"
+indices = { sweeps = ["clearance", "worn"], observed = ["body_vertical_rms_m_per_s2"] }
+"#;
+
+/// A folder with the study in it.
+fn folder(study: &str) -> TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("study.toml"), study).unwrap();
+    folder
+}
+
+fn read(folder: &Path, name: &str) -> String {
+    fs::read_to_string(folder.join(name)).unwrap()
+}
+
+/// The rows of the study in the folder, by one thread.
+fn rows(folder: &Path) -> String {
+    let arguments = ["sweep", "study.toml", "--threads", "1", "--no-page"];
+    dashpot(&[&arguments[..], &["--output", "one"]].concat(), folder).success();
+    read(folder, "one/rows.csv")
+}
+
+/// Its cells by the names of their columns.
+fn cells(rows: &str) -> Vec<std::collections::BTreeMap<String, String>> {
+    let mut reader = csv::Reader::from_reader(rows.as_bytes());
+    reader.deserialize().map(Result::unwrap).collect()
+}
+
+#[test]
+fn rows_are_those_of_the_vehicle_command() {
+    let folder = folder(STUDY);
+    let rows = cells(&rows(folder.path()));
+    assert_eq!(rows.len(), 12);
+    // The last case of the first sweep but one: the other axis fixed, seed 1 of the track.
+    let row = &rows[6];
+    let expected = ["clearance", "0.005", "140", "", "1", "completed"];
+    let columns = [
+        "sweep",
+        "vertical.mount.clearance_m",
+        "speed_km_h",
+        "worn_damper",
+        "seed",
+        "ending",
+    ];
+    assert_eq!(columns.map(|column| row[column].as_str()), expected);
+    assert_eq!(
+        row["sperling_vertical"], "",
+        "no window of 5 s in half a second"
+    );
+    let case = [
+        "vehicle",
+        "--track",
+        "straight",
+        "--speed-km-h",
+        "140",
+        "--duration-s",
+        "0.5",
+    ];
+    let set = [
+        "--set",
+        "vertical.mount.clearance_m=5e-3",
+        "--no-page",
+        "--format",
+        "json",
+    ];
+    let report = json_of(&dashpot(&[&case[..], &set].concat(), folder.path()).success());
+    let number = |column: &str| row[column].parse::<f64>().unwrap();
+    let body = &report["indices"]["bodies"][0];
+    assert_eq!(
+        number("body_vertical_rms_m_per_s2"),
+        body["vertical_rms_m_per_s2"].as_f64().unwrap()
+    );
+    let wheels = report["indices"]["wheelsets"].as_array().unwrap().iter();
+    let wheels = wheels.flat_map(|wheelset| wheelset["wheels"].as_array().unwrap());
+    let greatest = wheels.map(|wheel| wheel["derailment_greatest"].as_f64().unwrap());
+    assert_eq!(number("derailment_greatest"), greatest.fold(0.0, f64::max));
+    let of = |row: usize| rows[row]["body_vertical_rms_m_per_s2"].clone();
+    assert_ne!(of(8), of(10), "a worn damper is felt");
+}
+
+#[test]
+fn threads_and_shards_give_the_same_bits() {
+    let folder = folder(STUDY);
+    let expected = rows(folder.path());
+    let sweep = ["sweep", "study.toml", "--output", "many"];
+    dashpot(&[&sweep[..], &["--threads", "5"]].concat(), folder.path())
+        .success()
+        .stdout(predicates::str::contains("12 cases, 12 run now"));
+    assert_eq!(
+        files_in(&folder.path().join("many")),
+        ["report.html", "rows.csv"]
+    );
+    assert_eq!(read(folder.path(), "many/rows.csv"), expected);
+    let mut shards = Vec::new();
+    for shard in ["0", "1", "2", "3", "4"] {
+        let of = ["--shard", shard, "--shards", "5", "--output", "parts"];
+        dashpot(&[&["sweep", "study.toml"][..], &of].concat(), folder.path()).success();
+        shards.push(format!("parts/rows-{shard}-of-5.csv"));
+    }
+    // In any order.
+    shards.rotate_left(2);
+    let merge = ["merge", "study.toml", "--output", "merged"];
+    let shards: Vec<&str> = shards.iter().map(String::as_str).collect();
+    dashpot(&[&merge[..], &shards].concat(), folder.path()).success();
+    assert_eq!(read(folder.path(), "merged/rows.csv"), expected);
+    let page = |of: &str| read(folder.path(), &format!("{of}/report.html"));
+    assert_eq!(page("merged"), page("many"));
+}
+
+#[test]
+fn merge_names_what_is_missing_and_what_is_double() {
+    let folder = folder(STUDY);
+    let whole = rows(folder.path());
+    let (header, rows) = whole.split_once('\n').unwrap();
+    let rows: Vec<&str> = rows.lines().collect();
+    let write = |name: &str, numbers: &[usize]| {
+        let chosen: Vec<&str> = numbers.iter().map(|number| rows[*number]).collect();
+        fs::write(
+            folder.path().join(name),
+            format!("{header}\n{}\n", chosen.join("\n")),
+        )
+        .unwrap();
+    };
+    write("a.csv", &[0, 1, 2, 5, 8]);
+    write("b.csv", &[6, 7, 2, 1, 11]);
+    let merge = [
+        "merge",
+        "study.toml",
+        "a.csv",
+        "b.csv",
+        "--output",
+        "merged",
+    ];
+    let error = error_of(&dashpot(&merge, folder.path()).code(1));
+    assert!(
+        error.contains("4 of 12 cases are missing: 3-4, 9-10; double, in a.csv and b.csv: 1-2"),
+        "{error}"
+    );
+    assert!(!folder.path().join("merged").exists(), "nothing is written");
+    // A row of another study or version, or changed by hand.
+    let row = rows[0];
+    for (changed, expected) in [
+        (
+            row.replace("0.1.0", "0.0.9"),
+            "column version: `0.0.9`, allowed: 0.1.0",
+        ),
+        (
+            row.replacen("0,clearance", "0,worn", 1),
+            "column sweep: `worn`, allowed: `clearance`",
+        ),
+        (
+            row.replacen("0,clearance", "12,clearance", 1),
+            "column case: `12`, allowed: 0 to 11",
+        ),
+        (
+            row.replacen("completed,", "completed,NaN", 1),
+            "column body_vertical_rms_m_per_s2: `NaN",
+        ),
+        (row.replacen(",completed", "", 1), "11 columns, allowed: 12"),
+    ] {
+        fs::write(
+            folder.path().join("c.csv"),
+            format!("{header}\n{changed}\n"),
+        )
+        .unwrap();
+        let error = error_of(&dashpot(&["merge", "study.toml", "c.csv"], folder.path()).code(1));
+        assert!(error.contains(&format!("c.csv:2: {expected}")), "{error}");
+    }
+}
+
+#[test]
+fn rows_that_are_there_are_not_run_again() {
+    let folder = folder(STUDY);
+    let expected = rows(folder.path());
+    let sweep = ["sweep", "study.toml", "--no-page", "--output", "one"];
+    let again = dashpot(&sweep, folder.path()).success();
+    assert!(text_of(&again).contains("12 cases, none run now"));
+    // As a power cut leaves it: some rows, and a part of one.
+    let end = expected.match_indices('\n').nth(5).unwrap().0;
+    let one = folder.path().join("one");
+    fs::write(one.join("rows.csv.partial"), &expected[..end + 20]).unwrap();
+    fs::remove_file(one.join("rows.csv")).unwrap();
+    let rest = dashpot(&sweep, folder.path()).success();
+    assert!(
+        text_of(&rest).contains("12 cases, 7 run now"),
+        "{}",
+        text_of(&rest)
+    );
+    assert_eq!(files_in(&one), ["rows.csv"]);
+    assert_eq!(read(&one, "rows.csv"), expected);
+}
+
+#[test]
+fn rows_of_another_study_are_kept() {
+    let folder = folder(STUDY);
+    let kept = rows(folder.path());
+    let other = STUDY.replace("5e-3", "4e-3");
+    fs::write(folder.path().join("study.toml"), other).unwrap();
+    let sweep = ["sweep", "study.toml", "--no-page", "--output", "one"];
+    let error = error_of(&dashpot(&sweep, folder.path()).code(1));
+    assert!(error.contains("one/rows.csv:2: column study:"), "{error}");
+    assert_eq!(read(folder.path(), "one/rows.csv"), kept);
+    dashpot(&[&sweep[..], &["--anew"]].concat(), folder.path()).success();
+    assert_ne!(read(folder.path(), "one/rows.csv"), kept);
+}
+
+#[test]
+fn two_at_once_do_not_mix() {
+    let folder = folder(STUDY);
+    fs::create_dir(folder.path().join("one")).unwrap();
+    let partial = File::create(folder.path().join("one/rows.csv.partial")).unwrap();
+    partial.lock().unwrap();
+    let sweep = ["sweep", "study.toml", "--no-page", "--output", "one"];
+    let error = error_of(&dashpot(&sweep, folder.path()).code(1));
+    assert!(
+        error.contains("one/rows.csv.partial: cannot write: another process is adding rows to it"),
+        "{error}"
+    );
+}
+
+#[cfg(unix)]
+#[test]
+fn an_interrupted_study_goes_on() {
+    // One thread and cases that take long enough to be met.
+    let folder = folder(&STUDY.replace("duration_s = 0.5", "duration_s = 4"));
+    let sweep = [
+        "sweep",
+        "study.toml",
+        "--no-page",
+        "--threads",
+        "1",
+        "--output",
+        "one",
+    ];
+    let mut child = command(&sweep, folder.path())
+        .env("XDG_CACHE_HOME", env!("CARGO_TARGET_TMPDIR"))
+        .stdout(Stdio::null())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let partial = folder.path().join("one/rows.csv.partial");
+    let lines = || fs::read_to_string(&partial).map_or(0, |text| text.lines().count());
+    while lines() < 3 {
+        assert_eq!(child.try_wait().unwrap(), None, "ended by itself");
+        std::thread::yield_now();
+    }
+    let id = child.id().to_string();
+    assert!(
+        std::process::Command::new("kill")
+            .args(["-INT", &id])
+            .status()
+            .unwrap()
+            .success()
+    );
+    let ended = child.wait_with_output().unwrap();
+    let error = String::from_utf8(ended.stderr).unwrap();
+    assert_eq!(ended.status.code(), Some(1), "{error}");
+    assert!(
+        error.contains("of 12 cases are done; the same command goes on with the rest"),
+        "{error}"
+    );
+    assert_eq!(files_in(&folder.path().join("one")), ["rows.csv.partial"]);
+    let done = lines() - 1;
+    assert!((2..12).contains(&done), "{done}");
+    let rest = dashpot(&sweep, folder.path()).success();
+    let expected = format!("12 cases, {} run now", 12 - done);
+    assert!(text_of(&rest).contains(&expected), "{}", text_of(&rest));
+    let resumed = read(folder.path(), "one/rows.csv");
+    fs::remove_dir_all(folder.path().join("one")).unwrap();
+    assert_eq!(rows(folder.path()), resumed);
+}
+
+#[test]
+fn a_case_that_derails_is_a_row() {
+    let study = r#"name = "too fast"
+observed = ["body_lateral_rms_m_per_s2"]
+[[sweep]]
+name = "speed"
+case = "curve-r200"
+duration_s = 8
+vary = [{ parameter = "speed_km_h", values = [40, 160] }]
+"#;
+    let folder = folder(study);
+    let sweep = ["sweep", "study.toml", "--no-page", "--output", "."];
+    let text = text_of(&dashpot(&sweep, folder.path()).success());
+    assert!(text.contains("1 case did not come to the end"), "{text}");
+    let rows = cells(&read(folder.path(), "rows.csv"));
+    assert_eq!(rows[0]["ending"], "completed");
+    assert!(rows[0]["body_lateral_rms_m_per_s2"].parse::<f64>().unwrap() > 0.0);
+    assert_ne!(rows[1]["ending"], "completed");
+    assert_eq!(rows[1]["body_lateral_rms_m_per_s2"], "");
+}
+
+#[test]
+fn what_is_wrong_is_told_before_anything_runs() {
+    let shards = |options: &[&str]| {
+        let folder = folder(STUDY);
+        let sweep = ["sweep", "study.toml", "--output", "out"];
+        let error = error_of(&dashpot(&[&sweep[..], options].concat(), folder.path()).code(2));
+        assert!(!folder.path().join("out").exists());
+        error
+    };
+    assert!(shards(&["--shard", "1"]).contains("--shards"));
+    assert!(shards(&["--shards", "2"]).contains("--shard"));
+    assert!(
+        shards(&["--shard", "2", "--shards", "2"])
+            .contains("--shard 2, allowed: 0 to 1 with --shards 2")
+    );
+    for (from, to, expected) in [
+        (
+            "\"derailment_greatest\"",
+            "\"derailment_gratest\"",
+            "study.toml:1: observed `derailment_gratest`: no such index; did you mean `derailment_greatest`?",
+        ),
+        (
+            "vertical.mount.clearance_m",
+            "vertical.mount.clearence_m",
+            "study.toml:5: sweep clearance at vertical.mount.clearence_m 0, speed_km_h 100: override",
+        ),
+        (
+            "values = [0, 5e-3]",
+            "values = [0, -5e-3]",
+            "study.toml:5: sweep clearance at vertical.mount.clearance_m -0.005",
+        ),
+        (
+            "values = [0, 5e-3]",
+            "values = []",
+            "study.toml:11: vertical.mount.clearance_m: 0 values, allowed: 1 to 10000",
+        ),
+        (
+            "values = [0, 5e-3]",
+            "values = [1e-3, 0.001]",
+            "study.toml:11: vertical.mount.clearance_m: value 0.001 twice",
+        ),
+        (
+            "from = 100, to = 140, count = 2",
+            "from = 100, to = 1400, count = 2",
+            "speed_km_h 1400, allowed: ",
+        ),
+        (
+            "from = 100, to = 140, count = 2",
+            "from = 100, to = 140",
+            "study.toml:12: speed_km_h: allowed: either `values`, or `from`, `to` and `count`",
+        ),
+        (
+            "\"none\", \"rear vertical damper 4\"",
+            "\"none\", \"rear vertical damper 5\"",
+            "no damper `rear vertical damper 5`",
+        ),
+        (
+            "name = \"worn\"",
+            "name = \"clearance\"",
+            "a second sweep `clearance`",
+        ),
+        (
+            "seeds = [1, 2]",
+            "seeds = [1, 1]",
+            "study.toml:5: sweep clearance: a seed twice",
+        ),
+        (
+            "track = \"straight\"",
+            "track = \"ideal\"",
+            "sweep clearance: seeds, but the track",
+        ),
+        (
+            "sweeps = [\"clearance\"",
+            "sweeps = [\"clearence\"",
+            "no sweep `clearence`; did you mean `clearance`?",
+        ),
+        (
+            "[\"body_vertical_rms_m_per_s2\"] }",
+            "[\"body_lateral_rms_m_per_s2\"] }",
+            "`body_lateral_rms_m_per_s2` is not among the observed; did you mean `body_vertical_rms_m_per_s2`?",
+        ),
+        ("indices = {", "indexes = {", "did you mean `indices`?"),
+    ] {
+        let changed = STUDY.replacen(from, to, 1);
+        assert_ne!(changed, STUDY, "{from}");
+        let folder = folder(&changed);
+        let error = error_of(
+            &dashpot(&["sweep", "study.toml", "--output", "out"], folder.path()).failure(),
+        );
+        assert!(error.contains(expected), "{from} -> {to}: {error}");
+        assert!(!folder.path().join("out").exists(), "{to}");
+    }
+}
+
+#[test]
+fn the_shipped_studies_are_whole() {
+    let folder = tempfile::tempdir().unwrap();
+    for (study, cases) in [
+        ("paper", 704),
+        ("hunting", 54),
+        ("temperature", 144),
+        ("worn-damper", 208),
+    ] {
+        let list = json_of(
+            &dashpot(
+                &["sweep", study, "--list", "--format", "json"],
+                folder.path(),
+            )
+            .success(),
+        );
+        assert_eq!(list["cases"], cases, "{study}");
+        let sweeps = list["sweeps"].as_array().unwrap().iter();
+        let sum: u64 = sweeps.map(|sweep| sweep["cases"].as_u64().unwrap()).sum();
+        assert_eq!(sum, cases, "{study}");
+    }
+    assert!(files_in(folder.path()).is_empty());
+}
