@@ -28,6 +28,7 @@ fn every_key_counts() {
         friction = 0.25
         normal_damping_s_per_m = 0.5
         step_us = 500
+        push_m = 4e-3
         set = [\"body.mass_kg=35e3\"]
         [rails]
         mass_kg = 60
@@ -50,6 +51,7 @@ fn every_key_counts() {
         friction: 0.25,
         normal_damping_s_per_m: 0.5,
         step_s: 500e-6,
+        push_m: 4e-3,
         rails: Some(RailSupport {
             mass_kg: 60.0,
             lateral_stiffness_n_per_m: 40e6,

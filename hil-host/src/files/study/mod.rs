@@ -114,3 +114,42 @@ impl StudyParameters {
         self.sweeps.iter().find(|sweep| sweep.name == name)
     }
 }
+
+impl Sweep {
+    /// Combinations of the values of all axes.
+    pub fn points(&self) -> u64 {
+        let counts = self.axes.iter().map(|axis| axis.values.len() as u64);
+        counts.fold(1, u64::saturating_mul)
+    }
+
+    /// The value of each axis at a point.
+    pub fn values(&self, point: u64) -> Vec<&Value> {
+        let mut rest = point;
+        let mut values: Vec<&Value> = Vec::with_capacity(self.axes.len());
+        for axis in self.axes.iter().rev() {
+            let count = axis.values.len() as u64;
+            values.push(&axis.values[(rest % count) as usize]);
+            rest /= count;
+        }
+        values.reverse();
+        values
+    }
+
+    /// The case with a value of each axis.
+    ///
+    /// # Errors
+    /// As [`CaseOptions::case`]; a value of the wrong kind as well.
+    pub fn options(&self, values: &[&Value]) -> Result<CaseOptions, String> {
+        let mut options = self.case.clone();
+        for (axis, value) in self.axes.iter().zip(values) {
+            axis.apply(&mut options, value)
+                .map_err(|reason| format!("{}: {reason}", axis.parameter))?;
+        }
+        Ok(options)
+    }
+
+    /// Cases: each point with every seed.
+    pub fn cases(&self) -> u64 {
+        self.points().saturating_mul(self.seeds.len().max(1) as u64)
+    }
+}
