@@ -18,30 +18,37 @@ use crate::study::vehicle::spectra::{Spectrum, WINDOW_S, signals};
 /// Highest frequency that figures show, Hz.
 const SHOWN_HZ: f64 = 40.0;
 
-/// Spectra of the history at `from`: it is read once the run is over, so that no tick has to wait for a transform.
+/// Spectra of a case that has not run.
 ///
 /// # Errors
-/// A file that cannot be read; a step that there are no spectra for.
-pub(super) fn of_history(case: &Case, from: &Path) -> Outcome<Vec<Spectrum>> {
+/// A step that there are no spectra for.
+pub(super) fn of_case(case: &Case) -> Outcome<Vec<Spectrum>> {
+    let signals = signals(&case.vehicle).into_iter();
+    let spectra = signals.map(|signal| Spectrum::new(signal, case.step_s));
+    spectra
+        .collect::<Result<_, _>>()
+        .map_err(|error| Failure::new(error.to_string()))
+}
+
+/// Adds the history at `from`: it is read once the run is over, so that no tick has to wait for a transform.
+///
+/// # Errors
+/// A file that cannot be read.
+pub(super) fn add_history(spectra: &mut [Spectrum], from: &Path) -> Outcome<()> {
     let unreadable = |error: csv::Error| FileError::in_file(from, error);
     let mut rows = csv::Reader::from_path(from).map_err(unreadable)?;
-    let header = rows.headers().map_err(unreadable)?.clone();
-    let mut spectra = Vec::new();
-    for signal in signals(&case.vehicle) {
-        let Some(column) = header.iter().position(|name| name == signal) else {
-            continue;
-        };
-        let spectrum = Spectrum::new(signal, case.step_s);
-        spectra.push((column, spectrum.map_err(|e| Failure::new(e.to_string()))?));
-    }
+    let header = rows.headers().map_err(unreadable)?;
+    let column = |spectrum: &Spectrum| header.iter().position(|name| name == spectrum.signal());
+    let columns: Vec<Option<usize>> = spectra.iter().map(column).collect();
     let mut row = csv::StringRecord::new();
     while rows.read_record(&mut row).map_err(unreadable)? {
-        for (column, spectrum) in &mut spectra {
-            let number = row.get(*column).unwrap_or_default().parse::<f64>();
+        for (spectrum, column) in spectra.iter_mut().zip(&columns) {
+            let cell = column.and_then(|column| row.get(column));
+            let number = cell.unwrap_or_default().parse::<f64>();
             spectrum.add(number.map_err(|error| FileError::in_file(from, error))?);
         }
     }
-    Ok(spectra.into_iter().map(|(_, spectrum)| spectrum).collect())
+    Ok(())
 }
 
 /// Writes a row for each frequency; none where the run has no spectra.
