@@ -116,7 +116,7 @@ fn a_case_writes_histories_indices_and_a_page() {
         "wheelset 6",
         "front lateral damper 2",
         "Spectra",
-        "Nadal's limit is 1.34",
+        "Nadal's is 1.34",
         "<svg",
     ] {
         assert!(page.contains(part), "{part}");

@@ -101,7 +101,8 @@ pub(super) fn section(spectra: &[Spectrum]) -> Result<Markup, DrawError> {
 fn accelerations(spectra: &[Spectrum]) -> Figure {
     let one = |direction: &str| {
         let what = format!("_{direction}_acceleration_m_per_s2");
-        curves(spectra, &what, &format!("{direction}, (m/s²)²/Hz"))
+        let axis = format!("{direction}, 10⁻³ (m/s²)²/Hz");
+        curves(spectra, &what, 1e3, &axis)
     };
     panels(vec![one("lateral"), one("vertical")])
 }
@@ -110,7 +111,7 @@ fn accelerations(spectra: &[Spectrum]) -> Figure {
 fn derailment(spectra: &[Spectrum]) -> Figure {
     let one = |side: &str| {
         let what = format!("_{side}_derailment");
-        curves(spectra, &what, &format!("Y/Q {side}, 1/Hz"))
+        curves(spectra, &what, 1e3, &format!("Y/Q {side}, 10⁻³/Hz"))
     };
     panels(vec![one("left"), one("right")])
 }
@@ -122,8 +123,8 @@ fn panels(panels: Vec<Panel>) -> Figure {
     }
 }
 
-/// Those spectra whose signal ends so.
-fn curves(spectra: &[Spectrum], ending: &str, y: &str) -> Panel {
+/// Those spectra whose signal ends so, times a factor.
+fn curves(spectra: &[Spectrum], ending: &str, factor: f64, y: &str) -> Panel {
     let chosen: Vec<_> = spectra
         .iter()
         .filter_map(|spectrum| Some((spectrum, spectrum.signal().strip_suffix(ending)?)))
@@ -133,12 +134,12 @@ fn curves(spectra: &[Spectrum], ending: &str, y: &str) -> Panel {
         .iter()
         .zip(colours)
         .map(|((spectrum, name), colour)| {
-            let shown = spectrum
-                .density()
-                .into_iter()
-                .map(|[f, density]| (f, density));
-            // Without the mean, which is taken off.
-            let shown: Vec<_> = shown.filter(|(f, _)| *f > 0.0 && *f <= SHOWN_HZ).collect();
+            let density = spectrum.density().into_iter();
+            // Without the mean, which is taken off, and without what no decade has.
+            let shown: Vec<_> = density
+                .filter(|[f, density]| *f > 0.0 && *f <= SHOWN_HZ && *density > 0.0)
+                .map(|[f, density]| (f, factor * density))
+                .collect();
             Curve::new(name.replace('_', " "), colour, thin(&shown)).wide(5)
         });
     Panel {
