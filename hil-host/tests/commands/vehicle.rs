@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use dashpot_rail::indices::{RideDirection, sperling};
+use dashpot_rail::indices::{RideDirection, sperling, welch};
 use tempfile::tempdir;
 
 use crate::common::{dashpot, error_of, files_in, json_of, text_of};
@@ -42,7 +42,7 @@ fn a_case_writes_histories_indices_and_a_page() {
     let results = folder.path().join("results");
     assert_eq!(
         files_in(&results),
-        ["history.csv", "indices.json", "report.html"]
+        ["history.csv", "indices.json", "report.html", "spectra.csv"]
     );
     assert_eq!(report["ending"]["reason"], "completed");
     assert_eq!(report["ticks"], 10_000);
@@ -77,6 +77,31 @@ fn a_case_writes_histories_indices_and_a_page() {
     let told = number(&ride[0]["sperling_vertical"]);
     assert!((told / middle - 1.0).abs() < 1e-9, "{told} {middle}");
     assert!(number(&ride[1]["sperling_vertical"]) > told);
+    // What an accelerometer over the front bogie has is beside it.
+    let over = column(
+        &history,
+        "body_over_the_front_bogie_vertical_acceleration_m_per_s2",
+    );
+    let found = sperling(&over, 1000.0, 5.0, RideDirection::Vertical).unwrap();
+    assert!((number(&ride[1]["sperling_vertical"]) / found - 1.0).abs() < 1e-9);
+    // Spectra are those of the history.
+    let spectra = fs::read_to_string(results.join("spectra.csv")).unwrap();
+    assert_eq!(column(&spectra, "frequency_hz")[..3], [0.0, 0.5, 1.0]);
+    let derailment = column(&history, "wheelset_1_left_derailment");
+    for (signal, name) in [
+        (
+            &over,
+            "body_over_the_front_bogie_vertical_acceleration_m2_per_s4_per_hz",
+        ),
+        (&derailment, "wheelset_1_left_derailment_per_hz"),
+    ] {
+        let found = column(&spectra, name);
+        let expected = welch(signal, 1000.0, 2.0).unwrap();
+        assert_eq!(found.len(), expected.len());
+        for (found, [_, expected]) in found.iter().zip(expected) {
+            assert!((found / expected - 1.0).abs() < 1e-9, "{found} {expected}");
+        }
+    }
     // In the curve the rails carry weight and centripetal force.
     let sum: f64 = (1..=6)
         .flat_map(|axle| ["left", "right"].map(|side| format!("wheelset_{axle}_{side}_load_n")))
@@ -90,6 +115,8 @@ fn a_case_writes_histories_indices_and_a_page() {
         "curve of 600 m, 100 km/h",
         "wheelset 6",
         "front lateral damper 2",
+        "Spectra",
+        "Nadal's is 1.34",
         "<svg",
     ] {
         assert!(page.contains(part), "{part}");
@@ -207,6 +234,10 @@ fn a_run_that_derails_says_where_keeps_its_rows_and_gives_no_index() {
     let history = fs::read_to_string(folder.path().join("over/history.csv")).unwrap();
     let times = column(&history, "time_s");
     assert!((times.last().unwrap() - time).abs() < 1e-9 && time < 10.0);
+    let spectra = fs::read_to_string(folder.path().join("over/spectra.csv")).unwrap();
+    assert!(
+        spectra.starts_with("frequency_hz,body_middle_lateral") && spectra.lines().count() == 1
+    );
     let page = fs::read_to_string(folder.path().join("over/report.html")).unwrap();
     assert!(page.contains("did not come to its end"));
 }
@@ -352,7 +383,7 @@ fn an_interrupted_run_keeps_what_was_computed() {
     assert!(error.contains("interrupted at"), "{error}");
     assert_eq!(
         files_in(&results),
-        ["history.csv", "indices.json", "report.html"]
+        ["history.csv", "indices.json", "report.html", "spectra.csv"]
     );
     let history = fs::read_to_string(results.join("history.csv")).unwrap();
     let fields = |line: &str| line.split(',').count();

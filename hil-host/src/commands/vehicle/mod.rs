@@ -122,11 +122,10 @@ pub fn run(arguments: &VehicleArguments) -> Outcome<()> {
         columns::write(&path, &columns)?;
         report.files.push(columns);
     }
-    let spectra = if report.indices.is_some() {
-        spectra::of_history(&case, &path)?
-    } else {
-        Vec::new()
-    };
+    let mut spectra = spectra::of_case(&case)?;
+    if report.indices.is_some() {
+        spectra::add_history(&mut spectra, &path)?;
+    }
     report.files.push(path);
     let path = folder.join("spectra.csv");
     spectra::write(&spectra, &path)?;

@@ -222,8 +222,8 @@ fn limits(indices: &Indices) -> Markup {
     html! {
         div.wide { table {
             tr {
-                th { "worse wheel" } th { "unloading, %" } th { "of the mean, %" } th { "lifted, %" } th { "Y/Q of Nadal's, %" }
-                th { "beyond for, m" } th { "lateral force of Prud'homme's, %" } th { "wear rms, N" } th { "greatest, N" }
+                th { "worse wheel" } th { "unloading, %" } th { "mean, %" } th { "lifted, %" } th { "of Nadal's, %" }
+                th { "beyond, m" } th { "of Prud'homme's, %" } th { "wear rms, N" } th { "greatest" }
             }
             @for wheelset in &indices.wheelsets {
                 @let worse = Limits::of(wheelset);
@@ -241,9 +241,10 @@ fn limits(indices: &Indices) -> Markup {
             }
         } }
         p {
-            "Unloading from the load at standstill, at once and of the mean over 2 m. Nadal's limit is "
+            "Unloading from the load at standstill, at once and of the mean over 2 m; Y/Q of Nadal's limit, mean over 2 m, and the longest distance beyond it; \
+             lateral force of Prud'homme's limit, mean over 2 m. Nadal's is "
             (format!("{:.2}", indices.nadal.limit)) " for a flange of " (format!("{:.1}", indices.nadal.flange_angle_rad.to_degrees()))
-            "° and friction " (indices.nadal.friction) "; Prud'homme's is 10 kN and a third of the axle's load at standstill."
+            "° and friction " (indices.nadal.friction) ", Prud'homme's 10 kN and a third of the axle's load at standstill."
         }
     }
 }

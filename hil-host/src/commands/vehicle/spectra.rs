@@ -18,30 +18,37 @@ use crate::study::vehicle::spectra::{Spectrum, WINDOW_S, signals};
 /// Highest frequency that figures show, Hz.
 const SHOWN_HZ: f64 = 40.0;
 
-/// Spectra of the history at `from`: it is read once the run is over, so that no tick has to wait for a transform.
+/// Spectra of a case that has not run.
 ///
 /// # Errors
-/// A file that cannot be read; a step that there are no spectra for.
-pub(super) fn of_history(case: &Case, from: &Path) -> Outcome<Vec<Spectrum>> {
+/// A step that there are no spectra for.
+pub(super) fn of_case(case: &Case) -> Outcome<Vec<Spectrum>> {
+    let signals = signals(&case.vehicle).into_iter();
+    let spectra = signals.map(|signal| Spectrum::new(signal, case.step_s));
+    spectra
+        .collect::<Result<_, _>>()
+        .map_err(|error| Failure::new(error.to_string()))
+}
+
+/// Adds the history at `from`: it is read once the run is over, so that no tick has to wait for a transform.
+///
+/// # Errors
+/// A file that cannot be read.
+pub(super) fn add_history(spectra: &mut [Spectrum], from: &Path) -> Outcome<()> {
     let unreadable = |error: csv::Error| FileError::in_file(from, error);
     let mut rows = csv::Reader::from_path(from).map_err(unreadable)?;
-    let header = rows.headers().map_err(unreadable)?.clone();
-    let mut spectra = Vec::new();
-    for signal in signals(&case.vehicle) {
-        let Some(column) = header.iter().position(|name| name == signal) else {
-            continue;
-        };
-        let spectrum = Spectrum::new(signal, case.step_s);
-        spectra.push((column, spectrum.map_err(|e| Failure::new(e.to_string()))?));
-    }
+    let header = rows.headers().map_err(unreadable)?;
+    let column = |spectrum: &Spectrum| header.iter().position(|name| name == spectrum.signal());
+    let columns: Vec<Option<usize>> = spectra.iter().map(column).collect();
     let mut row = csv::StringRecord::new();
     while rows.read_record(&mut row).map_err(unreadable)? {
-        for (column, spectrum) in &mut spectra {
-            let number = row.get(*column).unwrap_or_default().parse::<f64>();
+        for (spectrum, column) in spectra.iter_mut().zip(&columns) {
+            let cell = column.and_then(|column| row.get(column));
+            let number = cell.unwrap_or_default().parse::<f64>();
             spectrum.add(number.map_err(|error| FileError::in_file(from, error))?);
         }
     }
-    Ok(spectra.into_iter().map(|(_, spectrum)| spectrum).collect())
+    Ok(())
 }
 
 /// Writes a row for each frequency; none where the run has no spectra.
@@ -94,7 +101,8 @@ pub(super) fn section(spectra: &[Spectrum]) -> Result<Markup, DrawError> {
 fn accelerations(spectra: &[Spectrum]) -> Figure {
     let one = |direction: &str| {
         let what = format!("_{direction}_acceleration_m_per_s2");
-        curves(spectra, &what, &format!("{direction}, (m/s²)²/Hz"))
+        let axis = format!("{direction}, 10⁻³ (m/s²)²/Hz");
+        curves(spectra, &what, 1e3, &axis)
     };
     panels(vec![one("lateral"), one("vertical")])
 }
@@ -103,7 +111,7 @@ fn accelerations(spectra: &[Spectrum]) -> Figure {
 fn derailment(spectra: &[Spectrum]) -> Figure {
     let one = |side: &str| {
         let what = format!("_{side}_derailment");
-        curves(spectra, &what, &format!("Y/Q {side}, 1/Hz"))
+        curves(spectra, &what, 1e3, &format!("Y/Q {side}, 10⁻³/Hz"))
     };
     panels(vec![one("left"), one("right")])
 }
@@ -116,8 +124,8 @@ fn panels(panels: Vec<Panel>) -> Figure {
     }
 }
 
-/// Those spectra whose signal ends so.
-fn curves(spectra: &[Spectrum], ending: &str, y: &str) -> Panel {
+/// Those spectra whose signal ends so, times a factor.
+fn curves(spectra: &[Spectrum], ending: &str, factor: f64, y: &str) -> Panel {
     let chosen: Vec<_> = spectra
         .iter()
         .filter_map(|spectrum| Some((spectrum, spectrum.signal().strip_suffix(ending)?)))
@@ -127,12 +135,12 @@ fn curves(spectra: &[Spectrum], ending: &str, y: &str) -> Panel {
         .iter()
         .zip(colours)
         .map(|((spectrum, name), colour)| {
-            let shown = spectrum
-                .density()
-                .into_iter()
-                .map(|[f, density]| (f, density));
-            // Without the mean, which is taken off.
-            let shown: Vec<_> = shown.filter(|(f, _)| *f > 0.0 && *f <= SHOWN_HZ).collect();
+            let density = spectrum.density().into_iter();
+            // Without the mean, which is taken off, and without what no decade has.
+            let shown: Vec<_> = density
+                .filter(|[f, density]| *f > 0.0 && *f <= SHOWN_HZ && *density > 0.0)
+                .map(|[f, density]| (f, factor * density))
+                .collect();
             Curve::new(name.replace('_', " "), colour, thin(&shown)).wide(5)
         });
     Panel {

@@ -222,6 +222,10 @@ fn told(indices: &Indices) -> Vec<(f64, String)> {
             both.into_iter()
                 .filter_map(|(direction, index)| Some((index?, format!("{point}, W {direction}")))),
         );
+        told.extend(
+            ride.mean_comfort
+                .map(|index| (index, format!("{point}, N_MV"))),
+        );
     }
     for wheelset in &indices.wheelsets {
         let name = &wheelset.wheelset;
@@ -234,6 +238,10 @@ fn told(indices: &Indices) -> Vec<(f64, String)> {
             format!("{name}, greatest lateral force"),
         ));
         told.push((wheelset.wear_number_n, format!("{name}, wear number")));
+        told.push((
+            wheelset.wear_number_rms_n,
+            format!("{name}, wear number rms"),
+        ));
         for wheel in &wheelset.wheels {
             told.push((
                 wheel.derailment_rms,
