@@ -42,7 +42,7 @@ pub(super) fn write(
         (headline(report))
         figure {
             (drawing::vehicle(&case.vehicle))
-            figcaption { "The leading wheelset has number 1. Curves of wheelsets are the darker the further in front." }
+            figcaption { "The leading wheelset has number 1." }
         }
         @if let Some(body) = bodies.first() {
             h2 { "Accelerations of the " (body) }
