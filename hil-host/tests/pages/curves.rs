@@ -38,11 +38,12 @@ fn page(stroke: &str, decades: bool) -> String {
             column(&[20.0; 3]),
         ];
     }
+    let places: Vec<usize> = (0..columns.len()).collect();
     let axis = |label: &str| json!({ "label": label, "decades": decades, "range": [1.0, 100.0] });
     let curve = json!({
-        "stroke": stroke, "width": 4, "colours": ["#ff0000", "#ff0000"], "rises": true, "columns": columns,
+        "stroke": stroke, "width": 4, "colours": ["#ff0000", "#ff0000"], "rises": true, "columns": places,
     });
-    let plot = json!({ "height": 300, "x": axis("x"), "y": axis("y"), "curves": [curve, curve] });
+    let plot = json!({ "height": 300, "x": axis("x"), "y": axis("y"), "columns": columns, "curves": [curve, curve] });
     format!("{before}{marker}{plot}</script>{after}")
 }
 

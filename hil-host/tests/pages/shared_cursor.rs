@@ -19,8 +19,10 @@ const TOLD: &str = "return [...document.querySelectorAll('.panel')].map(panel =>
     };
 });";
 
-fn column(curve: &Value, number: usize) -> Vec<f32> {
-    let bytes = BASE64_STANDARD.decode(curve["columns"][number].as_str().unwrap());
+/// The abscissas (0) or ordinates (1) of a curve of a plot.
+fn column(plot: &Value, curve: &Value, number: usize) -> Vec<f32> {
+    let place = curve["columns"][number].as_u64().unwrap() as usize;
+    let bytes = BASE64_STANDARD.decode(plot["columns"][place].as_str().unwrap());
     let bytes = bytes.unwrap();
     let numbers = bytes.chunks_exact(4);
     numbers
@@ -34,8 +36,10 @@ fn number(text: &str) -> f32 {
 }
 
 /// The value of a curve at its abscissa nearest to `x`.
-fn value_at(curve: &Value, x: f32) -> f32 {
-    let samples = column(curve, 0).into_iter().zip(column(curve, 1));
+fn value_at(plot: &Value, curve: &Value, x: f32) -> f32 {
+    let samples = column(plot, curve, 0)
+        .into_iter()
+        .zip(column(plot, curve, 1));
     let nearest = samples.min_by(|(a, _), (b, _)| (a - x).abs().total_cmp(&(b - x).abs()));
     nearest.unwrap().1
 }
@@ -72,7 +76,8 @@ fn check(width: u32) {
         let apart = (range[1].as_f64().unwrap() - range[0].as_f64().unwrap()) as f32;
         for (curve, told) in curves.iter().zip(values) {
             // The time is told to the millisecond: the neighbouring samples are as good.
-            let near = [time - 1e-3, time, time + 1e-3].map(|time| value_at(curve, time));
+            let near =
+                [time - 1e-3, time, time + 1e-3].map(|time| value_at(&panel["data"], curve, time));
             let told = number(told.as_str().unwrap());
             let is_near = near.iter().any(|value| (value - told).abs() < 2e-3 * apart);
             assert!(

@@ -39,6 +39,6 @@ pub fn all() -> [(&'static str, &'static str, usize); 3] {
     [
         ("demonstration", &DEMONSTRATION, 13),
         ("vehicle", &VEHICLE, 14),
-        ("bank", &BANK, 4),
+        ("bank", &BANK, 6),
     ]
 }

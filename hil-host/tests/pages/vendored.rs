@@ -5,6 +5,8 @@ use std::path::Path;
 
 use sha2::{Digest, Sha256};
 
+use crate::shown::DEMONSTRATION;
+
 #[test]
 fn the_plotting_library_is_what_its_readme_says() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/report/page/uplot");
@@ -31,4 +33,11 @@ fn the_plotting_library_is_what_its_readme_says() {
     told.sort_unstable();
     there.sort_unstable();
     assert_eq!(there, told);
+}
+
+/// Its licence: "in all copies or substantial portions of the Software".
+#[test]
+fn pages_have_the_librarys_licence() {
+    let licence = include_str!("../../src/report/page/uplot/LICENSE");
+    assert!(DEMONSTRATION.contains(&format!("<!-- uPlot\n{licence}-->")));
 }

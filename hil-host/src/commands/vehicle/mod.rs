@@ -150,7 +150,7 @@ fn follow(
     path: &Path,
 ) -> Outcome<(History, Report)> {
     let all = signals::all(run.vehicle());
-    let mut history = History::new(all.clone(), run.ticks());
+    let mut history = History::new(all.clone(), run.ticks(), case.step_s);
     let mut indexer = Indexer::new(case);
     let bar = progress::bar(run.ticks(), "vehicle");
     let _ends_gently = interruption::end_gently();

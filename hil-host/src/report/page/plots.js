@@ -109,7 +109,7 @@
       stroke: () => style("--soft"),
       space: name === "x" ? 56 : 34,
       gap: 4,
-      size: (u, values) => (name === "x" ? 24 : Math.max(44, 14 + 7 * Math.max(0, ...(values ?? []).map(text => text.length)))),
+      size: (u, values) => (name === "x" ? 24 : Math.max(50, 14 + 7 * Math.max(0, ...(values ?? []).map(text => text.length)))),
       grid: { stroke: () => style("--line"), width: 1 },
       ticks: { stroke: () => style("--line"), width: 1, size: 4 },
       border: { show: true, stroke: () => style("--soft"), width: 1 },
@@ -159,7 +159,7 @@
       item.querySelector(".value").textContent = index == null ? "" : text();
     }
     const [quantity, unit] = x.label.split(/, (?=[^,]*$)/);
-    head.querySelector(".at").textContent = cursor && !isLoop ? `${quantity} ${number(u, "x", cursor.x)} ${unit ?? ""}` : "";
+    head.querySelector(".at").textContent = cursor && !isLoop ? `${quantity} ${number(u, "x", cursor.x)} ${unit ?? ""}`.trim() : "";
   }
 
   const peers = panel => panel.group.filter(other => other !== panel && other.isLoop === panel.isLoop && (panel.isLoop || other.x.label === panel.x.label));
@@ -233,7 +233,8 @@
 
   function draw(plot) {
     const panel = JSON.parse(plot.nextElementSibling.textContent);
-    for (const curve of panel.curves) curve.columns = curve.columns.map(column);
+    const columns = panel.columns.map(column);
+    for (const curve of panel.curves) curve.columns = curve.columns.map(place => columns[place]);
     const figure = plot.closest("figure");
     const group = figure.dataset.shares ?? figure;
     if (!groups.has(group)) groups.set(group, []);

@@ -1,8 +1,8 @@
 //! A series over ticks, however long, in no more points than a plot can show: the lowest and the highest of
 //! each stretch of ticks stay, at their own ticks, so that no peak vanishes.
 
-/// Stretches at most; a plot is about as many pixels wide.
-const MOST: usize = 1024;
+/// Stretches at most; a plot is a thousand pixels wide, and may be enlarged.
+const MOST: usize = 4096;
 
 /// The lowest and highest value of each stretch of ticks. Stretches double as the series grows.
 pub(crate) struct Envelope {
