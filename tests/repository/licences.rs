@@ -78,9 +78,15 @@ fn what_is_vendored_keeps_its_licence() {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join(folder);
         let read = |name: &str| fs::read_to_string(folder.join(name)).unwrap();
         let text = read("LICENSE");
-        assert!(text.starts_with(&format!("The {licence} License")), "{text}");
+        assert!(
+            text.starts_with(&format!("The {licence} License")),
+            "{text}"
+        );
         let readme = read("README.md");
-        for told in [format!("package `{package}`"), format!("Licence: {licence}")] {
+        for told in [
+            format!("package `{package}`"),
+            format!("Licence: {licence}"),
+        ] {
             assert!(readme.contains(&told), "{told}");
         }
     }

@@ -10,6 +10,10 @@ use crate::shown::all;
 const MEASURE: &str = r#"
     const size = element => parseFloat(getComputedStyle(element).fontSize);
     const text = [...document.querySelectorAll("p, td, th, figcaption, span, footer, .head li")].map(size);
+    for (const drawing of document.querySelectorAll("svg.drawing")) {
+        const scale = drawing.getBoundingClientRect().width / drawing.viewBox.baseVal.width;
+        for (const text of drawing.querySelectorAll("text")) window.lettering.push({ text: text.textContent, size: scale * size(text) });
+    }
     const parts = colour => [1, 3, 5].map(i => parseInt(colour.slice(i, i + 2), 16));
     const plots = [...document.querySelectorAll(".plot")].map(plot => {
         const canvas = plot.querySelector("canvas");

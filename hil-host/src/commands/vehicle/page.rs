@@ -41,7 +41,7 @@ pub(super) fn write(
         }
         (headline(report))
         figure {
-            (drawing::vehicle(&case.vehicle))
+            div.wide { (drawing::vehicle(&case.vehicle)) }
             figcaption { "The leading wheelset has number 1." }
         }
         @if let Some(body) = bodies.first() {

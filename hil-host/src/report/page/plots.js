@@ -5,24 +5,21 @@
   const DARK = matchMedia("(prefers-color-scheme: dark)");
   const NARROW = matchMedia("(max-width: 760px)");
   const NARROW_HEIGHT = 230;
-  const HIDDEN = { left: -10, top: -10 };
 
   // Panels by what they share the cursor with: the name of their figure's group, or the figure alone.
   const groups = new Map();
-  const panels = [];
   let printing = false;
 
-  const isDark = () => DARK.matches && !printing;
-  const colour = curve => curve.colours[isDark() ? 1 : 0];
+  const colour = curve => curve.colours[DARK.matches && !printing ? 1 : 0];
   const style = name => getComputedStyle(document.documentElement).getPropertyValue(name);
   const column = text => new Float32Array(Uint8Array.from(atob(text), byte => byte.charCodeAt(0)).buffer);
-  const minus = text => text.replace("-", "−");
+  // Zero has no sign.
+  const minus = text => text.replace(/^-(?=[0.]+$)/, "").replace("-", "−");
 
   // A value in as many digits as tell a thousandth of what the axis shows.
   function number(u, axis, value) {
     const { min, max, distr } = u.scales[axis];
-    if (Number.isNaN(value)) return "–";
-    if (distr === 3) return String(Number(value.toPrecision(4)));
+    if (distr === 3 || Number.isNaN(value)) return String(Number(value.toPrecision(4)));
     const digits = Math.min(9, Math.max(0, 3 - Math.floor(Math.log10(max - min))));
     return minus(value.toFixed(digits));
   }
@@ -31,7 +28,7 @@
   function labels(u, splits, axis, space, distance) {
     let digits = 0;
     while (digits < 9 && Math.abs(distance * 10 ** digits - Math.round(distance * 10 ** digits)) > 1e-6) digits++;
-    return splits.map(value => minus((value === 0 ? 0 : value).toFixed(digits)));
+    return splits.map(value => minus(value.toFixed(digits)));
   }
 
   const decadeLabels = (u, splits) => splits.map(value => (value === null ? "" : String(Number(value.toPrecision(6)))));
@@ -51,17 +48,16 @@
     const stroke = new Path2D();
     const fill = new Path2D();
     const last = xs.length - 1;
-    const { top, height } = u.bbox;
-    const thickness = devicePixelRatio;
+    const bottom = u.bbox.top + u.bbox.height;
     if (curve.stroke === "points") {
       for (let i = 0; i <= last; i++) {
         fill.moveTo(x(i), y(lows[i]));
-        fill.arc(x(i), y(lows[i]), 3.5 * thickness, 0, 2 * Math.PI);
+        fill.arc(x(i), y(lows[i]), 3.5 * devicePixelRatio, 0, 2 * Math.PI);
       }
     } else if (curve.stroke === "marks" || curve.stroke === "bars") {
       for (let i = 0; i <= last; i++) {
-        stroke.moveTo(x(i), highs ? y(lows[i]) : top + height);
-        stroke.lineTo(x(i), highs ? y(highs[i]) : top + height - 10 * thickness);
+        stroke.moveTo(x(i), highs ? y(lows[i]) : bottom);
+        stroke.lineTo(x(i), highs ? y(highs[i]) : bottom - 10 * devicePixelRatio);
       }
     } else if (curve.stroke === "band") {
       for (let i = 0; i <= last; i++) fill.lineTo(x(i), y(lows[i]));
@@ -70,14 +66,12 @@
       // A number that is none parts the line.
       let isDown = false;
       for (let i = 0; i <= last; i++) {
-        const isThere = !Number.isNaN(lows[i]);
-        if (isThere) stroke[isDown ? "lineTo" : "moveTo"](x(i), y(lows[i]));
-        isDown = isThere;
+        if (!Number.isNaN(lows[i])) stroke[isDown ? "lineTo" : "moveTo"](x(i), y(lows[i]));
+        isDown = !Number.isNaN(lows[i]);
       }
       if (curve.stroke === "filled") {
         fill.addPath(stroke);
-        fill.lineTo(x(last), y(0));
-        fill.lineTo(x(0), y(0));
+        for (const end of [last, 0]) fill.lineTo(x(end), y(0));
       }
     }
     return { stroke, fill, clip: null, flags: 0 };
@@ -123,8 +117,7 @@
     let [from, to] = [0, xs.length - 1];
     while (to - from > 1) {
       const middle = (from + to) >> 1;
-      if (xs[middle] <= x) from = middle;
-      else to = middle;
+      [from, to] = xs[middle] <= x ? [middle, to] : [from, middle];
     }
     return x - xs[from] <= xs[to] - x ? from : to;
   }
@@ -162,17 +155,18 @@
     head.querySelector(".at").textContent = cursor && !isLoop ? `${quantity} ${number(u, "x", cursor.x)} ${unit ?? ""}`.trim() : "";
   }
 
-  const peers = panel => panel.group.filter(other => other !== panel && other.isLoop === panel.isLoop && (panel.isLoop || other.x.label === panel.x.label));
+  // Panels that show the same: loops of the figure, or histories over the same quantity.
+  function peers({ group, isLoop, x, u }) {
+    return group.filter(other => other.u !== u && other.isLoop === isLoop && (isLoop || other.x.label === x.label));
+  }
 
   function shareCursor(panel) {
-    for (const other of panel.group) {
-      const cursor = peers(panel).includes(other) ? panel.cursor : null;
-      if (other === panel || (!cursor && !other.cursor)) continue;
-      point(other, cursor);
-      const left = !cursor ? -10 : other.isLoop ? 0 : other.u.valToPos(cursor.x, "x");
+    const { cursor, isLoop } = panel;
+    for (const other of peers(panel)) {
+      const left = !cursor ? -10 : isLoop ? 0 : other.u.valToPos(cursor.x, "x");
       const isWithin = left >= 0 && left <= other.u.over.clientWidth;
-      if (!isWithin) point(other, null);
-      other.u.setCursor(isWithin ? { left, top: 0 } : HIDDEN);
+      point(other, isWithin ? cursor : null);
+      other.u.setCursor(isWithin ? { left, top: 0 } : { left: -10, top: -10 });
     }
   }
 
@@ -190,11 +184,8 @@
   }
 
   function options(panel, plot) {
-    const moved = (u, over, handle) => event => {
-      panel.isMoved = true;
-      handle(event);
-      panel.isMoved = false;
-    };
+    // What the mouse did is shared; what was shared is not shared again.
+    const moved = (u, over, handle) => event => { panel.isMoved = true; handle(event); panel.isMoved = false; };
     const whole = u => () => ["x", "y"].forEach(name => u.setScale(name, { min: null, max: null }));
     return {
       mode: 2,
@@ -225,7 +216,7 @@
   }
 
   function paint() {
-    for (const { u, curves, head } of panels) {
+    for (const { u, curves, head } of [...groups.values()].flat()) {
       for (const key of head.querySelectorAll(".key")) key.style.color = colour(curves[key.parentElement.dataset.curve]);
       u.redraw();
     }
@@ -236,26 +227,24 @@
     const columns = panel.columns.map(column);
     for (const curve of panel.curves) curve.columns = curve.columns.map(place => columns[place]);
     const figure = plot.closest("figure");
-    const group = figure.dataset.shares ?? figure;
-    if (!groups.has(group)) groups.set(group, []);
-    panel.group = groups.get(group);
+    const name = figure.dataset.shares ?? figure;
+    panel.group = groups.get(name) ?? [];
+    groups.set(name, panel.group);
     panel.head = plot.previousElementSibling;
     panel.isLoop = panel.curves.some(curve => !curve.rises);
     point(panel, null);
     panel.u = new uPlot(options(panel, plot), [null, ...panel.curves.map(curve => curve.columns)], plot);
     panel.group.push(panel);
-    panels.push(panel);
     new ResizeObserver(() => panel.u.setSize({ width: plot.clientWidth, height: options(panel, plot).height })).observe(plot);
   }
 
   document.querySelectorAll(".plot").forEach(draw);
   paint();
   DARK.addEventListener("change", paint);
-  for (const [event, isPrinting] of [["beforeprint", true], ["afterprint", false]]) {
+  for (const event of ["beforeprint", "afterprint"])
     addEventListener(event, () => {
-      printing = isPrinting;
+      printing = event === "beforeprint";
       document.documentElement.classList.toggle("print", printing);
       paint();
     });
-  }
 }
