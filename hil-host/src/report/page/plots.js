@@ -4,7 +4,6 @@
   const FONT = '12px system-ui, -apple-system, "Segoe UI", Roboto, "Helvetica Neue", sans-serif';
   const DARK = matchMedia("(prefers-color-scheme: dark)");
   const NARROW = matchMedia("(max-width: 760px)");
-  const NARROW_HEIGHT = 230;
 
   // Panels by what they share the cursor with: the name of their figure's group, or the figure alone.
   const groups = new Map();
@@ -31,13 +30,19 @@
     return splits.map(value => minus(value.toFixed(digits)));
   }
 
-  const decadeLabels = (u, splits) => splits.map(value => (value === null ? "" : String(Number(value.toPrecision(6)))));
-
+  // Every tenth or, where little is shown, hundredth part of each decade, and those of them that there is room to write.
   function decades(u, axis, min, max) {
     const splits = [];
     for (let power = Math.floor(Math.log10(min)); power <= Math.log10(max); power++)
-      for (let digit = 1; digit < 10; digit++) splits.push(Number(`${digit}e${power}`));
+      for (let part = 10; part < 100; part += max / min > 4 ? 10 : 1) splits.push(Number(`${part}e${power - 1}`));
     return splits.filter(value => value >= min && value <= max);
+  }
+
+  function written(u, splits, axis, space) {
+    const [one, ten] = [1, 10].map(value => u.valToPos(value, u.axes[axis].scale));
+    const room = Math.abs(ten - one) / space;
+    const shown = room > 22 ? /./ : room > 3.4 ? /^[125]e/ : /^1e/;
+    return splits.map(value => (shown.test(value.toExponential()) ? value : null));
   }
 
   // What is stroked and what is filled of a curve, on the canvas.
@@ -80,8 +85,7 @@
   function series(curve) {
     const isSolid = curve.stroke === "points";
     return {
-      auto: false,
-      pxAlign: 0,
+      auto: false, pxAlign: 0,
       width: isSolid || curve.stroke === "band" ? 0 : curve.width,
       stroke: () => colour(curve),
       fill: () => colour(curve) + (isSolid ? "" : "40"),
@@ -96,19 +100,16 @@
   function axis(name, { label, decades: isDecades }) {
     return {
       scale: name,
-      label: name === "x" ? label : undefined,
-      labelSize: 18,
-      labelFont: FONT,
+      ...(name === "x" ? { label, labelSize: 18, labelFont: FONT } : {}),
       font: FONT,
       stroke: () => style("--soft"),
-      space: name === "x" ? 56 : 34,
-      gap: 4,
+      space: name === "x" ? 56 : 34, gap: 4,
       size: (u, values) => (name === "x" ? 24 : Math.max(50, 14 + 7 * Math.max(0, ...(values ?? []).map(text => text.length)))),
       grid: { stroke: () => style("--line"), width: 1 },
       ticks: { stroke: () => style("--line"), width: 1, size: 4 },
       border: { show: true, stroke: () => style("--soft"), width: 1 },
-      values: isDecades ? decadeLabels : labels,
-      ...(isDecades ? { splits: decades } : {}),
+      values: isDecades ? (u, splits) => splits.map(value => (value === null ? "" : String(Number(value.toPrecision(6))))) : labels,
+      ...(isDecades ? { splits: decades, filter: written } : {}),
     };
   }
 
@@ -188,11 +189,9 @@
     const moved = (u, over, handle) => event => { panel.isMoved = true; handle(event); panel.isMoved = false; };
     const whole = u => () => ["x", "y"].forEach(name => u.setScale(name, { min: null, max: null }));
     return {
-      mode: 2,
       width: plot.clientWidth,
-      height: NARROW.matches ? Math.min(NARROW_HEIGHT, panel.height) : panel.height,
-      padding: [8, 12, 0, 0],
-      legend: { show: false },
+      height: NARROW.matches ? Math.min(230, panel.height) : panel.height,
+      mode: 2, padding: [8, 12, 0, 0], legend: { show: false },
       scales: { x: scale(panel.x), y: scale(panel.y) },
       axes: [axis("x", panel.x), axis("y", panel.y)],
       series: [null, ...panel.curves.map(series)],
