@@ -1,6 +1,8 @@
 //! Licences of all packages that anything here is built from: each may be used under MIT or Apache-2.0, our own.
 
 use std::collections::BTreeSet;
+use std::fs;
+use std::path::Path;
 
 use spdx::{Expression, ParseMode};
 
@@ -10,7 +12,7 @@ use crate::workspaces::WORKSPACES;
 const ALLOWED: [&str; 5] = ["Apache-2.0", "BSD-2-Clause", "MIT", "Unicode-3.0", "Zlib"];
 
 /// Other licences: package, licence, why it may be used.
-const EXCEPTIONS: [(&str, &str, &str); 4] = [
+const EXCEPTIONS: [(&str, &str, &str); 5] = [
     (
         "serialport",
         "MPL-2.0",
@@ -27,6 +29,7 @@ const EXCEPTIONS: [(&str, &str, &str); 4] = [
         "asks for nothing; behind the feature `parquet`, at compile time only",
     ),
     ("libfuzzer-sys", "NCSA", "part of fuzz targets only"),
+    ("webdriver", "MPL-2.0", "drives a browser in tests only"),
 ];
 
 /// Where cargo gets a package that lies in no folder of the repository.
@@ -62,6 +65,31 @@ fn every_package_may_be_used_under_our_licences() {
     }
     let listed = EXCEPTIONS.iter().map(|(package, ..)| package).collect();
     assert_eq!(excepted, listed, "an exception that nothing needs");
+}
+
+/// What is kept in the tree and was written by others: folder, package, licence.
+const VENDORED: [(&str, &str, &str); 1] = [("hil-host/src/report/page/uplot", "uplot", "MIT")];
+
+/// It has its licence beside it, its README names package and licence, and what is made of it carries its notice.
+#[test]
+fn what_is_vendored_keeps_its_licence() {
+    for (folder, package, licence) in VENDORED {
+        assert!(ALLOWED.contains(&licence), "{folder}");
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join(folder);
+        let read = |name: &str| fs::read_to_string(folder.join(name)).unwrap();
+        let text = read("LICENSE");
+        assert!(
+            text.starts_with(&format!("The {licence} License")),
+            "{text}"
+        );
+        let readme = read("README.md");
+        for told in [
+            format!("package `{package}`"),
+            format!("Licence: {licence}"),
+        ] {
+            assert!(readme.contains(&told), "{told}");
+        }
+    }
 }
 
 /// The compiler that CI checks one of them with is that of all.

@@ -47,12 +47,14 @@ pub const CMAKE: Tool = program("cmake", "cmake");
 pub const MAKE: Tool = program("make", "make");
 /// Browser, for what a page looks like.
 pub const CHROMIUM: Tool = program("chromium", "chromium");
+/// What lets a test look and act in it.
+pub const CHROMEDRIVER: Tool = program("chromedriver", "chromium-driver");
 
 /// What the example client of the link is written for.
 pub const PYTHON: Tool = program("python3", "python3");
 
 /// All of them.
-pub const TOOLS: [Tool; 14] = [
+pub const TOOLS: [Tool; 15] = [
     GCC,
     GXX,
     VALGRIND,
@@ -66,6 +68,7 @@ pub const TOOLS: [Tool; 14] = [
     CMAKE,
     MAKE,
     CHROMIUM,
+    CHROMEDRIVER,
     PYTHON,
 ];
 

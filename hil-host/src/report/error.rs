@@ -2,7 +2,7 @@
 
 use std::error::Error;
 
-/// A plot that cannot be drawn, with the plotting library's reason.
+/// A plot that cannot be drawn or written, with the reason.
 #[derive(Debug, thiserror::Error)]
 #[error("cannot draw: {0}")]
 pub struct DrawError(#[source] pub(super) Box<dyn Error + Send + Sync>);

@@ -13,7 +13,6 @@ mod gaps;
 mod interruption;
 mod modes;
 mod modes_coach;
-mod page_layout;
 mod replay;
 mod rig;
 mod rig_report;

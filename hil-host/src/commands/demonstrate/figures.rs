@@ -55,7 +55,7 @@ pub(super) fn error(ride: &Ride) -> Figure {
     let errors = over_time(ride, &ride.fixed_step_n)
         .zip(&ride.reference_n)
         .map(|((time, force), reference)| (time, force - reference));
-    let curve = Curve::new("error", RED_LINE, errors).wide(4);
+    let curve = Curve::new("", RED_LINE, errors).wide(4);
     single("time, s", "error, N", 240, vec![curve])
 }
 
@@ -68,7 +68,7 @@ pub(super) fn ride_loops(ride: &Ride) -> Figure {
         .windows(2)
         .map(|pair| (pair[1] - pair[0]) / ride.step_s)
         .zip(forces.skip(1));
-    let thin = |points: Vec<(f64, f64)>| vec![Curve::new("ride", BLUE_LINE, points).wide(3)];
+    let thin = |points: Vec<(f64, f64)>| vec![Curve::new("", BLUE_LINE, points).wide(3)];
     loop_figure(thin(displacement.collect()), thin(velocity.collect()))
 }
 

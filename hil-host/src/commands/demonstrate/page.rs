@@ -1,4 +1,4 @@
-//! The page: one self-contained HTML file with inline SVG.
+//! The page: one self-contained HTML file.
 
 use maud::{Markup, html};
 
@@ -182,7 +182,7 @@ fn ride_figures(ride: &Ride) -> Result<Markup, DrawError> {
 fn bench_figure(bench: &Bench) -> Result<Markup, DrawError> {
     let caption = html! {
         "Settled loops of a made harmonic motion at " (LOOP_FREQUENCY_HZ) " Hz, by amplitude: computed force over \
-         displacement (first) and velocity (second, with the legend of both)."
+         displacement (first) and velocity (second)."
     };
     Ok(html! {
         h3 { (bench.damper) }

@@ -14,10 +14,16 @@ const MOST_BARS: u64 = 40;
 const TIME: &str = "time, s";
 
 /// A curve over time of the samples in `envelope`, times `factor`.
-fn curve(history: &History, colour: RGBColor, envelope: &Envelope, factor: f64) -> Curve {
+fn curve(
+    history: &History,
+    name: &str,
+    colour: RGBColor,
+    envelope: &Envelope,
+    factor: f64,
+) -> Curve {
     let samples = envelope.samples();
     let points = samples.map(|(tick, value)| (history.time_s(tick), value * factor));
-    Curve::new("", colour, points.collect::<Vec<_>>())
+    Curve::new(name, colour, points.collect::<Vec<_>>())
 }
 
 /// Marks of faults made and of recoveries, where there were any.
@@ -37,8 +43,7 @@ fn marks(history: &History) -> Vec<Curve> {
         .collect()
 }
 
-/// A panel over time with the marks. The page's text names the colours: a legend would hide a part of the
-/// run.
+/// A panel over time with the marks.
 fn over_time(history: &History, y: &str, scale: Scale, mut curves: Vec<Curve>) -> Panel {
     curves.extend(marks(history));
     Panel {
@@ -50,12 +55,12 @@ fn over_time(history: &History, y: &str, scale: Scale, mut curves: Vec<Curve>) -
 /// Forces of target and host at a place; beside them, where any differ, target less host.
 pub(super) fn forces(history: &History, place: &Forces) -> Figure {
     let curves = vec![
-        curve(history, PALE, &place.host_n, 1e-3).wide(22),
-        curve(history, BLUE_LINE, &place.target_n, 1e-3).wide(6),
+        curve(history, "host", PALE, &place.host_n, 1e-3).wide(22),
+        curve(history, "target", BLUE_LINE, &place.target_n, 1e-3).wide(6),
     ];
     let mut panels = vec![over_time(history, "force, kN", Scale::Linear, curves)];
     if place.differ {
-        let error = curve(history, RED_LINE, &place.difference_n, 1.0);
+        let error = curve(history, "", RED_LINE, &place.difference_n, 1.0);
         panels.push(panel(TIME, "target less host, N", vec![error.wide(6)]));
     }
     Figure {
@@ -67,7 +72,7 @@ pub(super) fn forces(history: &History, place: &Forces) -> Figure {
 
 /// Clock ticks that a tick of the bank took: how often, and over time.
 pub(super) fn clock_ticks(history: &History) -> Figure {
-    let over = curve(history, BLUE_LINE, &history.clock_ticks, 1.0).wide(5);
+    let over = curve(history, "", BLUE_LINE, &history.clock_ticks, 1.0).wide(5);
     Figure {
         panels: vec![
             Panel {
@@ -100,14 +105,20 @@ fn bars(history: &History) -> Curve {
 
 /// Round trips over time, and the step where ticks were `paced`.
 pub(super) fn round_trip(history: &History, paced: bool) -> Figure {
-    let trips = curve(history, BLUE_LINE, &history.round_trip_ns, 1e-6);
+    let trips = curve(
+        history,
+        "round trip",
+        BLUE_LINE,
+        &history.round_trip_ns,
+        1e-6,
+    );
     let mut curves = vec![trips.wide(5)];
     if paced {
         let ends: Vec<f64> = curves[0].abscissas().collect();
         let step_ms = history.step_s() * 1e3;
         let step = [ends.first(), ends.last()].into_iter().flatten();
         let step = step.map(|time_s| (*time_s, step_ms));
-        curves.push(Curve::new("", PALE, step).dashed());
+        curves.push(Curve::new("one step", PALE, step).dashed());
     }
     Figure {
         panels: vec![over_time(history, "round trip, ms", Scale::Decades, curves)],

@@ -31,8 +31,7 @@ pub(super) fn write(found: &Found, history: &History) -> Result<String, DrawErro
         (summary(found))
         h2 { "Forces" }
         p {
-            "Blue: the target. Grey, under it: the host. Displacement and force are positive in extension; place i \
-             runs i ticks behind place 0."
+            "Displacement and force are positive in extension; place i runs i ticks behind place 0."
         }
         (legend_of_marks(found))
         @for (place, forces) in history.places.iter().enumerate() {

@@ -84,10 +84,9 @@ pub(super) fn vehicle(parameters: &VehicleParameters) -> Markup {
         ([sheet.x(from), sheet.y(top)], size, is_frame)
     };
     html! {
-        svg viewBox=(format!("0 0 {:.0} {:.0}", sheet.width, sheet.height)) role="img"
+        svg.drawing viewBox=(format!("0 0 {:.0} {:.0}", sheet.width, sheet.height)) role="img"
             font-family="sans-serif" font-size="15" fill="#263238" {
             title { "The vehicle from its right side" }
-            rect width="100%" height="100%" fill="#fff" {}
             @for body in &parameters.bodies {
                 @let ([x, y], [width, height], is_frame) = body_outline(body);
                 rect x=(px(x)) y=(px(y)) width=(px(width)) height=(px(height)) rx="6"

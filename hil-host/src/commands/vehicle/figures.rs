@@ -5,17 +5,18 @@ use plotters::style::RGBColor;
 use super::history::History;
 use crate::report::page::{Figure, panel};
 use crate::report::plot::curves::{Curve, ramp};
-use crate::report::plot::envelope::thin;
+use crate::report::plot::envelope::thinned;
 use crate::report::plot::sheet::{Panel, Scale};
 use crate::report::plot::style::{BLUE_LINE, PALE, RED_LINE};
 use crate::study::vehicle::Forces;
 use crate::study::vehicle::signals::slug;
 
-const TIME: &str = "time_s";
+/// All figures over time share their cursor.
+const TIME: &str = "time";
 const HEIGHT: u32 = 300;
 
 fn over_time(history: &History, signal: &str, factor: f64, name: &str, colour: RGBColor) -> Curve {
-    Curve::new(name, colour, history.thinned([TIME, signal], [1.0, factor])).wide(5)
+    Curve::new(name, colour, history.over_time(signal, factor)).wide(5)
 }
 
 /// Accelerations of a body to the side and up and down.
@@ -93,12 +94,8 @@ pub(super) fn derailment(history: &History, names: &[String]) -> Figure {
 
 /// Force of a damper outside and inside, and the difference.
 pub(super) fn outside(forces: &Forces, step_s: f64) -> Figure {
-    let over_time = |values: &mut dyn Iterator<Item = f64>, factor: f64, colour| {
-        let ticks = (1..).map(|tick| f64::from(tick) * step_s);
-        let points = ticks
-            .zip(values)
-            .map(|(time_s, value)| (time_s, value * factor));
-        Curve::new("", colour, thin(&points.collect::<Vec<_>>()))
+    let over_time = |values: &mut dyn Iterator<Item = f64>, name: &str, colour| {
+        Curve::new(name, colour, thinned(values, step_s))
     };
     let Forces {
         outside_n,
@@ -106,11 +103,21 @@ pub(super) fn outside(forces: &Forces, step_s: f64) -> Figure {
         ..
     } = forces;
     let both = vec![
-        over_time(&mut inside_n.iter().copied(), 1e-3, PALE).wide(16),
-        over_time(&mut outside_n.iter().copied(), 1e-3, BLUE_LINE).wide(5),
+        over_time(
+            &mut inside_n.iter().map(|force| force * 1e-3),
+            "inside",
+            PALE,
+        )
+        .wide(16),
+        over_time(
+            &mut outside_n.iter().map(|force| force * 1e-3),
+            "outside",
+            BLUE_LINE,
+        )
+        .wide(5),
     ];
     let mut difference = outside_n.iter().zip(inside_n).map(|(a, b)| a - b);
-    let difference = over_time(&mut difference, 1.0, RED_LINE).wide(5);
+    let difference = over_time(&mut difference, "", RED_LINE).wide(5);
     Figure {
         panels: vec![
             panel("time, s", "force, kN", both),

@@ -1,24 +1,29 @@
-//! The rows of a run that its page shows.
+//! What a run's page shows of its ticks, of bounded size however long the run is.
 
-use crate::report::plot::envelope::thin;
+use crate::report::plot::envelope::{Envelope, time_s};
 use crate::study::vehicle::signals::Signal;
 
 /// Rows kept at most; of a longer run every second, third, ...
-const MOST: u64 = 20_000;
+const MOST: u64 = 12_000;
 
-/// Rows of all signals.
+/// Signals over time as envelopes, so that no peak vanishes; over one another as rows.
 pub(super) struct History {
     signals: Vec<Signal>,
+    /// Of each signal, by ticks.
+    envelopes: Vec<Envelope>,
+    step_s: f64,
     stride: u64,
-    seen: u64,
+    seen: u32,
     rows: Vec<Vec<f64>>,
 }
 
 impl History {
     /// Of a run of so many ticks.
-    pub(super) fn new(signals: Vec<Signal>, ticks: u64) -> Self {
+    pub(super) fn new(signals: Vec<Signal>, ticks: u64, step_s: f64) -> Self {
         Self {
+            envelopes: signals.iter().map(|_| Envelope::default()).collect(),
             signals,
+            step_s,
             stride: ticks.div_ceil(MOST).max(1),
             seen: 0,
             rows: Vec::new(),
@@ -27,7 +32,10 @@ impl History {
 
     /// Adds the row of a tick.
     pub(super) fn add(&mut self, row: &[f64]) {
-        if self.seen.is_multiple_of(self.stride) {
+        for (envelope, value) in self.envelopes.iter_mut().zip(row) {
+            envelope.record(self.seen, *value);
+        }
+        if u64::from(self.seen).is_multiple_of(self.stride) {
             self.rows.push(row.to_vec());
         }
         self.seen += 1;
@@ -48,8 +56,13 @@ impl History {
             .collect()
     }
 
-    /// As [`Self::points`], thinned to the lowest and highest of each stretch of rows.
-    pub(super) fn thinned(&self, names: [&str; 2], factors: [f64; 2]) -> Vec<(f64, f64)> {
-        thin(&self.points(names, factors))
+    /// Points of a signal times a factor over time (s), the lowest and highest of each stretch of ticks; none where there is no
+    /// such signal.
+    pub(super) fn over_time(&self, name: &str, factor: f64) -> Vec<(f64, f64)> {
+        let envelope = self.number(name).map(|number| &self.envelopes[number]);
+        let samples = envelope.into_iter().flat_map(Envelope::samples);
+        samples
+            .map(|(tick, value)| (time_s(tick, self.step_s), value * factor))
+            .collect()
     }
 }

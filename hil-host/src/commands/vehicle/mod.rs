@@ -160,7 +160,7 @@ fn follow(
 ) -> Outcome<(History, Report)> {
     let mut all = signals::all(run.vehicle());
     all.extend(signals::of_ride(&case.vehicle));
-    let mut history = History::new(all.clone(), run.ticks());
+    let mut history = History::new(all.clone(), run.ticks(), case.step_s);
     let mut indexer = Indexer::new(case);
     let bar = progress::bar(run.ticks(), "vehicle");
     let _ends_gently = interruption::end_gently();

@@ -43,8 +43,8 @@ pub(super) fn write(
         }
         (headline(report))
         figure {
-            (drawing::vehicle(&case.vehicle))
-            figcaption { "The leading wheelset has number 1. Curves of wheelsets are the darker the further in front." }
+            div.wide { (drawing::vehicle(&case.vehicle)) }
+            figcaption { "The leading wheelset has number 1." }
         }
         @if let Some(body) = bodies.first() {
             h2 { "Accelerations of the " (body) }
@@ -74,7 +74,7 @@ pub(super) fn write(
             @for forces in forces {
                 h3 { (forces.damper) }
                 (figure(&figures::outside(forces, report.step_s), &html! {
-                    "Blue: outside. Grey, under it: in the same run with all dampers inside. Red: the difference."
+                    "Inside: in the same run with all dampers inside."
                 })?)
             }
             div.wide { table {
@@ -84,7 +84,7 @@ pub(super) fn write(
         h2 { "Figures" }
         (tables(report))
         (footer(&html! {
-            "Curves over time are thinned to the lowest and highest value of each stretch, so every peak is shown; history.csv has every tick."
+            "Curves over time are thinned to the lowest and highest value of each stretch, so every peak is shown; history.csv has every tick. Dragging enlarges, a double click shows all."
         }))
     };
     Ok(document(&format!("Dashpot: {}", case.name), &body))

@@ -11,7 +11,6 @@ use crate::files::output::{cannot_write_rows, write_whole};
 use crate::report::DrawError;
 use crate::report::page::{Figure, figure, panel};
 use crate::report::plot::curves::{Curve, ramp};
-use crate::report::plot::envelope::thin;
 use crate::report::plot::sheet::{Panel, Scale};
 use crate::study::vehicle::spectra::{Spectrum, WINDOW_S, signals};
 
@@ -141,7 +140,7 @@ fn curves(spectra: &[Spectrum], ending: &str, factor: f64, y: &str) -> Panel {
                 .filter(|[f, density]| *f > 0.0 && *f <= SHOWN_HZ && *density > 0.0)
                 .map(|[f, density]| (f, factor * density))
                 .collect();
-            Curve::new(name.replace('_', " "), colour, thin(&shown)).wide(5)
+            Curve::new(name.replace('_', " "), colour, shown).wide(5)
         });
     Panel {
         x_scale: Scale::Decades,

@@ -5,7 +5,7 @@ use std::ops::Range;
 use maud::{Markup, PreEscaped, html};
 use serde::Serialize;
 
-use super::series::{Series, key};
+use super::series::{Columns, Series, key};
 use crate::report::DrawError;
 use crate::report::plot::curves::Curve;
 use crate::report::plot::sheet::{Panel, Scale};
@@ -40,6 +40,7 @@ struct Plot {
     height: u32,
     x: Axis,
     y: Axis,
+    columns: Columns,
     curves: Vec<Series>,
 }
 
@@ -82,11 +83,17 @@ impl Figure {
 
     fn panel(&self, panel: &Panel) -> Result<Markup, DrawError> {
         let [x, y] = panel.ranges();
+        let mut columns = Columns::default();
+        let curves = panel.curves.iter();
+        let curves = curves
+            .map(|curve| Series::of(curve, &mut columns))
+            .collect();
         let plot = Plot {
             height: self.height,
             x: Axis::new(&panel.x_label, panel.x_scale, x),
             y: Axis::new(&panel.y_label, panel.scale, y),
-            curves: panel.curves.iter().map(Series::of).collect(),
+            columns,
+            curves,
         };
         // No end tag can be in it.
         let data = serde_json::to_string(&plot).map_err(failed)?;

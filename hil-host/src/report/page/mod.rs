@@ -16,6 +16,8 @@ const SCRIPTS: [&str; 2] = [
     include_str!("uplot/uPlot.iife.min.js"),
     include_str!("plots.js"),
 ];
+/// The library's licence asks to be kept where the library is.
+const LICENCE: &str = include_str!("uplot/LICENSE");
 /// The library's style, then the page's own.
 const STYLES: [&str; 2] = [
     include_str!("uplot/uPlot.min.css"),
@@ -44,6 +46,7 @@ pub(crate) fn document(title: &str, body: &Markup) -> String {
                     }
                     (body)
                 }
+                (PreEscaped(format!("<!-- uPlot\n{LICENCE}-->\n")))
                 @for script in SCRIPTS { script { (PreEscaped(script)) } }
             }
         }

@@ -4,25 +4,21 @@
   const FONT = '12px system-ui, -apple-system, "Segoe UI", Roboto, "Helvetica Neue", sans-serif';
   const DARK = matchMedia("(prefers-color-scheme: dark)");
   const NARROW = matchMedia("(max-width: 760px)");
-  const NARROW_HEIGHT = 230;
-  const HIDDEN = { left: -10, top: -10 };
 
   // Panels by what they share the cursor with: the name of their figure's group, or the figure alone.
   const groups = new Map();
-  const panels = [];
   let printing = false;
 
-  const isDark = () => DARK.matches && !printing;
-  const colour = curve => curve.colours[isDark() ? 1 : 0];
+  const colour = curve => curve.colours[DARK.matches && !printing ? 1 : 0];
   const style = name => getComputedStyle(document.documentElement).getPropertyValue(name);
   const column = text => new Float32Array(Uint8Array.from(atob(text), byte => byte.charCodeAt(0)).buffer);
-  const minus = text => text.replace("-", "−");
+  // Zero has no sign.
+  const minus = text => text.replace(/^-(?=[0.]+$)/, "").replace("-", "−");
 
   // A value in as many digits as tell a thousandth of what the axis shows.
   function number(u, axis, value) {
     const { min, max, distr } = u.scales[axis];
-    if (Number.isNaN(value)) return "–";
-    if (distr === 3) return String(Number(value.toPrecision(4)));
+    if (distr === 3 || Number.isNaN(value)) return String(Number(value.toPrecision(4)));
     const digits = Math.min(9, Math.max(0, 3 - Math.floor(Math.log10(max - min))));
     return minus(value.toFixed(digits));
   }
@@ -31,16 +27,22 @@
   function labels(u, splits, axis, space, distance) {
     let digits = 0;
     while (digits < 9 && Math.abs(distance * 10 ** digits - Math.round(distance * 10 ** digits)) > 1e-6) digits++;
-    return splits.map(value => minus((value === 0 ? 0 : value).toFixed(digits)));
+    return splits.map(value => minus(value.toFixed(digits)));
   }
 
-  const decadeLabels = (u, splits) => splits.map(value => (value === null ? "" : String(Number(value.toPrecision(6)))));
-
+  // Every tenth or, where little is shown, hundredth part of each decade, and those of them that there is room to write.
   function decades(u, axis, min, max) {
     const splits = [];
     for (let power = Math.floor(Math.log10(min)); power <= Math.log10(max); power++)
-      for (let digit = 1; digit < 10; digit++) splits.push(Number(`${digit}e${power}`));
+      for (let part = 10; part < 100; part += max / min > 4 ? 10 : 1) splits.push(Number(`${part}e${power - 1}`));
     return splits.filter(value => value >= min && value <= max);
+  }
+
+  function written(u, splits, axis, space) {
+    const [one, ten] = [1, 10].map(value => u.valToPos(value, u.axes[axis].scale));
+    const room = Math.abs(ten - one) / space;
+    const shown = room > 22 ? /./ : room > 3.4 ? /^[125]e/ : /^1e/;
+    return splits.map(value => (shown.test(value.toExponential()) ? value : null));
   }
 
   // What is stroked and what is filled of a curve, on the canvas.
@@ -51,17 +53,16 @@
     const stroke = new Path2D();
     const fill = new Path2D();
     const last = xs.length - 1;
-    const { top, height } = u.bbox;
-    const thickness = devicePixelRatio;
+    const bottom = u.bbox.top + u.bbox.height;
     if (curve.stroke === "points") {
       for (let i = 0; i <= last; i++) {
         fill.moveTo(x(i), y(lows[i]));
-        fill.arc(x(i), y(lows[i]), 3.5 * thickness, 0, 2 * Math.PI);
+        fill.arc(x(i), y(lows[i]), 3.5 * devicePixelRatio, 0, 2 * Math.PI);
       }
     } else if (curve.stroke === "marks" || curve.stroke === "bars") {
       for (let i = 0; i <= last; i++) {
-        stroke.moveTo(x(i), highs ? y(lows[i]) : top + height);
-        stroke.lineTo(x(i), highs ? y(highs[i]) : top + height - 10 * thickness);
+        stroke.moveTo(x(i), highs ? y(lows[i]) : bottom);
+        stroke.lineTo(x(i), highs ? y(highs[i]) : bottom - 10 * devicePixelRatio);
       }
     } else if (curve.stroke === "band") {
       for (let i = 0; i <= last; i++) fill.lineTo(x(i), y(lows[i]));
@@ -70,14 +71,12 @@
       // A number that is none parts the line.
       let isDown = false;
       for (let i = 0; i <= last; i++) {
-        const isThere = !Number.isNaN(lows[i]);
-        if (isThere) stroke[isDown ? "lineTo" : "moveTo"](x(i), y(lows[i]));
-        isDown = isThere;
+        if (!Number.isNaN(lows[i])) stroke[isDown ? "lineTo" : "moveTo"](x(i), y(lows[i]));
+        isDown = !Number.isNaN(lows[i]);
       }
       if (curve.stroke === "filled") {
         fill.addPath(stroke);
-        fill.lineTo(x(last), y(0));
-        fill.lineTo(x(0), y(0));
+        for (const end of [last, 0]) fill.lineTo(x(end), y(0));
       }
     }
     return { stroke, fill, clip: null, flags: 0 };
@@ -86,8 +85,7 @@
   function series(curve) {
     const isSolid = curve.stroke === "points";
     return {
-      auto: false,
-      pxAlign: 0,
+      auto: false, pxAlign: 0,
       width: isSolid || curve.stroke === "band" ? 0 : curve.width,
       stroke: () => colour(curve),
       fill: () => colour(curve) + (isSolid ? "" : "40"),
@@ -102,19 +100,16 @@
   function axis(name, { label, decades: isDecades }) {
     return {
       scale: name,
-      label: name === "x" ? label : undefined,
-      labelSize: 18,
-      labelFont: FONT,
+      ...(name === "x" ? { label, labelSize: 18, labelFont: FONT } : {}),
       font: FONT,
       stroke: () => style("--soft"),
-      space: name === "x" ? 56 : 34,
-      gap: 4,
-      size: (u, values) => (name === "x" ? 24 : Math.max(44, 14 + 7 * Math.max(0, ...(values ?? []).map(text => text.length)))),
+      space: name === "x" ? 56 : 34, gap: 4,
+      size: (u, values) => (name === "x" ? 24 : Math.max(50, 14 + 7 * Math.max(0, ...(values ?? []).map(text => text.length)))),
       grid: { stroke: () => style("--line"), width: 1 },
       ticks: { stroke: () => style("--line"), width: 1, size: 4 },
       border: { show: true, stroke: () => style("--soft"), width: 1 },
-      values: isDecades ? decadeLabels : labels,
-      ...(isDecades ? { splits: decades } : {}),
+      values: isDecades ? (u, splits) => splits.map(value => (value === null ? "" : String(Number(value.toPrecision(6))))) : labels,
+      ...(isDecades ? { splits: decades, filter: written } : {}),
     };
   }
 
@@ -123,8 +118,7 @@
     let [from, to] = [0, xs.length - 1];
     while (to - from > 1) {
       const middle = (from + to) >> 1;
-      if (xs[middle] <= x) from = middle;
-      else to = middle;
+      [from, to] = xs[middle] <= x ? [middle, to] : [from, middle];
     }
     return x - xs[from] <= xs[to] - x ? from : to;
   }
@@ -159,20 +153,21 @@
       item.querySelector(".value").textContent = index == null ? "" : text();
     }
     const [quantity, unit] = x.label.split(/, (?=[^,]*$)/);
-    head.querySelector(".at").textContent = cursor && !isLoop ? `${quantity} ${number(u, "x", cursor.x)} ${unit ?? ""}` : "";
+    head.querySelector(".at").textContent = cursor && !isLoop ? `${quantity} ${number(u, "x", cursor.x)} ${unit ?? ""}`.trim() : "";
   }
 
-  const peers = panel => panel.group.filter(other => other !== panel && other.isLoop === panel.isLoop && (panel.isLoop || other.x.label === panel.x.label));
+  // Panels that show the same: loops of the figure, or histories over the same quantity.
+  function peers({ group, isLoop, x, u }) {
+    return group.filter(other => other.u !== u && other.isLoop === isLoop && (isLoop || other.x.label === x.label));
+  }
 
   function shareCursor(panel) {
-    for (const other of panel.group) {
-      const cursor = peers(panel).includes(other) ? panel.cursor : null;
-      if (other === panel || (!cursor && !other.cursor)) continue;
-      point(other, cursor);
-      const left = !cursor ? -10 : other.isLoop ? 0 : other.u.valToPos(cursor.x, "x");
+    const { cursor, isLoop } = panel;
+    for (const other of peers(panel)) {
+      const left = !cursor ? -10 : isLoop ? 0 : other.u.valToPos(cursor.x, "x");
       const isWithin = left >= 0 && left <= other.u.over.clientWidth;
-      if (!isWithin) point(other, null);
-      other.u.setCursor(isWithin ? { left, top: 0 } : HIDDEN);
+      point(other, isWithin ? cursor : null);
+      other.u.setCursor(isWithin ? { left, top: 0 } : { left: -10, top: -10 });
     }
   }
 
@@ -190,18 +185,13 @@
   }
 
   function options(panel, plot) {
-    const moved = (u, over, handle) => event => {
-      panel.isMoved = true;
-      handle(event);
-      panel.isMoved = false;
-    };
+    // What the mouse did is shared; what was shared is not shared again.
+    const moved = (u, over, handle) => event => { panel.isMoved = true; handle(event); panel.isMoved = false; };
     const whole = u => () => ["x", "y"].forEach(name => u.setScale(name, { min: null, max: null }));
     return {
-      mode: 2,
       width: plot.clientWidth,
-      height: NARROW.matches ? Math.min(NARROW_HEIGHT, panel.height) : panel.height,
-      padding: [8, 12, 0, 0],
-      legend: { show: false },
+      height: NARROW.matches ? Math.min(230, panel.height) : panel.height,
+      mode: 2, padding: [8, 12, 0, 0], legend: { show: false },
       scales: { x: scale(panel.x), y: scale(panel.y) },
       axes: [axis("x", panel.x), axis("y", panel.y)],
       series: [null, ...panel.curves.map(series)],
@@ -225,7 +215,7 @@
   }
 
   function paint() {
-    for (const { u, curves, head } of panels) {
+    for (const { u, curves, head } of [...groups.values()].flat()) {
       for (const key of head.querySelectorAll(".key")) key.style.color = colour(curves[key.parentElement.dataset.curve]);
       u.redraw();
     }
@@ -233,28 +223,27 @@
 
   function draw(plot) {
     const panel = JSON.parse(plot.nextElementSibling.textContent);
-    for (const curve of panel.curves) curve.columns = curve.columns.map(column);
+    const columns = panel.columns.map(column);
+    for (const curve of panel.curves) curve.columns = curve.columns.map(place => columns[place]);
     const figure = plot.closest("figure");
-    const group = figure.dataset.shares ?? figure;
-    if (!groups.has(group)) groups.set(group, []);
-    panel.group = groups.get(group);
+    const name = figure.dataset.shares ?? figure;
+    panel.group = groups.get(name) ?? [];
+    groups.set(name, panel.group);
     panel.head = plot.previousElementSibling;
     panel.isLoop = panel.curves.some(curve => !curve.rises);
     point(panel, null);
     panel.u = new uPlot(options(panel, plot), [null, ...panel.curves.map(curve => curve.columns)], plot);
     panel.group.push(panel);
-    panels.push(panel);
     new ResizeObserver(() => panel.u.setSize({ width: plot.clientWidth, height: options(panel, plot).height })).observe(plot);
   }
 
   document.querySelectorAll(".plot").forEach(draw);
   paint();
   DARK.addEventListener("change", paint);
-  for (const [event, isPrinting] of [["beforeprint", true], ["afterprint", false]]) {
+  for (const event of ["beforeprint", "afterprint"])
     addEventListener(event, () => {
-      printing = isPrinting;
+      printing = event === "beforeprint";
       document.documentElement.classList.toggle("print", printing);
       paint();
     });
-  }
 }

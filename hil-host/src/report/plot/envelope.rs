@@ -1,8 +1,8 @@
 //! A series over ticks, however long, in no more points than a plot can show: the lowest and the highest of
 //! each stretch of ticks stay, at their own ticks, so that no peak vanishes.
 
-/// Stretches at most; a plot is about as many pixels wide.
-const MOST: usize = 1024;
+/// Stretches at most; a plot is a thousand pixels wide, and may be enlarged.
+const MOST: usize = 4096;
 
 /// The lowest and highest value of each stretch of ticks. Stretches double as the series grows.
 pub(crate) struct Envelope {
@@ -88,15 +88,20 @@ impl Envelope {
     }
 }
 
-/// The lowest and highest point of each stretch.
-pub(crate) fn thin(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
+/// When a tick ended, the first a step after the start, s.
+pub(crate) fn time_s(tick: u32, step_s: f64) -> f64 {
+    (f64::from(tick) + 1.0) * step_s
+}
+
+/// Values of ticks over time (s), the lowest and highest of each stretch.
+pub(crate) fn thinned(values: impl IntoIterator<Item = f64>, step_s: f64) -> Vec<(f64, f64)> {
     let mut envelope = Envelope::default();
-    for (tick, (_, y)) in points.iter().enumerate() {
-        envelope.record(tick as u32, *y);
+    for (tick, value) in (0..).zip(values) {
+        envelope.record(tick, value);
     }
-    envelope
-        .samples()
-        .map(|(tick, y)| (points[tick as usize].0, y))
+    let samples = envelope.samples();
+    samples
+        .map(|(tick, value)| (time_s(tick, step_s), value))
         .collect()
 }
 

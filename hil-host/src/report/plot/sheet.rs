@@ -61,7 +61,7 @@ impl Panel {
             }
             Scale::Decades => widened(span(ordinates().filter(on(self.scale)))),
         };
-        [x, y].map(|range| if range.is_empty() { 0.0..1.0 } else { range })
+        [shown(x, self.x_scale), shown(y, self.scale)]
     }
 }
 
@@ -144,6 +144,18 @@ fn draw_panel(area: &Area<'_>, panel: &Panel) -> Result<(), DrawError> {
     Ok(())
 }
 
+/// The range, or one around it where it has no length or nothing lies in it.
+fn shown(range: Range<f64>, scale: Scale) -> Range<f64> {
+    let is_value = range.start == range.end;
+    match scale {
+        _ if range.start < range.end => range,
+        Scale::Linear if is_value => range.start - 0.5..range.end + 0.5,
+        Scale::Decades if is_value => widened(range),
+        Scale::Linear => 0.0..1.0,
+        Scale::Decades => 1.0..10.0,
+    }
+}
+
 /// A scale of decades with room at its ends.
 fn widened(range: Range<f64>) -> Range<f64> {
     range.start / DECADE_MARGIN..range.end * DECADE_MARGIN
@@ -162,4 +174,44 @@ fn digits(range: &Range<f64>, scale: Scale) -> Digits {
     }
     let apart = (range.end - range.start).max(1e-12) / 6.0;
     Digits::Behind((-apart.log10().floor()).clamp(0.0, 6.0) as usize)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::style::INK;
+    use super::*;
+
+    fn ranges(scale: Scale, points: &[(f64, f64)]) -> [Range<f64>; 2] {
+        let panel = Panel {
+            title: String::new(),
+            x_label: String::new(),
+            y_label: String::new(),
+            legend: None,
+            sides: false,
+            x_scale: scale,
+            scale,
+            curves: vec![Curve::new("", INK, points.iter().copied())],
+        };
+        panel.ranges()
+    }
+
+    #[test]
+    fn decades_show_what_is_above_zero() {
+        let [x, y] = ranges(Scale::Decades, &[(0.0, 3.0), (2.0, -1.0), (50.0, 40.0)]);
+        assert_eq!(x, 2.0..50.0);
+        assert!(y.start > 1.0 && y.start < 3.0 && y.end > 40.0);
+    }
+
+    #[test]
+    fn axes_have_a_length_whatever_lies_on_them() {
+        for scale in [Scale::Linear, Scale::Decades] {
+            for points in [&[][..], &[(7.0, 7.0)], &[(0.0, 0.0)], &[(-1.0, f64::NAN)]] {
+                for range in ranges(scale, points) {
+                    assert!(range.start < range.end, "{points:?}: {range:?}");
+                    assert!(range.start.is_finite() && range.end.is_finite());
+                    assert!(scale == Scale::Linear || range.start > 0.0, "{range:?}");
+                }
+            }
+        }
+    }
 }

@@ -7,7 +7,7 @@ use crate::commands::failure::Outcome;
 use crate::files::study::Sweep;
 use crate::report::page::{Figure, figure, panel};
 use crate::report::plot::curves::Curve;
-use crate::report::plot::envelope::thin;
+use crate::report::plot::envelope::thinned;
 use crate::report::plot::sheet::Panel;
 use crate::report::plot::style::{BLUE_LINE, RED_LINE};
 use crate::study::sweep::record;
@@ -52,15 +52,15 @@ pub(super) fn part(
         let colour = colours[number % colours.len()];
         let name = if dampers.len() > 1 { name.as_str() } else { "" };
         let force = || force.iter().map(|force| force * 1e-3);
-        let times = (1..).map(|tick| f64::from(tick) * history.step_s);
-        let over_time: Vec<(f64, f64)> = times.zip(force()).collect();
         let over_displacement = x.iter().map(|x| x * 1e3).zip(force());
         let velocities = x
             .windows(2)
             .map(|pair| (pair[1] - pair[0]) / history.step_s);
         let over_velocity = velocities.zip(force().skip(1));
         let curve = |points: Vec<(f64, f64)>| Curve::new(name, colour, points).wide(4);
-        panels[0].curves.push(curve(thin(&over_time)));
+        panels[0]
+            .curves
+            .push(curve(thinned(force(), history.step_s)));
         panels[1].curves.push(curve(over_displacement.collect()));
         panels[2].curves.push(curve(over_velocity.collect()));
     }

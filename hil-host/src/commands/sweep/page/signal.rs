@@ -7,7 +7,7 @@ use crate::commands::failure::{Failure, Outcome};
 use crate::files::study::{Sweep, Value};
 use crate::report::page::{Figure, figure, panel};
 use crate::report::plot::curves::{Curve, ramp};
-use crate::report::plot::envelope::thin;
+use crate::report::plot::envelope::thinned;
 use crate::report::plot::sheet::{Panel, Scale};
 use crate::study::sweep::{History, RunError, record};
 use crate::study::vehicle::spectra::{Spectrum, WINDOW_S};
@@ -44,8 +44,8 @@ pub(super) fn part(
         record(&case, &names, &drawn.shared).map_err(failed(sweep))
     })?;
     let what = signal.replace('_', " ");
-    let mut over_time = panel("time, s", &what, Vec::new());
-    let mut over_frequency = Panel {
+    let mut of_time = panel("time, s", &what, Vec::new());
+    let mut of_frequency = Panel {
         x_scale: Scale::Decades,
         scale: Scale::Decades,
         ..panel(
@@ -58,23 +58,22 @@ pub(super) fn part(
     for ((histories, value), colour) in of_values.zip(ramp(values.len())) {
         let name = label(sweep, value);
         let [first, ..] = histories else { continue };
-        let times = (1..).map(|tick| f64::from(tick) * first.step_s);
-        let shown: Vec<(f64, f64)> = times.zip(first.signals[0].iter().copied()).collect();
-        let curve = Curve::new(name.clone(), colour, thin(&shown)).wide(4);
-        over_time.curves.push(curve);
+        let values = first.signals[0].iter().copied();
+        let curve = Curve::new(name.clone(), colour, thinned(values, first.step_s)).wide(4);
+        of_time.curves.push(curve);
         let (mean, band) = densities(signal, histories)?;
         if mean.is_empty() {
             continue;
         }
-        over_frequency.curves.push(Curve::band("", colour, band));
-        over_frequency
+        of_frequency.curves.push(Curve::band("", colour, band));
+        of_frequency
             .curves
             .push(Curve::new(name, colour, mean).wide(6));
     }
-    let panels = if over_frequency.curves.is_empty() {
-        vec![over_time]
+    let panels = if of_frequency.curves.is_empty() {
+        vec![of_time]
     } else {
-        vec![over_time, over_frequency]
+        vec![of_time, of_frequency]
     };
     let of_panels = Figure {
         panels,

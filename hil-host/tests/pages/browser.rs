@@ -1,0 +1,249 @@
+//! A page in headless Chromium, driven through its WebDriver.
+
+use std::io::{BufRead, BufReader};
+use std::process::{Child, Command, Stdio};
+use std::time::Duration;
+
+use fantoccini::actions::{InputSource, MOUSE_BUTTON_LEFT, MouseActions, PointerAction};
+use fantoccini::wd::WebDriverCompatibleCommand;
+use fantoccini::{Client, ClientBuilder};
+use hyper_util::client::legacy::connect::HttpConnector;
+use serde_json::{Value, json};
+use tempfile::TempDir;
+use tokio::runtime::{Builder, Runtime};
+use xtask::tools::{CHROMEDRIVER, CHROMIUM, have};
+
+/// Notes each text that is written on a canvas, with its font.
+const LETTERING: &str = "window.lettering = [];
+    const write = CanvasRenderingContext2D.prototype.fillText;
+    CanvasRenderingContext2D.prototype.fillText = function (text, ...place) {
+        window.lettering.push({ text, size: parseFloat(this.font) });
+        write.call(this, text, ...place);
+    };";
+
+/// A browser with a page of its own.
+pub struct Browser {
+    runtime: Runtime,
+    client: Option<Client>,
+    driver: Child,
+    folder: TempDir,
+}
+
+impl Browser {
+    /// A browser; none, and said so, where it is not installed.
+    pub fn start(skipped: &str) -> Option<Self> {
+        if !have(&[CHROMIUM, CHROMEDRIVER], skipped) {
+            return None;
+        }
+        let folder = tempfile::tempdir().unwrap();
+        let mut driver = Command::new(CHROMEDRIVER.program)
+            .arg("--port=0")
+            .stdout(Stdio::piped())
+            .stderr(Stdio::null())
+            .spawn()
+            .unwrap();
+        let said = BufReader::new(driver.stdout.take().unwrap());
+        let port = said.lines().find_map(|line| {
+            let line = line.unwrap();
+            let (_, port) = line.split_once("successfully on port ")?;
+            Some(port.trim_end_matches('.').to_owned())
+        });
+        let arguments = [
+            "--headless".into(),
+            // As on a phone, where they take no width.
+            "--hide-scrollbars".into(),
+            "--no-sandbox".into(),
+            "--disable-gpu".into(),
+            "--no-first-run".into(),
+            "--disable-background-networking".into(),
+            "--disable-component-update".into(),
+            "--disable-sync".into(),
+            format!(
+                "--user-data-dir={}",
+                folder.path().join("profile").display()
+            ),
+        ];
+        let capabilities = json!({
+            "goog:chromeOptions": { "args": arguments },
+            "goog:loggingPrefs": { "browser": "ALL", "performance": "ALL" },
+        });
+        let runtime = Builder::new_current_thread().enable_all().build().unwrap();
+        let mut browser = Self {
+            runtime,
+            client: None,
+            driver,
+            folder,
+        };
+        let client = browser.runtime.block_on(
+            ClientBuilder::new(HttpConnector::new())
+                .capabilities(capabilities.as_object().unwrap().clone())
+                .connect(&format!("http://127.0.0.1:{}", port.unwrap())),
+        );
+        browser.client = Some(client.unwrap());
+        browser.tell(
+            "Page.addScriptToEvaluateOnNewDocument",
+            json!({ "source": LETTERING }),
+        );
+        Some(browser)
+    }
+
+    fn client(&self) -> &Client {
+        self.client.as_ref().unwrap()
+    }
+
+    /// Shows `page` in a window of `width` pixels, as a phone or as a desk has it; returns its address.
+    pub fn open(&self, page: &str, width: u32) -> String {
+        self.tell(
+            "Emulation.setDeviceMetricsOverride",
+            json!({ "width": width, "height": 900, "deviceScaleFactor": 1, "mobile": width < 500 }),
+        );
+        let path = self.folder.path().join("page.html");
+        std::fs::write(&path, page).unwrap();
+        let address = format!("file://{}", path.display());
+        self.runtime.block_on(self.client().goto(&address)).unwrap();
+        address
+    }
+
+    /// What the body of a function returns in the page.
+    pub fn find(&self, body: &str) -> Value {
+        let found = self.client().execute(body, Vec::new());
+        self.runtime.block_on(found).unwrap()
+    }
+
+    /// What the body of a function gives in the page to `done`, sooner or later.
+    pub fn find_later(&self, body: &str) -> Value {
+        let body = format!("const [done] = arguments; {body}");
+        let found = self.client().execute_async(&body, Vec::new());
+        self.runtime.block_on(found).unwrap()
+    }
+
+    /// Waits until an expression is true in the page, looked at each time that the page is drawn.
+    pub fn wait_for(&self, condition: &str) {
+        let look = format!(
+            "const [done] = arguments;
+             const look = () => ({condition}) ? done(true) : requestAnimationFrame(look);
+             look();"
+        );
+        let found = self.client().execute_async(&look, Vec::new());
+        let found = self.runtime.block_on(found);
+        assert!(found.is_ok(), "never so: {condition}: {found:?}");
+    }
+
+    /// Moves the mouse to a part of the width and of the height of the plot with this number.
+    pub fn point(&self, plot: usize, at: [f64; 2]) {
+        self.act(plot, &[at], false);
+    }
+
+    /// Drags over a part of a plot.
+    pub fn drag(&self, plot: usize, from: [f64; 2], to: [f64; 2]) {
+        self.act(plot, &[from, to], false);
+    }
+
+    /// Clicks twice in the middle of a plot.
+    pub fn double_click(&self, plot: usize) {
+        self.act(plot, &[[0.5, 0.5]], true);
+    }
+
+    /// Moves the mouse to the corner of the window, where no plot is.
+    pub fn leave(&self) {
+        let (duration, x, y) = (Some(Duration::ZERO), 1.0, 1.0);
+        let corner = PointerAction::MoveTo { duration, x, y };
+        let mouse = MouseActions::new("mouse".into()).then(corner);
+        let acted = self.client().perform_actions(mouse);
+        self.runtime.block_on(acted).unwrap();
+    }
+
+    fn act(&self, plot: usize, places: &[[f64; 2]], clicks: bool) {
+        let area = self.find(&format!(
+            "const over = document.querySelectorAll('.u-over')[{plot}];
+             over.scrollIntoView({{ block: 'center' }});
+             const {{ left, top, width, height }} = over.getBoundingClientRect();
+             return [left, top, width, height];"
+        ));
+        let area: Vec<f64> = serde_json::from_value(area).unwrap();
+        let to = |[x, y]: [f64; 2]| PointerAction::MoveTo {
+            duration: Some(Duration::ZERO),
+            x: (area[0] + x * area[2]).round(),
+            y: (area[1] + y * area[3]).round(),
+        };
+        let (button, mut mouse) = (MOUSE_BUTTON_LEFT, MouseActions::new("mouse".into()));
+        mouse = mouse.then(to(places[0]));
+        if let [_, end] = places {
+            let [down, up] = [PointerAction::Down { button }, PointerAction::Up { button }];
+            mouse = mouse.then(down).then(to(*end)).then(up);
+        }
+        if clicks {
+            for _ in 0..2 {
+                let [down, up] = [PointerAction::Down { button }, PointerAction::Up { button }];
+                mouse = mouse.then(down).then(up);
+            }
+        }
+        let acted = self.client().perform_actions(mouse);
+        self.runtime.block_on(acted).unwrap();
+    }
+
+    /// What the browser noted since it was last asked: `browser` its console, `performance` its network.
+    pub fn log(&self, kind: &str) -> Vec<Value> {
+        let entries = self.issue("se/log", json!({ "type": kind }));
+        entries.as_array().unwrap().clone()
+    }
+
+    /// Addresses that the page asked for since it was last asked, itself among them.
+    pub fn requests(&self, page: &str) -> Vec<String> {
+        let messages = self.log("performance").into_iter().map(|entry| {
+            let message: Value = serde_json::from_str(entry["message"].as_str().unwrap()).unwrap();
+            message["message"].clone()
+        });
+        messages
+            .filter(|message| message["method"] == "Network.requestWillBeSent")
+            .filter(|message| message["params"]["documentURL"] == page)
+            .map(|message| message["params"]["request"]["url"].as_str().unwrap().into())
+            .collect()
+    }
+
+    /// A command of the browser's own protocol.
+    pub fn tell(&self, command: &str, parameters: Value) {
+        let body = json!({ "cmd": command, "params": parameters });
+        self.issue("goog/cdp/execute", body);
+    }
+
+    fn issue(&self, path: &'static str, body: Value) -> Value {
+        let answer = self.client().issue_cmd(Extension { path, body });
+        self.runtime.block_on(answer).unwrap()
+    }
+}
+
+impl Drop for Browser {
+    fn drop(&mut self) {
+        if let Some(client) = self.client.take() {
+            let _ = self.runtime.block_on(client.close());
+        }
+        let _ = self.driver.kill();
+        let _ = self.driver.wait();
+    }
+}
+
+/// A command of this driver that the standard has not.
+#[derive(Debug)]
+struct Extension {
+    path: &'static str,
+    body: Value,
+}
+
+impl WebDriverCompatibleCommand for Extension {
+    fn endpoint(
+        &self,
+        base: &url::Url,
+        session: Option<&str>,
+    ) -> Result<url::Url, url::ParseError> {
+        base.join(&format!(
+            "session/{}/{}",
+            session.unwrap_or_default(),
+            self.path
+        ))
+    }
+
+    fn method_and_body(&self, _: &url::Url) -> (http::Method, Option<String>) {
+        (http::Method::POST, Some(self.body.to_string()))
+    }
+}

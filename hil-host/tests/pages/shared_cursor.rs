@@ -1,0 +1,106 @@
+//! Under the mouse a plot tells its values, and so does each plot that shares its cursor.
+
+use base64::Engine;
+use base64::prelude::BASE64_STANDARD;
+use serde_json::Value;
+
+use crate::browser::Browser;
+use crate::shown::VEHICLE;
+
+/// What each plot tells: where the cursor is, its values, and whether its line is seen.
+const TOLD: &str = "return [...document.querySelectorAll('.panel')].map(panel => {
+    const plot = panel.querySelector('.plot').getBoundingClientRect();
+    const line = panel.querySelector('.u-cursor-x')?.getBoundingClientRect();
+    return {
+        at: panel.querySelector('.at').textContent,
+        values: [...panel.querySelectorAll('.value')].map(value => value.textContent),
+        line: line ? line.right > plot.left + 20 && line.right < plot.right : false,
+        data: JSON.parse(panel.querySelector('script').textContent),
+    };
+});";
+
+/// The abscissas (0) or ordinates (1) of a curve of a plot.
+fn column(plot: &Value, curve: &Value, number: usize) -> Vec<f32> {
+    let place = curve["columns"][number].as_u64().unwrap() as usize;
+    let bytes = BASE64_STANDARD.decode(plot["columns"][place].as_str().unwrap());
+    let bytes = bytes.unwrap();
+    let numbers = bytes.chunks_exact(4);
+    numbers
+        .map(|four| f32::from_le_bytes(four.try_into().unwrap()))
+        .collect()
+}
+
+/// A number as the page writes it.
+fn number(text: &str) -> f32 {
+    text.replace('−', "-").parse().unwrap()
+}
+
+/// The value of a curve at its abscissa nearest to `x`.
+fn value_at(plot: &Value, curve: &Value, x: f32) -> f32 {
+    let samples = column(plot, curve, 0)
+        .into_iter()
+        .zip(column(plot, curve, 1));
+    let nearest = samples.min_by(|(a, _), (b, _)| (a - x).abs().total_cmp(&(b - x).abs()));
+    nearest.unwrap().1
+}
+
+fn check(width: u32) {
+    let Some(browser) = Browser::start("the cursor of plots") else {
+        return;
+    };
+    browser.open(&VEHICLE, width);
+    browser.point(1, [0.4, 0.6]);
+    browser.wait_for("document.querySelectorAll('.at')[0].textContent !== ''");
+    let told = browser.find(TOLD);
+    let told = told.as_array().unwrap();
+    let (mut histories, mut loops) = (0, 0);
+    for panel in told {
+        if panel["data"]["x"]["label"] != "time, s" {
+            loops += 1;
+            assert_eq!((&panel["at"], &panel["line"]), (&"".into(), &false.into()));
+            continue;
+        }
+        histories += 1;
+        assert_eq!(
+            (&panel["at"], &panel["line"]),
+            (&told[1]["at"], &true.into()),
+            "{width}"
+        );
+        let at = panel["at"].as_str().unwrap();
+        let time = number(at.split(' ').nth(1).unwrap());
+        assert!(at.starts_with("time ") && (time - 2.0).abs() < 0.03, "{at}");
+        let curves = panel["data"]["curves"].as_array().unwrap();
+        let values = panel["values"].as_array().unwrap();
+        assert_eq!(curves.len(), values.len());
+        let range = &panel["data"]["y"]["range"];
+        let apart = (range[1].as_f64().unwrap() - range[0].as_f64().unwrap()) as f32;
+        for (curve, told) in curves.iter().zip(values) {
+            // The time is told to the millisecond: the neighbouring samples are as good.
+            let near =
+                [time - 1e-3, time, time + 1e-3].map(|time| value_at(&panel["data"], curve, time));
+            let told = number(told.as_str().unwrap());
+            let is_near = near.iter().any(|value| (value - told).abs() < 2e-3 * apart);
+            assert!(
+                is_near,
+                "{width}, {}: {told}, {near:?}",
+                panel["data"]["y"]["label"]
+            );
+        }
+    }
+    assert!(histories == 8 && loops > 3, "{histories} {loops}");
+    // Away from the plots nothing is told.
+    browser.leave();
+    browser.wait_for(
+        "[...document.querySelectorAll('.at, .value')].every(told => told.textContent === '')",
+    );
+}
+
+#[test]
+fn histories_share_their_cursor_on_a_desk() {
+    check(1280);
+}
+
+#[test]
+fn histories_share_their_cursor_on_a_phone() {
+    check(390);
+}

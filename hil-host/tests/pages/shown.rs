@@ -1,0 +1,44 @@
+//! The pages that the tests look at, each made once.
+
+use std::fs;
+use std::sync::LazyLock;
+
+use crate::common::dashpot;
+use crate::pil_common::{desk, serve_tcp};
+
+/// The demonstration's: histories and loops.
+pub static DEMONSTRATION: LazyLock<String> =
+    LazyLock::new(|| made(&["--output", "page.html"], "page.html"));
+
+/// That of a locomotive: histories that share their cursor.
+pub static VEHICLE: LazyLock<String> = LazyLock::new(|| {
+    let arguments = ["vehicle", "--case", "straight-180", "--output", "run"];
+    made(&arguments, "run/report.html")
+});
+
+/// That of a damper on a target that is this machine: a histogram, a scale of decades, dashes.
+pub static BANK: LazyLock<String> = LazyLock::new(|| {
+    let link = format!("tcp:{}", serve_tcp(|| Box::new(desk())));
+    let input = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/../data/excitations/ride_made.csv"
+    );
+    let line = ["pil", "--link", &link, "--timeout-ms", "60000", "--paced"];
+    let run = ["--ticks", "400", "--page", "page.html", "--input", input];
+    made(&[&line[..], &run].concat(), "page.html")
+});
+
+fn made(arguments: &[&str], page: &str) -> String {
+    let folder = tempfile::tempdir().unwrap();
+    dashpot(arguments, folder.path()).success();
+    fs::read_to_string(folder.path().join(page)).unwrap()
+}
+
+/// All of them, with their plots.
+pub fn all() -> [(&'static str, &'static str, usize); 3] {
+    [
+        ("demonstration", &DEMONSTRATION, 13),
+        ("vehicle", &VEHICLE, 14),
+        ("bank", &BANK, 6),
+    ]
+}
