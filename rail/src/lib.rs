@@ -9,3 +9,5 @@ mod math;
 pub mod profile;
 pub mod track;
 pub mod vehicle;
+
+pub use math::fuses_multiplication;

@@ -170,6 +170,22 @@ fn merge_names_what_is_missing_and_what_is_double() {
         "{error}"
     );
     assert!(!folder.path().join("merged").exists(), "nothing is written");
+    // Of a processor of the other kind.
+    let arithmetic = rows[0].rsplit(',').next().unwrap();
+    let other = if arithmetic == "fused" {
+        "separate"
+    } else {
+        "fused"
+    };
+    fs::write(
+        folder.path().join("c.csv"),
+        whole.replace(arithmetic, other),
+    )
+    .unwrap();
+    let error =
+        error_of(&dashpot(&["merge", "study.toml", "a.csv", "c.csv"], folder.path()).code(1));
+    let expected = format!("c.csv: case 0: arithmetic {other}, allowed here: {arithmetic}");
+    assert!(error.contains(&expected), "{error}");
     // A row of another study or version, or changed by hand.
     let row = rows[0];
     for (changed, expected) in [
@@ -189,7 +205,7 @@ fn merge_names_what_is_missing_and_what_is_double() {
             row.replacen("completed,", "completed,NaN", 1),
             "column body_vertical_rms_m_per_s2: `NaN",
         ),
-        (row.replacen(",completed", "", 1), "11 columns, allowed: 12"),
+        (row.replacen(",completed", "", 1), "12 columns, allowed: 13"),
     ] {
         fs::write(
             folder.path().join("c.csv"),

@@ -1,7 +1,10 @@
 //! Numerical tools of this crate.
 
+mod arithmetic;
 pub(crate) mod dual;
 pub(crate) mod each;
 pub(crate) mod elliptic;
 pub(crate) mod number;
 pub(crate) mod spline;
+
+pub use arithmetic::fuses_multiplication;

@@ -4,7 +4,7 @@ use std::fs::{self, File, TryLockError};
 use std::io::{self, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
-use super::row::Row;
+use super::row::{Arithmetic, Row};
 use super::rows::{self, Rows};
 use super::study::Study;
 use crate::files::FileError;
@@ -49,6 +49,7 @@ impl Journal {
                 let read = rows::parse(study, &partial, &bytes)?;
                 known.extend(rows::once(&partial, read)?);
             }
+            rows::check_arithmetic(path, known.values(), Arithmetic::here())?;
         }
         let mut journal = Self {
             path: path.to_owned(),

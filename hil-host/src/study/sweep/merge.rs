@@ -38,7 +38,12 @@ pub fn merge(study: &Study, files: &[PathBuf]) -> Result<Rows, MergeError> {
     let mut rows = Rows::new();
     let mut places: BTreeMap<u64, Vec<PathBuf>> = BTreeMap::new();
     for file in files {
-        for (_, row) in rows::read(study, file)? {
+        let read = rows::read(study, file)?;
+        let expected = rows.values().next().or(read.first().map(|(_, row)| row));
+        if let Some(expected) = expected.map(|row| row.arithmetic) {
+            rows::check_arithmetic(file, read.iter().map(|(_, row)| row), expected)?;
+        }
+        for (_, row) in read {
             places.entry(row.case).or_default().push(file.clone());
             rows.insert(row.case, row);
         }

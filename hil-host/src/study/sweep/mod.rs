@@ -16,7 +16,7 @@ pub use history::{History, record};
 pub use journal::Journal;
 pub use merge::{Gaps, MergeError, merge};
 pub use observed::{OBSERVED, Observed};
-pub use row::{Row, RowError, VERSION};
+pub use row::{Arithmetic, Row, RowError, VERSION};
 pub use run::{Observation, RunError, observe, run};
 pub use shared::Shared;
 pub use study::{Shard, Study, StudyCase};

@@ -1,5 +1,7 @@
 //! A row of a study: what a case is, and what was observed of it.
 
+use std::fmt;
+
 use super::study::{Study, StudyCase};
 
 /// What was observed of a case.
@@ -9,8 +11,43 @@ pub struct Row {
     pub case: u64,
     /// How its run ended.
     pub ending: String,
+    /// How the processor that ran it computes; the bits of a row depend on it and on nothing else but the case.
+    pub arithmetic: Arithmetic,
     /// The observed indices; none of a run that did not come to its end, or was too short.
     pub observed: Vec<Option<f64>>,
+}
+
+/// How a processor multiplies and adds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Arithmetic {
+    /// With one rounding.
+    Fused,
+    /// With a rounding each.
+    Separate,
+}
+
+impl fmt::Display for Arithmetic {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.word())
+    }
+}
+
+impl Arithmetic {
+    /// Of this processor.
+    pub fn here() -> Self {
+        if dashpot_rail::fuses_multiplication() {
+            Self::Fused
+        } else {
+            Self::Separate
+        }
+    }
+
+    const fn word(self) -> &'static str {
+        match self {
+            Self::Fused => "fused",
+            Self::Separate => "separate",
+        }
+    }
 }
 
 /// Why a record is no row of a study.
@@ -46,7 +83,7 @@ impl Study {
         columns.extend(self.varied.iter().cloned());
         columns.extend(["seed".to_owned(), "ending".to_owned()]);
         columns.extend(self.observed.iter().map(|index| index.name.to_owned()));
-        columns.extend(["study".to_owned(), "version".to_owned()]);
+        columns.extend(["study", "version", "arithmetic"].map(str::to_owned));
         columns
     }
 
@@ -64,7 +101,8 @@ impl Study {
         let number =
             |value: &Option<f64>| value.map_or_else(String::new, |value| format!("{value:?}"));
         record.extend(row.observed.iter().map(number));
-        record.extend([self.digest().to_owned(), VERSION.to_owned()]);
+        let of = [self.digest(), VERSION, row.arithmetic.word()];
+        record.extend(of.map(str::to_owned));
         record
     }
 
@@ -87,12 +125,18 @@ impl Study {
             expected,
         };
         // Of another study or version nothing else need be told.
-        for (back, expected) in [(2, self.digest()), (1, VERSION)] {
+        for (back, expected) in [(3, self.digest()), (2, VERSION)] {
             let column = columns.len() - back;
             if cells[column] != expected {
                 return Err(wrong(column, expected.to_owned()));
             }
         }
+        let last = columns.len() - 1;
+        let arithmetics = [Arithmetic::Fused, Arithmetic::Separate];
+        let arithmetic = arithmetics
+            .into_iter()
+            .find(|one| one.word() == cells[last]);
+        let arithmetic = arithmetic.ok_or_else(|| wrong(last, "fused or separate".into()))?;
         let number = cells[0].parse::<u64>().ok();
         let case = number.and_then(|number| self.case(number));
         let case = case.ok_or_else(|| wrong(0, format!("0 to {}", self.cases() - 1)))?;
@@ -112,6 +156,7 @@ impl Study {
         let row = Row {
             case: case.number,
             ending: cells[ending].to_owned(),
+            arithmetic,
             observed,
         };
         let expected = self.record(&case, &row);

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::io;
 use std::path::Path;
 
-use super::row::Row;
+use super::row::{Arithmetic, Row};
 use super::study::Study;
 use crate::files::FileError;
 use crate::files::input;
@@ -64,6 +64,25 @@ pub(super) fn parse(
 /// As [`read`]; a case twice.
 pub fn read_once(study: &Study, path: &Path) -> Result<Rows, FileError> {
     once(path, read(study, path)?)
+}
+
+/// Refuses rows of a processor that computes otherwise.
+pub(super) fn check_arithmetic<'a>(
+    path: &Path,
+    rows: impl Iterator<Item = &'a Row>,
+    expected: Arithmetic,
+) -> Result<(), FileError> {
+    let mut others = rows.filter(|row| row.arithmetic != expected);
+    match others.next() {
+        Some(other) => {
+            let (case, found) = (other.case, other.arithmetic);
+            let reason = format!(
+                "case {case}: arithmetic {found}, allowed here: {expected}; rows of both kinds of processors do not mix"
+            );
+            Err(FileError::in_file(path, reason))
+        }
+        None => Ok(()),
+    }
 }
 
 pub(super) fn once(path: &Path, read: Vec<(u64, Row)>) -> Result<Rows, FileError> {

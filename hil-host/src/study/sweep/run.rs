@@ -1,7 +1,7 @@
 //! The cases of a study, run.
 
 use super::observed::Observed;
-use super::row::Row;
+use super::row::{Arithmetic, Row};
 use super::shared::Shared;
 use super::study::Study;
 use crate::files::case::Case;
@@ -143,6 +143,7 @@ fn one(
     Ok(Some(Row {
         case: number,
         ending: ending.to_string(),
+        arithmetic: Arithmetic::here(),
         observed: study.observed.iter().map(value).collect(),
     }))
 }
