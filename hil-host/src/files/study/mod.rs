@@ -15,8 +15,16 @@ use crate::files::overrides::explain;
 use crate::files::shipped::{Found, Shipped};
 
 /// Studies that ship with the program: name and file.
-pub const STUDIES: [(&str, &str); 4] = [
+pub const STUDIES: [(&str, &str); 6] = [
     ("paper", include_str!("../../../../data/studies/paper.toml")),
+    (
+        "stand-ins",
+        include_str!("../../../../data/studies/stand-ins.toml"),
+    ),
+    (
+        "out-of-service",
+        include_str!("../../../../data/studies/out-of-service.toml"),
+    ),
     (
         "hunting",
         include_str!("../../../../data/studies/hunting.toml"),

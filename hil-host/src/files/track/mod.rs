@@ -20,11 +20,19 @@ use crate::files::overrides::explain;
 use crate::files::shipped::{Found, Shipped};
 
 /// Tracks that ship with the program: name and file.
-pub const TRACKS: [(&str, &str); 5] = [
+pub const TRACKS: [(&str, &str); 7] = [
     ("ideal", include_str!("../../../../data/tracks/ideal.toml")),
     (
         "straight",
         include_str!("../../../../data/tracks/straight.toml"),
+    ),
+    (
+        "straight-short",
+        include_str!("../../../../data/tracks/straight-short.toml"),
+    ),
+    (
+        "straight-german",
+        include_str!("../../../../data/tracks/straight-german.toml"),
     ),
     (
         "curve-r200",

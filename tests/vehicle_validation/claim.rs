@@ -1,0 +1,144 @@
+//! What the paper says of an index, and whether ours does so.
+
+use dashpot_hil::study::sweep::Estimate;
+
+use crate::rows::interval;
+
+/// What is said of an index over a parameter.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Claim {
+    /// It rises, by more than counts as none.
+    Rises,
+    /// It rises, however little.
+    RisesSlightly,
+    /// It falls, however little.
+    FallsSlightly,
+    /// It changes by so much, %.
+    By(f64),
+    /// It does not change.
+    Keeps,
+    /// It changes, whichever way.
+    Changes,
+    /// It fluctuates within limits.
+    Limited,
+}
+
+/// Whether a claim holds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Verdict {
+    Holds,
+    /// The interval has both signs.
+    NotShown,
+    DoesNotHold,
+}
+
+/// Greatest change that counts as none, %.
+pub const NONE_PERCENT: f64 = 1.0;
+/// Greatest range of a limited fluctuation over the mean, %.
+pub const LIMITED_PERCENT: f64 = 5.0;
+
+impl Claim {
+    /// The claims in the words of `vehicle_trends.csv`, one for each `and`.
+    pub fn parse(words: &str) -> Vec<Self> {
+        words.split(" and ").map(Self::one).collect()
+    }
+
+    fn one(words: &str) -> Self {
+        if let Some(percent) = words.strip_suffix(" %") {
+            return Self::By(percent.parse().expect("a percentage"));
+        }
+        let starts = |known: &[&str]| known.iter().any(|known| words.starts_with(known));
+        if starts(&["rises slightly"]) {
+            Self::RisesSlightly
+        } else if starts(&["rises", "same trend as Fig. 12"]) {
+            Self::Rises
+        } else if starts(&["slightly falls"]) {
+            Self::FallsSlightly
+        } else if starts(&["hardly changes", "no obvious", "almost no", "is flat"]) {
+            Self::Keeps
+        } else if starts(&["is influenced"]) {
+            Self::Changes
+        } else if starts(&["limited fluctuation"]) {
+            Self::Limited
+        } else {
+            panic!("no claim: `{words}`")
+        }
+    }
+
+    /// Of a change in percent.
+    pub fn verdict(self, change: &Estimate) -> Verdict {
+        let [low, high] = interval(change);
+        let signed = |sign: f64| {
+            let [low, high] = if sign > 0.0 {
+                [low, high]
+            } else {
+                [-high, -low]
+            };
+            match (low > 0.0, high < 0.0) {
+                (true, _) => Verdict::Holds,
+                (_, true) => Verdict::DoesNotHold,
+                _ => Verdict::NotShown,
+            }
+        };
+        let is_none = low > -NONE_PERCENT && high < NONE_PERCENT;
+        match self {
+            Self::Rises | Self::Changes if is_none => Verdict::DoesNotHold,
+            Self::Rises | Self::RisesSlightly => signed(1.0),
+            Self::FallsSlightly => signed(-1.0),
+            Self::By(percent) => signed(percent),
+            Self::Keeps if is_none => Verdict::Holds,
+            Self::Keeps if low > NONE_PERCENT || high < -NONE_PERCENT => Verdict::DoesNotHold,
+            Self::Changes if low > 0.0 || high < 0.0 => Verdict::Holds,
+            Self::Limited if low > -LIMITED_PERCENT && high < LIMITED_PERCENT => Verdict::Holds,
+            Self::Limited => Verdict::DoesNotHold,
+            Self::Keeps | Self::Changes => Verdict::NotShown,
+        }
+    }
+}
+
+impl Verdict {
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::Holds => "holds",
+            Self::NotShown => "not shown",
+            Self::DoesNotHold => "**does not hold**",
+        }
+    }
+}
+
+#[test]
+fn verdicts_follow_the_interval() {
+    let change = |mean: f64, half: f64| Estimate {
+        mean,
+        confidence: Some(half),
+        count: 8,
+    };
+    for (words, of, expected) in [
+        ("rises with C", change(2.0, 1.0), Verdict::Holds),
+        ("rises with C", change(1.0, 2.0), Verdict::NotShown),
+        ("rises with C", change(-2.0, 1.0), Verdict::DoesNotHold),
+        ("-2.94 %", change(-5.0, 1.0), Verdict::Holds),
+        ("-2.94 %", change(5.0, 1.0), Verdict::DoesNotHold),
+        ("hardly changes", change(0.2, 0.5), Verdict::Holds),
+        ("hardly changes", change(0.2, 0.9), Verdict::NotShown),
+        ("hardly changes", change(3.0, 0.9), Verdict::DoesNotHold),
+        ("slightly falls", change(-3.0, 0.9), Verdict::Holds),
+        ("is influenced", change(0.1, 0.2), Verdict::DoesNotHold),
+        ("is influenced", change(0.5, 0.8), Verdict::NotShown),
+        ("rises remarkably", change(0.4, 0.3), Verdict::DoesNotHold),
+        ("rises slightly", change(0.4, 0.3), Verdict::Holds),
+        ("limited fluctuation", change(4.0, 0.2), Verdict::Holds),
+        (
+            "limited fluctuation",
+            change(6.0, 0.2),
+            Verdict::DoesNotHold,
+        ),
+    ] {
+        let [claim] = Claim::parse(words)[..] else {
+            panic!("one claim: {words}");
+        };
+        assert_eq!(claim.verdict(&of), expected, "{words}");
+    }
+    let both = Claim::parse("rises with Vr and is flat above 0.05 m/s");
+    assert_eq!(both, [Claim::Rises, Claim::Keeps]);
+}

@@ -1,0 +1,95 @@
+//! Kept rows of a study, and how indices change from one value to another.
+
+use dashpot::document;
+use dashpot_hil::files::study::{StudyParameters, Sweep, Value};
+use dashpot_hil::study::sweep::rows::{self, Rows};
+use dashpot_hil::study::sweep::{Estimate, Study};
+
+/// A study with its kept rows.
+pub struct Kept {
+    pub study: Study,
+    pub rows: Rows,
+}
+
+impl Kept {
+    /// A study that ships, with `data/studies/rows/` of its name.
+    pub fn load(name: &str) -> Self {
+        let parameters = StudyParameters::load(name).expect("a shipped study");
+        let study = Study::new(parameters).expect("a shipped study");
+        let path = document::in_repository(&format!("data/studies/rows/{name}.csv"));
+        let rows = rows::read_once(&study, path.as_ref()).unwrap_or_else(|error| {
+            panic!("{error}\nthe rows are written by `cargo xtask vehicle-validation`")
+        });
+        assert_eq!(rows.len() as u64, study.cases(), "every case of {name}");
+        Self { study, rows }
+    }
+
+    pub fn sweep(&self, name: &str) -> &Sweep {
+        let sweep = self.study.parameters.sweep(name);
+        sweep.unwrap_or_else(|| panic!("no sweep `{name}`"))
+    }
+
+    /// The point of a sweep whose last axis has a value, its first one being at `first` where it has two.
+    pub fn point(&self, sweep: &Sweep, first: Option<&str>, last: f64) -> u64 {
+        let is_at = |point: &u64| {
+            let values = sweep.values(*point);
+            let at_last = values.last().is_some_and(|value| match value {
+                Value::Number(number) => (number / last - 1.0).abs() < 1e-9,
+                Value::Word(_) => false,
+            });
+            at_last && first.is_none_or(|first| values[0].to_string() == first)
+        };
+        let found = (0..sweep.points()).find(is_at);
+        found.unwrap_or_else(|| panic!("sweep {}: no value {last}", sweep.name))
+    }
+
+    /// Values of an index at a point, one a seed.
+    pub fn values(&self, sweep: &Sweep, point: u64, index: &str) -> Vec<f64> {
+        let observed = &self.study.observed;
+        let number = observed.iter().position(|observed| observed.name == index);
+        let number = number.unwrap_or_else(|| panic!("{index} is not observed"));
+        let numbers = self.study.numbers(sweep, point);
+        numbers
+            .map(|case| {
+                let value = self.rows[&case].observed[number];
+                value.unwrap_or_else(|| panic!("case {case} has no {index}"))
+            })
+            .collect()
+    }
+
+    pub fn mean(&self, sweep: &Sweep, point: u64, index: &str) -> Estimate {
+        Estimate::of(&self.values(sweep, point, index)).expect("seeds")
+    }
+
+    /// Relative change of an index between two points in percent, of the same irregularities: the mean over seeds of each one's change.
+    pub fn change(&self, sweep: &Sweep, [from, to]: [u64; 2], index: &str) -> Estimate {
+        let [from, to] = [from, to].map(|point| self.values(sweep, point, index));
+        let pairs = from.iter().zip(&to);
+        let changes: Vec<f64> = pairs.map(|(from, to)| 100.0 * (to / from - 1.0)).collect();
+        Estimate::of(&changes).expect("seeds")
+    }
+
+    /// Greatest less least mean of an index along a sweep, over their mean, in percent.
+    pub fn range(&self, sweep: &Sweep, index: &str) -> f64 {
+        let means: Vec<f64> = (0..sweep.points())
+            .map(|point| self.mean(sweep, point, index).mean)
+            .collect();
+        let greatest = means.iter().copied().fold(f64::MIN, f64::max);
+        let least = means.iter().copied().fold(f64::MAX, f64::min);
+        100.0 * (greatest - least) * means.len() as f64 / means.iter().sum::<f64>()
+    }
+}
+
+/// A change in percent with its confidence.
+pub fn percent(change: &Estimate) -> String {
+    match change.confidence {
+        Some(half) => format!("{:+.2} ± {half:.2}", change.mean),
+        None => format!("{:+.2}", change.mean),
+    }
+}
+
+/// The ends of a change's confidence interval.
+pub fn interval(change: &Estimate) -> [f64; 2] {
+    let half = change.confidence.unwrap_or(0.0);
+    [change.mean - half, change.mean + half]
+}

@@ -1,0 +1,187 @@
+//! The rows of `vehicle_trends.csv`, each with ours beside it.
+
+use dashpot::document;
+use dashpot_hil::study::sweep::Estimate;
+use serde::Deserialize;
+
+use crate::claim::{Claim, Verdict};
+use crate::rows::{Kept, percent};
+
+/// A row of the published trends.
+#[derive(Debug, Clone, Deserialize)]
+pub struct Trend {
+    pub figure: String,
+    pub damper: String,
+    pub swept: String,
+    pub from: Option<f64>,
+    pub to: Option<f64>,
+    pub unit: String,
+    pub observed: String,
+    pub published_change: String,
+}
+
+/// A claim of a trend, with ours.
+pub struct Compared {
+    pub trend: Trend,
+    /// The index, by its published name.
+    pub observed: String,
+    /// What is claimed of which range.
+    pub range: String,
+    pub claim: Claim,
+    pub change: Estimate,
+    pub verdict: Verdict,
+}
+
+/// The published rows.
+pub fn published() -> Vec<Trend> {
+    let path = document::in_repository("data/published/vehicle_trends.csv");
+    let mut reader = csv::Reader::from_path(path).expect("the published trends");
+    reader
+        .deserialize()
+        .map(|row| row.expect("a trend"))
+        .collect()
+}
+
+/// Our name of a published index.
+pub fn index(published: &str) -> &'static str {
+    match published {
+        "Wzz" => "sperling_vertical",
+        "Wzy" => "sperling_lateral",
+        "RMS_Dc" => "derailment_rms",
+        "RMS_Wn" => "wear_number_rms_n",
+        "RMS_Fy" => "lateral_force_rms_n",
+        "RMS_Ay" => "body_lateral_rms_m_per_s2",
+        other => panic!("no index `{other}`"),
+    }
+}
+
+fn in_si(value: f64, unit: &str) -> f64 {
+    let factor = match unit {
+        "kN s/m" => 1e3,
+        "m/s" => 1.0,
+        "MN/m" => 1e6,
+        "mm" => 1e-3,
+        other => panic!("no unit `{other}`"),
+    };
+    value * factor
+}
+
+/// Every claim of every row, with the change of ours over the same range.
+pub fn compare(paper: &Kept) -> Vec<Compared> {
+    let mut all = Vec::new();
+    for trend in published() {
+        for observed in trend.observed.split(' ') {
+            for claim in Claim::parse(&trend.published_change) {
+                all.push(of_claim(paper, &trend, observed, claim));
+            }
+        }
+    }
+    all
+}
+
+fn of_claim(paper: &Kept, trend: &Trend, observed: &str, claim: Claim) -> Compared {
+    let (Some(from), Some(to)) = (trend.from, trend.to) else {
+        return of_all(paper, trend, observed, claim);
+    };
+    let index = index(observed);
+    let sweep = paper.sweep(&trend.figure);
+    // `... above X` splits the range.
+    let above = trend.published_change.split(" above ").nth(1).map(|rest| {
+        let number = rest
+            .split(' ')
+            .next()
+            .and_then(|word| word.parse::<f64>().ok());
+        number.expect("a number")
+    });
+    let last = sweep.axes[0].values.last().map(ToString::to_string);
+    let last = last
+        .and_then(|text| text.parse::<f64>().ok())
+        .expect("numbers");
+    let in_unit = |value: f64| in_si(value, &trend.unit);
+    let [low, high] = match (claim, above) {
+        (Claim::Keeps, Some(above)) => [in_unit(above), last],
+        (_, Some(above)) => [in_unit(from), in_unit(above.min(to))],
+        (_, None) => [in_unit(from), in_unit(to)],
+    };
+    let points = [low, high].map(|value| paper.point(sweep, None, value));
+    let change = match claim {
+        Claim::Limited => Estimate {
+            mean: paper.range(sweep, index),
+            confidence: None,
+            count: 0,
+        },
+        _ => paper.change(sweep, points, index),
+    };
+    let scale = 1.0 / in_unit(1.0);
+    let round = |value: f64| (1e6 * value * scale).round() / 1e6;
+    Compared {
+        trend: trend.clone(),
+        observed: observed.to_owned(),
+        range: format!("{} to {} {}", round(low), round(high), trend.unit),
+        verdict: claim.verdict(&change),
+        claim,
+        change,
+    }
+}
+
+/// A claim of all parameters of a figure: the greatest range.
+fn of_all(paper: &Kept, trend: &Trend, observed: &str, claim: Claim) -> Compared {
+    let index = index(observed);
+    let sweeps = ["a", "b", "c", "d"].map(|part| format!("{}{part}", trend.figure));
+    let ranges = sweeps.map(|name| paper.range(paper.sweep(&name), index));
+    let change = Estimate {
+        mean: ranges.into_iter().fold(0.0, f64::max),
+        confidence: None,
+        count: 0,
+    };
+    Compared {
+        trend: trend.clone(),
+        observed: observed.to_owned(),
+        range: "C, Vr, Ke, 2a".into(),
+        verdict: claim.verdict(&change),
+        claim,
+        change,
+    }
+}
+
+/// The table of all rows.
+pub fn table(compared: &[Compared]) -> String {
+    let mut text = String::from(
+        "| Fig. | dampers | varied | index | published | ours, % | |\n|---|---|---|---|---|---|---|\n",
+    );
+    for row in compared {
+        let Trend {
+            figure,
+            damper,
+            swept,
+            published_change,
+            ..
+        } = &row.trend;
+        let ours = match row.claim {
+            Claim::Limited => format!("range {:.2}", row.change.mean),
+            _ if row.change.confidence.is_none() => format!("range {:.2}", row.change.mean),
+            _ => percent(&row.change),
+        };
+        let size = match (row.claim, row.verdict) {
+            (Claim::By(published), Verdict::Holds) => {
+                format!(", {:.1} times as much", row.change.mean / published)
+            }
+            _ => String::new(),
+        };
+        let claimed = published_change.split(" and ");
+        let claimed = match (claimed.clone().nth(1), row.claim) {
+            (Some(second), Claim::Keeps) => second,
+            _ => claimed.clone().next().unwrap_or_default(),
+        };
+        let index = &row.observed;
+        let what = match row.trend.from {
+            Some(_) => format!("{swept} {}", row.range),
+            None => row.range.clone(),
+        };
+        text.push_str(&format!(
+            "| {figure} | {damper} | {what} | {index} | {claimed} | {ours} | {}{size} |\n",
+            row.verdict.words()
+        ));
+    }
+    text
+}
