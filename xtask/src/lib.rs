@@ -11,3 +11,4 @@ pub mod rust_version;
 pub mod target_toolchain;
 pub mod test_run;
 pub mod tools;
+pub mod vehicle_validation;

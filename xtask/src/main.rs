@@ -8,6 +8,7 @@ use xtask::run::{Outcome, cargo, cargo_output_to_stderr, repository, version_of}
 use xtask::rust_version::numbers;
 use xtask::test_run::test;
 use xtask::tools::install_missing;
+use xtask::vehicle_validation::vehicle_validation;
 use xtask::{firmware, nightly};
 
 const HELP: &str = "\
@@ -26,6 +27,7 @@ Commands:
                          cortex-m7, cortex-m33, x86-64, aarch64; all that this machine can build
                          when none is named; into target/c-library
   kalker-book            compute the tables of the recommended creep law anew, from exact theory (some fifteen minutes)
+  vehicle-validation     run the studies of docs/vehicle-validation.md anew and write it (some two minutes)
   miri                   run the tests of the C interface under Miri (needs a nightly compiler)
   fuzz [--seconds N]     run each fuzz target from its kept seeds for N seconds, 60 when not given (needs a
                          nightly compiler)
@@ -76,6 +78,7 @@ fn main() -> ExitCode {
             "--example",
             "kalker_book",
         ]),
+        ["vehicle-validation"] => vehicle_validation(),
         ["miri"] => nightly::miri(),
         ["fuzz"] => nightly::fuzz(60),
         ["fuzz", "--seconds", text] => match text.parse() {
