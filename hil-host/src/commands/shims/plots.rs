@@ -97,6 +97,7 @@ fn lift(location: &ValveLocation, report: &ValveReport, tables_end_pa: f64) -> P
         sides: false,
         x_scale: Scale::Linear,
         scale: Scale::Decades,
+        keeps_to_values: false,
         curves,
     }
 }
@@ -144,6 +145,7 @@ fn deflection(
         sides: false,
         x_scale: Scale::Linear,
         scale: Scale::Linear,
+        keeps_to_values: false,
         curves: curves.collect(),
     }))
 }
@@ -168,6 +170,7 @@ fn flow(
         sides: false,
         x_scale: Scale::Linear,
         scale: Scale::Linear,
+        keeps_to_values: false,
         curves: vec![Curve::new(name, GREEN_LINE, points).wide(11)],
     }
 }

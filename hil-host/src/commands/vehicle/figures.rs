@@ -145,6 +145,7 @@ pub(super) fn loops(history: &History, dampers: &[&str]) -> Figure {
             sides: true,
             x_scale: Scale::Linear,
             scale: Scale::Linear,
+            keeps_to_values: false,
             curves: curves.collect(),
         }
     });

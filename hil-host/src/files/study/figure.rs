@@ -24,6 +24,8 @@ pub enum Shown {
         sweeps: Vec<String>,
         /// Observed indices.
         observed: Vec<String>,
+        /// What each is multiplied by, to stand on one axis from zero on; none where each is shown as it is.
+        factors: Vec<f64>,
     },
     /// Force of dampers over time, displacement and velocity, at the first seed of a sweep's first case.
     Dampers {
@@ -83,6 +85,8 @@ pub(super) struct FigureTable {
 struct IndicesTable {
     sweeps: Vec<String>,
     observed: Vec<String>,
+    #[serde(default)]
+    factors: Vec<f64>,
 }
 
 #[derive(Deserialize)]
@@ -117,10 +121,19 @@ impl FigureTable {
     pub fn figure(self) -> Result<Figure, String> {
         let numbers = |values: Vec<f64>| values.into_iter().map(Value::Number).collect();
         let shown = match (self.indices, self.dampers, self.signal, self.response) {
-            (Some(table), None, None, None) => Shown::Indices {
-                sweeps: table.sweeps,
-                observed: table.observed,
-            },
+            (Some(table), None, None, None) => {
+                let [factors, observed] = [table.factors.len(), table.observed.len()];
+                if factors > 0 && factors != observed {
+                    return Err(format!(
+                        "{factors} factors of {observed} observed, allowed: none or one each"
+                    ));
+                }
+                Shown::Indices {
+                    sweeps: table.sweeps,
+                    observed: table.observed,
+                    factors: table.factors,
+                }
+            }
             (None, Some(table), None, None) => Shown::Dampers {
                 sweep: table.sweep,
                 dampers: table.dampers,

@@ -30,6 +30,7 @@ pub(crate) fn panel(x: &str, y: &str, curves: Vec<Curve>) -> Panel {
         sides: false,
         x_scale: Scale::Linear,
         scale: Scale::Linear,
+        keeps_to_values: false,
         curves,
     }
 }
@@ -70,7 +71,11 @@ impl Figure {
     pub(super) fn html(&self, caption: &Markup) -> Result<Markup, DrawError> {
         let panels = self.panels.iter().map(|panel| self.panel(panel));
         let panels: Vec<Markup> = panels.collect::<Result<_, _>>()?;
-        let columns = panels.len().min(3);
+        // Four stand better two by two than three and one.
+        let columns = match panels.len() {
+            4 => 2,
+            count => count.min(3),
+        };
         Ok(html! {
             figure data-shares=[self.shares] {
                 div class=(format!("panels columns-{columns}")) {

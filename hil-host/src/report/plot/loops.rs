@@ -16,6 +16,7 @@ pub(crate) fn panels(displacement: Vec<Curve>, velocity: Vec<Curve>) -> Vec<Pane
         sides: true,
         x_scale: Scale::Linear,
         scale: Scale::Linear,
+        keeps_to_values: false,
         curves,
     };
     vec![

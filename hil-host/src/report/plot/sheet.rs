@@ -33,6 +33,8 @@ pub(crate) struct Panel {
     pub(crate) x_scale: Scale,
     /// The vertical axis.
     pub(crate) scale: Scale,
+    /// Whether a linear vertical axis keeps to its values where they are far from zero.
+    pub(crate) keeps_to_values: bool,
     pub(crate) curves: Vec<Curve>,
 }
 
@@ -54,7 +56,7 @@ impl Panel {
                 let mut y = extent(ordinates());
                 // A curve that starts at zero, but for rounding, keeps zero at the edge.
                 let rounding = 1e-9 * y.end;
-                if ordinates().all(|y| y >= -rounding) {
+                if !self.keeps_to_values && ordinates().all(|y| y >= -rounding) {
                     y.start = 0.0;
                 }
                 y
@@ -190,6 +192,7 @@ mod tests {
             sides: false,
             x_scale: scale,
             scale,
+            keeps_to_values: false,
             curves: vec![Curve::new("", INK, points.iter().copied())],
         };
         panel.ranges()

@@ -15,6 +15,29 @@ use crate::study::sweep::Estimate;
 /// Colours of indices of one panel.
 const COLOURS: [RGBColor; 4] = [BLUE_LINE, RED_LINE, AMBER_LINE, PALE];
 
+/// An observed index as a figure has it.
+pub(super) struct Index {
+    /// Its number among the observed.
+    pub(super) number: usize,
+    /// What it is multiplied by.
+    pub(super) factor: Option<f64>,
+}
+
+impl Index {
+    /// Its name, with the factor.
+    fn name(&self, drawn: &Drawn<'_>) -> String {
+        let name = drawn.study.observed[self.number].name.replace('_', " ");
+        match self.factor {
+            Some(factor) if factor != 1.0 => format!("{name} × {factor}"),
+            _ => name,
+        }
+    }
+
+    fn scale(&self) -> f64 {
+        self.factor.unwrap_or(1.0)
+    }
+}
+
 /// A panel for each sweep whose first axis has numbers, a table for each other.
 ///
 /// # Errors
@@ -22,7 +45,7 @@ const COLOURS: [RGBColor; 4] = [BLUE_LINE, RED_LINE, AMBER_LINE, PALE];
 pub(super) fn part(
     drawn: &Drawn<'_>,
     sweeps: &[&Sweep],
-    observed: &[usize],
+    observed: &[Index],
     caption: &str,
 ) -> Outcome<Markup> {
     let is_number = |axis: &Axis| matches!(axis.values.first(), Some(Value::Number(_)));
@@ -48,7 +71,7 @@ pub(super) fn part(
 }
 
 /// Means with their confidence; a curve for each index, and for each value of a second axis.
-fn over_axis(drawn: &Drawn<'_>, sweep: &Sweep, observed: &[usize]) -> Panel {
+fn over_axis(drawn: &Drawn<'_>, sweep: &Sweep, observed: &[Index]) -> Panel {
     let first = &sweep.axes[0];
     let others = sweep.points() / first.values.len() as u64;
     let mut curves = Vec::new();
@@ -64,13 +87,17 @@ fn over_axis(drawn: &Drawn<'_>, sweep: &Sweep, observed: &[usize]) -> Panel {
                     return None;
                 };
                 let point = at as u64 * others + other;
-                let estimate = Estimate::of(&drawn.values(sweep, point, *index))?;
-                Some((x * first.factor, estimate))
+                let values = drawn.values(sweep, point, index.number);
+                let scaled: Vec<f64> = values.iter().map(|y| y * index.scale()).collect();
+                Some((x * first.factor, Estimate::of(&scaled)?))
             });
             let estimates: Vec<(f64, Estimate)> = estimates.collect();
+            if others == 1 {
+                curves.extend(of_seeds(drawn, sweep, index, colour));
+            }
             let name = match (others, observed.len()) {
                 (1, 1) => String::new(),
-                (1, _) => drawn.study.observed[*index].name.replace('_', " "),
+                (1, _) => index.name(drawn),
                 _ => at_others(sweep, other),
             };
             let means = || estimates.iter().map(|(x, estimate)| (*x, estimate.mean));
@@ -86,15 +113,43 @@ fn over_axis(drawn: &Drawn<'_>, sweep: &Sweep, observed: &[usize]) -> Panel {
             curves.push(Curve::new(name, colour, means()).wide(5));
         }
     }
-    let y = match observed {
-        [index] => drawn.study.observed[*index].meaning,
-        _ => "index",
+    let (y, title) = match observed {
+        [index] => {
+            let meaning = drawn.study.observed[index.number].meaning;
+            (meaning, format!("{}: {meaning}", sweep.title))
+        }
+        _ => ("index", sweep.title.clone()),
     };
     Panel {
-        title: sweep.title.clone(),
+        title,
         sides: true,
+        keeps_to_values: observed.iter().all(|index| index.factor.is_none()),
         ..panel(&first.label, y, curves)
     }
+}
+
+/// Curves of the single seeds, pale: how far they spread, and that they move together.
+fn of_seeds(drawn: &Drawn<'_>, sweep: &Sweep, index: &Index, colour: RGBColor) -> Vec<Curve> {
+    let axis = &sweep.axes[0];
+    let mut seeds: Vec<Vec<(f64, f64)>> = vec![Vec::new(); sweep.seeds.len()];
+    for (at, value) in axis.values.iter().enumerate() {
+        let Value::Number(x) = value else { continue };
+        let numbers = drawn.study.numbers(sweep, at as u64);
+        for (points, number) in seeds.iter_mut().zip(numbers) {
+            let row = drawn.rows.get(&number);
+            if let Some(y) = row.and_then(|row| row.observed[index.number]) {
+                points.push((x * axis.factor, y * index.scale()));
+            }
+        }
+    }
+    let RGBColor(red, green, blue) = colour;
+    let pale = RGBColor(lighter(red), lighter(green), lighter(blue));
+    let curve = |points| Curve::new("", pale, points).wide(3);
+    seeds.into_iter().map(curve).collect()
+}
+
+fn lighter(part: u8) -> u8 {
+    255 - (255 - part) / 4
 }
 
 /// Values of the axes behind the first.
@@ -109,7 +164,7 @@ fn at_others(sweep: &Sweep, other: u64) -> String {
 }
 
 /// Means with their confidence, and their change from the first value.
-fn table(drawn: &Drawn<'_>, sweep: &Sweep, observed: &[usize]) -> Markup {
+fn table(drawn: &Drawn<'_>, sweep: &Sweep, observed: &[Index]) -> Markup {
     let change = |point: u64, index: usize| {
         let [first, here] = [0, point].map(|point| drawn.values(sweep, point, index));
         // Of runs on the same irregularities.
@@ -122,7 +177,7 @@ fn table(drawn: &Drawn<'_>, sweep: &Sweep, observed: &[usize]) -> Markup {
             tr {
                 th { (sweep.axes.first().map_or("", |axis| &axis.label)) }
                 @for index in observed {
-                    th { (drawn.study.observed[*index].name.replace('_', " ")) }
+                    th { (index.name(drawn)) }
                     th { "change, %" }
                 }
             }
@@ -130,8 +185,8 @@ fn table(drawn: &Drawn<'_>, sweep: &Sweep, observed: &[usize]) -> Markup {
                 tr {
                     td { (sweep.values(point).iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")) }
                     @for index in observed {
-                        td { (text(Estimate::of(&drawn.values(sweep, point, *index)), 4)) }
-                        td { (text(change(point, *index), 2)) }
+                        td { (text(Estimate::of(&drawn.values(sweep, point, index.number)), 4)) }
+                        td { (text(change(point, index.number), 2)) }
                     }
                 }
             }

@@ -75,7 +75,8 @@ pub(super) fn write(study: &Study, rows: &Rows, report: &Report) -> Outcome<Stri
     let body = html! {
         h1 { (study.parameters.name) }
         p.lead {
-            "Each point is a mean over seeds of the track's irregularity; its bar is the confidence interval of 95 % of that mean."
+            "Points are means over seeds of the track's irregularity, bars their confidence intervals of 95 %, pale lines the single seeds. The seeds are the same at \
+             every point, so a change is surer than the bars: docs/vehicle-validation.md has the intervals of changes."
         }
         (headline(study))
         @if let Some(note) = report.not_completed() {
@@ -105,11 +106,23 @@ impl Drawn<'_> {
         };
         let caption = &figure.caption;
         match &figure.shown {
-            Shown::Indices { sweeps, observed } => {
+            Shown::Indices {
+                sweeps,
+                observed,
+                factors,
+            } => {
                 let sweeps: Outcome<Vec<&Sweep>> = sweeps.iter().map(sweep).collect();
                 let observed: Vec<usize> = observed
                     .iter()
                     .filter_map(|name| self.number(name))
+                    .collect();
+                let factor = |at: usize| factors.get(at).copied();
+                let observed = observed.into_iter().enumerate();
+                let observed: Vec<indices::Index> = observed
+                    .map(|(at, number)| indices::Index {
+                        number,
+                        factor: factor(at),
+                    })
                     .collect();
                 indices::part(self, &sweeps?, &observed, caption)
             }

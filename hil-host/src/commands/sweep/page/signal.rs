@@ -43,7 +43,7 @@ pub(super) fn part(
         let case = drawn.study.case_with(sweep, Some(value), *seed)?;
         record(&case, &names, &drawn.shared).map_err(failed(sweep))
     })?;
-    let what = signal.replace('_', " ");
+    let what = in_words(signal);
     let mut of_time = panel("time, s", &what, Vec::new());
     let mut of_frequency = Panel {
         x_scale: Scale::Decades,
@@ -88,6 +88,22 @@ pub(super) fn part(
         ),
     };
     Ok(figure(&of_panels, &html! { (caption) " " (spread) })?)
+}
+
+/// A signal's name with its unit as figures have it.
+fn in_words(signal: &str) -> String {
+    let units = [
+        ("_m_per_s2", ", m/s²"),
+        ("_rad", ", rad"),
+        ("_m", ", m"),
+        ("_n", ", N"),
+        ("_derailment", " Y/Q"),
+    ];
+    let found = units
+        .into_iter()
+        .find_map(|(ending, unit)| Some((signal.strip_suffix(ending)?, unit)));
+    let (name, unit) = found.unwrap_or((signal, ""));
+    name.replace('_', " ") + unit
 }
 
 /// The value as figures have it.
