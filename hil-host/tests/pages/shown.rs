@@ -28,6 +28,15 @@ pub static BANK: LazyLock<String> = LazyLock::new(|| {
     made(&[&line[..], &run].concat(), "page.html")
 });
 
+/// That of a study with a figure of each kind.
+pub static STUDY: LazyLock<String> = LazyLock::new(|| {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("study.toml");
+    fs::write(&path, include_str!("study.toml")).unwrap();
+    let study = path.to_str().unwrap();
+    made(&["sweep", study, "--output", "study"], "study/report.html")
+});
+
 fn made(arguments: &[&str], page: &str) -> String {
     let folder = tempfile::tempdir().unwrap();
     dashpot(arguments, folder.path()).success();
@@ -35,10 +44,11 @@ fn made(arguments: &[&str], page: &str) -> String {
 }
 
 /// All of them, with their plots.
-pub fn all() -> [(&'static str, &'static str, usize); 3] {
+pub fn all() -> [(&'static str, &'static str, usize); 4] {
     [
         ("demonstration", &DEMONSTRATION, 13),
-        ("vehicle", &VEHICLE, 14),
+        ("vehicle", &VEHICLE, 18),
         ("bank", &BANK, 6),
+        ("study", &STUDY, 9),
     ]
 }
