@@ -8,7 +8,7 @@ use xtask::run::{Outcome, cargo, cargo_output_to_stderr, repository, version_of}
 use xtask::rust_version::numbers;
 use xtask::test_run::test;
 use xtask::tools::install_missing;
-use xtask::{firmware, nightly};
+use xtask::{firmware, nightly, slurm};
 
 const HELP: &str = "\
 Developer commands of Dashpot
@@ -29,6 +29,8 @@ Commands:
   miri                   run the tests of the C interface under Miri (needs a nightly compiler)
   fuzz [--seconds N]     run each fuzz target from its kept seeds for N seconds, 60 when not given (needs a
                          nightly compiler)
+  slurm                  prove shards of a study on a real Slurm, one node started for it, and on GNU parallel (two
+                         minutes; installs or names Debian's slurm-wlm, munge and parallel)
   ci                     formatting, lints, documentation, Rust version, each feature, test
   help                   this text
 
@@ -85,6 +87,7 @@ fn main() -> ExitCode {
                 return ExitCode::from(2);
             }
         },
+        ["slurm"] => slurm::slurm(),
         ["ci"] => ci(),
         _ => {
             eprintln!("wrong use: `{}`\n\n{HELP}", words.join(" "));
