@@ -17,7 +17,7 @@ pub fn ended(trial: &Trial) -> Outcome<String> {
     trial.results(ENDED, &[0, 3])?;
     let job = trial.submit(ENDED, "1-2", SHARDS)?;
     for shard in [1, 2] {
-        trial.wait_for_a_row(ENDED, shard)?;
+        trial.wait_for_a_row(ENDED, &job, shard)?;
     }
     trial.node.tell("scancel", &[&format!("{job}_1")])?;
     trial.node.tell(
@@ -25,6 +25,11 @@ pub fn ended(trial: &Trial) -> Outcome<String> {
         &["--batch", "--signal=KILL", &format!("{job}_2")],
     )?;
     trial.has_ended(&job, &["CANCELLED", "FAILED"])?;
+    // By itself, as it was asked to.
+    contains(
+        &trial.log(&job, 1)?,
+        "of 6 cases are done; the same command goes on",
+    )?;
     let expected = missing(&[1, 2]);
     trial.merge_says(ENDED, &expected)?;
     let kept = [1, 2].map(|shard| trial.rows_kept(ENDED, shard));
@@ -54,7 +59,7 @@ pub fn requeued(trial: &Trial) -> Outcome<String> {
     let results = "requeued";
     trial.results(results, &[1, 2, 3])?;
     let job = trial.submit(results, "0", SHARDS)?;
-    trial.wait_for_a_row(results, 0)?;
+    trial.wait_for_a_row(results, &job, 0)?;
     trial
         .node
         .tell("scontrol", &["requeue", &format!("{job}_0")])?;
@@ -93,7 +98,7 @@ pub fn twice_at_once(trial: &Trial) -> Outcome<String> {
     let results = "twice";
     trial.results(results, &[0, 2, 3])?;
     let first = trial.submit(results, "1", SHARDS)?;
-    trial.wait_for_a_row(results, 1)?;
+    trial.wait_for_a_row(results, &first, 1)?;
     let second = trial.run(results, "1", SHARDS, &["FAILED"])?;
     let refusal = "another process is adding rows to it";
     contains(&trial.log(&second, 1)?, refusal)?;

@@ -79,7 +79,6 @@ pub fn slurm() -> Outcome {
     println!("| check | | seen |\n|---|---|---|");
     let mut failed = 0;
     for (name, check) in CHECKS {
-        eprintln!("> {name}");
         failed += tell(name, check(&trial));
     }
     failed += tell("Slurm ended, nothing left", trial.node.end());

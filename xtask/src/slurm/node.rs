@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 use crate::run::{Outcome, output_of, repository};
 
 /// Longest wait for jobs.
-const LONGEST: Duration = Duration::from_mins(5);
+const LONGEST: Duration = Duration::from_mins(2);
 
 /// Between two looks at jobs.
 const PAUSE: Duration = Duration::from_millis(100);
@@ -107,8 +107,11 @@ impl Node {
         output_of(command, &format!("{program} {}", arguments.join(" "))).map(|_| ())
     }
 
-    /// The state of each task of a job.
-    fn states(&self, job: &str) -> Outcome<BTreeMap<u64, String>> {
+    /// The state of each task of a job, or of one task.
+    ///
+    /// # Errors
+    /// Slurm does not tell it.
+    pub fn states(&self, job: &str) -> Outcome<BTreeMap<u64, String>> {
         let mut squeue = self.command("squeue");
         squeue.args(["--noheader", "--array", "--states=all", "--format=%K %T"]);
         squeue.args(["--jobs", job]);
@@ -128,8 +131,7 @@ impl Node {
     pub fn ended(&self, job: &str) -> Outcome<Vec<String>> {
         wait_until(&format!("job {job} to end"), || {
             let states = self.states(job)?;
-            let ended = states.values().all(|state| is_end(state));
-            Ok(ended.then(|| states.into_values().collect()))
+            Ok(have_ended(&states).then(|| states.into_values().collect()))
         })
     }
 }
@@ -139,6 +141,11 @@ impl Drop for Node {
         drop(self.script.stdin.take());
         let _ = self.script.wait();
     }
+}
+
+/// Whether all of these tasks run no more.
+pub fn have_ended(states: &BTreeMap<u64, String>) -> bool {
+    states.values().all(|state| is_end(state))
 }
 
 /// Whether a task in this state runs no more.

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
-use super::node::{Node, wait_until};
+use super::node::{Node, have_ended, wait_until};
 use crate::run::{Outcome, repository};
 
 /// The study.
@@ -159,13 +159,22 @@ impl Trial {
         read(&self.folder.join(format!("dashpot-{job}_{task}.log")))
     }
 
-    /// Waits until a shard that is being run has at least one row.
+    /// Waits until a shard that a job is running has at least one row.
     ///
     /// # Errors
-    /// It gets none.
-    pub fn wait_for_a_row(&self, results: &str, shard: u64) -> Outcome {
+    /// It ends without.
+    pub fn wait_for_a_row(&self, results: &str, job: &str, shard: u64) -> Outcome {
         wait_until(&format!("a row of shard {shard}"), || {
-            Ok((self.rows_kept(results, shard) > 0).then_some(()))
+            let states = self.node.states(&format!("{job}_{shard}"))?;
+            match self.rows_kept(results, shard) {
+                0 if have_ended(&states) => Err(format!(
+                    "shard {shard} ended without rows of {}: {}",
+                    rows_of(shard),
+                    self.log(job, shard)?.trim()
+                )),
+                0 => Ok(None),
+                _ => Ok(Some(())),
+            }
         })
     }
 
