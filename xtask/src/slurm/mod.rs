@@ -76,7 +76,7 @@ pub fn slurm() -> Outcome {
         "{}; {CASES} cases in {SHARDS} shards\n",
         versions(&trial.node)?
     );
-    println!("| check | | seen |\n|---|---|---|");
+    println!("| check | result | seen |\n|---|---|---|");
     let mut failed = 0;
     for (name, check) in CHECKS {
         failed += tell(name, check(&trial));
@@ -111,7 +111,8 @@ fn tell(name: &str, outcome: Outcome<String>) -> u32 {
             0
         }
         Err(reason) => {
-            println!("| {name} | FAILED | {} |", reason.trim());
+            let words: Vec<&str> = reason.split_whitespace().collect();
+            println!("| {name} | FAILED | {} |", words.join(" "));
             1
         }
     }
