@@ -8,6 +8,7 @@ pub mod nightly;
 pub mod processor;
 pub mod run;
 pub mod rust_version;
+pub mod slurm;
 pub mod target_toolchain;
 pub mod test_run;
 pub mod tools;

@@ -9,7 +9,7 @@ use xtask::rust_version::numbers;
 use xtask::test_run::test;
 use xtask::tools::install_missing;
 use xtask::vehicle_validation::vehicle_validation;
-use xtask::{firmware, nightly};
+use xtask::{firmware, nightly, slurm};
 
 const HELP: &str = "\
 Developer commands of Dashpot
@@ -31,6 +31,8 @@ Commands:
   miri                   run the tests of the C interface under Miri (needs a nightly compiler)
   fuzz [--seconds N]     run each fuzz target from its kept seeds for N seconds, 60 when not given (needs a
                          nightly compiler)
+  slurm                  prove shards of a study on a real Slurm, one node started for it, and on GNU parallel (two
+                         minutes; installs or names Debian's slurm-wlm, munge and parallel)
   ci                     formatting, lints, documentation, Rust version, each feature, test
   help                   this text
 
@@ -88,6 +90,7 @@ fn main() -> ExitCode {
                 return ExitCode::from(2);
             }
         },
+        ["slurm"] => slurm::slurm(),
         ["ci"] => ci(),
         _ => {
             eprintln!("wrong use: `{}`\n\n{HELP}", words.join(" "));

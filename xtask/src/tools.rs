@@ -53,7 +53,18 @@ pub const CHROMEDRIVER: Tool = program("chromedriver", "chromium-driver");
 /// What the example client of the link is written for.
 pub const PYTHON: Tool = program("python3", "python3");
 
-/// All of them.
+/// Daemon that Slurm's daemons sign their messages with.
+pub const MUNGED: Tool = program("munged", "munge");
+/// Slurm's daemon that has the queue; the package brings that of a node and the users' commands too.
+pub const SLURMCTLD: Tool = program("slurmctld", "slurm-wlm");
+/// Slurm's daemon of a node.
+pub const SLURMD: Tool = program("slurmd", "slurm-wlm");
+/// Slurm's command that takes a job.
+pub const SBATCH: Tool = program("sbatch", "slurm-wlm");
+/// GNU parallel.
+pub const PARALLEL: Tool = program("parallel", "parallel");
+
+/// What tests need.
 pub const TOOLS: [Tool; 15] = [
     GCC,
     GXX,
@@ -108,6 +119,9 @@ impl Subcommand {
 /// A compiler for the Cortex-M processors where there is no rustup: packages of Debian.
 const TOOLCHAIN_PACKAGES: [&str; 3] = ["rustc-web", "cargo-web", "rust-web-src"];
 
+/// Where daemons are, which is not on every user's path.
+const DAEMONS: &str = "/usr/sbin";
+
 /// Names the file that skipped tests are listed in.
 pub const SKIPPED: &str = "DASHPOT_SKIPPED";
 
@@ -128,11 +142,11 @@ const fn header(program: &'static str, header: &'static str, package: &'static s
 }
 
 impl Tool {
-    /// Whether the program is on the path and finds the header.
+    /// Whether the program is on the path, or with the daemons, and finds the header.
     pub fn is_there(self) -> bool {
-        let on_path = std::env::var_os("PATH").is_some_and(|path| {
-            std::env::split_paths(&path).any(|folder| folder.join(self.program).is_file())
-        });
+        let path = std::env::var_os("PATH").unwrap_or_default();
+        let mut folders = std::env::split_paths(&path).chain([DAEMONS.into()]);
+        let on_path = folders.any(|folder| folder.join(self.program).is_file());
         on_path && self.header.is_none_or(|header| self.finds(header))
     }
 
@@ -144,10 +158,12 @@ impl Tool {
     }
 }
 
-/// Packages of those of `tools` that are missing.
+/// Packages of those of `tools` that are missing; tools of one package stand together.
 pub fn missing(tools: &[Tool]) -> Vec<&'static str> {
     let missing = tools.iter().filter(|tool| !tool.is_there());
-    missing.map(|tool| tool.package).collect()
+    let mut packages: Vec<&str> = missing.map(|tool| tool.package).collect();
+    packages.dedup();
+    packages
 }
 
 /// Whether all of `tools` are there. A test that gets `false` returns: what it leaves out is said at once
@@ -225,10 +241,19 @@ pub fn install_missing() {
     if packages.is_empty() {
         return;
     }
+    if let Err(message) = install(&packages) {
+        eprintln!("\n!!!! {message}; the tests of these tools will be skipped\n");
+    }
+}
+
+/// Installs packages of Debian, as root.
+///
+/// # Errors
+/// The command to be run by hand: no root, no apt-get, or it failed.
+pub fn install(packages: &[&str]) -> Outcome {
     let line = format!("apt-get install --yes {}", packages.join(" "));
     if !is_root() || !Path::new("/usr/bin/apt-get").exists() {
-        eprintln!("\n!!!! tools are missing; their tests will be skipped. As root: {line}\n");
-        return;
+        return Err(format!("tools are missing; as root: {line}"));
     }
     let apt_get = |arguments: &[&str], packages: &[&str]| {
         let mut command = Command::new("apt-get");
@@ -238,8 +263,10 @@ pub fn install_missing() {
     };
     // A list that cannot be brought up to date may still do.
     let _ = apt_get(&["update"], &[]);
-    if !apt_get(&["install", "--yes", "--no-install-recommends"], &packages) {
-        eprintln!("\n!!!! `{line}` failed; the tests of these tools will be skipped\n");
+    if apt_get(&["install", "--yes", "--no-install-recommends"], packages) {
+        Ok(())
+    } else {
+        Err(format!("`{line}` failed"))
     }
 }
 

@@ -117,9 +117,45 @@ fn locked(path: &Path) -> Result<File, FileError> {
             }
             Err(TryLockError::Error(error)) => return Err(cannot_write(path, error)),
         }
-        // A process that has just finished may have removed it between opening and locking.
-        if path.exists() {
+        // A process that has just finished may have removed it between opening and locking, and another made one anew.
+        if is_at(&file, path) {
             return Ok(file);
         }
+    }
+}
+
+/// Whether the file at `path` is this one.
+#[cfg(unix)]
+fn is_at(file: &File, path: &Path) -> bool {
+    use std::os::unix::fs::MetadataExt;
+    match (file.metadata(), path.metadata()) {
+        (Ok(this), Ok(there)) => (this.dev(), this.ino()) == (there.dev(), there.ino()),
+        _ => false,
+    }
+}
+
+/// Whether there is a file at `path`: an open one keeps its name.
+#[cfg(not(unix))]
+fn is_at(_: &File, path: &Path) -> bool {
+    path.exists()
+}
+
+#[cfg(all(test, unix))]
+mod tests {
+    use std::fs::{self, File};
+
+    use super::is_at;
+
+    #[test]
+    fn a_file_that_was_removed_is_not_the_one_made_after_it() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("rows.csv.partial");
+        let first = File::create(&path).unwrap();
+        assert!(is_at(&first, &path));
+        fs::remove_file(&path).unwrap();
+        assert!(!is_at(&first, &path));
+        let second = File::create(&path).unwrap();
+        assert!(is_at(&second, &path));
+        assert!(!is_at(&first, &path));
     }
 }

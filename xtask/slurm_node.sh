@@ -1,0 +1,117 @@
+#!/bin/sh
+# A Slurm of one node on this machine, of Debian's packages slurm-wlm and munge, without systemd, as root or any user.
+#
+#   xtask/slurm_node.sh FOLDER [SLURMCTLD_PORT SLURMD_PORT]
+#
+# Keeps everything in FOLDER, which must not exist; /etc/slurm and a Slurm that runs already stay as they are. Says `ready`
+# when it takes jobs: SLURM_CONF=FOLDER/slurm.conf sbatch ... When its standard input closes, or at SIGINT, SIGTERM or SIGHUP,
+# it ends jobs and daemons and removes FOLDER; so it does not outlive who started it.
+set -eu
+
+folder=${1:?"usage: xtask/slurm_node.sh FOLDER [SLURMCTLD_PORT SLURMD_PORT]"}
+slurmctld_port=${2:-26817}
+slurmd_port=${3:-26818}
+# Daemons are where not every user's path goes.
+PATH=$PATH:/usr/sbin:/sbin
+SLURM_CONF=$folder/slurm.conf
+export PATH SLURM_CONF
+
+mkdir "$folder"
+folder=$(cd "$folder" && pwd)
+SLURM_CONF=$folder/slurm.conf
+# Who sends a job passes the folder of the socket.
+chmod 755 "$folder"
+mkdir "$folder/state" "$folder/spool"
+(umask 077 && dd if=/dev/urandom of="$folder/munge.key" bs=128 count=1 2>"$folder/dd.log")
+
+node=$(uname -n)
+user=$(id -un)
+# Four processors and 4 GB are stated wherever it runs, so that four shards run at once. No accounting, no cgroups, no prolog.
+# A job that is ended has 5 s for it; one that is queued again waits as long.
+cat >"$SLURM_CONF" <<END
+ClusterName=dashpot
+SlurmctldHost=$node(127.0.0.1)
+SlurmUser=$user
+SlurmdUser=$user
+SlurmctldPort=$slurmctld_port
+SlurmdPort=$slurmd_port
+AuthType=auth/munge
+CredType=cred/munge
+AuthInfo=socket=$folder/munge.socket,cred_expire=5
+StateSaveLocation=$folder/state
+SlurmdSpoolDir=$folder/spool
+SlurmctldPidFile=$folder/slurmctld.pid
+SlurmdPidFile=$folder/slurmd.pid
+SlurmdParameters=config_overrides
+ProctrackType=proctrack/linuxproc
+TaskPlugin=task/none
+JobAcctGatherType=jobacct_gather/none
+SelectType=select/cons_tres
+SelectTypeParameters=CR_CPU
+SwitchType=switch/none
+MpiDefault=none
+KillWait=5
+ReturnToService=2
+NodeName=$node NodeAddr=127.0.0.1 CPUs=4 RealMemory=4000 State=UNKNOWN
+PartitionName=main Nodes=$node Default=YES MaxTime=INFINITE State=UP
+END
+
+# Runs a daemon in a session of its own: an interruption at the terminal is for this script, which ends jobs first.
+daemons=
+reader=
+start() {
+    name=$1
+    shift
+    setsid "$@" </dev/null >"$folder/$name.out" 2>&1 &
+    daemons="$! $daemons"
+}
+
+end() {
+    trap '' INT TERM HUP
+    trap - EXIT
+    # A daemon of the node leaves running jobs alone when it ends.
+    if scancel --me 2>/dev/null; then
+        tries=0
+        while [ -n "$(squeue --noheader 2>/dev/null)" ] && [ $tries -lt 100 ]; do
+            tries=$((tries + 1))
+            sleep 0.1
+        done
+    fi
+    [ -z "$reader" ] || kill "$reader" 2>/dev/null || :
+    # Slurm's daemons before the one that they sign with.
+    for daemon in $daemons; do
+        kill "$daemon" 2>/dev/null || :
+        wait "$daemon" 2>/dev/null || :
+    done
+    rm -rf "$folder"
+}
+trap end EXIT
+trap 'exit 1' INT TERM HUP
+
+# Waits until a command succeeds, at most half a minute.
+wait_until() {
+    tries=0
+    until "$@" >/dev/null 2>&1; do
+        tries=$((tries + 1))
+        if [ $tries -ge 300 ]; then
+            echo "slurm_node.sh: \`$*\` fails still after 30 s:" >&2
+            tail -n 5 "$folder"/*.out "$folder"/*.log >&2
+            exit 1
+        fi
+        sleep 0.1
+    done
+}
+
+start munged munged --foreground --key-file="$folder/munge.key" --socket="$folder/munge.socket" \
+    --pid-file="$folder/munged.pid" --seed-file="$folder/munged.seed"
+wait_until munge --no-input --socket="$folder/munge.socket"
+start slurmctld slurmctld -D -f "$SLURM_CONF" -L "$folder/slurmctld.log"
+start slurmd slurmd -D -f "$SLURM_CONF" -L "$folder/slurmd.log"
+idle() { [ "$(sinfo --noheader --format=%T)" = idle ]; }
+wait_until idle
+echo ready
+# What runs in the background has no standard input unless by another name; a trap does not wait for `wait`.
+exec 3<&0
+cat <&3 >/dev/null &
+reader=$!
+wait $reader

@@ -1,0 +1,161 @@
+//! A Slurm array of shards, and what may happen to it.
+
+use super::trial::{CASES, COMPLETE, SHARDS, Trial, contains, read, rows_of};
+use crate::run::Outcome;
+
+/// All shards run at once.
+pub fn complete(trial: &Trial) -> Outcome<String> {
+    trial.run(COMPLETE, "0-3", SHARDS, &["COMPLETED"; 4])?;
+    trial.merges_to_the_whole(COMPLETE)?;
+    Ok("the same bytes".into())
+}
+
+const ENDED: &str = "ended";
+
+/// Shard 1 gets SIGTERM from scancel, shard 2 SIGKILL, as a node that goes down.
+pub fn ended(trial: &Trial) -> Outcome<String> {
+    trial.results(ENDED, &[0, 3])?;
+    let job = trial.submit(ENDED, "1-2", SHARDS)?;
+    for shard in [1, 2] {
+        trial.wait_for_a_row(ENDED, &job, shard)?;
+    }
+    trial.node.tell("scancel", &[&format!("{job}_1")])?;
+    trial.node.tell(
+        "scancel",
+        &["--batch", "--signal=KILL", &format!("{job}_2")],
+    )?;
+    trial.has_ended(&job, &["CANCELLED", "FAILED"])?;
+    // By itself, as it was asked to.
+    contains(
+        &trial.log(&job, 1)?,
+        "of 6 cases are done; the same command goes on",
+    )?;
+    let expected = missing(&[1, 2]);
+    trial.merge_says(ENDED, &expected)?;
+    let kept = [1, 2].map(|shard| trial.rows_kept(ENDED, shard));
+    Ok(format!(
+        "exit code 1, `{expected}`; rows kept: {} and {}",
+        kept[0], kept[1]
+    ))
+}
+
+/// What [`ended`] left.
+pub fn resumed(trial: &Trial) -> Outcome<String> {
+    let kept = [1, 2].map(|shard| (shard, trial.rows_kept(ENDED, shard)));
+    let job = trial.run(ENDED, "1-2", SHARDS, &["COMPLETED"; 2])?;
+    let mut run = Vec::new();
+    for (shard, kept) in kept {
+        run.push(goes_on(trial, &job, shard, kept)?);
+    }
+    trial.merges_to_the_whole(ENDED)?;
+    Ok(format!(
+        "of 6 cases run: {} and {}; the same bytes",
+        run[0], run[1]
+    ))
+}
+
+/// `scontrol requeue`, as after a node went down or gave way to another job.
+pub fn requeued(trial: &Trial) -> Outcome<String> {
+    let results = "requeued";
+    trial.results(results, &[1, 2, 3])?;
+    let job = trial.submit(results, "0", SHARDS)?;
+    trial.wait_for_a_row(results, &job, 0)?;
+    trial
+        .node
+        .tell("scontrol", &["requeue", &format!("{job}_0")])?;
+    trial.has_ended(&job, &["COMPLETED"])?;
+    let log = trial.log(&job, 0)?;
+    // The log has both runs: the first told what it left.
+    let done = log
+        .split("interrupted: ")
+        .nth(1)
+        .and_then(|rest| rest.split(' ').next());
+    let done = done.and_then(|word| word.parse().ok());
+    let kept = done.ok_or_else(|| format!("no interruption: {log}"))?;
+    let run = goes_on(trial, &job, 0, kept)?;
+    trial.merges_to_the_whole(results)?;
+    Ok(format!(
+        "of 6 cases run: {kept}, then {run}; the same bytes"
+    ))
+}
+
+/// Nothing is left to do.
+pub fn complete_again(trial: &Trial) -> Outcome<String> {
+    let results = "again";
+    let rows = trial.results(results, &[0, 1, 2, 3])?.join(rows_of(2));
+    let before = read(&rows)?;
+    let job = trial.run(results, "2", SHARDS, &["COMPLETED"])?;
+    contains(&trial.log(&job, 2)?, "6 cases, none run now")?;
+    if read(&rows)? != before {
+        return Err("the rows changed".into());
+    }
+    trial.merges_to_the_whole(results)?;
+    Ok("`6 cases, none run now`".into())
+}
+
+/// The second is refused while the first runs.
+pub fn twice_at_once(trial: &Trial) -> Outcome<String> {
+    let results = "twice";
+    trial.results(results, &[0, 2, 3])?;
+    let first = trial.submit(results, "1", SHARDS)?;
+    trial.wait_for_a_row(results, &first, 1)?;
+    let second = trial.run(results, "1", SHARDS, &["FAILED"])?;
+    let refusal = "another process is adding rows to it";
+    contains(&trial.log(&second, 1)?, refusal)?;
+    trial.has_ended(&first, &["COMPLETED"])?;
+    contains(&trial.log(&first, 1)?, "6 cases, 6 run now")?;
+    trial.merges_to_the_whole(results)?;
+    Ok(format!("`{refusal}`; the same bytes"))
+}
+
+/// Shard 3 of 5 in place of shard 3 of 4.
+pub fn wrong_count(trial: &Trial) -> Outcome<String> {
+    let results = "count";
+    trial.results(results, &[0, 1, 2])?;
+    trial.run(results, "3", 5, &["COMPLETED"])?;
+    // Cases 3, 8, 13, 18 and 23 are there, 3, 7, 11, 15, 19 and 23 were wanted.
+    let doubles = [(0, "8"), (1, "13"), (2, "18")];
+    let doubles = doubles.map(|(shard, cases)| {
+        let files = format!("{results}/{} and {results}/rows-3-of-5.csv", rows_of(shard));
+        format!("; double, in {files}: {cases}")
+    });
+    let missing = "4 of 24 cases are missing: 7, 11, 15, 19";
+    trial.merge_says(results, &format!("{missing}{}", doubles.concat()))?;
+    Ok(format!(
+        "exit code 1, `{missing}; double, in ...: 8; ...: 13; ...: 18`"
+    ))
+}
+
+/// Shard 4 of 4.
+pub fn beyond(trial: &Trial) -> Outcome<String> {
+    let job = trial.run("beyond", "4", SHARDS, &["FAILED"])?;
+    let refusal = "--shard 4, allowed: 0 to 3 with --shards 4";
+    contains(&trial.log(&job, 4)?, refusal)?;
+    Ok(format!("`{refusal}`"))
+}
+
+/// A shard of six cases that had rows ran the others; how many.
+fn goes_on(trial: &Trial, job: &str, shard: u64, kept: u64) -> Outcome<u64> {
+    let all = CASES / SHARDS;
+    if kept == 0 || kept >= all {
+        return Err(format!(
+            "shard {shard} had {kept} rows, allowed: 1 to {}",
+            all - 1
+        ));
+    }
+    let run = all - kept;
+    contains(
+        &trial.log(job, shard)?,
+        &format!("{all} cases, {run} run now"),
+    )?;
+    Ok(run)
+}
+
+/// What merge says where only these neighbouring shards are missing.
+fn missing(shards: &[u64; 2]) -> String {
+    let [first, last] = shards;
+    let ranges = (0..CASES).step_by(SHARDS as usize);
+    let ranges = ranges.map(|start| format!("{}-{}", start + first, start + last));
+    let ranges: Vec<String> = ranges.collect();
+    format!("12 of {CASES} cases are missing: {}", ranges.join(", "))
+}
