@@ -3,4 +3,5 @@
 mod architecture;
 mod fuzz_seeds;
 mod licences;
+mod observed;
 mod workspaces;

@@ -169,6 +169,13 @@ fn parts_of_a_case_are_changed_by_options() {
     assert_eq!(coach["case"], "coach on ideal at 120 km/h");
     let load = number(&coach["indices"]["wheelsets"][3]["wheels"][0]["load_least_n"]);
     assert!((load / 54.5e3 - 1.0).abs() < 0.01, "{load}");
+    // At rest on ideal track but for the push, which the first row still has.
+    run(&["--track", "ideal", "--speed-km-h", "30", "--push-m", "3e-3"]);
+    let rows = fs::read_to_string(folder.path().join("dashpot-vehicle/history.csv")).unwrap();
+    for (name, expected_m) in [("wheelset_4", 3e-3), ("front_bogie", 3e-3), ("body", 0.0)] {
+        let lateral = column(&rows, &format!("{name}_lateral_m"))[0];
+        assert!((lateral - expected_m).abs() < 1e-4, "{name}: {lateral}");
+    }
 }
 
 #[test]
@@ -306,6 +313,16 @@ fn wrong_words_are_told_with_what_is_allowed() {
             &["--case", "straight-180", "--damper", "latral=paper"],
             2,
             &["lateral"],
+        ),
+        (
+            &["--case", "straight-180", "--push-m", "0.1"],
+            2,
+            &["--push-m 0.1", "-0.02 to 0.02"],
+        ),
+        (
+            &["--case", "straight-180", "--push-m", "1e-3", "--check"],
+            2,
+            &["--check", "push"],
         ),
         (
             &["--track", "nowhere", "--speed-km-h", "100"],

@@ -160,11 +160,15 @@ fn a_measured_file_counts_from_the_track_file() {
 /// Every wheelset of a vehicle of 30 m that starts 15 m before the irregularities stays within them, smooth start apart.
 #[test]
 fn shipped_tracks_are_long_enough_for_their_cases() {
-    for (name, speed_km_h, time_s, radius_m) in [
-        ("straight", 200.0, 5.0, None),
-        ("curve-r200", 100.0, 10.0, Some(200.0)),
-        ("curve-r300", 100.0, 10.0, Some(300.0)),
-        ("curve-r600", 100.0, 10.0, Some(600.0)),
+    let class_6 = Spectrum::fra(6).unwrap();
+    let german = Spectrum::german_low();
+    for (name, speed_km_h, time_s, radius_m, spectrum) in [
+        ("straight", 200.0, 5.0, None, class_6),
+        ("straight-short", 200.0, 5.0, None, class_6),
+        ("straight-german", 200.0, 5.0, None, german),
+        ("curve-r200", 100.0, 10.0, Some(200.0), class_6),
+        ("curve-r300", 100.0, 10.0, Some(300.0), class_6),
+        ("curve-r600", 100.0, 10.0, Some(600.0), class_6),
     ] {
         let parameters = track::load(name).unwrap();
         let IrregularityParameters::Generated { generation, .. } = &parameters.irregularity else {
@@ -175,7 +179,7 @@ fn shipped_tracks_are_long_enough_for_their_cases() {
             behind_m < generation.length_m - generation.ramp_m,
             "{name}: {behind_m}"
         );
-        assert_eq!(generation.spectrum, Spectrum::fra(6).unwrap());
+        assert_eq!(generation.spectrum, spectrum);
         let end = parameters.layout.at(behind_m);
         let curvature_per_m = radius_m.map_or(0.0, |radius_m| 1.0 / radius_m);
         assert_eq!(end.curvature_per_m, curvature_per_m, "{name}");
@@ -194,7 +198,7 @@ fn shipped_tracks_are_long_enough_for_their_cases() {
     }
     let ideal = track::load("ideal").unwrap().build().unwrap();
     assert_eq!(ideal.rails(300.0), [RailDeviation::default(); 2]);
-    assert_eq!(TRACKS.len(), 5);
+    assert_eq!(TRACKS.len(), 7);
 }
 
 #[test]
@@ -318,7 +322,7 @@ fn what_only_building_finds_has_its_line_too() {
 #[test]
 fn an_unknown_track_is_told_the_nearest() {
     let message = track::load("curve-r20").unwrap_err().to_string();
-    let expected = "track `curve-r20`: no such track or file; give a TOML file or a track: ideal, straight, curve-r200, curve-r300, \
-                    curve-r600; did you mean `curve-r200`?";
+    let expected = "track `curve-r20`: no such track or file; give a TOML file or a track: ideal, straight, straight-short, \
+                    straight-german, curve-r200, curve-r300, curve-r600; did you mean `curve-r200`?";
     assert_eq!(message, expected);
 }

@@ -1,4 +1,4 @@
-//! `dashpot vehicle --parquet`, in a build with the feature.
+//! `--parquet` of `dashpot vehicle` and `dashpot sweep`, in a build with the feature.
 
 #[path = "../common/mod.rs"]
 mod common;
@@ -36,5 +36,62 @@ fn history_parquet_has_the_numbers_of_history_csv() {
             assert_eq!(found.get_double(number).unwrap(), expected, "{number}");
         }
     }
+    assert!(found.next().is_none());
+}
+
+#[test]
+fn rows_parquet_has_numbers_words_and_gaps() {
+    let folder = tempfile::tempdir().unwrap();
+    let study = r#"name = "small"
+seeds = [1, 2]
+observed = ["body_vertical_rms_m_per_s2", "sperling_vertical"]
+[[sweep]]
+name = "a, with a comma"
+track = "straight"
+speed_km_h = 120
+duration_s = 0.2
+vary = [{ parameter = "vertical.mount.clearance_m", values = [1e-3, 2e-3] }]
+[[sweep]]
+name = "b"
+track = "straight"
+speed_km_h = 120
+duration_s = 0.2
+"#;
+    std::fs::write(folder.path().join("study.toml"), study).unwrap();
+    let sweep = ["sweep", "study.toml", "--parquet", "--output", "."];
+    dashpot(&sweep, folder.path()).success();
+    let mut rows = csv::Reader::from_path(folder.path().join("rows.csv")).unwrap();
+    let reader = SerializedFileReader::new(File::open(folder.path().join("rows.parquet")).unwrap());
+    let reader = reader.unwrap();
+    let mut found = reader.get_row_iter(None).unwrap();
+    let names = rows.headers().unwrap().clone();
+    let mut count = 0;
+    for row in rows.records() {
+        let found = found.next().unwrap().unwrap();
+        count += 1;
+        for (number, cell) in row.unwrap().iter().enumerate() {
+            let is_word = [
+                "sweep",
+                "ending",
+                "sperling_vertical",
+                "study",
+                "version",
+                "arithmetic",
+            ]
+            .contains(&&names[number]);
+            if is_word {
+                // Too short for a window: nothing to tell a number by.
+                assert_eq!(found.get_string(number).unwrap(), cell);
+            } else if cell.is_empty() {
+                assert!(found.get_double(number).is_err(), "{}", &names[number]);
+            } else {
+                assert_eq!(
+                    found.get_double(number).unwrap(),
+                    cell.parse::<f64>().unwrap()
+                );
+            }
+        }
+    }
+    assert_eq!(count, 6);
     assert!(found.next().is_none());
 }
