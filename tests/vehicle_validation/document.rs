@@ -5,7 +5,7 @@ use crate::rows::{Kept, percent};
 use crate::trends::{Compared, compare, table};
 
 /// The whole document.
-pub fn text(paper: &Kept, stand_ins: &Kept) -> String {
+pub fn text(paper: &Kept, wide: &Kept, stand_ins: &Kept) -> String {
     let compared = compare(paper);
     let count = |verdict: Verdict| compared.iter().filter(|row| row.verdict == verdict).count();
     let [holds, not_shown, not] =
@@ -41,7 +41,7 @@ The paper studies dampers in a model of the SS9 locomotive whose parameters are 
         table(&compared),
         levels(paper),
         why(&compared, paper, stand_ins),
-        curve(paper),
+        curve(paper, wide),
         coupling(paper),
     )
 }
@@ -252,7 +252,7 @@ paper's one realisation and its vehicle's unpublished stops are what may differ;
 }
 
 /// The published curve beside one of 600 m.
-fn curve(paper: &Kept) -> String {
+fn curve(paper: &Kept, wide: &Kept) -> String {
     let mut text = String::from(
         "## In a curve of 600 m
 
@@ -270,11 +270,11 @@ Greatest less least mean of each sweep over their mean, in percent, at 100 km/h:
     ];
     for (part, what) in [("a", "C"), ("b", "Vr"), ("c", "Ke"), ("d", "2a")] {
         let cells = indices.map(|index| {
-            let [tight, wide] = ["17", "600"].map(|curve| {
-                let sweep = paper.sweep(&format!("{curve}{part}"));
-                paper.range(sweep, index)
+            let ranges = [paper, wide].map(|kept| {
+                let sweep = kept.sweep(&format!("17{part}"));
+                format!("{:.2}", kept.range(sweep, index))
             });
-            format!("{tight:.2}, {wide:.2}")
+            ranges.join(", ")
         });
         text.push_str(&format!("| {what} | {} |\n", cells.join(" | ")));
     }

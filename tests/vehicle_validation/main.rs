@@ -12,14 +12,14 @@ use dashpot_hil::study::workers;
 use rows::Kept;
 
 /// Studies whose rows are kept.
-const STUDIES: [&str; 3] = ["paper", "stand-ins", "out-of-service"];
+const STUDIES: [&str; 4] = ["paper", "curve-r600", "stand-ins", "out-of-service"];
 
 #[test]
 fn the_validation_is_that_of_the_rows() {
-    let [paper, stand_ins] = ["paper", "stand-ins"].map(Kept::load);
+    let [paper, wide, stand_ins] = ["paper", "curve-r600", "stand-ins"].map(Kept::load);
     kept::compare(
         "docs/vehicle-validation.md",
-        &document::text(&paper, &stand_ins),
+        &document::text(&paper, &wide, &stand_ins),
     );
 }
 

@@ -5,7 +5,7 @@ use std::fs;
 use crate::run::{Outcome, cargo, cargo_with, repository};
 
 /// Studies whose rows are kept in `data/studies/rows/`.
-const STUDIES: [&str; 3] = ["paper", "stand-ins", "out-of-service"];
+const STUDIES: [&str; 4] = ["paper", "curve-r600", "stand-ins", "out-of-service"];
 
 /// Runs the studies anew, some two minutes on two cores, keeps their rows, and writes the documents.
 ///

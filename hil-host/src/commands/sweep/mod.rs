@@ -233,7 +233,7 @@ impl ResultArguments {
 impl From<RunError> for Failure {
     fn from(error: RunError) -> Self {
         match error {
-            RunError::Case(error) => error.into(),
+            RunError::Case(error) => (*error).into(),
             other => Self::new(other.to_string()),
         }
     }

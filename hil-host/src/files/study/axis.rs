@@ -28,7 +28,7 @@ impl fmt::Display for Value {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Axis {
     /// A number of the case (`speed_km_h`), `vehicle` or `track`; `dampers.table.key` or `part.key` as an override of the vehicle has
-    /// them; dampers that another takes the place of (`vertical`); or [`WORN_DAMPER`].
+    /// them; dampers that another takes the place of (`vertical`); or `worn_damper`.
     pub parameter: String,
     /// Its values, in the order of the cases.
     pub values: Vec<Value>,

@@ -15,8 +15,12 @@ use crate::files::overrides::explain;
 use crate::files::shipped::{Found, Shipped};
 
 /// Studies that ship with the program: name and file.
-pub const STUDIES: [(&str, &str); 6] = [
+pub const STUDIES: [(&str, &str); 7] = [
     ("paper", include_str!("../../../../data/studies/paper.toml")),
+    (
+        "curve-r600",
+        include_str!("../../../../data/studies/curve-r600.toml"),
+    ),
     (
         "stand-ins",
         include_str!("../../../../data/studies/stand-ins.toml"),

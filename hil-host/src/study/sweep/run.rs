@@ -63,15 +63,15 @@ pub fn observe(
 #[derive(Debug, thiserror::Error)]
 pub enum RunError {
     /// A case is refused.
-    #[error(transparent)]
-    Case(#[from] StudyFileError),
+    #[error("{0}")]
+    Case(Box<StudyFileError>),
     /// A case cannot be run.
     #[error("sweep {sweep}: {source}")]
     Run {
         /// Its sweep.
         sweep: String,
         /// What is wrong with it.
-        source: VehicleStudyError,
+        source: Box<VehicleStudyError>,
     },
     /// A figure cannot be drawn.
     #[error("figure of sweep {sweep}: {reason}")]
@@ -83,12 +83,18 @@ pub enum RunError {
     },
 }
 
+impl From<StudyFileError> for RunError {
+    fn from(error: StudyFileError) -> Self {
+        Self::Case(Box::new(error))
+    }
+}
+
 impl RunError {
     /// A case of `sweep` cannot be run.
     pub fn of_sweep(sweep: &Sweep, source: VehicleStudyError) -> Self {
         Self::Run {
             sweep: sweep.name.clone(),
-            source,
+            source: Box::new(source),
         }
     }
 }
