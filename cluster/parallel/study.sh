@@ -23,5 +23,5 @@ mkdir -p "$OUTPUT"
 # They need dashpot on their path and this folder at the same place. parallel tells jobs apart by their numbers alone, so the log is
 # named after SHARDS; for another study remove it, or take another folder.
 seq 0 $((SHARDS - 1)) |
-    parallel --jobs "$JOBS" --joblog "$OUTPUT/jobs-of-$SHARDS.log" --resume-failed \
+    parallel --quote --jobs "$JOBS" --joblog "$OUTPUT/jobs-of-$SHARDS.log" --resume-failed \
         dashpot sweep "$STUDY" --shard {} --shards "$SHARDS" --threads "$THREADS" --no-page --output "$OUTPUT"

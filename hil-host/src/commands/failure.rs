@@ -18,6 +18,7 @@ use crate::realtime::{RealtimeError, listed, stopped};
 use crate::report::DrawError;
 use crate::study::StudyError;
 use crate::study::bench_test::{HIGHEST_FREQUENCY_HZ, LARGEST_AMPLITUDE_M};
+use crate::study::vehicle::VehicleStudyError;
 use crate::target::export::ExportError;
 use crate::target::pil::{EmulatorError, LinkError, SessionError};
 
@@ -176,6 +177,12 @@ impl From<StudyFileError> for Failure {
             StudyFileError::Unknown(_) => Self::wrong_use(error.to_string()),
             _ => Self::new(error.to_string()),
         }
+    }
+}
+
+impl From<VehicleStudyError> for Failure {
+    fn from(error: VehicleStudyError) -> Self {
+        Self::new(error.to_string())
     }
 }
 

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use super::print_report;
-use super::sweep::{self, Report, ResultArguments};
+use super::sweep::{self, Report, ResultArguments, StudyArguments};
 use crate::commands::failure::{Failure, Outcome};
 use crate::files::output::create_folder;
 use crate::study::sweep::{MergeError, merge, rows};
@@ -17,9 +17,8 @@ use crate::study::sweep::{MergeError, merge, rows};
 Writes rows.csv and report.html, the same as `dashpot sweep` would have on one machine. What is missing or double is named, and nothing
 is written then; exit code 1.")]
 pub struct MergeArguments {
-    /// A study.
-    #[arg(help = sweep::study_help(), value_name = "STUDY")]
-    study: String,
+    #[command(flatten)]
+    study: StudyArguments,
     /// Files of rows, those of `dashpot sweep --shard`.
     #[arg(required = true, value_name = "ROWS")]
     files: Vec<PathBuf>,
@@ -37,10 +36,10 @@ pub struct MergeArguments {
 pub fn run(arguments: &MergeArguments) -> Outcome<()> {
     let results = &arguments.results;
     results.check()?;
-    let study = sweep::read(&arguments.study)?;
+    let study = arguments.study.read()?;
     results.check_figures(&study)?;
     let rows = merge(&study, &arguments.files)?;
-    let folder = sweep::folder(&arguments.study, arguments.output.as_ref());
+    let folder = arguments.study.folder(arguments.output.as_ref());
     create_folder(&folder)?;
     let path = folder.join("rows.csv");
     rows::write(&study, &rows, &path)?;

@@ -23,10 +23,10 @@ pub fn in_parallel<T: Sync, R: Send, E>(
     let (next, ended) = (AtomicUsize::new(0), AtomicBool::new(false));
     let (send, results) = mpsc::channel();
     thread::scope(|scope| {
-        for _ in 0..threads.max(1) {
+        for started in 0..threads.clamp(1, items.len().max(1)) {
             let send = send.clone();
             let (next, ended, work) = (&next, &ended, &work);
-            scope.spawn(move || {
+            let run = move || {
                 let is_ended = || ended.load(Ordering::Relaxed);
                 while !is_ended() {
                     let number = next.fetch_add(1, Ordering::Relaxed);
@@ -37,7 +37,16 @@ pub fn in_parallel<T: Sync, R: Send, E>(
                         return;
                     }
                 }
-            });
+            };
+            // Where the system gives no more, those there are do the work; where it gives none, this one.
+            if thread::Builder::new().spawn_scoped(scope, run).is_err() {
+                if started == 0 {
+                    let mut items = items.iter().enumerate();
+                    return items
+                        .try_for_each(|(number, item)| take(number, work(item, &|| false)));
+                }
+                break;
+            }
         }
         drop(send);
         let mut taken = Ok(());

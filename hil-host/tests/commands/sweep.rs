@@ -2,7 +2,7 @@
 
 use std::fs::{self, File};
 use std::path::Path;
-use std::process::Stdio;
+use std::process::{Child, Stdio};
 
 use tempfile::TempDir;
 
@@ -51,6 +51,27 @@ fn rows(folder: &Path) -> String {
     let arguments = ["sweep", "study.toml", "--threads", "1", "--no-page"];
     dashpot(&[&arguments[..], &["--output", "one"]].concat(), folder).success();
     read(folder, "one/rows.csv")
+}
+
+/// The command, started.
+#[cfg(unix)]
+fn started(arguments: &[&str], folder: &Path) -> Child {
+    command(arguments, folder)
+        .env("XDG_CACHE_HOME", env!("CARGO_TARGET_TMPDIR"))
+        .stdout(Stdio::null())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap()
+}
+
+/// Until a command that writes to `one` has so many rows.
+#[cfg(unix)]
+fn wait_for_rows(child: &mut Child, folder: &Path, rows: usize) {
+    let partial = folder.join("one/rows.csv.partial");
+    while fs::read_to_string(&partial).map_or(0, |text| text.lines().count()) < rows + 1 {
+        assert_eq!(child.try_wait().unwrap(), None, "ended by itself");
+        std::thread::yield_now();
+    }
 }
 
 /// Its cells by the names of their columns.
@@ -251,6 +272,93 @@ fn rows_of_another_study_are_kept() {
     assert_eq!(read(folder.path(), "one/rows.csv"), kept);
     dashpot(&[&sweep[..], &["--anew"]].concat(), folder.path()).success();
     assert_ne!(read(folder.path(), "one/rows.csv"), kept);
+    assert_eq!(read(folder.path(), "one/rows.csv.old"), kept);
+}
+
+#[test]
+fn rows_of_another_shard_are_refused() {
+    let folder = folder(STUDY);
+    let shard = |number: &'static str| {
+        [
+            "sweep",
+            "study.toml",
+            "--shard",
+            number,
+            "--shards",
+            "2",
+            "--output",
+            ".",
+        ]
+    };
+    dashpot(&shard("1"), folder.path()).success();
+    let [one, zero] = ["rows-1-of-2.csv", "rows-0-of-2.csv"].map(|name| folder.path().join(name));
+    fs::copy(&one, &zero).unwrap();
+    let error = error_of(&dashpot(&shard("0"), folder.path()).code(1));
+    assert!(
+        error.contains("rows-0-of-2.csv: case 1 is not of shard 0 of 2"),
+        "{error}"
+    );
+}
+
+#[cfg(unix)]
+#[test]
+fn a_vehicle_that_changes_while_it_runs_spoils_no_rows() {
+    let study = STUDY.replace("track = ", "vehicle = \"own.toml\"\ntrack = ");
+    let folder = folder(&study.replace("duration_s = 0.5", "duration_s = 4"));
+    let own = folder.path().join("own.toml");
+    let text = include_str!("../../../data/vehicles/locomotive.toml");
+    fs::write(&own, text).unwrap();
+    let sweep = [
+        "sweep",
+        "study.toml",
+        "--no-page",
+        "--threads",
+        "1",
+        "--output",
+        "one",
+    ];
+    let mut child = started(&sweep, folder.path());
+    wait_for_rows(&mut child, folder.path(), 2);
+    // Whole at once, as an editor leaves it.
+    let new = folder.path().join("new.toml");
+    fs::write(&new, text.replace("mass_kg = 63400", "mass_kg = 60000")).unwrap();
+    fs::rename(&new, &own).unwrap();
+    let ended = child.wait_with_output().unwrap();
+    let error = String::from_utf8(ended.stderr).unwrap();
+    assert_eq!(ended.status.code(), Some(1), "{error}");
+    assert!(error.contains("files were changed while it ran"), "{error}");
+    let kept = read(folder.path(), "one/rows.csv.partial");
+    assert_eq!(kept.lines().count(), 1, "{kept}");
+}
+
+#[test]
+fn files_of_what_varies_count_from_the_study() {
+    let study = STUDY.replace(
+        "\"speed_km_h\", from = 100, to = 140, count = 2",
+        "\"vertical\", values = [\"own.toml\", \"in-service\"]",
+    );
+    let folder = tempfile::tempdir().unwrap();
+    fs::create_dir(folder.path().join("sub")).unwrap();
+    fs::write(folder.path().join("sub/study.toml"), study).unwrap();
+    let damper = include_str!("../../../data/dampers/reduced-vertical.toml");
+    fs::write(folder.path().join("sub/own.toml"), damper).unwrap();
+    let list = ["sweep", "sub/study.toml", "--list", "--format", "json"];
+    assert_eq!(
+        json_of(&dashpot(&list, folder.path()).success())["cases"],
+        12
+    );
+}
+
+#[test]
+fn seeds_can_be_more_than_the_studys() {
+    let folder = folder(STUDY);
+    let list = |more: &[&str]| {
+        let list = ["sweep", "study.toml", "--list", "--format", "json"];
+        json_of(&dashpot(&[&list[..], more].concat(), folder.path()).success())
+    };
+    let (two, five) = (list(&[]), list(&["--seeds", "5"]));
+    assert_eq!((&two["cases"], &five["cases"]), (&12.into(), &30.into()));
+    assert_ne!(two["digest"], five["digest"]);
 }
 
 #[test]
@@ -281,18 +389,8 @@ fn an_interrupted_study_goes_on() {
         "--output",
         "one",
     ];
-    let mut child = command(&sweep, folder.path())
-        .env("XDG_CACHE_HOME", env!("CARGO_TARGET_TMPDIR"))
-        .stdout(Stdio::null())
-        .stderr(Stdio::piped())
-        .spawn()
-        .unwrap();
-    let partial = folder.path().join("one/rows.csv.partial");
-    let lines = || fs::read_to_string(&partial).map_or(0, |text| text.lines().count());
-    while lines() < 3 {
-        assert_eq!(child.try_wait().unwrap(), None, "ended by itself");
-        std::thread::yield_now();
-    }
+    let mut child = started(&sweep, folder.path());
+    wait_for_rows(&mut child, folder.path(), 2);
     let id = child.id().to_string();
     assert!(
         std::process::Command::new("kill")
@@ -309,7 +407,7 @@ fn an_interrupted_study_goes_on() {
         "{error}"
     );
     assert_eq!(files_in(&folder.path().join("one")), ["rows.csv.partial"]);
-    let done = lines() - 1;
+    let done = read(folder.path(), "one/rows.csv.partial").lines().count() - 1;
     assert!((2..12).contains(&done), "{done}");
     let rest = dashpot(&sweep, folder.path()).success();
     let expected = format!("12 cases, {} run now", 12 - done);
@@ -359,7 +457,7 @@ fn what_is_wrong_is_told_before_anything_runs() {
         (
             "\"derailment_greatest\"",
             "\"derailment_gratest\"",
-            "study.toml:1: observed `derailment_gratest`: no such index; did you mean `derailment_greatest`?",
+            "study.toml:3: observed `derailment_gratest`: no such index; did you mean `derailment_greatest`?",
         ),
         (
             "vertical.mount.clearance_m",
@@ -422,6 +520,51 @@ fn what_is_wrong_is_told_before_anything_runs() {
             "`body_lateral_rms_m_per_s2` is not among the observed; did you mean `body_vertical_rms_m_per_s2`?",
         ),
         ("indices = {", "indexes = {", "did you mean `indices`?"),
+        (
+            "\"speed_km_h\", from = 100, to = 140, count = 2",
+            "\"vertical.mount.clearance_m\", values = [1e-3]",
+            "study.toml:12: vary: vertical.mount.clearance_m twice",
+        ),
+        (
+            "observed = [\"body_vertical_rms_m_per_s2\", \"derailment_greatest\", \"sperling_vertical\"]",
+            "observed = []",
+            "study.toml:3: observed: allowed: one index or more, each once",
+        ),
+        (
+            "name = \"worn\"",
+            "name = \"\"",
+            "name of a sweep: allowed: one line that is not empty",
+        ),
+        (
+            "to = 140, count = 2",
+            "to = 140, count = 2, factor = 0",
+            "speed_km_h: factor 0, allowed: a finite number but 0",
+        ),
+        (
+            "indices = { sweeps = [\"clearance\", \"worn\"], observed = [\"body_vertical_rms_m_per_s2\"] }",
+            "indices = { sweeps = [\"clearance\"], observed = [\"body_vertical_rms_m_per_s2\", \"derailment_greatest\"] }",
+            "several indices over two axes, allowed: one",
+        ),
+        (
+            "indices = { sweeps = [\"clearance\", \"worn\"], observed = [\"body_vertical_rms_m_per_s2\"] }",
+            "signal = { sweep = \"worn\", values = [\"nobody\"], signal = \"body_lateral_m\" }",
+            "nobody is no value of the first axis of sweep worn",
+        ),
+        (
+            "indices = { sweeps = [\"clearance\", \"worn\"], observed = [\"body_vertical_rms_m_per_s2\"] }",
+            "signal = { sweep = \"worn\", values = [\"none\"], signal = \"body_latral_m\" }",
+            "no signal `body_latral_m`; did you mean `body_lateral_m`?",
+        ),
+        (
+            "indices = { sweeps = [\"clearance\", \"worn\"], observed = [\"body_vertical_rms_m_per_s2\"] }",
+            "response = { sweep = \"worn\", values = [\"none\"], damper = \"front_vertical_damper 1\", amplitude_m = 1e-3 }",
+            "no damper `front_vertical_damper 1`; did you mean `front vertical damper 1`?",
+        ),
+        (
+            "indices = { sweeps = [\"clearance\", \"worn\"], observed = [\"body_vertical_rms_m_per_s2\"] }",
+            "response = { sweep = \"worn\", values = [\"none\"], damper = \"front vertical damper 1\", amplitude_m = 9 }",
+            "amplitude_m 9, allowed: above 0 and at most 1",
+        ),
     ] {
         let changed = STUDY.replacen(from, to, 1);
         assert_ne!(changed, STUDY, "{from}");
@@ -440,6 +583,8 @@ fn the_shipped_studies_are_whole() {
     for (study, cases) in [
         ("paper", 536),
         ("curve-r600", 168),
+        ("stand-ins", 752),
+        ("out-of-service", 414),
         ("hunting", 54),
         ("temperature", 144),
         ("worn-damper", 208),

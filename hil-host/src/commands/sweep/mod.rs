@@ -12,6 +12,7 @@ use super::{Format, interruption, print_report, progress};
 use crate::commands::failure::{Failure, Outcome};
 #[cfg(feature = "parquet")]
 use crate::files::columns;
+use crate::files::input::is_standard_stream;
 use crate::files::output::{create_folder, write_bytes};
 use crate::files::study::{STUDIES, StudyParameters};
 use crate::study::sweep::rows::Rows;
@@ -33,9 +34,8 @@ that derails or leaves the tables has that in its column `ending` and no indices
 An interrupted command keeps its rows in a file .partial; the same command goes on with the cases that are missing. Rows of another study
 or version are refused, and with --anew overwritten.")]
 pub struct SweepArguments {
-    /// A study.
-    #[arg(help = study_help(), value_name = "STUDY")]
-    study: String,
+    #[command(flatten)]
+    study: StudyArguments,
     /// Folder that results are written to [default: dashpot- and the name of the study].
     #[arg(long, value_name = "FOLDER")]
     output: Option<PathBuf>,
@@ -48,7 +48,7 @@ pub struct SweepArguments {
     /// How many parts there are; with --shard.
     #[arg(long, value_name = "N", requires = "shard", value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
     shards: Option<u64>,
-    /// Begins anew, whatever rows there are.
+    /// Begins anew, whatever rows there are; a file of rows keeps them as rows.csv.old.
     #[arg(long)]
     anew: bool,
     /// Tells the cases and runs none.
@@ -56,6 +56,17 @@ pub struct SweepArguments {
     list: bool,
     #[command(flatten)]
     results: ResultArguments,
+}
+
+/// Which study, over how many seeds.
+#[derive(Debug, Clone, clap::Args)]
+pub struct StudyArguments {
+    /// A study.
+    #[arg(help = study_help(), value_name = "STUDY")]
+    study: String,
+    /// Seeds 1 to N in place of those of the study, where it has some.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=100_000))]
+    seeds: Option<u64>,
 }
 
 /// What is made of the rows.
@@ -73,7 +84,7 @@ pub struct ResultArguments {
 }
 
 /// The help of an argument that names a study.
-pub(super) fn study_help() -> String {
+fn study_help() -> String {
     let names = STUDIES.map(|(name, _)| name);
     format!(
         "Study: the name of one that ships ({}) or a TOML file",
@@ -81,18 +92,26 @@ pub(super) fn study_help() -> String {
     )
 }
 
-/// The study of a name, read and checked.
-pub(super) fn read(name: &str) -> Outcome<Study> {
-    Ok(Study::new(StudyParameters::load(name)?)?)
-}
+impl StudyArguments {
+    /// The study, read and checked.
+    pub(super) fn read(&self) -> Outcome<Study> {
+        let parameters = StudyParameters::load(&self.study)?;
+        Ok(Study::new(match self.seeds {
+            Some(seeds) => parameters.with_seeds(seeds),
+            None => parameters,
+        })?)
+    }
 
-/// The folder of `output`, or that of the study's name.
-pub(super) fn folder(study: &str, output: Option<&PathBuf>) -> PathBuf {
-    let of_name = || {
-        let stem = Path::new(study).file_stem().unwrap_or_default();
-        PathBuf::from(format!("dashpot-{}", stem.to_string_lossy()))
-    };
-    output.cloned().unwrap_or_else(of_name)
+    /// The folder of `output`, or that of the study's name.
+    pub(super) fn folder(&self, output: Option<&PathBuf>) -> PathBuf {
+        let of_name = || {
+            let path = Path::new(&self.study);
+            let stem = path.file_stem().filter(|_| !is_standard_stream(path));
+            let stem = stem.map_or("study".into(), |stem| stem.to_string_lossy());
+            PathBuf::from(format!("dashpot-{stem}"))
+        };
+        output.cloned().unwrap_or_else(of_name)
+    }
 }
 
 /// Runs the command.
@@ -112,21 +131,22 @@ pub fn run(arguments: &SweepArguments) -> Outcome<()> {
         }
         _ => None,
     };
-    let study = read(&arguments.study)?;
+    let study = arguments.study.read()?;
     if arguments.list {
+        results.check_figures(&study)?;
         return report::list(&study, results.format);
     }
     if shard.is_none() {
         results.check_figures(&study)?;
     }
-    let folder = folder(&arguments.study, arguments.output.as_ref());
+    let folder = arguments.study.folder(arguments.output.as_ref());
     create_folder(&folder)?;
     let name = match shard {
         Some(Shard { number, of }) => format!("rows-{number}-of-{of}.csv"),
         None => "rows.csv".into(),
     };
     let path = folder.join(name);
-    let mut journal = Journal::open(&study, &path, arguments.anew)?;
+    let mut journal = Journal::open(&study, &path, shard, arguments.anew)?;
     let known = journal.rows();
     let part: Vec<u64> = study.part(shard).collect();
     let missing: Vec<u64> = part
@@ -143,10 +163,22 @@ pub fn run(arguments: &SweepArguments) -> Outcome<()> {
         arguments.threads,
     )?;
     let took = started.elapsed();
+    if !study.is_unchanged()? {
+        journal.take_away(&study, &missing)?;
+        return Err(Failure::new(format!(
+            "{}: the study's files were changed while it ran; the rows of this run are not kept",
+            study.parameters.file
+        )));
+    }
     let done = journal.rows().len();
     if done < part.len() {
+        let command = if arguments.anew {
+            "the same command without --anew"
+        } else {
+            "the same command"
+        };
         return Err(Failure::new(format!(
-            "interrupted: {done} of {} cases are done; the same command goes on with the rest",
+            "interrupted: {done} of {} cases are done; {command} goes on with the rest",
             part.len()
         )));
     }

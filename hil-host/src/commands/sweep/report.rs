@@ -40,8 +40,7 @@ impl Report {
     ) -> Self {
         let mut not_completed: BTreeMap<String, Vec<u64>> = BTreeMap::new();
         for row in rows.values() {
-            // The place is in the row.
-            let reason = row.ending.split([':', ' ']).next().unwrap_or_default();
+            let reason = reason(&row.ending);
             if reason != "completed" {
                 let cases = not_completed.entry(reason.to_owned()).or_default();
                 cases.push(row.case);
@@ -58,6 +57,15 @@ impl Report {
             files: Vec::new(),
         }
     }
+}
+
+/// Why a case ended, without its place, which is in the row.
+fn reason(ending: &str) -> &str {
+    const LEFT: &str = "left the tables of the contact";
+    if ending.contains(LEFT) {
+        return LEFT;
+    }
+    ending.split([':', ' ']).next().unwrap_or_default()
 }
 
 impl Report {

@@ -1,9 +1,11 @@
 //! What varies in a sweep.
 
 use std::fmt;
+use std::path::Path;
 
 use crate::files::case::CaseOptions;
 use crate::files::overrides::nearest;
+use crate::files::shipped::named_in;
 use crate::files::vehicle::Replacement;
 
 /// A value of a parameter.
@@ -15,6 +17,35 @@ pub enum Value {
     Word(String),
 }
 
+impl Value {
+    /// Of a value in TOML.
+    ///
+    /// # Errors
+    /// Neither number nor name; in words.
+    pub(super) fn of(value: toml::Value) -> Result<Self, String> {
+        match value {
+            toml::Value::Integer(number) => Ok(Self::Number(number as f64)),
+            toml::Value::Float(number) => Ok(Self::Number(number)),
+            toml::Value::String(word) => Ok(Self::Word(word)),
+            other => Err(format!("value {other}, allowed: numbers and names")),
+        }
+    }
+
+    /// A name as it stands in a file of `folder`.
+    pub(super) fn named_in(self, folder: &Path) -> Self {
+        match self {
+            Self::Word(word) => Self::Word(named_in(folder, &word)),
+            number => number,
+        }
+    }
+}
+
+/// Whether the values of a parameter may be names of files.
+pub(super) fn names_files(parameter: &str) -> bool {
+    let is_number = CaseOptions::NUMBERS.contains(&parameter);
+    !is_number && parameter != WORN_DAMPER && !parameter.contains('.')
+}
+
 impl fmt::Display for Value {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -22,6 +53,12 @@ impl fmt::Display for Value {
             Self::Word(word) => f.write_str(word),
         }
     }
+}
+
+/// A number as it is shown: without the last digits that a factor leaves.
+pub fn shown(number: f64) -> String {
+    let text = format!("{number:.6}");
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
 /// A parameter and its values.
@@ -38,6 +75,8 @@ pub struct Axis {
     pub label: String,
     /// The number on a figure over that in the file.
     pub factor: f64,
+    /// Line in the file.
+    pub line: u64,
 }
 
 /// The parameter whose values are dampers, of which one after the other is changed; [`NONE`] stands for none.

@@ -4,6 +4,9 @@ use serde::Deserialize;
 
 use super::axis::Value;
 
+/// Greatest amplitude of a damper's displacement, m.
+const MOST_AMPLITUDE_M: f64 = 1.0;
+
 /// A figure.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Figure {
@@ -57,6 +60,17 @@ pub enum Shown {
 }
 
 impl Shown {
+    /// Values that are drawn, each with its sweep.
+    pub(super) fn values(&self) -> impl Iterator<Item = (&str, &Value)> {
+        let (sweep, values) = match self {
+            Self::Signal { sweep, values, .. } | Self::Response { sweep, values, .. } => {
+                (sweep.as_str(), &values[..])
+            }
+            Self::Indices { .. } | Self::Dampers { .. } => ("", &[][..]),
+        };
+        values.iter().map(move |value| (sweep, value))
+    }
+
     /// The sweeps that are drawn.
     pub fn sweeps(&self) -> &[String] {
         match self {
@@ -100,7 +114,7 @@ struct DampersTable {
 #[serde(deny_unknown_fields)]
 struct SignalTable {
     sweep: String,
-    values: Vec<f64>,
+    values: Vec<toml::Value>,
     signal: String,
 }
 
@@ -108,7 +122,7 @@ struct SignalTable {
 #[serde(deny_unknown_fields)]
 struct ResponseTable {
     sweep: String,
-    values: Vec<f64>,
+    values: Vec<toml::Value>,
     damper: String,
     amplitude_m: f64,
 }
@@ -119,10 +133,18 @@ impl FigureTable {
     /// # Errors
     /// Not one thing to draw; in words.
     pub fn figure(self) -> Result<Figure, String> {
-        let numbers = |values: Vec<f64>| values.into_iter().map(Value::Number).collect();
+        let read = |values: Vec<toml::Value>| -> Result<Vec<Value>, String> {
+            if values.is_empty() {
+                return Err("no values, allowed: one or more".into());
+            }
+            values.into_iter().map(Value::of).collect()
+        };
         let shown = match (self.indices, self.dampers, self.signal, self.response) {
             (Some(table), None, None, None) => {
                 let [factors, observed] = [table.factors.len(), table.observed.len()];
+                if !table.factors.iter().all(|factor| factor.is_finite()) {
+                    return Err("a factor that is no finite number".into());
+                }
                 if factors > 0 && factors != observed {
                     return Err(format!(
                         "{factors} factors of {observed} observed, allowed: none or one each"
@@ -134,18 +156,29 @@ impl FigureTable {
                     factors: table.factors,
                 }
             }
+            (None, Some(table), None, None) if table.dampers.is_empty() => {
+                return Err("no dampers, allowed: one or more".into());
+            }
             (None, Some(table), None, None) => Shown::Dampers {
                 sweep: table.sweep,
                 dampers: table.dampers,
             },
             (None, None, Some(table), None) => Shown::Signal {
                 sweep: table.sweep,
-                values: numbers(table.values),
+                values: read(table.values)?,
                 signal: table.signal,
             },
+            (None, None, None, Some(table))
+                if !(table.amplitude_m > 0.0 && table.amplitude_m <= MOST_AMPLITUDE_M) =>
+            {
+                return Err(format!(
+                    "amplitude_m {}, allowed: above 0 and at most {MOST_AMPLITUDE_M}",
+                    table.amplitude_m
+                ));
+            }
             (None, None, None, Some(table)) => Shown::Response {
                 sweep: table.sweep,
-                values: numbers(table.values),
+                values: read(table.values)?,
                 damper: table.damper,
                 amplitude_m: table.amplitude_m,
             },

@@ -5,7 +5,7 @@ mod error;
 mod figure;
 mod tables;
 
-pub use axis::{Axis, Value};
+pub use axis::{Axis, Value, shown};
 pub use error::StudyFileError;
 pub use figure::{Figure, Shown};
 use tables::StudyTables;
@@ -56,6 +56,8 @@ pub struct StudyParameters {
     pub name: String,
     /// Names of the indices of a row.
     pub observed: Vec<String>,
+    /// Line of the observed in the file.
+    pub observed_line: u64,
     /// Sweeps, in the order of their cases.
     pub sweeps: Vec<Sweep>,
     /// Figures of the page.
@@ -119,6 +121,17 @@ impl StudyParameters {
                 message: explain(&error),
             })?;
         tables.parameters(found)
+    }
+
+    /// The same with seeds 1 to `count` where there are seeds.
+    #[must_use]
+    pub fn with_seeds(mut self, count: u64) -> Self {
+        for sweep in &mut self.sweeps {
+            if !sweep.seeds.is_empty() {
+                sweep.seeds = (1..=count).collect();
+            }
+        }
+        self
     }
 
     /// The sweep of a name.

@@ -1,11 +1,12 @@
 //! The tables of a study file.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
 
 use serde::Deserialize;
 use toml::Spanned;
 
-use super::axis::{Axis, MOST_VALUES, Value, WORN_DAMPER, range};
+use super::axis::{Axis, MOST_VALUES, Value, WORN_DAMPER, names_files, range};
 use super::figure::{Figure, FigureTable};
 use super::{StudyFileError, StudyParameters, Sweep};
 use crate::files::case::{CaseError, CaseOptions};
@@ -20,7 +21,7 @@ pub(super) struct StudyTables {
     name: String,
     #[serde(default)]
     seeds: Vec<u64>,
-    observed: Vec<String>,
+    observed: Spanned<Vec<String>>,
     sweep: Vec<Spanned<SweepTable>>,
     #[serde(default)]
     figure: Vec<Spanned<FigureTable>>,
@@ -58,18 +59,16 @@ struct VaryTable {
     from: Option<f64>,
     to: Option<f64>,
     count: Option<usize>,
-    #[serde(default)]
-    spacing: Spacing,
+    spacing: Option<Spacing>,
     #[serde(default)]
     set: Vec<String>,
     label: Option<String>,
     factor: Option<f64>,
 }
 
-#[derive(Deserialize, Default, PartialEq, Clone, Copy)]
+#[derive(Deserialize, PartialEq, Clone, Copy)]
 #[serde(rename_all = "lowercase")]
 enum Spacing {
-    #[default]
     Linear,
     Geometric,
 }
@@ -82,11 +81,25 @@ impl StudyTables {
             line: line_at(&found.text, start),
             message,
         };
+        let observed_at = self.observed.span().start;
+        let observed = self.observed.into_inner();
+        let once: BTreeSet<&String> = observed.iter().collect();
+        if observed.is_empty() || once.len() < observed.len() {
+            let message = "observed: allowed: one index or more, each once";
+            return Err(wrong_at(observed_at, message.into()));
+        }
+        if self.sweep.is_empty() {
+            return Err(wrong_at(0, "sweep: allowed: one or more".into()));
+        }
         let mut sweeps = Vec::new();
         let mut names = BTreeSet::new();
         for table in self.sweep {
             let start = table.span().start;
             let table = table.into_inner();
+            if table.name.is_empty() || table.name.contains(char::is_control) {
+                let message = "name of a sweep: allowed: one line that is not empty";
+                return Err(wrong_at(start, message.into()));
+            }
             if !names.insert(table.name.clone()) {
                 return Err(wrong_at(start, format!("a second sweep `{}`", table.name)));
             }
@@ -94,7 +107,8 @@ impl StudyTables {
         }
         let mut study = StudyParameters {
             name: self.name,
-            observed: self.observed,
+            observed,
+            observed_line: line_at(&found.text, observed_at),
             sweeps,
             figures: Vec::new(),
             file: found.name.clone(),
@@ -113,13 +127,35 @@ impl StudyTables {
 impl StudyParameters {
     /// The figure, if the study has what it draws.
     fn check(&self, figure: Figure) -> Result<Figure, String> {
+        if figure.shown.sweeps().is_empty() {
+            return Err("no sweeps, allowed: one or more".into());
+        }
         let names = || self.sweeps.iter().map(|sweep| sweep.name.as_str());
         for wanted in figure.shown.sweeps() {
             if self.sweep(wanted).is_none() {
                 return Err(format!("no sweep `{wanted}`{}", nearest(wanted, names())));
             }
         }
-        if let super::Shown::Indices { observed, .. } = &figure.shown {
+        for (sweep, value) in figure.shown.values() {
+            let axis = self.sweep(sweep).and_then(|sweep| sweep.axes.first());
+            if !axis.is_some_and(|axis| axis.values.contains(value)) {
+                return Err(format!(
+                    "{value} is no value of the first axis of sweep {sweep}"
+                ));
+            }
+        }
+        if let super::Shown::Indices {
+            observed, sweeps, ..
+        } = &figure.shown
+        {
+            let is_wide =
+                |name: &String| self.sweep(name).is_some_and(|sweep| sweep.axes.len() > 1);
+            if observed.len() > 1 && sweeps.iter().any(is_wide) {
+                return Err("several indices over two axes, allowed: one".into());
+            }
+            if observed.is_empty() {
+                return Err("no index observed, allowed: one or more".into());
+            }
             let names = || self.observed.iter().map(String::as_str);
             if let Some(wanted) = observed
                 .iter()
@@ -188,10 +224,15 @@ impl SweepTable {
         });
         case.dampers.extend(replacements);
         case.overrides.extend(self.set);
-        let mut axes = Vec::new();
+        let mut axes: Vec<Axis> = Vec::new();
         for vary in self.vary {
             let at = line_at(text, vary.span().start);
-            axes.push(vary.into_inner().axis().map_err(|error| wrong(at, error))?);
+            let axis = vary.into_inner().axis(folder, at);
+            let axis = axis.map_err(|error| wrong(at, error))?;
+            if axes.iter().any(|other| other.parameter == axis.parameter) {
+                return Err(wrong(at, format!("vary: {} twice", axis.parameter)));
+            }
+            axes.push(axis);
         }
         let seeds = self.seeds.unwrap_or_else(|| seeds.to_vec());
         let once: BTreeSet<u64> = seeds.iter().copied().collect();
@@ -224,21 +265,29 @@ impl VaryTable {
     ///
     /// # Errors
     /// What is wrong, in words.
-    fn axis(self) -> Result<Axis, String> {
+    fn axis(self, folder: &Path, line: u64) -> Result<Axis, String> {
         let parameter = self.parameter;
         let wrong = |reason: String| format!("{parameter}: {reason}");
+        if self.values.is_some() && self.spacing.is_some() {
+            return Err(wrong(
+                "`spacing` beside `values`, allowed: beside `from`, `to` and `count`".into(),
+            ));
+        }
+        let factor = self.factor.unwrap_or(1.0);
+        if !factor.is_finite() || factor == 0.0 {
+            return Err(wrong(format!(
+                "factor {factor}, allowed: a finite number but 0"
+            )));
+        }
         let values = match (self.values, self.from, self.to, self.count) {
             (Some(values), None, None, None) => {
-                let values = values.into_iter().map(|value| match value {
-                    toml::Value::Integer(number) => Ok(Value::Number(number as f64)),
-                    toml::Value::Float(number) => Ok(Value::Number(number)),
-                    toml::Value::String(word) => Ok(Value::Word(word)),
-                    other => Err(wrong(format!("value {other}, allowed: numbers and names"))),
-                });
+                let values = values
+                    .into_iter()
+                    .map(|value| Value::of(value).map_err(&wrong));
                 values.collect::<Result<Vec<_>, _>>()?
             }
             (None, Some(from), Some(to), Some(count)) => {
-                let geometric = self.spacing == Spacing::Geometric;
+                let geometric = self.spacing == Some(Spacing::Geometric);
                 if !(2..=MOST_VALUES).contains(&count) {
                     return Err(wrong(format!("count {count}, allowed: 2 to {MOST_VALUES}")));
                 }
@@ -274,12 +323,20 @@ impl VaryTable {
                 "`set` belongs to `{WORN_DAMPER}`, and it cannot be without"
             )));
         }
+        let values = match names_files(&parameter) {
+            true => values
+                .into_iter()
+                .map(|value| value.named_in(folder))
+                .collect(),
+            false => values,
+        };
         Ok(Axis {
             label: self.label.unwrap_or_else(|| parameter.clone()),
             parameter,
             values,
             set: self.set,
-            factor: self.factor.unwrap_or(1.0),
+            factor,
+            line,
         })
     }
 }

@@ -18,16 +18,6 @@ pub struct History {
     pub signals: Vec<Vec<f64>>,
 }
 
-/// Numbers of the signals of these names among those of a case.
-fn find<'a>(all: &'a [Signal], names: &[String]) -> Result<Vec<&'a Signal>, String> {
-    let found = names.iter().map(|name| {
-        let known = all.iter().map(Signal::name);
-        let found = all.iter().find(|signal| signal.name() == name);
-        found.ok_or_else(|| format!("no signal `{name}`{}", nearest(name, known)))
-    });
-    found.collect()
-}
-
 impl Study {
     /// The case of a sweep at a value of its first axis, the others at their first.
     ///
@@ -60,15 +50,21 @@ impl Study {
         let case = self.case_with(sweep, None, sweep.seeds.first().copied())?;
         let run = shared.run(&case).map_err(failed)?;
         let all = signals::all(run.vehicle());
-        find(&all, names).map_err(|reason| RunError::Figure {
-            sweep: sweep.name.clone(),
-            reason,
-        })?;
-        Ok(())
+        let known = || all.iter().map(Signal::name);
+        match names
+            .iter()
+            .find(|name| !known().any(|other| other == *name))
+        {
+            Some(unknown) => Err(RunError::Figure {
+                sweep: sweep.name.clone(),
+                reason: format!("no signal `{unknown}`{}", nearest(unknown, known())),
+            }),
+            None => Ok(()),
+        }
     }
 }
 
-/// Runs a case and records signals by their names; unknown ones are left out.
+/// Runs a case and records signals by their names; a signal that there is not, which [`Study::has_signals`] tells, stays empty.
 ///
 /// # Errors
 /// As [`Shared::run`].
@@ -79,12 +75,13 @@ pub fn record(
 ) -> Result<History, VehicleStudyError> {
     let mut run = shared.run(case)?;
     let all = signals::all(run.vehicle());
-    let chosen = find(&all, names).unwrap_or_default();
+    let named = |name: &String| all.iter().find(|signal| signal.name() == name);
+    let chosen: Vec<Option<&Signal>> = names.iter().map(named).collect();
     let mut recorded: Vec<Vec<f64>> = chosen.iter().map(|_| Vec::new()).collect();
     while run.step()?.is_none() {
         let time_s = run.time_s();
         for (values, signal) in recorded.iter_mut().zip(&chosen) {
-            values.push(signal.of(run.state(), time_s));
+            values.extend(signal.map(|signal| signal.of(run.state(), time_s)));
         }
     }
     Ok(History {

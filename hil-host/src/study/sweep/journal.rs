@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use super::row::{Arithmetic, Row};
 use super::rows::{self, Rows};
-use super::study::Study;
+use super::study::{Shard, Study};
 use crate::files::FileError;
 use crate::files::output::cannot_write;
 
@@ -20,19 +20,27 @@ pub struct Journal {
 }
 
 impl Journal {
-    /// The rows of the file at `path` and of an earlier run that was interrupted; none of them when it begins `anew`.
+    /// The rows of the file at `path` and of an earlier run that was interrupted; none of them when it begins `anew`: the file there is
+    /// keeps its rows as `.old` then.
     ///
     /// # Errors
-    /// Files that cannot be read or written, or hold rows of another study; another process that adds rows.
-    pub fn open(study: &Study, path: &Path, anew: bool) -> Result<Self, FileError> {
-        let mut name = path.as_os_str().to_owned();
-        name.push(".partial");
-        let partial = PathBuf::from(name);
+    /// Files that cannot be read or written, or hold rows of another study or shard; another process that adds rows.
+    pub fn open(
+        study: &Study,
+        path: &Path,
+        shard: Option<Shard>,
+        anew: bool,
+    ) -> Result<Self, FileError> {
+        let partial = with_ending(path, "partial");
         let mut file = locked(&partial)?;
         let mut known = Rows::new();
         if anew {
             file.set_len(0)
                 .map_err(|error| cannot_write(&partial, error))?;
+            if path.exists() {
+                let old = with_ending(path, "old");
+                fs::rename(path, &old).map_err(|error| cannot_write(&old, error))?;
+            }
         } else {
             if path.exists() {
                 known = rows::read_once(study, path)?;
@@ -43,6 +51,9 @@ impl Journal {
             // What follows the last end of a line was being written when the process ended.
             let whole = bytes.iter().rposition(|byte| *byte == b'\n');
             bytes.truncate(whole.map_or(0, |last| last + 1));
+            if bytes.trim_ascii().is_empty() {
+                bytes.clear();
+            }
             file.set_len(bytes.len() as u64)
                 .map_err(|error| cannot_write(&partial, error))?;
             if !bytes.is_empty() {
@@ -50,6 +61,12 @@ impl Journal {
                 known.extend(rows::once(&partial, read)?);
             }
             rows::check_arithmetic(path, known.values(), Arithmetic::here())?;
+            let is_other = |case: &&u64| shard.is_some_and(|shard| !shard.has(**case));
+            if let (Some(case), Some(shard)) = (known.keys().find(is_other), shard) {
+                let Shard { number, of } = shard;
+                let reason = format!("case {case} is not of shard {number} of {of}");
+                return Err(FileError::in_file(path, reason));
+            }
         }
         let mut journal = Self {
             path: path.to_owned(),
@@ -86,8 +103,27 @@ impl Journal {
     /// The file cannot be written.
     pub fn finish(self, study: &Study) -> Result<Rows, FileError> {
         rows::write(study, &self.rows, &self.path)?;
+        // On the disk before the rows one by one go.
+        File::open(&self.path)
+            .and_then(|file| file.sync_all())
+            .map_err(|error| cannot_write(&self.path, error))?;
         fs::remove_file(&self.partial).map_err(|error| cannot_write(&self.partial, error))?;
         Ok(self.rows)
+    }
+
+    /// Takes rows away again.
+    ///
+    /// # Errors
+    /// The file cannot be written.
+    pub fn take_away(&mut self, study: &Study, cases: &[u64]) -> Result<(), FileError> {
+        self.rows.retain(|case, _| !cases.contains(case));
+        self.file
+            .set_len(0)
+            .and_then(|()| self.file.rewind())
+            .map_err(|error| cannot_write(&self.partial, error))?;
+        self.line(study.columns())?;
+        let rows: Vec<Row> = self.rows.values().cloned().collect();
+        rows.into_iter().try_for_each(|row| self.add(study, row))
     }
 
     fn line(&mut self, cells: Vec<String>) -> Result<(), FileError> {
@@ -97,6 +133,14 @@ impl Journal {
         let bytes = bytes.and_then(|bytes| self.file.write_all(&bytes));
         bytes.map_err(|error| cannot_write(&self.partial, error))
     }
+}
+
+/// The path with more behind its name.
+fn with_ending(path: &Path, ending: &str) -> PathBuf {
+    let mut name = path.as_os_str().to_owned();
+    name.push(".");
+    name.push(ending);
+    PathBuf::from(name)
 }
 
 /// The file at `path`, which no other process adds to while this one has it open.

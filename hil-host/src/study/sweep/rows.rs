@@ -18,7 +18,7 @@ pub type Rows = BTreeMap<u64, Row>;
 /// # Errors
 /// A file that cannot be read; a header or a row that is not of this study, with line and column.
 pub fn read(study: &Study, path: &Path) -> Result<Vec<(u64, Row)>, FileError> {
-    parse(study, path, &input::read(path)?)
+    parse(study, &input::name(path), &input::read(path)?)
 }
 
 /// The rows in `bytes`, which are those of the file at `path`.

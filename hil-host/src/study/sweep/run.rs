@@ -36,7 +36,7 @@ pub fn observe(
     let mut run = shared.run(case)?;
     let mut indexer = Indexer::new(case);
     let last = run.ticks().saturating_sub((LAST_S / case.step_s) as u64);
-    let wheelsets = run.vehicle().names().len() - run.vehicle().wheelsets();
+    let bodies = run.vehicle().names().len() - run.vehicle().wheelsets();
     let mut last_lateral_m = 0.0_f64;
     let ending = loop {
         if let Some(ending) = run.step()? {
@@ -44,7 +44,7 @@ pub fn observe(
         }
         indexer.add(run.state());
         if run.state().ticks() > last {
-            let lateral = run.state().coordinates()[wheelsets..].iter();
+            let lateral = run.state().coordinates()[bodies..].iter();
             last_lateral_m = lateral.fold(last_lateral_m, |most, q| most.max(q[0].abs()));
         }
         if run.state().ticks() % TICKS_A_LOOK == 0 && is_unwanted() {

@@ -2,7 +2,7 @@
 
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-use dashpot_rail::contact::WheelsetContact;
+use dashpot_rail::contact::{Tables, WheelsetContact};
 use dashpot_rail::creep::KalkerBook;
 use dashpot_rail::track::Track;
 
@@ -14,14 +14,16 @@ use crate::study::vehicle::{Run, VehicleStudyError};
 /// Tracks that are kept; half a megabyte a kilometre.
 const TRACKS: usize = 64;
 
-/// Contacts that are kept: a few megabytes each.
+/// Contacts that are kept, and their tables, some 43 MB each.
 const CONTACTS: usize = 16;
+const TABLES: usize = 4;
 
 type Contact = Arc<WheelsetContact<KalkerBook>>;
 
 /// Contacts and tracks of cases that have been run.
 #[derive(Default)]
 pub struct Shared {
+    tables: Kept<[f64; 2], Arc<Tables>>,
     contacts: Kept<ContactOf, Contact>,
     tracks: Kept<TrackParameters, Arc<Track>>,
 }
@@ -33,7 +35,12 @@ impl Shared {
     /// As [`Run::new`].
     pub fn run(&self, case: &Case) -> Result<Run, VehicleStudyError> {
         let of = ContactOf::new(&case.vehicle, case.friction, case.normal_damping_s_per_m)?;
-        let contact = self.contacts.get(CONTACTS, of, contact::of)?;
+        let contact = self.contacts.get(CONTACTS, of, |of| {
+            let tables = self
+                .tables
+                .get(TABLES, of.geometry_key(), |_| of.tables())?;
+            contact::with(tables, of)
+        })?;
         let track = self.tracks.get(TRACKS, case.track.clone(), |track| {
             track.build().map(Arc::new)
         })?;

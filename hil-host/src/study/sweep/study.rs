@@ -89,8 +89,8 @@ impl Study {
                 let hint = nearest(name, known.clone());
                 let known = known.clone().collect::<Vec<_>>().join(", ");
                 wrong(
-                    1,
-                    format!("observed `{name}`: no such index{hint} Allowed: {known}"),
+                    parameters.observed_line,
+                    format!("observed `{name}`: no such index{hint}; allowed: {known}"),
                 )
             })?);
         }
@@ -124,6 +124,14 @@ impl Study {
     /// How many cases there are.
     pub fn cases(&self) -> u64 {
         self.starts[self.starts.len() - 1]
+    }
+
+    /// Whether the files that the study names are as they were when it was read.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn is_unchanged(&self) -> Result<bool, StudyFileError> {
+        Ok(Self::new(self.parameters.clone())?.digest == self.digest)
     }
 
     /// Of what the cases are; rows of studies with the same digest and version belong together.
@@ -161,6 +169,13 @@ impl Study {
     pub fn part(&self, shard: Option<Shard>) -> impl Iterator<Item = u64> + use<> {
         let Shard { number, of } = shard.unwrap_or(Shard { number: 0, of: 1 });
         (number..self.cases()).step_by(usize::try_from(of).unwrap_or(usize::MAX))
+    }
+}
+
+impl Shard {
+    /// Whether it has a case.
+    pub fn has(self, case: u64) -> bool {
+        case % self.of == self.number
     }
 }
 

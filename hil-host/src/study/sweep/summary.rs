@@ -14,6 +14,20 @@ pub struct Estimate {
 }
 
 impl Estimate {
+    /// Of the relative changes, in percent, from each value to that of the same seed; pairs of which one is missing are left out.
+    ///
+    /// ```
+    /// use dashpot_hil::study::sweep::Estimate;
+    /// let change = Estimate::of_change(&[Some(1.0), Some(2.0), None], &[Some(1.1), None, Some(9.0)]);
+    /// assert!((change.unwrap().mean - 10.0).abs() < 1e-9);
+    /// ```
+    pub fn of_change(from: &[Option<f64>], to: &[Option<f64>]) -> Option<Self> {
+        let pairs = from.iter().zip(to);
+        let pairs = pairs.filter_map(|(from, to)| Some(((*from)?, (*to)?)));
+        let changes: Vec<f64> = pairs.map(|(from, to)| 100.0 * (to / from - 1.0)).collect();
+        Self::of(&changes)
+    }
+
     /// Of independent values: `mean +- t s / sqrt(n)` with Student's `t` of `n - 1` degrees of freedom; none of no values.
     ///
     /// ```

@@ -41,6 +41,20 @@ impl ContactOf {
         })
     }
 
+    /// What the tables follow from: others may have another friction or damping.
+    pub fn geometry_key(&self) -> [f64; 2] {
+        [self.wheel_radius_m, self.mean_wheel_load_n]
+    }
+
+    /// The tables, some 43 MB. They are kept in the user's cache folder, so that they are computed once.
+    ///
+    /// # Errors
+    /// A load that wheel and rail do not carry; a cache folder that cannot be used.
+    pub fn tables(&self) -> Result<Arc<Tables>, VehicleStudyError> {
+        let tables = Tables::cached(&cache_folder(), self.geometry()?, Grid::default())?;
+        Ok(Arc::new(tables))
+    }
+
     /// S1002 wheels of the first wheelset's radius on UIC 60 rails at 1:40, their softness that of the vehicle's mean wheel load.
     ///
     /// # Errors
@@ -64,30 +78,29 @@ pub fn friction(coefficient: f64) -> Friction {
     }
 }
 
-/// Tabulated contact of a vehicle, see [`of`].
+/// Tabulated contact of a vehicle.
 ///
 /// # Errors
-/// As [`ContactOf::new`] and [`of`].
+/// As [`ContactOf::new`], [`ContactOf::tables`] and [`with`].
 pub fn tabulated(
     vehicle: &VehicleParameters,
     friction_coefficient: f64,
     normal_damping_s_per_m: f64,
 ) -> Result<Arc<WheelsetContact<KalkerBook>>, VehicleStudyError> {
-    of(&ContactOf::new(
-        vehicle,
-        friction_coefficient,
-        normal_damping_s_per_m,
-    )?)
+    let of = ContactOf::new(vehicle, friction_coefficient, normal_damping_s_per_m)?;
+    with(of.tables()?, &of)
 }
 
-/// Tabulated contact with the book of creep forces. The tables are kept in the user's cache folder, so that they are computed once.
+/// Tabulated contact with the book of creep forces.
 ///
 /// # Errors
-/// A load that wheel and rail do not carry; a friction or damping out of bounds; a cache folder that cannot be used.
-pub fn of(contact: &ContactOf) -> Result<Arc<WheelsetContact<KalkerBook>>, VehicleStudyError> {
-    let tables = Tables::cached(&cache_folder(), contact.geometry()?, Grid::default())?;
+/// A friction or damping out of bounds.
+pub fn with(
+    tables: Arc<Tables>,
+    contact: &ContactOf,
+) -> Result<Arc<WheelsetContact<KalkerBook>>, VehicleStudyError> {
     let friction = friction(contact.friction);
-    let made = WheelsetContact::new(Arc::new(tables), KalkerBook::new(), friction)?;
+    let made = WheelsetContact::new(tables, KalkerBook::new(), friction)?;
     let damping = contact.normal_damping_s_per_m;
     Ok(Arc::new(made.with_normal_damping(damping)?))
 }

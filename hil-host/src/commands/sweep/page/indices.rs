@@ -5,7 +5,7 @@ use plotters::style::RGBColor;
 
 use super::{Drawn, HEIGHT};
 use crate::commands::failure::Outcome;
-use crate::files::study::{Axis, Sweep, Value};
+use crate::files::study::{Axis, Sweep, Value, shown};
 use crate::report::page::{Figure, figure, panel};
 use crate::report::plot::curves::{Curve, ramp};
 use crate::report::plot::sheet::Panel;
@@ -156,26 +156,33 @@ fn lighter(part: u8) -> u8 {
 fn at_others(sweep: &Sweep, other: u64) -> String {
     let values = sweep.values(other);
     let named = sweep.axes.iter().zip(values).skip(1);
-    let named = named.map(|(axis, value)| match value {
-        Value::Number(number) => format!("{}", number * axis.factor),
-        Value::Word(word) => word.clone(),
-    });
+    let named = named.map(|(axis, value)| in_unit(axis, value));
     named.collect::<Vec<_>>().join(", ")
 }
 
-/// Means with their confidence, and their change from the first value.
+/// A value as figures have it.
+fn in_unit(axis: &Axis, value: &Value) -> String {
+    match value {
+        Value::Number(number) => shown(number * axis.factor),
+        Value::Word(word) => word.clone(),
+    }
+}
+
+/// Means with their confidence, and their change from the first value of the first axis, the others being the same.
 fn table(drawn: &Drawn<'_>, sweep: &Sweep, observed: &[Index]) -> Markup {
+    let others = sweep.points()
+        / sweep
+            .axes
+            .first()
+            .map_or(1, |axis| axis.values.len() as u64);
     let change = |point: u64, index: usize| {
-        let [first, here] = [0, point].map(|point| drawn.values(sweep, point, index));
-        // Of runs on the same irregularities.
-        let pairs = first.iter().zip(&here);
-        let ratios: Vec<f64> = pairs.map(|(a, b)| 100.0 * (b / a - 1.0)).collect();
-        Estimate::of(&ratios).filter(|_| point > 0 && first.len() == here.len())
+        let [from, to] = [point % others, point].map(|at| drawn.of_seeds(sweep, at, index));
+        Estimate::of_change(&from, &to).filter(|_| point >= others)
     };
     html! {
         div.wide.worded { table {
             tr {
-                th { (sweep.axes.first().map_or("", |axis| &axis.label)) }
+                @for axis in &sweep.axes { th { (axis.label) } }
                 @for index in observed {
                     th { (index.name(drawn)) }
                     th { "change, %" }
@@ -183,7 +190,7 @@ fn table(drawn: &Drawn<'_>, sweep: &Sweep, observed: &[Index]) -> Markup {
             }
             @for point in 0..sweep.points() {
                 tr {
-                    td { (sweep.values(point).iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")) }
+                    @for (axis, value) in sweep.axes.iter().zip(sweep.values(point)) { td { (in_unit(axis, value)) } }
                     @for index in observed {
                         td { (text(Estimate::of(&drawn.values(sweep, point, index.number)), 4)) }
                         td { (text(change(point, index.number), 2)) }

@@ -10,11 +10,11 @@ use maud::{Markup, html};
 use super::report::Report;
 use crate::commands::failure::{Failure, Outcome};
 use crate::commands::progress;
+use crate::files::nearest;
 use crate::files::study::{Figure, Shown, Sweep};
 use crate::report::page::{document, footer, tiles};
 use crate::study::sweep::rows::Rows;
 use crate::study::sweep::{Observed, RunError, Shared, Study, VERSION};
-use crate::study::vehicle::signals::slug;
 
 /// Height of a panel (pixels).
 const HEIGHT: u32 = 260;
@@ -41,14 +41,19 @@ pub(super) fn check(study: &Study) -> Outcome<()> {
                 Shown::Indices { .. } => continue,
                 Shown::Dampers { dampers, .. } => dampers::signals(dampers),
                 Shown::Signal { signal, .. } => vec![signal.clone()],
-                Shown::Response { damper, .. } => vec![format!("{}_force_n", slug(damper))],
+                Shown::Response { damper, .. } => {
+                    let case = study.case_with(sweep, None, None)?;
+                    if case.damper(damper).is_none() {
+                        let names = case.vehicle.dampers().map(|element| element.name.as_str());
+                        let hint = nearest(damper, names);
+                        return Err(Failure::new(format!(
+                            "figure of sweep {name}: no damper `{damper}`{hint}"
+                        )));
+                    }
+                    continue;
+                }
             };
             study.has_signals(sweep, &names, &shared)?;
-            if let Shown::Signal { values, .. } | Shown::Response { values, .. } = &figure.shown {
-                for value in values {
-                    study.case_with(sweep, Some(value), None)?;
-                }
-            }
         }
     }
     Ok(())
@@ -151,12 +156,17 @@ impl Drawn<'_> {
             .find_map(|(number, index): (usize, &Observed)| (index.name == name).then_some(number))
     }
 
-    /// Observed values of an index at a point of a sweep, over the seeds.
-    fn values(&self, sweep: &Sweep, point: u64, index: usize) -> Vec<f64> {
+    /// Observed values of an index at a point of a sweep, one a seed.
+    fn of_seeds(&self, sweep: &Sweep, point: u64, index: usize) -> Vec<Option<f64>> {
         let numbers = self.study.numbers(sweep, point);
-        let rows = numbers.filter_map(|number| self.rows.get(&number));
-        rows.filter_map(|row| row.observed.get(index).copied().flatten())
-            .collect()
+        let observed = |number| self.rows.get(&number)?.observed.get(index).copied()?;
+        numbers.map(observed).collect()
+    }
+
+    /// Those there are.
+    fn values(&self, sweep: &Sweep, point: u64, index: usize) -> Vec<f64> {
+        let of_seeds = self.of_seeds(sweep, point, index);
+        of_seeds.into_iter().flatten().collect()
     }
 }
 
@@ -198,12 +208,6 @@ fn cases(study: &Study) -> Markup {
                 }
             }
         } }
-    }
-}
-
-impl From<crate::study::vehicle::VehicleStudyError> for Failure {
-    fn from(error: crate::study::vehicle::VehicleStudyError) -> Self {
-        Self::new(error.to_string())
     }
 }
 

@@ -4,7 +4,7 @@ use maud::{Markup, html};
 
 use super::{Drawn, HEIGHT, failed};
 use crate::commands::failure::{Failure, Outcome};
-use crate::files::study::{Sweep, Value};
+use crate::files::study::{Sweep, Value, shown};
 use crate::report::page::{Figure, figure, panel};
 use crate::report::plot::curves::{Curve, ramp};
 use crate::report::plot::envelope::thinned;
@@ -110,9 +110,7 @@ fn in_words(signal: &str) -> String {
 pub(super) fn label(sweep: &Sweep, value: &Value) -> String {
     match (value, sweep.axes.first()) {
         (Value::Number(number), Some(axis)) => {
-            // A factor is decimal, its product not quite.
-            let scaled = format!("{:.6}", number * axis.factor);
-            let scaled = scaled.trim_end_matches('0').trim_end_matches('.');
+            let scaled = shown(number * axis.factor);
             let (what, unit) = axis.label.rsplit_once(", ").unwrap_or((&axis.label, ""));
             let symbol = what.rsplit(' ').next().unwrap_or(what);
             format!("{symbol} = {scaled} {unit}").trim_end().to_owned()

@@ -90,10 +90,11 @@ impl Windowed {
         self.is_full.then_some(self.means)
     }
 
-    /// Greatest magnitude of the mean; 0 where there was no whole window.
+    /// Greatest magnitude of the mean; of what there was where that is shorter than a window.
     pub fn greatest_mean(&self) -> f64 {
         let magnitude = |[least, greatest]: [f64; 2]| greatest.max(-least);
-        self.means().map_or(0.0, magnitude)
+        let of_all = || (self.sum / self.next.max(1) as f64).abs();
+        self.means().map_or_else(of_all, magnitude)
     }
 }
 
