@@ -17,6 +17,8 @@ pub enum Claim {
     By(f64),
     /// It does not change.
     Keeps,
+    /// It is flat from a value on: its slope there is less than a quarter of the one before, in magnitude.
+    Flat,
     /// It changes, whichever way.
     Changes,
     /// It fluctuates within limits.
@@ -30,6 +32,21 @@ pub enum Verdict {
     /// The interval has both signs.
     NotShown,
     DoesNotHold,
+}
+
+/// Greatest slope of what is flat over the slope before.
+pub const FLAT: f64 = 0.25;
+
+/// Whether a curve is flat, by its slopes before and from a place on, and half the interval of the latter.
+pub fn flat(before: f64, after: f64, half: f64) -> Verdict {
+    let bound = FLAT * before.abs();
+    if after.abs() + half < bound {
+        Verdict::Holds
+    } else if after.abs() - half > bound {
+        Verdict::DoesNotHold
+    } else {
+        Verdict::NotShown
+    }
 }
 
 /// Greatest change that counts as none, %.
@@ -50,11 +67,13 @@ impl Claim {
         let starts = |known: &[&str]| known.iter().any(|known| words.starts_with(known));
         if starts(&["rises slightly"]) {
             Self::RisesSlightly
-        } else if starts(&["rises", "same trend as Fig. 12"]) {
+        } else if starts(&["rises"]) {
             Self::Rises
         } else if starts(&["slightly falls"]) {
             Self::FallsSlightly
-        } else if starts(&["hardly changes", "no obvious", "almost no", "is flat"]) {
+        } else if starts(&["is flat", "hardly changes above"]) {
+            Self::Flat
+        } else if starts(&["hardly changes", "no obvious", "almost no"]) {
             Self::Keeps
         } else if starts(&["is influenced"]) {
             Self::Changes
@@ -92,6 +111,7 @@ impl Claim {
             Self::Limited if low > -LIMITED_PERCENT && high < LIMITED_PERCENT => Verdict::Holds,
             Self::Limited => Verdict::DoesNotHold,
             Self::Keeps | Self::Changes => Verdict::NotShown,
+            Self::Flat => panic!("a slope is compared with another"),
         }
     }
 }
@@ -140,5 +160,12 @@ fn verdicts_follow_the_interval() {
         assert_eq!(claim.verdict(&of), expected, "{words}");
     }
     let both = Claim::parse("rises with Vr and is flat above 0.05 m/s");
-    assert_eq!(both, [Claim::Rises, Claim::Keeps]);
+    assert_eq!(both, [Claim::Rises, Claim::Flat]);
+}
+
+#[test]
+fn flat_is_a_quarter_of_the_slope_before() {
+    assert_eq!(flat(-8.0, 1.0, 0.5), Verdict::Holds);
+    assert_eq!(flat(-8.0, 1.8, 0.5), Verdict::NotShown);
+    assert_eq!(flat(8.0, 3.0, 0.5), Verdict::DoesNotHold);
 }

@@ -4,6 +4,7 @@ use dashpot::document;
 use dashpot_hil::files::study::{StudyParameters, Sweep, Value};
 use dashpot_hil::study::sweep::rows::{self, Rows};
 use dashpot_hil::study::sweep::{Estimate, Study};
+use xtask::vehicle_validation::SEEDS;
 
 /// A study with its kept rows.
 pub struct Kept {
@@ -15,7 +16,7 @@ impl Kept {
     /// A study that ships, with `data/studies/rows/` of its name.
     pub fn load(name: &str) -> Self {
         let parameters = StudyParameters::load(name).expect("a shipped study");
-        let study = Study::new(parameters).expect("a shipped study");
+        let study = Study::new(parameters.with_seeds(SEEDS)).expect("a shipped study");
         let path = document::in_repository(&format!("data/studies/rows/{name}.csv"));
         let rows = rows::read_once(&study, path.as_ref()).unwrap_or_else(|error| {
             panic!("{error}\nthe rows are written by `cargo xtask vehicle-validation`")
@@ -62,11 +63,13 @@ impl Kept {
     }
 
     /// Relative change of an index between two points in percent, of the same irregularities: the mean over seeds of each one's change.
-    pub fn change(&self, sweep: &Sweep, [from, to]: [u64; 2], index: &str) -> Estimate {
-        let [from, to] = [from, to].map(|point| self.values(sweep, point, index));
-        let pairs = from.iter().zip(&to);
-        let changes: Vec<f64> = pairs.map(|(from, to)| 100.0 * (to / from - 1.0)).collect();
-        Estimate::of(&changes).expect("seeds")
+    pub fn change(&self, sweep: &Sweep, points: [u64; 2], index: &str) -> Estimate {
+        let of_seeds = |point| -> Vec<Option<f64>> {
+            let values = self.values(sweep, point, index);
+            values.into_iter().map(Some).collect()
+        };
+        let [from, to] = points.map(of_seeds);
+        Estimate::of_change(&from, &to).expect("seeds")
     }
 
     /// Greatest less least mean of an index along a sweep, over their mean, in percent.

@@ -4,8 +4,8 @@ use dashpot::document;
 use dashpot_hil::study::sweep::Estimate;
 use serde::Deserialize;
 
-use crate::claim::{Claim, Verdict};
-use crate::rows::{Kept, percent};
+use crate::claim::{Claim, Verdict, flat};
+use crate::rows::{Kept, interval, percent};
 
 /// A row of the published trends.
 #[derive(Debug, Clone, Deserialize)]
@@ -71,7 +71,17 @@ pub fn compare(paper: &Kept) -> Vec<Compared> {
     let mut all = Vec::new();
     for trend in published() {
         for observed in trend.observed.split(' ') {
-            for claim in Claim::parse(&trend.published_change) {
+            // What it says of 15b in the words of 12a and 12b.
+            let words = match trend.published_change.as_str() {
+                "same trend as Fig. 12a" => "rises",
+                "same trend as Fig. 12b" => "rises and is flat above 0.05 m/s",
+                words => words,
+            };
+            let trend = Trend {
+                published_change: words.to_owned(),
+                ..trend.clone()
+            };
+            for claim in Claim::parse(words) {
                 all.push(of_claim(paper, &trend, observed, claim));
             }
         }
@@ -99,7 +109,7 @@ fn of_claim(paper: &Kept, trend: &Trend, observed: &str, claim: Claim) -> Compar
         .expect("numbers");
     let in_unit = |value: f64| in_si(value, &trend.unit);
     let [low, high] = match (claim, above) {
-        (Claim::Keeps, Some(above)) => [in_unit(above), last],
+        (Claim::Flat, Some(above)) => [in_unit(above), last],
         (_, Some(above)) => [in_unit(from), in_unit(above.min(to))],
         (_, None) => [in_unit(from), in_unit(to)],
     };
@@ -112,13 +122,24 @@ fn of_claim(paper: &Kept, trend: &Trend, observed: &str, claim: Claim) -> Compar
         },
         _ => paper.change(sweep, points, index),
     };
+    let verdict = match (claim, above) {
+        (Claim::Flat, Some(above)) => {
+            let ends = [in_unit(from), in_unit(above)];
+            let points = ends.map(|value| paper.point(sweep, None, value));
+            let before = paper.change(sweep, points, index).mean / (ends[1] - ends[0]);
+            let length = high - low;
+            let half = change.confidence.unwrap_or(0.0) / length;
+            flat(before, change.mean / length, half)
+        }
+        _ => claim.verdict(&change),
+    };
     let scale = 1.0 / in_unit(1.0);
     let round = |value: f64| (1e6 * value * scale).round() / 1e6;
     Compared {
         trend: trend.clone(),
         observed: observed.to_owned(),
         range: format!("{} to {} {}", round(low), round(high), trend.unit),
-        verdict: claim.verdict(&change),
+        verdict,
         claim,
         change,
     }
@@ -162,15 +183,21 @@ pub fn table(compared: &[Compared]) -> String {
             _ if row.change.confidence.is_none() => format!("range {:.2}", row.change.mean),
             _ => percent(&row.change),
         };
-        let size = match (row.claim, row.verdict) {
+        let verdict = match (row.claim, row.verdict) {
             (Claim::By(published), Verdict::Holds) => {
-                format!(", {:.1} times as much", row.change.mean / published)
+                let [low, high] = interval(&row.change);
+                let times = row.change.mean / published;
+                if (low..=high).contains(&published) {
+                    "holds, and its size".to_owned()
+                } else {
+                    format!("direction holds, {times:.1} times as much")
+                }
             }
-            _ => String::new(),
+            (_, verdict) => verdict.words().to_owned(),
         };
         let claimed = published_change.split(" and ");
         let claimed = match (claimed.clone().nth(1), row.claim) {
-            (Some(second), Claim::Keeps) => second,
+            (Some(second), Claim::Flat) => second,
             _ => claimed.clone().next().unwrap_or_default(),
         };
         let index = &row.observed;
@@ -179,8 +206,8 @@ pub fn table(compared: &[Compared]) -> String {
             None => row.range.clone(),
         };
         text.push_str(&format!(
-            "| {figure} | {damper} | {what} | {index} | {claimed} | {ours} | {}{size} |\n",
-            row.verdict.words()
+            "| {figure} | {damper} | {what} | {index} | {claimed} | {ours} | {} |\n",
+            verdict
         ));
     }
     text

@@ -27,7 +27,7 @@ Commands:
                          cortex-m7, cortex-m33, x86-64, aarch64; all that this machine can build
                          when none is named; into target/c-library
   kalker-book            compute the tables of the recommended creep law anew, from exact theory (some fifteen minutes)
-  vehicle-validation     run the studies of docs/vehicle-validation.md anew and write it (some two minutes)
+  vehicle-validation     run the studies of docs/vehicle-validation.md anew and write it (some six minutes)
   miri                   run the tests of the C interface under Miri (needs a nightly compiler)
   fuzz [--seconds N]     run each fuzz target from its kept seeds for N seconds, 60 when not given (needs a
                          nightly compiler)

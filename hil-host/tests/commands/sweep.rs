@@ -584,7 +584,7 @@ fn the_shipped_studies_are_whole() {
         ("paper", 536),
         ("curve-r600", 168),
         ("stand-ins", 752),
-        ("out-of-service", 414),
+        ("out-of-service", 614),
         ("hunting", 54),
         ("temperature", 144),
         ("worn-damper", 208),
