@@ -15,6 +15,12 @@ fuzz_target!(|text: &str| {
         let _ = sweep.options(&sweep.values(last));
     }
     for figure in &study.figures {
-        assert!(figure.shown.sweeps().iter().all(|name| study.sweep(name).is_some()));
+        assert!(
+            figure
+                .shown
+                .sweeps()
+                .iter()
+                .all(|name| study.sweep(name).is_some())
+        );
     }
 });

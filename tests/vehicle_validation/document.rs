@@ -34,8 +34,8 @@ The paper studies dampers in a model of the SS9 locomotive whose parameters are 
   be slight. **Hardly changes** holds within {NONE_PERCENT} %. **Flat above** holds where the slope there, with its interval, is less than a quarter of the one below. **Limited
   fluctuation**: range of the means within {LIMITED_PERCENT} % of their mean; no interval belongs to it. *Not shown*: the interval reaches over the bound.
 
-{} claims with an interval: {holds} hold, {not_shown} are not shown, {not} do not hold; one in twenty misses by chance, and all share the same irregularities. {} more are of limited
-fluctuation, of which {} hold: easily, for a vehicle whose lateral dampers do little in a curve.
+Of {} claims with an interval hold {holds}, do not hold {not}, are not shown {not_shown}; one in twenty misses by chance, and all share the same irregularities. Of {} more of limited
+fluctuation hold {}: easily, for a vehicle whose lateral dampers do little in a curve.
 
 {}
 {}
