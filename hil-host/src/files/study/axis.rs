@@ -58,7 +58,10 @@ impl fmt::Display for Value {
 /// A number as it is shown: without the last digits that a factor leaves.
 pub fn shown(number: f64) -> String {
     let text = format!("{number:.6}");
-    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    match text.trim_end_matches('0').trim_end_matches('.') {
+        "0" | "-0" if number != 0.0 => format!("{number:e}"),
+        text => text.to_owned(),
+    }
 }
 
 /// A parameter and its values.

@@ -4,6 +4,7 @@ mod axis;
 mod error;
 mod figure;
 mod tables;
+mod vary;
 
 pub use axis::{Axis, Value, shown};
 pub use error::StudyFileError;
