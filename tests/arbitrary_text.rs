@@ -5,6 +5,7 @@ use std::path::Path;
 
 use dashpot_hil::files::damper::{self, PRESETS};
 use dashpot_hil::files::profile;
+use dashpot_hil::files::study::{STUDIES, StudyParameters};
 use dashpot_rail::profile::Body;
 use dashpot_rail::profile::measured::Options;
 use proptest::prelude::*;
@@ -40,6 +41,22 @@ proptest! {
         patch in "[-+0-9.e=\\[\\]a-z_\n\"]{0,6}",
     ) {
         parse_and_build(&damaged(PRESETS[preset].1, place, &patch));
+    }
+
+    #[test]
+    fn damaged_study(
+        study in 0..STUDIES.len(),
+        damages in prop::collection::vec((any::<usize>(), "[-+0-9.e=\\[\\]{},a-z_\n\"]{0,6}"), 1..4),
+    ) {
+        let mut text = STUDIES[study].1.to_owned();
+        for (place, patch) in damages {
+            text = damaged(&text, place, &patch);
+        }
+        if let Ok(study) = StudyParameters::parse("fuzz.toml", &text) {
+            for sweep in &study.sweeps {
+                let _ = sweep.options(&sweep.values(sweep.points() - 1));
+            }
+        }
     }
 
     #[test]

@@ -15,6 +15,7 @@ use dashpot_hil::files::damper::PRESETS;
 use dashpot_hil::files::study::{STUDIES, StudyParameters};
 use dashpot_hil::files::track::TRACKS;
 use dashpot_hil::files::vehicle::VEHICLES;
+use dashpot_hil::study::sweep::{Arithmetic, Row, Study};
 use dashpot_rail::profile::Body;
 use dashpot_rail::profile::measured::{self, Mirror, Options};
 use dashpot_rail::track;
@@ -98,6 +99,33 @@ fn study_files_are_the_shipped_ones_and_one_with_all_keys() {
     let mut seeds = shipped(&STUDIES);
     seeds.push(("every-key".into(), every_key.into()));
     compare("study_file", seeds);
+}
+
+/// Those of either arithmetic, and one without an index.
+#[test]
+fn study_rows_are_of_a_shipped_study() {
+    let parameters = StudyParameters::load("hunting").expect("a shipped study");
+    let study = Study::new(parameters).expect("a shipped study");
+    let seed = |number: u64, arithmetic: Arithmetic, observed: Option<f64>| {
+        let row = Row {
+            case: number,
+            ending: "completed".into(),
+            arithmetic,
+            observed: vec![observed],
+        };
+        let case = study.case(number).expect("a case");
+        let text = study.record(&case, &row).join(",");
+        assert_eq!(study.row(text.split(',')), Ok(row));
+        (format!("row_{number}"), text.into_bytes())
+    };
+    compare(
+        "study_row",
+        vec![
+            seed(0, Arithmetic::Fused, Some(3.2e-8)),
+            seed(53, Arithmetic::Separate, Some(6.6e-3)),
+            seed(7, Arithmetic::Fused, None),
+        ],
+    );
 }
 
 #[test]
