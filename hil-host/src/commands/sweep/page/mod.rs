@@ -79,9 +79,11 @@ pub(super) fn write(study: &Study, rows: &Rows, report: &Report) -> Outcome<Stri
     bar.finish_and_clear();
     let body = html! {
         h1 { (study.parameters.name) }
-        p.lead {
-            "Points are means over seeds of the track's irregularity, bars their confidence intervals of 95 %, pale lines the single seeds. The seeds are the same at \
-             every point, so a change is surer than the bars: docs/vehicle-validation.md has the intervals of changes."
+        @if study.parameters.sweeps.iter().any(|sweep| sweep.seeds.len() > 1) {
+            p.lead {
+                "Points are means over seeds of the track's irregularity, bars their confidence intervals of 95 %, pale lines the single seeds. The seeds are the \
+                 same at every point, so a change is surer than the bars."
+            }
         }
         (headline(study))
         @if let Some(note) = report.not_completed() {
@@ -180,7 +182,10 @@ fn headline(study: &Study) -> Markup {
         (html! { (study.cases()) }, "cases".to_owned()),
         (
             html! { (study.parameters.sweeps.len()) },
-            "sweeps of parameters".to_owned(),
+            match study.parameters.sweeps.len() {
+                1 => "sweep of parameters".to_owned(),
+                _ => "sweeps of parameters".to_owned(),
+            },
         ),
     ];
     if let Some(most) = seeds.max().filter(|most| *most > 0) {
@@ -193,7 +198,7 @@ fn headline(study: &Study) -> Markup {
 fn cases(study: &Study) -> Markup {
     html! {
         div.wide.worded { table {
-            tr { th { "sweep" } th { "case" } th { "varied" } th { "values" } th { "seeds" } }
+            tr { th { "sweep" } th.text { "case" } th.text { "varied" } th.text { "values" } th { "seeds" } }
             @for sweep in &study.parameters.sweeps {
                 tr {
                     td { (sweep.name) }
