@@ -35,6 +35,17 @@ title = "Ride"
 indices = { sweeps = ["clearance", "worn"], observed = ["body_vertical_rms_m_per_s2"] }
 "#;
 
+/// The study's rows by one thread, into `one`.
+const ON_ONE_THREAD: [&str; 7] = [
+    "sweep",
+    "study.toml",
+    "--no-page",
+    "--threads",
+    "1",
+    "--output",
+    "one",
+];
+
 /// A folder with the study in it.
 fn folder(study: &str) -> TempDir {
     let folder = tempfile::tempdir().unwrap();
@@ -48,8 +59,7 @@ fn read(folder: &Path, name: &str) -> String {
 
 /// The rows of the study in the folder, by one thread.
 fn rows(folder: &Path) -> String {
-    let arguments = ["sweep", "study.toml", "--threads", "1", "--no-page"];
-    dashpot(&[&arguments[..], &["--output", "one"]].concat(), folder).success();
+    dashpot(&ON_ONE_THREAD, folder).success();
     read(folder, "one/rows.csv")
 }
 
@@ -308,15 +318,7 @@ fn a_vehicle_that_changes_while_it_runs_spoils_no_rows() {
     let own = folder.path().join("own.toml");
     let text = include_str!("../../../data/vehicles/locomotive.toml");
     fs::write(&own, text).unwrap();
-    let sweep = [
-        "sweep",
-        "study.toml",
-        "--no-page",
-        "--threads",
-        "1",
-        "--output",
-        "one",
-    ];
+    let sweep = ON_ONE_THREAD;
     let mut child = started(&sweep, folder.path());
     wait_for_rows(&mut child, folder.path(), 2);
     // Whole at once, as an editor leaves it.
@@ -380,15 +382,7 @@ fn two_at_once_do_not_mix() {
 fn an_interrupted_study_goes_on() {
     // One thread and cases that take long enough to be met.
     let folder = folder(&STUDY.replace("duration_s = 0.5", "duration_s = 4"));
-    let sweep = [
-        "sweep",
-        "study.toml",
-        "--no-page",
-        "--threads",
-        "1",
-        "--output",
-        "one",
-    ];
+    let sweep = ON_ONE_THREAD;
     let mut child = started(&sweep, folder.path());
     wait_for_rows(&mut child, folder.path(), 2);
     let id = child.id().to_string();

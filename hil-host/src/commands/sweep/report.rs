@@ -57,18 +57,7 @@ impl Report {
             files: Vec::new(),
         }
     }
-}
 
-/// Why a case ended, without its place, which is in the row.
-fn reason(ending: &str) -> &str {
-    const LEFT: &str = "left the tables of the contact";
-    if ending.contains(LEFT) {
-        return LEFT;
-    }
-    ending.split([':', ' ']).next().unwrap_or_default()
-}
-
-impl Report {
     /// What is told of cases that did not come to their end.
     pub(super) fn not_completed(&self) -> Option<String> {
         let told = self.not_completed.iter().map(|(reason, cases)| {
@@ -81,6 +70,15 @@ impl Report {
         let told: Vec<String> = told.collect();
         (!told.is_empty()).then(|| told.join("; "))
     }
+}
+
+/// Why a case ended, without its place, which is in the row.
+fn reason(ending: &str) -> &str {
+    const LEFT: &str = "left the tables of the contact";
+    if ending.contains(LEFT) {
+        return LEFT;
+    }
+    ending.split([':', ' ']).next().unwrap_or_default()
 }
 
 pub(in crate::commands) fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {

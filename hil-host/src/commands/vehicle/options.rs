@@ -1,7 +1,7 @@
 //! Options that make a case.
 
 use crate::commands::failure::{Failure, Outcome};
-use crate::files::case::{CASES, Case, CaseOptions};
+use crate::files::case::{CASES, Case, CaseParts};
 use crate::files::track::TRACKS;
 use crate::files::vehicle::{Replacement, VEHICLES};
 use crate::study::vehicle::VehicleStudyError;
@@ -57,40 +57,28 @@ impl CaseArguments {
     /// The case that the options make.
     ///
     /// # Errors
-    /// Neither a case nor vehicle, track and speed; what [`CaseOptions::case`] refuses.
+    /// Neither a case nor vehicle, track and speed; what [`CaseOptions::case`](crate::files::case::CaseOptions::case) refuses.
     pub(super) fn case(&self) -> Outcome<Case> {
-        let mut options = match (&self.case, &self.vehicle, &self.track, self.speed_km_h) {
-            (Some(case), ..) => CaseOptions::load(case)?,
-            (None, vehicle, Some(track), Some(speed_km_h)) => {
-                let vehicle = vehicle.as_deref().unwrap_or("locomotive");
-                CaseOptions::new(vehicle, track, speed_km_h)
-            }
-            (None, ..) => {
-                return Err(Failure::wrong_use(format!(
-                    "no case: give --case ({}), or --track with --speed-km-h",
-                    names(&CASES)
-                )));
-            }
+        let parts = CaseParts {
+            case: self.case.as_deref(),
+            vehicle: self.vehicle.as_deref(),
+            track: self.track.as_deref(),
+            numbers: [
+                self.speed_km_h,
+                self.duration_s,
+                self.start_m,
+                self.friction,
+                self.normal_damping_s_per_m,
+                self.step_us,
+                self.push_m,
+            ],
         };
-        if let (Some(_), Some(vehicle)) = (&self.case, &self.vehicle) {
-            options.set_vehicle(vehicle);
-        }
-        if let (Some(_), Some(track)) = (&self.case, &self.track) {
-            options.set_track(track);
-        }
-        for (key, given) in [
-            ("speed_km_h", self.speed_km_h),
-            ("duration_s", self.duration_s),
-            ("start_m", self.start_m),
-            ("friction", self.friction),
-            ("normal_damping_s_per_m", self.normal_damping_s_per_m),
-            ("step_us", self.step_us),
-            ("push_m", self.push_m),
-        ] {
-            if let Some(given) = given {
-                options.set_number(key, given);
-            }
-        }
+        let Some(mut options) = parts.options()? else {
+            return Err(Failure::wrong_use(format!(
+                "no case: give --case ({}), or --track with --speed-km-h",
+                names(&CASES)
+            )));
+        };
         options.dampers.extend(self.dampers.iter().cloned());
         options.overrides.extend(self.overrides.iter().cloned());
         Ok(options.case()?)

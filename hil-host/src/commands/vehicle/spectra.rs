@@ -12,10 +12,7 @@ use crate::report::DrawError;
 use crate::report::page::{Figure, figure, panel};
 use crate::report::plot::curves::{Curve, ramp};
 use crate::report::plot::sheet::{Panel, Scale};
-use crate::study::vehicle::spectra::{Spectrum, WINDOW_S, signals};
-
-/// Highest frequency that figures show, Hz.
-const SHOWN_HZ: f64 = 40.0;
+use crate::study::vehicle::spectra::{SHOWN_HZ, Spectrum, WINDOW_S, signals};
 
 /// Spectra of a case that has not run.
 ///

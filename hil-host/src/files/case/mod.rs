@@ -3,6 +3,7 @@
 mod bounds;
 mod error;
 mod fault;
+mod parts;
 mod tables;
 
 use dashpot_core::DamperParameters;
@@ -10,6 +11,7 @@ use dashpot_rail::vehicle::{Law, RailSupport, VehicleParameters};
 pub use error::CaseError;
 use error::Origin;
 pub use fault::{Fault, FaultOptions};
+pub use parts::CaseParts;
 use tables::CaseTables;
 
 use crate::files::overrides::explain;

@@ -78,8 +78,6 @@ pub struct Axis {
     pub label: String,
     /// The number on a figure over that in the file.
     pub factor: f64,
-    /// Line in the file.
-    pub line: u64,
 }
 
 /// The parameter whose values are dampers, of which one after the other is changed; [`NONE`] stands for none.

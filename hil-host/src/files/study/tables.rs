@@ -9,7 +9,7 @@ use super::axis::Axis;
 use super::figure::{Figure, FigureTable};
 use super::vary::VaryTable;
 use super::{StudyFileError, StudyParameters, Sweep};
-use crate::files::case::{CaseError, CaseOptions};
+use crate::files::case::{CaseError, CaseParts};
 use crate::files::lines::line_at;
 use crate::files::overrides::nearest;
 use crate::files::shipped::{Found, named_in};
@@ -159,43 +159,28 @@ impl SweepTable {
             message,
         };
         let named = |name: &String| named_in(folder, name);
-        let mut case = match (&self.case, &self.track, self.speed_km_h) {
-            (Some(case), ..) => CaseOptions::load(&named(case))
-                .map_err(|source| self.refused(name, line, source))?,
-            (None, Some(track), Some(speed_km_h)) => {
-                let vehicle = self.vehicle.as_ref().map_or("locomotive".into(), named);
-                CaseOptions::new(&vehicle, &named(track), speed_km_h)
-            }
-            _ => {
-                return Err(wrong(
-                    line,
-                    format!(
-                        "sweep {}: give `case`, or `track` and `speed_km_h`",
-                        self.name
-                    ),
-                ));
-            }
+        let [of_case, vehicle, track] =
+            [&self.case, &self.vehicle, &self.track].map(|name| name.as_ref().map(named));
+        let parts = CaseParts {
+            case: of_case.as_deref(),
+            vehicle: vehicle.as_deref(),
+            track: track.as_deref(),
+            numbers: [
+                self.speed_km_h,
+                self.duration_s,
+                self.start_m,
+                self.friction,
+                self.normal_damping_s_per_m,
+                self.step_us,
+                self.push_m,
+            ],
         };
-        if let (Some(_), Some(vehicle)) = (&self.case, &self.vehicle) {
-            case.set_vehicle(&named(vehicle));
-        }
-        if let (Some(_), Some(track)) = (&self.case, &self.track) {
-            case.set_track(&named(track));
-        }
-        let numbers = [
-            ("speed_km_h", self.speed_km_h),
-            ("duration_s", self.duration_s),
-            ("start_m", self.start_m),
-            ("friction", self.friction),
-            ("normal_damping_s_per_m", self.normal_damping_s_per_m),
-            ("step_us", self.step_us),
-            ("push_m", self.push_m),
-        ];
-        for (key, number) in numbers {
-            if let Some(number) = number {
-                case.set_number(key, number);
-            }
-        }
+        let options = parts.options();
+        let Some(mut case) = options.map_err(|source| self.refused(name, line, source))? else {
+            let sweep = &self.name;
+            let message = format!("sweep {sweep}: give `case`, or `track` and `speed_km_h`");
+            return Err(wrong(line, message));
+        };
         let replacements = self.dampers.iter().map(|(dampers, by)| Replacement {
             dampers: dampers.clone(),
             by: named(by),
@@ -205,7 +190,7 @@ impl SweepTable {
         let mut axes: Vec<Axis> = Vec::new();
         for vary in self.vary {
             let at = line_at(text, vary.span().start);
-            let axis = vary.into_inner().axis(folder, at);
+            let axis = vary.into_inner().axis(folder);
             let axis = axis.map_err(|error| wrong(at, error))?;
             if axes.iter().any(|other| other.parameter == axis.parameter) {
                 return Err(wrong(at, format!("vary: {} twice", axis.parameter)));

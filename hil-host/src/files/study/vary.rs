@@ -33,7 +33,7 @@ impl VaryTable {
     ///
     /// # Errors
     /// What is wrong, in words.
-    pub fn axis(self, folder: &Path, line: u64) -> Result<Axis, String> {
+    pub fn axis(self, folder: &Path) -> Result<Axis, String> {
         let parameter = self.parameter;
         let wrong = |reason: String| format!("{parameter}: {reason}");
         if self.values.is_some() && self.spacing.is_some() {
@@ -104,7 +104,6 @@ impl VaryTable {
             values,
             set: self.set,
             factor,
-            line,
         })
     }
 }

@@ -111,12 +111,13 @@ impl Journal {
         Ok(self.rows)
     }
 
-    /// Takes rows away again.
+    /// Takes the rows of cases in rising order away again.
     ///
     /// # Errors
     /// The file cannot be written.
     pub fn take_away(&mut self, study: &Study, cases: &[u64]) -> Result<(), FileError> {
-        self.rows.retain(|case, _| !cases.contains(case));
+        self.rows
+            .retain(|case, _| cases.binary_search(case).is_err());
         self.file
             .set_len(0)
             .and_then(|()| self.file.rewind())

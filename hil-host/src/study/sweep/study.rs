@@ -170,23 +170,7 @@ impl Study {
         let Shard { number, of } = shard.unwrap_or(Shard { number: 0, of: 1 });
         (number..self.cases()).step_by(usize::try_from(of).unwrap_or(usize::MAX))
     }
-}
 
-impl Shard {
-    /// Whether it has a case.
-    pub fn has(self, case: u64) -> bool {
-        case % self.of == self.number
-    }
-}
-
-impl StudyCase<'_> {
-    /// The value of each axis of its sweep.
-    pub fn values(&self) -> Vec<&Value> {
-        self.sweep.values(self.point)
-    }
-}
-
-impl Study {
     /// The case of one of its cases.
     ///
     /// # Errors
@@ -211,6 +195,20 @@ impl Study {
             Some(seed) => seeded(file, sweep, case, seed),
             None => Ok(case),
         }
+    }
+}
+
+impl Shard {
+    /// Whether it has a case.
+    pub fn has(self, case: u64) -> bool {
+        case % self.of == self.number
+    }
+}
+
+impl StudyCase<'_> {
+    /// The value of each axis of its sweep.
+    pub fn values(&self) -> Vec<&Value> {
+        self.sweep.values(self.point)
     }
 }
 

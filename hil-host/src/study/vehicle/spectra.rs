@@ -8,6 +8,9 @@ use super::signals::{SIDES, of_ride, slug};
 /// Length of the windows, s: lines are 0.5 Hz apart.
 pub const WINDOW_S: f64 = 2.0;
 
+/// Highest frequency that figures show, Hz.
+pub const SHOWN_HZ: f64 = 40.0;
+
 /// Density of a signal.
 #[derive(Debug, Clone)]
 pub struct Spectrum {

@@ -119,18 +119,13 @@ impl Drawn<'_> {
                 factors,
             } => {
                 let sweeps: Outcome<Vec<&Sweep>> = sweeps.iter().map(sweep).collect();
-                let observed: Vec<usize> = observed
-                    .iter()
-                    .filter_map(|name| self.number(name))
-                    .collect();
-                let factor = |at: usize| factors.get(at).copied();
-                let observed = observed.into_iter().enumerate();
-                let observed: Vec<indices::Index> = observed
-                    .map(|(at, number)| indices::Index {
-                        number,
-                        factor: factor(at),
+                let index = |(at, name): (usize, &String)| {
+                    Some(indices::Index {
+                        number: self.number(name)?,
+                        factor: factors.get(at).copied(),
                     })
-                    .collect();
+                };
+                let observed: Vec<_> = observed.iter().enumerate().filter_map(index).collect();
                 indices::part(self, &sweeps?, &observed, caption)
             }
             Shown::Dampers { sweep: of, dampers } => {

@@ -10,11 +10,8 @@ use crate::report::plot::curves::{Curve, ramp};
 use crate::report::plot::envelope::thinned;
 use crate::report::plot::sheet::{Panel, Scale};
 use crate::study::sweep::{History, RunError, record};
-use crate::study::vehicle::spectra::{Spectrum, WINDOW_S};
+use crate::study::vehicle::spectra::{SHOWN_HZ, Spectrum, WINDOW_S};
 use crate::study::workers;
-
-/// Highest frequency that is drawn, Hz.
-const SHOWN_HZ: f64 = 40.0;
 
 /// Over time at the first seed; the spectrum as the mean of all seeds, the band from the least to the greatest.
 ///
