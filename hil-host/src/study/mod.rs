@@ -2,6 +2,7 @@
 
 pub mod accuracy_limits;
 pub mod bench_test;
+pub mod calibration;
 mod error;
 pub mod excitation;
 pub mod published;

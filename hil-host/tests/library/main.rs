@@ -1,5 +1,6 @@
 //! Parts of the host used as a library.
 
+mod calibration;
 mod case_file;
 mod damper_response;
 mod pacing;

@@ -22,6 +22,16 @@ pub enum DamperError {
         /// What is wrong with it.
         reason: String,
     },
+    /// A key that has no number in this damper.
+    #[error("{name}: no number at `{key}`{near}")]
+    NoNumber {
+        /// The file or preset.
+        name: String,
+        /// The key.
+        key: String,
+        /// The nearest key, in words.
+        near: String,
+    },
     /// The file is not as it must be, whatever is overridden.
     #[error("{name}: {source}")]
     Content {

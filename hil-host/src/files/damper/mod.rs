@@ -1,6 +1,7 @@
 //! Damper files and presets: TOML in SI units, unknown keys refused with the nearest one.
 
 mod error;
+mod keyed;
 
 use dashpot_core::CheckedParameters;
 use dashpot_core::parameters::{
@@ -9,6 +10,7 @@ use dashpot_core::parameters::{
 };
 pub(crate) use error::FORM;
 pub use error::{ContentError, DamperError};
+pub use keyed::{Keyed, range, text};
 use serde::{Deserialize, Serialize};
 
 use crate::files::overrides::{self, explain};

@@ -1,0 +1,93 @@
+//! Bench tests of which only the indices are known, as a table of them has it.
+
+use serde::{Deserialize, Serialize};
+
+use super::CalibrationError;
+use crate::study::bench_test::{Harmonic, Indices};
+
+/// Scatter of an index, where none is given (%).
+const SCATTER_PERCENT: f64 = 1.0;
+
+/// Indices of one harmonic test; those that were not measured are left out. Forces are magnitudes.
+#[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct IndexTest {
+    /// Amplitude (m).
+    pub amplitude_m: f64,
+    /// Frequency (Hz).
+    pub frequency_hz: f64,
+    /// Largest force in extension (N).
+    #[serde(default)]
+    pub max_extension_force_n: Option<f64>,
+    /// Largest force in compression (N).
+    #[serde(default)]
+    pub max_compression_force_n: Option<f64>,
+    /// Energy of a cycle (J).
+    #[serde(default)]
+    pub energy_per_cycle_j: Option<f64>,
+    /// What no force exceeds (N).
+    #[serde(default)]
+    pub force_at_most_n: Option<f64>,
+    /// Scatter of these, standard deviation (% of each); 1 where none is given.
+    #[serde(default)]
+    pub scatter_percent: Option<f64>,
+}
+
+impl IndexTest {
+    /// The motion.
+    pub fn motion(&self) -> Harmonic {
+        Harmonic {
+            amplitude_m: self.amplitude_m,
+            frequency_hz: self.frequency_hz,
+        }
+    }
+
+    /// # Errors
+    /// An index that is not above 0.
+    pub(super) fn check(&self) -> Result<(), CalibrationError> {
+        let fields = [
+            ("max_extension_force_n", self.max_extension_force_n),
+            ("max_compression_force_n", self.max_compression_force_n),
+            ("energy_per_cycle_j", self.energy_per_cycle_j),
+            ("force_at_most_n", self.force_at_most_n),
+            ("scatter_percent", self.scatter_percent),
+        ];
+        for (field, value) in fields {
+            if let Some(value) = value.filter(|value| !(*value > 0.0 && value.is_finite())) {
+                return Err(CalibrationError::Index { field, value });
+            }
+        }
+        Ok(())
+    }
+
+    /// How many indices there are.
+    pub(super) fn count(&self) -> usize {
+        let measured = [
+            self.max_extension_force_n,
+            self.max_compression_force_n,
+            self.energy_per_cycle_j,
+        ];
+        let bounds = self.force_at_most_n.map_or(0, |_| 2);
+        measured.iter().flatten().count() + bounds
+    }
+
+    /// Each index of the model less the measured one, in standard deviations; of a bound, what is beyond it.
+    pub(super) fn deviations(&self, model: &Indices) -> impl Iterator<Item = f64> + use<> {
+        let scatter = self.scatter_percent.unwrap_or(SCATTER_PERCENT) * 1e-2;
+        let (extension, compression) = (model.max_extension_force_n, model.max_compression_force_n);
+        let measured = [
+            (self.max_extension_force_n, extension),
+            (self.max_compression_force_n, compression),
+            (self.energy_per_cycle_j, model.energy_per_cycle_j),
+        ];
+        let bounded = [extension, compression].map(|force| (self.force_at_most_n, force));
+        let measured = measured.into_iter().filter_map(move |(index, value)| {
+            let index = index?;
+            Some((value - index) / (scatter * index.abs()))
+        });
+        measured.chain(bounded.into_iter().filter_map(move |(most, value)| {
+            let most = most?;
+            Some((value - most).max(0.0) / (scatter * most))
+        }))
+    }
+}

@@ -1,0 +1,188 @@
+//! Recorded force-displacement loops of a bench test.
+
+use std::ops::Range;
+
+use super::CalibrationError;
+use super::smoothing::smooth;
+
+/// Samples of a bench test.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Recorded {
+    /// Name in results.
+    pub name: String,
+    /// Times (s), rising.
+    pub times_s: Vec<f64>,
+    /// Displacements of the seats (m), positive in extension.
+    pub displacements_m: Vec<f64>,
+    /// Forces (N), positive in extension.
+    pub forces_n: Vec<f64>,
+}
+
+/// Ticks of one test at most.
+const MOST_TICKS: f64 = 4e6;
+
+/// Samples that tell something, at least.
+const FEWEST_SAMPLES: usize = 100;
+
+/// An interval longer than so many median ones is a gap: what the damper did in it is not known.
+const GAP_IN_MEDIANS: f64 = 20.0;
+
+/// Share of its peak that the force must have had in both directions before it counts: until then, where in its clearance the damper began
+/// decides.
+const CONTACT: f64 = 0.05;
+
+/// One bench test, ready to be compared with a model.
+#[derive(Clone, Debug)]
+pub struct LoopTest {
+    /// Name in results.
+    pub name: String,
+    /// Displacements at ticks of the step (m), without the noise of their recording.
+    pub displacements_m: Vec<f64>,
+    /// Times of the samples, in ticks.
+    pub(super) positions: Vec<f64>,
+    /// Forces of the samples (N).
+    pub forces_n: Vec<f64>,
+    /// The samples that count.
+    pub(super) counted: Range<usize>,
+    /// Noise of the displacement and of the force, standard deviation (m, N).
+    pub displacement_noise_m: f64,
+    /// As above.
+    pub force_noise_n: f64,
+    /// Half of the way from the least to the greatest displacement (m).
+    pub amplitude_m: f64,
+    /// Largest velocity (m/s).
+    pub peak_velocity_m_per_s: f64,
+    /// Largest force, without noise (N).
+    pub peak_force_n: f64,
+}
+
+impl LoopTest {
+    /// The tests of a recording, one for each stretch without gaps, at ticks of `step_s` (s).
+    ///
+    /// # Errors
+    /// Too few samples, too many ticks, or a force that never acts in both directions.
+    pub fn of(recorded: &Recorded, step_s: f64) -> Result<Vec<Self>, CalibrationError> {
+        let stretches = stretches(&recorded.times_s);
+        let count = stretches.len();
+        let tests = stretches.into_iter().enumerate().map(|(number, stretch)| {
+            let name = match count {
+                1 => recorded.name.clone(),
+                _ => format!("{} ({} of {count})", recorded.name, number + 1),
+            };
+            Self::of_stretch(name, recorded, stretch, step_s)
+        });
+        let tests: Vec<Self> = tests.collect::<Result<_, _>>()?;
+        if tests.is_empty() {
+            return Err(CalibrationError::TooShort {
+                test: recorded.name.clone(),
+                fewest: FEWEST_SAMPLES,
+            });
+        }
+        Ok(tests)
+    }
+
+    fn of_stretch(
+        name: String,
+        recorded: &Recorded,
+        stretch: Range<usize>,
+        step_s: f64,
+    ) -> Result<Self, CalibrationError> {
+        let times_s = &recorded.times_s[stretch.clone()];
+        let start_s = times_s[0];
+        let positions: Vec<f64> = times_s
+            .iter()
+            .map(|time_s| (time_s - start_s) / step_s)
+            .collect();
+        let last = positions.last().copied().unwrap_or(0.0);
+        if last > MOST_TICKS {
+            return Err(CalibrationError::TooLong {
+                test: name,
+                seconds: last * step_s,
+                most: MOST_TICKS * step_s,
+            });
+        }
+        let ticks = last as usize + 2;
+        let displacement = smooth(
+            &positions,
+            &recorded.displacements_m[stretch.clone()],
+            ticks,
+        );
+        let forces_n = recorded.forces_n[stretch].to_vec();
+        let force = smooth(&positions, &forces_n, ticks);
+        let x = displacement.values;
+        let span = |values: &[f64]| {
+            let least = values.iter().copied().fold(f64::INFINITY, f64::min);
+            let greatest = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+            (least, greatest)
+        };
+        let (shortest, longest) = span(&x);
+        let (compression, extension) = span(&force.values);
+        let peak_force_n = extension.max(-compression);
+        let reaches = |sign: f64| {
+            let reached = |force: &f64| sign * force > CONTACT * peak_force_n;
+            force.values.iter().position(reached)
+        };
+        let (Some(first), Some(second)) = (reaches(1.0), reaches(-1.0)) else {
+            return Err(CalibrationError::OneSided { test: name });
+        };
+        let from = first.max(second) as f64;
+        let from = positions.partition_point(|position| *position < from);
+        let velocities = x.windows(2).map(|pair| (pair[1] - pair[0]).abs() / step_s);
+        Ok(Self {
+            peak_velocity_m_per_s: velocities.fold(0.0, f64::max),
+            amplitude_m: 0.5 * (longest - shortest),
+            peak_force_n,
+            displacement_noise_m: displacement.noise,
+            force_noise_n: force.noise,
+            counted: from..positions.len(),
+            displacements_m: x,
+            positions,
+            forces_n,
+            name,
+        })
+    }
+
+    /// The forces that count (N).
+    pub fn counted_forces_n(&self) -> &[f64] {
+        &self.forces_n[self.counted.clone()]
+    }
+
+    /// Displacements at the samples that count (m).
+    pub fn counted_displacements_m(&self) -> Vec<f64> {
+        self.at_counted(&self.displacements_m, 0.0)
+    }
+
+    /// Values at ticks, taken `later` ticks before each sample that counts, linear between.
+    pub(super) fn at_counted(&self, values: &[f64], later: f64) -> Vec<f64> {
+        let last = values.len() - 1;
+        self.positions[self.counted.clone()]
+            .iter()
+            .map(|position| {
+                let position = (position - later).clamp(0.0, last as f64);
+                let tick = (position as usize).min(last - 1);
+                let fraction = position - tick as f64;
+                values[tick] + fraction * (values[tick + 1] - values[tick])
+            })
+            .collect()
+    }
+}
+
+/// The stretches between gaps that have samples enough.
+fn stretches(times_s: &[f64]) -> Vec<Range<usize>> {
+    let intervals: Vec<f64> = times_s.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    let mut sorted = intervals.clone();
+    sorted.sort_unstable_by(f64::total_cmp);
+    let Some(median) = sorted.get(sorted.len() / 2) else {
+        return Vec::new();
+    };
+    let longest = GAP_IN_MEDIANS * median;
+    let ends_stretch =
+        |(number, interval): (usize, &f64)| (*interval > longest).then_some(number + 1);
+    let gaps = intervals.iter().enumerate().filter_map(ends_stretch);
+    let ends: Vec<usize> = gaps.chain([times_s.len()]).collect();
+    let starts = [0].into_iter().chain(ends.iter().copied());
+    let stretches = starts.zip(&ends).map(|(start, end)| start..*end);
+    stretches
+        .filter(|stretch| stretch.len() >= FEWEST_SAMPLES)
+        .collect()
+}

@@ -1,0 +1,247 @@
+//! Calibration: from bench tests to the numbers of a damper, and how well the tests determine these.
+//!
+//! The numbers are those of least `sum ((F_model - F)/s)^2 + sum ((p - mean)/sigma)^2` over all samples and priors, found by Levenberg and
+//! Marquardt's method from several starts. The model is the core's step in double precision over the recorded motion, freed of its noise by a
+//! smoothing spline and read earlier by the skew of the sensors. `s` is the scatter of a test about the model, found with the numbers
+//! (iterated maximum likelihood), times the root of the correlation time of what is left, in samples: neighbours that err together count once.
+
+mod determined;
+mod error;
+mod fit;
+mod indices;
+mod loops;
+mod model;
+mod plausible;
+mod profile;
+mod smoothing;
+mod varied;
+
+pub use determined::{CLOSE, Determination, Determined};
+pub use error::CalibrationError;
+use fit::Fit;
+pub use indices::IndexTest;
+pub use loops::{LoopTest, Recorded};
+use model::Model;
+pub use profile::{Profile, RISE_95};
+pub use varied::{Prior, SKEW, Varied};
+
+use dashpot_core::CheckedParameters;
+
+use crate::files::damper::Keyed;
+use crate::study::workers;
+
+/// Rounds in which the scatter of the tests and the numbers are found in turn: the second changes both by a percent.
+const ROUNDS: usize = 3;
+
+/// Least scatter of a test, of its peak force: no sensor is better.
+const LEAST_SCATTER: f64 = 1e-4;
+
+/// Two sums of squares are the same minimum within this, relative and absolute.
+const SAME_MINIMUM: f64 = 1e-3;
+
+/// What is calibrated, and from what.
+#[derive(Clone, Debug)]
+pub struct Calibration {
+    /// The damper before.
+    pub damper: Keyed,
+    /// Numbers that vary.
+    pub varied: Vec<Varied>,
+    /// Recorded loops.
+    pub loops: Vec<LoopTest>,
+    /// Tests of which the indices are known.
+    pub indices: Vec<IndexTest>,
+    /// The step of the model (s).
+    pub step_s: f64,
+    /// Starts of the search.
+    pub starts: usize,
+}
+
+/// What was found.
+#[derive(Clone)]
+pub struct Calibrated {
+    /// The damper.
+    pub damper: CheckedParameters,
+    /// The varied numbers, in their order.
+    pub values: Vec<f64>,
+    /// What the tests tell of them.
+    pub determination: Determination,
+    /// Their intervals.
+    pub profiles: Vec<Profile>,
+    /// Of each loop.
+    pub loops: Vec<LoopFit>,
+    /// Starts that led to the same minimum, of those that led to one.
+    pub same_minimum: [usize; 2],
+}
+
+/// A loop beside the model.
+#[derive(Clone)]
+pub struct LoopFit {
+    /// Forces of the model at the samples that count, before (N).
+    pub before_n: Vec<f64>,
+    /// After (N).
+    pub after_n: Vec<f64>,
+    /// Root mean square of what the model misses, before (N).
+    pub missed_before_n: f64,
+    /// After (N).
+    pub missed_after_n: f64,
+    /// Correlation time of that (samples).
+    pub correlation_samples: f64,
+}
+
+impl Calibration {
+    /// Finds the numbers.
+    ///
+    /// # Errors
+    /// Nothing to do, a damper that cannot be, or numbers that the tests do not determine: then none are told.
+    pub fn run(&self) -> Result<Calibrated, CalibrationError> {
+        self.check()?;
+        let scatter = |test: &LoopTest| test.force_noise_n.max(LEAST_SCATTER * test.peak_force_n);
+        let mut model = Model {
+            damper: self.damper.clone(),
+            varied: self.varied.clone(),
+            loops: self.loops.clone(),
+            indices: self.indices.clone(),
+            step_s: self.step_s,
+            scatter_n: self.loops.iter().map(scatter).collect(),
+        };
+        let start: Vec<f64> = self.varied.iter().map(|v| v.place(v.start)).collect();
+        let fits = model.fits(self.starts);
+        let Some(first) = fits.first() else {
+            // What fails at the start fails everywhere.
+            let reason = model
+                .deviations(&start)
+                .err()
+                .map(|error| error.to_string());
+            return Err(CalibrationError::NoFit(
+                reason.unwrap_or_else(|| "numbers that no damper has together".into()),
+            ));
+        };
+        let is_same =
+            |fit: &&Fit| fit.chi_square <= first.chi_square * (1.0 + SAME_MINIMUM) + SAME_MINIMUM;
+        let same_minimum = [fits.iter().filter(is_same).count(), fits.len()];
+        let mut best = first.clone();
+        let all: Vec<usize> = (0..self.varied.len()).collect();
+        let mut left = Vec::new();
+        for _ in 0..if self.loops.is_empty() { 0 } else { ROUNDS } {
+            left = model.left(&best.places)?;
+            for ((scatter, left), test) in model.scatter_n.iter_mut().zip(&left).zip(&self.loops) {
+                let rms = left.rms_n.max(LEAST_SCATTER * test.peak_force_n);
+                *scatter = rms * left.correlation_samples.sqrt();
+            }
+            best = model.fit(&best.places, &all).unwrap_or(best);
+        }
+        let determination = model.determination(&best.places)?;
+        let refuse = |is_determined: &dyn Fn(usize) -> bool| {
+            let refused = all.iter().filter(|number| !is_determined(**number));
+            let numbers: Vec<(String, Determined)> = refused
+                .map(|&number| {
+                    let key = self.varied[number].key.clone();
+                    (key, determination.numbers[number].clone())
+                })
+                .collect();
+            match numbers.is_empty() {
+                true => Ok(()),
+                false => Err(CalibrationError::Undetermined { numbers }),
+            }
+        };
+        refuse(&|number| {
+            determination.numbers[number].is_felt || self.varied[number].prior.is_some()
+        })?;
+        let values = model.values(&best.places);
+        let profiles = workers::map(&all, |&number| -> Result<_, CalibrationError> {
+            let deviation = determination.numbers[number].with_priors.unwrap_or(0.0);
+            let deviation = deviation / self.varied[number].slope(values[number]);
+            Ok(model.profile(&best, number, deviation))
+        })?;
+        refuse(&|number| profiles[number].is_narrow(&self.varied[number], values[number]))?;
+        let before = model.forces_n(&start)?;
+        let after = model.forces_n(&best.places)?;
+        let forces = before.into_iter().zip(after);
+        let loops = forces.zip(&self.loops).zip(&left);
+        let loops = loops.map(|(((before_n, after_n), test), left)| LoopFit {
+            missed_before_n: missed_n(test, &before_n),
+            missed_after_n: missed_n(test, &after_n),
+            before_n,
+            after_n,
+            correlation_samples: left.correlation_samples,
+        });
+        Ok(Calibrated {
+            damper: model.damper_at(&best.places)?,
+            loops: loops.collect(),
+            values,
+            determination,
+            profiles,
+            same_minimum,
+        })
+    }
+
+    fn check(&self) -> Result<(), CalibrationError> {
+        if self.varied.is_empty() {
+            return Err(CalibrationError::Nothing("number to vary"));
+        }
+        if self.loops.is_empty() && self.indices.is_empty() {
+            return Err(CalibrationError::Nothing("test"));
+        }
+        for (number, varied) in self.varied.iter().enumerate() {
+            if self.varied[..number]
+                .iter()
+                .any(|other| other.key == varied.key)
+            {
+                let key = varied.key.clone();
+                return Err(CalibrationError::Twice { key });
+            }
+        }
+        self.indices.iter().try_for_each(IndexTest::check)
+    }
+}
+
+/// Root mean square of what `forces_n` of a model miss of a test (N).
+fn missed_n(test: &LoopTest, forces_n: &[f64]) -> f64 {
+    let pairs = test.counted_forces_n().iter().zip(forces_n);
+    let square: f64 = pairs.map(|(f, model)| (model - f).powi(2)).sum();
+    (square / forces_n.len().max(1) as f64).sqrt()
+}
+
+/// What a model leaves of a test.
+struct Left {
+    /// Root mean square (N).
+    rms_n: f64,
+    /// Correlation time (samples), 1 of white noise.
+    correlation_samples: f64,
+}
+
+impl Model {
+    fn left(&self, places: &[f64]) -> Result<Vec<Left>, CalibrationError> {
+        let forces = self.forces_n(places)?;
+        let left = self.loops.iter().zip(&forces).map(|(test, forces)| {
+            let measured = test.counted_forces_n().iter();
+            let left: Vec<f64> = measured.zip(forces).map(|(f, model)| model - f).collect();
+            Left {
+                rms_n: missed_n(test, forces),
+                correlation_samples: correlation_samples(&left),
+            }
+        });
+        Ok(left.collect())
+    }
+}
+
+/// Correlation time of a series, `1 + 2 sum rho_k`, as long as pairs of neighbouring terms stay positive (Geyer, Statistical Science 7, 1992).
+fn correlation_samples(series: &[f64]) -> f64 {
+    let square: f64 = series.iter().map(|value| value * value).sum();
+    if square == 0.0 {
+        return 1.0;
+    }
+    let correlation = |lag: usize| {
+        let pairs = series.iter().zip(series.get(lag..).unwrap_or_default());
+        pairs.map(|(a, b)| a * b).sum::<f64>() / square
+    };
+    let mut time = 1.0;
+    for pair in 0..series.len() / 20 {
+        let (even, odd) = (correlation(2 * pair), correlation(2 * pair + 1));
+        if even + odd <= 0.0 {
+            break;
+        }
+        time += 2.0 * (even + odd) - if pair == 0 { 2.0 } else { 0.0 };
+    }
+    time.max(1.0)
+}

@@ -1,0 +1,141 @@
+//! What is compared: the forces of a damper with these numbers, and those of the tests.
+
+use dashpot_core::CheckedParameters;
+use nalgebra::DMatrix;
+
+use super::CalibrationError;
+use super::indices::IndexTest;
+use super::loops::LoopTest;
+use super::varied::{SKEW, Varied};
+use crate::files::damper::Keyed;
+use crate::study::bench_test;
+
+/// Change for a derivative, of what is tolerated: some percent of a force, beside the hundredth of a percent that a built table misses.
+const CHANGE: f64 = 0.3;
+
+/// A damper, the numbers of it that vary, and the tests.
+#[derive(Clone, Debug)]
+pub(super) struct Model {
+    pub(super) damper: Keyed,
+    pub(super) varied: Vec<Varied>,
+    pub(super) loops: Vec<LoopTest>,
+    pub(super) indices: Vec<IndexTest>,
+    /// The step of all loops (s): the damper is built once for all of them.
+    pub(super) step_s: f64,
+    /// What one sample of each loop scatters by (N), so that the samples count as if they were independent.
+    pub(super) scatter_n: Vec<f64>,
+}
+
+impl Model {
+    /// The damper with the varied numbers at `places`.
+    ///
+    /// # Errors
+    /// Numbers that no damper has together.
+    pub(super) fn damper_at(&self, places: &[f64]) -> Result<CheckedParameters, CalibrationError> {
+        let values = self.values(places);
+        let numbers: Vec<(&str, f64)> = self
+            .varied
+            .iter()
+            .zip(values)
+            .filter(|(varied, _)| varied.key != SKEW)
+            .map(|(varied, value)| (varied.key.as_str(), value))
+            .collect();
+        Ok(self.damper.with(&numbers)?)
+    }
+
+    /// The varied numbers at `places`.
+    pub(super) fn values(&self, places: &[f64]) -> Vec<f64> {
+        let values = self.varied.iter().zip(places);
+        values.map(|(varied, place)| varied.at(*place)).collect()
+    }
+
+    fn skew_s(&self, places: &[f64]) -> f64 {
+        let values = self.varied.iter().zip(places);
+        let mut skews = values.filter(|(varied, _)| varied.key == SKEW);
+        skews
+            .next()
+            .map_or(0.0, |(varied, place)| varied.at(*place))
+    }
+
+    /// Forces of the model at the samples that count (N), loop by loop.
+    ///
+    /// # Errors
+    /// Numbers that no damper has together.
+    pub(super) fn forces_n(&self, places: &[f64]) -> Result<Vec<Vec<f64>>, CalibrationError> {
+        let damper = self.damper_at(places)?;
+        let built = damper.build::<f64>(self.step_s)?;
+        let later = self.skew_s(places) / self.step_s;
+        let forces = self.loops.iter().map(|test| {
+            let x = &test.displacements_m;
+            let mut state = built.at_rest(x[0]);
+            let forces: Vec<f64> = x.iter().map(|x| built.step(&mut state, *x)).collect();
+            test.at_counted(&forces, later)
+        });
+        Ok(forces.collect())
+    }
+
+    /// What the tests have and the model lacks, each over what it scatters by: loops, then indices.
+    ///
+    /// # Errors
+    /// Numbers that no damper has together, or a damper whose force does not become periodic.
+    pub(super) fn deviations(&self, places: &[f64]) -> Result<Vec<f64>, CalibrationError> {
+        let forces = self.forces_n(places)?;
+        let mut deviations = Vec::with_capacity(self.count());
+        for ((test, scatter), forces) in self.loops.iter().zip(&self.scatter_n).zip(&forces) {
+            let measured = test.counted_forces_n().iter();
+            deviations.extend(measured.zip(forces).map(|(f, model)| (model - f) / scatter));
+        }
+        if !self.indices.is_empty() {
+            let damper = self.damper_at(places)?;
+            for test in &self.indices {
+                let cycle = bench_test::run_until_periodic(&damper, test.motion(), self.step_s)?;
+                deviations.extend(test.deviations(&cycle.indices()));
+            }
+        }
+        Ok(deviations)
+    }
+
+    /// Which numbers have priors, how far they are from them at `places`, in standard deviations, and that over the place.
+    pub(super) fn from_priors(&self, places: &[f64]) -> impl Iterator<Item = (usize, f64, f64)> {
+        let numbers = self.varied.iter().zip(places).enumerate();
+        numbers.filter_map(|(number, (varied, place))| {
+            let (deviation, slope) = varied.from_prior(varied.at(*place))?;
+            Some((number, deviation, slope))
+        })
+    }
+
+    /// How many deviations there are.
+    fn count(&self) -> usize {
+        let loops = self.loops.iter().map(|test| test.counted.len());
+        let indices = self.indices.iter().map(IndexTest::count);
+        loops.chain(indices).sum()
+    }
+
+    /// The deviations over the places of the numbers `of`, by central differences.
+    ///
+    /// # Errors
+    /// As [`Model::deviations`].
+    pub(super) fn slopes(
+        &self,
+        places: &[f64],
+        of: &[usize],
+    ) -> Result<DMatrix<f64>, CalibrationError> {
+        let mut slopes = DMatrix::zeros(self.count(), of.len());
+        for (column, number) in of.iter().enumerate() {
+            let moved = |by: f64| {
+                let mut moved = places.to_vec();
+                moved[*number] = (moved[*number] + by).clamp(0.0, 1.0);
+                moved
+            };
+            let varied = &self.varied[*number];
+            let change = CHANGE * varied.tolerance(varied.at(places[*number]));
+            let (below, above) = (moved(-change), moved(change));
+            let between = above[*number] - below[*number];
+            let (above, below) = (self.deviations(&above)?, self.deviations(&below)?);
+            for (row, (above, below)) in above.iter().zip(&below).enumerate() {
+                slopes[(row, column)] = (above - below) / between;
+            }
+        }
+        Ok(slopes)
+    }
+}

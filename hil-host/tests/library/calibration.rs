@@ -1,0 +1,232 @@
+//! Calibration against tests whose numbers are known: made by the reference solver, which shares no law with the model that is fitted, with
+//! noise on both signals and the force recorded late.
+
+use std::f64::consts::TAU;
+
+use dashpot_core::CheckedParameters;
+use dashpot_hil::files::damper::{Keyed, load};
+use dashpot_hil::study::bench_test::Harmonic;
+use dashpot_hil::study::calibration::{
+    Calibrated, Calibration, CalibrationError, LoopTest, Prior, Recorded, SKEW, Varied,
+};
+use dashpot_hil::study::verification::reference_forces;
+use fastrand::Rng;
+
+/// Interval of the made recordings (s).
+const INTERVAL_S: f64 = 1e-3;
+
+/// Samples by which the force is late: 3 ms.
+const LATE: usize = 3;
+
+/// The bench tests: peak velocities 0.013 to 0.29 m/s.
+const MOTIONS: [(f64, f64); 5] = [
+    (24.875e-3, 0.64),
+    (24.665e-3, 1.9),
+    (10e-3, 0.2),
+    (5e-3, 2.0),
+    (2e-3, 4.0),
+];
+
+/// A number of a normal distribution (Box and Muller).
+fn normal(rng: &mut Rng) -> f64 {
+    let radius = (-2.0 * (1.0 - rng.f64()).ln()).sqrt();
+    radius * (TAU * rng.f64()).cos()
+}
+
+fn rms(values: &[f64]) -> f64 {
+    (values.iter().map(|value| value * value).sum::<f64>() / values.len() as f64).sqrt()
+}
+
+/// A recording of `damper` on the bench; `noise` is the standard deviation over the rms of each signal.
+fn recorded(
+    damper: &CheckedParameters,
+    (amplitude_m, frequency_hz): (f64, f64),
+    noise: f64,
+    rng: &mut Rng,
+) -> Recorded {
+    let motion = Harmonic {
+        amplitude_m,
+        frequency_hz,
+    };
+    let samples = (10.0 / INTERVAL_S) as usize;
+    let x: Vec<f64> = (0..samples)
+        .map(|sample| {
+            let angle = TAU * motion.frequency_hz * sample as f64 * INTERVAL_S;
+            motion.amplitude_m * angle.sin()
+        })
+        .collect();
+    let forces = reference_forces(damper, INTERVAL_S, &x).unwrap();
+    let (x_noise, force_noise) = (noise * rms(&x), noise * rms(&forces));
+    Recorded {
+        name: format!("{frequency_hz} Hz"),
+        times_s: (LATE..samples)
+            .map(|sample| sample as f64 * INTERVAL_S)
+            .collect(),
+        displacements_m: x[LATE..]
+            .iter()
+            .map(|x| x + x_noise * normal(rng))
+            .collect(),
+        forces_n: forces[..samples - LATE]
+            .iter()
+            .map(|force| force + force_noise * normal(rng))
+            .collect(),
+    }
+}
+
+/// A calibration of `start` from tests made of `truth`.
+fn calibration(
+    truth: &CheckedParameters,
+    start: &CheckedParameters,
+    keys: &[&str],
+    (noise, seed): (f64, u64),
+) -> Calibration {
+    let step_s = INTERVAL_S;
+    let mut rng = Rng::with_seed(seed);
+    let damper = Keyed::new("start", start).unwrap();
+    let loops = MOTIONS.iter().flat_map(|motion| {
+        let recorded = recorded(truth, *motion, noise, &mut rng);
+        LoopTest::of(&recorded, step_s).unwrap()
+    });
+    let loops = loops.collect();
+    let varied = keys
+        .iter()
+        .map(|key| Varied::new(&damper, key, None, None).unwrap());
+    let varied = varied.chain([Varied::skew()]).collect();
+    Calibration {
+        damper,
+        varied,
+        loops,
+        indices: Vec::new(),
+        step_s,
+        starts: 2,
+    }
+}
+
+fn value(calibration: &Calibration, found: &Calibrated, key: &str) -> f64 {
+    let number = calibration
+        .varied
+        .iter()
+        .position(|v| v.key == key)
+        .unwrap();
+    found.values[number]
+}
+
+/// Truths about the start, nobody's choice: each number times a ratio from 0.6 to 1.6.
+fn truths<const N: usize>(starts: [f64; N], rng: &mut Rng) -> [f64; N] {
+    starts.map(|start| start * (0.6 + rng.f64()))
+}
+
+fn with<const N: usize>(preset: &str, keys: [&str; N], values: [f64; N]) -> CheckedParameters {
+    let set = keys.into_iter().zip(values);
+    let overrides: Vec<String> = set.map(|(key, value)| format!("{key}={value:?}")).collect();
+    load(preset, &overrides).unwrap()
+}
+
+#[test]
+fn the_numbers_of_a_physical_damper_are_found() {
+    let start = load("in-service", &[]).unwrap();
+    let keys = [
+        "orifice.discharge_coefficient",
+        "mount.stiffness_n_per_m",
+        "mount.clearance_m",
+    ];
+    let mut rng = Rng::with_seed(11);
+    for seed in 0..3 {
+        let [discharge, stiffness, clearance_m] = truths([0.62, 6e6, 1e-3], &mut rng);
+        let truth = with("in-service", keys, [discharge, stiffness, clearance_m]);
+        let calibration = calibration(&truth, &start, &keys, (0.02, seed));
+        let found = calibration.run().unwrap();
+        let value = |key| value(&calibration, &found, key);
+        let relative = [
+            value(keys[0]) / discharge - 1.0,
+            value(keys[1]) / stiffness - 1.0,
+        ];
+        let (clearance_mm, skew_ms) = (
+            (value(keys[2]) - clearance_m) * 1e3,
+            value(SKEW) * 1e3 - 3.0,
+        );
+        println!("{relative:?}, 2a {clearance_mm} mm, skew {skew_ms} ms");
+        assert!(
+            relative.iter().all(|error| error.abs() < 0.03),
+            "{relative:?}"
+        );
+        assert!(clearance_mm.abs() < 0.05 && skew_ms.abs() < 0.2);
+    }
+}
+
+#[test]
+fn the_numbers_of_a_reduced_damper_are_found() {
+    let start = load("reduced-vertical", &[]).unwrap();
+    let keys = [
+        "reduced.damping_n_s_per_m",
+        "reduced.saturation_velocity_m_per_s",
+        "mount.stiffness_n_per_m",
+        "mount.clearance_m",
+    ];
+    let mut rng = Rng::with_seed(5);
+    for seed in 0..2 {
+        let truths = truths([120e3, 0.05, 8e6, 1e-3], &mut rng);
+        let truth = with("reduced-vertical", keys, truths);
+        let calibration = calibration(&truth, &start, &keys, (0.02, seed));
+        let found = calibration.run().unwrap();
+        let value = |key| value(&calibration, &found, key);
+        let relative: Vec<f64> = (0..3).map(|n| value(keys[n]) / truths[n] - 1.0).collect();
+        let clearance_mm = (value(keys[3]) - truths[3]) * 1e3;
+        println!(
+            "{truths:?}: {relative:?}, 2a {clearance_mm} mm, skew {} s",
+            value(SKEW)
+        );
+        assert!(
+            relative.iter().all(|error| error.abs() < 0.03),
+            "{relative:?}"
+        );
+        assert!(clearance_mm.abs() < 0.05);
+        assert!((value(SKEW) - 3e-3).abs() < 0.2e-3);
+    }
+}
+
+#[test]
+fn what_only_goes_together_is_refused_with_the_reason() {
+    let damper = load("in-service", &[]).unwrap();
+    let keys = ["orifice.diameter_m", "orifice.discharge_coefficient"];
+    let mut calibration = calibration(&damper, &damper, &keys, (0.02, 1));
+    // Without a transition the flow has only the product of the coefficient and the area.
+    calibration.damper = {
+        let turbulent = load("in-service", &["orifice.transition_reynolds=0.0".into()]).unwrap();
+        Keyed::new("turbulent", &turbulent).unwrap()
+    };
+    for varied in &mut calibration.varied {
+        varied.prior = None;
+    }
+    let error = calibration.run().err().unwrap();
+    assert!(matches!(error, CalibrationError::Undetermined { .. }));
+    let text = error.to_string();
+    assert!(
+        text.contains("orifice.diameter_m: only together with `orifice.discharge_coefficient`"),
+        "{text}"
+    );
+    // What is known before of the coefficient separates them.
+    calibration.varied[1].prior = Some(Prior {
+        mean: 0.72,
+        standard_deviation: 0.02,
+    });
+    let found = calibration.run().unwrap();
+    let determined = &found.determination.numbers;
+    assert!(!determined[1].by_tests && !determined[0].by_tests);
+    let product = found.values[0].powi(2) * found.values[1];
+    println!("{:?}", found.values);
+    assert!((found.values[1] / 0.72 - 1.0).abs() < 0.02, "{product}");
+}
+
+#[test]
+fn what_no_force_tells_is_refused() {
+    let damper = load("in-service", &["relief.opening_pressure_pa=2e7".into()]).unwrap();
+    let keys = ["relief.opening_pressure_pa", "mount.stiffness_n_per_m"];
+    let calibration = calibration(&damper, &damper, &keys, (0.02, 1));
+    let text = calibration.run().err().unwrap().to_string();
+    assert!(
+        text.contains("relief.opening_pressure_pa: no force of these tests changes"),
+        "{text}"
+    );
+    assert!(!text.contains("mount.stiffness"), "{text}");
+}
