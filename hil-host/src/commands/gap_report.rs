@@ -3,20 +3,35 @@
 use std::io::{self, Write};
 
 use super::counted;
-use crate::files::recording::{GAP_IN_MEDIANS, Gaps};
+use crate::files::recording::{GAP_IN_MEDIANS, Gaps, Place};
 
-/// Writes how many gaps the recording has and where the longest is; nothing where there are no gaps.
+/// Writes how many gaps the recording has and where the longest is; nothing where there are none; the same of rows that were left out.
 pub(super) fn write_gaps(out: &mut dyn Write, gaps: &Gaps) -> io::Result<()> {
+    if let Some(first) = gaps.left_out.first {
+        writeln!(
+            out,
+            "warning: {} left out that lacked a value, the first at {}; the motion is straight across",
+            counted(gaps.left_out.rows, "row"),
+            place(first)
+        )?;
+    }
     let (Some(longest), Some(median_s)) = (gaps.longest, gaps.median_interval_s) else {
         return Ok(());
     };
     writeln!(
         out,
         "warning: {} in the recording, over {GAP_IN_MEDIANS} times the median interval of {median_s} s; the longest \
-         lasts {} s from {} s (before line {}); the motion is straight across",
+         lasts {} s from {} s (before {}); the motion is straight across",
         counted(gaps.count, "gap"),
         longest.duration_s,
         longest.start_s,
-        longest.line
+        place(longest.place)
     )
+}
+
+fn place(place: Place) -> String {
+    match place {
+        Place::Line(line) => format!("line {line}"),
+        Place::Row(row) => format!("row {row}"),
+    }
 }

@@ -20,6 +20,7 @@ mod paced;
 pub mod pil;
 pub mod print;
 pub mod progress;
+pub mod recording;
 pub mod replay;
 pub mod rig;
 pub mod shims;

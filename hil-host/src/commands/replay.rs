@@ -8,6 +8,7 @@ use serde::Serialize;
 
 use super::gap_report::write_gaps;
 use super::paced::Paced;
+use super::recording::MotionArguments;
 use super::step_size::{self, StepSize};
 use super::{
     DamperArguments, Format, RealtimeArguments, counted, nearest_nanosecond, print_report_beside,
@@ -37,6 +38,8 @@ pub struct ReplayArguments {
     /// Recorded motion, CSV; `-` for standard input.
     #[arg(long, value_name = "FILE")]
     input: PathBuf,
+    #[command(flatten)]
+    recording: MotionArguments,
     /// Force over time, CSV; a file is written whole or not at all, `-` is standard output.
     #[arg(long, value_name = "FILE")]
     output: PathBuf,
@@ -136,7 +139,10 @@ fn write<T: Real + Serialize>(
     let step_s = arguments.step_us.step_s();
     let damper = parameters.build::<T>(step_s)?;
     let bar = progress::bar(input::length(&arguments.input), "replay");
-    let mut ticks = TickGrid::new(Recording::open(&arguments.input)?, step_s)?;
+    let mut ticks = TickGrid::new(
+        Recording::open_with(&arguments.input, &arguments.recording.channels())?,
+        step_s,
+    )?;
     let mut summary = None;
     write_whole(&arguments.output, |file| {
         let failed = |error: csv::Error| cannot_write_rows(&arguments.output, error);

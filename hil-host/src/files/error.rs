@@ -62,6 +62,18 @@ pub enum FileError {
         /// What is wrong, and what is allowed.
         source: Box<dyn Error + Send + Sync>,
     },
+    /// One value of a table in the file, which has no lines, is not as it must be.
+    #[error("{}: row {row}: column {column}: {source}", path.display())]
+    Row {
+        /// The file.
+        path: PathBuf,
+        /// Row of the table, from 1.
+        row: u64,
+        /// Name of the column.
+        column: String,
+        /// What is wrong, and what is allowed.
+        source: Box<dyn Error + Send + Sync>,
+    },
 }
 
 impl FileError {
@@ -102,6 +114,21 @@ impl FileError {
         Self::Cell {
             path: path.to_owned(),
             line,
+            column: column.into(),
+            source: source.into(),
+        }
+    }
+
+    /// A value of the table in the file at `path`, which has no lines, is not as it must be.
+    pub fn in_row(
+        path: &Path,
+        row: u64,
+        column: impl Into<String>,
+        source: impl Into<Box<dyn Error + Send + Sync>>,
+    ) -> Self {
+        Self::Row {
+            path: path.to_owned(),
+            row,
             column: column.into(),
             source: source.into(),
         }

@@ -39,7 +39,7 @@ impl TickGrid {
     pub fn new(mut recording: Recording, step_s: f64) -> Result<Self, FileError> {
         let first = recording
             .next_sample()?
-            .ok_or_else(|| recording.in_text(RecordingError::NoRow))?;
+            .ok_or_else(|| recording.in_text(RecordingError::NoRow { left_out: 0 }))?;
         Ok(Self {
             recording,
             step_s,

@@ -6,6 +6,7 @@ mod damper_response;
 mod pacing;
 mod profile_file;
 mod recording_header;
+mod recording_text;
 mod timing;
 mod track_file;
 mod vehicle_dampers;

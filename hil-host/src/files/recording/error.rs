@@ -1,48 +1,158 @@
-//! What can be wrong with the text of a recording.
+//! What can be wrong with a recording.
+
+use super::text::{DecimalMark, Separator};
+use super::unit::Quantity;
 
 /// Most ticks that a recording may span: 24 hours at 10 kHz, so that one mistyped time does not fill a disk.
 pub(crate) const MOST_TICKS: f64 = 864e6;
 
-/// What a recording must be beside its columns.
-const ACCEPTED: &str = "cells separated by commas, numbers with a decimal point";
+/// Names of channels that a message lists at most.
+const MOST_NAMES: usize = 12;
 
-/// What is wrong with the text of a recording; the file, and the line and column where there is one, are
+/// What is wrong with a recording; the file, and the line and column where there is one, are
 /// in [`FileError`](crate::files::FileError).
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum RecordingError {
     /// The file holds nothing.
-    #[error("empty; a header `time_s,{value}` and at least one row are needed")]
-    Empty {
-        /// Name of the column beside the time.
-        value: &'static str,
+    #[error("empty; a header such as `time_s,displacement_m` and at least one row are needed")]
+    Empty,
+    /// The file is of a kind that is not read.
+    #[error("it is {kind}; read are text (CSV), MDF4 and Parquet, compressed with gzip or not")]
+    Kind {
+        /// Its kind.
+        kind: &'static str,
     },
-    /// The header has a column more than once.
-    #[error("column {column} is in the header {times} times")]
+    /// The file is of a kind that this build does not read.
+    #[error("it is {kind}, which this build does not read: build it with the feature `{feature}`")]
+    Feature {
+        /// Its kind.
+        kind: &'static str,
+        /// The feature of the crate.
+        feature: &'static str,
+    },
+    /// Several channels have the name.
+    #[error("column {column} is in the header {times} times; choose one by its number, such as 2")]
     RepeatedColumn {
         /// Name of the column.
-        column: &'static str,
+        column: String,
         /// How many there are.
         times: usize,
     },
-    /// The header lacks a column: it is missing, or the file is of another kind.
+    /// A channel that is needed is not there.
+    #[error("{}", missing(*quantity, name, *numbered, found))]
+    MissingChannel {
+        /// What it measures.
+        quantity: Quantity,
+        /// Its name.
+        name: String,
+        /// Whether the channels of the file have no names.
+        numbered: bool,
+        /// Names that there are.
+        found: Vec<String>,
+    },
+    /// Several channels may be meant.
+    #[error("--{quantity}: {} may be meant; name one", listed(channels))]
+    SeveralChannels {
+        /// What they measure.
+        quantity: Quantity,
+        /// Their names.
+        channels: Vec<String>,
+    },
+    /// A column is called by a number that another one has.
     #[error(
-        "{found}; accepted is UTF-8 text with a header that names time_s and {value}, {ACCEPTED}"
+        "--{quantity}: `{text}` is the name of column #{named} and the number of another; write #{named} or #{text}"
     )]
-    Header {
-        /// What was found instead.
-        found: String,
-        /// Name of the column beside the time.
-        value: &'static str,
+    NameOrNumber {
+        /// What it measures.
+        quantity: Quantity,
+        /// The number.
+        text: String,
+        /// Number of the column that is called so.
+        named: usize,
+    },
+    /// One channel is chosen twice.
+    #[error("--{} and --{}: both are column {channel}", quantities[0], quantities[1])]
+    SameChannel {
+        /// The channel.
+        channel: String,
+        /// What it is to measure.
+        quantities: [Quantity; 2],
+    },
+    /// There is no such group.
+    #[error(
+        "--group: no group `{group}`, or several; there are {} (by number or name)",
+        numbered_list(groups)
+    )]
+    Group {
+        /// The name or number.
+        group: String,
+        /// Names of those there are.
+        groups: Vec<String>,
+    },
+    /// Channels of one name are in several groups.
+    #[error("channel {channel} is in the groups {}; choose one with --group", groups.join(", "))]
+    SeveralGroups {
+        /// The channel.
+        channel: String,
+        /// The groups.
+        groups: Vec<String>,
+    },
+    /// The channels have times of their own.
+    #[error("--{quantity}: channel {channel} is in group {}, not in group {}; a recording is of one group, whose channels have the same times", groups[0], groups[1])]
+    OtherGroup {
+        /// What the channel measures.
+        quantity: Quantity,
+        /// The channel.
+        channel: String,
+        /// Its group and that of the recording.
+        groups: [String; 2],
+    },
+    /// The file does not tell the unit.
+    #[error("the file does not tell the unit of {channel}; name it: --{quantity}-unit with {}", quantity.unit_names())]
+    NoUnit {
+        /// What it measures.
+        quantity: Quantity,
+        /// The channel.
+        channel: String,
+    },
+    /// The unit is not known.
+    #[error("`{unit}`, which the file says is the unit of {channel}, is not one of {quantity} known here: {}; --{quantity}-unit overrides it", quantity.unit_names())]
+    UnknownUnit {
+        /// What it should measure.
+        quantity: Quantity,
+        /// The channel.
+        channel: String,
+        /// The unit.
+        unit: String,
+    },
+    /// The name tells another unit.
+    #[error("column {channel} has the unit `{unit}`, which is not that of its name; say which holds: --{quantity}-unit with {}", quantity.unit_names())]
+    TwoUnits {
+        /// What it measures.
+        quantity: Quantity,
+        /// The channel.
+        channel: String,
+        /// The unit.
+        unit: String,
+    },
+    /// The first row may be a header.
+    #[error("`{cells}` may be names of columns or a row; say which: --header yes or --header no")]
+    HeaderOrRow {
+        /// Its cells.
+        cells: String,
     },
     /// The header is all there is.
-    #[error("no row after the header")]
-    NoRow,
-    /// The file is not CSV.
+    #[error("no row after the header{}", if *left_out > 0 { format!(" that has all values: {left_out} were left out") } else { String::new() })]
+    NoRow {
+        /// Rows that were left out.
+        left_out: u64,
+    },
+    /// The text cannot be read.
     #[error("cannot read: {0}")]
-    Csv(#[from] csv::Error),
+    Text(String),
     /// A row has more or fewer cells than the header.
-    #[error("line {line}: {cells} cells where the header has {expected}{}", decimal_comma(*cells, *expected))]
+    #[error("line {line}: {cells} cells where the header has {expected}{}", decimal_comma(*cells, *expected, *separator))]
     Cells {
         /// Line of the file, from 1.
         line: u64,
@@ -50,14 +160,28 @@ pub enum RecordingError {
         cells: u64,
         /// Cells of the header.
         expected: u64,
+        /// What separates them.
+        separator: Separator,
     },
-    /// A cell holds no finite number.
-    #[error("`{cell}` is not a finite number{}", if *.decimal_comma { "; it has a decimal comma, accepted is a decimal point" } else { "" })]
+    /// A cell holds no number.
+    #[error("`{cell}` is not a finite number")]
     Number {
         /// The cell's text, at most 40 bytes of it.
         cell: String,
-        /// Whether it is a number with a decimal comma.
-        decimal_comma: bool,
+    },
+    /// A number has another decimal mark than those before it.
+    #[error("`{cell}` has a decimal {}, the numbers before it have another mark or --decimal-mark says so", match mark { DecimalMark::Point => "point", DecimalMark::Comma => "comma" })]
+    Mark {
+        /// The cell's text.
+        cell: String,
+        /// Its mark.
+        mark: DecimalMark,
+    },
+    /// A value is missing, marked invalid or infinite.
+    #[error("`{cell}` is not a finite number; --skip-invalid leaves out rows that lack a value")]
+    NotFinite {
+        /// The cell's text, or what is said of the sample.
+        cell: String,
     },
     /// Time stands still or goes back.
     #[error("time {time_s} s does not grow; the row before has {before_s} s")]
@@ -86,10 +210,49 @@ pub enum RecordingError {
 }
 
 /// A hint for rows with twice the cells.
-fn decimal_comma(cells: u64, expected: u64) -> &'static str {
-    if cells == 2 * expected {
-        "; numbers with a decimal comma have twice the cells, accepted is a decimal point"
+fn decimal_comma(cells: u64, expected: u64, separator: Separator) -> String {
+    if cells == 2 * expected && separator == Separator::Comma {
+        "; numbers with a decimal comma have twice the cells where commas separate them too: accepted are such numbers in \
+         quotes or behind another separator"
+            .into()
     } else {
-        ""
+        format!(" (separated by {})", separator.name())
     }
+}
+
+fn missing(quantity: Quantity, name: &str, numbered: bool, found: &[String]) -> String {
+    if numbered {
+        return format!(
+            "no header tells which column is the {quantity}: choose one of 1 to {} with --{quantity}, and its unit with --{quantity}-unit",
+            found.len()
+        );
+    }
+    format!(
+        "column {name} is missing; there are {}; choose one with --{quantity} NAME or its number",
+        listed(found)
+    )
+}
+
+/// Names in quotes, those beyond the first few counted.
+fn listed(names: &[String]) -> String {
+    let shown = |name: &String| {
+        let start: String = name.chars().take(40).collect();
+        format!("`{}`", start.escape_debug())
+    };
+    let mut text: Vec<String> = names.iter().take(MOST_NAMES).map(shown).collect();
+    if let Some(more) = names.len().checked_sub(MOST_NAMES).filter(|more| *more > 0) {
+        text.push(format!("{more} more"));
+    }
+    text.join(", ")
+}
+
+fn numbered_list(names: &[String]) -> String {
+    let numbered = names.iter().take(MOST_NAMES).enumerate();
+    let names: Vec<String> = numbered
+        .map(|(number, name)| match name.as_str() {
+            "" => (number + 1).to_string(),
+            name => format!("{} `{name}`", number + 1),
+        })
+        .collect();
+    names.join(", ")
 }

@@ -2,14 +2,17 @@
 
 use std::path::Path;
 
-use super::header::FORCE;
-use super::{Recording, RecordingError};
+use super::RecordingError;
+use super::channels::Channels;
+use super::open::open_rows;
+use super::unit::Quantity;
 use crate::files::{FileError, input};
 
 /// What times may differ by and count as the same: text has them rounded to the nanosecond (s).
 const SAME_S: f64 = 1e-9;
 
-/// A force over time, between its samples on a straight line: CSV with columns time_s and force_n, else as a [`Recording`].
+/// A force over time, between its samples on a straight line: channels time_s and force_n, else as a
+/// [`Recording`](super::Recording).
 #[derive(Debug, Clone, PartialEq)]
 pub struct ForceHistory {
     /// Times (s) and forces (N).
@@ -20,18 +23,32 @@ impl ForceHistory {
     /// The force in the file at `path`, `-` being standard input, which must last over `needed_s` (s).
     ///
     /// # Errors
-    /// As [`Recording::open`] and [`Recording::next_sample`]; a recording that starts later or ends before.
+    /// As [`Recording::open`](super::Recording::open) and [`Recording::next_sample`](super::Recording::next_sample); a recording that
+    /// starts later or ends before.
     pub fn open(path: &Path, needed_s: [f64; 2]) -> Result<Self, FileError> {
+        Self::open_with(path, &Channels::default(), needed_s)
+    }
+
+    /// As [`ForceHistory::open`], of the channels that are chosen.
+    ///
+    /// # Errors
+    /// As [`ForceHistory::open`].
+    pub fn open_with(
+        path: &Path,
+        channels: &Channels,
+        needed_s: [f64; 2],
+    ) -> Result<Self, FileError> {
         let name = input::name(path);
-        let mut recording = Recording::read_columns(&name, input::open(path)?, FORCE)?;
+        let quantities = [Quantity::Time, Quantity::Force];
+        let mut rows = open_rows(&name, input::open(path)?, channels, quantities)?;
         let mut samples: Vec<[f64; 2]> = Vec::new();
-        while let Some(sample) = recording.next_row()? {
+        while let Some(sample) = rows.next()? {
             samples.push(sample);
         }
         if let (Some([from_s, _]), Some([to_s, _])) = (samples.first(), samples.last())
             && (*from_s > needed_s[0] + SAME_S || *to_s < needed_s[1] - SAME_S)
         {
-            return Err(recording.in_text(RecordingError::Short {
+            return Err(rows.in_text(RecordingError::Short {
                 lasts_s: [*from_s, *to_s],
                 needed_s,
             }));

@@ -3,6 +3,8 @@
 use hdrhistogram::Histogram;
 use serde::Serialize;
 
+use super::rows::{LeftOut, Place};
+
 /// An interval of more than this many median intervals is a gap. A logger whose stamps jitter by half an
 /// interval or that loses one or two samples makes no gap.
 pub const GAP_IN_MEDIANS: f64 = 5.0;
@@ -25,8 +27,9 @@ pub struct Gap {
     pub start_s: f64,
     /// How long it is (s), to the nanosecond.
     pub duration_s: f64,
-    /// Line of the file with the sample after it.
-    pub line: u64,
+    /// Where the sample after it is.
+    #[serde(flatten)]
+    pub place: Place,
 }
 
 /// The gaps of a recording.
@@ -38,6 +41,8 @@ pub struct Gaps {
     pub count: u64,
     /// The longest of them.
     pub longest: Option<Gap>,
+    /// Rows left out because they lacked a value; several of them make a gap.
+    pub left_out: LeftOut,
 }
 
 impl Intervals {
@@ -49,8 +54,8 @@ impl Intervals {
         }
     }
 
-    /// Takes in the interval from `start_s` (s) to the sample at `end_s` (s) on `line` of the file.
-    pub(super) fn add(&mut self, start_s: f64, end_s: f64, line: u64) {
+    /// Takes in the interval from `start_s` (s) to the sample at `end_s` (s) at `place`.
+    pub(super) fn add(&mut self, start_s: f64, end_s: f64, place: Place) {
         let units = ((end_s - start_s) * UNITS_PER_S).round();
         let duration_s = units / UNITS_PER_S;
         self.counts.saturating_record((units as u64).max(1));
@@ -58,18 +63,19 @@ impl Intervals {
             self.longest = Some(Gap {
                 start_s,
                 duration_s,
-                line,
+                place,
             });
         }
     }
 
     /// The gaps among the intervals taken in.
-    pub(super) fn gaps(&self) -> Gaps {
+    pub(super) fn gaps(&self, left_out: LeftOut) -> Gaps {
         if self.counts.is_empty() {
             return Gaps {
                 median_interval_s: None,
                 count: 0,
                 longest: None,
+                left_out,
             };
         }
         let median = self.counts.value_at_quantile(0.5);
@@ -80,6 +86,7 @@ impl Intervals {
             median_interval_s: Some(three_digits(self.counts.median_equivalent(median))),
             count,
             longest: self.longest.filter(|_| count > 0),
+            left_out,
         }
     }
 }
