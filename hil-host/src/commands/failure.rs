@@ -18,6 +18,7 @@ use crate::realtime::{RealtimeError, listed, stopped};
 use crate::report::DrawError;
 use crate::study::StudyError;
 use crate::study::bench_test::{HIGHEST_FREQUENCY_HZ, LARGEST_AMPLITUDE_M};
+use crate::study::calibration::CalibrationError;
 use crate::study::vehicle::VehicleStudyError;
 use crate::target::export::ExportError;
 use crate::target::pil::{EmulatorError, LinkError, SessionError};
@@ -118,6 +119,7 @@ impl From<DamperError> for Failure {
         match error {
             DamperError::Unknown(_)
             | DamperError::Override { .. }
+            | DamperError::NoNumber { .. }
             | DamperError::Overridden { .. } => Self::wrong_use(message),
             _ => Self::new(message),
         }
@@ -199,6 +201,20 @@ impl From<StudyError> for Failure {
             StudyError::Step { .. }
             | StudyError::StepsPerCycle { .. }
             | StudyError::Velocity { .. } => Self::wrong_use(error.to_string()),
+            _ => Self::new(error.to_string()),
+        }
+    }
+}
+
+impl From<CalibrationError> for Failure {
+    fn from(error: CalibrationError) -> Self {
+        match error {
+            CalibrationError::Damper(error) => error.into(),
+            CalibrationError::Study(error) => error.into(),
+            CalibrationError::NotVaried { .. }
+            | CalibrationError::Bounds { .. }
+            | CalibrationError::Start { .. }
+            | CalibrationError::Twice { .. } => Self::wrong_use(format!("--vary {error}")),
             _ => Self::new(error.to_string()),
         }
     }

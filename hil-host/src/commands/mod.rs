@@ -6,6 +6,7 @@
 
 pub mod arguments;
 pub mod budget;
+pub mod calibrate;
 pub mod contact;
 pub mod demonstrate;
 pub mod export;
@@ -44,6 +45,7 @@ pub enum Command {
     Shims(shims::ShimsArguments),
     Budget(budget::BudgetArguments),
     Export(export::ExportArguments),
+    Calibrate(calibrate::CalibrateArguments),
     Contact(contact::ContactArguments),
     Modes(modes::ModesArguments),
     Vehicle(vehicle::VehicleArguments),
@@ -66,6 +68,7 @@ impl Command {
             Self::Shims(arguments) => shims::run(arguments),
             Self::Budget(arguments) => budget::run(arguments),
             Self::Export(arguments) => export::run(arguments),
+            Self::Calibrate(arguments) => calibrate::run(arguments),
             Self::Contact(arguments) => contact::run(arguments),
             Self::Modes(arguments) => modes::run(arguments),
             Self::Vehicle(arguments) => vehicle::run(arguments),

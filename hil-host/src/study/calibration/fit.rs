@@ -10,7 +10,7 @@ use super::varied::{angle_of, place_of, place_slope};
 use crate::study::workers;
 
 /// Relative change of the sum of squares, and of the angles, at which a search ends.
-const TOLERANCE: f64 = 1e-9;
+const TOLERANCE: f64 = 1e-7;
 
 /// Spread of the starts about the first, as places.
 const SPREAD: f64 = 0.15;

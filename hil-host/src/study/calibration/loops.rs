@@ -152,6 +152,20 @@ impl LoopTest {
         self.at_counted(&self.displacements_m, 0.0)
     }
 
+    /// Velocities at the samples that count (m/s), at ticks of `step_s` (s).
+    pub fn counted_velocities_m_per_s(&self, step_s: f64) -> Vec<f64> {
+        let pairs = self.displacements_m.windows(2);
+        let velocities: Vec<f64> = pairs.map(|pair| (pair[1] - pair[0]) / step_s).collect();
+        // Each is that of the middle between two ticks.
+        self.at_counted(&velocities, 0.5)
+    }
+
+    /// Times of the samples that count (s), from the first of the test.
+    pub fn counted_times_s(&self, step_s: f64) -> Vec<f64> {
+        let counted = &self.positions[self.counted.clone()];
+        counted.iter().map(|position| position * step_s).collect()
+    }
+
     /// Values at ticks, taken `later` ticks before each sample that counts, linear between.
     pub(super) fn at_counted(&self, values: &[f64], later: f64) -> Vec<f64> {
         let last = values.len() - 1;

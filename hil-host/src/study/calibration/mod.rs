@@ -89,12 +89,13 @@ pub struct LoopFit {
 }
 
 impl Calibration {
-    /// Finds the numbers.
+    /// Finds the numbers; `begins` is told what begins.
     ///
     /// # Errors
     /// Nothing to do, a damper that cannot be, or numbers that the tests do not determine: then none are told.
-    pub fn run(&self) -> Result<Calibrated, CalibrationError> {
+    pub fn run(&self, begins: &dyn Fn(&'static str)) -> Result<Calibrated, CalibrationError> {
         self.check()?;
+        begins("searching");
         let scatter = |test: &LoopTest| test.force_noise_n.max(LEAST_SCATTER * test.peak_force_n);
         let mut model = Model {
             damper: self.damper.clone(),
@@ -130,6 +131,7 @@ impl Calibration {
             }
             best = model.fit(&best.places, &all).unwrap_or(best);
         }
+        begins("intervals");
         let determination = model.determination(&best.places)?;
         let refuse = |is_determined: &dyn Fn(usize) -> bool| {
             let refused = all.iter().filter(|number| !is_determined(**number));
@@ -149,7 +151,7 @@ impl Calibration {
         })?;
         let values = model.values(&best.places);
         let profiles = workers::map(&all, |&number| -> Result<_, CalibrationError> {
-            let deviation = determination.numbers[number].with_priors.unwrap_or(0.0);
+            let deviation = determination.numbers[number].standard_deviation;
             let deviation = deviation / self.varied[number].slope(values[number]);
             Ok(model.profile(&best, number, deviation))
         })?;

@@ -27,6 +27,16 @@ pub struct Profile {
 }
 
 impl Profile {
+    /// Whether the interval is so much narrower than what was known before that the tests tell the number.
+    pub fn is_by_tests(&self, varied: &Varied) -> bool {
+        let known = varied
+            .prior
+            .map_or(f64::INFINITY, |prior| prior.standard_deviation);
+        let [least, greatest] = varied.bounds;
+        let width = self.greatest.unwrap_or(greatest) - self.least.unwrap_or(least);
+        width < RISE_95.sqrt() * known
+    }
+
     /// Whether the interval is as narrow as that of a number whose standard deviation is tolerated, and not only as the bounds are.
     pub(super) fn is_narrow(&self, varied: &Varied, value: f64) -> bool {
         let [least, greatest] = varied.bounds;

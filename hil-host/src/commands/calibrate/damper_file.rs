@@ -1,0 +1,67 @@
+//! The damper that was found, as a file that says in its head what it was found from.
+
+use dashpot_core::CheckedParameters;
+
+use super::report::{Report, digits};
+use crate::commands::failure::Outcome;
+use crate::files::damper;
+use crate::study::calibration::SKEW;
+
+/// The file.
+///
+/// # Errors
+/// The damper cannot be written.
+pub(super) fn text(report: &Report, found: &CheckedParameters) -> Outcome<String> {
+    let mut lines = vec![format!(
+        "Calibrated by dashpot {} from {}:",
+        env!("CARGO_PKG_VERSION"),
+        report.before()
+    )];
+    for row in &report.loops {
+        lines.push(format!(
+            "  {}: +-{:.2} mm, {:.3} m/s, misses {:.0} N of {:.0} N",
+            row.test,
+            row.amplitude_m * 1e3,
+            row.peak_velocity_m_per_s,
+            row.missed_after_n,
+            row.peak_force_n
+        ));
+    }
+    for row in &report.indices {
+        let motion = &row.measured;
+        for (name, measured, _, after) in row.lines() {
+            lines.push(format!(
+                "  +-{:.3} mm at {} Hz, {name}: {measured} measured, {after:.1} here",
+                motion.amplitude_m * 1e3,
+                motion.frequency_hz
+            ));
+        }
+    }
+    lines.push("Found, with the interval of 95 %:".into());
+    for number in &report.numbers {
+        let end = |end: Option<f64>| end.map_or_else(|| "its bound".into(), digits);
+        let rig = if number.key == SKEW {
+            " (of the rig, not of the damper)"
+        } else {
+            ""
+        };
+        let prior = number.prior.filter(|_| !number.by_tests).map(|prior| {
+            format!(
+                "; known before: {} +- {}",
+                digits(prior.mean),
+                digits(prior.standard_deviation)
+            )
+        });
+        lines.push(format!(
+            "  {}: {} ({} to {}), before {}{}{rig}",
+            number.key,
+            digits(number.found),
+            end(number.least),
+            end(number.greatest),
+            digits(number.before),
+            prior.unwrap_or_default()
+        ));
+    }
+    let head = lines.iter().map(|line| format!("# {line}\n"));
+    Ok(head.collect::<String>() + "\n" + &damper::text(found)?)
+}

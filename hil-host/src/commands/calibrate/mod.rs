@@ -1,0 +1,149 @@
+//! `dashpot calibrate`: from bench tests to the numbers of a damper.
+
+mod damper_file;
+mod numbers;
+mod page;
+mod report;
+mod tests;
+
+use std::path::PathBuf;
+
+use numbers::{NamedPrior, Variation};
+use report::Report;
+
+use super::recording::MeasurementArguments;
+use super::step_size::{self, StepSize};
+use super::{DamperArguments, Format, print_report_beside, progress, streams};
+use crate::commands::failure::{Failure, Outcome};
+use crate::files::damper::Keyed;
+use crate::files::output::write_together;
+use crate::study::calibration::{Calibration, LoopTest, Varied};
+
+/// Find the numbers of a damper from bench tests: force-displacement loops, or tables of their indices.
+///
+/// Says how well the tests determine each number, and refuses those that they do not.
+#[derive(Debug, Clone, clap::Args)]
+#[command(after_help = "Examples:
+  dashpot calibrate --damper in-service --input bench.mf4 --vary orifice.discharge_coefficient \\
+      --vary mount.stiffness_n_per_m --vary mount.clearance_m --output calibrated.toml --page calibrated.html
+  dashpot calibrate --damper reduced-vertical --input slow.csv --input fast.csv --displacement Weg --displacement-unit mm \\
+      --vary reduced.damping_n_s_per_m=5e4:3e5 --vary mount.stiffness_n_per_m --output found.toml
+  dashpot calibrate --damper paper --indices table5.csv --vary orifice.diameter_m --prior orifice.diameter_m=2e-3:1e-4 \\
+      --output found.toml
+
+Numbers are found by least squares; each test counts by what its force scatters by. A table of indices is CSV with the columns
+amplitude_m, frequency_hz and any of max_extension_force_n, max_compression_force_n, energy_per_cycle_j (magnitudes; an empty cell was
+not measured), force_at_most_n (what no force exceeds) and scatter_percent (standard deviation; 1 where none is given).")]
+pub struct CalibrateArguments {
+    #[command(flatten)]
+    damper: DamperArguments,
+    /// Recorded loops: time, displacement and force; one file for each test, or one with gaps between the tests.
+    #[arg(long, value_name = "FILE")]
+    input: Vec<PathBuf>,
+    #[command(flatten)]
+    channels: MeasurementArguments,
+    /// Table of the indices of tests, CSV.
+    #[arg(long, value_name = "FILE")]
+    indices: Vec<PathBuf>,
+    /// A number to find, where it starts being the damper's; bounds in its unit, where they are not to be the plausible ones.
+    #[arg(long, value_name = "KEY[=LEAST:GREATEST]", required = true)]
+    vary: Vec<Variation>,
+    /// What is known of a number before the tests: mean and standard deviation.
+    #[arg(long, value_name = "KEY=MEAN:DEVIATION")]
+    prior: Vec<NamedPrior>,
+    /// Only priors that are given, not those that hold for every damper (discharge coefficients, density and bulk modulus of oil, steel).
+    #[arg(long)]
+    no_priors: bool,
+    /// Force and displacement are recorded at the same instant; else the skew between them is found too.
+    #[arg(long)]
+    no_skew: bool,
+    /// Starts of the search.
+    #[arg(long, value_name = "N", default_value_t = 4, value_parser = clap::value_parser!(u16).range(1..=1000))]
+    starts: u16,
+    /// The step, us.
+    #[arg(help = step_size::help("Step of the model", ""), long, default_value = "500", value_name = "US", allow_negative_numbers = true)]
+    step_us: StepSize,
+    /// The damper found, TOML, with what it was found from in its head; a file is written whole or not at all, `-` is standard output.
+    #[arg(long, value_name = "FILE")]
+    output: PathBuf,
+    /// Page with loops before and after, HTML.
+    #[arg(long, value_name = "FILE")]
+    page: Option<PathBuf>,
+    /// How results are printed.
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    format: Format,
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// A damper, number or test that cannot be used, or numbers that the tests do not determine; then nothing is written.
+pub fn run(arguments: &CalibrateArguments) -> Outcome<()> {
+    if arguments.input.is_empty() && arguments.indices.is_empty() {
+        return Err(Failure::wrong_use(
+            "nothing to calibrate from: give recorded loops with --input, or a table of indices with --indices",
+        ));
+    }
+    refuse_same_streams(arguments)?;
+    let damper = Keyed::new(&arguments.damper.damper, &*arguments.damper.load()?)?;
+    let mut varied = numbers::varied(&damper, arguments)?;
+    let step_s = arguments.step_us.step_s();
+    let bar = progress::bar(0, "reading");
+    let mut loops = Vec::new();
+    for path in &arguments.input {
+        for recorded in tests::recorded(path, &arguments.channels.channels())? {
+            loops.extend(LoopTest::of(&recorded, step_s)?);
+        }
+    }
+    if !loops.is_empty() && !arguments.no_skew {
+        varied.push(Varied::skew());
+    }
+    let mut indices = Vec::new();
+    for path in &arguments.indices {
+        indices.extend(tests::indices(path)?);
+    }
+    let calibration = Calibration {
+        damper,
+        varied,
+        loops,
+        indices,
+        step_s,
+        starts: usize::from(arguments.starts),
+    };
+    let found = calibration.run(&|stage| bar.set_message(stage))?;
+    bar.finish_and_clear();
+    let report = Report::new(arguments, &calibration, &found)?;
+    let file = damper_file::text(&report, &found.damper)?;
+    let page = match &arguments.page {
+        Some(_) => page::write(&report, &calibration, &found)?,
+        None => String::new(),
+    };
+    let mut files = vec![(arguments.output.as_path(), file.as_bytes())];
+    if let Some(path) = &arguments.page {
+        files.push((path, page.as_bytes()));
+    }
+    write_together(&files)?;
+    print_report_beside(&arguments.output, arguments.format, &report, Report::print)
+}
+
+/// Refuses standard input twice, and outputs that would overwrite what is read.
+fn refuse_same_streams(arguments: &CalibrateArguments) -> Outcome<()> {
+    let damper = [("--damper", std::path::Path::new(&arguments.damper.damper))];
+    let inputs = arguments
+        .input
+        .iter()
+        .map(|path| ("--input", path.as_path()));
+    let indices = arguments
+        .indices
+        .iter()
+        .map(|path| ("--indices", path.as_path()));
+    let read: Vec<_> = damper.into_iter().chain(inputs).chain(indices).collect();
+    streams::refuse_second_standard_input(&read)?;
+    for (_, path) in read {
+        streams::refuse_input("--output", &arguments.output, path)?;
+        if let Some(page) = &arguments.page {
+            streams::refuse_input("--page", page, path)?;
+        }
+    }
+    Ok(())
+}

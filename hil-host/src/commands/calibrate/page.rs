@@ -1,0 +1,246 @@
+//! The page of a calibration.
+
+use maud::{Markup, html};
+
+use super::report::{Loop, Number, Report, digits};
+use crate::commands::failure::Outcome;
+use crate::report::DrawError;
+use crate::report::page::{Figure, document, figure, footer, panel, tiles};
+use crate::report::plot::curves::Curve;
+use crate::report::plot::loops;
+use crate::report::plot::style::{AMBER_LINE, BLUE_LINE, FINE, INK, PALE, RED_LINE};
+use crate::study::calibration::{Calibrated, Calibration, LoopFit, LoopTest, RISE_95};
+
+/// Height of a panel (pixels).
+const HEIGHT: u32 = 300;
+
+/// Samples of a loop that are drawn, at most.
+const MOST_SAMPLES: usize = 2000;
+
+/// The page.
+///
+/// # Errors
+/// A figure cannot be drawn.
+pub(super) fn write(
+    report: &Report,
+    calibration: &Calibration,
+    found: &Calibrated,
+) -> Outcome<String> {
+    let tests = calibration
+        .loops
+        .iter()
+        .zip(&found.loops)
+        .zip(&report.loops);
+    let body = html! {
+        h1 { "Calibrated damper" }
+        p.lead { (report.before()) ", its numbers found from bench tests by least squares." }
+        (headline(report))
+        h2 { "Numbers" }
+        (numbers(report))
+        (notes(report))
+        (profiles(report, found)?)
+        h2 { "Tests" }
+        @if !report.loops.is_empty() { (loop_table(&report.loops)) }
+        @if !report.indices.is_empty() { (index_table(report)) }
+        @for ((test, fit), row) in tests { (loop_figures(calibration.step_s, test, fit, row)?) }
+        (footer(&html! {
+            "The damper is in " code { (report.output) } "; what it was found from is in its head. How numbers and intervals are found: "
+            "docs/calibration.md."
+        }))
+    };
+    Ok(document("Dashpot: calibrated damper", &body))
+}
+
+fn headline(report: &Report) -> Markup {
+    let worst = report.loops.iter().max_by(|a, b| {
+        let share = |row: &Loop| row.missed_after_n / row.peak_force_n;
+        share(a).total_cmp(&share(b))
+    });
+    let mut shown: Vec<(Markup, String)> = report
+        .numbers
+        .iter()
+        .map(|number| (html! { (digits(number.found)) }, number.key.clone()))
+        .collect();
+    if let Some(row) = worst {
+        let share = 100.0 * row.missed_after_n / row.peak_force_n;
+        shown.push((
+            html! { (format!("{share:.1} %")) },
+            "of the peak force is missed in the worst test, rms".into(),
+        ));
+    }
+    tiles(&shown)
+}
+
+fn numbers(report: &Report) -> Markup {
+    let end = |end: Option<f64>| end.map_or_else(|| "bound".into(), digits);
+    html! {
+        div.wide.worded {
+            table {
+                tr { th { "number" } th { "before" } th { "found" } th { "95 % interval" } th { "known before" } th { "determined by" } }
+                @for number in &report.numbers {
+                    tr {
+                        td { (number.key) }
+                        td { (digits(number.before)) }
+                        td { b { (digits(number.found)) } }
+                        td { (end(number.least)) " to " (end(number.greatest)) }
+                        td { @if let Some(prior) = number.prior { (digits(prior.mean)) " ± " (digits(prior.standard_deviation)) } }
+                        td { @if number.by_tests { "tests" } @else { "tests and what was known" } }
+                    }
+                }
+            }
+        }
+    }
+}
+
+fn notes(report: &Report) -> Markup {
+    let misses: Vec<&Loop> = report.loops.iter().filter(|row| row.misses()).collect();
+    html! {
+        @for (a, b, correlation) in report.close() {
+            p { (a) " and " (b) " are hardly told apart by these tests: correlation " (format!("{correlation:.3}")) "." }
+        }
+        @for row in misses {
+            p.note {
+                (row.test) ": the model misses " (format!("{:.0}", row.missed_after_n)) " N where the force scatters by "
+                (format!("{:.0}", row.force_noise_n)) " N: it lacks something that this test has."
+            }
+        }
+    }
+}
+
+/// How the sum of squares rises about each number.
+fn profiles(report: &Report, found: &Calibrated) -> Result<Markup, DrawError> {
+    let of = |(number, profile): (&Number, &crate::study::calibration::Profile)| {
+        let points = profile
+            .points
+            .iter()
+            .filter(|(_, rise)| *rise <= 4.0 * RISE_95);
+        let points: Vec<(f64, f64)> = points.copied().collect();
+        let ends = [points.first(), points.last()].into_iter().flatten();
+        let limit: Vec<(f64, f64)> = ends.map(|(value, _)| (*value, RISE_95)).collect();
+        let mut panel = panel(
+            &number.key,
+            "rise of chi-square",
+            vec![
+                Curve::new("", BLUE_LINE, points),
+                Curve::new("95 %", PALE, limit).dashed(),
+            ],
+        );
+        panel.sides = true;
+        panel
+    };
+    let profiles = Figure {
+        panels: report.numbers.iter().zip(&found.profiles).map(of).collect(),
+        height: 200,
+        shares: None,
+    };
+    figure(
+        &profiles,
+        &html! {
+            "Profile of the likelihood: how much worse all tests fit together when a number is held elsewhere and the others follow. Where it "
+            "passes the dashed line the interval of 95 % ends."
+        },
+    )
+}
+
+fn loop_table(rows: &[Loop]) -> Markup {
+    html! {
+        div.wide.worded {
+            table {
+                tr {
+                    th { "test" } th { "amplitude, mm" } th { "peak velocity, m/s" } th { "peak force, kN" } th { "noise of force, N" }
+                    th { "missed before, N" } th { "missed after, N" }
+                }
+                @for row in rows {
+                    tr class=[row.misses().then_some("over")] {
+                        td { (row.test) }
+                        td { (format!("{:.2}", row.amplitude_m * 1e3)) }
+                        td { (format!("{:.3}", row.peak_velocity_m_per_s)) }
+                        td { (format!("{:.2}", row.peak_force_n * 1e-3)) }
+                        td { (format!("{:.0}", row.force_noise_n)) }
+                        td { (format!("{:.0}", row.missed_before_n)) }
+                        td { (format!("{:.0}", row.missed_after_n)) }
+                    }
+                }
+            }
+        }
+    }
+}
+
+fn index_table(report: &Report) -> Markup {
+    html! {
+        div.wide.worded {
+            table {
+                tr { th { "test" } th { "index" } th { "measured" } th { "before" } th { "found" } }
+                @for row in &report.indices {
+                    @for (name, measured, before, after) in row.lines() {
+                        tr {
+                            td { "±" (format!("{:.3}", row.measured.amplitude_m * 1e3)) " mm at " (row.measured.frequency_hz) " Hz" }
+                            td { (name) }
+                            td { (measured) }
+                            td { (format!("{before:.1}")) }
+                            td { (format!("{after:.1}")) }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Loops of a test and what the model misses of it.
+fn loop_figures(
+    step_s: f64,
+    test: &LoopTest,
+    fit: &LoopFit,
+    row: &Loop,
+) -> Result<Markup, DrawError> {
+    let every = fit.after_n.len().div_ceil(MOST_SAMPLES).max(1);
+    let measured = test.counted_forces_n();
+    let (x, v) = (
+        test.counted_displacements_m(),
+        test.counted_velocities_m_per_s(step_s),
+    );
+    let over = |name: &str, colour, abscissas: &[f64], scale: f64, forces: &[f64]| {
+        let points = abscissas.iter().zip(forces).step_by(every);
+        let points: Vec<(f64, f64)> = points.map(|(x, f)| (x * scale, f * 1e-3)).collect();
+        Curve::new(name, colour, points)
+    };
+    let curves = |abscissas: &[f64], scale| {
+        vec![
+            over("measured", PALE, abscissas, scale, measured).dotted(),
+            over("before", AMBER_LINE, abscissas, scale, &fit.before_n).wide(FINE),
+            over("found", BLUE_LINE, abscissas, scale, &fit.after_n),
+        ]
+    };
+    let loops = Figure {
+        panels: loops::panels(curves(&x, 1e3), curves(&v, 1.0)),
+        height: HEIGHT,
+        shares: None,
+    };
+    let times = test.counted_times_s(step_s);
+    let missed = times.iter().zip(measured).zip(&fit.after_n).step_by(every);
+    let missed = missed.map(|((time, f), model)| (*time, model - f));
+    let missed = Figure {
+        panels: vec![panel(
+            "time, s",
+            "found less measured, N",
+            vec![
+                Curve::new("", RED_LINE, missed).wide(FINE),
+                Curve::marks(INK, []),
+            ],
+        )],
+        height: 160,
+        shares: None,
+    };
+    let caption = html! {
+        "Force over displacement (first) and velocity (second), freed of the noise of the displacement: measured, before, found."
+    };
+    let missed_caption = html! {
+        "What the model misses: " (format!("{:.0}", row.missed_after_n)) " N rms of " (format!("{:.1}", row.peak_force_n * 1e-3)) " kN."
+    };
+    Ok(html! {
+        h3 { (row.test) }
+        (figure(&loops, &caption)?)
+        (figure(&missed, &missed_caption)?)
+    })
+}

@@ -1,0 +1,380 @@
+//! The report of `dashpot calibrate`.
+
+use std::io::{self, Write};
+
+use serde::Serialize;
+
+use super::CalibrateArguments;
+use crate::commands::counted;
+use crate::commands::failure::Outcome;
+use crate::files::output;
+use crate::study::bench_test::{Indices, run_until_periodic};
+use crate::study::calibration::{CLOSE, Calibrated, Calibration, IndexTest, Prior};
+
+/// A model that misses more than so many times what a force scatters by lacks something.
+const MISSES: f64 = 2.0;
+
+/// A number that was found.
+#[derive(Serialize)]
+pub(super) struct Number {
+    pub(super) key: String,
+    pub(super) before: f64,
+    pub(super) found: f64,
+    /// Ends of the interval of 95 %, by the profile of the likelihood; `None` where a bound comes first.
+    pub(super) least: Option<f64>,
+    pub(super) greatest: Option<f64>,
+    pub(super) bounds: [f64; 2],
+    pub(super) prior: Option<Prior>,
+    /// Whether the tests tell it, rather than what was known before.
+    pub(super) by_tests: bool,
+    /// Standard deviation by linear theory, priors included.
+    standard_deviation: f64,
+    /// Other numbers and the correlation with them.
+    correlation: Vec<(String, f64)>,
+}
+
+impl Number {
+    /// Whether it is at one of its bounds, but for rounding.
+    fn at_bound(&self) -> Option<f64> {
+        let [least, greatest] = self.bounds;
+        let near = 1e-3 * (greatest - least).min(self.found.abs().max(1e-9 * greatest));
+        self.bounds
+            .into_iter()
+            .find(|bound| (self.found - bound).abs() <= near)
+    }
+}
+
+/// A loop before and after.
+#[derive(Serialize)]
+pub(super) struct Loop {
+    pub(super) test: String,
+    pub(super) samples: usize,
+    pub(super) amplitude_m: f64,
+    pub(super) peak_velocity_m_per_s: f64,
+    pub(super) peak_force_n: f64,
+    pub(super) displacement_noise_m: f64,
+    pub(super) force_noise_n: f64,
+    pub(super) missed_before_n: f64,
+    pub(super) missed_after_n: f64,
+    correlation_samples: f64,
+}
+
+impl Loop {
+    /// Whether the model lacks something that the test has.
+    pub(super) fn misses(&self) -> bool {
+        self.missed_after_n > MISSES * self.force_noise_n.max(0.01 * self.peak_force_n)
+    }
+}
+
+/// Indices of a test before and after.
+#[derive(Serialize)]
+pub(super) struct IndexRow {
+    pub(super) measured: IndexTest,
+    pub(super) before: Indices,
+    pub(super) after: Indices,
+}
+
+/// All of it.
+#[derive(Serialize)]
+pub(super) struct Report {
+    pub(super) damper: String,
+    overrides: Vec<String>,
+    step_s: f64,
+    pub(super) numbers: Vec<Number>,
+    pub(super) loops: Vec<Loop>,
+    pub(super) indices: Vec<IndexRow>,
+    starts: usize,
+    starts_at_this_minimum: usize,
+    pub(super) output: String,
+    page: Option<String>,
+}
+
+impl Report {
+    /// Of a calibration and what it found.
+    ///
+    /// # Errors
+    /// A damper whose force does not become periodic.
+    pub(super) fn new(
+        arguments: &CalibrateArguments,
+        calibration: &Calibration,
+        found: &Calibrated,
+    ) -> Outcome<Self> {
+        let determination = &found.determination;
+        let varied = calibration.varied.iter().enumerate();
+        let numbers = varied.map(|(number, varied)| {
+            let others = calibration
+                .varied
+                .iter()
+                .zip(&determination.correlation[number]);
+            let others = others.filter(|(other, _)| other.key != varied.key);
+            Number {
+                key: varied.key.clone(),
+                before: varied.start,
+                found: found.values[number],
+                least: found.profiles[number].least,
+                greatest: found.profiles[number].greatest,
+                bounds: varied.bounds,
+                prior: varied.prior,
+                by_tests: found.profiles[number].is_by_tests(varied),
+                standard_deviation: determination.numbers[number].standard_deviation,
+                correlation: others
+                    .map(|(other, value)| (other.key.clone(), *value))
+                    .collect(),
+            }
+        });
+        let loops = calibration.loops.iter().zip(&found.loops);
+        let loops = loops.map(|(test, fit)| Loop {
+            test: test.name.clone(),
+            samples: fit.after_n.len(),
+            amplitude_m: test.amplitude_m,
+            peak_velocity_m_per_s: test.peak_velocity_m_per_s,
+            peak_force_n: test.peak_force_n,
+            displacement_noise_m: test.displacement_noise_m,
+            force_noise_n: test.force_noise_n,
+            missed_before_n: fit.missed_before_n,
+            missed_after_n: fit.missed_after_n,
+            correlation_samples: fit.correlation_samples,
+        });
+        let before = arguments.damper.load()?;
+        let indices = calibration.indices.iter().map(|measured| -> Outcome<_> {
+            let of = |damper| -> Outcome<Indices> {
+                let cycle = run_until_periodic(damper, measured.motion(), calibration.step_s)?;
+                Ok(cycle.indices())
+            };
+            Ok(IndexRow {
+                measured: measured.clone(),
+                before: of(&before)?,
+                after: of(&found.damper)?,
+            })
+        });
+        Ok(Self {
+            damper: arguments.damper.damper.clone(),
+            overrides: arguments.damper.overrides.clone(),
+            step_s: calibration.step_s,
+            numbers: numbers.collect(),
+            loops: loops.collect(),
+            indices: indices.collect::<Outcome<_>>()?,
+            starts: found.same_minimum[1],
+            starts_at_this_minimum: found.same_minimum[0],
+            output: output::name(&arguments.output).display().to_string(),
+            page: arguments
+                .page
+                .as_ref()
+                .map(|page| page.display().to_string()),
+        })
+    }
+
+    /// What the damper was before, with its overrides.
+    pub(super) fn before(&self) -> String {
+        let set = self.overrides.iter().map(|set| format!(" --set {set}"));
+        [self.damper.clone()].into_iter().chain(set).collect()
+    }
+
+    /// Pairs of numbers that the tests hardly tell apart.
+    pub(super) fn close(&self) -> impl Iterator<Item = (&str, &str, f64)> {
+        self.numbers.iter().flat_map(|number| {
+            let close = number.correlation.iter().filter(|(other, value)| {
+                value.abs() > CLOSE && number.key.as_str() < other.as_str()
+            });
+            close.map(|(other, value)| (number.key.as_str(), other.as_str(), *value))
+        })
+    }
+
+    /// Prints it for people.
+    ///
+    /// # Errors
+    /// The output cannot be written.
+    pub(super) fn print(out: &mut dyn Write, report: &Self) -> io::Result<()> {
+        let tests = counted((report.loops.len() + report.indices.len()) as u64, "test");
+        writeln!(out, "{} calibrated from {tests}\n", report.before())?;
+        report.print_loops(out)?;
+        report.print_indices(out)?;
+        let width = report
+            .numbers
+            .iter()
+            .map(|number| number.key.len())
+            .max()
+            .unwrap_or(0);
+        writeln!(
+            out,
+            "  {:<width$}  {:>11}  {:>11}  {:^25}  by",
+            "number", "before", "found", "95 % interval"
+        )?;
+        for number in &report.numbers {
+            writeln!(
+                out,
+                "  {:<width$}  {:>11}  {:>11}  {:>11} to {:<10}  {}",
+                number.key,
+                digits(number.before),
+                digits(number.found),
+                number.least.map_or_else(|| "bound".into(), digits),
+                number.greatest.map_or_else(|| "bound".into(), digits),
+                if number.by_tests {
+                    "tests"
+                } else {
+                    "tests and prior"
+                }
+            )?;
+        }
+        writeln!(out)?;
+        for number in &report.numbers {
+            if let Some(bound) = number.at_bound() {
+                writeln!(
+                    out,
+                    "note: {} is at its bound {}; --vary {}=LEAST:GREATEST gives others",
+                    number.key,
+                    digits(bound),
+                    number.key
+                )?;
+            }
+        }
+        for (a, b, correlation) in report.close() {
+            writeln!(
+                out,
+                "note: {a} and {b} are hardly told apart: correlation {correlation:.3}"
+            )?;
+        }
+        for row in report.loops.iter().filter(|row| row.misses()) {
+            writeln!(
+                out,
+                "warning: {}: the model misses {:.0} N where the force scatters by {:.0} N: it lacks something that this test has",
+                row.test, row.missed_after_n, row.force_noise_n
+            )?;
+        }
+        writeln!(
+            out,
+            "{} of {} led to these numbers",
+            report.starts_at_this_minimum,
+            counted(report.starts as u64, "start")
+        )?;
+        let page = report.page.iter().map(|page| format!(", {page}"));
+        writeln!(out, "wrote {}{}", report.output, page.collect::<String>())
+    }
+
+    fn print_loops(&self, out: &mut dyn Write) -> io::Result<()> {
+        if self.loops.is_empty() {
+            return Ok(());
+        }
+        let width = self
+            .loops
+            .iter()
+            .map(|row| row.test.len())
+            .max()
+            .unwrap_or(0)
+            .max(4);
+        writeln!(
+            out,
+            "  {:<width$}  {:>13}  {:>13}  {:>10}  {:>9}  {:>13}  {:>12}",
+            "test",
+            "amplitude, mm",
+            "velocity, m/s",
+            "force, kN",
+            "noise, N",
+            "missed before",
+            "and after, N"
+        )?;
+        for row in &self.loops {
+            writeln!(
+                out,
+                "  {:<width$}  {:>13.2}  {:>13.3}  {:>10.2}  {:>9.0}  {:>13.0}  {:>12.0}",
+                row.test,
+                row.amplitude_m * 1e3,
+                row.peak_velocity_m_per_s,
+                row.peak_force_n * 1e-3,
+                row.force_noise_n,
+                row.missed_before_n,
+                row.missed_after_n
+            )?;
+        }
+        writeln!(out)
+    }
+
+    fn print_indices(&self, out: &mut dyn Write) -> io::Result<()> {
+        for row in &self.indices {
+            writeln!(
+                out,
+                "  +-{:.3} mm at {} Hz{:>24} {:>11} {:>11}",
+                row.measured.amplitude_m * 1e3,
+                row.measured.frequency_hz,
+                "measured",
+                "before",
+                "found"
+            )?;
+            for (name, measured, before, after) in row.lines() {
+                writeln!(
+                    out,
+                    "    {name:<33} {measured:>11} {before:>11.1} {after:>11.1}"
+                )?;
+            }
+            writeln!(out)?;
+        }
+        Ok(())
+    }
+}
+
+impl IndexRow {
+    /// Name, measured, before and after of each index that was measured.
+    pub(super) fn lines(&self) -> impl Iterator<Item = (&'static str, String, f64, f64)> {
+        let IndexRow {
+            measured,
+            before,
+            after,
+        } = self;
+        let largest = |indices: &Indices| {
+            indices
+                .max_extension_force_n
+                .max(indices.max_compression_force_n)
+        };
+        let lines = [
+            (
+                "largest force in extension, N",
+                measured
+                    .max_extension_force_n
+                    .map(|force| format!("{force:.1}")),
+                before.max_extension_force_n,
+                after.max_extension_force_n,
+            ),
+            (
+                "largest force in compression, N",
+                measured
+                    .max_compression_force_n
+                    .map(|force| format!("{force:.1}")),
+                before.max_compression_force_n,
+                after.max_compression_force_n,
+            ),
+            (
+                "energy of a cycle, J",
+                measured
+                    .energy_per_cycle_j
+                    .map(|energy| format!("{energy:.1}")),
+                before.energy_per_cycle_j,
+                after.energy_per_cycle_j,
+            ),
+            (
+                "largest force, N",
+                measured
+                    .force_at_most_n
+                    .map(|force| format!("<= {force:.1}")),
+                largest(before),
+                largest(after),
+            ),
+        ];
+        lines
+            .into_iter()
+            .filter_map(|(name, measured, before, after)| Some((name, measured?, before, after)))
+    }
+}
+
+/// Four digits.
+pub(super) fn digits(value: f64) -> String {
+    let size = value.abs();
+    if value == 0.0 || (0.01..10_000.0).contains(&size) {
+        let decimals = 3 - size.log10().floor().clamp(-2.0, 3.0) as i32;
+        format!(
+            "{value:.*}",
+            if value == 0.0 { 0 } else { decimals as usize }
+        )
+    } else {
+        format!("{value:.3e}")
+    }
+}
