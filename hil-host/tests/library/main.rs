@@ -3,6 +3,7 @@
 mod case_file;
 mod damper_response;
 mod pacing;
+mod plate;
 mod profile_file;
 mod recording_header;
 mod timing;

@@ -1,0 +1,112 @@
+//! Geometries that have a given correction factor Ce.
+
+use super::{Bosses, PlateError, PressureArea, Profile, Resolution, RoundBosses, Stack};
+
+/// Halvings of an interval: to the last bit.
+const HALVINGS: u32 = 52;
+
+/// Where a pressure that is full from the clamp on begins its decay, `((r_w - r)/(r_w - r_f))^n`, so that the correction
+/// factor is `factor`: the radius r_f (m).
+///
+/// # Errors
+/// No radius has the factor.
+pub fn fitted_full_radius_m(
+    stack: &Stack,
+    exponent: f64,
+    factor: f64,
+    resolution: Resolution,
+) -> Result<f64, PlateError> {
+    let (clamp, free) = (stack.clamp_radius_m(), stack.free_radius_m());
+    let width = free - clamp;
+    fitted("radius of full pressure", factor, [1e-3, 1.0], |part| {
+        let full = clamp + part * width;
+        let area = PressureArea::Ring(Profile {
+            full_m: [clamp, full],
+            ends_m: [clamp, free],
+            exponent,
+        });
+        stack.correction_factor(&area, resolution)
+    })
+    .map(|part| clamp + part * width)
+}
+
+/// Share of the circumference that sectors of a profile take, so that the correction factor is `factor`. The factor is
+/// the share times that of the ring: only the harmonic of order zero has a mean.
+///
+/// # Errors
+/// The whole ring has less than the factor.
+pub fn fitted_share(
+    stack: &Stack,
+    profile: Profile,
+    factor: f64,
+    resolution: Resolution,
+) -> Result<f64, PlateError> {
+    let ring = stack.correction_factor(&PressureArea::Ring(profile), resolution)?;
+    if !(0.0 < factor && factor <= ring) {
+        return Err(PlateError::OutOfReach {
+            geometry: "share of the circumference",
+            factor,
+            least: 0.0,
+            greatest: ring,
+        });
+    }
+    Ok(factor / ring)
+}
+
+/// Radius (m) of round bosses whose holes have `hole_share` of it, so that the correction factor is `factor`.
+///
+/// # Errors
+/// Bosses from almost none to where they meet the clamp, the edge or each other do not have the factor.
+pub fn fitted_boss_radius_m(
+    stack: &Stack,
+    bosses: RoundBosses,
+    hole_share: f64,
+    factor: f64,
+    resolution: Resolution,
+) -> Result<f64, PlateError> {
+    let greatest = bosses.greatest_radius_m(stack.clamp_radius_m(), stack.free_radius_m());
+    fitted("boss radius", factor, [1e-3, 1.0], |part| {
+        let boss_radius_m = part * greatest;
+        let area = PressureArea::Round(RoundBosses {
+            boss_radius_m,
+            hole_radius_m: hole_share * boss_radius_m,
+            ..bosses
+        });
+        stack.correction_factor(&area, resolution)
+    })
+    .map(|part| part * greatest)
+}
+
+impl Bosses {
+    /// The same bosses with another share of the circumference.
+    pub fn with_share(self, share: f64) -> Self {
+        Self { share, ..self }
+    }
+}
+
+/// Where in an interval `of`, which rises, is `factor`.
+fn fitted(
+    geometry: &'static str,
+    factor: f64,
+    [mut low, mut high]: [f64; 2],
+    of: impl Fn(f64) -> Result<f64, PlateError>,
+) -> Result<f64, PlateError> {
+    let (least, greatest) = (of(low)?, of(high)?);
+    if !(least..=greatest).contains(&factor) {
+        return Err(PlateError::OutOfReach {
+            geometry,
+            factor,
+            least,
+            greatest,
+        });
+    }
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (low + high);
+        if of(middle)? < factor {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    Ok(0.5 * (low + high))
+}
