@@ -121,9 +121,10 @@ impl Stack {
     }
 }
 
-/// Nodes from `clamp` to 1 with one at each of `corners`, some `elements` in all, equally long between corners.
+/// Nodes from `clamp` to 1 with one at each of `corners`, some `elements` in all. Each is in the same ratio to the one before
+/// between corners: curvature changes with the logarithm of the radius.
 fn nodes(clamp: f64, corners: [f64; 4], elements: usize) -> Vec<f64> {
-    let longest = (1.0 - clamp) / elements.max(1) as f64;
+    let longest = -clamp.ln() / elements.max(1) as f64;
     let mut ends = [clamp, corners[0], corners[1], corners[2], corners[3], 1.0];
     ends.sort_by(f64::total_cmp);
     let mut nodes = vec![clamp];
@@ -132,8 +133,12 @@ fn nodes(clamp: f64, corners: [f64; 4], elements: usize) -> Vec<f64> {
         // Shorter than this is rounding: no element is between.
         if end - start > 1e-9 {
             let end = end.min(1.0);
-            let parts = ((end - start) / longest - 1e-6).ceil().max(1.0);
-            nodes.extend((1..=parts as u32).map(|i| start + (end - start) * f64::from(i) / parts));
+            let ratio = (end / start).ln();
+            let parts = (ratio / longest - 1e-6).ceil().max(1.0) as u32;
+            let between =
+                (1..parts).map(|i| start * (ratio * f64::from(i) / f64::from(parts)).exp());
+            nodes.extend(between);
+            nodes.push(end);
             start = end;
         }
     }

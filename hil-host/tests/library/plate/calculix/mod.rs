@@ -96,31 +96,30 @@ fn a_thin_bonded_stack_is_within_half_a_percent() {
     within(&ratios, 5e-3);
 }
 
-/// What plate theory leaves out: shear of a thick plate, and the tension of a plate bent far.
+/// What plate theory leaves out: the shear of thick plates, here of the piston extension valve's discs were they one, and
+/// the tension in the middle plane of those bent far.
 #[test]
 fn where_plate_theory_ends() {
-    if !have(
-        &[CALCULIX],
-        "shims beside CalculiX: the limits of plate theory",
-    ) {
+    if !have(&[CALCULIX], "shims beside CalculiX: limits of plate theory") {
         return;
     }
     let discs = [0.405, 0.405, 0.405, 0.410, 0.410, 0.410, 0.410];
     let thick = over_ours(PISTON, &discs, Stacking::Bonded, 1.0, Geometry::Linear);
-    println!("thick {thick:?}");
-    // Edge deflection of half the thickness, and of it whole, by plate theory.
-    for thicknesses in [0.5, 1.0] {
-        let unit = over_ours(PISTON, &[0.305], Stacking::Sliding, 1e-3, Geometry::Linear);
-        let stack = stack_of(16e-3, 29e-3, &[0.305e-3], Stacking::Sliding);
-        let pressure_mpa = thicknesses * 0.305e-3 / stack.uniform_edge_lift_m_per_pa() * 1e-6;
+    assert!(thick.iter().all(|ratio| (1.06..1.08).contains(ratio)));
+    let thickness = 0.305;
+    let stack = stack_of(16e-3, 29e-3, &[thickness * 1e-3], Stacking::Sliding);
+    let mm_per_mpa = stack.uniform_edge_lift_m_per_pa() * 1e9;
+    // Lift by plate theory over the thickness, and what is left of it.
+    for (lift, left) in [(0.25, 0.993), (0.5, 0.970), (1.0, 0.908)] {
+        let pressure_mpa = lift * thickness / mm_per_mpa;
         let bent = over_ours(
             PISTON,
-            &[0.305],
+            &[thickness],
             Stacking::Sliding,
             pressure_mpa,
             Geometry::Nonlinear,
         );
-        println!("{thicknesses} thicknesses: {}", bent[0] / unit[0]);
+        within(&[bent[0] / left], 2e-3);
     }
 }
 
@@ -152,8 +151,12 @@ fn bosses_are_within_half_a_percent_and_their_stress_within_one() {
         }
         let peak = stack.largest_stress(&bending).von_mises_per_pressure * pressure_mpa;
         let mut worst_stress = 0.0_f64;
-        // At the clamp solids have a singular corner.
-        let away = (theirs.points.iter()).filter(|point| point.radius > PISTON[0] + thickness);
+        // Near clamp and edge a solid has stresses that thin plates have not: at the edge its twist dies away as
+        // exp(-sqrt(10) d/h) with the distance d (Reissner).
+        let layer = 1.5 * thickness;
+        let inner = PISTON[0] + layer..PISTON[1] - layer;
+        let away = theirs.points.iter();
+        let away = away.filter(|point| inner.contains(&point.radius));
         for point in away {
             let curvature = bending.curvature(point.radius * 1e-3, point.angle);
             let at_surface = stack.surface_stress(curvature).von_mises() * pressure_mpa;

@@ -5,8 +5,11 @@ use std::f64::consts::FRAC_PI_2;
 use super::deck::{Deck, Geometry};
 
 /// Division of the quarter, outwards and round.
-const OUT: usize = 26;
+const OUT: usize = 30;
 const ROUND: usize = 60;
+/// Elements next to the clamp, where solids have a boundary layer as wide as the disc is thick, each longer than the one before:
+/// parts of the first of the others.
+const LAYER: [f64; 5] = [0.0, 0.1, 0.2, 0.4, 0.7];
 
 /// Stress (MPa) at a point within the disc: von Mises' of the bending stress there.
 pub struct Point {
@@ -30,7 +33,12 @@ pub fn quarter(
     pressure_mpa: f64,
     loaded: impl Fn(f64, f64) -> bool,
 ) -> Quarter {
-    let radius = |i: usize| clamp + (free - clamp) * i as f64 / (2 * OUT) as f64;
+    let width = (free - clamp) / (OUT - LAYER.len() + 1) as f64;
+    let end = |i: usize| match LAYER.get(i) {
+        Some(part) => clamp + part * width,
+        None => clamp + width * (i - LAYER.len() + 1) as f64,
+    };
+    let radius = |i: usize| 0.5 * (end(i / 2) + end(i.div_ceil(2)));
     let angle = |j: usize| FRAC_PI_2 * j as f64 / (2 * ROUND) as f64;
     let mut deck = Deck::new();
     let mut nodes = vec![[[0; 3]; 2 * ROUND + 1]; 2 * OUT + 1];
