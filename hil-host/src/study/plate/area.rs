@@ -56,14 +56,14 @@ impl Profile {
         let (clamp, free) = (clamp_m * (1.0 - 1e-12), free_m * (1.0 + 1e-12));
         if !(clamp <= inner && inner < outer && outer <= free) {
             return Err(refused(
-                "loaded radii",
+                "loaded_radii_m",
                 listed(self.full_m),
                 format!("rising, within the free part of the disc, {clamp_m} to {free_m} m"),
             ));
         }
         if !(clamp <= start && start <= inner && outer <= end && end <= free) {
             return Err(refused(
-                "decay radii",
+                "decay_radii_m",
                 listed(self.ends_m),
                 format!("around the loaded radii, within {clamp_m} to {free_m} m"),
             ));
@@ -150,7 +150,7 @@ impl RoundBosses {
         let (pitch, boss) = (self.pitch_radius_m, self.boss_radius_m);
         if !(clamp_m < pitch && pitch < free_m) {
             return Err(refused(
-                "pitch radius",
+                "pitch_radius_m",
                 format!("{pitch} m"),
                 format!("between {clamp_m} and {free_m} m"),
             ));
@@ -158,7 +158,7 @@ impl RoundBosses {
         let greatest = self.greatest_radius_m(clamp_m, free_m);
         if !(0.0 < boss && boss <= greatest * (1.0 + 1e-12)) {
             return Err(refused(
-                "boss radius",
+                "boss_radius_m",
                 format!("{boss} m"),
                 format!(
                     "above 0 and at most {greatest:.6} m, where a boss meets the clamp, the edge or its neighbour"
@@ -167,7 +167,7 @@ impl RoundBosses {
         }
         if !(0.0 <= self.hole_radius_m && self.hole_radius_m <= boss) {
             return Err(refused(
-                "hole radius",
+                "hole_radius_m",
                 format!("{} m", self.hole_radius_m),
                 format!("0 to the boss radius, {boss} m"),
             ));
@@ -283,7 +283,7 @@ impl PressureArea {
                 check_count(bosses.count)?;
                 if !(0.0 < bosses.share && bosses.share <= 1.0) {
                     return Err(refused(
-                        "boss share",
+                        "boss_share",
                         bosses.share.to_string(),
                         "above 0 and at most 1".into(),
                     ));
@@ -308,7 +308,7 @@ fn check_exponent(exponent: f64) -> Result<(), PlateError> {
         return Ok(());
     }
     let allowed = format!("above 0 and at most {LARGEST_EXPONENT}");
-    Err(refused("decay exponent", exponent.to_string(), allowed))
+    Err(refused("decay_exponent", exponent.to_string(), allowed))
 }
 
 fn refused(key: &'static str, given: String, allowed: String) -> PlateError {

@@ -1,6 +1,6 @@
 //! Geometries that have a given correction factor Ce.
 
-use super::{Bosses, PlateError, PressureArea, Profile, Resolution, RoundBosses, Stack};
+use super::{PlateError, PressureArea, Profile, Resolution, RoundBosses, Stack};
 
 /// Halvings of an interval: to the last bit.
 const HALVINGS: u32 = 52;
@@ -75,13 +75,6 @@ pub fn fitted_boss_radius_m(
         stack.correction_factor(&area, resolution)
     })
     .map(|part| part * greatest)
-}
-
-impl Bosses {
-    /// The same bosses with another share of the circumference.
-    pub fn with_share(self, share: f64) -> Self {
-        Self { share, ..self }
-    }
 }
 
 /// Where in an interval `of`, which rises, is `factor`.

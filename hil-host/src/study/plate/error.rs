@@ -12,7 +12,7 @@ pub enum PlateError {
     /// A number of the pressure area is not allowed.
     #[error("{key}: {given}, allowed: {allowed}")]
     Area {
-        /// The number.
+        /// Its name.
         key: &'static str,
         /// What was given.
         given: String,

@@ -6,6 +6,7 @@
 //! Theory of Plates and Shells, Arts. 62 and 63).
 
 mod area;
+mod assumed;
 mod bending;
 mod correction;
 mod error;
@@ -15,6 +16,7 @@ mod stack;
 mod stress;
 
 pub use area::{Bosses, PressureArea, Profile, RoundBosses};
+pub use assumed::{Fit, assumed_area, fits, is_ring};
 pub use bending::{Bending, Curvature, Resolution};
 pub use correction::{fitted_boss_radius_m, fitted_full_radius_m, fitted_share};
 pub use error::PlateError;

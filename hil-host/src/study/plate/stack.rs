@@ -85,6 +85,16 @@ impl Stack {
         }
     }
 
+    /// Thickness (m) that a deflection is to be small against: where the middle planes of discs stretch, their tension is
+    /// to the bending as `w^2 sum h` to `sum h^3`.
+    pub fn stretched_thickness_m(&self) -> f64 {
+        let whole: f64 = self.discs_m.iter().sum();
+        match self.stacking {
+            Stacking::Sliding => (self.equivalent_thickness_m().powi(3) / whole).sqrt(),
+            Stacking::Bonded => whole,
+        }
+    }
+
     /// Numbers, from 1 at the first of the file, of the discs that have the largest stress.
     pub fn most_stressed_discs(&self) -> Vec<usize> {
         let thickest = self.bent_thickness_m();
