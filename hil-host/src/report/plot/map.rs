@@ -2,6 +2,7 @@
 
 use std::f64::consts::TAU;
 
+use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
@@ -81,46 +82,53 @@ fn draw_map(area: &Area<'_>, map: &DiscMap<'_>) -> Result<(), DrawError> {
         Polygon::new(corners, shades[shade.min(SHADES - 1)].filled())
     });
     chart.draw_series(cells).map_err(failed)?;
-    // The scale stands in the hole, the highest shade above.
-    let line = 1.3 * inner / (SHADES + 2) as f64;
+    draw_scale(&mut chart, map, step, &shades)
+}
+
+type Chart<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
+
+/// The scale in the hole: name and unit, then a line for each shade, the highest above.
+fn draw_scale(
+    chart: &mut Chart<'_, '_>,
+    map: &DiscMap<'_>,
+    step: f64,
+    shades: &[RGBColor],
+) -> Result<(), DrawError> {
+    let inner = map.radii_mm[0];
+    let lines = map.value_label.len() + shades.len();
+    let line = 1.3 * inner / lines as f64;
+    let height = |row: usize| line * (0.5 * (lines as f64 - 1.0) - row as f64);
     let style = letters(12, &INK).pos(Pos::new(HPos::Center, VPos::Center));
-    let mut texts = vec![];
-    for (row, text) in map.value_label.iter().enumerate() {
-        texts.push((
-            0.5 * line * (SHADES as f64 + 1.0) - line * row as f64,
-            text.clone(),
-        ));
-    }
-    let digits = (-step.log10().floor()).max(0.0) as usize;
+    let names = (map.value_label.iter().enumerate())
+        .map(|(row, name)| Text::new(name.clone(), (0.0, height(row)), style.clone()));
+    chart.draw_series(names).map_err(failed)?;
+    let digits = digits(step);
     for (i, shade) in shades.iter().enumerate() {
-        let height = 0.5 * line * (SHADES as f64 + 1.0) - line * (1 + SHADES - i) as f64;
-        let box_of = [
-            (-0.6 * inner, height - 0.4 * line),
-            (-0.4 * inner, height + 0.4 * line),
-        ];
-        chart
-            .draw_series([Rectangle::new(box_of, shade.filled())])
-            .map_err(failed)?;
+        let height = height(lines - 1 - i);
+        let corner = |x: f64, y: f64| (x * inner, height + y * line);
+        let swatch = Rectangle::new([corner(-0.6, -0.4), corner(-0.4, 0.4)], shade.filled());
         let (from, to) = (step * i as f64, step * (i + 1) as f64);
-        texts.push((height, format!("{from:.digits$} to {to:.digits$}")));
+        let range = format!("{from:.digits$} to {to:.digits$}");
+        let range = Text::new(range, corner(0.15, 0.0), style.clone());
+        chart.draw_series([swatch]).map_err(failed)?;
+        chart.draw_series([range]).map_err(failed)?;
     }
-    let texts = texts.into_iter().map(|(height, text)| {
-        let middle = if text.contains(" to ") {
-            0.15 * inner
-        } else {
-            0.0
-        };
-        Text::new(text, (middle, height), style.clone())
-    });
-    chart.draw_series(texts).map_err(failed)?;
     Ok(())
 }
 
-/// The next of 1, 2, 2.5 or 5 times a power of ten.
+/// Digits behind the point that a step of two digits takes.
+fn digits(step: f64) -> usize {
+    let digits = (-step.log10().floor()).clamp(0.0, 12.0);
+    let last = step * 10_f64.powf(digits);
+    let more = (last - last.round()).abs() > 1e-6;
+    digits as usize + usize::from(more)
+}
+
+/// The next round number: one of few digits times a power of ten.
 fn round_up(value: f64) -> f64 {
     let value = value.max(1e-12);
     let decade = 10_f64.powf(value.log10().floor());
-    let round = [1.0, 2.0, 2.5, 5.0, 10.0].map(|part| part * decade);
+    let round = [1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0].map(|part| part * decade);
     round
         .into_iter()
         .find(|round| *round >= value * (1.0 - 1e-9))
@@ -129,20 +137,27 @@ fn round_up(value: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::round_up;
+    use super::{digits, round_up};
 
     #[test]
     fn shades_are_round_numbers() {
         for (value, round) in [
             (0.9, 1.0),
             (1.0, 1.0),
-            (1.1, 2.0),
+            (1.1, 1.2),
             (2.4, 2.5),
-            (3e-5, 5e-5),
-            (70.0, 100.0),
+            (2.6e-5, 3e-5),
+            (81.0, 100.0),
         ] {
             assert!((round_up(value) / round - 1.0).abs() < 1e-12, "{value}");
         }
         assert!(round_up(0.0) > 0.0);
+    }
+
+    #[test]
+    fn shades_have_the_digits_of_their_step() {
+        for (step, count) in [(50.0, 0), (2.5, 1), (0.2, 1), (0.25, 2), (0.012, 3)] {
+            assert_eq!(digits(step), count, "{step}");
+        }
     }
 }

@@ -2,8 +2,8 @@
 
 use super::{PlateError, PressureArea, Profile, Resolution, RoundBosses, Stack};
 
-/// Halvings of an interval: to the last bit.
-const HALVINGS: u32 = 52;
+/// Halvings of an interval: to 1e-12 of it, far below the rounding of a factor.
+const HALVINGS: u32 = 40;
 
 /// Where a pressure that is full from the clamp on begins its decay, `((r_w - r)/(r_w - r_f))^n`, so that the correction
 /// factor is `factor`: the radius r_f (m).

@@ -140,10 +140,13 @@ fn round_bosses(solved: &Solved) -> Panel {
             let name = format!("hole {share} of the boss: Ce {}", solved.factor);
             Curve::new(name, colour, points)
         });
-    panel(
-        solved,
-        "middles of six round bosses at, mm",
-        "radius of a boss, mm",
-        curves.collect(),
-    )
+    Panel {
+        legend: Some(SeriesLabelPosition::LowerLeft),
+        ..panel(
+            solved,
+            "middles of six round bosses at, mm",
+            "radius of a boss, mm",
+            curves.collect(),
+        )
+    }
 }

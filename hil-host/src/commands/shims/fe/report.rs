@@ -200,12 +200,19 @@ fn print_valve(
     }
     let stress = &valve.largest_stress;
     let discs: Vec<String> = stress.discs.iter().map(usize::to_string).collect();
+    let angle = match valve.pressure_area {
+        Some(PressureArea::Ring(_)) | None => "all round".to_owned(),
+        Some(_) => format!(
+            "{:.1} deg from a boss's middle",
+            stress.angle_rad.to_degrees()
+        ),
+    };
+    let plural = if discs.len() > 1 { "s" } else { "" };
     writeln!(
         out,
-        "  largest stress {:.2} MPa/MPa at r {:.2} mm, {:.1} deg from a boss's middle, disc {} of the file; {:.2} under uniform pressure",
+        "  largest stress {:.2} MPa/MPa at r {:.2} mm, {angle}, disc{plural} {} of the file; {:.2} under uniform pressure",
         stress.von_mises_per_pressure,
         stress.radius_m * 1e3,
-        stress.angle_rad.to_degrees(),
         discs.join(", "),
         valve.largest_stress_uniform.von_mises_per_pressure
     )?;
