@@ -29,9 +29,6 @@ pub struct ShimsArguments {
     /// The damper.
     #[command(flatten)]
     pub damper: DamperArguments,
-    /// The shims as plates.
-    #[command(flatten)]
-    pub plates: PlateArguments,
     /// Folder the plots are written to.
     #[arg(long, default_value = "shims-plots", value_name = "FOLDER")]
     pub plots: PathBuf,
@@ -41,6 +38,9 @@ pub struct ShimsArguments {
     /// How results are printed.
     #[arg(long, value_enum, default_value_t = Format::Text)]
     pub format: Format,
+    /// The shims as plates.
+    #[command(flatten)]
+    pub plates: PlateArguments,
 }
 
 /// Prints the shim packs of a damper and draws them.

@@ -9,7 +9,7 @@ use serde::Serialize;
 
 use super::{
     PlateError, PressureArea, Profile, Resolution, RoundBosses, Stack, fitted_boss_radius_m,
-    fitted_full_radius_m,
+    fitted_decay_width_m, fitted_full_radius_m,
 };
 
 /// Bosses of a 6/6-hole piston.
@@ -29,6 +29,13 @@ pub enum Fit {
         exponent: f64,
         /// The radius fitted (m).
         full_radius_m: f64,
+    },
+    /// Full in the middle, decaying to nothing at clamp and edge over the same width.
+    DecayOnBothSides {
+        /// Exponent of the decay (1).
+        exponent: f64,
+        /// The width fitted (m).
+        width_m: f64,
     },
     /// Six round bosses.
     RoundBosses {
@@ -96,6 +103,8 @@ pub fn fits(
                 exponent,
                 full_radius_m,
             }));
+            let fit = fitted_decay_width_m(stack, exponent, factor, resolution);
+            fits.extend(reached(fit)?.map(|width_m| Fit::DecayOnBothSides { exponent, width_m }));
         }
         return Ok(fits);
     }

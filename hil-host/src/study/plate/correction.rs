@@ -30,6 +30,31 @@ pub fn fitted_full_radius_m(
     .map(|part| clamp + part * width)
 }
 
+/// Width (m) over which a pressure that is full in the middle decays to nothing at clamp and edge, so that the correction factor
+/// is `factor`.
+///
+/// # Errors
+/// No width has the factor.
+pub fn fitted_decay_width_m(
+    stack: &Stack,
+    exponent: f64,
+    factor: f64,
+    resolution: Resolution,
+) -> Result<f64, PlateError> {
+    let (clamp, free) = (stack.clamp_radius_m(), stack.free_radius_m());
+    let widest = 0.5 * (free - clamp);
+    fitted("width of decay", factor, [1e-3, 1.0], |part| {
+        let width = (1.0 - part) * widest;
+        let area = PressureArea::Ring(Profile {
+            full_m: [clamp + width, free - width],
+            ends_m: [clamp, free],
+            exponent,
+        });
+        stack.correction_factor(&area, resolution)
+    })
+    .map(|part| (1.0 - part) * widest)
+}
+
 /// Share of the circumference that sectors of a profile take, so that the correction factor is `factor`. The factor is
 /// the share times that of the ring: only the harmonic of order zero has a mean.
 ///

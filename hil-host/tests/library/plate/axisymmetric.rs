@@ -94,7 +94,7 @@ fn deflection_and_clamp_stress_are_roarks() {
 /// Edge deflection by statics alone: the shear force at r carries the pressure outside of it,
 /// `q(r) = -1/r int_r^rw p s ds`, and the slope f follows from `D ((r f)'/r)' = -q`, both by the trapezoidal rule;
 /// `f(r_n) = 0` and no moment at the edge, `f' + nu f/r = 0`.
-fn edge_by_statics(clamp: f64, free: f64, pressure: impl Fn(f64) -> f64) -> f64 {
+pub fn edge_by_statics(clamp: f64, free: f64, pressure: impl Fn(f64) -> f64) -> f64 {
     const STEPS: usize = 40_000;
     let step = (free - clamp) / STEPS as f64;
     let radius = |i: usize| clamp + step * i as f64;

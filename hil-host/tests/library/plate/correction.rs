@@ -2,29 +2,44 @@
 
 use dashpot_hil::study::plate::{
     Bosses, PlateError, PressureArea, Profile, Resolution, RoundBosses, fitted_boss_radius_m,
-    fitted_full_radius_m, fitted_share,
+    fitted_decay_width_m, fitted_full_radius_m, fitted_share,
 };
 
+use super::axisymmetric::edge_by_statics;
 use super::of_the_paper;
 
 /// Ce of Tables 2 to 4.
 const PUBLISHED: [f64; 3] = [0.2169, 0.2000, 0.8265];
 
+/// The radii that docs/shims.md tells; each pressure has the factor by statics too.
 #[test]
-fn a_quadratic_decay_gives_the_foot_valves_factor_at_a_fitted_radius() {
+fn decays_give_the_foot_valves_factor_at_fitted_radii() {
     let [_, _, foot] = of_the_paper();
-    let resolution = Resolution::default();
-    let full = fitted_full_radius_m(&foot, 2.0, PUBLISHED[2], resolution).unwrap();
-    println!("full up to {full} m");
-    let decay = |full: f64| {
-        PressureArea::Ring(Profile {
-            full_m: [5e-3, full],
-            ends_m: [5e-3, 11e-3],
-            exponent: 2.0,
-        })
+    let (clamp, free) = (5e-3, 11e-3);
+    let uniform = edge_by_statics(clamp, free, |_| 1.0);
+    let check = |full_m: [f64; 2], exponent: f64| {
+        let profile = Profile {
+            full_m,
+            ends_m: [clamp, free],
+            exponent,
+        };
+        let area = PressureArea::Ring(profile);
+        let factor = foot.correction_factor(&area, Resolution::default());
+        assert!((factor.unwrap() - PUBLISHED[2]).abs() < 1e-7);
+        let by_statics = edge_by_statics(clamp, free, |r| profile.at(r)) / uniform;
+        assert!((by_statics - PUBLISHED[2]).abs() < 1e-4, "{by_statics}");
     };
-    let factor = foot.correction_factor(&decay(full), resolution).unwrap();
-    assert!((factor - PUBLISHED[2]).abs() < 1e-7, "{factor}");
+    for (exponent, told) in [(1.0, 10.238e-3), (2.0, 10.436e-3), (3.0, 10.501e-3)] {
+        let full = fitted_full_radius_m(&foot, exponent, PUBLISHED[2], Resolution::default());
+        let full = full.unwrap();
+        println!("exponent {exponent}: full up to {full} m");
+        assert!((full - told).abs() < 1e-6);
+        check([clamp, full], exponent);
+    }
+    let width = fitted_decay_width_m(&foot, 2.0, PUBLISHED[2], Resolution::default()).unwrap();
+    println!("on both sides over {width} m");
+    assert!((width - 0.5626e-3).abs() < 1e-7);
+    check([clamp + width, free - width], 2.0);
 }
 
 /// Both piston valves have discs of the same radii: thin plates under the same pressure area then have the same factor, so

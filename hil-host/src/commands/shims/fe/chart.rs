@@ -123,7 +123,7 @@ fn round_bosses(solved: &Solved) -> Panel {
             hole_share,
             boss_radius_m,
         } => Some((hole_share, pitch_radius_m * 1e3, boss_radius_m * 1e3)),
-        Fit::Decay { .. } => None,
+        Fit::Decay { .. } | Fit::DecayOnBothSides { .. } => None,
     });
     let found: Vec<_> = found.collect();
     for (share, ..) in &found {
