@@ -41,8 +41,17 @@ fn the_papers_valves_have_areas_fitted_to_their_factors() {
         near(&valve["edge_lift"]["mean_m_per_pa"], factor * uniform, 2e-4);
         assert_eq!(valve["pressure_area"]["kind"], kind);
         assert_eq!(valve["pressure_area_is_given"], false);
-        assert!(valve["fits"].as_array().unwrap().len() >= 3);
     }
+    // Sectors over the whole width have the Ce of their share.
+    let fits = |valve: usize, kind: &str| -> Vec<Value> {
+        let all = valves[valve]["fits"].as_array().unwrap().iter();
+        all.filter(|fit| fit["kind"] == kind).cloned().collect()
+    };
+    near(&fits(0, "sectors").last().unwrap()["share"], 0.2169, 1e-6);
+    near(&fits(1, "sectors").last().unwrap()["share"], 0.2000, 1e-6);
+    assert!(fits(0, "round_bosses").len() > 10);
+    assert_eq!(fits(2, "decay").len(), 3);
+    assert_eq!(fits(2, "decay_on_both_sides").len(), 3);
     // Over a boss the edge lifts more than on average.
     let greatest = &valves[0]["correction_factor_of_greatest_lift"];
     assert!(greatest.as_f64().unwrap() > 0.22);
@@ -183,6 +192,26 @@ fn plots_draw_plates_and_the_chart() {
             assert!(svg.contains(word), "{name}: {word}");
         }
     }
+}
+
+/// Two narrow bosses press the edge midway between them down.
+#[test]
+fn an_edge_pressed_down_is_told() {
+    let area = [
+        "--no-plots",
+        "--valve",
+        "piston-extension",
+        "--bosses",
+        "2",
+        "--boss-share",
+        "0.1",
+    ];
+    let text = text_of(&plates(&area).success());
+    assert!(
+        text.contains("between bosses the edge is pressed down, by "),
+        "{text}"
+    );
+    assert!(!text_of(&plates(&["--no-plots"]).success()).contains("pressed down"));
 }
 
 /// A factor that no area of the kind has is told; the rest stands on the whole disc.

@@ -318,3 +318,51 @@ fn refused(key: &'static str, given: String, allowed: String) -> PlateError {
         allowed,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The coefficients against sums over the angle of what the pressure is there.
+    #[test]
+    fn harmonics_are_those_of_the_pressure() {
+        const STEPS: u32 = 40_000;
+        let profile = Profile {
+            full_m: [20e-3, 24e-3],
+            ends_m: [17e-3, 28e-3],
+            exponent: 2.0,
+        };
+        for area in [
+            PressureArea::Ring(profile),
+            PressureArea::Sectors(Bosses {
+                count: 5,
+                share: 0.35,
+                profile,
+            }),
+            PressureArea::Round(RoundBosses {
+                count: 6,
+                pitch_radius_m: 23e-3,
+                hole_radius_m: 3e-3,
+                boss_radius_m: 5e-3,
+                exponent: 2.0,
+            }),
+        ] {
+            let per_turn = f64::from(area.count());
+            for radius in [18.5e-3, 21e-3, 23e-3, 27.5e-3] {
+                for k in [0, 1, 2, 7, 20] {
+                    let sum: f64 = (0..STEPS)
+                        .map(|i| TAU * (f64::from(i) + 0.5) / f64::from(STEPS))
+                        .map(|t| area.at(radius, t) * (f64::from(k) * per_turn * t).cos())
+                        .sum();
+                    let both_sides = if k == 0 { 1.0 } else { 2.0 };
+                    let expected = both_sides * sum / f64::from(STEPS);
+                    let found = area.harmonic(k, radius);
+                    assert!(
+                        (found - expected).abs() < 5e-4,
+                        "{area:?} {radius} {k}: {found} for {expected}"
+                    );
+                }
+            }
+        }
+    }
+}

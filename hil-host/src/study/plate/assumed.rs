@@ -9,7 +9,7 @@ use serde::Serialize;
 
 use super::{
     PlateError, PressureArea, Profile, Resolution, RoundBosses, Stack, fitted_boss_radius_m,
-    fitted_decay_width_m, fitted_full_radius_m,
+    fitted_decay_width_m, fitted_full_radius_m, fitted_share,
 };
 
 /// Bosses of a 6/6-hole piston.
@@ -18,6 +18,9 @@ const BOSSES: u32 = 6;
 const HOLE_SHARE: f64 = 0.75;
 /// Assumed exponent of a decay.
 const QUADRATIC: f64 = 2.0;
+
+/// Parts of the width that sectors of the fits take.
+pub const WIDTHS: [f64; 4] = [0.25, 0.5, 0.75, 1.0];
 
 /// A geometry that has a valve's Ce.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -36,6 +39,13 @@ pub enum Fit {
         exponent: f64,
         /// The width fitted (m).
         width_m: f64,
+    },
+    /// Sectors, however many.
+    Sectors {
+        /// Radii between which the pressure is full (m).
+        full_m: [f64; 2],
+        /// The share of the circumference fitted (1).
+        share: f64,
     },
     /// Six round bosses.
     RoundBosses {
@@ -108,7 +118,15 @@ pub fn fits(
         }
         return Ok(fits);
     }
-    for hole_share in [1.0, HOLE_SHARE, 0.5, 0.25] {
+    for part in WIDTHS {
+        let profile = middle_ring(stack, part);
+        let fit = fitted_share(stack, profile, factor, resolution);
+        fits.extend(reached(fit)?.map(|share| Fit::Sectors {
+            full_m: profile.full_m,
+            share,
+        }));
+    }
+    for hole_share in [1.0, 0.9, HOLE_SHARE, 0.65] {
         for i in 1..40 {
             let pitch_radius_m = clamp + (free - clamp) * f64::from(i) / 40.0;
             let bosses = bosses(pitch_radius_m);
@@ -121,6 +139,13 @@ pub fn fits(
         }
     }
     Ok(fits)
+}
+
+/// Full pressure in the middle of a stack, on a part of its width.
+pub fn middle_ring(stack: &Stack, part: f64) -> Profile {
+    let (clamp, free) = (stack.clamp_radius_m(), stack.free_radius_m());
+    let (middle, half) = (0.5 * (clamp + free), 0.5 * part * (free - clamp));
+    Profile::full((middle - half).max(clamp), (middle + half).min(free))
 }
 
 fn bosses(pitch_radius_m: f64) -> RoundBosses {

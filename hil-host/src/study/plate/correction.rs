@@ -2,8 +2,12 @@
 
 use super::{PlateError, PressureArea, Profile, Resolution, RoundBosses, Stack};
 
-/// Halvings of an interval: to 1e-12 of it, far below the rounding of a factor.
-const HALVINGS: u32 = 40;
+/// Most trials; ten do.
+const TRIALS: u32 = 60;
+/// Interval that is narrow enough (1).
+const WIDTH: f64 = 1e-13;
+/// Rounding of a factor: no trial comes nearer to one.
+const ROUNDING: f64 = 1e-9;
 
 /// Where a pressure that is full from the clamp on begins its decay, `((r_w - r)/(r_w - r_f))^n`, so that the correction
 /// factor is `factor`: the radius r_f (m).
@@ -118,13 +122,26 @@ fn fitted(
             greatest,
         });
     }
-    for _ in 0..HALVINGS {
-        let middle = 0.5 * (low + high);
-        if of(middle)? < factor {
-            low = middle;
-        } else {
-            high = middle;
+    // Regula falsi, Illinois variant: an end that is kept again counts half.
+    let (mut at_low, mut at_high) = (least - factor, greatest - factor);
+    let mut rose = None;
+    for _ in 0..TRIALS {
+        if high - low < WIDTH || at_high == at_low {
+            break;
         }
+        let trial = low - at_low * (high - low) / (at_high - at_low);
+        let at_trial = of(trial)? - factor;
+        if at_trial.abs() < ROUNDING {
+            return Ok(trial);
+        }
+        let rises = at_trial < 0.0;
+        let again = if rose == Some(rises) { 0.5 } else { 1.0 };
+        if rises {
+            (low, at_low, at_high) = (trial, at_trial, again * at_high);
+        } else {
+            (high, at_high, at_low) = (trial, at_trial, again * at_low);
+        }
+        rose = Some(rises);
     }
     Ok(0.5 * (low + high))
 }

@@ -16,7 +16,7 @@ mod stack;
 mod stress;
 
 pub use area::{Bosses, PressureArea, Profile, RoundBosses};
-pub use assumed::{Fit, assumed_area, fits, is_ring};
+pub use assumed::{Fit, WIDTHS, assumed_area, fits, is_ring, middle_ring};
 pub use bending::{Bending, Curvature, Resolution};
 pub use correction::{
     fitted_boss_radius_m, fitted_decay_width_m, fitted_full_radius_m, fitted_share,

@@ -1,7 +1,9 @@
 //! Rings of pressure: the closed form of uniform pressure, and statics for the others.
 
+use std::f64::consts::TAU;
+
 use dashpot_core::shim::Disc;
-use dashpot_hil::study::plate::{PressureArea, Profile, Resolution, Stacking};
+use dashpot_hil::study::plate::{PressureArea, Profile, Resolution, RoundBosses, Stacking};
 
 use super::{RADII_M, stack, stack_of};
 
@@ -157,6 +159,41 @@ fn rings_and_decays_agree_with_statics() {
         // The rule's step cuts a jump of pressure short by up to half of it.
         assert!(error.abs() < 2e-4, "{profile:?}: {error:e}");
     }
+}
+
+/// The mean lift under round bosses is that under their pressure averaged round the circumference.
+#[test]
+fn round_bosses_agree_with_statics_of_their_mean() {
+    let (clamp, free) = RADII_M[0];
+    let area = PressureArea::Round(RoundBosses {
+        count: 6,
+        pitch_radius_m: 22e-3,
+        hole_radius_m: 4e-3,
+        boss_radius_m: 5.5e-3,
+        exponent: 2.0,
+    });
+    const ANGLES: u32 = 2000;
+    // One boss of six.
+    let mean = |r: f64| {
+        let angles = (0..ANGLES).map(|i| TAU / 6.0 * (f64::from(i) + 0.5) / f64::from(ANGLES));
+        angles.map(|angle| area.at(r, angle)).sum::<f64>() / f64::from(ANGLES)
+    };
+    // Between radii so close that the mean is a straight line.
+    let step = (free - clamp) / 1000.0;
+    let table: Vec<f64> = (0..=1000)
+        .map(|i| mean(clamp + step * f64::from(i)))
+        .collect();
+    let between = |r: f64| {
+        let place = ((r - clamp) / step).clamp(0.0, 999.999);
+        let (i, part) = (place as usize, place.fract());
+        table[i] + part * (table[i + 1] - table[i])
+    };
+    let stack = stack(clamp, free, &[0.4e-3]);
+    let expected = edge_by_statics(clamp, free, between) / stack.bending_stiffness_n_m();
+    let found = stack.mean_edge_lift_m_per_pa(&area, Resolution::default());
+    let error = found.unwrap() / expected - 1.0;
+    println!("{error:e}");
+    assert!(error.abs() < 1e-4, "{error:e}");
 }
 
 /// Discs that slide add their stiffness, bonded ones their thickness; stress is that of the thickness that bends.

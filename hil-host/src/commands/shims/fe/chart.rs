@@ -8,7 +8,9 @@ use crate::commands::failure::Outcome;
 use crate::report::plot::curves::{Curve, ramp};
 use crate::report::plot::sheet::Panel;
 use crate::report::plot::style::RED_LINE;
-use crate::study::plate::{Fit, PlateError, PressureArea, Profile, Resolution, Stack, is_ring};
+use crate::study::plate::{
+    Fit, PlateError, PressureArea, Profile, Resolution, Stack, WIDTHS, is_ring, middle_ring,
+};
 
 /// Points of a curve.
 const POINTS: u32 = 48;
@@ -95,13 +97,10 @@ fn both_decays(solved: &Solved) -> Outcome<Panel> {
 
 /// Bosses that are sectors: Ce is their share of the circumference times that of the ring, however many they are.
 fn sectors(solved: &Solved) -> Outcome<Panel> {
-    let (clamp, free) = (solved.stack.clamp_radius_m(), solved.stack.free_radius_m());
-    let (middle, half) = (0.5 * (clamp + free), 0.5 * (free - clamp));
-    let parts = [0.25, 0.5, 0.75, 1.0];
     let mut curves = Vec::new();
-    for (part, colour) in parts.into_iter().zip(ramp(parts.len())) {
-        let [from, to] = [middle - part * half, middle + part * half];
-        let profile = Profile::full(from.max(clamp), to.min(free));
+    for (part, colour) in WIDTHS.into_iter().zip(ramp(WIDTHS.len())) {
+        let profile = middle_ring(&solved.stack, part);
+        let [from, to] = profile.full_m;
         let ring = factor(&solved.stack, profile)?;
         let name = format!("full from {:.2} to {:.2} mm", from * 1e3, to * 1e3);
         curves.push(Curve::new(name, colour, [(0.0, 0.0), (1.0, ring)]));
@@ -123,7 +122,7 @@ fn round_bosses(solved: &Solved) -> Panel {
             hole_share,
             boss_radius_m,
         } => Some((hole_share, pitch_radius_m * 1e3, boss_radius_m * 1e3)),
-        Fit::Decay { .. } | Fit::DecayOnBothSides { .. } => None,
+        _ => None,
     });
     let found: Vec<_> = found.collect();
     for (share, ..) in &found {
