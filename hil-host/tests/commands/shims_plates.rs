@@ -137,6 +137,7 @@ fn text_tells_area_factor_stress_and_where_theory_ends() {
         "(assumed, fitted to Ce)",
         "Ce 0.8265 by the mean lift of the edge",
         "deg from a boss's middle, discs 4, 5, 6, 7 of the file",
+        "full from 5.000 to 10.436 mm, decaying to nothing at 11.000 mm with exponent 2",
         "at r 5.00 mm, all round",
         "at the force limit",
         "*: lifted by more than half a thickness",

@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use super::{PlateArguments, Solved};
 use crate::commands::failure::Outcome;
-use crate::study::plate::{Fit, LargestStress, PressureArea, Stacking};
+use crate::study::plate::{Fit, LargestStress, PressureArea, Profile, Stacking};
 
 /// Largest lift over the thickness at which plate theory is told to hold: it then overstates the lift by 3 %.
 const SMALL_LIFT: f64 = 0.5;
@@ -257,16 +257,19 @@ fn print_valve(
 }
 
 /// An area in words.
-pub(super) fn described(area: &PressureArea) -> String {
+fn described(area: &PressureArea) -> String {
     let radii = |[from, to]: [f64; 2]| format!("{:.3} to {:.3} mm", from * 1e3, to * 1e3);
-    let profile = |profile: &crate::study::plate::Profile| {
+    let profile = |profile: &Profile| {
         let full = format!("full from {}", radii(profile.full_m));
-        if profile.ends_m == profile.full_m {
+        let ends = profile.ends_m.iter().zip(profile.full_m);
+        let ends = ends.filter(|(end, full)| **end != *full);
+        let ends: Vec<String> = ends.map(|(end, _)| format!("{:.3}", end * 1e3)).collect();
+        if ends.is_empty() {
             full
         } else {
             format!(
-                "{full}, decaying to nothing at {} with exponent {}",
-                radii(profile.ends_m).replace(" to ", " and "),
+                "{full}, decaying to nothing at {} mm with exponent {}",
+                ends.join(" and "),
                 profile.exponent
             )
         }
