@@ -4,73 +4,8 @@ use std::f64::consts::{PI, TAU};
 
 use serde::Serialize;
 
-use super::PlateError;
-use super::quadrature::integral;
-
-/// Most bosses over the circumference.
-const MOST_BOSSES: u32 = 36;
-/// Largest exponent of a decay.
-const LARGEST_EXPONENT: f64 = 10.0;
-
-/// Share of the full pressure over the radius: 1 from `full_m[0]` to `full_m[1]`, falling to nothing at `ends_m`,
-/// `((r - end)/(full - end))^n`.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Profile {
-    /// Radii between which the pressure is full (m).
-    pub full_m: [f64; 2],
-    /// Radii at which the pressure has decayed to nothing (m); those of `full_m` for none.
-    pub ends_m: [f64; 2],
-    /// Exponent n of the decay (1): 1 linear, 2 quadratic.
-    pub exponent: f64,
-}
-
-impl Profile {
-    /// Full pressure between two radii (m), none outside.
-    pub fn full(inner_m: f64, outer_m: f64) -> Self {
-        let radii = [inner_m, outer_m];
-        Self {
-            full_m: radii,
-            ends_m: radii,
-            exponent: 2.0,
-        }
-    }
-
-    /// Share of the full pressure at a radius.
-    pub fn at(&self, radius_m: f64) -> f64 {
-        let ([inner, outer], [start, end]) = (self.full_m, self.ends_m);
-        if (inner..=outer).contains(&radius_m) {
-            1.0
-        } else if start < radius_m && radius_m < inner {
-            ((radius_m - start) / (inner - start)).powf(self.exponent)
-        } else if outer < radius_m && radius_m < end {
-            ((end - radius_m) / (end - outer)).powf(self.exponent)
-        } else {
-            0.0
-        }
-    }
-
-    fn check(&self, clamp_m: f64, free_m: f64) -> Result<(), PlateError> {
-        let ([inner, outer], [start, end]) = (self.full_m, self.ends_m);
-        let listed = |radii: [f64; 2]| format!("{} to {} m", radii[0], radii[1]);
-        // Radii as written: a file's 0.029 is the free radius, whatever its last bit became in arithmetic.
-        let (clamp, free) = (clamp_m * (1.0 - 1e-12), free_m * (1.0 + 1e-12));
-        if !(clamp <= inner && inner < outer && outer <= free) {
-            return Err(refused(
-                "loaded_radii_m",
-                listed(self.full_m),
-                format!("rising, within the free part of the disc, {clamp_m} to {free_m} m"),
-            ));
-        }
-        if !(clamp <= start && start <= inner && outer <= end && end <= free) {
-            return Err(refused(
-                "decay_radii_m",
-                listed(self.ends_m),
-                format!("around the loaded radii, within {clamp_m} to {free_m} m"),
-            ));
-        }
-        check_exponent(self.exponent)
-    }
-}
+use super::refusal::{check_count, refused};
+use super::{PlateError, Profile, RoundBosses};
 
 /// Equal bosses over the circumference, each an annular sector.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -81,109 +16,6 @@ pub struct Bosses {
     pub share: f64,
     /// Pressure over the radius within a boss.
     pub profile: Profile,
-}
-
-/// Equal round bosses over the circumference: full pressure over the hole, decaying to nothing at the boss's edge,
-/// `((b - d)/(b - a))^n` at distance d from the middle.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct RoundBosses {
-    /// Number of bosses N.
-    pub count: u32,
-    /// Radius of the circle on which the bosses' middles lie (m).
-    pub pitch_radius_m: f64,
-    /// Radius a of a hole (m), at most that of the boss.
-    pub hole_radius_m: f64,
-    /// Radius b of a boss (m).
-    pub boss_radius_m: f64,
-    /// Exponent n of the decay (1).
-    pub exponent: f64,
-}
-
-impl RoundBosses {
-    fn at_distance(&self, distance_m: f64) -> f64 {
-        let (hole, boss) = (self.hole_radius_m, self.boss_radius_m);
-        if distance_m <= hole {
-            1.0
-        } else if distance_m < boss {
-            ((boss - distance_m) / (boss - hole)).powf(self.exponent)
-        } else {
-            0.0
-        }
-    }
-
-    fn distance_m(&self, radius_m: f64, angle_rad: f64) -> f64 {
-        let pitch = self.pitch_radius_m;
-        let half = (0.5 * angle_rad).sin();
-        let apart = radius_m - pitch;
-        (apart * apart + 4.0 * radius_m * pitch * half * half).sqrt()
-    }
-
-    /// Half the angle that a circle of `circle_m` about a boss's middle takes at a radius.
-    fn half_angle(&self, radius_m: f64, circle_m: f64) -> f64 {
-        let pitch = self.pitch_radius_m;
-        let apart = radius_m - pitch;
-        let square = (circle_m * circle_m - apart * apart) / (4.0 * radius_m * pitch);
-        2.0 * square.max(0.0).sqrt().min(1.0).asin()
-    }
-
-    fn harmonic(&self, k: u32, radius_m: f64) -> f64 {
-        let per_angle = f64::from(k * self.count);
-        let full = self.half_angle(radius_m, self.hole_radius_m);
-        let end = self.half_angle(radius_m, self.boss_radius_m);
-        let within_hole = if k == 0 {
-            full
-        } else {
-            (per_angle * full).sin() / per_angle
-        };
-        let middle = 0.5 * (full + end);
-        let around = |angle: f64| {
-            self.at_distance(self.distance_m(radius_m, angle)) * (per_angle * angle).cos()
-        };
-        let fading = integral(full, middle, around) + integral(middle, end, around);
-        let both_sides = if k == 0 { 1.0 } else { 2.0 };
-        both_sides * f64::from(self.count) / PI * (within_hole + fading)
-    }
-
-    fn check(&self, clamp_m: f64, free_m: f64) -> Result<(), PlateError> {
-        check_count(self.count)?;
-        check_exponent(self.exponent)?;
-        let (pitch, boss) = (self.pitch_radius_m, self.boss_radius_m);
-        if !(clamp_m < pitch && pitch < free_m) {
-            return Err(refused(
-                "pitch_radius_m",
-                format!("{pitch} m"),
-                format!("between {clamp_m} and {free_m} m"),
-            ));
-        }
-        let greatest = self.greatest_radius_m(clamp_m, free_m);
-        if !(0.0 < boss && boss <= greatest * (1.0 + 1e-12)) {
-            return Err(refused(
-                "boss_radius_m",
-                format!("{boss} m"),
-                format!(
-                    "above 0 and at most {greatest:.6} m, where a boss meets the clamp, the edge or its neighbour"
-                ),
-            ));
-        }
-        if !(0.0 <= self.hole_radius_m && self.hole_radius_m <= boss) {
-            return Err(refused(
-                "hole_radius_m",
-                format!("{} m", self.hole_radius_m),
-                format!("0 to the boss radius, {boss} m"),
-            ));
-        }
-        Ok(())
-    }
-
-    /// Radius (m) at which a boss at this pitch meets the clamp, the edge or its neighbour.
-    pub(super) fn greatest_radius_m(&self, clamp_m: f64, free_m: f64) -> f64 {
-        let pitch = self.pitch_radius_m;
-        let apart = match self.count {
-            1 => f64::INFINITY,
-            count => pitch * (PI / f64::from(count)).sin(),
-        };
-        (pitch - clamp_m).min(free_m - pitch).min(apart)
-    }
 }
 
 /// Where pressure acts. The angle counts from the middle of a boss.
@@ -292,30 +124,6 @@ impl PressureArea {
             }
             Self::Round(bosses) => bosses.check(clamp_m, free_m),
         }
-    }
-}
-
-fn check_count(count: u32) -> Result<(), PlateError> {
-    if (1..=MOST_BOSSES).contains(&count) {
-        return Ok(());
-    }
-    let allowed = format!("1 to {MOST_BOSSES}");
-    Err(refused("bosses", count.to_string(), allowed))
-}
-
-fn check_exponent(exponent: f64) -> Result<(), PlateError> {
-    if 0.0 < exponent && exponent <= LARGEST_EXPONENT {
-        return Ok(());
-    }
-    let allowed = format!("above 0 and at most {LARGEST_EXPONENT}");
-    Err(refused("decay_exponent", exponent.to_string(), allowed))
-}
-
-fn refused(key: &'static str, given: String, allowed: String) -> PlateError {
-    PlateError::Area {
-        key,
-        given,
-        allowed,
     }
 }
 

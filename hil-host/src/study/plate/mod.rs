@@ -11,16 +11,21 @@ mod bending;
 mod correction;
 mod error;
 mod harmonic;
+mod profile;
 mod quadrature;
+mod refusal;
+mod round_bosses;
 mod stack;
 mod stress;
 
-pub use area::{Bosses, PressureArea, Profile, RoundBosses};
+pub use area::{Bosses, PressureArea};
 pub use assumed::{Fit, WIDTHS, assumed_area, fits, is_ring, middle_ring};
 pub use bending::{Bending, Curvature, Resolution};
 pub use correction::{
     fitted_boss_radius_m, fitted_decay_width_m, fitted_full_radius_m, fitted_share,
 };
 pub use error::PlateError;
+pub use profile::Profile;
+pub use round_bosses::RoundBosses;
 pub use stack::{Stack, Stacking};
 pub use stress::{LargestStress, SurfaceStress};
