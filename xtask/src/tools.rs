@@ -50,6 +50,9 @@ pub const CHROMIUM: Tool = program("chromium", "chromium");
 /// What lets a test look and act in it.
 pub const CHROMEDRIVER: Tool = program("chromedriver", "chromium-driver");
 
+/// Finite elements of others, beside which shim packs are solved.
+pub const CALCULIX: Tool = program("ccx", "calculix-ccx");
+
 /// What the example client of the link is written for.
 pub const PYTHON: Tool = program("python3", "python3");
 
@@ -65,7 +68,7 @@ pub const SBATCH: Tool = program("sbatch", "slurm-wlm");
 pub const PARALLEL: Tool = program("parallel", "parallel");
 
 /// What tests need.
-pub const TOOLS: [Tool; 15] = [
+pub const TOOLS: [Tool; 16] = [
     GCC,
     GXX,
     VALGRIND,
@@ -80,6 +83,7 @@ pub const TOOLS: [Tool; 15] = [
     MAKE,
     CHROMIUM,
     CHROMEDRIVER,
+    CALCULIX,
     PYTHON,
 ];
 

@@ -19,6 +19,7 @@ use crate::report::DrawError;
 use crate::study::StudyError;
 use crate::study::bench_test::{HIGHEST_FREQUENCY_HZ, LARGEST_AMPLITUDE_M};
 use crate::study::calibration::CalibrationError;
+use crate::study::plate::PlateError;
 use crate::study::vehicle::VehicleStudyError;
 use crate::target::export::ExportError;
 use crate::target::pil::{EmulatorError, LinkError, SessionError};
@@ -215,6 +216,20 @@ impl From<CalibrationError> for Failure {
             | CalibrationError::Bounds { .. }
             | CalibrationError::Start { .. }
             | CalibrationError::Twice { .. } => Self::wrong_use(format!("--vary {error}")),
+            _ => Self::new(error.to_string()),
+        }
+    }
+}
+
+impl From<PlateError> for Failure {
+    fn from(error: PlateError) -> Self {
+        match error {
+            PlateError::Stack(error) => error.into(),
+            // The options are called as the numbers of an area are.
+            PlateError::Area { key, .. } => {
+                let option = key.replace('_', "-");
+                Self::wrong_use(format!("--{}", error.to_string().replacen(key, &option, 1)))
+            }
             _ => Self::new(error.to_string()),
         }
     }

@@ -1,10 +1,11 @@
-//! Studies of a damper: replay of a recording, bench test, verification against the reference; of a vehicle on a track.
+//! Studies of a damper: replay of a recording, bench test, verification against the reference; of its shim packs as plates; of a vehicle on a track.
 
 pub mod accuracy_limits;
 pub mod bench_test;
 pub mod calibration;
 mod error;
 pub mod excitation;
+pub mod plate;
 pub mod published;
 pub mod replay;
 pub mod response;

@@ -17,6 +17,7 @@ mod replay;
 mod rig;
 mod rig_report;
 mod shims;
+mod shims_plates;
 mod standard_streams;
 mod step_size;
 mod sweep;

@@ -147,6 +147,108 @@ fn recordings() {
 }
 
 #[test]
+fn shims_as_plates() {
+    let shims = ["shims", "--fe"];
+    for (options, part) in [
+        (
+            &["--pressure-pa", "0"][..],
+            "allowed: above 0 and at most 1e12 Pa",
+        ),
+        (&["--pressure-pa", "1e6,nan"], "allowed: above 0"),
+        (&["--allowable-stress-pa", "-1"], "allowed: above 0"),
+        (&["--loaded-radii-m", "0.02,0.025"], "--valve"),
+        (&["--valve", "piston"], "possible values: piston-extension"),
+    ] {
+        wrong_use(&shims, options, part);
+    }
+    wrong_use(&["shims"], &["--bonded"], "--fe");
+    let valve = ["shims", "--fe", "--valve", "piston-extension"];
+    for (options, part) in [
+        (
+            &["--loaded-radii-m", "0.02"][..],
+            "allowed: two radii in m with a comma between",
+        ),
+        (
+            &["--loaded-radii-m", "0.025,0.02"],
+            "--loaded-radii-m: 0.025 to 0.02 m, allowed: rising, within the free part of the disc, 0.016 to 0.029 m",
+        ),
+        (&["--loaded-radii-m", "0.01,0.02"], "0.016 to 0.029 m"),
+        (&["--loaded-radii-m", "nan,0.02"], "--loaded-radii-m: NaN"),
+        (
+            &[
+                "--loaded-radii-m",
+                "0.02,0.025",
+                "--decay-radii-m",
+                "0.021,0.029",
+            ],
+            "--decay-radii-m: 0.021 to 0.029 m, allowed: around the loaded radii",
+        ),
+        (&["--decay-radii-m", "0.02,0.03"], "--loaded-radii-m"),
+        (
+            &["--loaded-radii-m", "0.02,0.025", "--decay-exponent", "0"],
+            "--decay-exponent: 0, allowed: above 0 and at most 10",
+        ),
+        (&["--decay-exponent", "2"], "--decay-exponent goes with"),
+        (&["--bosses", "6"], "--bosses goes with --boss-share, or"),
+        (
+            &["--bosses", "37", "--boss-share", "0.5"],
+            "--bosses: 37, allowed: 1 to 36",
+        ),
+        (
+            &["--bosses", "0", "--boss-share", "0.5"],
+            "--bosses: 0, allowed",
+        ),
+        (&["--bosses", "-1", "--boss-share", "0.5"], "--bosses"),
+        (
+            &["--bosses", "6", "--boss-share", "1.5"],
+            "--boss-share: 1.5, allowed: above 0 and at most 1",
+        ),
+        (&["--boss-share", "0.5"], "--bosses"),
+        (
+            &["--bosses", "6", "--boss-radius-m", "0.005"],
+            "--pitch-radius-m",
+        ),
+        (
+            &[
+                "--bosses",
+                "6",
+                "--boss-radius-m",
+                "0.007",
+                "--pitch-radius-m",
+                "0.0225",
+            ],
+            "--boss-radius-m: 0.007 m, allowed: above 0 and at most 0.006500 m",
+        ),
+        (
+            &[
+                "--bosses",
+                "6",
+                "--boss-radius-m",
+                "0.001",
+                "--pitch-radius-m",
+                "0.016",
+            ],
+            "--pitch-radius-m: 0.016 m, allowed: between 0.016 and 0.029 m",
+        ),
+        (
+            &[
+                "--bosses",
+                "6",
+                "--boss-radius-m",
+                "0.005",
+                "--pitch-radius-m",
+                "0.0225",
+                "--hole-radius-m",
+                "0.006",
+            ],
+            "--hole-radius-m: 0.006 m, allowed: 0 to the boss radius, 0.005 m",
+        ),
+    ] {
+        wrong_use(&valve, options, part);
+    }
+}
+
+#[test]
 fn verify_and_pil() {
     for value in ["0", "-1", "nan", "inf", "small"] {
         wrong_use(&VERIFY, &["--at-most", value], "allowed: a number above 0");

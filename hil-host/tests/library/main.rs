@@ -4,6 +4,7 @@ mod calibration;
 mod case_file;
 mod damper_response;
 mod pacing;
+mod plate;
 mod profile_file;
 mod recording_header;
 mod recording_text;

@@ -9,7 +9,7 @@ use crate::report::page::{Figure, document, figure, footer, panel, tiles};
 use crate::report::plot::curves::Curve;
 use crate::report::plot::loops;
 use crate::report::plot::style::{AMBER_LINE, BLUE_LINE, FINE, INK, PALE, RED_LINE};
-use crate::study::calibration::{Calibrated, Calibration, LoopFit, LoopTest, RISE_95};
+use crate::study::calibration::{Calibrated, Calibration, LoopFit, LoopTest, Profile, RISE_95};
 
 /// Height of a panel (pixels).
 const HEIGHT: u32 = 300;
@@ -109,19 +109,36 @@ fn notes(report: &Report) -> Markup {
 
 /// How the sum of squares rises about each number.
 fn profiles(report: &Report, found: &Calibrated) -> Result<Markup, DrawError> {
-    let of = |(number, profile): (&Number, &crate::study::calibration::Profile)| {
+    let of = |(number, profile): (&Number, &Profile)| {
+        let centre = number.found;
+        // In percent where that is a number, so that the ticks can be read.
+        let (scale, unit) = match centre {
+            0.0 => (1.0, String::new()),
+            _ => (100.0 / centre.abs(), ", % from the one found".to_owned()),
+        };
+        let shown = |value: f64| (value - centre) * scale;
         let points = profile
             .points
             .iter()
-            .filter(|(_, rise)| *rise <= 4.0 * RISE_95);
-        let points: Vec<(f64, f64)> = points.copied().collect();
-        let ends = [points.first(), points.last()].into_iter().flatten();
-        let limit: Vec<(f64, f64)> = ends.map(|(value, _)| (*value, RISE_95)).collect();
+            .filter(|(_, rise)| *rise <= 2.0 * RISE_95);
+        let points: Vec<(f64, f64)> = points.map(|(value, rise)| (shown(*value), *rise)).collect();
+        // Near the minimum the rise is a parabola on either side.
+        let side = |end: Option<&(f64, f64)>| {
+            let (end, rise) = end.copied().unwrap_or((0.0, 0.0));
+            (0..=20).map(move |part| {
+                let fraction = f64::from(part) / 20.0;
+                (end * fraction, rise * fraction * fraction)
+            })
+        };
+        let (first, last) = (side(points.first()), side(points.last()));
+        let limit = [points.first(), points.last()].into_iter().flatten();
+        let limit: Vec<(f64, f64)> = limit.map(|(value, _)| (*value, RISE_95)).collect();
         let mut panel = panel(
-            &number.key,
+            &format!("{}{unit}", number.key),
             "rise of chi-square",
             vec![
-                Curve::new("", BLUE_LINE, points),
+                Curve::new("", BLUE_LINE, first.rev().chain(last).collect::<Vec<_>>()),
+                Curve::new("", BLUE_LINE, points).dotted(),
                 Curve::new("95 %", PALE, limit).dashed(),
             ],
         );

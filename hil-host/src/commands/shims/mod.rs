@@ -1,5 +1,6 @@
 //! `dashpot shims`: the shim packs of a damper, theory beside published and used.
 
+mod fe;
 mod plots;
 mod report;
 
@@ -7,18 +8,23 @@ use std::path::PathBuf;
 
 use dashpot_core::characteristic::Characteristic;
 use dashpot_core::parameters::Element;
+use fe::{PlateArguments, PlateReport};
 use report::{Report, ValveReport, print, valve_report};
 
 use super::{DamperArguments, Format, print_report};
 use crate::commands::failure::{Failure, Outcome};
 use crate::files::damper;
+use crate::files::output::write_folder;
 use crate::study::shim_valves::{VALVE_LOCATIONS, erratum};
 
 /// Shim packs: Cw over radius, equivalent thickness, lift under pressure by theory, as published and as used, flow.
 #[derive(Debug, Clone, clap::Args)]
 #[command(after_help = "Examples:
   dashpot shims --damper paper
-  dashpot shims --damper in-service --plots shims --format json")]
+  dashpot shims --damper in-service --plots shims --format json
+  dashpot shims --fe --pressure-pa 1e6,5e6 --allowable-stress-pa 8e8
+  dashpot shims --fe --valve piston-extension --bosses 6 --boss-share 0.4 --loaded-radii-m 0.019,0.026
+  dashpot shims --fe --valve foot-compression --loaded-radii-m 0.005,0.0104 --decay-radii-m 0.005,0.011")]
 pub struct ShimsArguments {
     /// The damper.
     #[command(flatten)]
@@ -32,6 +38,9 @@ pub struct ShimsArguments {
     /// How results are printed.
     #[arg(long, value_enum, default_value_t = Format::Text)]
     pub format: Format,
+    /// The shims as plates.
+    #[command(flatten)]
+    pub plates: PlateArguments,
 }
 
 /// Prints the shim packs of a damper and draws them.
@@ -55,11 +64,25 @@ pub fn run(arguments: &ShimsArguments) -> Outcome<()> {
         .iter()
         .map(|location| valve_report(location, hydraulics, paper, &characteristic))
         .collect::<Outcome<_>>()?;
+    let solved = if arguments.plates.fe {
+        fe::solve(&arguments.plates, &parameters, hydraulics)?
+    } else {
+        Vec::new()
+    };
+    let plates = if solved.is_empty() {
+        None
+    } else {
+        Some(PlateReport::new(&arguments.plates, &solved)?)
+    };
     let plots = if arguments.no_plots {
         Vec::new()
     } else {
-        plots::draw(&arguments.plots, hydraulics, &valves, &characteristic)?
+        let mut drawings = plots::draw(hydraulics, &valves, &characteristic)?;
+        if !solved.is_empty() {
+            drawings.extend(fe::draw(&solved)?);
+        }
+        write_folder(&arguments.plots, &drawings)?
     };
-    let report = Report::new(name, valves, &erratum(paper)?, plots);
+    let report = Report::new(name, valves, &erratum(paper)?, plates, plots);
     print_report(arguments.format, &report, print)
 }

@@ -1,14 +1,11 @@
 //! Drawings of `dashpot shims`: edge lift over pressure, deflection over radius, flow over pressure.
 
-use std::path::Path;
-
 use dashpot_core::characteristic::Characteristic;
 use dashpot_core::parameters::Hydraulics;
 use plotters::prelude::SeriesLabelPosition;
 
 use super::report::{ValveReport, radii};
 use crate::commands::failure::Outcome;
-use crate::files::output::write_folder;
 use crate::report::plot::curves::{Curve, ramp};
 use crate::report::plot::sheet::{Layout, Panel, Scale, sheet};
 use crate::report::plot::style::{BLUE_LINE, GREEN_LINE, RED_LINE};
@@ -23,13 +20,12 @@ fn pressures_mpa(tables_end_pa: f64, preload_pa: f64) -> impl Iterator<Item = f6
     (0..=STEPS).map(move |i| end_mpa * f64::from(i) / f64::from(STEPS))
 }
 
-/// Writes the plots into `folder`; returns their paths.
+/// Name and text of each drawing.
 pub(super) fn draw(
-    folder: &Path,
     hydraulics: &Hydraulics,
     valves: &[ValveReport],
     characteristic: &Characteristic,
-) -> Outcome<Vec<String>> {
+) -> Outcome<Vec<(&'static str, String)>> {
     let pressures_pa = valves.iter().flat_map(|valve| &valve.pressures);
     let tables_end_pa = pressures_pa.fold(0.0, |end: f64, row| end.max(row.pressure_pa));
     let mut lifts = Vec::new();
@@ -51,7 +47,7 @@ pub(super) fn draw(
             drawings.push((name, sheet(layout, &panels)?));
         }
     }
-    Ok(write_folder(folder, &drawings)?)
+    Ok(drawings)
 }
 
 /// Edge lift over pressure: the disc theory, the published table and what the damper works with.
@@ -176,7 +172,7 @@ fn flow(
 }
 
 /// `name` with a capital first letter.
-fn capital(name: &str) -> String {
+pub(super) fn capital(name: &str) -> String {
     let mut letters = name.chars();
     letters.next().map_or_else(String::new, |first| {
         first.to_uppercase().chain(letters).collect()

@@ -7,6 +7,7 @@ use dashpot_core::parameters::{Hydraulics, Valve};
 use dashpot_core::shim::{Pack, edge_compliance_m_per_pa};
 use serde::Serialize;
 
+use super::fe::{self, PlateReport};
 use crate::commands::failure::Outcome;
 use crate::study::published::Deflection;
 use crate::study::shim_valves::{ValveLocation, theory_over_published};
@@ -81,6 +82,9 @@ pub(super) struct Report<'a> {
     damper: &'a str,
     valves: Vec<ValveReport>,
     erratum: String,
+    /// With `--fe`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    plates: Option<PlateReport>,
     plots: Vec<String>,
 }
 
@@ -90,6 +94,7 @@ impl<'a> Report<'a> {
         damper: &'a str,
         valves: Vec<ValveReport>,
         erratum: &str,
+        plates: Option<PlateReport>,
         plots: Vec<String>,
     ) -> Self {
         Self {
@@ -99,6 +104,7 @@ impl<'a> Report<'a> {
                 "{erratum} A damper file may give the edge compliance instead of the pack; the preset \
                  `paper` gives the tabulated ones."
             ),
+            plates,
             plots,
         }
     }
@@ -189,6 +195,9 @@ pub(super) fn print(out: &mut dyn Write, report: &Report<'_>) -> io::Result<()> 
         .any(|valve| valve.theory_over_published.is_some())
     {
         writeln!(out, "\nerratum: {}", report.erratum)?;
+    }
+    if let Some(plates) = &report.plates {
+        fe::print(out, plates)?;
     }
     if !report.plots.is_empty() {
         writeln!(out, "\nplots: {}", report.plots.join(", "))?;

@@ -3,5 +3,6 @@
 pub(crate) mod curves;
 pub(crate) mod envelope;
 pub(crate) mod loops;
+pub(crate) mod map;
 pub(crate) mod sheet;
 pub(crate) mod style;

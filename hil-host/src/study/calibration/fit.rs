@@ -2,8 +2,8 @@
 
 use fastrand::Rng;
 use levenberg_marquardt::{LeastSquaresProblem, LevenbergMarquardt};
-use nalgebra::storage::Owned;
-use nalgebra::{DMatrix, DVector, Dyn};
+use levenberg_marquardt_nalgebra::storage::Owned;
+use levenberg_marquardt_nalgebra::{DMatrix, DVector, Dyn};
 
 use super::model::Model;
 use super::varied::{angle_of, place_of, place_slope};
@@ -59,10 +59,16 @@ impl LeastSquaresProblem<f64, Dyn, Dyn> for Search<'_> {
     }
 
     fn jacobian(&self) -> Option<DMatrix<f64>> {
-        let slopes = self.model.slopes(&self.places, self.free).ok()?;
+        let of_tests = self.model.slopes(&self.places, self.free).ok()?;
         let priors: Vec<_> = self.model.from_priors(&self.places).collect();
-        let rows = slopes.nrows();
-        let mut slopes = slopes.resize_vertically(rows + priors.len(), 0.0);
+        let rows = of_tests.nrows();
+        let mut slopes = DMatrix::zeros(rows + priors.len(), of_tests.ncols());
+        for (mut column, of_tests) in slopes.column_iter_mut().zip(of_tests.column_iter()) {
+            column
+                .iter_mut()
+                .zip(of_tests.iter())
+                .for_each(|(slope, of_tests)| *slope = *of_tests);
+        }
         for (row, (number, _, slope)) in priors.into_iter().enumerate() {
             if let Some(column) = self.free.iter().position(|free| *free == number) {
                 slopes[(rows + row, column)] = slope;

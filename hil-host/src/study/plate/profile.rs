@@ -1,0 +1,66 @@
+//! Pressure over the radius.
+
+use serde::Serialize;
+
+use super::PlateError;
+use super::refusal::{check_exponent, refused};
+
+/// Share of the full pressure over the radius: 1 from `full_m[0]` to `full_m[1]`, falling to nothing at `ends_m`,
+/// `((r - end)/(full - end))^n`.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Profile {
+    /// Radii between which the pressure is full (m).
+    pub full_m: [f64; 2],
+    /// Radii at which the pressure has decayed to nothing (m); those of `full_m` for none.
+    pub ends_m: [f64; 2],
+    /// Exponent n of the decay (1): 1 linear, 2 quadratic.
+    pub exponent: f64,
+}
+
+impl Profile {
+    /// Full pressure between two radii (m), none outside.
+    pub fn full(inner_m: f64, outer_m: f64) -> Self {
+        let radii = [inner_m, outer_m];
+        Self {
+            full_m: radii,
+            ends_m: radii,
+            exponent: 2.0,
+        }
+    }
+
+    /// Share of the full pressure at a radius.
+    pub fn at(&self, radius_m: f64) -> f64 {
+        let ([inner, outer], [start, end]) = (self.full_m, self.ends_m);
+        if (inner..=outer).contains(&radius_m) {
+            1.0
+        } else if start < radius_m && radius_m < inner {
+            ((radius_m - start) / (inner - start)).powf(self.exponent)
+        } else if outer < radius_m && radius_m < end {
+            ((end - radius_m) / (end - outer)).powf(self.exponent)
+        } else {
+            0.0
+        }
+    }
+
+    pub(super) fn check(&self, clamp_m: f64, free_m: f64) -> Result<(), PlateError> {
+        let ([inner, outer], [start, end]) = (self.full_m, self.ends_m);
+        let listed = |radii: [f64; 2]| format!("{} to {} m", radii[0], radii[1]);
+        // Radii as written: a file's 0.029 is the free radius, whatever its last bit became in arithmetic.
+        let (clamp, free) = (clamp_m * (1.0 - 1e-12), free_m * (1.0 + 1e-12));
+        if !(clamp <= inner && inner < outer && outer <= free) {
+            return Err(refused(
+                "loaded_radii_m",
+                listed(self.full_m),
+                format!("rising, within the free part of the disc, {clamp_m} to {free_m} m"),
+            ));
+        }
+        if !(clamp <= start && start <= inner && outer <= end && end <= free) {
+            return Err(refused(
+                "decay_radii_m",
+                listed(self.ends_m),
+                format!("around the loaded radii, within {clamp_m} to {free_m} m"),
+            ));
+        }
+        check_exponent(self.exponent)
+    }
+}

@@ -1,0 +1,116 @@
+//! The discs of a valve as one plate.
+
+use dashpot_core::parameters::Valve;
+use dashpot_core::shim::{Disc, Pack};
+use serde::Serialize;
+
+use super::PlateError;
+
+/// How the discs of a stack hold together.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Stacking {
+    /// They slide on each other without friction: stiffnesses add up, `h_e^3 = sum h_i^3`.
+    #[default]
+    Sliding,
+    /// They are one: thicknesses add up.
+    Bonded,
+}
+
+/// A stack of discs clamped at one radius and free at another.
+#[derive(Clone, Debug)]
+pub struct Stack {
+    pub(super) disc: Disc,
+    discs_m: Vec<f64>,
+    stacking: Stacking,
+    pub(super) elastic_modulus_pa: f64,
+    pub(super) poisson_ratio: f64,
+}
+
+impl Stack {
+    /// The shims of a valve; `section` names the valve in errors.
+    ///
+    /// # Errors
+    /// As [`Pack::new`]: a disc that cannot be, or no shim.
+    pub fn new(
+        section: &'static str,
+        valve: &Valve,
+        stacking: Stacking,
+    ) -> Result<Self, PlateError> {
+        let pack = Pack::new(section, valve)?;
+        Ok(Self {
+            disc: *pack.disc(),
+            discs_m: valve.shims_m.to_vec(),
+            stacking,
+            elastic_modulus_pa: valve.elastic_modulus_pa,
+            poisson_ratio: valve.poisson_ratio,
+        })
+    }
+
+    /// Clamping radius (m).
+    pub fn clamp_radius_m(&self) -> f64 {
+        self.disc.clamp_radius_m()
+    }
+
+    /// Free radius (m).
+    pub fn free_radius_m(&self) -> f64 {
+        self.disc.free_radius_m()
+    }
+
+    /// Whether the discs slide or are one.
+    pub fn stacking(&self) -> Stacking {
+        self.stacking
+    }
+
+    /// Thickness (m) of the disc of the same bending stiffness.
+    pub fn equivalent_thickness_m(&self) -> f64 {
+        match self.stacking {
+            Stacking::Sliding => self.discs_m.iter().map(|h| h * h * h).sum::<f64>().cbrt(),
+            Stacking::Bonded => self.discs_m.iter().sum(),
+        }
+    }
+
+    /// Bending stiffness `D = E h_e^3/(12 (1 - nu^2))` (N m).
+    pub fn bending_stiffness_n_m(&self) -> f64 {
+        let nu = self.poisson_ratio;
+        self.elastic_modulus_pa * self.equivalent_thickness_m().powi(3) / (12.0 * (1.0 - nu * nu))
+    }
+
+    /// Thickness (m) over which bending stress is spread: of the thickest disc, whose surface is the farthest from its
+    /// middle, or of the whole.
+    pub fn bent_thickness_m(&self) -> f64 {
+        match self.stacking {
+            Stacking::Sliding => self.discs_m.iter().copied().fold(0.0, f64::max),
+            Stacking::Bonded => self.equivalent_thickness_m(),
+        }
+    }
+
+    /// Thickness (m) that a deflection is to be small against: where the middle planes of discs stretch, their tension is
+    /// to the bending as `w^2 sum h` to `sum h^3`.
+    pub fn stretched_thickness_m(&self) -> f64 {
+        let whole: f64 = self.discs_m.iter().sum();
+        match self.stacking {
+            Stacking::Sliding => (self.equivalent_thickness_m().powi(3) / whole).sqrt(),
+            Stacking::Bonded => whole,
+        }
+    }
+
+    /// Numbers, from 1 at the first of the file, of the discs that have the largest stress.
+    pub fn most_stressed_discs(&self) -> Vec<usize> {
+        let thickest = self.bent_thickness_m();
+        let numbered = self.discs_m.iter().zip(1..);
+        match self.stacking {
+            Stacking::Sliding => numbered
+                .filter(|(h, _)| **h == thickest)
+                .map(|(_, number)| number)
+                .collect(),
+            Stacking::Bonded => [1, self.discs_m.len()].into(),
+        }
+    }
+
+    /// Edge lift per uniform pressure by the closed form, `Cw(r_w)/h_e^3` (m/Pa).
+    pub fn uniform_edge_lift_m_per_pa(&self) -> f64 {
+        self.disc.deflection_coefficient(self.free_radius_m())
+            / self.equivalent_thickness_m().powi(3)
+    }
+}

@@ -1,0 +1,39 @@
+//! Shim stacks as plates: against closed forms, against statics, and against CalculiX.
+
+mod axisymmetric;
+mod calculix;
+mod correction;
+mod harmonics;
+
+use dashpot_core::parameters::{Element, Valve};
+use dashpot_hil::files::damper;
+use dashpot_hil::study::plate::{Stack, Stacking};
+
+/// Radii of the paper's discs: those of the piston and those of the foot (m).
+const RADII_M: [(f64, f64); 2] = [(16e-3, 29e-3), (5e-3, 11e-3)];
+
+/// A stack of steel, E 2e11 Pa and nu 0.3, that slides.
+fn stack(clamp_m: f64, free_m: f64, discs_m: &[f64]) -> Stack {
+    stack_of(clamp_m, free_m, discs_m, Stacking::Sliding)
+}
+
+fn stack_of(clamp_m: f64, free_m: f64, discs_m: &[f64], stacking: Stacking) -> Stack {
+    let discs = discs_m.iter().copied().collect();
+    let valve = Valve::with_shims(clamp_m, free_m, discs, 0.61);
+    Stack::new("valve", &valve, stacking).unwrap()
+}
+
+/// The three valves of the paper: piston extension, piston compression, foot.
+fn of_the_paper() -> [Stack; 3] {
+    let parameters = damper::load("paper", &[]).unwrap();
+    let Element::Physical(hydraulics) = &parameters.element else {
+        panic!("no valves")
+    };
+    let valves = &hydraulics.valves;
+    [
+        &valves.piston_extension,
+        &valves.piston_compression,
+        &valves.foot_compression,
+    ]
+    .map(|valve| Stack::new("valve", valve, Stacking::Sliding).unwrap())
+}
