@@ -1,0 +1,392 @@
+//! The estimator: a tick takes a sample of displacement and force; samples are gathered to blocks, and the filter's
+//! work on a block is spread over the ticks of the next one, so that no tick is much dearer than another.
+
+use super::filter::{Filter, Prepared, STATES};
+use super::model::HealthModel;
+use super::reading::{Estimate, HealthReading, HealthStatus};
+
+/// Variance (m^2) of a position of which nothing is known.
+const UNKNOWN: f32 = 1.0;
+/// Innovations beyond this many times their standard deviation, squared, are left out.
+const OUTLIER: f32 = 900.0;
+/// Blocks left out one after the other before the estimate begins anew.
+const MOST_OUTLIERS: u16 = 25;
+/// Blocks over which the innovations' variance is averaged, inverted.
+const SCALE_RATE: f32 = 1.0 / 256.0;
+/// Share of a block's information, in its forgetting, below which nothing is forgotten.
+const LEAST_TOLD: f32 = 0.25;
+/// Part of an alarm's limit within which a parameter must be known, else there is little excitation.
+const KNOWN: f32 = 0.5;
+
+/// What changes from tick to tick of one damper under watch; plain data, saved and restored by copying.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C)]
+pub struct Health {
+    gathered: Gathered,
+    stage: Stage,
+    block: Block,
+    prepared: Prepared,
+    filter: Filter,
+    /// Mean of the squared innovation over its variance.
+    scale: f32,
+    outliers: u16,
+    status: HealthStatus,
+    samples: u32,
+    rejected: u32,
+}
+
+/// What is left to be done for the last block.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(u32)]
+enum Stage {
+    Predict,
+    Update,
+    Watch,
+    Done,
+}
+
+/// Sums over the samples of a block so far.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C)]
+struct Gathered {
+    /// Displacement of the last sample (m).
+    displacement: f32,
+    /// Nominal velocity at the last sample (m/s).
+    velocity: f32,
+    /// Nominal travel since the block before (m).
+    travel: f32,
+    travels: f32,
+    positions: f32,
+    forces: f32,
+    /// Forces times their ticks off the centre (N).
+    moment: f32,
+    slopes: f32,
+    lowest: f32,
+    highest: f32,
+    /// Tick of the next sample off the centre.
+    offset: f32,
+    ticks_left: u32,
+}
+
+/// A block of samples as one measurement.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C)]
+struct Block {
+    travel: f32,
+    travels: f32,
+    positions: f32,
+    forces: f32,
+    moment: f32,
+    slopes: f32,
+    lowest: f32,
+    highest: f32,
+}
+
+impl Gathered {
+    /// Begins a block; last displacement and velocity stay.
+    #[inline(always)]
+    fn begin(&mut self, model: &HealthModel) {
+        self.travel = 0.0;
+        self.travels = 0.0;
+        self.positions = 0.0;
+        self.forces = 0.0;
+        self.moment = 0.0;
+        self.slopes = 0.0;
+        self.lowest = f32::MAX;
+        self.highest = -f32::MAX;
+        self.offset = -model.block_centre;
+        self.ticks_left = model.block_ticks;
+    }
+}
+
+impl Health {
+    /// Before the first sample.
+    pub fn new(model: &HealthModel) -> Self {
+        let mut gathered = Gathered {
+            displacement: f32::NAN,
+            velocity: 0.0,
+            travel: 0.0,
+            travels: 0.0,
+            positions: 0.0,
+            forces: 0.0,
+            moment: 0.0,
+            slopes: 0.0,
+            lowest: 0.0,
+            highest: 0.0,
+            offset: 0.0,
+            ticks_left: 0,
+        };
+        gathered.begin(model);
+        Self {
+            gathered,
+            stage: Stage::Done,
+            block: Block {
+                travel: 0.0,
+                travels: 0.0,
+                positions: 0.0,
+                forces: 0.0,
+                moment: 0.0,
+                slopes: 0.0,
+                lowest: 0.0,
+                highest: 0.0,
+            },
+            prepared: Prepared::default(),
+            filter: Self::start(model),
+            scale: 1.0,
+            outliers: 0,
+            status: HealthStatus::empty(),
+            samples: 0,
+            rejected: 0,
+        }
+    }
+
+    fn start(model: &HealthModel) -> Filter {
+        let [flow, compliance, half, lag] = model.start;
+        let [d1, d2, d3, d4] = model.start_variance;
+        Filter::new(
+            [0.0, flow, compliance, half, lag],
+            [UNKNOWN, d1, d2, d3, d4],
+        )
+    }
+
+    /// Takes the sample of a tick: measured displacement (m), positive in extension, and force (N), positive when it
+    /// resists extension. Never fails: a sample that is not finite or not credible is left out and counted.
+    #[inline]
+    pub fn tick(&mut self, model: &HealthModel, displacement: f32, force: f32) {
+        let gathered = &mut self.gathered;
+        let credible = (displacement - gathered.displacement).abs() <= model.largest_move_m
+            && force.abs() <= model.largest_force_n;
+        if credible {
+            let piece = model.piece(force);
+            let magnitude = force.abs();
+            let velocity = (piece.velocity + piece.velocity_slope * magnitude).copysign(force);
+            let oil = (piece.oil + piece.oil_slope * magnitude).copysign(force);
+            gathered.displacement = displacement;
+            gathered.travel += model.half_step_s * (velocity + gathered.velocity);
+            gathered.velocity = velocity;
+            gathered.travels += gathered.travel;
+            gathered.positions += displacement - oil;
+            gathered.forces += force;
+            gathered.moment += gathered.offset * force;
+            gathered.slopes += piece.velocity_slope;
+            gathered.lowest = if force < gathered.lowest {
+                force
+            } else {
+                gathered.lowest
+            };
+            gathered.highest = if force > gathered.highest {
+                force
+            } else {
+                gathered.highest
+            };
+            gathered.offset += 1.0;
+        } else {
+            self.reject(displacement, model);
+        }
+        self.gathered.ticks_left = self.gathered.ticks_left.wrapping_sub(1);
+        if self.gathered.ticks_left == 0 {
+            self.end_block(model);
+            return;
+        }
+        match self.stage {
+            Stage::Predict => self.predict(model),
+            Stage::Update => self.update(model),
+            Stage::Watch => self.watch(model),
+            Stage::Done => {}
+        }
+    }
+
+    /// Leaves a sample out; its block measures nothing.
+    #[cold]
+    #[inline(never)]
+    fn reject(&mut self, displacement: f32, model: &HealthModel) {
+        let gathered = &mut self.gathered;
+        let first = gathered.displacement.is_nan();
+        gathered.travel += 2.0 * model.half_step_s * gathered.velocity;
+        gathered.lowest = -f32::MAX;
+        gathered.highest = f32::MAX;
+        if displacement.is_finite() && displacement.abs() <= 1e3 {
+            gathered.displacement = displacement;
+        }
+        if !first {
+            self.status |= HealthStatus::INPUT_REJECTED;
+            self.rejected = self.rejected.saturating_add(1);
+        }
+    }
+
+    #[inline(always)]
+    fn end_block(&mut self, model: &HealthModel) {
+        let gathered = &self.gathered;
+        self.block = Block {
+            travel: gathered.travel,
+            travels: gathered.travels,
+            positions: gathered.positions,
+            forces: gathered.forces,
+            moment: gathered.moment,
+            slopes: gathered.slopes,
+            lowest: gathered.lowest,
+            highest: gathered.highest,
+        };
+        self.stage = Stage::Predict;
+        self.gathered.begin(model);
+    }
+
+    /// Moves the position over the block and prepares its measurement, where it is one.
+    #[inline(always)]
+    fn predict(&mut self, model: &HealthModel) {
+        let block = &self.block;
+        let slope = block.slopes * model.per_block;
+        let variance = model.force_travel_variance * (slope * slope)
+            + model.law_variance * (block.travel * block.travel);
+        self.filter.travel(block.travel, variance);
+        self.stage = Stage::Watch;
+        if block.lowest < -model.yield_force_n || block.highest > model.yield_force_n {
+            self.filter.let_go(UNKNOWN);
+            return;
+        }
+        let sign = if block.lowest > model.contact_force_n {
+            1.0
+        } else if block.highest < -model.contact_force_n {
+            -1.0
+        } else {
+            return;
+        };
+        let mean_travel = block.travels * model.per_block;
+        let force = block.forces * model.per_block;
+        let rate = block.moment * model.rate_scale_per_s;
+        let step = model.half_step_s + model.half_step_s;
+        let [_, flow, compliance, _, _] = self.filter.state;
+        let velocity = flow * (block.travel * model.per_block / step) + compliance * rate;
+        let h = [mean_travel - block.travel, force, sign, velocity];
+        let position = block.positions * model.per_block;
+        self.prepared = self.filter.prepare(position, h, model.measured_variance);
+        self.stage = Stage::Update;
+    }
+
+    /// Takes the prepared measurement in.
+    #[inline(always)]
+    fn update(&mut self, model: &HealthModel) {
+        self.stage = Stage::Watch;
+        let prepared = self.prepared;
+        let ratio = prepared.innovation * prepared.innovation / prepared.variance;
+        if !(ratio < OUTLIER) {
+            self.left_out(model);
+            return;
+        }
+        self.outliers = 0;
+        self.samples = self.samples.saturating_add(model.block_ticks);
+        let ratio = if ratio < 9.0 { ratio } else { 9.0 };
+        self.scale += (ratio - self.scale) * SCALE_RATE;
+        let told = self.filter.told(&prepared);
+        self.filter.update(&prepared);
+        if told > LEAST_TOLD * (model.growth - 1.0) * prepared.variance {
+            for (place, most) in (1..STATES).zip(model.start_variance) {
+                let growth = if place + 1 < STATES {
+                    model.growth
+                } else {
+                    model.lag_growth
+                };
+                let grown = self.filter.diagonal[place] * growth;
+                self.filter.diagonal[place] = if grown < most { grown } else { most };
+            }
+        }
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn left_out(&mut self, model: &HealthModel) {
+        self.outliers += 1;
+        let damaged = !self.filter.state.iter().all(|number| number.is_finite())
+            || !self.prepared.variance.is_finite();
+        if damaged || self.outliers > MOST_OUTLIERS {
+            self.filter = Self::start(model);
+            self.outliers = 0;
+            self.scale = 1.0;
+            self.status |= HealthStatus::RESTARTED;
+        }
+    }
+
+    /// Compares the estimate with the baseline.
+    #[inline(always)]
+    fn watch(&mut self, model: &HealthModel) {
+        self.stage = Stage::Done;
+        let (baseline, limits) = (&model.baseline, &model.limits);
+        let [_, flow, compliance, half, _] = self.filter.state;
+        let scale = self.scale();
+        let deviations = limits.deviations * limits.deviations;
+        let (mut little, mut alarms) = (false, HealthStatus::empty());
+        let mut compare = |bit: HealthStatus, change: f32, limit: f32, variance: f32, sd: f32| {
+            let square = limit * limit;
+            little |= variance > (KNOWN * KNOWN) * square;
+            let differs = change * change > deviations * (variance + sd * sd);
+            if change * change > square && differs {
+                alarms |= bit;
+            }
+        };
+        compare(
+            HealthStatus::FLOW,
+            flow - baseline.flow_factor,
+            limits.flow_factor,
+            scale * self.filter.variance(1),
+            baseline.flow_factor_sd,
+        );
+        compare(
+            HealthStatus::STIFFNESS,
+            compliance - baseline.compliance_m_per_n,
+            limits.compliance * baseline.compliance_m_per_n,
+            scale * self.filter.variance(2),
+            baseline.compliance_sd_m_per_n,
+        );
+        compare(
+            HealthStatus::CLEARANCE,
+            (half + half) - baseline.clearance_m,
+            limits.clearance_m,
+            4.0 * scale * self.filter.variance(3),
+            baseline.clearance_sd_m,
+        );
+        self.status |= alarms;
+        self.status.set(HealthStatus::LITTLE_EXCITATION, little);
+    }
+
+    /// By what variances are multiplied: more than 1 where the samples scatter more than the model says.
+    #[inline(always)]
+    fn scale(&self) -> f32 {
+        if self.scale > 1.0 { self.scale } else { 1.0 }
+    }
+
+    /// What is known now. Square roots and divisions: not for every tick.
+    pub fn reading(&self, model: &HealthModel) -> HealthReading {
+        let [_, flow, compliance, half, lag] = self.filter.state;
+        let sd = |row| libm::sqrtf(self.filter.variance(row) * self.scale());
+        // A compliance within its noise of none is a stiffness without bound.
+        let least = 1e-3 * model.start[1];
+        let bounded = if compliance > least {
+            compliance
+        } else {
+            least
+        };
+        let stiffness = 1.0 / bounded;
+        let estimate = |value, sd| Estimate { value, sd };
+        HealthReading {
+            flow_factor: estimate(flow, sd(1)),
+            stiffness_n_per_m: estimate(stiffness, sd(2) * stiffness * stiffness),
+            clearance_m: estimate(2.0 * half, 2.0 * sd(3)),
+            lag_s: estimate(lag, sd(4)),
+            compliance_m_per_n: estimate(compliance, sd(2)),
+            samples: self.samples,
+            rejected: self.rejected,
+            status: self.status,
+        }
+    }
+
+    /// Status bits.
+    pub fn status(&self) -> HealthStatus {
+        self.status
+    }
+
+    /// Clears the status bits and the count of rejected samples; alarms whose cause stays come back.
+    pub fn clear_status(&mut self) {
+        self.status = HealthStatus::empty();
+        self.rejected = 0;
+    }
+}
