@@ -156,6 +156,7 @@ impl CheckedParameters {
             law_variance: square(settings.law_deviation) / ticks as f32,
             growth: growth(settings.memory_s) as f32,
             lag_growth: growth(LAG_MEMORY * settings.memory_s) as f32,
+            alarm_blocks: (settings.memory_s / block_s) as u32,
             start: [
                 1.0,
                 compliance as f32,

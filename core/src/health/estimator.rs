@@ -29,6 +29,8 @@ pub struct Health {
     filter: Filter,
     /// Mean of the squared innovation over its variance.
     scale: f32,
+    /// Measured blocks in a row with each parameter beyond its limit.
+    beyond: [u32; 3],
     outliers: u16,
     status: HealthStatus,
     samples: u32,
@@ -42,6 +44,7 @@ enum Stage {
     Predict,
     Update,
     Watch,
+    WatchMeasured,
     Done,
 }
 
@@ -133,6 +136,7 @@ impl Health {
             prepared: Prepared::default(),
             filter: Self::start(model),
             scale: 1.0,
+            beyond: [0; 3],
             outliers: 0,
             status: HealthStatus::empty(),
             samples: 0,
@@ -191,7 +195,7 @@ impl Health {
         match self.stage {
             Stage::Predict => self.predict(model),
             Stage::Update => self.update(model),
-            Stage::Watch => self.watch(model),
+            Stage::Watch | Stage::WatchMeasured => self.watch(model),
             Stage::Done => {}
         }
     }
@@ -273,10 +277,12 @@ impl Health {
             self.left_out(model);
             return;
         }
+        self.stage = Stage::WatchMeasured;
         self.outliers = 0;
         self.samples = self.samples.saturating_add(model.block_ticks);
-        let ratio = if ratio < 9.0 { ratio } else { 9.0 };
-        self.scale += (ratio - self.scale) * SCALE_RATE;
+        let bounded = if ratio < 9.0 { ratio } else { 9.0 };
+        self.scale += (bounded - self.scale) * SCALE_RATE;
+        let surprise = if bounded > 1.0 { bounded } else { 1.0 };
         let told = self.filter.told(&prepared);
         self.filter.update(&prepared);
         if told > LEAST_TOLD * (model.growth - 1.0) * prepared.variance {
@@ -286,7 +292,7 @@ impl Health {
                 } else {
                     model.lag_growth
                 };
-                let grown = self.filter.diagonal[place] * growth;
+                let grown = self.filter.diagonal[place] * (1.0 + (growth - 1.0) * surprise);
                 self.filter.diagonal[place] = if grown < most { grown } else { most };
             }
         }
@@ -309,22 +315,36 @@ impl Health {
     /// Compares the estimate with the baseline.
     #[inline(always)]
     fn watch(&mut self, model: &HealthModel) {
+        let measured = u32::from(self.stage == Stage::WatchMeasured);
         self.stage = Stage::Done;
         let (baseline, limits) = (&model.baseline, &model.limits);
         let [_, flow, compliance, half, _] = self.filter.state;
         let scale = self.scale();
         let deviations = limits.deviations * limits.deviations;
         let (mut little, mut alarms) = (false, HealthStatus::empty());
-        let mut compare = |bit: HealthStatus, change: f32, limit: f32, variance: f32, sd: f32| {
+        let [flow_blocks, stiffness_blocks, clearance_blocks] = &mut self.beyond;
+        let mut compare = |bit: HealthStatus,
+                           blocks: &mut u32,
+                           change: f32,
+                           limit: f32,
+                           variance: f32,
+                           sd: f32| {
             let square = limit * limit;
             little |= variance > (KNOWN * KNOWN) * square;
             let differs = change * change > deviations * (variance + sd * sd);
-            if change * change > square && differs {
+            *blocks = if change * change > square && differs {
+                *blocks + measured
+            } else {
+                0
+            };
+            if *blocks > model.alarm_blocks {
+                *blocks = model.alarm_blocks;
                 alarms |= bit;
             }
         };
         compare(
             HealthStatus::FLOW,
+            flow_blocks,
             flow - baseline.flow_factor,
             limits.flow_factor,
             scale * self.filter.variance(1),
@@ -332,6 +352,7 @@ impl Health {
         );
         compare(
             HealthStatus::STIFFNESS,
+            stiffness_blocks,
             compliance - baseline.compliance_m_per_n,
             limits.compliance * baseline.compliance_m_per_n,
             scale * self.filter.variance(2),
@@ -339,6 +360,7 @@ impl Health {
         );
         compare(
             HealthStatus::CLEARANCE,
+            clearance_blocks,
             (half + half) - baseline.clearance_m,
             limits.clearance_m,
             4.0 * scale * self.filter.variance(3),

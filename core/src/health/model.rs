@@ -133,6 +133,8 @@ pub struct HealthModel {
     pub(crate) growth: f32,
     /// Growth of the lag's variance in a block (1).
     pub(crate) lag_growth: f32,
+    /// Measured blocks in a row beyond a limit that make an alarm.
+    pub(crate) alarm_blocks: u32,
     /// What an estimate begins with: flow factor, compliance, half clearance, lag.
     pub(crate) start: [f32; 4],
     /// The variances it begins with and never exceeds.
