@@ -19,11 +19,13 @@
 mod build;
 mod estimator;
 mod filter;
+mod image;
 mod model;
 mod reading;
 
 #[cfg(feature = "builder")]
 pub use build::HealthSettings;
 pub use estimator::Health;
+pub use image::HealthImageError;
 pub use model::{Baseline, BaselineError, HealthLimits, HealthModel};
 pub use reading::{Estimate, HealthReading, HealthStatus};

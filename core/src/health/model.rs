@@ -1,12 +1,14 @@
 //! What the estimator takes as known: the nominal laws of a damper, the noise of its sensors, its healthy state.
 
+use zerocopy::{FromBytes, Immutable, IntoBytes};
+
 /// Pieces of a side: four to an octave of force, the first from no force.
 pub(crate) const PIECES: usize = 64;
 /// Bits of a force below those that number a piece.
 pub(crate) const PIECE_SHIFT: u32 = 21;
 
 /// The laws over a piece of force magnitude (N), each a line `value + slope F`.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, FromBytes, Immutable, IntoBytes)]
 #[repr(C)]
 pub(crate) struct Piece {
     /// Velocity of the piston in the cylinder (m/s).
@@ -23,7 +25,7 @@ pub(crate) struct Piece {
 ///
 /// Plain numbers to be kept where the damper's other papers are: [`Health::reading`](super::Health::reading) of a run
 /// with the new damper gives one, [`HealthModel::set_baseline`] takes it.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, FromBytes, Immutable, IntoBytes)]
 #[repr(C)]
 pub struct Baseline {
     /// Flow over nominal flow at the same force (1).
@@ -41,7 +43,7 @@ pub struct Baseline {
 }
 
 /// How far an estimate may lie from the baseline before an alarm.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, FromBytes, Immutable, IntoBytes)]
 #[repr(C)]
 pub struct HealthLimits {
     /// Change of the flow factor either way (1).
@@ -100,7 +102,7 @@ pub struct BaselineError;
 /// # }
 /// # Ok::<(), dashpot_core::BuildError>(())
 /// ```
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, FromBytes, Immutable, IntoBytes)]
 #[repr(C)]
 pub struct HealthModel {
     /// Half the step (s).

@@ -4,6 +4,7 @@ pub mod accuracy_limits;
 pub mod bench_test;
 mod error;
 pub mod excitation;
+pub mod health;
 pub mod published;
 pub mod replay;
 pub mod response;
