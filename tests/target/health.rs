@@ -76,7 +76,7 @@ fn a_tick_keeps_its_bound_and_the_bits_of_this_machine() {
         let mean = instructions(number("sum") / samples.len() as f64);
         let (least, most) = (instructions(number("least")), instructions(number("most")));
         println!("{preset}: {least:.0} to {most:.0}, mean {mean:.1} instructions");
-        assert!(most.round() <= MOST_INSTRUCTIONS, "{preset}: {most}");
+        println!("{line}"); assert!(most.round() <= MOST_INSTRUCTIONS, "{preset}: {most}");
         let here = watch.run(&model, |health, model, [x, force]| {
             health.tick(model, *x, *force);
         });

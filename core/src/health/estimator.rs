@@ -29,6 +29,8 @@ pub struct Health {
     filter: Filter,
     /// Mean of the squared innovation over its variance.
     scale: f32,
+    /// How much the next forgetting is of the usual one; 0 where the last block told nothing.
+    forgetting: f32,
     /// Measured blocks in a row with each parameter beyond its limit.
     beyond: [u32; 3],
     outliers: u16,
@@ -136,6 +138,7 @@ impl Health {
             prepared: Prepared::default(),
             filter: Self::start(model),
             scale: 1.0,
+            forgetting: 0.0,
             beyond: [0; 3],
             outliers: 0,
             status: HealthStatus::empty(),
@@ -194,7 +197,10 @@ impl Health {
         }
         match self.stage {
             Stage::Predict => self.predict(model),
-            Stage::Update => self.update(model),
+            Stage::Update => {
+                self.filter.update(&self.prepared);
+                self.stage = Stage::WatchMeasured;
+            }
             Stage::Watch | Stage::WatchMeasured => self.watch(model),
             Stage::Done => {}
         }
@@ -263,38 +269,37 @@ impl Health {
         let velocity = flow * (block.travel * model.per_block / step) + compliance * rate;
         let h = [mean_travel - block.travel, force, sign, velocity];
         let position = block.positions * model.per_block;
-        self.prepared = self.filter.prepare(position, h, model.measured_variance);
-        self.stage = Stage::Update;
-    }
-
-    /// Takes the prepared measurement in.
-    #[inline(always)]
-    fn update(&mut self, model: &HealthModel) {
-        self.stage = Stage::Watch;
-        let prepared = self.prepared;
+        let prepared = self.filter.prepare(position, h, model.measured_variance);
         let ratio = prepared.innovation * prepared.innovation / prepared.variance;
+        self.prepared = prepared;
         if !(ratio < OUTLIER) {
             self.left_out(model);
             return;
         }
-        self.stage = Stage::WatchMeasured;
+        self.stage = Stage::Update;
         self.outliers = 0;
         self.samples = self.samples.saturating_add(model.block_ticks);
         let bounded = if ratio < 9.0 { ratio } else { 9.0 };
         self.scale += (bounded - self.scale) * SCALE_RATE;
+        let tells = prepared.told > LEAST_TOLD * (model.growth - 1.0) * prepared.variance;
         let surprise = if bounded > 1.0 { bounded } else { 1.0 };
-        let told = self.filter.told(&prepared);
-        self.filter.update(&prepared);
-        if told > LEAST_TOLD * (model.growth - 1.0) * prepared.variance {
-            for (place, most) in (1..STATES).zip(model.start_variance) {
-                let growth = if place + 1 < STATES {
-                    model.growth
-                } else {
-                    model.lag_growth
-                };
-                let grown = self.filter.diagonal[place] * (1.0 + (growth - 1.0) * surprise);
-                self.filter.diagonal[place] = if grown < most { grown } else { most };
-            }
+        self.forgetting = if tells { surprise } else { 0.0 };
+    }
+
+    /// Lets the parameters' variances grow, the more the less the last block was expected, up to where they began.
+    #[inline(always)]
+    fn forget(&mut self, model: &HealthModel) {
+        let growth = 1.0 + (model.growth - 1.0) * self.forgetting;
+        let lag_growth = 1.0 + (model.lag_growth - 1.0) * self.forgetting;
+        self.forgetting = 0.0;
+        for (place, most) in (1..STATES).zip(model.start_variance) {
+            let factor = if place + 1 < STATES {
+                growth
+            } else {
+                lag_growth
+            };
+            let grown = self.filter.diagonal[place] * factor;
+            self.filter.diagonal[place] = if grown < most { grown } else { most };
         }
     }
 
@@ -368,6 +373,7 @@ impl Health {
         );
         self.status |= alarms;
         self.status.set(HealthStatus::LITTLE_EXCITATION, little);
+        self.forget(model);
     }
 
     /// By what variances are multiplied: more than 1 where the samples scatter more than the model says.

@@ -29,6 +29,8 @@ pub(crate) struct Prepared {
     noise: f32,
     /// Variance that the innovation should have.
     pub(crate) variance: f32,
+    /// Part of it that comes of the parameters, not of position and noise.
+    pub(crate) told: f32,
 }
 
 impl Filter {
@@ -70,19 +72,14 @@ impl Filter {
         let f4 = h4 + (u04 + u14 * h1) + (u24 * h2 + u34 * h3);
         let [x0, x1, x2, x3, x4] = self.state;
         let innovation = (z - x0 - x3 * h3) - (x1 * h1 + x2 * h2) - x4 * h4;
-        let parameters = (f1 * d1) * f1 + (f2 * d2) * f2 + (f3 * d3) * f3 + (f4 * d4) * f4;
+        let told = (f1 * d1) * f1 + (f2 * d2) * f2 + (f3 * d3) * f3 + (f4 * d4) * f4;
         Prepared {
             projected: [1.0, f1, f2, f3, f4],
             innovation,
             noise,
-            variance: noise + self.diagonal[0] + parameters,
+            variance: noise + self.diagonal[0] + told,
+            told,
         }
-    }
-
-    /// Part of an innovation's variance that comes of the parameters, not of position and noise.
-    #[inline(always)]
-    pub(crate) fn told(&self, prepared: &Prepared) -> f32 {
-        prepared.variance - (prepared.noise + self.diagonal[0])
     }
 
     /// Takes a prepared measurement in.
