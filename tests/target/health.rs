@@ -34,6 +34,11 @@ fn samples(preset: &str) -> Vec<[u8; 8]> {
     forces[16_000] = f64::INFINITY;
     forces[17_000] = 1e9;
     motion[18_000] += 1.0;
+    // Contradiction until the estimate begins anew.
+    (20_000..20_400).for_each(|tick| {
+        motion[tick] = 1.5e-3 * (tick - 20_000) as f64;
+        forces[tick] = 1500.0;
+    });
     let pairs = motion.iter().zip(&forces);
     pairs
         .map(|(x, f)| {
@@ -76,7 +81,7 @@ fn a_tick_keeps_its_bound_and_the_bits_of_this_machine() {
         let mean = instructions(number("sum") / samples.len() as f64);
         let (least, most) = (instructions(number("least")), instructions(number("most")));
         println!("{preset}: {least:.0} to {most:.0}, mean {mean:.1} instructions");
-        println!("{line}"); assert!(most.round() <= MOST_INSTRUCTIONS, "{preset}: {most}");
+        assert!(most.round() <= MOST_INSTRUCTIONS, "{preset}: {most}");
         let here = watch.run(&model, |health, model, [x, force]| {
             health.tick(model, *x, *force);
         });

@@ -1,6 +1,6 @@
 //! The constants of the estimator from the parameters of a damper.
 
-use super::model::{Baseline, HealthLimits, HealthModel, PIECE_SHIFT, PIECES, Piece};
+use super::model::{Baseline, HealthLimits, HealthModel, MARK, PIECE_SHIFT, PIECES, Piece};
 use crate::build::CheckedParameters;
 use crate::error::BuildError;
 
@@ -8,6 +8,8 @@ use crate::error::BuildError;
 const BLOCK_S: f64 = 4e-3;
 /// Fewest ticks of a block: each stage of the filter takes one.
 const FEWEST_TICKS: f64 = 4.0;
+/// Time without contact after which a crossing of the clearance tells nothing more (s).
+const LONGEST_CROSSING_S: f64 = 0.5;
 /// Standard deviations of the force's noise that a force in contact must exceed.
 const CONTACT_DEVIATIONS: f64 = 4.0;
 /// Part of the yield force below which the element surely does not yield.
@@ -140,6 +142,7 @@ impl CheckedParameters {
         let growth = |memory_s: f64| 1.0 / (1.0 - block_s / (memory_s + block_s));
         let square = |value: f64| (value * value) as f32;
         Ok(HealthModel {
+            mark: MARK,
             half_step_s: (0.5 * step_s) as f32,
             largest_move_m: (self.limits.rate_m_per_s * step_s
                 + 8.0 * settings.displacement_noise_m) as f32,
@@ -156,6 +159,7 @@ impl CheckedParameters {
             law_variance: square(settings.law_deviation) / ticks as f32,
             growth: growth(settings.memory_s) as f32,
             lag_growth: growth(LAG_MEMORY * settings.memory_s) as f32,
+            most_unmeasured: (LONGEST_CROSSING_S / block_s) as u32,
             alarm_blocks: (settings.memory_s / block_s) as u32,
             start: [
                 1.0,

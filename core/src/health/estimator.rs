@@ -2,7 +2,7 @@
 //! work on a block is spread over the ticks of the next one, so that no tick is much dearer than another.
 
 use super::filter::{Filter, Prepared, STATES};
-use super::model::HealthModel;
+use super::model::{HealthModel, MARK};
 use super::reading::{Estimate, HealthReading, HealthStatus};
 
 /// Variance (m^2) of a position of which nothing is known.
@@ -23,12 +23,15 @@ const KNOWN: f32 = 0.5;
 #[repr(C)]
 pub struct Health {
     gathered: Gathered,
-    stage: Stage,
+    mark: u32,
+    stage: u32,
     block: Block,
     prepared: Prepared,
     filter: Filter,
     /// Mean of the squared innovation over its variance.
     scale: f32,
+    /// Blocks since the last that measured something.
+    unmeasured: u32,
     /// How much the next forgetting is of the usual one; 0 where the last block told nothing.
     forgetting: f32,
     /// Measured blocks in a row with each parameter beyond its limit.
@@ -39,15 +42,13 @@ pub struct Health {
     rejected: u32,
 }
 
-/// What is left to be done for the last block.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[repr(u32)]
-enum Stage {
-    Predict,
-    Update,
-    Watch,
-    WatchMeasured,
-    Done,
+/// What is left to be done for the last block; a number, so that any bits are an estimate.
+mod stage {
+    pub(super) const DONE: u32 = 0;
+    pub(super) const PREDICT: u32 = 1;
+    pub(super) const UPDATE: u32 = 2;
+    pub(super) const WATCH: u32 = 3;
+    pub(super) const WATCH_MEASURED: u32 = 4;
 }
 
 /// Sums over the samples of a block so far.
@@ -124,7 +125,8 @@ impl Health {
         gathered.begin(model);
         Self {
             gathered,
-            stage: Stage::Done,
+            mark: MARK,
+            stage: stage::DONE,
             block: Block {
                 travel: 0.0,
                 travels: 0.0,
@@ -138,6 +140,7 @@ impl Health {
             prepared: Prepared::default(),
             filter: Self::start(model),
             scale: 1.0,
+            unmeasured: 0,
             forgetting: 0.0,
             beyond: [0; 3],
             outliers: 0,
@@ -196,13 +199,13 @@ impl Health {
             return;
         }
         match self.stage {
-            Stage::Predict => self.predict(model),
-            Stage::Update => {
+            stage::PREDICT => self.predict(model),
+            stage::UPDATE => {
                 self.filter.update(&self.prepared);
-                self.stage = Stage::WatchMeasured;
+                self.stage = stage::WATCH_MEASURED;
             }
-            Stage::Watch | Stage::WatchMeasured => self.watch(model),
-            Stage::Done => {}
+            stage::WATCH | stage::WATCH_MEASURED => self.watch(model),
+            _ => {}
         }
     }
 
@@ -237,7 +240,7 @@ impl Health {
             lowest: gathered.lowest,
             highest: gathered.highest,
         };
-        self.stage = Stage::Predict;
+        self.stage = stage::PREDICT;
         self.gathered.begin(model);
     }
 
@@ -249,9 +252,13 @@ impl Health {
         let variance = model.force_travel_variance * (slope * slope)
             + model.law_variance * (block.travel * block.travel);
         self.filter.travel(block.travel, variance);
-        self.stage = Stage::Watch;
-        if block.lowest < -model.yield_force_n || block.highest > model.yield_force_n {
+        self.stage = stage::WATCH;
+        self.unmeasured = self.unmeasured.saturating_add(1);
+        let yields = block.lowest < -model.yield_force_n || block.highest > model.yield_force_n;
+        if yields || self.unmeasured > model.most_unmeasured {
             self.filter.let_go(UNKNOWN);
+        }
+        if yields {
             return;
         }
         let sign = if block.lowest > model.contact_force_n {
@@ -276,8 +283,9 @@ impl Health {
             self.left_out(model);
             return;
         }
-        self.stage = Stage::Update;
+        self.stage = stage::UPDATE;
         self.outliers = 0;
+        self.unmeasured = 0;
         self.samples = self.samples.saturating_add(model.block_ticks);
         let bounded = if ratio < 9.0 { ratio } else { 9.0 };
         self.scale += (bounded - self.scale) * SCALE_RATE;
@@ -320,8 +328,8 @@ impl Health {
     /// Compares the estimate with the baseline.
     #[inline(always)]
     fn watch(&mut self, model: &HealthModel) {
-        let measured = u32::from(self.stage == Stage::WatchMeasured);
-        self.stage = Stage::Done;
+        let measured = u32::from(self.stage == stage::WATCH_MEASURED);
+        self.stage = stage::DONE;
         let (baseline, limits) = (&model.baseline, &model.limits);
         let [_, flow, compliance, half, _] = self.filter.state;
         let scale = self.scale();
@@ -405,6 +413,12 @@ impl Health {
             rejected: self.rejected,
             status: self.status,
         }
+    }
+
+    /// Whether this is an estimate, and not memory that was never written.
+    #[inline]
+    pub fn is_marked(&self) -> bool {
+        self.mark == MARK
     }
 
     /// Status bits.

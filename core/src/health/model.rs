@@ -2,6 +2,9 @@
 
 use zerocopy::{FromBytes, Immutable, IntoBytes};
 
+/// What stands in a model and in an estimate: memory that was never written has other bits.
+pub(crate) const MARK: u32 = 0x4d48_4144;
+
 /// Pieces of a side: four to an octave of force, the first from no force.
 pub(crate) const PIECES: usize = 64;
 /// Bits of a force below those that number a piece.
@@ -105,6 +108,8 @@ pub struct BaselineError;
 #[derive(Clone, Copy, Debug, PartialEq, FromBytes, Immutable, IntoBytes)]
 #[repr(C)]
 pub struct HealthModel {
+    /// Tells a model from memory that was never written.
+    pub(crate) mark: u32,
     /// Half the step (s).
     pub(crate) half_step_s: f32,
     /// Largest credible move of the displacement in a step (m).
@@ -135,6 +140,8 @@ pub struct HealthModel {
     pub(crate) growth: f32,
     /// Growth of the lag's variance in a block (1).
     pub(crate) lag_growth: f32,
+    /// Blocks without contact after which the position is let go: an offset of the force sensor moves it.
+    pub(crate) most_unmeasured: u32,
     /// Measured blocks in a row beyond a limit that make an alarm.
     pub(crate) alarm_blocks: u32,
     /// What an estimate begins with: flow factor, compliance, half clearance, lag.
@@ -148,6 +155,12 @@ pub struct HealthModel {
 }
 
 impl HealthModel {
+    /// Whether this is a model, and not memory that was never written: for programs that get theirs from elsewhere.
+    #[inline]
+    pub fn is_marked(&self) -> bool {
+        self.mark == MARK
+    }
+
     /// Step (s).
     pub fn step_s(&self) -> f32 {
         2.0 * self.half_step_s
