@@ -6,3 +6,4 @@ mod healthy;
 mod made;
 mod other_data;
 mod robustness;
+mod vehicle;
