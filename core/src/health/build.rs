@@ -150,6 +150,7 @@ impl CheckedParameters {
             first_piece,
             block_ticks: ticks as u32,
             per_block: (1.0 / ticks) as f32,
+            per_block_s: (1.0 / block_s) as f32,
             block_centre: (0.5 * (ticks - 1.0)) as f32,
             rate_scale_per_s: (1.0 / (spread * step_s)) as f32,
             contact_force_n: (CONTACT_DEVIATIONS * force_noise) as f32,

@@ -49,6 +49,7 @@ mod stage {
     pub(super) const UPDATE: u32 = 2;
     pub(super) const WATCH: u32 = 3;
     pub(super) const WATCH_MEASURED: u32 = 4;
+    pub(super) const LEAVE_OUT: u32 = 5;
 }
 
 /// Sums over the samples of a block so far.
@@ -78,12 +79,20 @@ struct Gathered {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C)]
 struct Block {
+    /// Nominal travel of the piston (m).
     travel: f32,
-    travels: f32,
-    positions: f32,
-    forces: f32,
-    moment: f32,
-    slopes: f32,
+    /// Its part up to the block's centre (m).
+    centre: f32,
+    /// Mean displacement less that of the oil column (m).
+    position: f32,
+    /// Mean force (N).
+    force: f32,
+    /// Mean nominal velocity (m/s).
+    velocity: f32,
+    /// Mean rate of the force (N/s).
+    rate: f32,
+    /// Mean slope of the velocity law (m/(s N)).
+    slope: f32,
     lowest: f32,
     highest: f32,
 }
@@ -129,11 +138,12 @@ impl Health {
             stage: stage::DONE,
             block: Block {
                 travel: 0.0,
-                travels: 0.0,
-                positions: 0.0,
-                forces: 0.0,
-                moment: 0.0,
-                slopes: 0.0,
+                centre: 0.0,
+                position: 0.0,
+                force: 0.0,
+                velocity: 0.0,
+                rate: 0.0,
+                slope: 0.0,
                 lowest: 0.0,
                 highest: 0.0,
             },
@@ -204,6 +214,7 @@ impl Health {
                 self.filter.update(&self.prepared);
                 self.stage = stage::WATCH_MEASURED;
             }
+            stage::LEAVE_OUT => self.leave_out(model),
             stage::WATCH | stage::WATCH_MEASURED => self.watch(model),
             _ => {}
         }
@@ -232,11 +243,12 @@ impl Health {
         let gathered = &self.gathered;
         self.block = Block {
             travel: gathered.travel,
-            travels: gathered.travels,
-            positions: gathered.positions,
-            forces: gathered.forces,
-            moment: gathered.moment,
-            slopes: gathered.slopes,
+            centre: gathered.travels * model.per_block,
+            position: gathered.positions * model.per_block,
+            force: gathered.forces * model.per_block,
+            velocity: gathered.travel * model.per_block_s,
+            rate: gathered.moment * model.rate_scale_per_s,
+            slope: gathered.slopes * model.per_block,
             lowest: gathered.lowest,
             highest: gathered.highest,
         };
@@ -248,8 +260,7 @@ impl Health {
     #[inline(always)]
     fn predict(&mut self, model: &HealthModel) {
         let block = &self.block;
-        let slope = block.slopes * model.per_block;
-        let variance = model.force_travel_variance * (slope * slope)
+        let variance = model.force_travel_variance * (block.slope * block.slope)
             + model.law_variance * (block.travel * block.travel);
         self.filter.travel(block.travel, variance);
         self.stage = stage::WATCH;
@@ -268,19 +279,16 @@ impl Health {
         } else {
             return;
         };
-        let mean_travel = block.travels * model.per_block;
-        let force = block.forces * model.per_block;
-        let rate = block.moment * model.rate_scale_per_s;
-        let step = model.half_step_s + model.half_step_s;
         let [_, flow, compliance, _, _] = self.filter.state;
-        let velocity = flow * (block.travel * model.per_block / step) + compliance * rate;
-        let h = [mean_travel - block.travel, force, sign, velocity];
-        let position = block.positions * model.per_block;
-        let prepared = self.filter.prepare(position, h, model.measured_variance);
+        let velocity = flow * block.velocity + compliance * block.rate;
+        let h = [block.centre - block.travel, block.force, sign, velocity];
+        let prepared = self
+            .filter
+            .prepare(block.position, h, model.measured_variance);
         let ratio = prepared.innovation * prepared.innovation / prepared.variance;
         self.prepared = prepared;
         if !(ratio < OUTLIER) {
-            self.left_out(model);
+            self.stage = stage::LEAVE_OUT;
             return;
         }
         self.stage = stage::UPDATE;
@@ -313,8 +321,9 @@ impl Health {
 
     #[cold]
     #[inline(never)]
-    fn left_out(&mut self, model: &HealthModel) {
-        self.outliers += 1;
+    fn leave_out(&mut self, model: &HealthModel) {
+        self.stage = stage::WATCH;
+        self.outliers = self.outliers.saturating_add(1);
         let damaged = !self.filter.state.iter().all(|number| number.is_finite())
             || !self.prepared.variance.is_finite();
         if damaged || self.outliers > MOST_OUTLIERS {

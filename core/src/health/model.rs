@@ -122,6 +122,8 @@ pub struct HealthModel {
     pub(crate) block_ticks: u32,
     /// One over the ticks of a block.
     pub(crate) per_block: f32,
+    /// One over the time of a block (1/s).
+    pub(crate) per_block_s: f32,
     /// Half of the ticks of a block less one: the place of its centre.
     pub(crate) block_centre: f32,
     /// What turns the sum of forces times their ticks off the centre into a rate of force (1/s).
