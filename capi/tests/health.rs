@@ -71,10 +71,8 @@ fn estimates_have_the_bits_of_the_core() {
         let x = if tick == 2000 { f32::NAN } else { x };
         expected.tick(&core, x, force);
         // SAFETY: references are valid pointers.
-        assert_eq!(
-            unsafe { dashpot_health_tick(&model, &mut health, x, force) },
-            DONE
-        );
+        let done = unsafe { dashpot_health_tick(&model, &mut health, x, force) };
+        assert_eq!(done, DONE);
     }
     let (reading, expected) = (read(&model, &health), expected.reading(&core));
     let same = |ours: DashpotEstimate, theirs: dashpot_core::health::Estimate| {

@@ -287,7 +287,8 @@ impl Health {
             .prepare(block.position, h, model.measured_variance);
         let ratio = prepared.innovation * prepared.innovation / prepared.variance;
         self.prepared = prepared;
-        if !(ratio < OUTLIER) {
+        let is_expected = ratio < OUTLIER; // not so of NaN
+        if !is_expected {
             self.stage = stage::LEAVE_OUT;
             return;
         }

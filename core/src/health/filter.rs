@@ -90,18 +90,18 @@ impl Filter {
         let mut gain = [g[0], 0.0, 0.0, 0.0, 0.0];
         let mut alpha = prepared.noise + f[0] * g[0];
         let mut inverse = 1.0 / alpha;
-        self.diagonal[0] = (prepared.noise * inverse) * self.diagonal[0];
+        self.diagonal[0] *= prepared.noise * inverse;
         for column in 1..STATES {
             let before = alpha;
             let factor = f[column] * inverse;
             alpha += f[column] * g[column];
             inverse = 1.0 / alpha;
-            self.diagonal[column] = (before * inverse) * self.diagonal[column];
-            for row in 0..column {
+            self.diagonal[column] *= before * inverse;
+            for (row, gain) in gain.iter_mut().enumerate().take(column) {
                 let place = place(row, column);
                 let u = self.upper[place];
-                self.upper[place] = u - gain[row] * factor;
-                gain[row] += g[column] * u;
+                self.upper[place] = u - *gain * factor;
+                *gain += g[column] * u;
             }
             gain[column] = g[column];
         }
