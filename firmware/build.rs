@@ -10,8 +10,10 @@ fn main() {
     } else {
         ("..", "0x20400000")
     };
-    // The image that measures holds dampers on its stack, and a motion behind its data.
-    println!("cargo::rustc-link-arg-bin=step-cost=--defsym=_stack_start={end_of_memory}");
+    // The images that measure hold dampers on their stack, and a motion behind their data.
+    for image in ["step-cost", "health-cost"] {
+        println!("cargo::rustc-link-arg-bin={image}=--defsym=_stack_start={end_of_memory}");
+    }
     println!("cargo::rustc-link-search={here}/{folder}");
     println!("cargo::rustc-link-arg-bins=-Tlink.x");
     println!("cargo::rerun-if-changed={folder}/memory.x");

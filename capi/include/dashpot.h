@@ -94,6 +94,31 @@
  */
 #define DASHPOT_SAVED_STATE_SIZE 36
 
+/**
+ * Bytes of a dashpot_health_model.
+ */
+#define DASHPOT_HEALTH_MODEL_SIZE 2192
+
+/**
+ * Words of a dashpot_health_model.
+ */
+#define DASHPOT_HEALTH_MODEL_WORDS 548
+
+/**
+ * Bytes of a dashpot_health.
+ */
+#define DASHPOT_HEALTH_SIZE 240
+
+/**
+ * Words of a dashpot_health.
+ */
+#define DASHPOT_HEALTH_WORDS 60
+
+/**
+ * Bytes of an image, from which a dashpot_health_model is made.
+ */
+#define DASHPOT_HEALTH_IMAGE_SIZE 2204
+
 
 /**
  * Calls of `dashpot_check_slice` that check a damper whole.
@@ -124,6 +149,36 @@
  * Memory was damaged: the state started over at rest, or a check found damage in constants or state.
  */
 #define DASHPOT_STATUS_CORRUPTED 16
+
+/**
+ * Flow at the same force, and with it damping, has changed: alarm, latched.
+ */
+#define DASHPOT_HEALTH_FLOW 1
+
+/**
+ * The stiffness of the mount has changed: alarm, latched.
+ */
+#define DASHPOT_HEALTH_STIFFNESS 2
+
+/**
+ * The clearance has changed: alarm, latched.
+ */
+#define DASHPOT_HEALTH_CLEARANCE 4
+
+/**
+ * Not enough is known now for an alarm: too little motion in contact. Not latched.
+ */
+#define DASHPOT_HEALTH_LITTLE_EXCITATION 8
+
+/**
+ * A sample was not finite or not credible and was left out; latched.
+ */
+#define DASHPOT_HEALTH_INPUT_REJECTED 16
+
+/**
+ * The estimate was damaged or contradicted for long, and began anew; latched.
+ */
+#define DASHPOT_HEALTH_RESTARTED 32
 
 /**
  * Why a function did nothing; 0 when it did what it says.
@@ -205,6 +260,10 @@ enum dashpot_error
      * The revision of an image is not that of its constants: no build made them.
      */
     DASHPOT_ERROR_REVISION = 17,
+    /**
+     * The storage holds no model or estimate of health: call `dashpot_health_model_init`, then `dashpot_health_init`.
+     */
+    DASHPOT_ERROR_NO_HEALTH = 18,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -265,6 +324,96 @@ typedef struct {
      */
     uint32_t revision;
 } dashpot_damper_info;
+
+/**
+ * Storage of the constants of an estimator of health. Opaque; may be copied whole.
+ */
+typedef struct {
+    /**
+     * Not for use.
+     */
+    uint32_t opaque[DASHPOT_HEALTH_MODEL_WORDS];
+} dashpot_health_model;
+
+/**
+ * A number and the standard deviation with which it is known.
+ */
+typedef struct {
+    /**
+     * The number.
+     */
+    float value;
+    /**
+     * Its standard deviation.
+     */
+    float sd;
+} dashpot_estimate;
+
+/**
+ * What a damper was when it was healthy.
+ */
+typedef struct {
+    /**
+     * Flow over nominal flow at the same force (1).
+     */
+    dashpot_estimate flow_factor;
+    /**
+     * Compliance of the mount, one over its stiffness (m/N).
+     */
+    dashpot_estimate compliance_m_per_n;
+    /**
+     * Clearance 2a (m).
+     */
+    dashpot_estimate clearance_m;
+} dashpot_health_baseline;
+
+/**
+ * Storage of an estimate of health, what changes from tick to tick. Opaque; may be copied whole.
+ */
+typedef struct {
+    /**
+     * Not for use.
+     */
+    uint32_t opaque[DASHPOT_HEALTH_WORDS];
+} dashpot_health;
+
+/**
+ * What is known of a damper now.
+ */
+typedef struct {
+    /**
+     * Flow over nominal flow at the same force (1); its inverse is the damping factor.
+     */
+    dashpot_estimate flow_factor;
+    /**
+     * Effective stiffness of the mount (N/m).
+     */
+    dashpot_estimate stiffness_n_per_m;
+    /**
+     * Clearance 2a, the whole play (m).
+     */
+    dashpot_estimate clearance_m;
+    /**
+     * Lag of the measured force behind the measured displacement (s).
+     */
+    dashpot_estimate lag_s;
+    /**
+     * Compliance of the mount, one over its stiffness (m/N), which is what is estimated.
+     */
+    dashpot_estimate compliance_m_per_n;
+    /**
+     * Samples that told something: in contact, not yielding.
+     */
+    uint32_t samples;
+    /**
+     * Samples that were not finite or not credible.
+     */
+    uint32_t rejected;
+    /**
+     * `DASHPOT_HEALTH_...` bits.
+     */
+    uint16_t status;
+} dashpot_health_reading;
 
 /**
  * What a state holds for others to read.
@@ -345,6 +494,67 @@ dashpot_error dashpot_damper_set_clearance(dashpot_damper *damper,
  * English text of a code, in static storage; of any other number too. Never null.
  */
 const char *dashpot_error_text(int32_t code);
+
+/**
+ * Makes the constants of an estimator from an image, the bytes of `HealthModel::to_image` of dashpot-core. Not for a
+ * tick.
+ *
+ * @param model   storage, its content does not matter
+ * @param image   the bytes, at any alignment, not in the storage of the model
+ * @param length  number of bytes, `DASHPOT_HEALTH_IMAGE_SIZE`
+ */
+dashpot_error dashpot_health_model_init(dashpot_health_model *model,
+                                        const uint8_t *image,
+                                        size_t length);
+
+/**
+ * Sets what estimates are compared with from now on: what `dashpot_health_read` told of the healthy damper.
+ *
+ * @param model     made by `dashpot_health_model_init`; no tick may run on it meanwhile
+ * @param baseline  finite numbers, flow factor and compliance positive, standard deviations not negative
+ */
+dashpot_error dashpot_health_set_baseline(dashpot_health_model *model,
+                                          const dashpot_health_baseline *baseline);
+
+/**
+ * Begins an estimate.
+ *
+ * @param health  storage, its content does not matter
+ * @param model   made by `dashpot_health_model_init`
+ */
+dashpot_error dashpot_health_init(dashpot_health *health, const dashpot_health_model *model);
+
+/**
+ * Takes the sample of a tick. One that is not finite or not credible is no error: it is left out, latched in the
+ * status and counted.
+ *
+ * @param model           made by `dashpot_health_model_init`
+ * @param health          made by `dashpot_health_init`, changed
+ * @param displacement_m  measured displacement (m), positive in extension
+ * @param force_n         measured force (N), positive when it resists extension
+ */
+dashpot_error dashpot_health_tick(const dashpot_health_model *model,
+                                  dashpot_health *health,
+                                  float displacement_m,
+                                  float force_n);
+
+/**
+ * Reads the estimates with their standard deviations. Square roots and divisions: not for every tick.
+ *
+ * @param model    made by `dashpot_health_model_init`
+ * @param health   made by `dashpot_health_init`
+ * @param reading  written
+ */
+dashpot_error dashpot_health_read(const dashpot_health_model *model,
+                                  const dashpot_health *health,
+                                  dashpot_health_reading *reading);
+
+/**
+ * Clears the status bits and the count of rejected samples; an alarm whose cause stays comes back.
+ *
+ * @param health  made by `dashpot_health_init`, changed
+ */
+dashpot_error dashpot_health_clear_status(dashpot_health *health);
 
 /**
  * Makes a state at rest, centred in the clearance, without force or status.

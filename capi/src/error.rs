@@ -44,12 +44,14 @@ pub enum DashpotError {
     Header = 16,
     /// The revision of an image is not that of its constants: no build made them.
     Revision = 17,
+    /// The storage holds no model or estimate of health: call `dashpot_health_model_init`, then `dashpot_health_init`.
+    NoHealth = 18,
 }
 
 /// cbindgen:ignore
 impl DashpotError {
     /// Every code, in the order of their numbers.
-    pub const ALL: [Self; 18] = [
+    pub const ALL: [Self; 19] = [
         Self::None,
         Self::NullPointer,
         Self::Misaligned,
@@ -68,6 +70,7 @@ impl DashpotError {
         Self::Overlap,
         Self::Header,
         Self::Revision,
+        Self::NoHealth,
     ];
 
     const fn text(self) -> &'static CStr {
@@ -90,6 +93,7 @@ impl DashpotError {
             Self::Overlap => c"what the call changes overlaps something else it was given",
             Self::Header => c"dashpot.h is of another version than the library",
             Self::Revision => c"the revision of the image is not that of its constants",
+            Self::NoHealth => c"the storage holds no model or estimate of health",
         }
     }
 }

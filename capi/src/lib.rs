@@ -14,6 +14,7 @@
 mod check;
 mod damper;
 mod error;
+mod health;
 mod pointer;
 mod state;
 mod step;
@@ -23,6 +24,10 @@ mod version;
 pub use check::dashpot_check_slice;
 pub use damper::{dashpot_damper_describe, dashpot_damper_init, dashpot_damper_set_clearance};
 pub use error::{DashpotError, dashpot_error_text};
+pub use health::{
+    dashpot_health_clear_status, dashpot_health_init, dashpot_health_model_init,
+    dashpot_health_read, dashpot_health_set_baseline, dashpot_health_tick,
+};
 pub use state::{
     dashpot_state_clear_status, dashpot_state_init, dashpot_state_read, dashpot_state_restore,
     dashpot_state_save,

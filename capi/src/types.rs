@@ -1,5 +1,6 @@
 //! What C declares: storage of known size, and the structures that are read.
 
+use dashpot_core::health::{Health, HealthModel, HealthStatus};
 use dashpot_core::integrity::Check;
 use dashpot_core::{Damper, DamperState};
 
@@ -15,6 +16,17 @@ pub const DASHPOT_STATE_WORDS: usize = DASHPOT_STATE_SIZE / size_of::<u32>();
 pub const DASHPOT_IMAGE_SIZE: usize = Damper::<f32>::IMAGE_BYTES;
 /// Bytes of a saved state.
 pub const DASHPOT_SAVED_STATE_SIZE: usize = DamperState::<f32>::SAVED_BYTES;
+
+/// Bytes of the constants of an estimator of health.
+pub const DASHPOT_HEALTH_MODEL_SIZE: usize = size_of::<HealthModel>();
+/// Words of them.
+pub const DASHPOT_HEALTH_MODEL_WORDS: usize = DASHPOT_HEALTH_MODEL_SIZE / size_of::<u32>();
+/// Bytes of an estimate of health.
+pub const DASHPOT_HEALTH_SIZE: usize = size_of::<Health>();
+/// Words of it.
+pub const DASHPOT_HEALTH_WORDS: usize = DASHPOT_HEALTH_SIZE / size_of::<u32>();
+/// Bytes of an image, from which the constants of an estimator of health are made.
+pub const DASHPOT_HEALTH_IMAGE_SIZE: usize = HealthModel::IMAGE_BYTES;
 
 /// Storage of a built damper: constants for one step size. Opaque; may be copied whole.
 #[repr(C)]
@@ -99,4 +111,93 @@ const _: () = {
     assert!(DASHPOT_STATUS_SATURATED == Status::SATURATED.bits());
     assert!(DASHPOT_STATUS_DAMPER_SWAPPED == Status::DAMPER_SWAPPED.bits());
     assert!(DASHPOT_STATUS_CORRUPTED == Status::CORRUPTED.bits());
+};
+
+/// Storage of the constants of an estimator of health. Opaque; may be copied whole.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct DashpotHealthModel {
+    /// Not for use.
+    pub opaque: [u32; DASHPOT_HEALTH_MODEL_WORDS],
+}
+
+/// Storage of an estimate of health, what changes from tick to tick. Opaque; may be copied whole.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct DashpotHealth {
+    /// Not for use.
+    pub opaque: [u32; DASHPOT_HEALTH_WORDS],
+}
+
+const _: () = {
+    assert!(size_of::<DashpotHealthModel>() == size_of::<HealthModel>());
+    assert!(align_of::<DashpotHealthModel>() == align_of::<HealthModel>());
+    assert!(size_of::<DashpotHealth>() == size_of::<Health>());
+    assert!(align_of::<DashpotHealth>() == align_of::<Health>());
+};
+
+/// A number and the standard deviation with which it is known.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DashpotEstimate {
+    /// The number.
+    pub value: f32,
+    /// Its standard deviation.
+    pub sd: f32,
+}
+
+/// What a damper was when it was healthy.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DashpotHealthBaseline {
+    /// Flow over nominal flow at the same force (1).
+    pub flow_factor: DashpotEstimate,
+    /// Compliance of the mount, one over its stiffness (m/N).
+    pub compliance_m_per_n: DashpotEstimate,
+    /// Clearance 2a (m).
+    pub clearance_m: DashpotEstimate,
+}
+
+/// What is known of a damper now.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DashpotHealthReading {
+    /// Flow over nominal flow at the same force (1); its inverse is the damping factor.
+    pub flow_factor: DashpotEstimate,
+    /// Effective stiffness of the mount (N/m).
+    pub stiffness_n_per_m: DashpotEstimate,
+    /// Clearance 2a, the whole play (m).
+    pub clearance_m: DashpotEstimate,
+    /// Lag of the measured force behind the measured displacement (s).
+    pub lag_s: DashpotEstimate,
+    /// Compliance of the mount, one over its stiffness (m/N), which is what is estimated.
+    pub compliance_m_per_n: DashpotEstimate,
+    /// Samples that told something: in contact, not yielding.
+    pub samples: u32,
+    /// Samples that were not finite or not credible.
+    pub rejected: u32,
+    /// `DASHPOT_HEALTH_...` bits.
+    pub status: u16,
+}
+
+/// Flow at the same force, and with it damping, has changed: alarm, latched.
+pub const DASHPOT_HEALTH_FLOW: u16 = 1;
+/// The stiffness of the mount has changed: alarm, latched.
+pub const DASHPOT_HEALTH_STIFFNESS: u16 = 2;
+/// The clearance has changed: alarm, latched.
+pub const DASHPOT_HEALTH_CLEARANCE: u16 = 4;
+/// Not enough is known now for an alarm: too little motion in contact. Not latched.
+pub const DASHPOT_HEALTH_LITTLE_EXCITATION: u16 = 8;
+/// A sample was not finite or not credible and was left out; latched.
+pub const DASHPOT_HEALTH_INPUT_REJECTED: u16 = 16;
+/// The estimate was damaged or contradicted for long, and began anew; latched.
+pub const DASHPOT_HEALTH_RESTARTED: u16 = 32;
+
+const _: () = {
+    assert!(DASHPOT_HEALTH_FLOW == HealthStatus::FLOW.bits());
+    assert!(DASHPOT_HEALTH_STIFFNESS == HealthStatus::STIFFNESS.bits());
+    assert!(DASHPOT_HEALTH_CLEARANCE == HealthStatus::CLEARANCE.bits());
+    assert!(DASHPOT_HEALTH_LITTLE_EXCITATION == HealthStatus::LITTLE_EXCITATION.bits());
+    assert!(DASHPOT_HEALTH_INPUT_REJECTED == HealthStatus::INPUT_REJECTED.bits());
+    assert!(DASHPOT_HEALTH_RESTARTED == HealthStatus::RESTARTED.bits());
 };

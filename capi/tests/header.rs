@@ -75,6 +75,31 @@ fn version_and_sizes() -> String {
             dashpot::DASHPOT_SAVED_STATE_SIZE,
             "Bytes of a saved state.",
         ),
+        (
+            "HEALTH_MODEL_SIZE",
+            dashpot::DASHPOT_HEALTH_MODEL_SIZE,
+            "Bytes of a dashpot_health_model.",
+        ),
+        (
+            "HEALTH_MODEL_WORDS",
+            dashpot::DASHPOT_HEALTH_MODEL_WORDS,
+            "Words of a dashpot_health_model.",
+        ),
+        (
+            "HEALTH_SIZE",
+            dashpot::DASHPOT_HEALTH_SIZE,
+            "Bytes of a dashpot_health.",
+        ),
+        (
+            "HEALTH_WORDS",
+            dashpot::DASHPOT_HEALTH_WORDS,
+            "Words of a dashpot_health.",
+        ),
+        (
+            "HEALTH_IMAGE_SIZE",
+            dashpot::DASHPOT_HEALTH_IMAGE_SIZE,
+            "Bytes of an image, from which a dashpot_health_model is made.",
+        ),
     ] {
         define(holds, name, &value);
     }

@@ -14,6 +14,7 @@ mod encoding;
 mod error;
 #[cfg(all(test, feature = "builder"))]
 mod example;
+pub mod health;
 #[cfg(feature = "builder")]
 mod hydraulics;
 pub mod integrity;

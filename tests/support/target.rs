@@ -221,7 +221,7 @@ impl Experiment {
 }
 
 /// Address of a symbol of an image.
-fn symbol_address(image: &Path, name: &str) -> u64 {
+pub fn symbol_address(image: &Path, name: &str) -> u64 {
     let bytes = std::fs::read(image).expect("an image");
     let file = object::File::parse(&*bytes).expect("an ELF file");
     let symbol = file.symbols().find(|symbol| symbol.name() == Ok(name));

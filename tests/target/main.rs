@@ -2,6 +2,7 @@
 
 mod aarch64;
 mod firmware;
+mod health;
 mod no_panic;
 mod outputs;
 mod processors;

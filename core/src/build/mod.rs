@@ -7,7 +7,8 @@ mod knots;
 pub(crate) mod root;
 mod span;
 
-use branch::{Branch, Law};
+pub(crate) use branch::Branch;
+use branch::Law;
 pub use checked::CheckedParameters;
 pub(crate) use checked::ElementLaws;
 use span::Stage;
@@ -47,32 +48,34 @@ impl CheckedParameters {
                 allowed: STEP_ALLOWED,
             });
         }
-        let damper = match &self.laws {
-            ElementLaws::Physical(laws) => {
-                let branch = |compression: bool| {
-                    let volume = |column: OilColumn| {
-                        let volume = if compression {
-                            column.piston_side_volume_m3
-                        } else {
-                            column.rod_side_volume_m3
-                        };
-                        (column, volume)
-                    };
-                    let law = Law::Physical(HydraulicSide { laws, compression });
-                    self.branch(law, laws.oil.column.map(volume), self.limits.force_n)
-                };
-                self.assemble(&[branch(false), branch(true)], step_s)
-            }
-            ElementLaws::Reduced(reduced) => {
-                let saturation = reduced.damping_n_s_per_m * reduced.saturation_velocity_m_per_s;
-                let limit = saturation.min(self.limits.force_n);
-                let branch = self.branch(Law::Reduced(*reduced), None, limit);
-                self.assemble(&[branch, branch], step_s)
-            }
-        };
+        let branches = self.branches();
+        let damper = self.assemble(&branches, step_s);
         #[cfg(feature = "log")]
         log::debug!("built damper {:08x} for {step_s} s", damper.revision());
         Ok(damper)
+    }
+
+    /// Extension and compression.
+    pub(crate) fn branches(&self) -> [Branch<'_>; 2] {
+        match &self.laws {
+            ElementLaws::Physical(laws) => [false, true].map(|compression| {
+                let volume = |column: OilColumn| {
+                    let volume = if compression {
+                        column.piston_side_volume_m3
+                    } else {
+                        column.rod_side_volume_m3
+                    };
+                    (column, volume)
+                };
+                let law = Law::Physical(HydraulicSide { laws, compression });
+                self.branch(law, laws.oil.column.map(volume), self.limits.force_n)
+            }),
+            ElementLaws::Reduced(reduced) => {
+                let saturation = reduced.damping_n_s_per_m * reduced.saturation_velocity_m_per_s;
+                let limit = saturation.min(self.limits.force_n);
+                [self.branch(Law::Reduced(*reduced), None, limit); 2]
+            }
+        }
     }
 
     fn branch<'a>(

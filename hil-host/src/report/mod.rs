@@ -1,6 +1,7 @@
 //! What people look at: plots and pages.
 
 mod error;
+pub mod health;
 pub mod page;
 pub mod plot;
 

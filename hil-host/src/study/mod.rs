@@ -5,6 +5,7 @@ pub mod bench_test;
 pub mod calibration;
 mod error;
 pub mod excitation;
+pub mod health;
 pub mod plate;
 pub mod published;
 pub mod replay;

@@ -1,0 +1,210 @@
+//! Functions of the estimator of health.
+
+use dashpot_core::health::{Baseline, Estimate, Health, HealthImageError, HealthModel};
+
+use crate::error::DashpotError;
+use crate::pointer::{Memory, bytes, check, exclusive, shared};
+use crate::types::{
+    DashpotEstimate, DashpotHealth, DashpotHealthBaseline, DashpotHealthModel, DashpotHealthReading,
+};
+
+impl From<HealthImageError> for DashpotError {
+    fn from(error: HealthImageError) -> Self {
+        match error {
+            HealthImageError::Length { .. } => Self::Length,
+            HealthImageError::Magic => Self::Magic,
+            HealthImageError::Version(_) => Self::Version,
+            HealthImageError::Checksum => Self::Checksum,
+            _ => Self::Values,
+        }
+    }
+}
+
+impl From<Estimate> for DashpotEstimate {
+    fn from(Estimate { value, sd }: Estimate) -> Self {
+        Self { value, sd }
+    }
+}
+
+/// A model that was made from an image.
+///
+/// # Safety
+/// The caller's promise is kept.
+unsafe fn made_model<'a>(
+    model: *const DashpotHealthModel,
+) -> Result<&'a HealthModel, DashpotError> {
+    // SAFETY: the caller's promise; the storage is a HealthModel's to the byte and any bytes are one.
+    let model: &HealthModel = unsafe { shared(model.cast()) }?;
+    if model.is_marked() {
+        Ok(model)
+    } else {
+        Err(DashpotError::NoHealth)
+    }
+}
+
+/// An estimate that was begun, to read.
+///
+/// # Safety
+/// The caller's promise is kept.
+unsafe fn made_health<'a>(health: *const DashpotHealth) -> Result<&'a Health, DashpotError> {
+    // SAFETY: the caller's promise; the storage is a Health's to the byte and any bytes are one.
+    let health: &Health = unsafe { shared(health.cast()) }?;
+    if health.is_marked() {
+        Ok(health)
+    } else {
+        Err(DashpotError::NoHealth)
+    }
+}
+
+/// Makes the constants of an estimator from an image, the bytes of `HealthModel::to_image` of dashpot-core. Not for a
+/// tick.
+///
+/// @param model   storage, its content does not matter
+/// @param image   the bytes, at any alignment, not in the storage of the model
+/// @param length  number of bytes, `DASHPOT_HEALTH_IMAGE_SIZE`
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn dashpot_health_model_init(
+    model: *mut DashpotHealthModel,
+    image: *const u8,
+    length: usize,
+) -> DashpotError {
+    let done = || {
+        check(model)?;
+        // SAFETY: the caller's promise.
+        let image = unsafe { bytes(image, length) }?;
+        Memory::of(model).check_apart(Memory::of_bytes(image))?;
+        let made = HealthModel::from_image(image)?;
+        // SAFETY: checked, and the caller's promise; the storage is a HealthModel's to the byte.
+        unsafe { model.cast::<HealthModel>().write(made) };
+        Ok(())
+    };
+    DashpotError::from(done())
+}
+
+/// Sets what estimates are compared with from now on: what `dashpot_health_read` told of the healthy damper.
+///
+/// @param model     made by `dashpot_health_model_init`; no tick may run on it meanwhile
+/// @param baseline  finite numbers, flow factor and compliance positive, standard deviations not negative
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn dashpot_health_set_baseline(
+    model: *mut DashpotHealthModel,
+    baseline: *const DashpotHealthBaseline,
+) -> DashpotError {
+    let done = || {
+        // SAFETY: the caller's promise; the reference ends here.
+        unsafe { made_model(model) }?;
+        // SAFETY: the caller's promise.
+        let given = *unsafe { shared(baseline) }?;
+        Memory::of(model).check_apart(Memory::of(baseline))?;
+        // SAFETY: the caller's promise; the storage is a HealthModel's to the byte.
+        let model: &mut HealthModel = unsafe { exclusive(model.cast()) }?;
+        let set = model.set_baseline(Baseline {
+            flow_factor: given.flow_factor.value,
+            compliance_m_per_n: given.compliance_m_per_n.value,
+            clearance_m: given.clearance_m.value,
+            flow_factor_sd: given.flow_factor.sd,
+            compliance_sd_m_per_n: given.compliance_m_per_n.sd,
+            clearance_sd_m: given.clearance_m.sd,
+        });
+        set.map_err(|_| DashpotError::Range)
+    };
+    DashpotError::from(done())
+}
+
+/// Begins an estimate.
+///
+/// @param health  storage, its content does not matter
+/// @param model   made by `dashpot_health_model_init`
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn dashpot_health_init(
+    health: *mut DashpotHealth,
+    model: *const DashpotHealthModel,
+) -> DashpotError {
+    let done = || {
+        check(health)?;
+        // SAFETY: the caller's promise.
+        let model = unsafe { made_model(model) }?;
+        Memory::of(health).check_apart(Memory::of(model))?;
+        // SAFETY: checked, and the caller's promise; the storage is a Health's to the byte.
+        unsafe { health.cast::<Health>().write(Health::new(model)) };
+        Ok(())
+    };
+    DashpotError::from(done())
+}
+
+/// Takes the sample of a tick. One that is not finite or not credible is no error: it is left out, latched in the
+/// status and counted.
+///
+/// @param model           made by `dashpot_health_model_init`
+/// @param health          made by `dashpot_health_init`, changed
+/// @param displacement_m  measured displacement (m), positive in extension
+/// @param force_n         measured force (N), positive when it resists extension
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn dashpot_health_tick(
+    model: *const DashpotHealthModel,
+    health: *mut DashpotHealth,
+    displacement_m: f32,
+    force_n: f32,
+) -> DashpotError {
+    let done = || {
+        // SAFETY: the caller's promise; the second reference ends here.
+        let model = unsafe { (made_model(model)?, made_health(health)?).0 };
+        Memory::of(health).check_apart(Memory::of(model))?;
+        // SAFETY: the caller's promise; the storage is a Health's to the byte.
+        let health: &mut Health = unsafe { exclusive(health.cast()) }?;
+        health.tick(model, displacement_m, force_n);
+        Ok(())
+    };
+    DashpotError::from(done())
+}
+
+/// Reads the estimates with their standard deviations. Square roots and divisions: not for every tick.
+///
+/// @param model    made by `dashpot_health_model_init`
+/// @param health   made by `dashpot_health_init`
+/// @param reading  written
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn dashpot_health_read(
+    model: *const DashpotHealthModel,
+    health: *const DashpotHealth,
+    reading: *mut DashpotHealthReading,
+) -> DashpotError {
+    let done = || {
+        // SAFETY: the caller's promise.
+        let (model, health) = unsafe { (made_model(model)?, made_health(health)?) };
+        check(reading)?;
+        Memory::of(reading).check_apart(Memory::of(model))?;
+        Memory::of(reading).check_apart(Memory::of(health))?;
+        let read = health.reading(model);
+        let read = DashpotHealthReading {
+            flow_factor: read.flow_factor.into(),
+            stiffness_n_per_m: read.stiffness_n_per_m.into(),
+            clearance_m: read.clearance_m.into(),
+            lag_s: read.lag_s.into(),
+            compliance_m_per_n: read.compliance_m_per_n.into(),
+            samples: read.samples,
+            rejected: read.rejected,
+            status: read.status.bits(),
+        };
+        // SAFETY: checked, and the caller's promise.
+        unsafe { reading.write(read) };
+        Ok(())
+    };
+    DashpotError::from(done())
+}
+
+/// Clears the status bits and the count of rejected samples; an alarm whose cause stays comes back.
+///
+/// @param health  made by `dashpot_health_init`, changed
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn dashpot_health_clear_status(health: *mut DashpotHealth) -> DashpotError {
+    let done = || {
+        // SAFETY: the caller's promise; the reference ends here.
+        unsafe { made_health(health) }?;
+        // SAFETY: the caller's promise; the storage is a Health's to the byte.
+        let health: &mut Health = unsafe { exclusive(health.cast()) }?;
+        health.clear_status();
+        Ok(())
+    };
+    DashpotError::from(done())
+}

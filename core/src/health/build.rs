@@ -1,0 +1,199 @@
+//! The constants of the estimator from the parameters of a damper.
+
+use super::model::{Baseline, HealthLimits, HealthModel, MARK, PIECE_SHIFT, PIECES, Piece};
+use crate::build::CheckedParameters;
+use crate::error::BuildError;
+
+/// Time over which samples are gathered to one measurement (s): short beside the motion of a vehicle, long beside a tick.
+const BLOCK_S: f64 = 4e-3;
+/// Fewest ticks of a block: each stage of the filter takes one.
+const FEWEST_TICKS: f64 = 4.0;
+/// Time without contact after which a crossing of the clearance tells nothing more (s).
+const LONGEST_CROSSING_S: f64 = 0.5;
+/// Standard deviations of the force's noise that a force in contact must exceed.
+const CONTACT_DEVIATIONS: f64 = 4.0;
+/// Part of the yield force below which the element surely does not yield.
+const UNYIELDING: f64 = 0.98;
+/// Memory of the lag over that of the other parameters: wires do not age.
+const LAG_MEMORY: f64 = 20.0;
+
+/// What is known of sensors and use.
+///
+/// A struct literal with `..HealthSettings::new(...)` changes single ones.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HealthSettings {
+    /// Standard deviation of a sample's displacement (m), above 0 to 0.01.
+    pub displacement_noise_m: f64,
+    /// Standard deviation of a sample's force (N), above 0 to 1e6.
+    pub force_noise_n: f64,
+    /// Time in contact after which a sample counts for 1/e (s), 0.1 to 1e5.
+    pub memory_s: f64,
+    /// Part of the flow (1), 0 to 1, by which the law of a healthy damper may be wrong within a stroke.
+    pub law_deviation: f64,
+    /// Lag of the measured force behind the measured displacement (s), -5e-3 to 5e-3.
+    pub lag_s: f64,
+    /// Standard deviation with which the lag is known (s), 0 to 5e-3; 0 keeps it.
+    pub lag_sd_s: f64,
+}
+
+impl HealthSettings {
+    /// Noise of the sensors (m, N); a memory of 1 s in contact, 5 % of the law, no lag known to 1 ms.
+    pub fn new(displacement_noise_m: f64, force_noise_n: f64) -> Self {
+        Self {
+            displacement_noise_m,
+            force_noise_n,
+            memory_s: 1.0,
+            law_deviation: 0.05,
+            lag_s: 0.0,
+            lag_sd_s: 1e-3,
+        }
+    }
+
+    fn check(&self) -> Result<(), BuildError> {
+        let ranges = [
+            (
+                "displacement_noise_m",
+                self.displacement_noise_m,
+                1e-9,
+                1e-2,
+                "1e-9 to 1e-2 m",
+            ),
+            (
+                "force_noise_n",
+                self.force_noise_n,
+                1e-3,
+                1e6,
+                "1e-3 to 1e6 N",
+            ),
+            ("memory_s", self.memory_s, 0.1, 1e5, "0.1 to 1e5 s"),
+            ("law_deviation", self.law_deviation, 0.0, 1.0, "0 to 1"),
+            ("lag_s", self.lag_s, -5e-3, 5e-3, "-5e-3 to 5e-3 s"),
+            ("lag_sd_s", self.lag_sd_s, 0.0, 5e-3, "0 to 5e-3 s"),
+        ];
+        for (field, value, least, greatest, allowed) in ranges {
+            if !(least..=greatest).contains(&value) {
+                return Err(BuildError {
+                    section: "health",
+                    field,
+                    value,
+                    allowed,
+                });
+            }
+        }
+        Ok(())
+    }
+}
+
+impl CheckedParameters {
+    /// The constants with which [`Health`](crate::health::Health) watches a damper of these parameters, sampled at
+    /// every step (s).
+    ///
+    /// # Errors
+    /// A setting out of its range, or a step that is not 1e-5 to 2e-3 s.
+    pub fn health_model(
+        &self,
+        settings: &HealthSettings,
+        step_s: f64,
+    ) -> Result<HealthModel, BuildError> {
+        settings.check()?;
+        if !(1e-5..=2e-3).contains(&step_s) {
+            return Err(BuildError {
+                section: "step",
+                field: "step_s",
+                value: step_s,
+                allowed: "1e-5 to 2e-3 s for an estimate of health",
+            });
+        }
+        let branches = self.branches();
+        let yields = branches[0].force_limit.min(branches[1].force_limit);
+        let last = (yields as f32).to_bits() >> PIECE_SHIFT;
+        let first_piece = last.saturating_sub(PIECES as u32 - 2);
+        let pieces = branches.each_ref().map(|branch| {
+            core::array::from_fn(|number| {
+                let border = |number: u32| f64::from(f32::from_bits(number << PIECE_SHIFT));
+                let number = first_piece + number as u32;
+                let from = if number == first_piece {
+                    0.0
+                } else {
+                    border(number)
+                };
+                let to = border(number + 1).min(branch.force_limit);
+                let line = |law: &dyn Fn(f64) -> f64| line(law, from, to.max(1.001 * from));
+                let (velocity, velocity_slope) = line(&|force| branch.velocity(force));
+                let spring = |force| branch.deflection(force) - force * branch.mount_compliance;
+                let (oil, oil_slope) = line(&spring);
+                Piece {
+                    velocity,
+                    velocity_slope,
+                    oil,
+                    oil_slope,
+                }
+            })
+        });
+
+        let ticks = libm::round(BLOCK_S / step_s).max(FEWEST_TICKS);
+        let block_s = ticks * step_s;
+        let compliance = self.mount.compliance_m_per_n();
+        let force_noise = settings.force_noise_n;
+        let position_variance = settings.displacement_noise_m * settings.displacement_noise_m
+            + force_noise * force_noise * compliance * compliance;
+        // Sum of (k - centre)^2 over a block's ticks.
+        let spread = ticks * (ticks * ticks - 1.0) / 12.0;
+        let growth = |memory_s: f64| 1.0 / (1.0 - block_s / (memory_s + block_s));
+        let square = |value: f64| (value * value) as f32;
+        Ok(HealthModel {
+            mark: MARK,
+            half_step_s: (0.5 * step_s) as f32,
+            largest_move_m: (self.limits.rate_m_per_s * step_s
+                + 8.0 * settings.displacement_noise_m) as f32,
+            largest_force_n: (2.0 * self.limits.force_n + 8.0 * force_noise) as f32,
+            first_piece,
+            block_ticks: ticks as u32,
+            per_block: (1.0 / ticks) as f32,
+            per_block_s: (1.0 / block_s) as f32,
+            block_centre: (0.5 * (ticks - 1.0)) as f32,
+            rate_scale_per_s: (1.0 / (spread * step_s)) as f32,
+            contact_force_n: (CONTACT_DEVIATIONS * force_noise) as f32,
+            yield_force_n: (UNYIELDING * yields - CONTACT_DEVIATIONS * force_noise) as f32,
+            measured_variance: (position_variance / ticks) as f32,
+            force_travel_variance: (step_s * step_s * force_noise * force_noise * ticks) as f32,
+            law_variance: square(settings.law_deviation) / ticks as f32,
+            growth: growth(settings.memory_s) as f32,
+            lag_growth: growth(LAG_MEMORY * settings.memory_s) as f32,
+            most_unmeasured: (LONGEST_CROSSING_S / block_s) as u32,
+            alarm_blocks: (settings.memory_s / block_s) as u32,
+            start: [
+                1.0,
+                compliance as f32,
+                (0.5 * self.mount.clearance_m) as f32,
+                settings.lag_s as f32,
+            ],
+            start_variance: [
+                square(0.3),
+                square(compliance),
+                square(1e-3),
+                square(settings.lag_sd_s),
+            ],
+            baseline: Baseline {
+                flow_factor: 1.0,
+                compliance_m_per_n: compliance as f32,
+                clearance_m: self.mount.clearance_m as f32,
+                flow_factor_sd: 0.0,
+                compliance_sd_m_per_n: 0.0,
+                clearance_sd_m: 0.0,
+            },
+            limits: HealthLimits::default(),
+            pieces,
+        })
+    }
+}
+
+/// Value at no force and slope of the line through a law's values at both ends of a piece, moved so that its mean over
+/// the piece is the law's by Simpson's rule: the travel it sums to has no error of one sign.
+fn line(law: &dyn Fn(f64) -> f64, from: f64, to: f64) -> (f32, f32) {
+    let (first, last) = (law(from), law(to));
+    let middle = law(0.5 * (from + to));
+    let slope = (last - first) / (to - from);
+    let moved = (2.0 / 3.0) * (middle - 0.5 * (first + last));
+    ((first - slope * from + moved) as f32, slope as f32)
+}

@@ -1,0 +1,88 @@
+//! Counts instructions of a tick of the estimator of health over samples that the host puts into memory, and digests
+//! what it tells.
+//!
+//! The host loads a [`Watch`] at [`__sheap`] before the start and reads one JSON object from the link's UART. Counts as
+//! in the image `step-cost`.
+#![no_std]
+#![no_main]
+
+use core::fmt::Write;
+use core::hint::black_box;
+
+use cortex_m_rt::entry;
+use dashpot_core::health::{Health, HealthModel};
+use dashpot_experiment::watch::{BYTES, Watch};
+use dashpot_firmware::board::{self, CLOCK_HZ, Port, Uart};
+use dashpot_firmware::counted_call::{Arguments, counted_call};
+use dashpot_firmware::printer::Printer;
+
+unsafe extern "C" {
+    /// Where the host loads the samples: RAM that start-up code, data and stack leave alone. The symbol
+    /// is of cortex-m-rt's linker script.
+    static __sheap: [u8; BYTES];
+}
+
+/// Displacement and force lie in memory: two instructions fetch them.
+extern "C" fn tick(health: &mut Health, model: &HealthModel, sample: &[f32; 2]) {
+    health.tick(model, sample[0], sample[1]);
+}
+
+/// One instruction, the return.
+#[unsafe(naked)]
+extern "C" fn nothing() {
+    core::arch::naked_asm!("bx lr")
+}
+
+fn timed(function: *const (), integers: [usize; 5]) -> u32 {
+    let arguments = Arguments {
+        integers,
+        real: 0.0,
+    };
+    // SAFETY: every caller below gives each function what it takes, valid during the call.
+    unsafe { counted_call(function, arguments).ticks }
+}
+
+#[entry]
+fn main() -> ! {
+    board::start_clock();
+    let mut printer = Printer(Uart::start(Port::Link, 1_000_000));
+    // SAFETY: the host wrote it before the start, nothing writes it now.
+    let bytes = unsafe { &*black_box(&raw const __sheap) };
+    match Watch::parse(bytes) {
+        Some(watch) => measure(&watch, &mut printer),
+        None => drop(writeln!(printer, "no samples were loaded")),
+    }
+    loop {
+        cortex_m::asm::wfi();
+    }
+}
+
+fn measure(watch: &Watch<'_>, printer: &mut Printer) {
+    let Ok(model) = HealthModel::from_image(watch.model) else {
+        let _ = writeln!(printer, "the samples come without a model of this core");
+        return;
+    };
+    let call = timed(nothing as *const (), [0; 5]);
+    let (mut least, mut most, mut sum) = (u32::MAX, 0, 0_u64);
+    let digest = watch.run(&model, |health, model, sample| {
+        let integers = [
+            (&raw mut *health).expose_provenance(),
+            (&raw const *model).expose_provenance(),
+            (&raw const *sample).expose_provenance(),
+            0,
+            0,
+        ];
+        let ticks = timed(tick as *const (), integers);
+        least = ticks.min(least);
+        most = ticks.max(most);
+        sum += u64::from(ticks);
+    });
+    let _ = writeln!(
+        printer,
+        "{{\"clock_hz\": {CLOCK_HZ}, \"call\": {call}, \"least\": {least}, \"most\": {most}, \"sum\": {sum}, \
+         \"digest\": \"{:016x}\", \"model_bytes\": {}, \"health_bytes\": {}}}",
+        digest.value(),
+        size_of::<HealthModel>(),
+        size_of::<Health>(),
+    );
+}

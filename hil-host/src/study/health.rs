@@ -1,0 +1,132 @@
+//! Health of a damper from recorded displacement and force: the estimates over time.
+
+use std::f64::consts::TAU;
+
+use dashpot_core::health::{Health, HealthModel, HealthReading, HealthStatus};
+use fastrand::Rng;
+
+/// Standard deviations of white noise, one for each sensor.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Noise {
+    /// Of the displacement (m).
+    pub displacement_m: f64,
+    /// Of the force (N).
+    pub force_n: f64,
+}
+
+impl Noise {
+    /// This part (1) of the root mean square of either signal about its mean.
+    pub fn of_rms(part: f64, displacements_m: &[f64], forces_n: &[f64]) -> Self {
+        Self {
+            displacement_m: part * rms(displacements_m),
+            force_n: part * rms(forces_n),
+        }
+    }
+
+    /// Both signals with noise of this seed.
+    pub fn on(&self, displacements_m: &[f64], forces_n: &[f64], seed: u64) -> (Vec<f64>, Vec<f64>) {
+        let mut rng = Rng::with_seed(seed);
+        let mut noisy = |signal: &[f64], sd: f64| -> Vec<f64> {
+            signal
+                .iter()
+                .map(|value| value + sd * normal(&mut rng))
+                .collect()
+        };
+        (
+            noisy(displacements_m, self.displacement_m),
+            noisy(forces_n, self.force_n),
+        )
+    }
+}
+
+/// Root mean square about the mean.
+fn rms(signal: &[f64]) -> f64 {
+    let count = signal.len().max(1) as f64;
+    let mean = signal.iter().sum::<f64>() / count;
+    let square = signal
+        .iter()
+        .map(|value| (value - mean).powi(2))
+        .sum::<f64>();
+    (square / count).sqrt()
+}
+
+/// A normal number (Box and Muller 1958), with functions that are the same on every machine.
+fn normal(rng: &mut Rng) -> f64 {
+    let radius = (-2.0 * libm::log(1.0 - rng.f64())).sqrt();
+    radius * libm::cos(TAU * rng.f64())
+}
+
+/// What was known at a time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Reading {
+    /// Time since the first sample (s).
+    pub time_s: f64,
+    /// The estimates.
+    pub reading: HealthReading,
+}
+
+/// Estimates over a run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct History {
+    /// What it was compared with and by which limits.
+    pub model: HealthModel,
+    /// In order of time, the last after the last sample.
+    pub readings: Vec<Reading>,
+    /// When each alarm was first raised (s).
+    pub alarms: Vec<(HealthStatus, f64)>,
+}
+
+/// The alarms and what they are called.
+pub const ALARMS: [(HealthStatus, &str); 3] = [
+    (HealthStatus::FLOW, "flow"),
+    (HealthStatus::STIFFNESS, "stiffness"),
+    (HealthStatus::CLEARANCE, "clearance"),
+];
+
+/// Runs the estimator over samples of displacement (m) and force (N), one at each step of `model`, and keeps a
+/// reading every `every_s` (s).
+pub fn watch(
+    model: &HealthModel,
+    samples: impl IntoIterator<Item = (f64, f64)>,
+    every_s: f64,
+) -> History {
+    let step_s = f64::from(model.step_s());
+    let every = (every_s / step_s).round().max(1.0) as u64;
+    let mut health = Health::new(model);
+    let mut history = History {
+        model: *model,
+        readings: Vec::new(),
+        alarms: Vec::new(),
+    };
+    let mut raised = HealthStatus::empty();
+    let mut count = 0_u64;
+    for (displacement_m, force_n) in samples {
+        health.tick(model, displacement_m as f32, force_n as f32);
+        let time_s = count as f64 * step_s;
+        count += 1;
+        let new = health.status() - raised;
+        for (alarm, _) in ALARMS {
+            if new.contains(alarm) {
+                history.alarms.push((alarm, time_s));
+                raised |= alarm;
+            }
+        }
+        if count % every == 0 {
+            let reading = health.reading(model);
+            history.readings.push(Reading { time_s, reading });
+        }
+    }
+    if count % every != 0 {
+        let time_s = (count - 1) as f64 * step_s;
+        let reading = health.reading(model);
+        history.readings.push(Reading { time_s, reading });
+    }
+    history
+}
+
+impl History {
+    /// The last reading, `None` without samples.
+    pub fn last(&self) -> Option<&HealthReading> {
+        self.readings.last().map(|reading| &reading.reading)
+    }
+}

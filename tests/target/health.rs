@@ -1,0 +1,106 @@
+//! The estimator of health on an emulated Cortex-M7: the bits of this machine, and no tick over its bound.
+
+use std::io::Write;
+
+use dashpot::in_turn::images;
+use dashpot::target::{first_line, symbol_address};
+use dashpot::{damper, document};
+use dashpot_core::Damper;
+use dashpot_core::health::HealthSettings;
+use dashpot_experiment::watch::{SAMPLES, Watch};
+use dashpot_hil::study::excitation::Excitation;
+use dashpot_hil::study::health::Noise;
+use serde_json::Value;
+use tempfile::NamedTempFile;
+use xtask::processor::CORTEX_M7;
+use xtask::target_toolchain::TargetToolchain;
+
+const DOCUMENT: &str = "docs/health.md";
+/// Time of an instruction under `-icount shift=10` (s).
+const INSTRUCTION_S: f64 = 1024e-9;
+/// Instructions that a tick may take, the fetch of the sample included.
+const MOST_INSTRUCTIONS: f64 = 250.0;
+
+/// Displacement and force of a damper over the ride to and fro, with the noise of 2 %, and what no sensor should give.
+fn samples(preset: &str) -> Vec<[u8; 8]> {
+    let damper: Damper<f64> = damper(preset, &[]).build(1e-3).unwrap();
+    let ride = Excitation::Ride.displacements_m(1e-3);
+    let to_and_fro = ride.iter().chain(ride.iter().rev()).copied();
+    let motion: Vec<f64> = to_and_fro.cycle().take(SAMPLES).collect();
+    let mut state = damper.at_rest(0.0);
+    let forces: Vec<f64> = motion.iter().map(|x| damper.step(&mut state, *x)).collect();
+    let (mut motion, mut forces) = Noise::of_rms(0.02, &motion, &forces).on(&motion, &forces, 7);
+    motion[15_000] = f64::NAN;
+    forces[16_000] = f64::INFINITY;
+    forces[17_000] = 1e9;
+    motion[18_000] += 1.0;
+    // Contradiction until the estimate begins anew.
+    (20_000..20_400).for_each(|tick| {
+        motion[tick] = 1.5e-3 * (tick - 20_000) as f64;
+        forces[tick] = 1500.0;
+    });
+    let pairs = motion.iter().zip(&forces);
+    pairs
+        .map(|(x, f)| {
+            let ([x0, x1, x2, x3], [f0, f1, f2, f3]) =
+                ((*x as f32).to_le_bytes(), (*f as f32).to_le_bytes());
+            [x0, x1, x2, x3, f0, f1, f2, f3]
+        })
+        .collect()
+}
+
+#[test]
+fn a_tick_keeps_its_bound_and_the_bits_of_this_machine() {
+    let Some(images) = images() else {
+        return;
+    };
+    let image = images.join("health-cost");
+    let mut table = String::new();
+    for preset in ["paper", "in-service", "reduced-vertical", "reduced-lateral"] {
+        let settings = HealthSettings::new(60e-6, 60.0);
+        let checked = damper(preset, &[]).check().unwrap();
+        let model = checked.health_model(&settings, 1e-3).unwrap();
+        let model_image = model.to_image();
+        let samples = samples(preset);
+        let watch = Watch {
+            model: &model_image,
+            samples: &samples,
+        };
+        let mut file = NamedTempFile::new().unwrap();
+        file.write_all(&watch.to_bytes().collect::<Vec<u8>>())
+            .unwrap();
+        let address = symbol_address(&image, "__sheap");
+        let path = file.path().display();
+        let loader = format!("loader,file={path},addr={address:#x},force-raw=on");
+        let line = first_line(&image, &CORTEX_M7, 10, &["-device", &loader]);
+        let printed: Value =
+            serde_json::from_str(&line).unwrap_or_else(|error| panic!("`{line}`: {error}"));
+        let number = |key: &str| printed[key].as_f64().unwrap();
+        let instructions =
+            |ticks: f64| (ticks - number("call")) / (INSTRUCTION_S * number("clock_hz")) + 1.0;
+        let mean = instructions(number("sum") / samples.len() as f64);
+        let (least, most) = (instructions(number("least")), instructions(number("most")));
+        println!("{preset}: {least:.0} to {most:.0}, mean {mean:.1} instructions");
+        assert!(most.round() <= MOST_INSTRUCTIONS, "{preset}: {most}");
+        let here = watch.run(&model, |health, model, [x, force]| {
+            health.tick(model, *x, *force);
+        });
+        assert_eq!(
+            printed["digest"],
+            format!("{:016x}", here.value()),
+            "{preset}: the estimates differ from those of this machine"
+        );
+        table += &format!("| `{preset}` | {mean:.0} | {most:.0} |\n");
+        if preset == "reduced-lateral" {
+            let (model, health) = (number("model_bytes"), number("health_bytes"));
+            table += &format!("\nBytes of the constants {model}, of what changes {health}.\n");
+        }
+    }
+    let compiler = TargetToolchain::find(CORTEX_M7.target).and_then(|found| found.version());
+    let compiler = compiler.unwrap_or_else(|error| panic!("{error}"));
+    let table = format!("| {compiler} | instructions, mean | most |\n|---|---|---|\n{table}");
+    // Another compiler keeps the bound, but need not have these figures.
+    if document::blessing() || document::part(DOCUMENT, "cost").contains(&compiler) {
+        document::compare_part(DOCUMENT, "cost", &table);
+    }
+}
