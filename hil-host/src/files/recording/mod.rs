@@ -5,8 +5,12 @@ mod channels;
 mod error;
 mod force_history;
 mod gaps;
+#[cfg(feature = "mdf")]
+mod mdf;
 mod measurement;
 mod open;
+#[cfg(feature = "parquet")]
+mod parquet;
 mod rows;
 mod select;
 mod stream;
@@ -22,13 +26,13 @@ pub use error::RecordingError;
 pub use force_history::ForceHistory;
 pub use gaps::{GAP_IN_MEDIANS, Gap, Gaps};
 pub use measurement::{MeasuredSample, Measurement};
-use open::open_rows;
+use open::{Origin, open_rows};
 use rows::Rows;
 pub use rows::{LeftOut, Place};
 pub use text::{DecimalMark, Separator, TextOptions};
 pub use unit::{Quantity, Unit};
 
-use crate::files::{FileError, input};
+use crate::files::FileError;
 
 /// One row of a recording.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -58,7 +62,7 @@ impl Recording {
     /// # Errors
     /// No readable file, an empty one, one of another kind, a channel that is missing or may be several, or whose unit is not known.
     pub fn open_with(path: &Path, channels: &Channels) -> Result<Self, FileError> {
-        Self::read_with(&input::name(path), input::open(path)?, channels)
+        Self::of(Origin::Path(path), channels)
     }
 
     /// A recording from `source`, called `path` in errors, with the channels `time_s` and `displacement_m`.
@@ -78,8 +82,12 @@ impl Recording {
         source: Box<dyn Read>,
         channels: &Channels,
     ) -> Result<Self, FileError> {
+        Self::of(Origin::Stream(path, source), channels)
+    }
+
+    fn of(origin: Origin<'_>, channels: &Channels) -> Result<Self, FileError> {
         let quantities = [Quantity::Time, Quantity::Displacement];
-        let rows = open_rows(path, source, channels, quantities)?;
+        let rows = open_rows(origin, channels, quantities)?;
         Ok(Self { rows })
     }
 

@@ -17,6 +17,12 @@ pub(super) struct Found {
     pub(super) group: usize,
     /// Whether the time of its group.
     pub(super) is_master: bool,
+    /// What its values are in the file.
+    pub(super) kind: String,
+    /// Whether they can be read as numbers.
+    pub(super) is_number: bool,
+    /// Rows, where the file tells before they are read.
+    pub(super) rows: Option<u64>,
 }
 
 /// A channel that was chosen.
@@ -67,6 +73,13 @@ pub(super) fn select<const N: usize>(
             return Err(RecordingError::SameChannel {
                 channel: label(found, index),
                 quantities: [quantities[other], quantity],
+            });
+        }
+        if !found[index].is_number {
+            return Err(RecordingError::NoNumbers {
+                quantity,
+                channel: label(found, index),
+                kind: found[index].kind.clone(),
             });
         }
         *chosen = Chosen {

@@ -10,7 +10,7 @@ use super::{Lines, Text, decode};
 use crate::files::FileError;
 
 /// Numbers of the chosen columns, row by row.
-pub(in super::super) struct TextRows {
+pub(super) struct TextRows {
     lines: Lines,
     names: Vec<String>,
     columns: Vec<usize>,
@@ -23,15 +23,15 @@ pub(in super::super) struct TextRows {
 }
 
 impl TextRows {
-    pub(super) fn new(text: Text, indices: &[usize]) -> Result<Self, FileError> {
+    pub(super) fn new(text: &mut Text, lines: Lines, indices: &[usize]) -> Self {
         let name = |index: &usize| super::super::select::label(&text.found, *index);
         let names = indices.iter().map(name).collect();
-        let (record, pending_line) = match text.pending {
+        let (record, pending_line) = match text.pending.take() {
             Some((record, line)) => (record, Some(line)),
             None => (ByteRecord::new(), None),
         };
-        Ok(Self {
-            lines: text.lines,
+        Self {
+            lines,
             names,
             columns: indices.to_vec(),
             cells: text.cells,
@@ -39,7 +39,7 @@ impl TextRows {
             record,
             pending_line,
             line_of_pending: None,
-        })
+        }
     }
 
     fn cell(&self, place: usize) -> &[u8] {
