@@ -35,7 +35,7 @@ Output columns: time_s,displacement_m,force_n at ticks from the first sample on,
 pub struct ReplayArguments {
     #[command(flatten)]
     damper: DamperArguments,
-    /// Recorded motion, CSV; `-` for standard input.
+    /// Recorded motion: text (CSV), MDF4 or Parquet; `-` for standard input.
     #[arg(long, value_name = "FILE")]
     input: PathBuf,
     #[command(flatten)]

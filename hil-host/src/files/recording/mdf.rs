@@ -125,7 +125,7 @@ impl Opened for Mdf {
         &self.groups
     }
 
-    fn rows(&mut self, indices: &[usize]) -> Result<Box<dyn Source>, FileError> {
+    fn rows(&mut self, indices: &[usize], _: bool) -> Result<Box<dyn Source>, FileError> {
         let groups = self.file.data_groups();
         let mut rows = 0;
         let mut channels: Vec<Channel> = Vec::new();

@@ -9,9 +9,11 @@ mod gaps;
 mod mdf;
 mod measurement;
 mod open;
+mod overview;
 #[cfg(feature = "parquet")]
 mod parquet;
 mod rows;
+mod samples;
 mod select;
 mod stream;
 mod text;
@@ -19,6 +21,7 @@ mod unit;
 
 use std::io::Read;
 use std::path::Path;
+use std::rc::Rc;
 
 pub use channels::{Channel, Channels};
 pub(crate) use error::MOST_TICKS;
@@ -27,6 +30,7 @@ pub use force_history::ForceHistory;
 pub use gaps::{GAP_IN_MEDIANS, Gap, Gaps};
 pub use measurement::{MeasuredSample, Measurement};
 use open::{Origin, open_rows};
+pub use overview::{ChannelOverview, Overview, TimeOverview, overview};
 use rows::Rows;
 pub use rows::{LeftOut, Place};
 pub use text::{DecimalMark, Separator, TextOptions};
@@ -83,6 +87,15 @@ impl Recording {
         channels: &Channels,
     ) -> Result<Self, FileError> {
         Self::of(Origin::Stream(path, source), channels)
+    }
+
+    /// Rows that were read from `path` already, once more.
+    pub fn again(path: &Path, samples: Rc<[Sample]>) -> Self {
+        let quantities = [Quantity::Time, Quantity::Displacement];
+        let names = quantities.map(|quantity| quantity.column().to_owned());
+        let samples = Box::new(samples::Samples::new(samples));
+        let rows = Rows::new(path, samples, names, samples::chosen(), false);
+        Self { rows }
     }
 
     fn of(origin: Origin<'_>, channels: &Channels) -> Result<Self, FileError> {

@@ -25,8 +25,9 @@ pub(super) trait Opened {
     /// Names of the groups that they are in; none where the file has no groups.
     fn groups(&self) -> &[String];
 
-    /// Rows of the channels of these indices, which are of one group. Text has its rows once.
-    fn rows(&mut self, indices: &[usize]) -> Result<Box<dyn Source>, FileError>;
+    /// Rows of the channels of these indices, which are of one group; text has its rows once. What is no number is an error
+    /// unless `lenient`, where it counts as missing.
+    fn rows(&mut self, indices: &[usize], lenient: bool) -> Result<Box<dyn Source>, FileError>;
 }
 
 /// Where a recording comes from.
@@ -93,7 +94,7 @@ pub(super) fn open_rows<const N: usize>(
     let chosen = select(opened.found(), opened.groups(), channels, quantities)
         .map_err(|error| FileError::in_file(&path, error))?;
     let names = chosen.map(|chosen| label(opened.found(), chosen.index));
-    let rows = opened.rows(&chosen.map(|chosen| chosen.index))?;
+    let rows = opened.rows(&chosen.map(|chosen| chosen.index), false)?;
     Ok(Rows::new(&path, rows, names, chosen, channels.skip_invalid))
 }
 

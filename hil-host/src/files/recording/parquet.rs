@@ -105,7 +105,7 @@ impl Opened for Parquet {
         &[]
     }
 
-    fn rows(&mut self, indices: &[usize]) -> Result<Box<dyn Source>, FileError> {
+    fn rows(&mut self, indices: &[usize], _: bool) -> Result<Box<dyn Source>, FileError> {
         let schema = self.reader.metadata().file_metadata().schema_descr();
         let columns = indices.iter().map(|&index| {
             let descriptor = schema.column(index);

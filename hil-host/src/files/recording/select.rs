@@ -49,8 +49,18 @@ pub(super) fn select<const N: usize>(
         .as_deref()
         .map(|group| group_number(group, groups))
         .transpose()?;
+    select_in(found, groups, wanted, channels, quantities)
+}
+
+/// As [`select`], in a group.
+pub(super) fn select_in<const N: usize>(
+    found: &[Found],
+    groups: &[String],
+    mut group: Option<usize>,
+    channels: &Channels,
+    quantities: [Quantity; N],
+) -> Result<[Chosen; N], RecordingError> {
     let mut indices = [0; N];
-    let mut group = wanted;
     let mut order: Vec<usize> = (0..N).collect();
     if groups.len() > 1 {
         // The time is that of the values' group.

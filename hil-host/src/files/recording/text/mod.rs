@@ -133,12 +133,12 @@ impl Opened for Text {
         &[]
     }
 
-    fn rows(&mut self, indices: &[usize]) -> Result<Box<dyn Source>, FileError> {
+    fn rows(&mut self, indices: &[usize], lenient: bool) -> Result<Box<dyn Source>, FileError> {
         let lines = self.lines.take().ok_or_else(|| {
             let reason = io::Error::other("it was read already");
             FileError::read(&self.path, reason)
         })?;
-        Ok(Box::new(TextRows::new(self, lines, indices)))
+        Ok(Box::new(TextRows::new(self, lines, indices, lenient)))
     }
 }
 
