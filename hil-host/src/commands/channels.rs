@@ -64,7 +64,6 @@ fn replay_line(arguments: &ChannelsArguments, given: &Channels, overview: &Overv
         line.push_str(&format!(" --group {group}"));
     }
     let time = overview.times.iter().find(|time| time.group == group);
-    let has_time = time.is_some_and(|time| time.channel.is_some());
     for (quantity, channel) in [
         (
             Quantity::Time,
@@ -72,7 +71,9 @@ fn replay_line(arguments: &ChannelsArguments, given: &Channels, overview: &Overv
         ),
         (Quantity::Displacement, displacement),
     ] {
-        if quantity == Quantity::Time && has_time && given.time.name.is_none() {
+        // The time of a group of MDF4 needs no name.
+        let is_master = group.is_some() && time.is_some_and(|time| time.channel.is_some());
+        if quantity == Quantity::Time && is_master && given.time.name.is_none() {
             continue;
         }
         match channel {

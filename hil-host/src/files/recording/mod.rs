@@ -18,6 +18,7 @@ mod select;
 mod stream;
 mod text;
 mod unit;
+pub mod written;
 
 use std::io::Read;
 use std::path::Path;

@@ -112,7 +112,13 @@ pub fn overview(path: &Path, channels: &Channels) -> Result<Overview, FileError>
         channel.group = channel.group.filter(|_| !groups.is_empty());
     }
     for group in 0..groups.len().max(1) {
-        let time = select_in(&found, &groups, Some(group), channels, [Quantity::Time]);
+        let time =
+            select_in(&found, &groups, Some(group), channels, [Quantity::Time]).or_else(|error| {
+                let named = the_time(&found, group).filter(|_| channels.time.name.is_none());
+                let mut channels = channels.clone();
+                channels.time.name = Some(named.ok_or(error)?);
+                select_in(&found, &groups, Some(group), &channels, [Quantity::Time])
+            });
         let (time, reason) = match time {
             Ok([chosen]) => (Some(chosen), None),
             Err(error) => (None, Some(error.to_string())),
@@ -147,6 +153,19 @@ pub fn overview(path: &Path, channels: &Channels) -> Result<Overview, FileError>
         return Err(FileError::in_file(&input::name(path), error));
     }
     Ok(overview)
+}
+
+/// The number of the one channel of a group that has a unit of time.
+fn the_time(found: &[Found], group: usize) -> Option<String> {
+    let is_time = |found: &Found| match &found.unit {
+        Some(unit) => Quantity::Time.unit(unit).is_some(),
+        None => Quantity::Time.unit_in_name(&found.name).is_some(),
+    };
+    let mut times = (0..found.len()).filter(|&i| found[i].group == group && is_time(&found[i]));
+    match (times.next(), times.next()) {
+        (Some(index), None) => Some(format!("#{}", index + 1)),
+        _ => None,
+    }
 }
 
 fn channel((index, found): (usize, &Found)) -> ChannelOverview {
