@@ -213,8 +213,8 @@ fn print_time(out: &mut dyn Write, time: &TimeOverview) -> io::Result<()> {
             out,
             "; {} Hz, intervals deviate by {} s (rms), {} s at most",
             six_digits(rate_hz),
-            two_digits(jitter_s),
-            two_digits(largest_s)
+            two_digits(nearest_nanosecond(jitter_s)),
+            two_digits(nearest_nanosecond(largest_s))
         )?;
     }
     writeln!(out)?;

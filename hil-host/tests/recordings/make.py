@@ -97,3 +97,4 @@ for name, options in {
     german.to_csv(folder / name, sep=";", decimal=",", index=False, **options)
 expected.to_csv(folder / "indexed.csv")
 expected.to_csv(folder / "bare.csv", header=False, index=False, sep="\t")
+german.to_parquet(folder / "pandas.parquet")

@@ -5,6 +5,8 @@ mod channels;
 mod error;
 mod force_history;
 mod gaps;
+#[cfg(feature = "parquet")]
+mod guarded;
 #[cfg(feature = "mdf")]
 mod mdf;
 mod measurement;

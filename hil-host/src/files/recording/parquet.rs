@@ -12,6 +12,7 @@ use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::schema::types::ColumnDescriptor;
 
 use super::error::RecordingError;
+use super::guarded::guarded;
 use super::open::Opened;
 use super::rows::{Place, Source};
 use super::select::Found;
@@ -63,7 +64,7 @@ impl Parquet {
     /// Reads what columns there are.
     pub(super) fn open(path: &Path, file: File) -> Result<Self, FileError> {
         let bytes = file.metadata().map_or(0, |data| data.len());
-        let reader = SerializedFileReader::new(file).map_err(|error| damaged(path, &error))?;
+        let reader = read(path, || SerializedFileReader::new(file))?;
         let metadata = reader.metadata().file_metadata();
         let rows = u64::try_from(metadata.num_rows()).unwrap_or(0);
         let units = metadata
@@ -144,12 +145,12 @@ impl ParquetRows {
                     Err(self.cut_off())
                 };
             }
-            self.open_group().map_err(|e| damaged(&self.path, &e))?;
+            let path = self.path.clone();
+            read(&path, || self.open_group())?;
         }
         let wanted = self.left.min(ROWS);
         for column in &mut self.columns {
-            let read = column.read(wanted).map_err(|e| damaged(&self.path, &e))?;
-            if read != wanted {
+            if read(&self.path, || column.read(wanted))? != wanted {
                 return Err(self.cut_off());
             }
         }
@@ -274,14 +275,18 @@ impl Source for ParquetRows {
     }
 }
 
-fn damaged(path: &Path, error: &ParquetError) -> FileError {
-    FileError::in_file(
+/// What the library reads.
+fn read<T>(path: &Path, read: impl FnOnce() -> Result<T, ParquetError>) -> Result<T, FileError> {
+    let reason = match guarded(read) {
+        Some(Ok(read)) => return Ok(read),
+        Some(Err(error)) => error.to_string(),
+        None => "its parts contradict each other".into(),
+    };
+    let kind = "Parquet";
+    Err(FileError::in_file(
         path,
-        RecordingError::Damaged {
-            kind: "Parquet",
-            reason: error.to_string(),
-        },
-    )
+        RecordingError::Damaged { kind, reason },
+    ))
 }
 
 /// The unit of a time, which its type tells.
