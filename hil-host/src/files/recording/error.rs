@@ -276,6 +276,9 @@ fn listed(names: &[String]) -> String {
 }
 
 fn numbered_list(names: &[String]) -> String {
+    if names.is_empty() {
+        return "none in this file".into();
+    }
     let numbered = names.iter().take(MOST_NAMES).enumerate();
     let names: Vec<String> = numbered
         .map(|(number, name)| match name.as_str() {
