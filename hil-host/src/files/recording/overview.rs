@@ -52,7 +52,7 @@ pub struct ChannelOverview {
 }
 
 /// A time.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct TimeOverview {
     /// Number of the group, from 1, where the file has groups.
     pub group: Option<usize>,
@@ -216,23 +216,6 @@ impl ChannelOverview {
         self.last = Some(value);
         self.min = Some(self.min.map_or(value, |min| min.min(value)));
         self.max = Some(self.max.map_or(value, |max| max.max(value)));
-    }
-}
-
-impl Default for TimeOverview {
-    fn default() -> Self {
-        Self {
-            group: None,
-            group_name: None,
-            channel: None,
-            reason: None,
-            from_to_s: None,
-            rate_hz: None,
-            jitter_s: None,
-            largest_deviation_s: None,
-            not_growing: 0,
-            gaps: None,
-        }
     }
 }
 
