@@ -1,5 +1,6 @@
 //! The rows of a file, by its kind.
 
+#[cfg(any(feature = "mdf", feature = "parquet"))]
 use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
@@ -47,6 +48,9 @@ pub(super) fn open(origin: Origin<'_>, channels: &Channels) -> Result<Box<dyn Op
         Origin::Path(path) => (input::name(path), Some(path), input::open(path)?),
         Origin::Stream(name, source) => (name.into(), None, source),
     };
+    // Only what is jumped in needs the file itself.
+    #[cfg(not(any(feature = "mdf", feature = "parquet")))]
+    let _ = file;
     let path: &Path = &name;
     let in_file = |error: RecordingError| FileError::in_file(path, error);
     let failed = |error: io::Error| FileError::read(path, error);

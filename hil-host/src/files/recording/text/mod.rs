@@ -13,6 +13,7 @@ use std::io::{self, BufReader, Cursor, Read};
 use std::path::{Path, PathBuf};
 
 use csv::{ByteRecord, Reader, ReaderBuilder};
+#[cfg(feature = "parquet")]
 pub(super) use header::found;
 use line_ends::LineEnds;
 pub use options::{DecimalMark, Separator, TextOptions};
