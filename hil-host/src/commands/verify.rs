@@ -12,7 +12,7 @@ use super::step_size::{self, StepSize};
 use super::{DamperArguments, Format, counted, print_report, progress};
 use crate::commands::failure::{Failure, Outcome};
 use crate::files::input;
-use crate::files::recording::{Gaps, Recording, Sample};
+use crate::files::recording::{Gaps, Recording};
 use crate::study::Scalar;
 use crate::study::replay::TickGrid;
 use crate::study::verification::{
@@ -80,7 +80,7 @@ pub fn run(arguments: &VerifyArguments) -> Outcome<()> {
     arguments.damper.refuse_same_input(&arguments.input)?;
     let parameters = arguments.damper.load()?;
     let mut recording = Recording::open_with(&arguments.input, &arguments.recording.channels())?;
-    let samples: Rc<[Sample]> = recording.read_all()?.into();
+    let samples = Rc::new(recording.read_all()?);
     let path = input::name(&arguments.input);
     let gaps = recording.gaps();
     let bar = progress::bar(arguments.step_us.len() as u64, "verify");

@@ -42,6 +42,7 @@ impl ForceHistory {
         let mut rows = open_rows(Origin::Path(path), channels, quantities)?;
         let mut samples: Vec<[f64; 2]> = Vec::new();
         while let Some(sample) = rows.next()? {
+            rows.reserve(&mut samples)?;
             samples.push(sample);
         }
         if let (Some([from_s, _]), Some([to_s, _])) = (samples.first(), samples.last())

@@ -73,6 +73,7 @@ impl Measurement {
     pub fn read_all(&mut self) -> Result<Vec<MeasuredSample>, FileError> {
         let mut samples = Vec::new();
         while let Some(sample) = self.next_sample()? {
+            self.rows.reserve(&mut samples)?;
             samples.push(sample);
         }
         Ok(samples)

@@ -93,7 +93,7 @@ impl Recording {
     }
 
     /// Rows that were read from `path` already, once more.
-    pub fn again(path: &Path, samples: Rc<[Sample]>) -> Self {
+    pub fn again(path: &Path, samples: Rc<Vec<Sample>>) -> Self {
         let quantities = [Quantity::Time, Quantity::Displacement];
         let names = quantities.map(|quantity| quantity.column().to_owned());
         let samples = Box::new(samples::Samples::new(samples));
@@ -126,6 +126,7 @@ impl Recording {
     pub fn read_all(&mut self) -> Result<Vec<Sample>, FileError> {
         let mut samples = Vec::new();
         while let Some(sample) = self.next_sample()? {
+            self.rows.reserve(&mut samples)?;
             samples.push(sample);
         }
         Ok(samples)

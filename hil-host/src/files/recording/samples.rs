@@ -9,12 +9,12 @@ use crate::files::FileError;
 
 /// Rows in memory, in SI.
 pub(super) struct Samples {
-    samples: Rc<[Sample]>,
+    samples: Rc<Vec<Sample>>,
     next: usize,
 }
 
 impl Samples {
-    pub(super) fn new(samples: Rc<[Sample]>) -> Self {
+    pub(super) fn new(samples: Rc<Vec<Sample>>) -> Self {
         Self { samples, next: 0 }
     }
 }
