@@ -7,6 +7,7 @@
 pub mod arguments;
 pub mod budget;
 pub mod calibrate;
+pub mod channels;
 pub mod contact;
 pub mod demonstrate;
 pub mod export;
@@ -40,6 +41,7 @@ use print::{counted, nearest_nanosecond, print_report, print_report_beside};
 #[derive(Debug, Clone, clap::Subcommand)]
 pub enum Command {
     Replay(replay::ReplayArguments),
+    Channels(channels::ChannelsArguments),
     Rig(rig::RigArguments),
     Verify(verify::VerifyArguments),
     Shims(shims::ShimsArguments),
@@ -63,6 +65,7 @@ impl Command {
     pub fn run(&self) -> Outcome<()> {
         match self {
             Self::Replay(arguments) => replay::run(arguments),
+            Self::Channels(arguments) => channels::run(arguments),
             Self::Rig(arguments) => rig::run(arguments),
             Self::Verify(arguments) => verify::run(arguments),
             Self::Shims(arguments) => shims::run(arguments),

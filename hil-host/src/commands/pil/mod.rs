@@ -16,6 +16,7 @@ use rows::Rows;
 
 use super::arguments::damper_help;
 use super::line::LineArguments;
+use super::recording::MotionArguments;
 use super::step_size::StepSize;
 use super::{Format, RealtimeArguments, print_report_beside, progress, streams};
 use crate::commands::failure::{Failure, Outcome};
@@ -62,9 +63,11 @@ pub struct PilArguments {
     overrides: Vec<String>,
     #[command(flatten)]
     line: LineArguments,
-    /// Recorded motion, CSV with columns time_s,displacement_m; `-` for standard input.
+    /// Recorded motion: text (CSV), MDF4 or Parquet; `-` for standard input.
     #[arg(long, value_name = "FILE")]
     input: PathBuf,
+    #[command(flatten)]
+    recording: MotionArguments,
     /// Displacements, forces and events of every tick, CSV; `-` for standard output.
     #[arg(long, value_name = "FILE")]
     output: Option<PathBuf>,
@@ -106,7 +109,7 @@ pub fn run(arguments: &PilArguments) -> Outcome<()> {
         .iter()
         .map(load)
         .collect::<Result<_, _>>()?;
-    let recording = Recording::open(&arguments.input)?;
+    let recording = Recording::open_with(&arguments.input, &arguments.recording.channels())?;
     let mut found = None;
     // Both files are opened before the run, so that a file that cannot be written costs no run.
     write_whole_if::<Failure>(arguments.page.as_deref(), |page| {
