@@ -14,7 +14,7 @@ use crate::commands::failure::{Failure, Outcome};
 use crate::files::input;
 use crate::files::recording::{Gaps, Recording};
 use crate::study::Scalar;
-use crate::study::replay::TickGrid;
+use crate::study::tick_grid::TickGrid;
 use crate::study::verification::{
     Deviation, deviation, fixed_step_forces, reference_forces, reference_forces_on_recording,
 };

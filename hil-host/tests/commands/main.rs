@@ -1,5 +1,6 @@
 //! `dashpot` from outside, as its users run it.
 
+mod bench_to_firmware;
 mod budget;
 mod c_library_page;
 #[path = "../common/mod.rs"]

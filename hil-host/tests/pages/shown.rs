@@ -37,6 +37,31 @@ pub static STUDY: LazyLock<String> = LazyLock::new(|| {
     made(&["sweep", study, "--output", "study"], "study/report.html")
 });
 
+/// That of a calibration: profiles, loops of points and lines.
+pub static CALIBRATION: LazyLock<String> = LazyLock::new(|| {
+    let input = concat!(env!("CARGO_MANIFEST_DIR"), "/../data/bench/bench_made.mf4");
+    let line = ["calibrate", "--damper", "in-service", "--input", input];
+    let found = [
+        "--vary",
+        "mount.clearance_m",
+        "--output",
+        "found.toml",
+        "--page",
+        "page.html",
+    ];
+    made(&[&line[..], &found].concat(), "page.html")
+});
+
+/// That of a damper's health: bands and levels.
+pub static HEALTH: LazyLock<String> = LazyLock::new(|| {
+    let input = concat!(env!("CARGO_MANIFEST_DIR"), "/../data/bench/worn_made.mf4");
+    let line = ["replay", "--damper", "in-service", "--input", input];
+    made(
+        &[&line[..], &["--output", "f.csv", "--health", "page.html"]].concat(),
+        "page.html",
+    )
+});
+
 fn made(arguments: &[&str], page: &str) -> String {
     let folder = tempfile::tempdir().unwrap();
     dashpot(arguments, folder.path()).success();
@@ -44,11 +69,14 @@ fn made(arguments: &[&str], page: &str) -> String {
 }
 
 /// All of them, with their plots.
-pub fn all() -> [(&'static str, &'static str, usize); 4] {
+pub fn all() -> [(&'static str, &'static str, usize); 6] {
     [
         ("demonstration", &DEMONSTRATION, 13),
         ("vehicle", &VEHICLE, 18),
         ("bank", &BANK, 6),
         ("study", &STUDY, 9),
+        // Two profiles, and for each of four tests two loops and what is missed.
+        ("calibration", &CALIBRATION, 14),
+        ("health", &HEALTH, 4),
     ]
 }

@@ -25,7 +25,7 @@ use crate::files::input;
 use crate::files::output::{self, cannot_write, write_whole_if};
 use crate::files::recording::Recording;
 use crate::realtime::pacing::Pacer;
-use crate::study::replay::TickGrid;
+use crate::study::tick_grid::TickGrid;
 use crate::target::pil::{Client, FaultRates, FaultyLink, Link, Pace, Session};
 
 /// Drive dampers on a target and compare every force with this host's, bit for bit.

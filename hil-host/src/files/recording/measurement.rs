@@ -93,4 +93,9 @@ impl Measurement {
     pub fn in_text(&self, error: RecordingError) -> FileError {
         self.rows.in_text(error)
     }
+
+    /// `error` in the time of the row read last.
+    pub(crate) fn in_time(&self, error: RecordingError) -> FileError {
+        self.rows.in_time(error)
+    }
 }

@@ -1,5 +1,7 @@
 //! `dashpot replay`: force over a recorded motion.
 
+mod health;
+
 use std::io::{self, Write};
 use std::path::PathBuf;
 
@@ -8,7 +10,7 @@ use serde::Serialize;
 
 use super::gap_report::write_gaps;
 use super::paced::Paced;
-use super::recording::MotionArguments;
+use super::recording::MeasurementArguments;
 use super::step_size::{self, StepSize};
 use super::{
     DamperArguments, Format, RealtimeArguments, counted, nearest_nanosecond, print_report_beside,
@@ -21,7 +23,9 @@ use crate::files::recording::written::{ColumnName, Form, Written};
 use crate::files::recording::{Gaps, Recording};
 use crate::realtime::pacing::Pacer;
 use crate::study::Scalar;
-use crate::study::replay::{Summary, TickGrid, replay};
+use crate::study::replay::{Summary, replay};
+use crate::study::tick_grid::TickGrid;
+use health::{HealthArguments, HealthReport};
 
 /// Columns that are written.
 const COLUMNS: [ColumnName; 3] = [("time_s", "s"), ("displacement_m", "m"), ("force_n", "N")];
@@ -33,10 +37,13 @@ const COLUMNS: [ColumnName; 3] = [("time_s", "s"), ("displacement_m", "m"), ("fo
   dashpot replay --damper my.toml --set mount.clearance_m=1e-3 --input run7.csv --output f.csv
   dashpot replay --input run7.csv --output f.csv --realtime --fifo 80 --lock-memory --core 1
   dashpot replay --input run7.mf4 --group 2 --displacement Weg --output force.mf4
+  dashpot replay --damper in-service --input run8.mf4 --output f.csv --health health.html
   dashpot replay --input messung.csv.gz --time Zeit --displacement Weg --displacement-unit mm --output - | head
 
 `dashpot channels FILE` lists the channels and what to type. Uneven times are allowed, other channels passed over; text may have any
 separator, decimal comma and unit row, and is found to be UTF-8, UTF-16 or Windows-1252, compressed with gzip or not.
+With --health the recording has the force that was measured, too: flow, stiffness and clearance of that damper are estimated against
+--damper (docs/health.md).
 Output columns: time_s,displacement_m,force_n at ticks from the first sample on, the displacement linear between samples.")]
 pub struct ReplayArguments {
     #[command(flatten)]
@@ -45,7 +52,7 @@ pub struct ReplayArguments {
     #[arg(long, value_name = "FILE")]
     input: PathBuf,
     #[command(flatten)]
-    recording: MotionArguments,
+    recording: MeasurementArguments,
     /// Force over time: CSV, or by its name Parquet (.parquet) or MDF4 (.mf4); written whole or not at all, `-` is CSV to standard output.
     #[arg(long, value_name = "FILE")]
     output: PathBuf,
@@ -65,6 +72,8 @@ pub struct ReplayArguments {
     realtime: bool,
     #[command(flatten)]
     options: RealtimeArguments,
+    #[command(flatten)]
+    health: HealthArguments,
     /// How results are printed.
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
@@ -89,6 +98,8 @@ struct Report {
     gaps: Gaps,
     #[serde(skip_serializing_if = "Option::is_none")]
     realtime: Option<Paced>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    health: Option<HealthReport>,
 }
 
 /// Runs the command.
@@ -102,6 +113,7 @@ pub fn run(arguments: &ReplayArguments) -> Outcome<()> {
     let options = arguments
         .options
         .options_under("--realtime", arguments.realtime)?;
+    let health = health::Watched::of(arguments, &parameters)?;
     let mut pacer = if arguments.realtime {
         Some(Pacer::new(arguments.step_us.step_s(), &options)?)
     } else {
@@ -128,6 +140,7 @@ pub fn run(arguments: &ReplayArguments) -> Outcome<()> {
         saturated: summary.saturated_ticks > 0,
         gaps,
         realtime: pacer.as_ref().map(|pacer| Paced::from(pacer.report())),
+        health: health.map(health::Watched::write).transpose()?,
     };
     print_report_beside(
         &arguments.output,
@@ -227,6 +240,9 @@ fn print(
     }
     if let Some(realtime) = &report.realtime {
         realtime.write(out, "step")?;
+    }
+    if let Some(health) = &report.health {
+        health.print(out)?;
     }
     writeln!(out, "wrote {}", output::name(&arguments.output).display())
 }
