@@ -152,12 +152,12 @@ pub fn watch(
                 raised |= alarm;
             }
         }
-        if count % every == 0 {
+        if count.is_multiple_of(every) {
             let reading = health.reading(model);
             history.readings.push(Reading { time_s, reading });
         }
     }
-    if count % every != 0 {
+    if !count.is_multiple_of(every) {
         let time_s = (count - 1) as f64 * step_s;
         let reading = health.reading(model);
         history.readings.push(Reading { time_s, reading });
