@@ -23,6 +23,7 @@ pub mod print;
 pub mod progress;
 pub mod recording;
 pub mod replay;
+pub mod response;
 pub mod rig;
 pub mod shims;
 pub mod step_size;
@@ -41,6 +42,7 @@ use print::{counted, nearest_nanosecond, print_report, print_report_beside};
 pub enum Command {
     Replay(replay::ReplayArguments),
     Rig(rig::RigArguments),
+    Response(response::ResponseArguments),
     Verify(verify::VerifyArguments),
     Shims(shims::ShimsArguments),
     Budget(budget::BudgetArguments),
@@ -64,6 +66,7 @@ impl Command {
         match self {
             Self::Replay(arguments) => replay::run(arguments),
             Self::Rig(arguments) => rig::run(arguments),
+            Self::Response(arguments) => response::run(arguments),
             Self::Verify(arguments) => verify::run(arguments),
             Self::Shims(arguments) => shims::run(arguments),
             Self::Budget(arguments) => budget::run(arguments),

@@ -1,6 +1,8 @@
 //! Studies of a damper: replay of a recording, bench test, verification against the reference; of its shim packs as plates; of a vehicle on a track.
 
 pub mod accuracy_limits;
+pub mod bench_index;
+pub mod bench_sheet;
 pub mod bench_test;
 pub mod calibration;
 mod error;
@@ -12,6 +14,7 @@ pub mod response;
 mod scalar;
 pub mod shim_valves;
 pub mod sweep;
+pub mod swept_sine;
 pub mod vehicle;
 pub mod verification;
 pub mod workers;
