@@ -210,7 +210,7 @@ impl From<StudyError> for Failure {
             StudyError::Frequency(frequency_hz) => Self::wrong_use(format!(
                 "--frequency-hz: {frequency_hz}, allowed: above 0 and at most {HIGHEST_FREQUENCY_HZ} Hz"
             )),
-            StudyError::SweepRate { .. } | StudyError::SweepCycles { .. } => {
+            StudyError::SweepRate { .. } | StudyError::SweepSteps { .. } => {
                 Self::wrong_use(format!("--octaves-per-minute: {error}"))
             }
             StudyError::Step { .. }

@@ -5,7 +5,7 @@ use dashpot_core::parameters::STEP_ALLOWED;
 use dashpot_reference::ReferenceError;
 
 use super::bench_test::{HIGHEST_FREQUENCY_HZ, Harmonic, LARGEST_AMPLITUDE_M, STEPS_PER_CYCLE};
-use super::swept_sine::MOST_CYCLES as MOST_SWEPT_CYCLES;
+use super::swept_sine::MOST_STEPS as MOST_SWEPT_STEPS;
 use crate::files::FileError;
 
 /// Why a study has no result.
@@ -81,11 +81,11 @@ pub enum StudyError {
     },
     /// A swept sine is too long.
     #[error(
-        "a sweep of {cycles:.0} cycles, allowed: {MOST_SWEPT_CYCLES}; sweep faster or to a lower frequency"
+        "a sweep of {steps:.1e} steps, allowed: {MOST_SWEPT_STEPS:e}; sweep faster or to a lower frequency"
     )]
-    SweepCycles {
-        /// Its cycles.
-        cycles: f64,
+    SweepSteps {
+        /// Its steps.
+        steps: f64,
     },
     /// Two series of forces have different lengths.
     #[error("{forces} forces against {references} of the reference")]

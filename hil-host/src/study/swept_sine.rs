@@ -1,8 +1,10 @@
 //! Frequency response by a swept sine: one motion of constant amplitude whose frequency rises by as many octaves in every minute, and the
 //! first harmonic of the force by synchronous demodulation over a few cycles.
 //!
-//! `x = A sin phi`, `dphi/dt = 2 pi f`, `f = f_0 exp(r t)`; then `f` rises evenly from cycle to cycle. The first harmonic at a frequency
-//! is that under a Hann window of [`WINDOW_CYCLES`] cycles about it, over the phase: its zeros are at every other harmonic.
+//! `x = A sin phi`, `dphi/dt = 2 pi f`, `f = f_0 exp(r t)`; then `f` rises by `r` from cycle to cycle. The first harmonic at a frequency is that under a
+//! triangle (Bartlett window) of [`WINDOW_CYCLES`] cycles about it, over the phase: it has double zeros at all other harmonics, so none of them leaks in
+//! while its amplitude changes evenly. Where the stiffness goes with the power `p` of the frequency, the value errs by about
+//! `p (p - 1)/2 (r/f)^2/6`: 1/6 is the window's variance in cycles.
 
 use std::f64::consts::{LN_2, TAU};
 
@@ -14,22 +16,25 @@ use super::bench_test::Harmonic;
 use super::response::Response;
 
 /// Cycles that a value is demodulated over.
-pub const WINDOW_CYCLES: u32 = 4;
+pub const WINDOW_CYCLES: u32 = 2;
 
-/// Most cycles of a sweep.
-pub const MOST_CYCLES: u32 = 200_000;
+/// The window, by its name.
+pub const WINDOW: &str = "Bartlett";
+
+/// Most steps of a sweep: a few minutes of computing.
+pub const MOST_STEPS: f64 = 2e9;
 
 /// Cycles from rest before the first window.
 const LEAD_CYCLES: f64 = 2.0;
 
-/// Steps of a cycle at least, where the shortest step allows as many; twice that at most.
-const STEPS: f64 = 2000.0;
+/// Steps of the fastest cycle, where the shortest step allows as many.
+const STEPS: f64 = 1000.0;
 
 /// Half a window, cycles.
 const HALF: f64 = WINDOW_CYCLES as f64 / 2.0;
 
 /// The response at each of the rising `frequencies_hz` to one sweep through all of them at `amplitude_m`, by the core's step in double precision.
-/// The sweep starts [`WINDOW_CYCLES`] cycles before the first, at half of it or above.
+/// The sweep starts three cycles before the first, at half of it or above.
 ///
 /// # Errors
 /// A motion outside its range or faster than the damper's limit, a sweep too fast for the first frequency or too long; a damper that does not build.
@@ -104,11 +109,16 @@ impl Sweep {
             end_hz: to_hz + rate_per_s * HALF,
             rate_per_s,
         };
-        let cycles = sweep.cycles_at(sweep.end_hz);
-        if cycles > f64::from(MOST_CYCLES) {
-            return Err(StudyError::SweepCycles { cycles });
+        let steps = (sweep.end_hz / sweep.start_hz).ln() / rate_per_s / sweep.step_s();
+        if steps > MOST_STEPS {
+            return Err(StudyError::SweepSteps { steps });
         }
         Ok(sweep)
+    }
+
+    /// The step (s).
+    fn step_s(&self) -> f64 {
+        (1.0 / (self.end_hz * STEPS)).clamp(*STEP_RANGE_S.start(), *STEP_RANGE_S.end())
     }
 
     /// Cycles before a frequency is reached.
@@ -147,48 +157,34 @@ fn run(
     sweep: &Sweep,
     windows: &mut [Window],
 ) -> Result<bool, StudyError> {
-    let mut state = None;
+    let step_s = sweep.step_s();
+    let damper = parameters.build::<f64>(step_s)?;
+    let mut state = damper.at_rest(0.0);
     // Windows before this one are complete.
     let mut first = 0;
-    let mut octave_hz = sweep.start_hz;
-    // A step of its own in each octave; the state goes on in the damper of the next.
-    while first < windows.len() {
-        let step_s = 1.0 / (2.0 * octave_hz * STEPS);
-        let step_s = step_s.clamp(*STEP_RANGE_S.start(), *STEP_RANGE_S.end());
-        let damper = parameters.build::<f64>(step_s)?;
-        let state = state.get_or_insert_with(|| damper.at_rest(0.0));
-        let ticks = (LN_2 / sweep.rate_per_s / step_s).ceil();
-        for tick in 1..=ticks as u64 {
-            let frequency = octave_hz * (sweep.rate_per_s * step_s * tick as f64).exp();
-            let cycles = sweep.cycles_at(frequency);
-            let (sine, cosine) = (TAU * cycles.fract()).sin_cos();
-            let force = damper.step(state, amplitude_m * sine);
-            while windows
-                .get(first)
-                .is_some_and(|window| cycles > window.centre + HALF)
-            {
-                first += 1;
-            }
-            for window in &mut windows[first..] {
-                let from_centre = cycles - window.centre;
-                if from_centre < -HALF {
-                    break;
-                }
-                let weight = (1.0 + (TAU * from_centre / f64::from(WINDOW_CYCLES)).cos())
-                    * frequency
-                    * step_s;
-                window.sine += weight * force * sine;
-                window.cosine += weight * force * cosine;
-                window.weight += weight;
-            }
-            if first == windows.len() {
+    for tick in 1_u64.. {
+        let frequency_hz = sweep.start_hz * (sweep.rate_per_s * step_s * tick as f64).exp();
+        let cycles = sweep.cycles_at(frequency_hz);
+        let (sine, cosine) = (TAU * cycles.fract()).sin_cos();
+        let force = damper.step(&mut state, amplitude_m * sine);
+        let is_past = |window: &Window| cycles > window.centre + HALF;
+        while windows.get(first).is_some_and(is_past) {
+            first += 1;
+        }
+        if first == windows.len() {
+            break;
+        }
+        for window in &mut windows[first..] {
+            let from_centre = cycles - window.centre;
+            if from_centre < -HALF {
                 break;
             }
+            // Over the phase, which advances with the frequency.
+            let weight = (1.0 - from_centre.abs() / HALF) * frequency_hz;
+            window.sine += weight * force * sine;
+            window.cosine += weight * force * cosine;
+            window.weight += weight;
         }
-        if state.status().contains(Status::INPUT_LIMITED) {
-            return Ok(false);
-        }
-        octave_hz *= (sweep.rate_per_s * step_s * ticks).exp();
     }
-    Ok(true)
+    Ok(!state.status().contains(Status::INPUT_LIMITED))
 }

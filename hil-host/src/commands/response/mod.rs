@@ -32,7 +32,7 @@ The amplitude-frequency characteristics of the paper, Figs. 13b and 18b:
 Of x = A sin wt the force has the first harmonic A (K' sin wt + K\" cos wt): dynamic stiffness is its magnitude over A, loss angle the phase by
 which it leads the displacement (0 of a spring, 90 degrees of a dashpot), damping K\"/w. Harmonic values are of the periodic force at one
 frequency after the other. The linearised damper is that at a peak velocity of 0.1 mm/s with its clearance taken up. Swept values are of one
-motion through all frequencies, demodulated under a Hann window of 4 cycles about each; the difference is told from the harmonic one.
+motion through all frequencies, demodulated under a Bartlett window of 2 cycles about each; the difference is told from the harmonic one.
 
 Columns of --output: response (harmonic, linearised or swept), the number of --over, amplitude_m, frequency_hz, dynamic_stiffness_n_per_m,
 loss_angle_deg, storage_n_per_m (K'), loss_n_per_m (K\"), damping_n_s_per_m, difference (of a swept value, over the harmonic stiffness)."

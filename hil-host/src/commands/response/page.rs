@@ -10,6 +10,7 @@ use crate::report::DrawError;
 use crate::report::page::{Figure, document, figure, footer};
 use crate::report::plot::curves::{Curve, ramp};
 use crate::report::plot::response;
+use crate::report::plot::sheet::Scale;
 use crate::report::plot::style::AMBER_LINE;
 
 /// Height of a panel (pixels).
@@ -74,7 +75,7 @@ fn part(report: &Report, series: &[&Series]) -> Result<Markup, DrawError> {
         let found = coloured.iter().find(|(other, _)| is_same(other));
         found.map_or(AMBER_LINE, |(_, colour)| *colour)
     };
-    let mut panels = response::panels();
+    let mut panels = response::panels(Scale::Decades);
     for series in series {
         // Dashes and points have their line's colour; they are named once.
         let name = match (series.response, &report.over, series.value) {
@@ -83,7 +84,7 @@ fn part(report: &Report, series: &[&Series]) -> Result<Markup, DrawError> {
             (Kind::Linearised, None, _) => "linearised".into(),
             (Kind::Linearised | Kind::Swept, ..) => String::new(),
         };
-        let curves = response::of(&name, colour(series), &series.responses);
+        let curves = response::of(&name, colour(series), &series.responses, Scale::Decades);
         for (panel, curve) in panels.iter_mut().zip(curves) {
             panel.curves.push(drawn(series.response, curve));
         }
@@ -121,7 +122,7 @@ fn differences(report: &Report) -> Markup {
         @if let Some(sweep) = &report.swept_sine {
             h2 { "Swept beside harmonic" }
             p {
-                "One motion of constant amplitude through all frequencies, " (sweep.octaves_per_minute) " octaves a minute; each value by \
+                "One motion of constant amplitude through all frequencies, " (sweep.octaves_per_minute) " octaves/min; each value by \
                  synchronous demodulation under a " (sweep.window) " window of " (sweep.window_cycles) " cycles."
             }
             div.wide {

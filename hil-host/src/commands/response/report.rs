@@ -10,7 +10,7 @@ use crate::commands::failure::Outcome;
 use crate::files::output;
 use crate::files::study::shown;
 use crate::study::response::{Response, at_amplitude, linearised};
-use crate::study::swept_sine::{self, WINDOW_CYCLES};
+use crate::study::swept_sine::{self, WINDOW, WINDOW_CYCLES};
 use crate::study::workers;
 
 /// How a response was found.
@@ -169,7 +169,7 @@ impl Report {
             over: arguments.over.as_ref().map(|family| family.key.clone()),
             swept_sine: arguments.swept.then_some(SweptSine {
                 octaves_per_minute: arguments.octaves_per_minute,
-                window: "Hann",
+                window: WINDOW,
                 window_cycles: WINDOW_CYCLES,
             }),
             series: found.into_iter().flatten().collect(),
@@ -226,7 +226,7 @@ impl Report {
         if let Some(sweep) = &report.swept_sine {
             writeln!(
                 out,
-                "\nswept: {} octaves a minute, each value under a {} window of {} cycles",
+                "\nswept: {} octaves/min, each value under a {} window of {} cycles",
                 sweep.octaves_per_minute, sweep.window, sweep.window_cycles
             )?;
         }

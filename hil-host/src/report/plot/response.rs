@@ -7,29 +7,41 @@ use super::sheet::{Panel, Scale};
 use crate::report::page::panel;
 use crate::study::response::Response;
 
-/// The panels of dynamic stiffness (MN/m), loss angle (degrees) and damping (kN s/m) without curves yet.
-pub(crate) fn panels() -> [Panel; 3] {
-    [
-        "dynamic stiffness, MN/m",
-        "loss angle, °",
-        "damping, kN s/m",
-    ]
-    .map(|y| Panel {
-        x_scale: Scale::Decades,
-        ..panel("frequency, Hz", y, Vec::new())
-    })
-}
+/// Where a scale of decades stops to show damping: a loss angle (degrees) that is all but that of a spring.
+const LEAST_ANGLE_DEG: f64 = 0.1;
 
-/// A response as a curve of each panel.
-pub(crate) fn of(name: &str, colour: RGBColor, responses: &[Response]) -> [Curve; 3] {
-    let curve = |value: fn(&Response) -> f64| {
-        let points = responses.iter().map(|r| (r.frequency_hz, value(r)));
-        Curve::new(name, colour, points)
+/// The panels of dynamic stiffness (MN/m), loss angle (degrees) and damping (kN s/m) without curves yet; stiffness and damping on this
+/// scale.
+pub(crate) fn panels(scale: Scale) -> [Panel; 3] {
+    let axes = |y: &str, scale| Panel {
+        x_scale: Scale::Decades,
+        scale,
+        ..panel("frequency, Hz", y, Vec::new())
     };
     [
-        curve(|r| r.stiffness_n_per_m() * 1e-6),
-        // A number that is none parts a line.
-        curve(|r| r.loss_angle_deg().unwrap_or(f64::NAN)),
-        curve(|r| r.damping_n_s_per_m() * 1e-3),
+        axes("dynamic stiffness, MN/m", scale),
+        axes("loss angle, °", Scale::Linear),
+        axes("damping, kN s/m", scale),
+    ]
+}
+
+/// A response as a curve of each panel. Where it has no loss angle, or too little for decades, the curve is parted.
+pub(crate) fn of(name: &str, colour: RGBColor, responses: &[Response], scale: Scale) -> [Curve; 3] {
+    let curve = |value: &dyn Fn(&Response) -> Option<f64>| {
+        let points = responses.iter();
+        let points = points.map(|r| (r.frequency_hz, value(r).unwrap_or(f64::NAN)));
+        Curve::new(name, colour, points)
+    };
+    let is_shown = |least_deg: f64| {
+        move |r: &Response| match scale {
+            Scale::Linear => true,
+            Scale::Decades => r.loss_angle_deg().is_some_and(|angle| angle >= least_deg),
+        }
+    };
+    let (has_force, has_loss) = (is_shown(f64::MIN), is_shown(LEAST_ANGLE_DEG));
+    [
+        curve(&|r| has_force(r).then(|| r.stiffness_n_per_m() * 1e-6)),
+        curve(&|r| r.loss_angle_deg()),
+        curve(&|r| has_loss(r).then(|| r.damping_n_s_per_m() * 1e-3)),
     ]
 }

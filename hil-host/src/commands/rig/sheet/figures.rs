@@ -10,10 +10,13 @@ use crate::report::plot::sheet::Panel;
 use crate::report::plot::style::{AMBER_LINE, BLUE_LINE, RED_LINE};
 use crate::study::bench_index::Index;
 use crate::study::bench_sheet::Tested;
-use crate::study::bench_test::Harmonic;
+use crate::study::bench_test::{Cycle, Harmonic};
 
 /// Height of a panel (pixels).
 const HEIGHT: u32 = 300;
+
+/// Samples of a loop that are drawn.
+const SAMPLES: usize = 1200;
 
 /// The largest forces, what each is called, and its colour.
 const FORCES: [(Index, &str, RGBColor); 2] = [
@@ -25,9 +28,23 @@ const FORCES: [(Index, &str, RGBColor); 2] = [
 pub(super) fn loops_of(tested: &[Tested<'_>]) -> Figure {
     let curves = tested.iter().zip(ramp(tested.len()));
     let (displacement, velocity) = curves
-        .map(|(tested, colour)| loops::of_cycle(&tested.test.name, colour, &tested.cycle))
+        .map(|(tested, colour)| loops::of_cycle(&tested.test.name, colour, &thinned(&tested.cycle)))
         .unzip();
     figure(loops::panels(displacement, velocity))
+}
+
+/// The cycle with as many samples as are drawn of each.
+fn thinned(cycle: &Cycle) -> Cycle {
+    let ticks = cycle.forces_n.len();
+    let at = |values: &[f64]| {
+        let sample = |i: usize| values[(i * ticks).div_ceil(SAMPLES).clamp(1, ticks) - 1];
+        (1..=SAMPLES).map(sample).collect()
+    };
+    Cycle {
+        displacements_m: at(&cycle.displacements_m),
+        forces_n: at(&cycle.forces_n),
+        ..*cycle
+    }
 }
 
 /// Largest forces over the peak velocity, one panel for extension and one for compression, with their limits.

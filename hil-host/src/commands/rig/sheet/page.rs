@@ -100,8 +100,8 @@ fn limits(report: &Report) -> Markup {
                         td { (test.name) }
                         td.text { (limit.index.name()) }
                         td { (limit.index.told_in().0) }
-                        td { b { (limit.told()) } }
-                        td { (limit.allowed()) }
+                        td { b { (minus(&limit.told())) } }
+                        td { (minus(&limit.allowed())) }
                         td.text { (limit.clause.as_deref().unwrap_or("")) }
                         td.text { (limit.verdict()) }
                     }
@@ -129,7 +129,7 @@ fn tests(tests: &[TestReport]) -> Markup {
                         td { (format!("{:.3}", test.amplitude_m * 1e3)) }
                         td { (format!("{:.4}", test.frequency_hz)) }
                         td { (format!("{:.4}", test.peak_velocity_m_per_s)) }
-                        @if has_oil { td { @if let Some(temperature_c) = test.temperature_c { (temperature_c) } } }
+                        @if has_oil { td { @if let Some(temperature_c) = test.temperature_c { (minus(&temperature_c.to_string())) } } }
                     }
                 }
             }
@@ -145,10 +145,15 @@ fn tests(tests: &[TestReport]) -> Markup {
                 @for test in tests {
                     tr {
                         td { (test.name) }
-                        @for (index, value) in &test.indices { td { (value_of(*index, *value)) } }
+                        @for (index, value) in &test.indices { td { (minus(&value_of(*index, *value))) } }
                     }
                 }
             }
         }
     }
+}
+
+/// A number with a minus sign of its own width.
+fn minus(number: &str) -> String {
+    number.replace('-', "−")
 }

@@ -9,6 +9,7 @@ use crate::files::study::{Sweep, Value};
 use crate::report::page::{Figure, figure};
 use crate::report::plot::curves::ramp;
 use crate::report::plot::response;
+use crate::report::plot::sheet::Scale;
 use crate::study::response::{at_amplitude, frequencies};
 use crate::study::workers;
 
@@ -37,11 +38,11 @@ pub(super) fn part(
         let checked = damper.clone().check()?;
         Ok(at_amplitude(&checked, amplitude_m, &frequencies)?)
     })?;
-    let [mut stiffness, _, mut damping] = response::panels();
+    let [mut stiffness, _, mut damping] = response::panels(Scale::Linear);
     let of_values = responses.iter().zip(values).zip(ramp(values.len()));
     for ((responses, value), colour) in of_values {
         let [over_stiffness, _, over_damping] =
-            response::of(&label(sweep, value), colour, responses);
+            response::of(&label(sweep, value), colour, responses, Scale::Linear);
         stiffness.curves.push(over_stiffness);
         damping.curves.push(over_damping);
     }
