@@ -252,7 +252,18 @@ fn wrong_options_are_told_and_leave_no_file() {
         .code(2)
         .stderr(contains("--output and --page: both are a"));
     // Found only when it is run: nothing is half-written.
-    let slow = ["--to-hz", "1000", "--amplitude-m", "1e-4", "--points", "2"];
+    let slow = [
+        "--damper",
+        "reduced-vertical",
+        "--set",
+        "mount.clearance_m=0.0",
+        "--amplitude-m",
+        "1e-4",
+        "--to-hz",
+        "1000",
+        "--points",
+        "2",
+    ];
     response(&[&slow[..], &files].concat(), folder.path())
         .code(1)
         .stderr(contains("does not repeat within 200 cycles"));

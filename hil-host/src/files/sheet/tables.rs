@@ -104,7 +104,7 @@ impl TestTable {
     /// The motion, two of whose three numbers are given.
     fn motion(&self) -> Result<Harmonic, String> {
         let velocity = self.velocity_m_per_s;
-        if let Some(velocity) = velocity.filter(|velocity| !(*velocity > 0.0)) {
+        if let Some(velocity) = velocity.filter(|velocity| velocity.is_nan() || *velocity <= 0.0) {
             return Err(format!("velocity_m_per_s {velocity}, allowed: above 0"));
         }
         let (amplitude_m, frequency_hz) = match (self.amplitude_m, self.frequency_hz, velocity) {

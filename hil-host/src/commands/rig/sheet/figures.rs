@@ -122,7 +122,10 @@ pub(super) fn over_temperature(tested: &[Tested<'_>]) -> Option<Figure> {
             ]
         });
         let y = format!("largest force in {name}, kN");
-        keeping_off_the_sides(panel("temperature of the oil, °C", &y, curves.collect()))
+        Panel {
+            keeps_to_values: true,
+            ..keeping_off_the_sides(panel("temperature of the oil, °C", &y, curves.collect()))
+        }
     });
     Some(figure(panels.into()))
 }

@@ -17,7 +17,7 @@ pub(super) fn write(report: &Report, tested: &[Tested<'_>]) -> Outcome<String> {
     let loops = html! { "Computed force over displacement (first) and velocity (second) of every test, one periodic cycle each." };
     let over_speed = html! {
         "Largest forces of every test over its peak velocity."
-        @if report.limits > 0 { " Bars: what the limits allow; a side without a limit ends at the point." }
+        @if report.limits > 0 { " Bars: what a test's own limits allow; a side without a limit ends at the point." }
     };
     let over_temperature = figures::over_temperature(tested);
     let body = html! {
