@@ -12,6 +12,7 @@ use dashpot_core::link::{Header, Reals, request_frame};
 use dashpot_hil::files;
 use dashpot_hil::files::case::{CASES, CaseOptions};
 use dashpot_hil::files::damper::PRESETS;
+use dashpot_hil::files::sheet::{SHEETS, SheetParameters};
 use dashpot_hil::files::study::{STUDIES, StudyParameters};
 use dashpot_hil::files::track::TRACKS;
 use dashpot_hil::files::vehicle::VEHICLES;
@@ -88,6 +89,17 @@ fn case_files_are_the_shipped_ones_and_one_with_all_keys() {
     let mut seeds = shipped(&CASES);
     seeds.push(("every-key".into(), every_key.into()));
     compare("case_file", seeds);
+}
+
+/// The shipped one has not every index.
+#[test]
+fn sheet_files_are_the_shipped_one_and_one_with_all_keys() {
+    let every_key = include_str!("sheet.toml");
+    let parsed = SheetParameters::parse("sheet.toml", every_key);
+    assert!(parsed.is_ok(), "{:?}", parsed.err());
+    let mut seeds = shipped(&SHEETS);
+    seeds.push(("every-key".into(), every_key.into()));
+    compare("sheet_file", seeds);
 }
 
 /// The shipped ones have neither equal ratios nor a vehicle of their own.

@@ -24,6 +24,7 @@ pub mod print;
 pub mod progress;
 pub mod recording;
 pub mod replay;
+pub mod response;
 pub mod rig;
 pub mod shims;
 pub mod step_size;
@@ -43,6 +44,7 @@ pub enum Command {
     Replay(replay::ReplayArguments),
     Channels(channels::ChannelsArguments),
     Rig(rig::RigArguments),
+    Response(response::ResponseArguments),
     Verify(verify::VerifyArguments),
     Shims(shims::ShimsArguments),
     Budget(budget::BudgetArguments),
@@ -67,6 +69,7 @@ impl Command {
             Self::Replay(arguments) => replay::run(arguments),
             Self::Channels(arguments) => channels::run(arguments),
             Self::Rig(arguments) => rig::run(arguments),
+            Self::Response(arguments) => response::run(arguments),
             Self::Verify(arguments) => verify::run(arguments),
             Self::Shims(arguments) => shims::run(arguments),
             Self::Budget(arguments) => budget::run(arguments),

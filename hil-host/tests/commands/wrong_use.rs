@@ -45,8 +45,8 @@ fn commands_and_options_that_there_are_not() {
     wrong_use(&["replay"], &[], "required arguments");
     wrong_use(&["rig", "--amplitude"], &[], "--amplitude");
     for command in [
-        "replay", "rig", "verify", "shims", "budget", "export", "contact", "pil", "link",
-        "channels",
+        "replay", "rig", "response", "verify", "shims", "budget", "export", "contact", "pil",
+        "link", "channels",
     ] {
         wrong_use(
             &[command],
@@ -98,12 +98,14 @@ fn step_sizes() {
 #[test]
 fn dampers() {
     let export: &[&str] = &[&EXPORT[..], &["--lang", "bin"]].concat();
-    let every: [&[&str]; 7] = [
+    let every: [&[&str]; 9] = [
         &REPLAY,
         &VERIFY,
         &PIL,
         export,
         &["rig"],
+        &["rig", "--sheet", "example"],
+        &["response", "--points", "2"],
         &["shims", "--no-plots"],
         &["budget", "--steps", "1"],
     ];

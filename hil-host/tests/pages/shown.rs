@@ -62,21 +62,35 @@ pub static HEALTH: LazyLock<String> = LazyLock::new(|| {
     )
 });
 
+/// That of a bench sheet: tables, loops, limits as bars, forces over temperature.
+pub static SHEET: LazyLock<String> = LazyLock::new(|| {
+    let line = ["rig", "--damper", "in-service", "--sheet", "example"];
+    made(&[&line[..], &["--page", "page.html"]].concat(), "page.html")
+});
+
+/// That of a frequency response: decades both ways, points over lines.
+pub static RESPONSE: LazyLock<String> = LazyLock::new(|| {
+    let line = ["response", "--damper", "in-service", "--swept"];
+    made(&[&line[..], &["--page", "page.html"]].concat(), "page.html")
+});
+
 fn made(arguments: &[&str], page: &str) -> String {
     let folder = tempfile::tempdir().unwrap();
     dashpot(arguments, folder.path()).success();
     fs::read_to_string(folder.path().join(page)).unwrap()
 }
 
-/// All of them, with their plots.
-pub fn all() -> [(&'static str, &'static str, usize); 6] {
+/// All of them, with their plots and the label of an axis.
+pub fn all() -> [(&'static str, &'static str, usize, &'static str); 8] {
     [
-        ("demonstration", &DEMONSTRATION, 13),
-        ("vehicle", &VEHICLE, 18),
-        ("bank", &BANK, 6),
-        ("study", &STUDY, 9),
+        ("demonstration", &DEMONSTRATION, 13, "time, s"),
+        ("vehicle", &VEHICLE, 18, "time, s"),
+        ("bank", &BANK, 6, "time, s"),
+        ("study", &STUDY, 9, "time, s"),
+        ("sheet", &SHEET, 6, "peak velocity, m/s"),
+        ("response", &RESPONSE, 3, "frequency, Hz"),
         // Two profiles, and for each of four tests two loops and what is missed.
-        ("calibration", &CALIBRATION, 14),
-        ("health", &HEALTH, 4),
+        ("calibration", &CALIBRATION, 14, "time, s"),
+        ("health", &HEALTH, 4, "time, s"),
     ]
 }

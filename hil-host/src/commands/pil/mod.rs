@@ -168,13 +168,7 @@ impl PilArguments {
                 streams::refuse_input(option, path, &self.input)?;
             }
         }
-        match &self.output {
-            Some(path) if self.page.as_ref() == Some(path) => Err(Failure::wrong_use(format!(
-                "--output and --page: both are {}; give each a file of its own",
-                path.display()
-            ))),
-            _ => Ok(()),
-        }
+        streams::refuse_same_output(&self.output, &self.page)
     }
 }
 
