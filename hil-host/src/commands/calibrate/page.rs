@@ -8,7 +8,7 @@ use crate::report::DrawError;
 use crate::report::page::{Figure, document, figure, footer, panel, tiles};
 use crate::report::plot::curves::Curve;
 use crate::report::plot::loops;
-use crate::report::plot::style::{AMBER_LINE, BLUE_LINE, FINE, INK, PALE, RED_LINE};
+use crate::report::plot::style::{AMBER_LINE, BLUE_LINE, FINE, PALE, RED_LINE};
 use crate::study::calibration::{Calibrated, Calibration, LoopFit, LoopTest, Profile, RISE_95};
 
 /// Height of a panel (pixels).
@@ -247,12 +247,9 @@ fn loop_figures(
         panels: vec![panel(
             "time, s",
             "found less measured, N",
-            vec![
-                Curve::new("", RED_LINE, missed).wide(FINE),
-                Curve::marks(INK, []),
-            ],
+            vec![Curve::new("", RED_LINE, missed).wide(FINE)],
         )],
-        height: 160,
+        height: 200,
         shares: None,
     };
     let caption = html! {
