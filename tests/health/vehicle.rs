@@ -10,8 +10,11 @@ use crate::made::{estimate, model};
 
 const WATCHED: [&str; 2] = ["front vertical damper 1", "front vertical damper 2"];
 
-/// Displacement (m) and force (N) of the watched dampers at every millisecond.
-fn signals(fault: Option<&str>) -> (Vec<(Vec<f64>, Vec<f64>)>, dashpot_core::DamperParameters) {
+/// Displacements (m) and forces (N) of a damper at every millisecond.
+type Signals = (Vec<f64>, Vec<f64>);
+
+/// Those of the watched dampers, and what these are.
+fn signals(fault: Option<&str>) -> (Vec<Signals>, dashpot_core::DamperParameters) {
     let mut options = CaseOptions::load("straight-180").unwrap();
     options.duration_s = 25.0;
     options.faults.extend(fault.map(|change| FaultOptions {
