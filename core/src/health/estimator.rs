@@ -220,6 +220,15 @@ impl Health {
         }
     }
 
+    /// Tells that samples are missing before the next one: the piston may be anywhere by then. What is known of the parameters stays.
+    pub fn interrupt(&mut self, model: &HealthModel) {
+        self.gathered.displacement = f32::NAN;
+        self.gathered.velocity = 0.0;
+        self.gathered.begin(model);
+        self.stage = stage::DONE;
+        self.filter.let_go(UNKNOWN);
+    }
+
     /// Leaves a sample out; its block measures nothing.
     #[cold]
     #[inline(never)]

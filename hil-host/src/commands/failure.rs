@@ -229,6 +229,7 @@ impl From<CalibrationError> for Failure {
             CalibrationError::NotVaried { .. }
             | CalibrationError::Bounds { .. }
             | CalibrationError::Start { .. }
+            | CalibrationError::Prior { .. }
             | CalibrationError::Twice { .. } => Self::wrong_use(format!("--vary {error}")),
             _ => Self::new(error.to_string()),
         }

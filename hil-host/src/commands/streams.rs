@@ -1,6 +1,6 @@
 //! Files that options name twice, which is wrong use.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use super::failure::{Failure, Outcome};
 use crate::files::input::is_standard_stream;
@@ -41,16 +41,34 @@ pub(super) fn refuse_input(option: &str, path: &Path, input: &Path) -> Outcome<(
     }
 }
 
-/// Refuses one file for both `--output` and `--page`.
+/// Refuses one file for two of `outputs`, each an option and the file it names.
 ///
 /// # Errors
-/// Both are the same path.
-pub(super) fn refuse_same_output(output: &Option<PathBuf>, page: &Option<PathBuf>) -> Outcome<()> {
-    match output {
-        Some(path) if page.as_ref() == Some(path) => Err(Failure::wrong_use(format!(
-            "--output and --page: both are {}; give each a file of its own",
-            path.display()
-        ))),
-        _ => Ok(()),
+/// Two are the same file, however their paths are written.
+pub(super) fn refuse_same_output(outputs: &[(&str, Option<&Path>)]) -> Outcome<()> {
+    let place = |path: &Path| {
+        let folder = path
+            .parent()
+            .filter(|folder| !folder.as_os_str().is_empty());
+        let folder = folder.unwrap_or(Path::new(".")).canonicalize();
+        folder.map_or_else(
+            |_| path.to_owned(),
+            |folder| folder.join(path.file_name().unwrap_or_default()),
+        )
+    };
+    let outputs: Vec<(&str, &Path)> = outputs
+        .iter()
+        .filter_map(|(option, path)| Some((*option, (*path)?)))
+        .collect();
+    for (number, (option, path)) in outputs.iter().enumerate() {
+        for (other, earlier) in &outputs[..number] {
+            if !is_standard_stream(path) && place(path) == place(earlier) {
+                return Err(Failure::wrong_use(format!(
+                    "{other} and {option}: both are {}; give each a file of its own",
+                    path.display()
+                )));
+            }
+        }
     }
+    Ok(())
 }

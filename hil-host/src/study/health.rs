@@ -6,6 +6,7 @@ use dashpot_core::health::{Health, HealthModel, HealthReading, HealthStatus};
 use fastrand::Rng;
 
 use super::smoothing::smooth;
+use super::stretches::{median_interval, stretches};
 
 /// Standard deviations of white noise, one for each sensor.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -39,44 +40,41 @@ impl Noise {
             noisy(forces_n, self.force_n),
         )
     }
-}
 
-impl Noise {
     /// What is noise in samples at `times_s` (s), as the ticks of `step_s` (s) between them have it: what a smoothing spline leaves of the
-    /// first samples, at least a ten-thousandth of their root mean square, for no sensor is better. Ticks that are closer than
-    /// the samples repeat one noise, which counts as a greater one of each.
+    /// longest stretch without a gap, at least a ten-thousandth of its root mean square, for no sensor is better. Ticks that are closer
+    /// than the samples repeat one noise, which counts as a greater one of each. `None` where no stretch is long enough.
     pub fn found_in(
         times_s: &[f64],
         displacements_m: &[f64],
         forces_n: &[f64],
         step_s: f64,
-    ) -> Self {
+    ) -> Option<Self> {
         /// Fewer tell nothing.
         const FEWEST: usize = 100;
         const LEAST: f64 = 1e-4;
-        let count = times_s.len();
-        let interval_s = match times_s {
-            [first, .., last] => (last - first) / (count - 1) as f64,
-            _ => step_s,
-        };
-        let first_s = times_s.first().copied().unwrap_or(0.0);
+        let interval_s = median_interval(times_s)?;
+        let stretches = stretches(times_s).into_iter();
+        let stretch = stretches.max_by_key(std::ops::Range::len)?;
+        if stretch.len() < FEWEST {
+            return None;
+        }
+        let times_s = &times_s[stretch.clone()];
         let positions: Vec<f64> = times_s
             .iter()
-            .map(|time_s| (time_s - first_s) / interval_s)
+            .map(|time_s| (time_s - times_s[0]) / interval_s)
             .collect();
+        let ticks = positions.last().copied().unwrap_or(0.0) as usize + 2;
         let ticks_a_sample = (interval_s / step_s).max(1.0);
         let of = |signal: &[f64]| {
-            let least = LEAST * rms(signal);
-            if count < FEWEST {
-                return least;
-            }
-            let noise = smooth(&positions, signal, count + 1).noise;
-            noise.max(least) * ticks_a_sample.sqrt()
+            let signal = &signal[stretch.clone()];
+            let noise = smooth(&positions, signal, ticks).noise;
+            noise.max(LEAST * rms(signal)) * ticks_a_sample.sqrt()
         };
-        Self {
+        Some(Self {
             displacement_m: of(displacements_m),
             force_n: of(forces_n),
-        }
+        })
     }
 }
 
@@ -125,7 +123,7 @@ pub const ALARMS: [(HealthStatus, &str); 3] = [
 ];
 
 /// Runs the estimator over samples of displacement (m) and force (N), one at each step of `model`, and keeps a
-/// reading every `every_s` (s).
+/// reading every `every_s` (s). A sample that is missing has NaN for its displacement.
 pub fn watch(
     model: &HealthModel,
     samples: impl IntoIterator<Item = (f64, f64)>,
@@ -141,7 +139,18 @@ pub fn watch(
     };
     let mut raised = HealthStatus::empty();
     let mut count = 0_u64;
+    let mut is_interrupted = false;
     for (displacement_m, force_n) in samples {
+        let is_missing = displacement_m.is_nan();
+        if is_missing {
+            if !is_interrupted {
+                health.interrupt(model);
+            }
+            is_interrupted = true;
+            count += 1;
+            continue;
+        }
+        is_interrupted = false;
         health.tick(model, displacement_m as f32, force_n as f32);
         let time_s = count as f64 * step_s;
         count += 1;

@@ -15,6 +15,7 @@ pub mod response;
 mod scalar;
 pub mod shim_valves;
 mod smoothing;
+pub(crate) mod stretches;
 pub mod sweep;
 pub mod swept_sine;
 pub mod tick_grid;

@@ -4,7 +4,7 @@
 use std::f64::consts::TAU;
 
 use dashpot_core::CheckedParameters;
-use dashpot_core::parameters::STEP_RANGE_S;
+use dashpot_core::parameters::{Element, STEP_RANGE_S};
 use serde::Serialize;
 
 use super::StudyError;
@@ -144,7 +144,8 @@ pub fn at_amplitude(
     responses(parameters, frequencies.map(motion))
 }
 
-/// The linearised response at each frequency (Hz): to motions of a peak velocity of [`SMALL_VELOCITY_M_PER_S`], the clearance taken up.
+/// The linearised response at each frequency (Hz): to motions of a peak velocity of [`SMALL_VELOCITY_M_PER_S`], the clearance taken up
+/// and without the friction of the seals, which would hold so small a motion.
 ///
 /// # Errors
 /// As [`run_until_periodic`].
@@ -154,6 +155,9 @@ pub fn linearised(
 ) -> Result<Vec<Response>, StudyError> {
     let mut taken_up = (**parameters).clone();
     taken_up.mount.clearance_m = 0.0;
+    if let Element::Physical(hydraulics) = &mut taken_up.element {
+        hydraulics.seal = None;
+    }
     let motion = |frequency_hz: f64| Harmonic {
         amplitude_m: SMALL_VELOCITY_M_PER_S / (TAU * frequency_hz),
         frequency_hz,

@@ -21,6 +21,8 @@ pub struct MeasuredTick {
     pub displacement_m: f64,
     /// Force there (N), linear between samples.
     pub force_n: f64,
+    /// Time from the sample before to the one after it (s); 0 at a sample.
+    pub interval_s: f64,
 }
 
 /// What has rows of `N` values at times.
@@ -91,7 +93,8 @@ impl<R: Rows<N>, const N: usize> Grid<R, N> {
         })
     }
 
-    fn next_tick(&mut self) -> Result<Option<(f64, [f64; N])>, FileError> {
+    /// Time, values, and the interval between the rows around them, 0 at a row.
+    fn next_tick(&mut self) -> Result<Option<(f64, [f64; N], f64)>, FileError> {
         let offset_s = self.number as f64 * self.step_s;
         let time_s = self.start_s + offset_s;
         // A sample meant for a tick may lie a rounding before it.
@@ -109,13 +112,13 @@ impl<R: Rows<N>, const N: usize> Grid<R, N> {
         }
         self.number += 1;
         let ((before_s, before), (after_s, after)) = (self.before, self.after);
-        let values = if time_s + slack_s >= after_s {
-            after
-        } else {
-            let fraction = (time_s - before_s) / (after_s - before_s);
-            std::array::from_fn(|value| before[value] + fraction * (after[value] - before[value]))
-        };
-        Ok(Some((time_s, values)))
+        if time_s + slack_s >= after_s {
+            return Ok(Some((time_s, after, 0.0)));
+        }
+        let interval_s = after_s - before_s;
+        let fraction = (time_s - before_s) / interval_s;
+        let between = |value: usize| before[value] + fraction * (after[value] - before[value]);
+        Ok(Some((time_s, std::array::from_fn(between), interval_s)))
     }
 }
 
@@ -137,7 +140,7 @@ impl TickGrid {
     /// A row that cannot be read, or a recording over 24 hours of 10 kHz ticks long.
     pub fn next_tick(&mut self) -> Result<Option<Tick>, FileError> {
         let tick = self.0.next_tick()?;
-        Ok(tick.map(|(time_s, [displacement_m])| Tick {
+        Ok(tick.map(|(time_s, [displacement_m], _)| Tick {
             time_s,
             displacement_m,
         }))
@@ -193,13 +196,19 @@ impl MeasuredGrid {
     /// As [`TickGrid::next_tick`].
     pub fn next_tick(&mut self) -> Result<Option<MeasuredTick>, FileError> {
         let tick = self.0.next_tick()?;
-        Ok(
-            tick.map(|(time_s, [displacement_m, force_n])| MeasuredTick {
+        Ok(tick.map(
+            |(time_s, [displacement_m, force_n], interval_s)| MeasuredTick {
                 time_s,
                 displacement_m,
                 force_n,
-            }),
-        )
+                interval_s,
+            },
+        ))
+    }
+
+    /// Time of the first tick (s).
+    pub fn start_s(&self) -> f64 {
+        self.0.start_s
     }
 
     /// Bytes read so far, for a progress bar.

@@ -98,6 +98,26 @@ fn four_commands_lead_from_a_recording_to_firmware_and_find_a_worn_damper() {
     dashpot(&export, folder).success();
     assert!(folder.join("found.rs").is_file());
 
+    // The bench test itself is of a healthy damper, whatever it did in the pauses between the tests.
+    let bench = data("bench/bench_made.mf4");
+    let replay = [
+        "replay",
+        "--damper",
+        "found.toml",
+        "--input",
+        &bench,
+        "--output",
+        "bench.csv",
+        "--health",
+        "bench.html",
+        "--format",
+        "json",
+    ];
+    let report = json_of(&dashpot(&replay, folder).success());
+    let health = &report["health"];
+    assert_eq!(health["alarms"].as_array().unwrap().len(), 0, "{health}");
+    assert_eq!(health["restarted"], false);
+
     let worn = data("bench/worn_made.mf4");
     let replay = [
         "replay",
@@ -134,6 +154,64 @@ fn four_commands_lead_from_a_recording_to_firmware_and_find_a_worn_damper() {
     let clearance_alarm_s = report["health"]["alarms"][0]["time_s"].as_f64().unwrap();
     // The healthy half differs from that baseline by as much.
     assert!(clearance_alarm_s < 10.0, "{report}");
+}
+
+#[test]
+fn outputs_are_whole_apart_and_no_inputs() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let to_stdout = ["--vary", "mount.clearance_m", "--output", "-"];
+    let bench = data("bench/bench_made.mf4");
+    let line = ["calibrate", "--damper", "in-service", "--input", &bench];
+    let found = dashpot(&[&line[..], &to_stdout].concat(), folder).success();
+    let found = String::from_utf8(found.get_output().stdout.clone()).unwrap();
+    assert!(damper::parse("found", &found, &[]).is_ok(), "{found}");
+    std::fs::write(folder.join("d.toml"), &found).unwrap();
+    let worn = data("bench/worn_made.mf4");
+    for line in [
+        &[
+            "calibrate",
+            "--input",
+            &bench,
+            "--vary",
+            "mount.clearance_m",
+            "--output",
+            "same",
+            "--page",
+            "./same",
+        ][..],
+        &[
+            "replay", "--damper", "d.toml", "--input", &worn, "--output", "same", "--health",
+            "./same",
+        ],
+        &[
+            "replay", "--damper", "d.toml", "--input", &worn, "--output", "d.toml",
+        ],
+        &[
+            "replay", "--damper", "d.toml", "--input", &worn, "--output", "f.csv", "--health",
+            "d.toml",
+        ],
+    ] {
+        dashpot(line, folder).code(2);
+        assert_eq!(std::fs::read_dir(folder).unwrap().count(), 1, "{line:?}");
+        assert_eq!(
+            std::fs::read_to_string(folder.join("d.toml")).unwrap(),
+            found
+        );
+    }
+    let nowhere = [
+        "replay",
+        "--damper",
+        "d.toml",
+        "--input",
+        &worn,
+        "--output",
+        "f.csv",
+        "--health",
+        "none/h.html",
+    ];
+    dashpot(&nowhere, folder).code(1);
+    assert!(!folder.join("f.csv").exists());
 }
 
 #[test]

@@ -15,8 +15,9 @@ use super::recording::MeasurementArguments;
 use super::step_size::{self, StepSize};
 use super::{DamperArguments, Format, print_report_beside, progress, streams};
 use crate::commands::failure::{Failure, Outcome};
+use crate::files::FileError;
 use crate::files::damper::Keyed;
-use crate::files::output::write_together;
+use crate::files::output::{cannot_write, write_bytes, write_whole_if};
 use crate::study::calibration::{Calibration, IndexTest, LoopTest, Varied};
 
 /// Find the numbers of a damper from bench tests: force-displacement loops, or tables of their indices.
@@ -117,11 +118,14 @@ pub fn run(arguments: &CalibrateArguments) -> Outcome<()> {
         Some(_) => page::write(&report, &calibration, &found)?,
         None => String::new(),
     };
-    let mut files = vec![(arguments.output.as_path(), file.as_bytes())];
-    if let Some(path) = &arguments.page {
-        files.push((path, page.as_bytes()));
-    }
-    write_together(&files)?;
+    write_whole_if::<FileError>(arguments.page.as_deref(), |to_page| {
+        if let Some((path, to_page)) = to_page {
+            to_page
+                .write_all(page.as_bytes())
+                .map_err(|error| cannot_write(path, error))?;
+        }
+        write_bytes(&arguments.output, file.as_bytes())
+    })?;
     print_report_beside(&arguments.output, arguments.format, &report, Report::print)
 }
 
@@ -138,6 +142,10 @@ fn refuse_same_streams(arguments: &CalibrateArguments) -> Outcome<()> {
         .map(|path| ("--indices", path.as_path()));
     let read: Vec<_> = damper.into_iter().chain(inputs).chain(indices).collect();
     streams::refuse_second_standard_input(&read)?;
+    streams::refuse_same_output(&[
+        ("--output", Some(&arguments.output)),
+        ("--page", arguments.page.as_deref()),
+    ])?;
     for (_, path) in read {
         streams::refuse_input("--output", &arguments.output, path)?;
         if let Some(page) = &arguments.page {

@@ -87,7 +87,14 @@ pub(super) fn varied(damper: &Keyed, arguments: &CalibrateArguments) -> Outcome<
         Ok(varied)
     });
     let varied: Vec<Varied> = varied.collect::<Outcome<_>>()?;
-    for given in &arguments.prior {
+    for (number, given) in arguments.prior.iter().enumerate() {
+        let earlier = &arguments.prior[..number];
+        if earlier.iter().any(|earlier| earlier.key == given.key) {
+            return Err(Failure::wrong_use(format!(
+                "--prior {}: given twice",
+                given.key
+            )));
+        }
         if !varied.iter().any(|varied| varied.key == given.key) {
             return Err(Failure::wrong_use(format!(
                 "--prior {}: not varied; allowed: a number that --vary names",

@@ -168,7 +168,10 @@ impl PilArguments {
                 streams::refuse_input(option, path, &self.input)?;
             }
         }
-        streams::refuse_same_output(&self.output, &self.page)
+        streams::refuse_same_output(&[
+            ("--output", self.output.as_deref()),
+            ("--page", self.page.as_deref()),
+        ])
     }
 }
 

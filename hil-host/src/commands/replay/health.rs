@@ -1,7 +1,7 @@
 //! `dashpot replay --health`: what the damper has become whose force was measured on the recorded motion.
 
 use std::io::{self, Write};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use dashpot_core::CheckedParameters;
 use dashpot_core::health::{
@@ -13,10 +13,10 @@ use super::ReplayArguments;
 use crate::commands::failure::{Failure, Outcome};
 use crate::commands::streams;
 use crate::files::input;
-use crate::files::output::write_bytes;
-use crate::files::recording::Measurement;
+use crate::files::recording::{GAP_IN_MEDIANS, Measurement};
 use crate::report::health::page;
 use crate::study::health::{ALARMS, History, Noise, watch};
+use crate::study::stretches::median_interval;
 use crate::study::tick_grid::MeasuredGrid;
 
 /// Readings of a page, about.
@@ -143,10 +143,22 @@ impl Watched {
         if input::is_standard_stream(page_path) {
             return Err(Failure::wrong_use("--health -: allowed: a file"));
         }
-        streams::refuse_input("--health", page_path, &arguments.input)?;
-        let noise = noise(arguments)?;
+        let baseline = options.health_baseline.iter().map(PathBuf::as_path);
+        let read = [
+            arguments.input.as_path(),
+            Path::new(&arguments.damper.damper),
+        ];
+        for input in read.into_iter().chain(baseline) {
+            streams::refuse_input("--health", page_path, input)?;
+            streams::refuse_input("--output", &arguments.output, input)?;
+        }
+        streams::refuse_same_output(&[
+            ("--output", Some(&arguments.output)),
+            ("--health", Some(page_path)),
+        ])?;
+        let (noise, gap_s) = noise(arguments)?;
         let model = model(arguments, parameters, noise)?;
-        let history = history(arguments, &model)?;
+        let history = history(arguments, &model, gap_s)?;
         let Some(last) = history.last() else {
             return Err(Failure::new("nothing was watched"));
         };
@@ -162,13 +174,14 @@ impl Watched {
         }))
     }
 
-    /// Writes the page; gives the report.
-    ///
-    /// # Errors
-    /// It cannot be written.
-    pub(super) fn write(self) -> Outcome<HealthReport> {
-        write_bytes(&self.page, self.text.as_bytes())?;
-        Ok(self.report)
+    /// The page and its text.
+    pub(super) fn page(&self) -> (&Path, &str) {
+        (&self.page, &self.text)
+    }
+
+    /// The report.
+    pub(super) fn report(self) -> HealthReport {
+        self.report
     }
 }
 
@@ -177,17 +190,9 @@ fn measured(arguments: &ReplayArguments) -> Outcome<MeasuredGrid> {
     Ok(MeasuredGrid::new(measurement, arguments.step_us.step_s())?)
 }
 
-/// The noise that is given, or that the first samples have.
-fn noise(arguments: &ReplayArguments) -> Outcome<Noise> {
+/// The noise that is given, or that the first samples have, and the shortest interval that is a gap (s).
+fn noise(arguments: &ReplayArguments) -> Outcome<(Noise, f64)> {
     let options = &arguments.health;
-    if let (Some(displacement_m), Some(force_n)) =
-        (options.displacement_noise_m, options.force_noise_n)
-    {
-        return Ok(Noise {
-            displacement_m,
-            force_n,
-        });
-    }
     let mut measurement = Measurement::open(&arguments.input, &arguments.recording.channels())?;
     let (mut times_s, mut displacements_m, mut forces_n) = (Vec::new(), Vec::new(), Vec::new());
     while times_s.len() < NOISE_SAMPLES {
@@ -198,12 +203,30 @@ fn noise(arguments: &ReplayArguments) -> Outcome<Noise> {
         displacements_m.push(sample.displacement_m);
         forces_n.push(sample.force_n);
     }
-    let step_s = arguments.step_us.step_s();
-    let found = Noise::found_in(&times_s, &displacements_m, &forces_n, step_s);
-    Ok(Noise {
-        displacement_m: options.displacement_noise_m.unwrap_or(found.displacement_m),
-        force_n: options.force_noise_n.unwrap_or(found.force_n),
-    })
+    let gap_s = GAP_IN_MEDIANS * median_interval(&times_s).unwrap_or(0.0);
+    let given = (options.displacement_noise_m, options.force_noise_n);
+    let noise = if let (Some(displacement_m), Some(force_n)) = given {
+        Noise {
+            displacement_m,
+            force_n,
+        }
+    } else {
+        let step_s = arguments.step_us.step_s();
+        let found = Noise::found_in(&times_s, &displacements_m, &forces_n, step_s);
+        let found = found.filter(|noise| noise.displacement_m > 0.0 && noise.force_n > 0.0);
+        let found = found.ok_or_else(|| {
+            Failure::new(format!(
+                "{}: no noise is found in what does not move, or in less than 100 samples without a gap; give --displacement-noise-m and \
+                 --force-noise-n",
+                input::name(&arguments.input).display()
+            ))
+        })?;
+        Noise {
+            displacement_m: options.displacement_noise_m.unwrap_or(found.displacement_m),
+            force_n: options.force_noise_n.unwrap_or(found.force_n),
+        }
+    };
+    Ok((noise, gap_s))
 }
 
 fn model(
@@ -248,7 +271,7 @@ fn model(
 }
 
 /// The estimates along the recording, some thousand of them.
-fn history(arguments: &ReplayArguments, model: &HealthModel) -> Outcome<History> {
+fn history(arguments: &ReplayArguments, model: &HealthModel, gap_s: f64) -> Outcome<History> {
     let step_s = arguments.step_us.step_s();
     let mut count = 0_u64;
     let mut ticks = measured(arguments)?;
@@ -257,15 +280,24 @@ fn history(arguments: &ReplayArguments, model: &HealthModel) -> Outcome<History>
     }
     let every_s = (count as f64 * step_s / READINGS).max(step_s);
     let mut ticks = measured(arguments)?;
+    let start_s = ticks.start_s();
     let mut failed = None;
     let samples = std::iter::from_fn(|| match ticks.next_tick() {
+        // What the damper did in a gap is not known.
+        Ok(Some(tick)) if tick.interval_s > gap_s => Some((f64::NAN, f64::NAN)),
         Ok(tick) => tick.map(|tick| (tick.displacement_m, tick.force_n)),
         Err(error) => {
             failed = Some(error);
             None
         }
     });
-    let history = watch(model, samples, every_s);
+    let mut history = watch(model, samples, every_s);
+    for reading in &mut history.readings {
+        reading.time_s += start_s;
+    }
+    for (_, time_s) in &mut history.alarms {
+        *time_s += start_s;
+    }
     failed.map_or(Ok(history), |error| Err(error.into()))
 }
 

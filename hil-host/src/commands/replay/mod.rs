@@ -3,7 +3,7 @@
 mod health;
 
 use std::io::{self, Write};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use dashpot_core::{CheckedParameters, Real};
 use serde::Serialize;
@@ -18,7 +18,7 @@ use super::{
 };
 use crate::commands::failure::{Failure, Outcome};
 use crate::files::input;
-use crate::files::output::{self, write_whole};
+use crate::files::output::{self, cannot_write, write_whole, write_whole_if};
 use crate::files::recording::written::{ColumnName, Form, Written};
 use crate::files::recording::{Gaps, Recording};
 use crate::realtime::pacing::Pacer;
@@ -109,7 +109,12 @@ struct Report {
 pub fn run(arguments: &ReplayArguments) -> Outcome<()> {
     arguments.damper.refuse_same_input(&arguments.input)?;
     let parameters = arguments.damper.load()?;
-    streams::refuse_input("--output", &arguments.output, &arguments.input)?;
+    for input in [
+        arguments.input.as_path(),
+        Path::new(&arguments.damper.damper),
+    ] {
+        streams::refuse_input("--output", &arguments.output, input)?;
+    }
     let options = arguments
         .options
         .options_under("--realtime", arguments.realtime)?;
@@ -119,10 +124,20 @@ pub fn run(arguments: &ReplayArguments) -> Outcome<()> {
     } else {
         None
     };
-    let (summary, gaps) = match arguments.scalar {
-        Scalar::F32 => write::<f32>(&parameters, arguments, pacer.as_mut())?,
-        Scalar::F64 => write::<f64>(&parameters, arguments, pacer.as_mut())?,
-    };
+    let mut written = None;
+    let page = health.as_ref().map(health::Watched::page);
+    write_whole_if::<Failure>(page.map(|(path, _)| path), |to_page| {
+        if let (Some((path, to_page)), Some((_, text))) = (to_page, page) {
+            let written = to_page.write_all(text.as_bytes());
+            written.map_err(|error| cannot_write(path, error))?;
+        }
+        written = Some(match arguments.scalar {
+            Scalar::F32 => write::<f32>(&parameters, arguments, pacer.as_mut())?,
+            Scalar::F64 => write::<f64>(&parameters, arguments, pacer.as_mut())?,
+        });
+        Ok(())
+    })?;
+    let (summary, gaps) = written.ok_or_else(|| Failure::new("nothing was replayed"))?;
     let report = Report {
         ticks: summary.ticks,
         step_s: arguments.step_us.step_s(),
@@ -140,7 +155,7 @@ pub fn run(arguments: &ReplayArguments) -> Outcome<()> {
         saturated: summary.saturated_ticks > 0,
         gaps,
         realtime: pacer.as_ref().map(|pacer| Paced::from(pacer.report())),
-        health: health.map(health::Watched::write).transpose()?,
+        health: health.map(health::Watched::report),
     };
     print_report_beside(
         &arguments.output,

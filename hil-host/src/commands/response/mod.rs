@@ -135,7 +135,10 @@ impl ResponseArguments {
                 streams::refuse_input(option, path, damper)?;
             }
         }
-        streams::refuse_same_output(&self.output, &self.page)
+        streams::refuse_same_output(&[
+            ("--output", self.output.as_deref()),
+            ("--page", self.page.as_deref()),
+        ])
     }
 
     fn frequencies_hz(&self) -> Outcome<Vec<f64>> {

@@ -52,6 +52,16 @@ pub enum CalibrationError {
         /// The bounds.
         bounds: [f64; 2],
     },
+    /// A number that is known to be where it may not be.
+    #[error("{key}: known to be {mean}, outside the bounds {} to {}", bounds[0], bounds[1])]
+    Prior {
+        /// The number.
+        key: String,
+        /// Mean of what is known.
+        mean: f64,
+        /// The bounds.
+        bounds: [f64; 2],
+    },
     /// A number twice.
     #[error("{key}: varied twice")]
     Twice {
@@ -88,13 +98,13 @@ pub enum CalibrationError {
         /// The test.
         test: String,
     },
-    /// An index that is no magnitude.
-    #[error("{field}: {value}, allowed: above 0")]
+    /// A test of indices that is none.
+    #[error("table of indices, test {test}: {reason}")]
     Index {
-        /// Its name.
-        field: &'static str,
-        /// Its value.
-        value: f64,
+        /// Its number, from 1.
+        test: usize,
+        /// What is wrong with it.
+        reason: String,
     },
     /// No start led anywhere.
     #[error("no start led to a damper; the nearest reason: {0}")]

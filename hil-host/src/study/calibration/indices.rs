@@ -5,7 +5,6 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-use super::CalibrationError;
 use crate::files::{FileError, input};
 use crate::study::bench_test::{Harmonic, Indices};
 
@@ -66,8 +65,9 @@ impl IndexTest {
     }
 
     /// # Errors
-    /// An index that is not above 0.
-    pub(super) fn check(&self) -> Result<(), CalibrationError> {
+    /// A motion or an index that is none, or no index; in words.
+    pub(super) fn check(&self) -> Result<(), String> {
+        self.motion().check().map_err(|error| error.to_string())?;
         let fields = [
             ("max_extension_force_n", self.max_extension_force_n),
             ("max_compression_force_n", self.max_compression_force_n),
@@ -77,10 +77,13 @@ impl IndexTest {
         ];
         for (field, value) in fields {
             if let Some(value) = value.filter(|value| !(*value > 0.0 && value.is_finite())) {
-                return Err(CalibrationError::Index { field, value });
+                return Err(format!("{field}: {value}, allowed: above 0"));
             }
         }
-        Ok(())
+        match self.count() {
+            0 => Err("it has no index".into()),
+            _ => Ok(()),
+        }
     }
 
     /// How many indices there are.

@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use super::CalibrationError;
 use crate::study::smoothing::smooth;
+use crate::study::stretches::stretches;
 
 /// Samples of a bench test.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -23,9 +24,6 @@ const MOST_TICKS: f64 = 4e6;
 
 /// Samples that tell something, at least.
 const FEWEST_SAMPLES: usize = 100;
-
-/// An interval longer than so many median ones is a gap: what the damper did in it is not known.
-const GAP_IN_MEDIANS: f64 = 20.0;
 
 /// Share of its peak that the force must have had in both directions before it counts: until then, where in its clearance the damper began
 /// decides.
@@ -65,7 +63,8 @@ impl LoopTest {
     /// # Errors
     /// Too few samples, too many ticks, or a force that never acts in both directions.
     pub fn of(recorded: &Recorded, step_s: f64) -> Result<Vec<Self>, CalibrationError> {
-        let stretches = stretches(&recorded.times_s);
+        let mut stretches = stretches(&recorded.times_s);
+        stretches.retain(|stretch| stretch.len() >= FEWEST_SAMPLES);
         let count = stretches.len();
         let tests = stretches.into_iter().enumerate().map(|(number, stretch)| {
             let name = match count {
@@ -184,24 +183,4 @@ impl LoopTest {
             })
             .collect()
     }
-}
-
-/// The stretches between gaps that have samples enough.
-fn stretches(times_s: &[f64]) -> Vec<Range<usize>> {
-    let intervals: Vec<f64> = times_s.windows(2).map(|pair| pair[1] - pair[0]).collect();
-    let mut sorted = intervals.clone();
-    sorted.sort_unstable_by(f64::total_cmp);
-    let Some(median) = sorted.get(sorted.len() / 2) else {
-        return Vec::new();
-    };
-    let longest = GAP_IN_MEDIANS * median;
-    let ends_stretch =
-        |(number, interval): (usize, &f64)| (*interval > longest).then_some(number + 1);
-    let gaps = intervals.iter().enumerate().filter_map(ends_stretch);
-    let ends: Vec<usize> = gaps.chain([times_s.len()]).collect();
-    let starts = [0].into_iter().chain(ends.iter().copied());
-    let stretches = starts.zip(&ends).map(|(start, end)| start..*end);
-    stretches
-        .filter(|stretch| stretch.len() >= FEWEST_SAMPLES)
-        .collect()
 }

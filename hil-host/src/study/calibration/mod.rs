@@ -192,7 +192,14 @@ impl Calibration {
                 return Err(CalibrationError::Twice { key });
             }
         }
-        self.indices.iter().try_for_each(IndexTest::check)
+        for (number, test) in self.indices.iter().enumerate() {
+            let test_number = number + 1;
+            test.check().map_err(|reason| CalibrationError::Index {
+                test: test_number,
+                reason,
+            })?;
+        }
+        Ok(())
     }
 }
 

@@ -74,6 +74,13 @@ impl Varied {
                 bounds: [least, greatest],
             });
         }
+        if let Some(prior) = prior.filter(|prior| !(least..=greatest).contains(&prior.mean)) {
+            return Err(CalibrationError::Prior {
+                key: key.into(),
+                mean: prior.mean,
+                bounds: [least, greatest],
+            });
+        }
         Ok(Self {
             key: key.into(),
             start,
