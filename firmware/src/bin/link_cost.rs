@@ -23,7 +23,7 @@ const REQUESTS: usize = 1000;
 const AMPLITUDE_M: f32 = 5e-3;
 const HALF_PERIOD: u32 = 125;
 
-static DEVICE: ConstStaticCell<Device<DAMPERS>> = ConstStaticCell::new(Device::new());
+static DEVICE: ConstStaticCell<Device<DAMPERS, DAMPERS>> = ConstStaticCell::new(Device::new());
 
 /// A line on which a frame waits, as if the UART had received it: its registers are read as when it had.
 struct Replayed<'a> {
