@@ -112,8 +112,8 @@ fn what_no_model_watches_is_refused() {
     );
     assert_eq!(load(&mut bench, 0, &image).response().1, Response::Done);
     let before = reading(&mut bench, &Request::Health { damper: 0 });
-    let seventeen = bytes(&[(1e-3, 500.0); MOST_MEASURED + 1]);
-    for samples in [&[][..], &one[1..], &seventeen, &seventeen[4..]] {
+    let too_many = bytes(&[(1e-3, 500.0); MOST_MEASURED + 1]);
+    for samples in [&[][..], &one[1..], &too_many, &too_many[4..]] {
         let refused = bench.ask(&Request::Measure { damper: 0, samples });
         assert_eq!(refused.refusal(), Some(Refusal::Range));
     }

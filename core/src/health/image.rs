@@ -22,8 +22,9 @@ const HEADER_BYTES: usize = 8;
 const CHECK_BYTES: usize = 4;
 /// Words of a model.
 const WORDS: usize = size_of::<HealthModel>() / 4;
-/// Bytes of an image that a slice checks.
+/// Bytes of an image that a slice checks, and words that one writes.
 const BYTES_PER_SLICE: usize = 128;
+const WORDS_PER_SLICE: usize = 64;
 
 /// Why bytes are no model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
@@ -52,23 +53,28 @@ pub enum HealthImageError {
     Values,
 }
 
-/// How far the check of an image has come: a slice at a time, for a device between ticks.
+/// How far the loading of an image has come: a slice at a time, for a device between ticks.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct ImageCheck {
+pub(crate) struct HealthLoading {
     bytes: usize,
     crc: u32,
+    words: usize,
 }
 
 /// The constants of an image that was checked whole.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct CheckedImage<'a>(&'a [[u8; 4]; WORDS]);
 
-impl ImageCheck {
+impl HealthLoading {
     /// Before the first slice.
-    pub(crate) const START: Self = Self { bytes: 0, crc: 0 };
+    pub(crate) const START: Self = Self {
+        bytes: 0,
+        crc: 0,
+        words: 0,
+    };
 
-    /// Checks the next slice of an image; its constants with the last one.
-    pub(crate) fn slice<'a>(
+    /// Checks the next slice of an image; its constants once it was checked whole.
+    pub(crate) fn check_slice<'a>(
         &mut self,
         image: &'a [u8],
     ) -> Result<Option<CheckedImage<'a>>, HealthImageError> {
@@ -109,6 +115,30 @@ impl ImageCheck {
     }
 }
 
+impl HealthLoading {
+    /// Whether nothing was written yet.
+    #[cfg(feature = "link")]
+    pub(crate) fn writes_nothing_yet(&self) -> bool {
+        self.words == 0
+    }
+
+    /// Writes the next slice of checked constants to a model, in place: no copy of them on the stack. True with the
+    /// last one.
+    pub(crate) fn write_slice(
+        &mut self,
+        image: &CheckedImage<'_>,
+        model: &mut HealthModel,
+    ) -> bool {
+        let numbers: &mut [u32; WORDS] = zerocopy::transmute_mut!(model);
+        let pairs = numbers.iter_mut().zip(image.0).skip(self.words);
+        for (number, bytes) in pairs.take(WORDS_PER_SLICE) {
+            *number = u32::from_le_bytes(*bytes);
+        }
+        self.words += WORDS_PER_SLICE;
+        self.words >= WORDS
+    }
+}
+
 impl CheckedImage<'_> {
     fn word(&self, offset: usize) -> u32 {
         self.0
@@ -124,14 +154,6 @@ impl CheckedImage<'_> {
     #[cfg(feature = "link")]
     pub(crate) fn step_s(&self) -> f32 {
         2.0 * self.half_step_s()
-    }
-
-    /// Makes these the constants of a model, in place: no copy of them on the stack.
-    pub(crate) fn write_to(&self, model: &mut HealthModel) {
-        let numbers: &mut [u32; WORDS] = zerocopy::transmute_mut!(model);
-        for (number, bytes) in numbers.iter_mut().zip(self.0) {
-            *number = u32::from_le_bytes(*bytes);
-        }
     }
 }
 
@@ -177,11 +199,12 @@ impl HealthModel {
     /// # Ok::<(), dashpot_core::BuildError>(())
     /// ```
     pub fn from_image(image: &[u8]) -> Result<Self, HealthImageError> {
-        let mut check = ImageCheck::START;
+        let mut loading = HealthLoading::START;
+        let mut model = Self::EMPTY;
         loop {
-            if let Some(checked) = check.slice(image)? {
-                let mut model = Self::EMPTY;
-                checked.write_to(&mut model);
+            if let Some(checked) = loading.check_slice(image)?
+                && loading.write_slice(&checked, &mut model)
+            {
                 return Ok(model);
             }
         }

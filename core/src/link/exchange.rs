@@ -8,7 +8,7 @@ use super::refusal::Refusal;
 use super::service::{Service, count};
 use super::session::{Session, Verdict};
 use crate::encoding::Loading;
-use crate::health::ImageCheck;
+use crate::health::HealthLoading;
 
 /// A load that is under way, in slices.
 #[derive(Clone, Debug)]
@@ -24,7 +24,7 @@ pub(super) struct Load {
 #[derive(Clone, Debug)]
 pub(super) enum Progress {
     Damper(Loading),
-    Health(ImageCheck),
+    Health(HealthLoading),
 }
 
 impl Load {
@@ -112,7 +112,7 @@ impl<const N: usize, const WATCHED: usize> Exchange<'_, N, WATCHED> {
                     Some((damper, image, Progress::Damper(Loading::START)))
                 }
                 Request::LoadHealth { damper, image } => {
-                    Some((damper, image, Progress::Health(ImageCheck::START)))
+                    Some((damper, image, Progress::Health(HealthLoading::START)))
                 }
                 _ => None,
             };

@@ -15,7 +15,7 @@ pub const MOST_DAMPERS: usize = 16;
 /// Telemetry samples in one response at most.
 pub const MOST_SAMPLES: usize = 8;
 /// Measured samples in one request at most.
-pub const MOST_MEASURED: usize = 16;
+pub const MOST_MEASURED: usize = 8;
 /// Bytes of a measured sample.
 pub const MEASURED_BYTES: usize = 8;
 

@@ -125,9 +125,9 @@ impl<const N: usize, const WATCHED: usize> Service<N, WATCHED> {
     ) -> Result<bool, Refusal> {
         let loading = match progress {
             Progress::Damper(loading) => loading,
-            Progress::Health(check) => {
+            Progress::Health(loading) => {
                 let step_s = self.loaded.step_s();
-                return self.watched.load_slice(damper, image, check, step_s);
+                return self.watched.load_slice(damper, image, loading, step_s);
             }
         };
         let done = self.loaded.spare().load_slice(image, loading);

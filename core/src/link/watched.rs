@@ -2,7 +2,7 @@
 
 use super::message::{MEASURED_BYTES, MOST_MEASURED};
 use super::refusal::Refusal;
-use crate::health::{Health, HealthModel, HealthReading, ImageCheck};
+use crate::health::{Health, HealthLoading, HealthModel, HealthReading};
 
 /// The first `N` places of a bank, each with a model of health once one was loaded.
 ///
@@ -34,10 +34,10 @@ impl<const N: usize> Watched<N> {
         &mut self,
         damper: u8,
         image: &[u8],
-        check: &mut ImageCheck,
+        loading: &mut HealthLoading,
         step_s: f32,
     ) -> Result<bool, Refusal> {
-        let Some(image) = check.slice(image).map_err(Refusal::HealthImage)? else {
+        let Some(image) = loading.check_slice(image).map_err(Refusal::HealthImage)? else {
             return Ok(false);
         };
         if image.step_s() != step_s {
@@ -49,9 +49,15 @@ impl<const N: usize> Watched<N> {
             .get_mut(place)
             .zip(self.estimates.get_mut(place));
         let (model, estimate) = pair.ok_or(Refusal::NoHealth)?;
-        image.write_to(model);
-        *estimate = Health::new(model);
-        Ok(true)
+        if loading.writes_nothing_yet() {
+            // None until its model is whole.
+            *estimate = Health::EMPTY;
+        }
+        let done = loading.write_slice(&image, model);
+        if done {
+            *estimate = Health::new(model);
+        }
+        Ok(done)
     }
 
     /// The model and the estimate of a place that has them.
