@@ -24,6 +24,7 @@ pub mod progress;
 pub mod recording;
 pub mod replay;
 pub mod rig;
+pub mod sensors;
 pub mod shims;
 pub mod step_size;
 mod streams;
