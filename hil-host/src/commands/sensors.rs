@@ -46,7 +46,7 @@ pub struct SensorArguments {
         long,
         value_name = "S",
         requires = "force_noise_n",
-        allow_negative_numbers = true
+        allow_hyphen_values = true
     )]
     lag_s: Option<f64>,
     /// Standard deviation with which the lag is known, s; 0 keeps it, 0.001 where not given.
