@@ -27,7 +27,7 @@ const BYTES_PER_SLICE: usize = 116;
 const WORDS_PER_SLICE: usize = 64;
 
 // Slices are whole: the checksum, shared with the dampers' images, need not ask for bytes that are not there.
-const _: () = assert!((HealthModel::IMAGE_BYTES - CHECK_BYTES) % BYTES_PER_SLICE == 0);
+const _: () = assert!((HealthModel::IMAGE_BYTES - CHECK_BYTES).is_multiple_of(BYTES_PER_SLICE));
 
 /// Why bytes are no model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]

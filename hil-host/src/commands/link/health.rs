@@ -189,7 +189,7 @@ fn feed(
     while let Some((displacement_m, force_n)) = ticks.next_sample()? {
         batch.push((displacement_m as f32, force_n as f32));
         report.fed += 1;
-        let is_due = every.is_some_and(|every| report.fed % every == 0);
+        let is_due = every.is_some_and(|every| report.fed.is_multiple_of(every));
         if is_due || batch.len() == MOST_MEASURED {
             target.client().measure(health.place, &batch)?;
             batch.clear();

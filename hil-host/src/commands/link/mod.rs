@@ -84,7 +84,7 @@ enum Action {
     /// End the free-running tick; the outputs are 0.
     Stop,
     Telemetry(TelemetryArguments),
-    Health(HealthArguments),
+    Health(Box<HealthArguments>),
     Watch(WatchArguments),
     Save(SaveArguments),
     Restore(RestoreArguments),
