@@ -9,7 +9,8 @@ use dashpot_core::Damper;
 use dashpot_hil::files::FileError;
 use dashpot_hil::files::damper;
 use dashpot_hil::files::recording::Recording;
-use dashpot_hil::study::replay::{TickGrid, replay};
+use dashpot_hil::study::replay::replay;
+use dashpot_hil::study::tick_grid::TickGrid;
 
 const ROWS: u32 = 100_000;
 const STEP_S: f64 = 1e-3;

@@ -1,12 +1,19 @@
-//! Writes data/bench/bench_made.csv: a bench test as a rig would have recorded it, of a damper whose numbers are known.
+//! Writes data/bench/bench_made.mf4 and data/bench/worn_made.mf4: a bench test of a damper whose numbers are known, as a rig would have
+//! recorded it, and a ride on which that damper wears.
 //!
-//! `cargo run --release --package dashpot-hil --example make_bench > data/bench/bench_made.csv`
+//! `cargo run --release --package dashpot-hil --example make_bench`
 
+use std::error::Error;
 use std::f64::consts::TAU;
+use std::path::Path;
 
+use dashpot_hil::files::FileError;
 use dashpot_hil::files::damper;
+use dashpot_hil::files::output::write_whole;
+use dashpot_hil::files::recording::written::{ColumnName, Form, Written};
+use dashpot_hil::study::excitation::Excitation;
+use dashpot_hil::study::health::Noise;
 use dashpot_hil::study::verification::reference_forces;
-use fastrand::Rng;
 
 /// What the damper differs in from the preset `in-service`: a calibration has to find these numbers.
 const TRUTH: [&str; 4] = [
@@ -16,60 +23,76 @@ const TRUTH: [&str; 4] = [
     "mount.clearance_m=0.6e-3",
 ];
 
-/// Amplitude (m) and frequency (Hz) of the tests, one after the other.
-const TESTS: [(f64, f64); 4] = [(25e-3, 0.064), (25e-3, 0.64), (5e-3, 2.0), (24.5e-3, 1.9)];
+/// What it differs in when it is worn: 1 mm more clearance.
+const WORN: &str = "mount.clearance_m=1.6e-3";
 
-/// Interval of the samples (s), and seconds between the tests.
-const INTERVAL_S: f64 = 2e-3;
+/// Amplitude (m), frequency (Hz) and duration (s) of the tests, one after the other.
+const TESTS: [(f64, f64, f64); 4] = [
+    (12.5e-3, 0.2, 12.0),
+    (25e-3, 0.64, 5.0),
+    (5e-3, 2.0, 4.0),
+    (24.5e-3, 1.9, 4.0),
+];
+
+/// Seconds between the tests.
 const PAUSE_S: f64 = 5.0;
 
-/// Cycles of a test, and seconds at least.
-const CYCLES: f64 = 3.0;
-const LEAST_S: f64 = 4.0;
-
-/// Samples by which the force is recorded later: 4 ms.
-const LATE: usize = 2;
+/// Interval of the samples (s); the force is recorded one of them later.
+const INTERVAL_S: f64 = 2e-3;
 
 /// Noise of either signal, of its rms.
 const NOISE: f64 = 0.01;
 
-fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let damper = damper::load("in-service", &TRUTH.map(String::from))?;
-    let mut rng = Rng::with_seed(2026);
-    println!("# MADE, not measured: a bench test of the damper `in-service` with");
-    println!("# {},", TRUTH.join(", "));
-    println!(
-        "# by the reference solver; noise of 1 % of the rms on both signals, the force 4 ms late."
-    );
-    println!("# Made by: cargo run --release --package dashpot-hil --example make_bench");
-    println!("Time [s],Displacement [mm],Force [kN]");
+const COLUMNS: [ColumnName; 3] = [("time_s", "s"), ("displacement_m", "m"), ("force_n", "N")];
+
+/// Time (s), displacement (m) and force (N).
+type Rows = Vec<[f64; 3]>;
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let mut bench = Rows::new();
     let mut start_s = 0.0;
-    for (amplitude_m, frequency_hz) in TESTS {
-        let duration_s = (CYCLES / frequency_hz).max(LEAST_S);
+    for (number, (amplitude_m, frequency_hz, duration_s)) in (0..).zip(TESTS) {
         let samples = (duration_s / INTERVAL_S) as usize;
         let x: Vec<f64> = (0..samples)
             .map(|sample| amplitude_m * (TAU * frequency_hz * sample as f64 * INTERVAL_S).sin())
             .collect();
-        let forces = reference_forces(&damper, INTERVAL_S, &x)?;
-        let [x_noise, force_noise] = [&x, &forces].map(|signal| {
-            let square: f64 = signal.iter().map(|value| value * value).sum();
-            NOISE * (square / samples as f64).sqrt()
-        });
-        for sample in LATE..samples {
-            println!(
-                "{:.3},{:.4},{:.4}",
-                start_s + sample as f64 * INTERVAL_S,
-                (x[sample] + x_noise * normal(&mut rng)) * 1e3,
-                (forces[sample - LATE] + force_noise * normal(&mut rng)) * 1e-3
-            );
-        }
+        bench.extend(recorded(start_s, &x, &[], number)?);
         start_s += duration_s + PAUSE_S;
     }
-    Ok(())
+    write(Path::new("data/bench/bench_made.mf4"), &bench)?;
+    // Ten seconds healthy, then ten seconds worn; both begin at rest.
+    let x = Excitation::Ride.displacements_m(INTERVAL_S);
+    let mut back: Vec<f64> = x.iter().rev().copied().collect();
+    back.dedup();
+    let there_and_back = [x, back].concat();
+    let mut ride = recorded(0.0, &there_and_back, &[], 8)?;
+    let start_s = there_and_back.len() as f64 * INTERVAL_S;
+    ride.extend(recorded(start_s, &there_and_back, &[WORN], 9)?);
+    write(Path::new("data/bench/worn_made.mf4"), &ride)
 }
 
-/// A number of a normal distribution (Box and Muller).
-fn normal(rng: &mut Rng) -> f64 {
-    let radius = (-2.0 * (1.0 - rng.f64()).ln()).sqrt();
-    radius * (TAU * rng.f64()).cos()
+/// The damper, with `changes`, on the displacements `x` (m) from `start_s` (s) on, as it is recorded with noise of this seed.
+fn recorded(start_s: f64, x: &[f64], changes: &[&str], seed: u64) -> Result<Rows, Box<dyn Error>> {
+    let set = TRUTH.iter().chain(changes).map(|set| (*set).to_owned());
+    let damper = damper::load("in-service", &set.collect::<Vec<_>>())?;
+    let forces = reference_forces(&damper, INTERVAL_S, x)?;
+    let (x, forces) = Noise::of_rms(NOISE, x, &forces).on(x, &forces, seed);
+    let late = x.iter().skip(1).zip(&forces);
+    let rows = late.zip(1..).map(|((x, force), sample)| {
+        let time_s = start_s + f64::from(sample) * INTERVAL_S;
+        [(time_s * 1e6).round() * 1e-6, *x, *force]
+    });
+    Ok(rows.collect())
+}
+
+fn write(path: &Path, rows: &Rows) -> Result<(), Box<dyn Error>> {
+    write_whole::<FileError>(path, |file| {
+        let mut written = Written::new(path, file, Form::Mdf4, &COLUMNS)?;
+        for row in rows {
+            written.row(row, row)?;
+        }
+        written.finish()
+    })?;
+    println!("{}: {} rows", path.display(), rows.len());
+    Ok(())
 }

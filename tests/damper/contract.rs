@@ -7,7 +7,13 @@ use dashpot_core::{
 use dashpot_hil::files::damper;
 
 const STEP_S: f64 = 1e-3;
-const PRESETS: [&str; 4] = ["paper", "reduced-vertical", "reduced-lateral", "in-service"];
+const PRESETS: [&str; 5] = [
+    "paper",
+    "calibrated",
+    "reduced-vertical",
+    "reduced-lateral",
+    "in-service",
+];
 
 fn build<T: Real>(preset: &str) -> Damper<T> {
     damper(preset, &[]).build(STEP_S).expect("a preset")

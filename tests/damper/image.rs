@@ -19,7 +19,13 @@ fn read(image: &[u8]) -> Result<Damper<f32>, ImageError> {
 
 #[test]
 fn every_preset_comes_back() {
-    for preset in ["paper", "in-service", "reduced-vertical", "reduced-lateral"] {
+    for preset in [
+        "paper",
+        "calibrated",
+        "in-service",
+        "reduced-vertical",
+        "reduced-lateral",
+    ] {
         let single: Damper<f32> = damper(preset, &[]).build(1e-3).expect("a preset");
         assert_eq!(read(&single.to_image()), Ok(single));
         let double: Damper<f64> = damper(preset, &[]).build(1e-4).expect("a preset");

@@ -13,6 +13,7 @@ use dashpot_core::link::{Header, Reals, Request, request_frame};
 use dashpot_hil::files;
 use dashpot_hil::files::case::{CASES, CaseOptions};
 use dashpot_hil::files::damper::PRESETS;
+use dashpot_hil::files::sheet::{SHEETS, SheetParameters};
 use dashpot_hil::files::study::{STUDIES, StudyParameters};
 use dashpot_hil::files::track::TRACKS;
 use dashpot_hil::files::vehicle::VEHICLES;
@@ -89,6 +90,17 @@ fn case_files_are_the_shipped_ones_and_one_with_all_keys() {
     let mut seeds = shipped(&CASES);
     seeds.push(("every-key".into(), every_key.into()));
     compare("case_file", seeds);
+}
+
+/// The shipped one has not every index.
+#[test]
+fn sheet_files_are_the_shipped_one_and_one_with_all_keys() {
+    let every_key = include_str!("sheet.toml");
+    let parsed = SheetParameters::parse("sheet.toml", every_key);
+    assert!(parsed.is_ok(), "{:?}", parsed.err());
+    let mut seeds = shipped(&SHEETS);
+    seeds.push(("every-key".into(), every_key.into()));
+    compare("sheet_file", seeds);
 }
 
 /// The shipped ones have neither equal ratios nor a vehicle of their own.
@@ -192,18 +204,29 @@ fn frames_are_of_every_request() {
 }
 
 #[test]
-fn recordings_are_with_and_without_header() {
+fn recordings_are_of_every_kind() {
     let rows = "0,0\n0.001,1.5e-4\n0.0021,-2e-4\n0.0031,0\n";
     let headed = format!("# made\ntime_s,displacement_m\n{rows}");
-    compare(
-        "recording",
-        vec![
-            ("headed.csv".into(), headed.clone().into()),
-            ("crlf.csv".into(), headed.replace('\n', "\r\n").into()),
-            // The target writes the header before it.
-            ("rows.csv".into(), rows.into()),
-        ],
-    );
+    let german = "Zeit [ms];Weg\n[s];[mm]\n0,5;1\n1,5;-2,25;\n";
+    let mut seeds: Vec<Seed> = vec![
+        ("headed.csv".into(), headed.clone().into()),
+        ("crlf.csv".into(), headed.replace('\n', "\r\n").into()),
+        ("german.csv".into(), german.into()),
+        // The target writes the header before it.
+        ("rows.csv".into(), rows.into()),
+    ];
+    let samples = document::in_repository("hil-host/tests/recordings/samples");
+    for name in [
+        "transposed.mf4",
+        "groups.mf4",
+        "nulls.parquet",
+        "stamps_us.parquet",
+        "german.csv.gz",
+    ] {
+        let bytes = fs::read(samples.join(name)).expect("a sample");
+        seeds.push((name.into(), bytes));
+    }
+    compare("recording", seeds);
 }
 
 #[test]

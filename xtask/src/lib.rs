@@ -6,6 +6,7 @@ pub mod ci;
 pub mod firmware;
 pub mod nightly;
 pub mod processor;
+pub mod python;
 pub mod run;
 pub mod rust_version;
 pub mod slurm;

@@ -9,7 +9,7 @@ use xtask::rust_version::numbers;
 use xtask::test_run::test;
 use xtask::tools::install_missing;
 use xtask::vehicle_validation::vehicle_validation;
-use xtask::{firmware, nightly, slurm};
+use xtask::{firmware, nightly, python, slurm};
 
 const HELP: &str = "\
 Developer commands of Dashpot
@@ -28,6 +28,7 @@ Commands:
                          when none is named; into target/c-library
   kalker-book            compute the tables of the recommended creep law anew, from exact theory (some fifteen minutes)
   vehicle-validation     run the studies of docs/vehicle-validation.md anew and write it (some six minutes)
+  python                 install the packages of Python that tests read and write recordings with, in target/python
   miri                   run the tests of the C interface under Miri (needs a nightly compiler)
   fuzz [--seconds N]     run each fuzz target from its kept seeds for N seconds, 60 when not given (needs a
                          nightly compiler)
@@ -81,6 +82,7 @@ fn main() -> ExitCode {
             "kalker_book",
         ]),
         ["vehicle-validation"] => vehicle_validation(),
+        ["python"] => python::install(),
         ["miri"] => nightly::miri(),
         ["fuzz"] => nightly::fuzz(60),
         ["fuzz", "--seconds", text] => match text.parse() {

@@ -3,19 +3,10 @@
 use crate::run::{Outcome, cargo_with, repository};
 use crate::tools::{SKIPPED, install_missing};
 
-/// Calls of cargo: all tests; that of a feature that is not a default; those of the C library, which is a workspace of its own; the
+/// Calls of cargo: all tests; those of the C library, which is a workspace of its own; the
 /// force bits of the optimised core, with what was built for the first call but for our own crates.
-const RUNS: [&[&str]; 4] = [
+const RUNS: [&[&str]; 3] = [
     &["test", "--workspace", "--no-fail-fast"],
-    &[
-        "test",
-        "--package",
-        "dashpot-hil",
-        "--features",
-        "parquet",
-        "--test",
-        "parquet",
-    ],
     &["test", "--manifest-path", "capi/Cargo.toml"],
     &[
         "test",

@@ -6,6 +6,7 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 
 use crate::processor::{CORTEX_M7, TARGETS};
+use crate::python;
 use crate::run::{Outcome, cargo, cargo_output};
 use crate::target_toolchain::TargetToolchain;
 
@@ -208,7 +209,7 @@ pub fn have_library(target: &str, skipped: &str) -> bool {
     there
 }
 
-fn skip(skipped: &str, remedy: &str) {
+pub(crate) fn skip(skipped: &str, remedy: &str) {
     let thread = std::thread::current();
     let line = format!(
         "{} ({skipped}); to run it: {remedy}\n",
@@ -242,11 +243,17 @@ pub fn install_missing() {
     if TargetToolchain::find(CORTEX_M7.target).is_err() {
         packages.extend(TOOLCHAIN_PACKAGES);
     }
-    if packages.is_empty() {
-        return;
+    if python::lacks_environments() {
+        packages.push(python::ENVIRONMENTS);
     }
-    if let Err(message) = install(&packages) {
-        eprintln!("\n!!!! {message}; the tests of these tools will be skipped\n");
+    let installed = match packages[..] {
+        [] => Ok(()),
+        _ => install(&packages),
+    };
+    for outcome in [installed, python::install()] {
+        if let Err(message) = outcome {
+            eprintln!("\n!!!! {message}; the tests of these tools will be skipped\n");
+        }
     }
 }
 

@@ -9,6 +9,7 @@ use dashpot_reference::ReferenceError;
 use crate::files::FileError;
 use crate::files::case::CaseError;
 use crate::files::damper::{ContentError, DamperError, FORM};
+use crate::files::sheet::SheetFileError;
 use crate::files::study::StudyFileError;
 use crate::files::track::TrackFileError;
 use crate::files::vehicle::{FORM as VEHICLE_FORM, VehicleFileError};
@@ -183,6 +184,16 @@ impl From<StudyFileError> for Failure {
     }
 }
 
+impl From<SheetFileError> for Failure {
+    fn from(error: SheetFileError) -> Self {
+        match error {
+            SheetFileError::File(error) => error.into(),
+            SheetFileError::Unknown(_) => Self::wrong_use(error.to_string()),
+            _ => Self::new(error.to_string()),
+        }
+    }
+}
+
 impl From<VehicleStudyError> for Failure {
     fn from(error: VehicleStudyError) -> Self {
         Self::new(error.to_string())
@@ -199,6 +210,9 @@ impl From<StudyError> for Failure {
             StudyError::Frequency(frequency_hz) => Self::wrong_use(format!(
                 "--frequency-hz: {frequency_hz}, allowed: above 0 and at most {HIGHEST_FREQUENCY_HZ} Hz"
             )),
+            StudyError::SweepRate { .. } | StudyError::SweepSteps { .. } => {
+                Self::wrong_use(format!("--octaves-per-minute: {error}"))
+            }
             StudyError::Step { .. }
             | StudyError::StepsPerCycle { .. }
             | StudyError::Velocity { .. } => Self::wrong_use(error.to_string()),

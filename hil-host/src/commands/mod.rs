@@ -7,6 +7,7 @@
 pub mod arguments;
 pub mod budget;
 pub mod calibrate;
+pub mod channels;
 pub mod contact;
 pub mod demonstrate;
 pub mod export;
@@ -23,6 +24,7 @@ pub mod print;
 pub mod progress;
 pub mod recording;
 pub mod replay;
+pub mod response;
 pub mod rig;
 pub mod sensors;
 pub mod shims;
@@ -41,7 +43,9 @@ use print::{counted, nearest_nanosecond, print_report, print_report_beside};
 #[derive(Debug, Clone, clap::Subcommand)]
 pub enum Command {
     Replay(replay::ReplayArguments),
+    Channels(channels::ChannelsArguments),
     Rig(rig::RigArguments),
+    Response(response::ResponseArguments),
     Verify(verify::VerifyArguments),
     Shims(shims::ShimsArguments),
     Budget(budget::BudgetArguments),
@@ -64,7 +68,9 @@ impl Command {
     pub fn run(&self) -> Outcome<()> {
         match self {
             Self::Replay(arguments) => replay::run(arguments),
+            Self::Channels(arguments) => channels::run(arguments),
             Self::Rig(arguments) => rig::run(arguments),
+            Self::Response(arguments) => response::run(arguments),
             Self::Verify(arguments) => verify::run(arguments),
             Self::Shims(arguments) => shims::run(arguments),
             Self::Budget(arguments) => budget::run(arguments),

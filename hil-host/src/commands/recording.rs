@@ -44,6 +44,15 @@ pub struct MeasurementArguments {
     file: FileArguments,
 }
 
+/// What commands that look at a file have.
+#[derive(Debug, Clone, Default, PartialEq, clap::Args)]
+pub struct ListingArguments {
+    #[command(flatten)]
+    time: TimeArguments,
+    #[command(flatten)]
+    file: FileArguments,
+}
+
 #[derive(Debug, Clone, Default, PartialEq, clap::Args)]
 #[command(next_help_heading = HEADING)]
 struct TimeArguments {
@@ -136,6 +145,15 @@ impl MeasurementArguments {
         channels.time = self.time.channel();
         channels.displacement = self.displacement.channel();
         channels.force = self.force.channel();
+        channels
+    }
+}
+
+impl ListingArguments {
+    /// The channels.
+    pub fn channels(&self) -> Channels {
+        let mut channels = self.file.channels();
+        channels.time = self.time.channel();
         channels
     }
 }

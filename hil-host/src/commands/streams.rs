@@ -1,6 +1,6 @@
 //! Files that options name twice, which is wrong use.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use super::failure::{Failure, Outcome};
 use crate::files::input::is_standard_stream;
@@ -35,6 +35,20 @@ pub(super) fn refuse_input(option: &str, path: &Path, input: &Path) -> Outcome<(
     match (path.canonicalize(), input.canonicalize()) {
         (Ok(same), Ok(input)) if same == input => Err(Failure::wrong_use(format!(
             "{option} {}: is the input too; give another output file",
+            path.display()
+        ))),
+        _ => Ok(()),
+    }
+}
+
+/// Refuses one file for both `--output` and `--page`.
+///
+/// # Errors
+/// Both are the same path.
+pub(super) fn refuse_same_output(output: &Option<PathBuf>, page: &Option<PathBuf>) -> Outcome<()> {
+    match output {
+        Some(path) if page.as_ref() == Some(path) => Err(Failure::wrong_use(format!(
+            "--output and --page: both are {}; give each a file of its own",
             path.display()
         ))),
         _ => Ok(()),

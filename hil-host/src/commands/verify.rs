@@ -1,19 +1,20 @@
 //! `dashpot verify`: the fixed step against the reference solver on a recorded motion.
 
-use std::io::{self, Cursor, Write};
+use std::io::{self, Write};
 use std::path::PathBuf;
 use std::rc::Rc;
 
 use serde::Serialize;
 
 use super::gap_report::write_gaps;
+use super::recording::MotionArguments;
 use super::step_size::{self, StepSize};
 use super::{DamperArguments, Format, counted, print_report, progress};
 use crate::commands::failure::{Failure, Outcome};
 use crate::files::input;
 use crate::files::recording::{Gaps, Recording};
 use crate::study::Scalar;
-use crate::study::replay::TickGrid;
+use crate::study::tick_grid::TickGrid;
 use crate::study::verification::{
     Deviation, deviation, fixed_step_forces, reference_forces, reference_forces_on_recording,
 };
@@ -30,9 +31,11 @@ recording's own samples, linear between them, and is compared at the ticks.")]
 pub struct VerifyArguments {
     #[command(flatten)]
     damper: DamperArguments,
-    /// Recorded motion, CSV with columns time_s,displacement_m; `-` for standard input.
+    /// Recorded motion: text (CSV), MDF4 or Parquet; `-` for standard input.
     #[arg(long, value_name = "FILE")]
     input: PathBuf,
+    #[command(flatten)]
+    recording: MotionArguments,
     /// Steps, us.
     #[arg(help = step_size::help("Step to verify", "; may be given several times"), long, default_values = ["1000", "500", "100"], value_name = "US", allow_negative_numbers = true)]
     step_us: Vec<StepSize>,
@@ -76,17 +79,16 @@ fn positive(text: &str) -> Result<f64, String> {
 pub fn run(arguments: &VerifyArguments) -> Outcome<()> {
     arguments.damper.refuse_same_input(&arguments.input)?;
     let parameters = arguments.damper.load()?;
-    let text: Rc<[u8]> = input::read(&arguments.input)?.into();
+    let mut recording = Recording::open_with(&arguments.input, &arguments.recording.channels())?;
+    let samples = Rc::new(recording.read_all()?);
     let path = input::name(&arguments.input);
-    let open = || Recording::read(&path, Box::new(Cursor::new(Rc::clone(&text))));
-    let mut recording = open()?;
-    let samples = recording.read_all()?;
     let gaps = recording.gaps();
     let bar = progress::bar(arguments.step_us.len() as u64, "verify");
     let mut rows = Vec::new();
     for &step in &arguments.step_us {
         let step_s = step.step_s();
-        let ticks = TickGrid::new(open()?, step_s)?.read_all()?;
+        let ticks =
+            TickGrid::new(Recording::again(&path, Rc::clone(&samples)), step_s)?.read_all()?;
         let displacements_m: Vec<f64> = ticks.iter().map(|tick| tick.displacement_m).collect();
         let on_ticks = reference_forces(&parameters, step_s, &displacements_m)?;
         let on_recording = reference_forces_on_recording(&parameters, step_s, &samples, &ticks)?;

@@ -144,10 +144,10 @@ fn add(
 
 /// What the library has written and the file has not got: it takes no writer that is only lent.
 #[derive(Clone, Default)]
-struct Bytes(Arc<Mutex<Vec<u8>>>);
+pub(super) struct Bytes(Arc<Mutex<Vec<u8>>>);
 
 impl Bytes {
-    fn take_to(&self, file: &mut dyn Write) -> io::Result<()> {
+    pub(super) fn take_to(&self, file: &mut dyn Write) -> io::Result<()> {
         match self.0.lock() {
             Ok(mut bytes) => file.write_all(&std::mem::take(&mut *bytes)),
             Err(error) => Err(io::Error::other(error.to_string())),

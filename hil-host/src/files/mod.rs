@@ -1,4 +1,4 @@
-//! What is read and written: damper, vehicle, track, case and study files, recordings, profiles, saved states; files whole or not at all.
+//! What is read and written: damper, vehicle, track, case, study and sheet files, recordings, profiles, saved states; files whole or not at all.
 
 pub mod case;
 #[cfg(feature = "parquet")]
@@ -11,6 +11,7 @@ pub mod output;
 mod overrides;
 pub mod profile;
 pub mod recording;
+pub mod sheet;
 mod shipped;
 pub mod states;
 pub mod status_bits;

@@ -105,11 +105,23 @@ fn plot(history: &History, shown: &Shown) -> Panel {
         (shown.scale * f64::from(value), shown.scale * f64::from(sd))
     };
     let readings = || history.readings.iter();
+    // At first next to nothing is known, which is no reason to show nothing of what comes.
+    let shows = |value: f64| match shown.limits {
+        Some([low, high]) => {
+            let beyond = 2.0 * (high - low);
+            value.clamp(shown.scale * (low - beyond), shown.scale * (high + beyond))
+        }
+        None => value,
+    };
     let band = readings().map(|point| {
         let (value, sd) = at(&point.reading);
-        (point.time_s, value - BAND * sd, value + BAND * sd)
+        (
+            point.time_s,
+            shows(value - BAND * sd),
+            shows(value + BAND * sd),
+        )
     });
-    let line = readings().map(|point| (point.time_s, at(&point.reading).0));
+    let line = readings().map(|point| (point.time_s, shows(at(&point.reading).0)));
     let ends = || {
         let ends = [history.readings.first(), history.readings.last()];
         ends.into_iter().flatten().map(|point| point.time_s)
@@ -127,11 +139,17 @@ fn plot(history: &History, shown: &Shown) -> Panel {
     curves.extend(baseline);
     let limits = shown.limits.into_iter().flatten();
     curves.extend(limits.map(|value| Curve::new("", AMBER_LINE, level(value))));
-    panel(
-        "time (s)",
-        &format!("{} ({})", shown.label, shown.unit),
-        curves,
-    )
+    let mut panel = panel("time, s", &label(shown), curves);
+    panel.keeps_to_values = true;
+    panel
+}
+
+/// Name and unit of a parameter.
+fn label(shown: &Shown) -> String {
+    match shown.unit {
+        "1" => shown.label.into(),
+        unit => format!("{}, {unit}", shown.label),
+    }
 }
 
 fn headline(history: &History, shown: &[Shown]) -> Markup {

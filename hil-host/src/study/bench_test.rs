@@ -44,7 +44,11 @@ impl Harmonic {
         TAU * self.frequency_hz * self.amplitude_m
     }
 
-    fn check(&self) -> Result<(), StudyError> {
+    /// Whether a bench can make it.
+    ///
+    /// # Errors
+    /// An amplitude or a frequency outside its range.
+    pub fn check(&self) -> Result<(), StudyError> {
         let is_within = |value: f64, most: f64| value > 0.0 && value <= most;
         if !is_within(self.amplitude_m, LARGEST_AMPLITUDE_M) {
             return Err(StudyError::Amplitude(self.amplitude_m));
@@ -108,19 +112,8 @@ pub fn run_until_periodic(
     motion: Harmonic,
     step_s: f64,
 ) -> Result<Cycle, StudyError> {
-    motion.check()?;
-    if !STEP_RANGE_S.contains(&step_s) {
-        return Err(StudyError::Step { step_s });
-    }
+    let ticks = ticks_of(motion, step_s)?;
     let period = 1.0 / motion.frequency_hz;
-    let ticks = (period / step_s - 1e-9).ceil();
-    if !STEPS_PER_CYCLE.contains(&ticks) {
-        return Err(StudyError::StepsPerCycle {
-            steps: ticks,
-            step_s,
-        });
-    }
-    let ticks = ticks as usize;
     let step_s = period / ticks as f64;
     let damper = parameters.build::<f64>(step_s)?;
     let displacements: Vec<f64> = (1..=ticks)
@@ -158,6 +151,44 @@ pub fn run_until_periodic(
     })
 }
 
+/// Steps of a cycle.
+fn ticks_of(motion: Harmonic, step_s: f64) -> Result<usize, StudyError> {
+    motion.check()?;
+    if !STEP_RANGE_S.contains(&step_s) {
+        return Err(StudyError::Step { step_s });
+    }
+    let ticks = (1.0 / motion.frequency_hz / step_s - 1e-9).ceil();
+    if !STEPS_PER_CYCLE.contains(&ticks) {
+        return Err(StudyError::StepsPerCycle {
+            steps: ticks,
+            step_s,
+        });
+    }
+    Ok(ticks as usize)
+}
+
+/// Whether [`run_until_periodic`] can begin, without its run.
+///
+/// # Errors
+/// As [`run_until_periodic`], but for a force that does not become periodic.
+pub fn check_steps(
+    parameters: &CheckedParameters,
+    motion: Harmonic,
+    step_s: f64,
+) -> Result<(), StudyError> {
+    let ticks = ticks_of(motion, step_s)?;
+    let velocity_m_per_s = motion.peak_velocity_m_per_s();
+    let limit_m_per_s = parameters.limits.rate_m_per_s;
+    if velocity_m_per_s > limit_m_per_s {
+        return Err(StudyError::Velocity {
+            velocity_m_per_s,
+            limit_m_per_s,
+        });
+    }
+    parameters.build::<f64>(1.0 / motion.frequency_hz / ticks as f64)?;
+    Ok(())
+}
+
 impl Cycle {
     /// Velocities (m/s) at the displacements: `2 pi f A cos(2 pi f t)`.
     pub fn velocities_m_per_s(&self) -> Vec<f64> {
@@ -166,6 +197,18 @@ impl Cycle {
         (1..=ticks)
             .map(|tick| peak * (TAU * tick as f64 / ticks as f64).cos())
             .collect()
+    }
+
+    /// Force (N) at the peak velocity, in extension where `sign` is positive, else in compression: where the displacement passes zero.
+    pub fn force_at_peak_velocity_n(&self, sign: f64) -> f64 {
+        let ticks = self.forces_n.len();
+        if sign > 0.0 {
+            // The last step of the cycle ends there.
+            return self.forces_n.last().copied().unwrap_or(0.0);
+        }
+        // Half a cycle is at a step or midway between two.
+        let [before, after] = [ticks / 2, ticks.div_ceil(2)].map(|tick| tick.max(1) - 1);
+        0.5 * (self.forces_n[before] + self.forces_n[after])
     }
 
     /// The indices of this cycle; its energy by the trapezoidal rule.

@@ -5,6 +5,7 @@ use dashpot_core::parameters::STEP_ALLOWED;
 use dashpot_reference::ReferenceError;
 
 use super::bench_test::{HIGHEST_FREQUENCY_HZ, Harmonic, LARGEST_AMPLITUDE_M, STEPS_PER_CYCLE};
+use super::swept_sine::MOST_STEPS as MOST_SWEPT_STEPS;
 use crate::files::FileError;
 
 /// Why a study has no result.
@@ -65,6 +66,26 @@ pub enum StudyError {
         cycles: usize,
         /// The motion.
         motion: Harmonic,
+    },
+    /// A swept sine rises too fast for its first frequency.
+    #[error(
+        "{octaves_per_minute} octaves a minute from {from_hz} Hz on, allowed: above 0 and at most {most:.4}"
+    )]
+    SweepRate {
+        /// The rate (octaves a minute).
+        octaves_per_minute: f64,
+        /// The first frequency (Hz).
+        from_hz: f64,
+        /// The greatest rate there (octaves a minute).
+        most: f64,
+    },
+    /// A swept sine is too long.
+    #[error(
+        "a sweep of {steps:.1e} steps, allowed: {MOST_SWEPT_STEPS:e}; sweep faster or to a lower frequency"
+    )]
+    SweepSteps {
+        /// Its steps.
+        steps: f64,
     },
     /// Two series of forces have different lengths.
     #[error("{forces} forces against {references} of the reference")]

@@ -5,6 +5,8 @@ use std::f64::consts::TAU;
 use dashpot_core::health::{Health, HealthModel, HealthReading, HealthStatus};
 use fastrand::Rng;
 
+use super::smoothing::smooth;
+
 /// Standard deviations of white noise, one for each sensor.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Noise {
@@ -36,6 +38,45 @@ impl Noise {
             noisy(displacements_m, self.displacement_m),
             noisy(forces_n, self.force_n),
         )
+    }
+}
+
+impl Noise {
+    /// What is noise in samples at `times_s` (s), as the ticks of `step_s` (s) between them have it: what a smoothing spline leaves of the
+    /// first samples, at least a ten-thousandth of their root mean square, for no sensor is better. Ticks that are closer than
+    /// the samples repeat one noise, which counts as a greater one of each.
+    pub fn found_in(
+        times_s: &[f64],
+        displacements_m: &[f64],
+        forces_n: &[f64],
+        step_s: f64,
+    ) -> Self {
+        /// Fewer tell nothing.
+        const FEWEST: usize = 100;
+        const LEAST: f64 = 1e-4;
+        let count = times_s.len();
+        let interval_s = match times_s {
+            [first, .., last] => (last - first) / (count - 1) as f64,
+            _ => step_s,
+        };
+        let first_s = times_s.first().copied().unwrap_or(0.0);
+        let positions: Vec<f64> = times_s
+            .iter()
+            .map(|time_s| (time_s - first_s) / interval_s)
+            .collect();
+        let ticks_a_sample = (interval_s / step_s).max(1.0);
+        let of = |signal: &[f64]| {
+            let least = LEAST * rms(signal);
+            if count < FEWEST {
+                return least;
+            }
+            let noise = smooth(&positions, signal, count + 1).noise;
+            noise.max(least) * ticks_a_sample.sqrt()
+        };
+        Self {
+            displacement_m: of(displacements_m),
+            force_n: of(forces_n),
+        }
     }
 }
 
@@ -111,12 +152,12 @@ pub fn watch(
                 raised |= alarm;
             }
         }
-        if count % every == 0 {
+        if count.is_multiple_of(every) {
             let reading = health.reading(model);
             history.readings.push(Reading { time_s, reading });
         }
     }
-    if count % every != 0 {
+    if !count.is_multiple_of(every) {
         let time_s = (count - 1) as f64 * step_s;
         let reading = health.reading(model);
         history.readings.push(Reading { time_s, reading });

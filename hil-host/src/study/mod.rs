@@ -1,6 +1,8 @@
 //! Studies of a damper: replay of a recording, bench test, verification against the reference; of its shim packs as plates; of a vehicle on a track.
 
 pub mod accuracy_limits;
+pub mod bench_index;
+pub mod bench_sheet;
 pub mod bench_test;
 pub mod calibration;
 mod error;
@@ -13,7 +15,10 @@ pub mod replay;
 pub mod response;
 mod scalar;
 pub mod shim_valves;
+mod smoothing;
 pub mod sweep;
+pub mod swept_sine;
+pub mod tick_grid;
 pub mod vehicle;
 pub mod verification;
 pub mod workers;

@@ -16,6 +16,9 @@ const STEPS: f64 = 4000.0;
 /// Peak velocity that counts as small, m/s: that of the secant by which a vehicle's modes have a damper.
 pub const SMALL_VELOCITY_M_PER_S: f64 = 1e-4;
 
+/// A force of this amplitude is rounding (N).
+const ROUNDING_N: f64 = 1e-9;
+
 /// Response of a damper to a harmonic motion `x = A sin w t`: of its force `F` the part of the same frequency,
 /// `F_1 = A (K' sin w t + K'' cos w t)`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -31,7 +34,8 @@ pub struct Response {
 }
 
 impl Response {
-    fn of(cycle: &Cycle) -> Self {
+    /// That of a periodic cycle.
+    pub fn of(cycle: &Cycle) -> Self {
         let Harmonic {
             amplitude_m,
             frequency_hz,
@@ -62,6 +66,26 @@ impl Response {
         self.loss_n_per_m.atan2(self.storage_n_per_m)
     }
 
+    /// Loss angle, that phase in degrees; `None` without force.
+    pub fn loss_angle_deg(&self) -> Option<f64> {
+        self.has_force().then(|| self.phase_rad().to_degrees())
+    }
+
+    /// By how much the force differs from that of `other` at the same motion, over it: `|K - K_o|/|K_o|` of the complex stiffnesses
+    /// (1); `None` where the other has no force.
+    pub fn difference_from(&self, other: &Self) -> Option<f64> {
+        let storage = self.storage_n_per_m - other.storage_n_per_m;
+        let loss = self.loss_n_per_m - other.loss_n_per_m;
+        other
+            .has_force()
+            .then(|| storage.hypot(loss) / other.stiffness_n_per_m())
+    }
+
+    /// Whether there is a force: within the clearance there is none.
+    pub fn has_force(&self) -> bool {
+        self.stiffness_n_per_m() * self.amplitude_m > ROUNDING_N
+    }
+
     /// Damping, the part of force over velocity in phase with the velocity, `K''/w` (N s/m).
     pub fn damping_n_s_per_m(&self) -> f64 {
         self.loss_n_per_m / (TAU * self.frequency_hz)
@@ -71,6 +95,22 @@ impl Response {
     pub fn impedance_n_s_per_m(&self) -> f64 {
         self.stiffness_n_per_m() / (TAU * self.frequency_hz)
     }
+}
+
+/// `count` frequencies with equal ratios, two or more (Hz).
+///
+/// ```
+/// let decades = dashpot_hil::study::response::frequencies(0.1, 10.0, 3);
+/// assert!(decades.iter().zip([0.1, 1.0, 10.0]).all(|(found, expected)| (found / expected - 1.0).abs() < 1e-15));
+/// ```
+pub fn frequencies(from_hz: f64, to_hz: f64, count: usize) -> Vec<f64> {
+    let ratio = (to_hz / from_hz).ln() / (count.max(2) - 1) as f64;
+    let at = |i: usize| match i {
+        0 => from_hz,
+        _ if i + 1 == count => to_hz,
+        _ => from_hz * (ratio * i as f64).exp(),
+    };
+    (0..count).map(at).collect()
 }
 
 /// The response at each frequency (Hz) to a motion of `amplitude_m`: the describing function, by the core's step in double precision until
@@ -127,8 +167,12 @@ fn responses(
     motions: impl Iterator<Item = Harmonic>,
 ) -> Result<Vec<Response>, StudyError> {
     let of_motion = |motion: Harmonic| {
-        let step_s = 1.0 / (motion.frequency_hz * STEPS);
-        let step_s = step_s.clamp(*STEP_RANGE_S.start(), *STEP_RANGE_S.end());
+        let period_s = 1.0 / motion.frequency_hz;
+        // A whole number of steps, each within what a damper can be built for.
+        let steps = STEPS
+            .min((period_s / STEP_RANGE_S.start()).floor())
+            .max((period_s / STEP_RANGE_S.end()).ceil());
+        let step_s = period_s / steps;
         let cycle = run_until_periodic(parameters, motion, step_s)?;
         Ok(Response::of(&cycle))
     };

@@ -6,7 +6,7 @@ use dashpot_reference::deviation::{errors, largest_magnitude, nrmse, root_mean_s
 use serde::Serialize;
 
 use super::StudyError;
-use super::replay::{Tick, rounding_s};
+use super::tick_grid::{Tick, rounding_s};
 use crate::files::recording::Sample;
 
 /// Deviation of one fixed step from the reference on one motion.

@@ -1,5 +1,6 @@
 //! `dashpot` from outside, as its users run it.
 
+mod bench_to_firmware;
 mod budget;
 mod c_library_page;
 #[path = "../common/mod.rs"]
@@ -15,8 +16,10 @@ mod interruption;
 mod modes;
 mod modes_coach;
 mod replay;
+mod response;
 mod rig;
 mod rig_report;
+mod rig_sheet;
 mod shims;
 mod shims_plates;
 mod standard_streams;

@@ -6,7 +6,7 @@ use std::path::Path;
 use assert_cmd::assert::Assert;
 use dashpot_hil::files::damper;
 use dashpot_hil::files::recording::Recording;
-use dashpot_hil::study::replay::TickGrid;
+use dashpot_hil::study::tick_grid::TickGrid;
 use dashpot_hil::study::verification::{reference_forces, reference_forces_on_recording};
 use predicates::str::contains;
 

@@ -45,7 +45,8 @@ fn commands_and_options_that_there_are_not() {
     wrong_use(&["replay"], &[], "required arguments");
     wrong_use(&["rig", "--amplitude"], &[], "--amplitude");
     for command in [
-        "replay", "rig", "verify", "shims", "budget", "export", "contact", "pil", "link",
+        "replay", "rig", "response", "verify", "shims", "budget", "export", "contact", "pil",
+        "link", "channels",
     ] {
         wrong_use(
             &[command],
@@ -53,6 +54,29 @@ fn commands_and_options_that_there_are_not() {
             "possible values: text, json",
         );
     }
+}
+
+#[test]
+fn how_a_recording_is_read() {
+    for (options, part) in [
+        (["--time-unit", "hours"], "allowed: s, ms, us, ns, min"),
+        (["--displacement-unit", "N"], "allowed: m, cm, mm, um, in"),
+        (["--header", "maybe"], "allowed: yes, no"),
+        (
+            ["--encoding", "utf-9"],
+            "allowed: a name of the Encoding Standard",
+        ),
+        (
+            ["--separator", "dot"],
+            "possible values: comma, semicolon, tab, spaces, bar",
+        ),
+        (["--decimal-mark", "dot"], "possible values: point, comma"),
+    ] {
+        wrong_use(&REPLAY, &options, part);
+        wrong_use(&VERIFY, &options, part);
+    }
+    failed(&REPLAY, &["--time", "x"], "column x is missing");
+    failed(&REPLAY, &["--group", "1"], "--group: no group `1`");
 }
 
 #[test]
@@ -74,12 +98,14 @@ fn step_sizes() {
 #[test]
 fn dampers() {
     let export: &[&str] = &[&EXPORT[..], &["--lang", "bin"]].concat();
-    let every: [&[&str]; 7] = [
+    let every: [&[&str]; 9] = [
         &REPLAY,
         &VERIFY,
         &PIL,
         export,
         &["rig"],
+        &["rig", "--sheet", "example"],
+        &["response", "--points", "2"],
         &["shims", "--no-plots"],
         &["budget", "--steps", "1"],
     ];

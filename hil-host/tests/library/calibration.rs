@@ -7,7 +7,7 @@ use dashpot_core::CheckedParameters;
 use dashpot_hil::files::damper::{Keyed, load};
 use dashpot_hil::study::bench_test::Harmonic;
 use dashpot_hil::study::calibration::{
-    Calibrated, Calibration, CalibrationError, LoopTest, Prior, Recorded, SKEW, Varied,
+    Calibrated, Calibration, CalibrationError, IndexTest, LoopTest, Prior, Recorded, SKEW, Varied,
 };
 use dashpot_hil::study::verification::reference_forces;
 use fastrand::Rng;
@@ -232,4 +232,88 @@ fn what_no_force_tells_is_refused() {
         "{text}"
     );
     assert!(!text.contains("mount.stiffness"), "{text}");
+}
+
+#[test]
+fn the_preset_is_what_calibration_finds_and_keeps_table_5() {
+    let keys = [
+        (
+            "valves.piston_extension.preload_pa",
+            3.0e6,
+            Some((3.0e6, 3e5)),
+        ),
+        (
+            "valves.piston_compression.preload_pa",
+            2.2e6,
+            Some((2.2e6, 3e5)),
+        ),
+        (
+            "valves.piston_extension.equivalent_pressure_factor",
+            0.7,
+            None,
+        ),
+        (
+            "valves.piston_compression.equivalent_pressure_factor",
+            1.0,
+            None,
+        ),
+        ("orifice.diameter_m", 2e-3, Some((2e-3, 5e-5))),
+    ];
+    let start = keys.map(|(key, start, _)| format!("{key}={start:?}"));
+    let damper = Keyed::new("paper", &load("paper", &start).unwrap()).unwrap();
+    let varied = keys.iter().map(|(key, _, prior)| {
+        let prior = prior.map(|(mean, standard_deviation)| Prior {
+            mean,
+            standard_deviation,
+        });
+        Varied::new(&damper, key, None, prior).unwrap()
+    });
+    let table = concat!(env!("CARGO_MANIFEST_DIR"), "/../data/bench/table5.csv");
+    let calibration = Calibration {
+        varied: varied.collect(),
+        damper: damper.clone(),
+        loops: Vec::new(),
+        indices: IndexTest::read(std::path::Path::new(table)).unwrap(),
+        step_s: 5e-4,
+        starts: 2,
+    };
+    let found = calibration.run(&|_| {}).unwrap();
+    let preset = load("calibrated", &[]).unwrap();
+    let shipped = Keyed::new("calibrated", &preset).unwrap();
+    for ((key, ..), found) in keys.iter().zip(&found.values) {
+        let number = shipped.number(key).unwrap();
+        assert!(
+            (found / number - 1.0).abs() < 2e-3,
+            "{key}: {found}, shipped {number}"
+        );
+    }
+    // By the reference solution, over a settled cycle.
+    let indices = |amplitude_m: f64, frequency_hz: f64| {
+        let (ticks, step_s) = (4000, 0.00025 / frequency_hz);
+        let x: Vec<f64> = (0..=3 * ticks)
+            .map(|tick| amplitude_m * (TAU * f64::from(tick) / f64::from(ticks)).sin())
+            .collect();
+        let forces = reference_forces(&preset, step_s, &x).unwrap();
+        let cycle = 2 * ticks as usize..3 * ticks as usize;
+        let extension = forces[cycle.clone()].iter().copied().fold(0.0, f64::max);
+        let compression = -forces[cycle.clone()].iter().copied().fold(0.0, f64::min);
+        let energy: f64 = cycle
+            .map(|tick| 0.5 * (forces[tick] + forces[tick + 1]) * (x[tick + 1] - x[tick]))
+            .sum();
+        [extension, compression, energy]
+    };
+    for (here, published) in indices(24.875e-3, 0.64)
+        .iter()
+        .zip([13109.0, 12849.0, 1043.65])
+    {
+        assert!(
+            (here / published - 1.0).abs() < 0.01,
+            "{here} for {published}"
+        );
+    }
+    let [extension, compression, _] = indices(24.665e-3, 1.9);
+    assert!(
+        extension < 25e3 && compression < 25e3,
+        "{extension}, {compression}"
+    );
 }

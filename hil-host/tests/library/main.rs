@@ -8,6 +8,8 @@ mod plate;
 mod profile_file;
 mod recording_header;
 mod recording_text;
+mod sheet_file;
+mod swept_sine;
 mod timing;
 mod track_file;
 mod vehicle_dampers;

@@ -9,6 +9,7 @@ mod loops;
 #[path = "../target/pil_common/mod.rs"]
 mod pil_common;
 mod policy;
+mod printed;
 mod schemes;
 mod shared_cursor;
 mod shown;

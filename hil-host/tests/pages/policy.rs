@@ -48,7 +48,7 @@ fn the_policy_of_a_page_stops_a_request() {
 /// Nothing in a page is allowed by a word instead of by its hash, and nothing in it has an address.
 #[test]
 fn the_policy_allows_what_is_in_the_page_only() {
-    for (name, page, _) in all() {
+    for (name, page, ..) in all() {
         let policy = page
             .split_once("Content-Security-Policy\" content=\"")
             .unwrap()

@@ -37,18 +37,60 @@ pub static STUDY: LazyLock<String> = LazyLock::new(|| {
     made(&["sweep", study, "--output", "study"], "study/report.html")
 });
 
+/// That of a calibration: profiles, loops of points and lines.
+pub static CALIBRATION: LazyLock<String> = LazyLock::new(|| {
+    let input = concat!(env!("CARGO_MANIFEST_DIR"), "/../data/bench/bench_made.mf4");
+    let line = ["calibrate", "--damper", "in-service", "--input", input];
+    let found = [
+        "--vary",
+        "mount.clearance_m",
+        "--output",
+        "found.toml",
+        "--page",
+        "page.html",
+    ];
+    made(&[&line[..], &found].concat(), "page.html")
+});
+
+/// That of a damper's health: bands and levels.
+pub static HEALTH: LazyLock<String> = LazyLock::new(|| {
+    let input = concat!(env!("CARGO_MANIFEST_DIR"), "/../data/bench/worn_made.mf4");
+    let line = ["replay", "--damper", "in-service", "--input", input];
+    made(
+        &[&line[..], &["--output", "f.csv", "--health", "page.html"]].concat(),
+        "page.html",
+    )
+});
+
+/// That of a bench sheet: tables, loops, limits as bars, forces over temperature.
+pub static SHEET: LazyLock<String> = LazyLock::new(|| {
+    let line = ["rig", "--damper", "in-service", "--sheet", "example"];
+    made(&[&line[..], &["--page", "page.html"]].concat(), "page.html")
+});
+
+/// That of a frequency response: decades both ways, points over lines.
+pub static RESPONSE: LazyLock<String> = LazyLock::new(|| {
+    let line = ["response", "--damper", "in-service", "--swept"];
+    made(&[&line[..], &["--page", "page.html"]].concat(), "page.html")
+});
+
 fn made(arguments: &[&str], page: &str) -> String {
     let folder = tempfile::tempdir().unwrap();
     dashpot(arguments, folder.path()).success();
     fs::read_to_string(folder.path().join(page)).unwrap()
 }
 
-/// All of them, with their plots.
-pub fn all() -> [(&'static str, &'static str, usize); 4] {
+/// All of them, with their plots and the label of an axis.
+pub fn all() -> [(&'static str, &'static str, usize, &'static str); 8] {
     [
-        ("demonstration", &DEMONSTRATION, 13),
-        ("vehicle", &VEHICLE, 18),
-        ("bank", &BANK, 6),
-        ("study", &STUDY, 9),
+        ("demonstration", &DEMONSTRATION, 13, "time, s"),
+        ("vehicle", &VEHICLE, 18, "time, s"),
+        ("bank", &BANK, 6, "time, s"),
+        ("study", &STUDY, 9, "time, s"),
+        ("sheet", &SHEET, 6, "peak velocity, m/s"),
+        ("response", &RESPONSE, 3, "frequency, Hz"),
+        // Two profiles, and for each of four tests two loops and what is missed.
+        ("calibration", &CALIBRATION, 14, "time, s"),
+        ("health", &HEALTH, 4, "time, s"),
     ]
 }

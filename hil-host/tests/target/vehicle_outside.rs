@@ -374,7 +374,7 @@ fn wrong_use_is_told() {
         ),
         (
             &["--outside", "front lateral damper 1=tcp:here"],
-            "allowed: tcp:HOST:PORT, serial:DEVICE, qemu, qemu:IMAGE, desk, a CSV file",
+            "allowed: tcp:HOST:PORT, serial:DEVICE, qemu, qemu:IMAGE, desk, a file",
         ),
         (&["--outside", &one, "--check"], "cannot be used with"),
         (

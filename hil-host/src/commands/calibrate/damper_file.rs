@@ -31,7 +31,7 @@ pub(super) fn text(report: &Report, found: &CheckedParameters) -> Outcome<String
         let motion = &row.measured;
         for (name, measured, _, after) in row.lines() {
             lines.push(format!(
-                "  +-{:.3} mm at {} Hz, {name}: {measured} measured, {after:.1} here",
+                "  +-{:.3} mm at {} Hz, {name}: {after:.1} here, test {measured}",
                 motion.amplitude_m * 1e3,
                 motion.frequency_hz
             ));

@@ -3,8 +3,8 @@
 mod damper_file;
 mod numbers;
 mod page;
+mod recorded;
 mod report;
-mod tests;
 
 use std::path::PathBuf;
 
@@ -17,7 +17,7 @@ use super::{DamperArguments, Format, print_report_beside, progress, streams};
 use crate::commands::failure::{Failure, Outcome};
 use crate::files::damper::Keyed;
 use crate::files::output::write_together;
-use crate::study::calibration::{Calibration, LoopTest, Varied};
+use crate::study::calibration::{Calibration, IndexTest, LoopTest, Varied};
 
 /// Find the numbers of a damper from bench tests: force-displacement loops, or tables of their indices.
 ///
@@ -91,16 +91,15 @@ pub fn run(arguments: &CalibrateArguments) -> Outcome<()> {
     let bar = progress::bar(0, "reading");
     let mut loops = Vec::new();
     for path in &arguments.input {
-        for recorded in tests::recorded(path, &arguments.channels.channels())? {
-            loops.extend(LoopTest::of(&recorded, step_s)?);
-        }
+        let recorded = recorded::read(path, &arguments.channels.channels())?;
+        loops.extend(LoopTest::of(&recorded, step_s)?);
     }
     if !loops.is_empty() && !arguments.no_skew {
         varied.push(Varied::skew());
     }
     let mut indices = Vec::new();
     for path in &arguments.indices {
-        indices.extend(tests::indices(path)?);
+        indices.extend(IndexTest::read(path)?);
     }
     let calibration = Calibration {
         damper,

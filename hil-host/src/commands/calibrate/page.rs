@@ -2,13 +2,13 @@
 
 use maud::{Markup, html};
 
-use super::report::{Loop, Number, Report, digits};
+use super::report::{self, Loop, Number, Report};
 use crate::commands::failure::Outcome;
 use crate::report::DrawError;
 use crate::report::page::{Figure, document, figure, footer, panel, tiles};
 use crate::report::plot::curves::Curve;
 use crate::report::plot::loops;
-use crate::report::plot::style::{AMBER_LINE, BLUE_LINE, FINE, INK, PALE, RED_LINE};
+use crate::report::plot::style::{AMBER_LINE, BLUE_LINE, FINE, PALE, RED_LINE};
 use crate::study::calibration::{Calibrated, Calibration, LoopFit, LoopTest, Profile, RISE_95};
 
 /// Height of a panel (pixels).
@@ -16,6 +16,11 @@ const HEIGHT: u32 = 300;
 
 /// Samples of a loop that are drawn, at most.
 const MOST_SAMPLES: usize = 2000;
+
+/// A number with a minus at which no line ends.
+fn digits(value: f64) -> String {
+    report::digits(value).replace('-', "\u{2212}")
+}
 
 /// The page.
 ///
@@ -112,9 +117,9 @@ fn profiles(report: &Report, found: &Calibrated) -> Result<Markup, DrawError> {
     let of = |(number, profile): (&Number, &Profile)| {
         let centre = number.found;
         // In percent where that is a number, so that the ticks can be read.
-        let (scale, unit) = match centre {
-            0.0 => (1.0, String::new()),
-            _ => (100.0 / centre.abs(), ", % from the one found".to_owned()),
+        let (scale, label) = match centre {
+            0.0 => (1.0, "from the one found"),
+            _ => (100.0 / centre.abs(), "from the one found, %"),
         };
         let shown = |value: f64| (value - centre) * scale;
         let points = profile
@@ -134,7 +139,7 @@ fn profiles(report: &Report, found: &Calibrated) -> Result<Markup, DrawError> {
         let limit = [points.first(), points.last()].into_iter().flatten();
         let limit: Vec<(f64, f64)> = limit.map(|(value, _)| (*value, RISE_95)).collect();
         let mut panel = panel(
-            &format!("{}{unit}", number.key),
+            label,
             "rise of chi-square",
             vec![
                 Curve::new("", BLUE_LINE, first.rev().chain(last).collect::<Vec<_>>()),
@@ -142,6 +147,7 @@ fn profiles(report: &Report, found: &Calibrated) -> Result<Markup, DrawError> {
                 Curve::new("95 %", PALE, limit).dashed(),
             ],
         );
+        panel.title.clone_from(&number.key);
         panel.sides = true;
         panel
     };
@@ -153,7 +159,7 @@ fn profiles(report: &Report, found: &Calibrated) -> Result<Markup, DrawError> {
     figure(
         &profiles,
         &html! {
-            "Profile of the likelihood: how much worse all tests fit together when a number is held elsewhere and the others follow. Where it "
+            "Profile of the likelihood, the rise of chi-square: how much worse all tests fit together when a number is held elsewhere and the others follow. Where it "
             "passes the dashed line the interval of 95 % ends."
         },
     )
@@ -241,12 +247,9 @@ fn loop_figures(
         panels: vec![panel(
             "time, s",
             "found less measured, N",
-            vec![
-                Curve::new("", RED_LINE, missed).wide(FINE),
-                Curve::marks(INK, []),
-            ],
+            vec![Curve::new("", RED_LINE, missed).wide(FINE)],
         )],
-        height: 160,
+        height: 200,
         shares: None,
     };
     let caption = html! {

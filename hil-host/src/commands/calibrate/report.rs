@@ -296,7 +296,7 @@ impl Report {
                 "  +-{:.3} mm at {} Hz{:>24} {:>11} {:>11}",
                 row.measured.amplitude_m * 1e3,
                 row.measured.frequency_hz,
-                "measured",
+                "test",
                 "before",
                 "found"
             )?;

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use crate::files::FileError;
 use crate::files::recording::{Recording, Sample};
-use crate::study::replay::TickGrid;
+use crate::study::tick_grid::TickGrid;
 
 const NAME: &str = "data/excitations/ride_made.csv";
 const RIDE: &[u8] = include_bytes!("../../../../data/excitations/ride_made.csv");

@@ -16,6 +16,7 @@ use rows::Rows;
 
 use super::arguments::damper_help;
 use super::line::LineArguments;
+use super::recording::MotionArguments;
 use super::step_size::StepSize;
 use super::{Format, RealtimeArguments, print_report_beside, progress, streams};
 use crate::commands::failure::{Failure, Outcome};
@@ -24,7 +25,7 @@ use crate::files::input;
 use crate::files::output::{self, cannot_write, write_whole_if};
 use crate::files::recording::Recording;
 use crate::realtime::pacing::Pacer;
-use crate::study::replay::TickGrid;
+use crate::study::tick_grid::TickGrid;
 use crate::target::pil::{Client, FaultRates, FaultyLink, Link, Pace, Session};
 
 /// Drive dampers on a target and compare every force with this host's, bit for bit.
@@ -62,9 +63,11 @@ pub struct PilArguments {
     overrides: Vec<String>,
     #[command(flatten)]
     line: LineArguments,
-    /// Recorded motion, CSV with columns time_s,displacement_m; `-` for standard input.
+    /// Recorded motion: text (CSV), MDF4 or Parquet; `-` for standard input.
     #[arg(long, value_name = "FILE")]
     input: PathBuf,
+    #[command(flatten)]
+    recording: MotionArguments,
     /// Displacements, forces and events of every tick, CSV; `-` for standard output.
     #[arg(long, value_name = "FILE")]
     output: Option<PathBuf>,
@@ -106,7 +109,7 @@ pub fn run(arguments: &PilArguments) -> Outcome<()> {
         .iter()
         .map(load)
         .collect::<Result<_, _>>()?;
-    let recording = Recording::open(&arguments.input)?;
+    let recording = Recording::open_with(&arguments.input, &arguments.recording.channels())?;
     let mut found = None;
     // Both files are opened before the run, so that a file that cannot be written costs no run.
     write_whole_if::<Failure>(arguments.page.as_deref(), |page| {
@@ -165,13 +168,7 @@ impl PilArguments {
                 streams::refuse_input(option, path, &self.input)?;
             }
         }
-        match &self.output {
-            Some(path) if self.page.as_ref() == Some(path) => Err(Failure::wrong_use(format!(
-                "--output and --page: both are {}; give each a file of its own",
-                path.display()
-            ))),
-            _ => Ok(()),
-        }
+        streams::refuse_same_output(&self.output, &self.page)
     }
 }
 

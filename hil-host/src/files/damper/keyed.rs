@@ -97,10 +97,26 @@ impl Keyed {
 /// # Ok::<(), dashpot_hil::files::damper::DamperError>(())
 /// ```
 pub fn text(damper: &DamperParameters) -> Result<String, DamperError> {
-    toml::to_string(&DamperFile::of(damper.clone())).map_err(|error| DamperError::Overridden {
+    let written = toml::to_string(&DamperFile::of(damper.clone()));
+    let written = written.map_err(|error| DamperError::Overridden {
         name: "damper".into(),
         source: ContentError::Tables(error.to_string()),
-    })
+    })?;
+    let lines = written.lines().map(|line| with_exponent(line) + "\n");
+    Ok(lines.collect())
+}
+
+/// A line of TOML whose number, where it is very small or large, has an exponent; the same number.
+fn with_exponent(line: &str) -> String {
+    let number = line
+        .split_once(" = ")
+        .and_then(|(key, text)| Some((key, text.parse::<f64>().ok()?)));
+    match number {
+        Some((key, number)) if number != 0.0 && !(1e-2..1e5).contains(&number.abs()) => {
+            format!("{key} = {number:e}")
+        }
+        _ => line.to_owned(),
+    }
 }
 
 /// The range of the number at `key` of a damper file.

@@ -17,8 +17,12 @@ use crate::files::overrides::{self, explain};
 use crate::files::shipped::{Found, Shipped};
 
 /// Presets that ship with the program: name and file.
-pub const PRESETS: [(&str, &str); 4] = [
+pub const PRESETS: [(&str, &str); 5] = [
     ("paper", include_str!("../../../../data/dampers/paper.toml")),
+    (
+        "calibrated",
+        include_str!("../../../../data/dampers/calibrated.toml"),
+    ),
     (
         "in-service",
         include_str!("../../../../data/dampers/in-service.toml"),

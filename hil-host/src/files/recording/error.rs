@@ -71,6 +71,16 @@ pub enum RecordingError {
         /// Number of the column that is called so.
         named: usize,
     },
+    /// The channel holds something else than numbers.
+    #[error("--{quantity}: channel {channel} holds {kind}, not numbers that are read here")]
+    NoNumbers {
+        /// What it is to measure.
+        quantity: Quantity,
+        /// The channel.
+        channel: String,
+        /// What it holds.
+        kind: String,
+    },
     /// One channel is chosen twice.
     #[error("--{} and --{}: both are column {channel}", quantities[0], quantities[1])]
     SameChannel {
@@ -183,6 +193,25 @@ pub enum RecordingError {
         /// The cell's text, or what is said of the sample.
         cell: String,
     },
+    /// A sample is marked invalid.
+    #[error("the sample is marked invalid; --skip-invalid leaves out rows that lack a value")]
+    Invalid,
+    /// The file is damaged, or has what is not read.
+    #[error("cannot read the {kind}: {reason}")]
+    Damaged {
+        /// Its kind.
+        kind: &'static str,
+        /// What the library says.
+        reason: String,
+    },
+    /// The file has less rows than it says.
+    #[error("it says that it has {declared} rows and has {found}: it is cut off or damaged")]
+    CutOff {
+        /// Rows that it says.
+        declared: u64,
+        /// Rows that there are.
+        found: u64,
+    },
     /// Time stands still or goes back.
     #[error("time {time_s} s does not grow; the row before has {before_s} s")]
     Time {
@@ -247,6 +276,9 @@ fn listed(names: &[String]) -> String {
 }
 
 fn numbered_list(names: &[String]) -> String {
+    if names.is_empty() {
+        return "none in this file".into();
+    }
     let numbered = names.iter().take(MOST_NAMES).enumerate();
     let names: Vec<String> = numbered
         .map(|(number, name)| match name.as_str() {

@@ -4,9 +4,9 @@ use std::path::Path;
 
 use super::RecordingError;
 use super::channels::Channels;
-use super::open::open_rows;
+use super::open::{Origin, open_rows};
 use super::unit::Quantity;
-use crate::files::{FileError, input};
+use crate::files::FileError;
 
 /// What times may differ by and count as the same: text has them rounded to the nanosecond (s).
 const SAME_S: f64 = 1e-9;
@@ -38,11 +38,11 @@ impl ForceHistory {
         channels: &Channels,
         needed_s: [f64; 2],
     ) -> Result<Self, FileError> {
-        let name = input::name(path);
         let quantities = [Quantity::Time, Quantity::Force];
-        let mut rows = open_rows(&name, input::open(path)?, channels, quantities)?;
+        let mut rows = open_rows(Origin::Path(path), channels, quantities)?;
         let mut samples: Vec<[f64; 2]> = Vec::new();
         while let Some(sample) = rows.next()? {
+            rows.reserve(&mut samples)?;
             samples.push(sample);
         }
         if let (Some([from_s, _]), Some([to_s, _])) = (samples.first(), samples.last())

@@ -4,11 +4,11 @@ use std::io::Read;
 use std::path::Path;
 
 use super::channels::Channels;
-use super::open::open_rows;
+use super::open::{Origin, open_rows};
 use super::rows::Rows;
 use super::unit::Quantity;
 use super::{Gaps, RecordingError};
-use crate::files::{FileError, input};
+use crate::files::FileError;
 
 /// One row of a measurement.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -32,7 +32,7 @@ impl Measurement {
     /// # Errors
     /// As [`Recording::open_with`](super::Recording::open_with).
     pub fn open(path: &Path, channels: &Channels) -> Result<Self, FileError> {
-        Self::read(&input::name(path), input::open(path)?, channels)
+        Self::of(Origin::Path(path), channels)
     }
 
     /// A measurement from `source`, called `path` in errors.
@@ -44,8 +44,12 @@ impl Measurement {
         source: Box<dyn Read>,
         channels: &Channels,
     ) -> Result<Self, FileError> {
+        Self::of(Origin::Stream(path, source), channels)
+    }
+
+    fn of(origin: Origin<'_>, channels: &Channels) -> Result<Self, FileError> {
         let quantities = [Quantity::Time, Quantity::Displacement, Quantity::Force];
-        let rows = open_rows(path, source, channels, quantities)?;
+        let rows = open_rows(origin, channels, quantities)?;
         Ok(Self { rows })
     }
 
@@ -69,6 +73,7 @@ impl Measurement {
     pub fn read_all(&mut self) -> Result<Vec<MeasuredSample>, FileError> {
         let mut samples = Vec::new();
         while let Some(sample) = self.next_sample()? {
+            self.rows.reserve(&mut samples)?;
             samples.push(sample);
         }
         Ok(samples)
@@ -92,5 +97,10 @@ impl Measurement {
     /// `error` in the recording as a whole, placed.
     pub fn in_text(&self, error: RecordingError) -> FileError {
         self.rows.in_text(error)
+    }
+
+    /// `error` in the time of the row read last.
+    pub(crate) fn in_time(&self, error: RecordingError) -> FileError {
+        self.rows.in_time(error)
     }
 }

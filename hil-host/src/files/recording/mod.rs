@@ -5,16 +5,26 @@ mod channels;
 mod error;
 mod force_history;
 mod gaps;
+#[cfg(feature = "parquet")]
+mod guarded;
+#[cfg(feature = "mdf")]
+mod mdf;
 mod measurement;
 mod open;
+mod overview;
+#[cfg(feature = "parquet")]
+mod parquet;
 mod rows;
+mod samples;
 mod select;
 mod stream;
 mod text;
 mod unit;
+pub mod written;
 
 use std::io::Read;
 use std::path::Path;
+use std::rc::Rc;
 
 pub use channels::{Channel, Channels};
 pub(crate) use error::MOST_TICKS;
@@ -22,13 +32,14 @@ pub use error::RecordingError;
 pub use force_history::ForceHistory;
 pub use gaps::{GAP_IN_MEDIANS, Gap, Gaps};
 pub use measurement::{MeasuredSample, Measurement};
-use open::open_rows;
+use open::{Origin, open_rows};
+pub use overview::{ChannelOverview, Overview, TimeOverview, overview};
 use rows::Rows;
 pub use rows::{LeftOut, Place};
 pub use text::{DecimalMark, Separator, TextOptions};
 pub use unit::{Quantity, Unit};
 
-use crate::files::{FileError, input};
+use crate::files::FileError;
 
 /// One row of a recording.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -58,7 +69,7 @@ impl Recording {
     /// # Errors
     /// No readable file, an empty one, one of another kind, a channel that is missing or may be several, or whose unit is not known.
     pub fn open_with(path: &Path, channels: &Channels) -> Result<Self, FileError> {
-        Self::read_with(&input::name(path), input::open(path)?, channels)
+        Self::of(Origin::Path(path), channels)
     }
 
     /// A recording from `source`, called `path` in errors, with the channels `time_s` and `displacement_m`.
@@ -78,8 +89,21 @@ impl Recording {
         source: Box<dyn Read>,
         channels: &Channels,
     ) -> Result<Self, FileError> {
+        Self::of(Origin::Stream(path, source), channels)
+    }
+
+    /// Rows that were read from `path` already, once more.
+    pub fn again(path: &Path, samples: Rc<Vec<Sample>>) -> Self {
         let quantities = [Quantity::Time, Quantity::Displacement];
-        let rows = open_rows(path, source, channels, quantities)?;
+        let names = quantities.map(|quantity| quantity.column().to_owned());
+        let samples = Box::new(samples::Samples::new(samples));
+        let rows = Rows::new(path, samples, names, samples::chosen(), false);
+        Self { rows }
+    }
+
+    fn of(origin: Origin<'_>, channels: &Channels) -> Result<Self, FileError> {
+        let quantities = [Quantity::Time, Quantity::Displacement];
+        let rows = open_rows(origin, channels, quantities)?;
         Ok(Self { rows })
     }
 
@@ -102,6 +126,7 @@ impl Recording {
     pub fn read_all(&mut self) -> Result<Vec<Sample>, FileError> {
         let mut samples = Vec::new();
         while let Some(sample) = self.next_sample()? {
+            self.rows.reserve(&mut samples)?;
             samples.push(sample);
         }
         Ok(samples)

@@ -1,5 +1,6 @@
 //! Rows of a recording in SI, from whatever file.
 
+use std::io;
 use std::path::{Path, PathBuf};
 
 use super::error::RecordingError;
@@ -109,6 +110,12 @@ impl<const N: usize> Rows<N> {
         }
         self.last_time_s = Some(time_s);
         Ok(Some(row))
+    }
+
+    /// Room for one more of the rows that are kept in memory.
+    pub(super) fn reserve<T>(&self, kept: &mut Vec<T>) -> Result<(), FileError> {
+        kept.try_reserve(1)
+            .map_err(|_| FileError::read(&self.path, io::ErrorKind::OutOfMemory.into()))
     }
 
     pub(super) fn position(&self) -> u64 {

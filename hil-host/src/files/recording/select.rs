@@ -17,6 +17,12 @@ pub(super) struct Found {
     pub(super) group: usize,
     /// Whether the time of its group.
     pub(super) is_master: bool,
+    /// What its values are in the file.
+    pub(super) kind: String,
+    /// Whether they can be read as numbers.
+    pub(super) is_number: bool,
+    /// Rows, where the file tells before they are read.
+    pub(super) rows: Option<u64>,
 }
 
 /// A channel that was chosen.
@@ -43,8 +49,18 @@ pub(super) fn select<const N: usize>(
         .as_deref()
         .map(|group| group_number(group, groups))
         .transpose()?;
+    select_in(found, groups, wanted, channels, quantities)
+}
+
+/// As [`select`], in a group.
+pub(super) fn select_in<const N: usize>(
+    found: &[Found],
+    groups: &[String],
+    mut group: Option<usize>,
+    channels: &Channels,
+    quantities: [Quantity; N],
+) -> Result<[Chosen; N], RecordingError> {
     let mut indices = [0; N];
-    let mut group = wanted;
     let mut order: Vec<usize> = (0..N).collect();
     if groups.len() > 1 {
         // The time is that of the values' group.
@@ -67,6 +83,13 @@ pub(super) fn select<const N: usize>(
             return Err(RecordingError::SameChannel {
                 channel: label(found, index),
                 quantities: [quantities[other], quantity],
+            });
+        }
+        if !found[index].is_number {
+            return Err(RecordingError::NoNumbers {
+                quantity,
+                channel: label(found, index),
+                kind: found[index].kind.clone(),
             });
         }
         *chosen = Chosen {

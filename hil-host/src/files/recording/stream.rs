@@ -66,6 +66,7 @@ pub(super) struct Stream {
     head: Vec<u8>,
     rest: Box<dyn Read>,
     count: Count,
+    #[cfg_attr(not(any(feature = "mdf", feature = "parquet")), allow(dead_code))]
     is_compressed: bool,
 }
 
@@ -146,6 +147,7 @@ impl Stream {
     }
 
     /// Whether the bytes of the file are others.
+    #[cfg(any(feature = "mdf", feature = "parquet"))]
     pub(super) fn is_compressed(&self) -> bool {
         self.is_compressed
     }

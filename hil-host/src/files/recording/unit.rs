@@ -133,7 +133,7 @@ impl Quantity {
     }
 
     /// The unit that the name of a channel ends with, as `force_kn`.
-    pub(super) fn unit_in_name(self, name: &str) -> Option<Unit> {
+    pub fn unit_in_name(self, name: &str) -> Option<Unit> {
         let lower = name.to_ascii_lowercase();
         let (_, unit) = ENDINGS.iter().find(|(ending, unit)| {
             lower.ends_with(ending) && lower.len() > ending.len() && self.unit(unit).is_some()

@@ -4,5 +4,6 @@ pub(crate) mod curves;
 pub(crate) mod envelope;
 pub(crate) mod loops;
 pub(crate) mod map;
+pub(crate) mod response;
 pub(crate) mod sheet;
 pub(crate) mod style;

@@ -59,7 +59,7 @@ impl Model {
         // In units of what is tolerated, so that one singular value below 1 is a direction not determined.
         let tests = slopes.transpose() * &slopes;
         let mut with_priors = tests.clone();
-        for (number, _, slope) in self.from_priors(places) {
+        for (number, _, slope) in self.off_priors(places) {
             with_priors[(number, number)] += (slope * tolerances[number]).powi(2);
         }
         let by_tests = Scatter::new(tests.clone());

@@ -52,7 +52,7 @@ impl LeastSquaresProblem<f64, Dyn, Dyn> for Search<'_> {
         let mut deviations = self.model.deviations(&self.places).ok()?;
         deviations.extend(
             self.model
-                .from_priors(&self.places)
+                .off_priors(&self.places)
                 .map(|(_, deviation, _)| deviation),
         );
         Some(DVector::from_vec(deviations))
@@ -60,7 +60,7 @@ impl LeastSquaresProblem<f64, Dyn, Dyn> for Search<'_> {
 
     fn jacobian(&self) -> Option<DMatrix<f64>> {
         let of_tests = self.model.slopes(&self.places, self.free).ok()?;
-        let priors: Vec<_> = self.model.from_priors(&self.places).collect();
+        let priors: Vec<_> = self.model.off_priors(&self.places).collect();
         let rows = of_tests.nrows();
         let mut slopes = DMatrix::zeros(rows + priors.len(), of_tests.ncols());
         for (mut column, of_tests) in slopes.column_iter_mut().zip(of_tests.column_iter()) {

@@ -1,8 +1,12 @@
 //! Bench tests of which only the indices are known, as a table of them has it.
 
+use std::io;
+use std::path::Path;
+
 use serde::{Deserialize, Serialize};
 
 use super::CalibrationError;
+use crate::files::{FileError, input};
 use crate::study::bench_test::{Harmonic, Indices};
 
 /// Scatter of an index, where none is given (%).
@@ -34,6 +38,25 @@ pub struct IndexTest {
 }
 
 impl IndexTest {
+    /// The tests in the table at `path`, CSV with the fields of this type as columns.
+    ///
+    /// # Errors
+    /// A file that cannot be read, or that is no such table; with the line.
+    pub fn read(path: &Path) -> Result<Vec<Self>, FileError> {
+        let text = input::read_text(path)?;
+        let mut reader = csv::ReaderBuilder::new()
+            .comment(Some(b'#'))
+            .trim(csv::Trim::All)
+            .from_reader(text.as_bytes());
+        let rows: Result<Vec<Self>, csv::Error> = reader.deserialize().collect();
+        let rows = rows.map_err(|error| FileError::in_file(path, error))?;
+        if rows.is_empty() {
+            let empty = csv::Error::from(io::Error::other("no row below the header"));
+            return Err(FileError::in_file(path, empty));
+        }
+        Ok(rows)
+    }
+
     /// The motion.
     pub fn motion(&self) -> Harmonic {
         Harmonic {

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::CalibrationError;
-use super::smoothing::smooth;
+use crate::study::smoothing::smooth;
 
 /// Samples of a bench test.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -30,6 +30,9 @@ const GAP_IN_MEDIANS: f64 = 20.0;
 /// Share of its peak that the force must have had in both directions before it counts: until then, where in its clearance the damper began
 /// decides.
 const CONTACT: f64 = 0.05;
+
+/// Time before the end of a recording in which a smoothed motion is not known well enough (s).
+const END_S: f64 = 0.05;
 
 /// One bench test, ready to be compared with a model.
 #[derive(Clone, Debug)]
@@ -127,6 +130,8 @@ impl LoopTest {
         };
         let from = first.max(second) as f64;
         let from = positions.partition_point(|position| *position < from);
+        let end = last - END_S / step_s;
+        let to = positions.partition_point(|position| *position <= end);
         let velocities = x.windows(2).map(|pair| (pair[1] - pair[0]).abs() / step_s);
         Ok(Self {
             peak_velocity_m_per_s: velocities.fold(0.0, f64::max),
@@ -134,7 +139,7 @@ impl LoopTest {
             peak_force_n,
             displacement_noise_m: displacement.noise,
             force_noise_n: force.noise,
-            counted: from..positions.len(),
+            counted: from..to.max(from),
             displacements_m: x,
             positions,
             forces_n,

@@ -13,7 +13,6 @@ mod loops;
 mod model;
 mod plausible;
 mod profile;
-mod smoothing;
 mod varied;
 
 pub use determined::{CLOSE, Determination, Determined};

@@ -96,10 +96,10 @@ impl Model {
     }
 
     /// Which numbers have priors, how far they are from them at `places`, in standard deviations, and that over the place.
-    pub(super) fn from_priors(&self, places: &[f64]) -> impl Iterator<Item = (usize, f64, f64)> {
+    pub(super) fn off_priors(&self, places: &[f64]) -> impl Iterator<Item = (usize, f64, f64)> {
         let numbers = self.varied.iter().zip(places).enumerate();
         numbers.filter_map(|(number, (varied, place))| {
-            let (deviation, slope) = varied.from_prior(varied.at(*place))?;
+            let (deviation, slope) = varied.off_prior(varied.at(*place))?;
             Some((number, deviation, slope))
         })
     }

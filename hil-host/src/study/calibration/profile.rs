@@ -111,7 +111,7 @@ impl Model {
     fn chi_square(&self, places: &[f64]) -> Option<f64> {
         let tests = self.deviations(places).ok()?;
         let priors = self
-            .from_priors(places)
+            .off_priors(places)
             .map(|(_, deviation, _)| deviation * deviation);
         let priors: f64 = priors.sum();
         Some(

@@ -133,7 +133,7 @@ impl Varied {
     }
 
     /// How far from the mean of its prior it is, in standard deviations, and that over its place.
-    pub(super) fn from_prior(&self, value: f64) -> Option<(f64, f64)> {
+    pub(super) fn off_prior(&self, value: f64) -> Option<(f64, f64)> {
         let Prior {
             mean,
             standard_deviation,

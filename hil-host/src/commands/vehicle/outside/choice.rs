@@ -47,7 +47,7 @@ impl FromStr for Choice {
             Source::Desk
         } else if is_link {
             let link = name.parse();
-            Source::Link(link.map_err(|allowed: String| format!("{allowed}, desk, a CSV file"))?)
+            Source::Link(link.map_err(|allowed: String| format!("{allowed}, desk, a file"))?)
         } else {
             Source::File(name.into())
         };

@@ -12,6 +12,7 @@ pub(super) use report::{OutsideReport, print};
 
 use crate::commands::failure::{Failure, Outcome};
 use crate::commands::line::LineOptions;
+use crate::commands::recording::ForceHistoryArguments;
 use crate::files::case::Case;
 use crate::files::nearest;
 use crate::files::recording::ForceHistory;
@@ -21,7 +22,8 @@ use crate::study::vehicle::{Beside, Effect, Ending, Forces, Run};
 #[derive(Debug, Clone, clap::Args)]
 pub(super) struct OutsideArguments {
     /// Takes the force of one damper from outside: from a target (desk, tcp:HOST:PORT, serial:DEVICE, qemu, qemu:IMAGE) that has its
-    /// parameters, or from a CSV file with columns time_s,force_n; may be given several times.
+    /// parameters, or from a recording (CSV, MDF4 or Parquet) with the channels
+    /// time_s and force_n; may be given several times.
     #[arg(
         long = "outside",
         value_name = "DAMPER=LINK|FILE",
@@ -30,6 +32,8 @@ pub(super) struct OutsideArguments {
     choices: Vec<Choice>,
     #[command(flatten)]
     options: LineOptions,
+    #[command(flatten)]
+    recording: ForceHistoryArguments,
 }
 
 /// The dampers outside, before or between ticks.
@@ -50,22 +54,29 @@ impl OutsideArguments {
     /// A damper that there is not, is given twice or has a fault on the way; a file that cannot be used.
     pub(super) fn read(&self, case: &Case) -> Outcome<Option<Outside>> {
         if self.choices.is_empty() {
-            return match self.options == LineOptions::default() {
+            if self.options != LineOptions::default() {
+                return Err(Failure::wrong_use(
+                    "--timeout-ms, --tries and --baud go with --outside",
+                ));
+            }
+            return match self.recording == ForceHistoryArguments::default() {
                 true => Ok(None),
                 false => Err(Failure::wrong_use(
-                    "--timeout-ms, --tries and --baud go with --outside",
+                    "options that say how a recording is read go with --outside DAMPER=FILE",
                 )),
             };
         }
         let dampers = self.dampers(case)?;
         let last_s = (case.duration_s / case.step_s).round() * case.step_s;
         let mut recorded = Vec::new();
+        let channels = self.recording.channels();
         for (choice, damper) in self.choices.iter().zip(&dampers) {
             if let Source::File(path) = &choice.source {
                 let needed_s = [case.step_s, last_s];
-                let history = ForceHistory::open(path, needed_s).map_err(|error| {
-                    Failure::new(format!("--outside \"{}\": {error}", choice.damper))
-                })?;
+                let history =
+                    ForceHistory::open_with(path, &channels, needed_s).map_err(|error| {
+                        Failure::new(format!("--outside \"{}\": {error}", choice.damper))
+                    })?;
                 recorded.push((*damper, history));
             }
         }

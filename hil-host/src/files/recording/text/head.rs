@@ -2,8 +2,8 @@
 
 use std::io::{self, Read};
 
-/// Lines that are looked at, beside blank ones and comments.
-const LINES: usize = 8;
+/// Lines that are looked at beside blank ones and comments, and all that come with them: a header and a row.
+const LINES: usize = 2;
 
 /// Bytes that are looked at.
 const MOST: usize = 1 << 16;

@@ -31,7 +31,7 @@ pub(super) fn is_header(cells: &[String]) -> Result<bool, RecordingError> {
 
 /// A column by its header: `Weg`, `Weg [mm]`, `Weg (mm)` or `Weg / mm`; round brackets and a stroke may be part of the name, and are not a
 /// unit unless a known one.
-pub(super) fn found(cell: &str) -> Found {
+pub(in super::super) fn found(cell: &str) -> Found {
     let parts = cell
         .strip_suffix(']')
         .and_then(|cell| cell.rsplit_once('['))
@@ -48,6 +48,8 @@ pub(super) fn found(cell: &str) -> Found {
         name: name.to_owned(),
         whole: cell.to_owned(),
         unit,
+        kind: "text".into(),
+        is_number: true,
         ..Found::default()
     }
 }
@@ -59,6 +61,15 @@ pub(super) fn units<'a>(cells: impl Iterator<Item = &'a [u8]>) -> Option<Vec<Str
     let is_text_or_empty = |cell: &Cow<'_, str>| cell.is_empty() || is_text(cell);
     let is_row_of_units = cells.iter().all(is_text_or_empty) && cells.iter().any(is_text);
     is_row_of_units.then(|| cells.iter().map(|cell| bare(cell).to_owned()).collect())
+}
+
+/// Notes the units under the names, those that are empty but for.
+pub(super) fn take_units(found: &mut [Found], units: Vec<String>) {
+    for (found, unit) in found.iter_mut().zip(units) {
+        if !unit.is_empty() {
+            found.unit = Some(unit);
+        }
+    }
 }
 
 fn is_unit(text: &str) -> bool {

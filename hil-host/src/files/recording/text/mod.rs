@@ -9,22 +9,28 @@ mod options;
 mod rows;
 mod separator;
 
-use std::io::{BufReader, Cursor, Read};
+use std::io::{self, BufReader, Cursor, Read};
 use std::path::{Path, PathBuf};
 
 use csv::{ByteRecord, Reader, ReaderBuilder};
+#[cfg(feature = "parquet")]
+pub(super) use header::found;
 use line_ends::LineEnds;
 pub use options::{DecimalMark, Separator, TextOptions};
-pub(super) use rows::TextRows;
+use rows::TextRows;
 
 use super::error::RecordingError;
+use super::open::Opened;
+use super::rows::Source;
 use super::select::Found;
 use super::stream::{Count, Stream};
 use crate::files::FileError;
 
 /// A text whose columns are known and whose rows are still to be read.
 pub(super) struct Text {
-    lines: Lines,
+    path: PathBuf,
+    /// Until they are read.
+    lines: Option<Lines>,
     options: TextOptions,
     found: Vec<Found>,
     /// Cells of a row.
@@ -84,50 +90,56 @@ impl Text {
             return Err(FileError::in_file(&lines.path, RecordingError::Empty));
         }
         let first_line = lines.line();
-        let mut text = Self {
-            options,
-            found: Vec::new(),
-            cells: separator::cells(&first, lines.separator).count(),
-            pending: None,
-            lines,
-        };
-        let header: Vec<String> = separator::cells(&first, text.lines.separator)
+        let cells = separator::cells(&first, lines.separator);
+        let header: Vec<String> = cells
             .map(|cell| decode::characters(cell.trim_ascii()).into_owned())
             .collect();
         let has_header = match options.header {
             Some(has_header) => has_header,
             None => header::is_header(&header)
-                .map_err(|error| FileError::in_line(&text.lines.path, first_line, error))?,
+                .map_err(|error| FileError::in_line(&lines.path, first_line, error))?,
         };
-        if !has_header {
-            text.found = vec![Found::default(); text.cells];
-            text.pending = Some((first, first_line));
-            return Ok(text);
-        }
-        text.found = header.iter().map(|cell| header::found(cell)).collect();
-        let mut second = ByteRecord::new();
-        if text.lines.read(&mut second)? {
-            let line = text.lines.line();
-            let cells = separator::cells(&second, text.lines.separator);
-            if let Some(units) = header::units(cells) {
-                for (found, unit) in text.found.iter_mut().zip(units) {
-                    found.unit = Some(unit).filter(|u| !u.is_empty()).or(found.unit.take());
+        let (mut found, mut pending) = (Vec::new(), None);
+        if has_header {
+            found.extend(header.iter().map(|cell| header::found(cell)));
+            let mut second = ByteRecord::new();
+            if lines.read(&mut second)? {
+                let line = lines.line();
+                match header::units(separator::cells(&second, lines.separator)) {
+                    Some(units) => header::take_units(&mut found, units),
+                    None => pending = Some((second, line)),
                 }
-            } else {
-                text.pending = Some((second, line));
             }
+        } else {
+            found.resize(header.len(), header::found(""));
+            pending = Some((first, first_line));
         }
-        Ok(text)
+        Ok(Self {
+            path: lines.path.clone(),
+            cells: header.len(),
+            lines: Some(lines),
+            options,
+            found,
+            pending,
+        })
     }
+}
 
-    /// The columns.
-    pub(super) fn found(&self) -> &[Found] {
+impl Opened for Text {
+    fn found(&self) -> &[Found] {
         &self.found
     }
 
-    /// The rows with the columns of `indices`.
-    pub(super) fn rows(self, indices: &[usize]) -> Result<TextRows, FileError> {
-        TextRows::new(self, indices)
+    fn groups(&self) -> &[String] {
+        &[]
+    }
+
+    fn rows(&mut self, indices: &[usize], lenient: bool) -> Result<Box<dyn Source>, FileError> {
+        let lines = self.lines.take().ok_or_else(|| {
+            let reason = io::Error::other("it was read already");
+            FileError::read(&self.path, reason)
+        })?;
+        Ok(Box::new(TextRows::new(self, lines, indices, lenient)))
     }
 }
 

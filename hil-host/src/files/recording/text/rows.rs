@@ -10,12 +10,14 @@ use super::{Lines, Text, decode};
 use crate::files::FileError;
 
 /// Numbers of the chosen columns, row by row.
-pub(in super::super) struct TextRows {
+pub(super) struct TextRows {
     lines: Lines,
     names: Vec<String>,
     columns: Vec<usize>,
     cells: usize,
-    numbers: Numbers,
+    /// One for all columns, or one each where what is no number is let pass.
+    numbers: Vec<Numbers>,
+    lenient: bool,
     record: ByteRecord,
     /// Line of the record that was looked at before the rows are read, until it is taken.
     pending_line: Option<u64>,
@@ -23,23 +25,27 @@ pub(in super::super) struct TextRows {
 }
 
 impl TextRows {
-    pub(super) fn new(text: Text, indices: &[usize]) -> Result<Self, FileError> {
+    pub(super) fn new(text: &mut Text, lines: Lines, indices: &[usize], lenient: bool) -> Self {
         let name = |index: &usize| super::super::select::label(&text.found, *index);
         let names = indices.iter().map(name).collect();
-        let (record, pending_line) = match text.pending {
+        let (record, pending_line) = match text.pending.take() {
             Some((record, line)) => (record, Some(line)),
             None => (ByteRecord::new(), None),
         };
-        Ok(Self {
-            lines: text.lines,
+        Self {
+            lines,
             names,
             columns: indices.to_vec(),
             cells: text.cells,
-            numbers: Numbers::new(text.options.decimal_mark),
+            numbers: vec![
+                Numbers::new(text.options.decimal_mark);
+                if lenient { indices.len() } else { 1 }
+            ],
+            lenient,
             record,
             pending_line,
             line_of_pending: None,
-        })
+        }
     }
 
     fn cell(&self, place: usize) -> &[u8] {
@@ -91,17 +97,22 @@ impl Source for TextRows {
         }
         self.check_length()?;
         for (place, value) in values.iter_mut().enumerate() {
-            let mut numbers = self.numbers;
-            *value = numbers.parse(self.cell(place)).map_err(|what| {
-                let cell = self.shown(place);
-                let error = match what {
-                    NotNumber::Text => RecordingError::Number { cell },
-                    NotNumber::OtherMark(mark) => RecordingError::Mark { cell, mark },
-                };
-                self.place()
-                    .error(&self.lines.path, &self.names[place], error)
-            })?;
-            self.numbers = numbers;
+            let slot = if self.lenient { place } else { 0 };
+            let mut numbers = self.numbers[slot];
+            *value = match numbers.parse(self.cell(place)) {
+                Ok(number) => number,
+                Err(_) if self.lenient => f64::NAN,
+                Err(what) => {
+                    let cell = self.shown(place);
+                    let error = match what {
+                        NotNumber::Text => RecordingError::Number { cell },
+                        NotNumber::OtherMark(mark) => RecordingError::Mark { cell, mark },
+                    };
+                    let (path, name) = (&self.lines.path, &self.names[place]);
+                    return Err(self.place().error(path, name, error));
+                }
+            };
+            self.numbers[slot] = numbers;
         }
         Ok(true)
     }

@@ -3,11 +3,11 @@
 use fastrand::Rng;
 
 /// Samples at their times as values at ticks.
-pub(super) struct Smooth {
+pub(crate) struct Smooth {
     /// Values at ticks 0, 1, 2, ...
-    pub(super) values: Vec<f64>,
+    pub(crate) values: Vec<f64>,
     /// Standard deviation of the samples about them.
-    pub(super) noise: f64,
+    pub(crate) noise: f64,
 }
 
 /// Decades of lambda that are tried, and how many values a decade: from samples followed exactly to a straight line.
@@ -23,7 +23,7 @@ const LEAST_FREEDOM: f64 = 1e-6;
 /// whatever its frequency.
 ///
 /// `positions` are the samples' times in ticks, rising from 0; `ticks` is above the last.
-pub(super) fn smooth(positions: &[f64], samples: &[f64], ticks: usize) -> Smooth {
+pub(crate) fn smooth(positions: &[f64], samples: &[f64], ticks: usize) -> Smooth {
     let mean = samples.iter().sum::<f64>() / samples.len() as f64;
     let centred: Vec<f64> = samples.iter().map(|sample| sample - mean).collect();
     // Signs of equal chance have the least scatter of the trace.

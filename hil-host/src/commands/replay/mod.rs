@@ -1,5 +1,7 @@
 //! `dashpot replay`: force over a recorded motion.
 
+mod health;
+
 use std::io::{self, Write};
 use std::path::PathBuf;
 
@@ -8,7 +10,7 @@ use serde::Serialize;
 
 use super::gap_report::write_gaps;
 use super::paced::Paced;
-use super::recording::MotionArguments;
+use super::recording::MeasurementArguments;
 use super::step_size::{self, StepSize};
 use super::{
     DamperArguments, Format, RealtimeArguments, counted, nearest_nanosecond, print_report_beside,
@@ -16,11 +18,17 @@ use super::{
 };
 use crate::commands::failure::{Failure, Outcome};
 use crate::files::input;
-use crate::files::output::{self, cannot_write_rows, write_whole};
+use crate::files::output::{self, write_whole};
+use crate::files::recording::written::{ColumnName, Form, Written};
 use crate::files::recording::{Gaps, Recording};
 use crate::realtime::pacing::Pacer;
 use crate::study::Scalar;
-use crate::study::replay::{Summary, TickGrid, replay};
+use crate::study::replay::{Summary, replay};
+use crate::study::tick_grid::TickGrid;
+use health::{HealthArguments, HealthReport};
+
+/// Columns that are written.
+const COLUMNS: [ColumnName; 3] = [("time_s", "s"), ("displacement_m", "m"), ("force_n", "N")];
 
 /// Force of a damper over a recorded motion.
 #[derive(Debug, Clone, clap::Args)]
@@ -28,19 +36,24 @@ use crate::study::replay::{Summary, TickGrid, replay};
   dashpot replay --damper paper --input data/excitations/ride_made.csv --output force.csv
   dashpot replay --damper my.toml --set mount.clearance_m=1e-3 --input run7.csv --output f.csv
   dashpot replay --input run7.csv --output f.csv --realtime --fifo 80 --lock-memory --core 1
-  zcat run7.csv.gz | dashpot replay --input - --output - | head
+  dashpot replay --input run7.mf4 --group 2 --displacement Weg --output force.mf4
+  dashpot replay --damper in-service --input run8.mf4 --output f.csv --health health.html
+  dashpot replay --input messung.csv.gz --time Zeit --displacement Weg --displacement-unit mm --output - | head
 
-Input columns: time_s,displacement_m in any order; uneven times are allowed, other columns passed over.
+`dashpot channels FILE` lists the channels and what to type. Uneven times are allowed, other channels passed over; text may have any
+separator, decimal comma and unit row, and is found to be UTF-8, UTF-16 or Windows-1252, compressed with gzip or not.
+With --health the recording has the force that was measured, too: flow, stiffness and clearance of that damper are estimated against
+--damper (docs/health.md).
 Output columns: time_s,displacement_m,force_n at ticks from the first sample on, the displacement linear between samples.")]
 pub struct ReplayArguments {
     #[command(flatten)]
     damper: DamperArguments,
-    /// Recorded motion, CSV; `-` for standard input.
+    /// Recorded motion: text (CSV), MDF4 or Parquet; `-` for standard input.
     #[arg(long, value_name = "FILE")]
     input: PathBuf,
     #[command(flatten)]
-    recording: MotionArguments,
-    /// Force over time, CSV; a file is written whole or not at all, `-` is standard output.
+    recording: MeasurementArguments,
+    /// Force over time: CSV, or by its name Parquet (.parquet) or MDF4 (.mf4); written whole or not at all, `-` is CSV to standard output.
     #[arg(long, value_name = "FILE")]
     output: PathBuf,
     /// The step, us.
@@ -59,6 +72,8 @@ pub struct ReplayArguments {
     realtime: bool,
     #[command(flatten)]
     options: RealtimeArguments,
+    #[command(flatten)]
+    health: HealthArguments,
     /// How results are printed.
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
@@ -83,6 +98,8 @@ struct Report {
     gaps: Gaps,
     #[serde(skip_serializing_if = "Option::is_none")]
     realtime: Option<Paced>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    health: Option<HealthReport>,
 }
 
 /// Runs the command.
@@ -96,6 +113,7 @@ pub fn run(arguments: &ReplayArguments) -> Outcome<()> {
     let options = arguments
         .options
         .options_under("--realtime", arguments.realtime)?;
+    let health = health::Watched::of(arguments, &parameters)?;
     let mut pacer = if arguments.realtime {
         Some(Pacer::new(arguments.step_us.step_s(), &options)?)
     } else {
@@ -122,6 +140,7 @@ pub fn run(arguments: &ReplayArguments) -> Outcome<()> {
         saturated: summary.saturated_ticks > 0,
         gaps,
         realtime: pacer.as_ref().map(|pacer| Paced::from(pacer.report())),
+        health: health.map(health::Watched::write).transpose()?,
     };
     print_report_beside(
         &arguments.output,
@@ -144,21 +163,22 @@ fn write<T: Real + Serialize>(
         step_s,
     )?;
     let mut summary = None;
-    write_whole(&arguments.output, |file| {
-        let failed = |error: csv::Error| cannot_write_rows(&arguments.output, error);
-        let mut rows = csv::Writer::from_writer(file);
-        rows.write_record(["time_s", "displacement_m", "force_n"])
-            .map_err(failed)?;
+    let form = Form::of(&arguments.output).map_err(Failure::wrong_use)?;
+    write_whole::<Failure>(&arguments.output, |file| {
+        let mut rows = Written::new(&arguments.output, file, form, &COLUMNS)?;
         let mut number = 0_u32;
         summary = Some(replay(&damper, &mut ticks, pacer, |tick, force, ticks| {
             number = number.wrapping_add(1);
             if number.is_multiple_of(65_536) {
                 bar.set_position(ticks.recording().position());
             }
-            rows.serialize((nearest_nanosecond(tick.time_s), tick.displacement_m, force))
-                .map_err(failed)
+            let time_s = nearest_nanosecond(tick.time_s);
+            rows.row(
+                &[time_s, tick.displacement_m, force.to_f64()],
+                (time_s, tick.displacement_m, force),
+            )
         })?);
-        rows.flush().map_err(|error| failed(error.into()))
+        Ok(rows.finish()?)
     })?;
     bar.finish_and_clear();
     let summary = summary.ok_or_else(|| Failure::new("nothing was replayed"))?;
@@ -220,6 +240,9 @@ fn print(
     }
     if let Some(realtime) = &report.realtime {
         realtime.write(out, "step")?;
+    }
+    if let Some(health) = &report.health {
+        health.print(out)?;
     }
     writeln!(out, "wrote {}", output::name(&arguments.output).display())
 }

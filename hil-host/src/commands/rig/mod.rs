@@ -1,4 +1,6 @@
-//! `dashpot rig`: the bench test and its indices.
+//! `dashpot rig`: the bench test and its indices, or all tests of a sheet.
+
+mod sheet;
 
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -12,7 +14,7 @@ use crate::commands::failure::Outcome;
 use crate::files::output::write_folder;
 use crate::report::plot::curves::Curve;
 use crate::report::plot::loops;
-use crate::report::plot::sheet::{Layout, sheet};
+use crate::report::plot::sheet::{Layout, sheet as drawn_on_a_sheet};
 use crate::report::plot::style::{BLUE_LINE, RED_LINE};
 use crate::study::bench_test::{self, Cycle, Harmonic, Indices};
 use crate::study::published::{
@@ -25,7 +27,12 @@ use crate::study::published::{
     allow_negative_numbers = true,
     after_help = "Examples:
   dashpot rig --damper paper --amplitude-m 24.875e-3 --frequency-hz 0.64 --plots rig-plots
-  dashpot rig --damper in-service --set mount.clearance_m=2e-3 --amplitude-m 5e-3 --frequency-hz 2 --format json"
+  dashpot rig --damper in-service --set mount.clearance_m=2e-3 --amplitude-m 5e-3 --frequency-hz 2 --format json
+  dashpot rig --damper in-service --sheet example --page sheet.html
+  dashpot rig --damper my.toml --sheet acceptance.toml --page sheet.html --format json > sheet.json
+
+A sheet is a file of tests and of the limits that their indices must keep, with the clause that each limit is from; data/sheets/example.toml is
+one, docs/rig.md has every key. Exit code 1 when a limit is not kept; the sheet is written all the same."
 )]
 pub struct RigArguments {
     /// The damper.
@@ -44,6 +51,12 @@ pub struct RigArguments {
     /// when not given.
     #[arg(long, value_name = "FOLDER")]
     pub plots: Option<PathBuf>,
+    /// Tests and limits to go through in place of one motion: a sheet that ships or a TOML file, `-` for standard input.
+    #[arg(long, value_name = "NAME|FILE", conflicts_with_all = ["amplitude_m", "frequency_hz", "plots"])]
+    pub sheet: Option<String>,
+    /// The sheet as a page to keep or to print, one self-contained HTML file; `-` for standard output.
+    #[arg(long, value_name = "FILE", requires = "sheet")]
+    pub page: Option<PathBuf>,
     /// How results are printed.
     #[arg(long, value_enum, default_value_t = Format::Text)]
     pub format: Format,
@@ -70,8 +83,11 @@ type Row = (String, NominalIndex);
 /// Runs the bench test and prints its indices.
 ///
 /// # Errors
-/// A damper or a motion that is refused, or a force that does not repeat.
+/// A damper, a motion or a sheet that is refused, a force that does not repeat, or a limit of the sheet that is not kept.
 pub fn run(arguments: &RigArguments) -> Outcome<()> {
+    if let Some(name) = &arguments.sheet {
+        return sheet::run(arguments, name);
+    }
     let damper = arguments.damper.load()?;
     let motion = Harmonic {
         amplitude_m: arguments.amplitude_m,
@@ -144,7 +160,7 @@ fn draw(
             motion.frequency_hz
         );
     }
-    let drawing = sheet(Layout::row(panels.len(), 640, 480), &panels)?;
+    let drawing = drawn_on_a_sheet(Layout::row(panels.len(), 640, 480), &panels)?;
     Ok(write_folder(folder, &[("force-loops.svg", drawing)])?)
 }
 

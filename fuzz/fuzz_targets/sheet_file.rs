@@ -1,0 +1,19 @@
+//! Any text as a sheet file: refused, or tests that a bench can make and limits that a value can keep.
+#![no_main]
+
+use dashpot_hil::files::sheet::SheetParameters;
+use libfuzzer_sys::fuzz_target;
+
+fuzz_target!(|text: &str| {
+    let Ok(sheet) = SheetParameters::parse("fuzz.toml", text) else {
+        return;
+    };
+    assert!(!sheet.tests.is_empty());
+    for test in &sheet.tests {
+        assert!(test.motion.check().is_ok());
+        for limit in &test.limits {
+            let end = limit.least.or(limit.most);
+            assert!(end.is_some() && limit.is_kept(end));
+        }
+    }
+});

@@ -1,0 +1,29 @@
+//! Loops as a file has them.
+
+use std::path::Path;
+
+use crate::files::FileError;
+use crate::files::input;
+use crate::files::recording::{Channels, Measurement};
+use crate::study::calibration::Recorded;
+
+/// The loops recorded in the file at `path`.
+///
+/// # Errors
+/// A file that cannot be read, or that has not the channels.
+pub(super) fn read(path: &Path, channels: &Channels) -> Result<Recorded, FileError> {
+    let mut measurement = Measurement::open(path, channels)?;
+    let mut recorded = Recorded {
+        name: input::name(path).file_name().map_or_else(
+            || path.display().to_string(),
+            |name| name.to_string_lossy().into_owned(),
+        ),
+        ..Recorded::default()
+    };
+    while let Some(sample) = measurement.next_sample()? {
+        recorded.times_s.push(sample.time_s);
+        recorded.displacements_m.push(sample.displacement_m);
+        recorded.forces_n.push(sample.force_n);
+    }
+    Ok(recorded)
+}

@@ -1,0 +1,141 @@
+//! The page of `dashpot response`.
+
+use maud::{Markup, html};
+use plotters::style::RGBColor;
+
+use super::report::{Kind, Report, Series, told};
+use crate::commands::failure::Outcome;
+use crate::files::study::shown;
+use crate::report::DrawError;
+use crate::report::page::{Figure, document, figure, footer};
+use crate::report::plot::curves::{Curve, ramp};
+use crate::report::plot::response;
+use crate::report::plot::sheet::Scale;
+use crate::report::plot::style::AMBER_LINE;
+
+/// Height of a panel (pixels).
+const HEIGHT: u32 = 300;
+
+/// The page.
+///
+/// # Errors
+/// A figure cannot be drawn.
+pub(super) fn write(report: &Report) -> Outcome<String> {
+    let mut figures = Vec::new();
+    match &report.over {
+        None => {
+            let all: Vec<&Series> = report.series.iter().collect();
+            figures.push((String::new(), part(report, &all)?));
+        }
+        // Values of the number side by side, an amplitude after the other.
+        Some(_) => {
+            let harmonic = |series: &&Series| series.response == Kind::Harmonic;
+            let first = report.series.first().and_then(|series| series.value);
+            let amplitudes = report.series.iter().filter(harmonic);
+            let amplitudes = amplitudes.filter(|series| series.value == first);
+            for amplitude_m in amplitudes.filter_map(|series| series.amplitude_m) {
+                let is_of =
+                    |series: &&Series| series.amplitude_m.is_none_or(|other| other == amplitude_m);
+                let of: Vec<&Series> = report.series.iter().filter(is_of).collect();
+                let title = format!("Amplitude {} mm", shown(amplitude_m * 1e3));
+                figures.push((title, part(report, &of)?));
+            }
+        }
+    }
+    let body = html! {
+        h1 { "Frequency response of a damper" }
+        p.lead {
+            (report.damper) @for change in &report.overrides { " " (change) }
+            ": the first harmonic of the settled force over that of the displacement"
+            @if let Some(key) = &report.over { ", over " (key) }
+            "."
+        }
+        @for (title, figure) in &figures {
+            @if !title.is_empty() { h2 { (title) } }
+            (figure)
+        }
+        (differences(report))
+        (footer(&html! { "What is what: docs/model.md, frequency response." }))
+    };
+    Ok(document("Dashpot: frequency response", &body))
+}
+
+/// Dynamic stiffness, loss angle and damping of these series.
+fn part(report: &Report, series: &[&Series]) -> Result<Markup, DrawError> {
+    let harmonic = series
+        .iter()
+        .filter(|series| series.response == Kind::Harmonic);
+    let colours: Vec<_> = ramp(harmonic.clone().count());
+    let coloured: Vec<(&&Series, RGBColor)> = harmonic.zip(colours).collect();
+    let colour = |of: &Series| {
+        let is_same = |other: &Series| {
+            other.value == of.value
+                && (report.over.is_some() || other.amplitude_m == of.amplitude_m)
+        };
+        let found = coloured.iter().find(|(other, _)| is_same(other));
+        found.map_or(AMBER_LINE, |(_, colour)| *colour)
+    };
+    let mut panels = response::panels(Scale::Decades);
+    for series in series {
+        // Dashes and points have their line's colour; they are named once.
+        let name = match (series.response, &report.over, series.value) {
+            (Kind::Harmonic, Some(_), Some(value)) => told(value),
+            (Kind::Harmonic, ..) => series.name(),
+            (Kind::Linearised, None, _) => "linearised".into(),
+            (Kind::Linearised | Kind::Swept, ..) => String::new(),
+        };
+        let curves = response::of(&name, colour(series), &series.responses, Scale::Decades);
+        for (panel, curve) in panels.iter_mut().zip(curves) {
+            panel.curves.push(drawn(series.response, curve));
+        }
+    }
+    let of_panels = Figure {
+        panels: panels.into(),
+        height: HEIGHT,
+        shares: Some("frequency"),
+    };
+    let caption = html! {
+        "Lines: harmonic, periodic at each frequency. Dashes: linearised, at a peak velocity of 0.1 mm/s with the clearance taken up."
+        @if report.swept_sine.is_some() { " Points: swept." }
+        " The loss angle is the phase by which the force leads the displacement, damping the part of force over velocity in phase with the \
+         velocity."
+    };
+    figure(&of_panels, &caption)
+}
+
+fn drawn(kind: Kind, curve: Curve) -> Curve {
+    match kind {
+        Kind::Harmonic => curve,
+        Kind::Linearised => curve.dashed(),
+        Kind::Swept => curve.dotted(),
+    }
+}
+
+/// Swept beside harmonic.
+fn differences(report: &Report) -> Markup {
+    let swept: Vec<&Series> = report
+        .series
+        .iter()
+        .filter(|series| series.response == Kind::Swept)
+        .collect();
+    html! {
+        @if let Some(sweep) = &report.swept_sine {
+            h2 { "Swept beside harmonic" }
+            p {
+                "One motion of constant amplitude through all frequencies, " (sweep.octaves_per_minute) " octaves/min; each value by \
+                 synchronous demodulation under a " (sweep.window) " window of " (sweep.window_cycles) " cycles."
+            }
+            div.wide {
+                table {
+                    tr { th { "curve" } th { "largest difference of the complex stiffness," br; "% of the harmonic one" } }
+                    @for series in swept {
+                        tr {
+                            td { (series.name()) }
+                            td { @match series.largest_difference { Some(largest) => (format!("{:.3}", largest * 100.0)), None => "no force" } }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,225 @@
+//! What became of a sheet.
+
+use std::collections::BTreeMap;
+use std::io::{self, Write};
+
+use serde::Serialize;
+
+use crate::commands::counted;
+use crate::commands::rig::RigArguments;
+use crate::files::output;
+use crate::files::sheet::{Limit, SheetParameters};
+use crate::files::study::shown;
+use crate::study::bench_index::Index;
+use crate::study::bench_sheet::Tested;
+
+/// A line of the head.
+#[derive(Serialize)]
+pub(super) struct Field {
+    pub(super) name: String,
+    pub(super) text: String,
+}
+
+/// A limit and what became of it.
+#[derive(Serialize)]
+pub(super) struct Limited {
+    pub(super) index: Index,
+    pub(super) value: Option<f64>,
+    pub(super) least: Option<f64>,
+    pub(super) most: Option<f64>,
+    pub(super) clause: Option<String>,
+    pub(super) kept: bool,
+}
+
+/// A test and its values.
+#[derive(Serialize)]
+pub(super) struct TestReport {
+    pub(super) name: String,
+    pub(super) amplitude_m: f64,
+    pub(super) frequency_hz: f64,
+    pub(super) peak_velocity_m_per_s: f64,
+    /// Of the oil; `None` of a damper without.
+    pub(super) temperature_c: Option<f64>,
+    step_s: f64,
+    cycles: usize,
+    pub(super) indices: BTreeMap<Index, Option<f64>>,
+    pub(super) limits: Vec<Limited>,
+}
+
+/// A sheet with its values.
+#[derive(Serialize)]
+pub(super) struct Report {
+    pub(super) title: String,
+    pub(super) fields: Vec<Field>,
+    pub(super) damper: String,
+    pub(super) overrides: Vec<String>,
+    pub(super) sheet: String,
+    pub(super) limits: usize,
+    pub(super) limits_not_kept: usize,
+    pub(super) tests: Vec<TestReport>,
+    page: Option<String>,
+}
+
+impl Limited {
+    fn new(limit: &Limit, value: Option<f64>) -> Self {
+        Self {
+            index: limit.index,
+            value,
+            least: limit.least,
+            most: limit.most,
+            clause: limit.clause.clone(),
+            kept: limit.is_kept(value),
+        }
+    }
+
+    /// What is allowed, in the index's unit.
+    pub(super) fn allowed(&self) -> String {
+        let end = |end: f64| shown(end / self.index.told_in().1);
+        match (self.least, self.most) {
+            (Some(least), Some(most)) => format!("{} to {}", end(least), end(most)),
+            (Some(least), None) => format!("at least {}", end(least)),
+            (None, Some(most)) => format!("at most {}", end(most)),
+            (None, None) => String::new(),
+        }
+    }
+
+    pub(super) fn verdict(&self) -> &'static str {
+        if self.kept { "within" } else { "outside" }
+    }
+}
+
+/// A value in the unit that its index is told in, in four digits or what it takes to tell it from its limits.
+pub(super) fn value_of(index: Index, value: Option<f64>) -> String {
+    value.map_or("none".into(), |value| {
+        let value = value / index.told_in().1;
+        let magnitude = value.abs().max(1e-9).log10().floor();
+        let digits = (3.0 - magnitude).clamp(0.0, 4.0) as usize;
+        format!("{value:.digits$}")
+    })
+}
+
+impl Limited {
+    /// The value, with as many digits more as tell it from a limit that it is beyond.
+    pub(super) fn told(&self) -> String {
+        let told = value_of(self.index, self.value);
+        let Some(value) = self.value else {
+            return told;
+        };
+        let read: f64 = told.parse().unwrap_or(value);
+        let rounded = Some(read * self.index.told_in().1);
+        let looks_kept = self.least.is_none_or(|least| rounded >= Some(least))
+            && self.most.is_none_or(|most| rounded <= Some(most));
+        if looks_kept == self.kept {
+            return told;
+        }
+        shown(value / self.index.told_in().1)
+    }
+}
+
+impl TestReport {
+    /// The motion in words.
+    pub(super) fn motion(&self) -> String {
+        let mut motion = format!(
+            "±{:.3} mm at {:.4} Hz, peak {:.4} m/s",
+            self.amplitude_m * 1e3,
+            self.frequency_hz,
+            self.peak_velocity_m_per_s
+        );
+        if let Some(temperature_c) = self.temperature_c {
+            motion += &format!(", oil {temperature_c} °C");
+        }
+        motion
+    }
+}
+
+impl Report {
+    pub(super) fn new(
+        arguments: &RigArguments,
+        sheet: &SheetParameters,
+        tested: &[Tested<'_>],
+    ) -> Self {
+        let test = |tested: &Tested<'_>| {
+            let motion = &tested.cycle.motion;
+            let indices: BTreeMap<Index, Option<f64>> = tested.values().collect();
+            let limit = |limit: &Limit| {
+                let value = indices.get(&limit.index).copied().flatten();
+                Limited::new(limit, value)
+            };
+            TestReport {
+                name: tested.test.name.clone(),
+                amplitude_m: motion.amplitude_m,
+                frequency_hz: motion.frequency_hz,
+                peak_velocity_m_per_s: motion.peak_velocity_m_per_s(),
+                temperature_c: tested.temperature_c,
+                step_s: tested.cycle.step_s,
+                cycles: tested.cycle.cycles,
+                limits: tested.test.limits.iter().map(limit).collect(),
+                indices,
+            }
+        };
+        let tests: Vec<TestReport> = tested.iter().map(test).collect();
+        let limits = || tests.iter().flat_map(|test| &test.limits);
+        let field = |(name, text): &(String, String)| Field {
+            name: name.clone(),
+            text: text.clone(),
+        };
+        Self {
+            title: sheet.title.clone(),
+            fields: sheet.fields.iter().map(field).collect(),
+            damper: arguments.damper.damper.clone(),
+            overrides: arguments.damper.overrides.clone(),
+            sheet: sheet.file.clone(),
+            limits: limits().count(),
+            limits_not_kept: limits().filter(|limit| !limit.kept).count(),
+            page: arguments
+                .page
+                .as_ref()
+                .map(|path| output::name(path).display().to_string()),
+            tests,
+        }
+    }
+
+    /// How many limits are kept, in words.
+    pub(super) fn verdict(&self) -> String {
+        let limits = counted(self.limits as u64, "limit");
+        match (self.limits, self.limits_not_kept) {
+            (0, _) => "no limits".into(),
+            (_, 0) => format!("{limits}, all kept"),
+            (_, outside) => format!("{outside} of {limits} not kept"),
+        }
+    }
+
+    pub(super) fn print(out: &mut dyn Write, report: &Self) -> io::Result<()> {
+        let damper = [std::slice::from_ref(&report.damper), &report.overrides].concat();
+        writeln!(out, "{}\n{}", report.title, damper.join(" "))?;
+        for field in &report.fields {
+            writeln!(out, "{}: {}", field.name, field.text)?;
+        }
+        for test in &report.tests {
+            writeln!(out, "\n{}: {}", test.name, test.motion())?;
+            for (index, value) in &test.indices {
+                let (unit, _) = index.told_in();
+                let mut limits = test.limits.iter().filter(|limit| limit.index == *index);
+                write!(out, "  {:<38}{unit:<8}", index.name())?;
+                match limits.next() {
+                    None => writeln!(out, "{:>10}", value_of(*index, *value))?,
+                    Some(limit) => {
+                        let clause = limit.clause.as_deref().unwrap_or("");
+                        writeln!(
+                            out,
+                            "{:>10}  {:<8} {:<22} {clause}",
+                            limit.told(),
+                            limit.verdict(),
+                            limit.allowed()
+                        )?;
+                    }
+                }
+            }
+        }
+        writeln!(out, "\n{}", report.verdict())?;
+        if let Some(page) = &report.page {
+            writeln!(out, "page: {page}")?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,209 @@
+//! Recordings on the ticks of a step.
+
+use crate::files::FileError;
+use crate::files::recording::{MOST_TICKS, Measurement, Recording, RecordingError};
+
+/// One tick of a motion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tick {
+    /// Time (s), first sample plus a whole number of steps.
+    pub time_s: f64,
+    /// Displacement there (m), linear between samples.
+    pub displacement_m: f64,
+}
+
+/// One tick of a motion with the force measured on it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MeasuredTick {
+    /// Time (s), first sample plus a whole number of steps.
+    pub time_s: f64,
+    /// Displacement there (m), linear between samples.
+    pub displacement_m: f64,
+    /// Force there (N), linear between samples.
+    pub force_n: f64,
+}
+
+/// What has rows of `N` values at times.
+trait Rows<const N: usize> {
+    fn next_row(&mut self) -> Result<Option<(f64, [f64; N])>, FileError>;
+    fn in_text(&self, error: RecordingError) -> FileError;
+    fn in_time(&self, error: RecordingError) -> FileError;
+}
+
+impl Rows<1> for Recording {
+    fn next_row(&mut self) -> Result<Option<(f64, [f64; 1])>, FileError> {
+        let sample = self.next_sample()?;
+        Ok(sample.map(|sample| (sample.time_s, [sample.displacement_m])))
+    }
+
+    fn in_text(&self, error: RecordingError) -> FileError {
+        Recording::in_text(self, error)
+    }
+
+    fn in_time(&self, error: RecordingError) -> FileError {
+        Recording::in_time(self, error)
+    }
+}
+
+impl Rows<2> for Measurement {
+    fn next_row(&mut self) -> Result<Option<(f64, [f64; 2])>, FileError> {
+        let sample = self.next_sample()?;
+        Ok(sample.map(|sample| (sample.time_s, [sample.displacement_m, sample.force_n])))
+    }
+
+    fn in_text(&self, error: RecordingError) -> FileError {
+        Measurement::in_text(self, error)
+    }
+
+    fn in_time(&self, error: RecordingError) -> FileError {
+        Measurement::in_time(self, error)
+    }
+}
+
+/// How far a sample meant for the tick at `time_s` (s) of steps of `step_s` (s) may lie from it by
+/// rounding (s).
+pub(crate) fn rounding_s(time_s: f64, step_s: f64) -> f64 {
+    1e-9 * step_s + 4.0 * f64::EPSILON * time_s.abs()
+}
+
+/// Rows on ticks: from the first row to within the last, linear between rows.
+struct Grid<R, const N: usize> {
+    rows: R,
+    step_s: f64,
+    start_s: f64,
+    number: u64,
+    before: (f64, [f64; N]),
+    after: (f64, [f64; N]),
+}
+
+impl<R: Rows<N>, const N: usize> Grid<R, N> {
+    fn new(mut rows: R, step_s: f64) -> Result<Self, FileError> {
+        let first = rows
+            .next_row()?
+            .ok_or_else(|| rows.in_text(RecordingError::NoRow { left_out: 0 }))?;
+        Ok(Self {
+            rows,
+            step_s,
+            start_s: first.0,
+            number: 0,
+            before: first,
+            after: first,
+        })
+    }
+
+    fn next_tick(&mut self) -> Result<Option<(f64, [f64; N])>, FileError> {
+        let offset_s = self.number as f64 * self.step_s;
+        let time_s = self.start_s + offset_s;
+        // A sample meant for a tick may lie a rounding before it.
+        let slack_s = rounding_s(time_s, self.step_s);
+        while self.after.0 + slack_s < time_s {
+            let Some(next) = self.rows.next_row()? else {
+                return Ok(None);
+            };
+            if (next.0 - self.start_s) / self.step_s > MOST_TICKS {
+                let time_s = next.0;
+                return Err(self.rows.in_time(RecordingError::TooLong { time_s }));
+            }
+            self.before = self.after;
+            self.after = next;
+        }
+        self.number += 1;
+        let ((before_s, before), (after_s, after)) = (self.before, self.after);
+        let values = if time_s + slack_s >= after_s {
+            after
+        } else {
+            let fraction = (time_s - before_s) / (after_s - before_s);
+            std::array::from_fn(|value| before[value] + fraction * (after[value] - before[value]))
+        };
+        Ok(Some((time_s, values)))
+    }
+}
+
+/// A recorded motion on ticks: from its first sample to within its last.
+pub struct TickGrid(Grid<Recording, 1>);
+
+impl TickGrid {
+    /// The grid of `step_s` (s) over `recording`.
+    ///
+    /// # Errors
+    /// No readable row.
+    pub fn new(recording: Recording, step_s: f64) -> Result<Self, FileError> {
+        Grid::new(recording, step_s).map(Self)
+    }
+
+    /// The next tick; `None` past the last sample.
+    ///
+    /// # Errors
+    /// A row that cannot be read, or a recording over 24 hours of 10 kHz ticks long.
+    pub fn next_tick(&mut self) -> Result<Option<Tick>, FileError> {
+        let tick = self.0.next_tick()?;
+        Ok(tick.map(|(time_s, [displacement_m])| Tick {
+            time_s,
+            displacement_m,
+        }))
+    }
+
+    /// All ticks left.
+    ///
+    /// # Errors
+    /// As [`TickGrid::next_tick`].
+    pub fn read_all(mut self) -> Result<Vec<Tick>, FileError> {
+        let mut ticks = Vec::new();
+        while let Some(tick) = self.next_tick()? {
+            ticks.push(tick);
+        }
+        Ok(ticks)
+    }
+
+    /// Displacements (m) at all ticks left.
+    ///
+    /// # Errors
+    /// As [`TickGrid::next_tick`].
+    pub fn displacements_m(self) -> Result<Vec<f64>, FileError> {
+        let ticks = self.read_all()?;
+        Ok(ticks.iter().map(|tick| tick.displacement_m).collect())
+    }
+
+    /// Time of the first tick (s).
+    pub fn start_s(&self) -> f64 {
+        self.0.start_s
+    }
+
+    /// The recording, read up to the last tick.
+    pub fn recording(&self) -> &Recording {
+        &self.0.rows
+    }
+}
+
+/// A motion and the force measured on it, on ticks: from the first sample to within the last.
+pub struct MeasuredGrid(Grid<Measurement, 2>);
+
+impl MeasuredGrid {
+    /// The grid of `step_s` (s) over `measurement`.
+    ///
+    /// # Errors
+    /// No readable row.
+    pub fn new(measurement: Measurement, step_s: f64) -> Result<Self, FileError> {
+        Grid::new(measurement, step_s).map(Self)
+    }
+
+    /// The next tick; `None` past the last sample.
+    ///
+    /// # Errors
+    /// As [`TickGrid::next_tick`].
+    pub fn next_tick(&mut self) -> Result<Option<MeasuredTick>, FileError> {
+        let tick = self.0.next_tick()?;
+        Ok(
+            tick.map(|(time_s, [displacement_m, force_n])| MeasuredTick {
+                time_s,
+                displacement_m,
+                force_n,
+            }),
+        )
+    }
+
+    /// Bytes read so far, for a progress bar.
+    pub fn position(&self) -> u64 {
+        self.0.rows.position()
+    }
+}

@@ -1,0 +1,45 @@
+//! A sheet on paper: white, no table beyond the paper's edge, no number broken into two lines.
+
+use serde_json::json;
+
+use crate::browser::Browser;
+use crate::shown::SHEET;
+
+/// A4 less the margins of the style, at 96 pixels an inch.
+const WIDTH: u32 = 687;
+
+const MEASURE: &str = r#"
+    const right = Math.max(...[...document.querySelectorAll("table, figure, .tiles")].map(e => e.getBoundingClientRect().right));
+    const scrolls = [...document.querySelectorAll(".wide")].filter(e => getComputedStyle(e).overflowX !== "visible").length;
+    const lines = cell => { const range = document.createRange(); range.selectNodeContents(cell);
+        return new Set([...range.getClientRects()].map(r => Math.round(r.top / 4))).size; };
+    const numbers = [...document.querySelectorAll("td")].filter(td => /^[−\d.]+$/.test(td.textContent));
+    return { right, width: document.documentElement.scrollWidth, scrolls, numbers: numbers.length,
+        broken: numbers.filter(td => lines(td) > 1).map(td => td.textContent),
+        paper: getComputedStyle(document.body).backgroundColor,
+        page: [...document.styleSheets].flatMap(s => [...s.cssRules]).filter(r => r.type === CSSRule.PAGE_RULE).map(r => r.style.size) };"#;
+
+#[test]
+fn a_sheet_fits_paper_and_is_white_from_a_dark_screen() {
+    let Some(browser) = Browser::start("sheets on paper") else {
+        return;
+    };
+    let features = json!([{ "name": "prefers-color-scheme", "value": "dark" }]);
+    browser.tell(
+        "Emulation.setEmulatedMedia",
+        json!({ "media": "print", "features": features }),
+    );
+    browser.open(&SHEET, WIDTH);
+    let found = browser.find(MEASURE);
+    assert!(
+        found["right"].as_f64().unwrap() <= f64::from(WIDTH),
+        "{found}"
+    );
+    assert_eq!(found["width"], WIDTH, "{found}");
+    assert_eq!(found["scrolls"], 0, "{found}");
+    // Six tests have nine indices each.
+    assert!(found["numbers"].as_u64().unwrap() > 60, "{found}");
+    assert_eq!(found["broken"], json!([]), "{found}");
+    assert_eq!(found["paper"], "rgb(255, 255, 255)", "{found}");
+    assert_eq!(found["page"].as_array().unwrap().len(), 1, "{found}");
+}

@@ -1,0 +1,73 @@
+//! What is asked for and is not in the file, or may be several things.
+
+use dashpot_hil::files::recording::{Channel, Channels};
+
+use crate::forms::{rows, samples};
+
+fn named(displacement: &str, force: &str) -> Channels {
+    let channel = |name: &str| Channel {
+        name: Some(name.to_owned()),
+        ..Channel::default()
+    };
+    Channels {
+        displacement: channel(displacement),
+        force: channel(force),
+        ..Channels::default()
+    }
+}
+
+#[test]
+fn groups_are_asked_for() {
+    let mut other_group = named("Weg", "Kraft");
+    other_group.group = Some("langsam".into());
+    let mut no_group = named("Weg", "Kraft");
+    no_group.group = Some("schnell".into());
+    let mut two_groups = named("3", "6");
+    two_groups.time.name = Some("#4".into());
+    let cases = [
+        (
+            "groups.mf4",
+            named("Weg", "Temperatur"),
+            "`degC`, which the file says is the unit of Temperatur, is not one of force",
+        ),
+        (
+            "groups.mf4",
+            other_group,
+            "--force: channel Kraft is in group 2 (Messung), not in group 1 (langsam)",
+        ),
+        (
+            "groups.mf4",
+            no_group,
+            "no group `schnell`, or several; there are 1 `langsam`, 2 `Messung`",
+        ),
+        (
+            "groups.mf4",
+            two_groups,
+            "--displacement: channel Weg is in group 1 (langsam), not in group 2 (Messung)",
+        ),
+        (
+            "plain.mf4",
+            named("Weg", "force"),
+            "column force is missing; there are `time`, `Weg`, `Kraft`; choose one with --force NAME",
+        ),
+        (
+            "units.parquet",
+            named("x", "F"),
+            "column time_s is missing; there are `t`, `x`, `F`",
+        ),
+    ];
+    for (file, channels, expected) in cases {
+        let error = rows(&samples().join(file), &channels)
+            .expect_err("refused")
+            .to_string();
+        assert!(error.contains(expected), "`{error}` lacks `{expected}`");
+    }
+    let mut only_displacement = named("Weg", "Kraft");
+    only_displacement.force = only_displacement.displacement.clone();
+    let path = samples().join("groups.mf4");
+    let error = rows(&path, &only_displacement)
+        .expect_err("several")
+        .to_string();
+    let expected = "channel Weg is in the groups 1 (langsam), 2 (Messung); choose one with --group";
+    assert!(error.contains(expected), "{error}");
+}
