@@ -4,7 +4,7 @@ use crate::files::FileError;
 use crate::files::recording::{
     GAP_IN_MEDIANS, MOST_TICKS, MeasuredSample, Measurement, RecordingError,
 };
-use crate::study::replay::rounding_s;
+use crate::study::tick_grid::rounding_s;
 
 /// The samples of a measurement at its first time and each whole step (s) after it, linear between rows. Nothing is known
 /// in a gap: its samples are NaN, which the estimator leaves out.

@@ -79,11 +79,6 @@ impl Measurement {
         Ok(samples)
     }
 
-    /// `error` in the time of the row read last.
-    pub(crate) fn in_time(&self, error: RecordingError) -> FileError {
-        self.rows.in_time(error)
-    }
-
     /// Bytes read so far, for a progress bar.
     pub fn position(&self) -> u64 {
         self.rows.position()
