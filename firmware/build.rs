@@ -10,8 +10,8 @@ fn main() {
     } else {
         ("..", "0x20400000")
     };
-    // The images that measure hold dampers on their stack, and a motion behind their data.
-    for image in ["step-cost", "health-cost"] {
+    // The images that measure hold dampers or long frames on their stack, and what the host loads behind their data.
+    for image in ["step-cost", "health-cost", "link-cost"] {
         println!("cargo::rustc-link-arg-bin={image}=--defsym=_stack_start={end_of_memory}");
     }
     println!("cargo::rustc-link-search={here}/{folder}");

@@ -97,27 +97,27 @@
 /**
  * Bytes of a dashpot_health_model.
  */
-#define DASHPOT_HEALTH_MODEL_SIZE 2192
+#define DASHPOT_HEALTH_MODEL_SIZE 2196
 
 /**
  * Words of a dashpot_health_model.
  */
-#define DASHPOT_HEALTH_MODEL_WORDS 548
+#define DASHPOT_HEALTH_MODEL_WORDS 549
 
 /**
  * Bytes of a dashpot_health.
  */
-#define DASHPOT_HEALTH_SIZE 240
+#define DASHPOT_HEALTH_SIZE 244
 
 /**
  * Words of a dashpot_health.
  */
-#define DASHPOT_HEALTH_WORDS 60
+#define DASHPOT_HEALTH_WORDS 61
 
 /**
  * Bytes of an image, from which a dashpot_health_model is made.
  */
-#define DASHPOT_HEALTH_IMAGE_SIZE 2204
+#define DASHPOT_HEALTH_IMAGE_SIZE 2208
 
 
 /**
@@ -368,6 +368,28 @@ typedef struct {
 } dashpot_health_baseline;
 
 /**
+ * How far an estimate may lie from the baseline before an alarm; a limit of infinity or NaN never alarms.
+ */
+typedef struct {
+    /**
+     * Change of the flow factor either way (1); 0.15 in a model as it was built.
+     */
+    float flow_factor;
+    /**
+     * Change of the compliance either way, over that of the baseline (1); 0.43, which is a stiffness 30 % lower.
+     */
+    float compliance;
+    /**
+     * Change of the clearance either way (m); 0.5e-3.
+     */
+    float clearance_m;
+    /**
+     * Standard deviations, of estimate and baseline together, by which it must differ too (1); 5.
+     */
+    float deviations;
+} dashpot_health_limits;
+
+/**
  * Storage of an estimate of health, what changes from tick to tick. Opaque; may be copied whole.
  */
 typedef struct {
@@ -496,8 +518,8 @@ dashpot_error dashpot_damper_set_clearance(dashpot_damper *damper,
 const char *dashpot_error_text(int32_t code);
 
 /**
- * Makes the constants of an estimator from an image, the bytes of `HealthModel::to_image` of dashpot-core. Not for a
- * tick.
+ * Makes the constants of an estimator from an image, the bytes that `dashpot export --health --lang c` writes and
+ * `HealthModel::to_image` of dashpot-core makes. Not for a tick; on the stack it takes as many bytes again.
  *
  * @param model   storage, its content does not matter
  * @param image   the bytes, at any alignment, not in the storage of the model
@@ -517,6 +539,15 @@ dashpot_error dashpot_health_set_baseline(dashpot_health_model *model,
                                           const dashpot_health_baseline *baseline);
 
 /**
+ * Sets how far estimates may lie from the baseline from now on. Alarms that were latched stay.
+ *
+ * @param model   made by `dashpot_health_model_init`; no tick may run on it meanwhile
+ * @param limits  any numbers; one of infinity or NaN never alarms
+ */
+dashpot_error dashpot_health_set_limits(dashpot_health_model *model,
+                                        const dashpot_health_limits *limits);
+
+/**
  * Begins an estimate.
  *
  * @param health  storage, its content does not matter
@@ -525,7 +556,7 @@ dashpot_error dashpot_health_set_baseline(dashpot_health_model *model,
 dashpot_error dashpot_health_init(dashpot_health *health, const dashpot_health_model *model);
 
 /**
- * Takes the sample of a tick. One that is not finite or not credible is no error: it is left out, latched in the
+ * Takes the sample of a tick, at most 277 instructions. One that is not finite or not credible is no error: it is left out, latched in the
  * status and counted.
  *
  * @param model           made by `dashpot_health_model_init`

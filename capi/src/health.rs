@@ -1,11 +1,14 @@
 //! Functions of the estimator of health.
 
-use dashpot_core::health::{Baseline, Estimate, Health, HealthImageError, HealthModel};
+use dashpot_core::health::{
+    Baseline, Estimate, Health, HealthImageError, HealthLimits, HealthModel,
+};
 
 use crate::error::DashpotError;
 use crate::pointer::{Memory, bytes, check, exclusive, shared};
 use crate::types::{
-    DashpotEstimate, DashpotHealth, DashpotHealthBaseline, DashpotHealthModel, DashpotHealthReading,
+    DashpotEstimate, DashpotHealth, DashpotHealthBaseline, DashpotHealthLimits, DashpotHealthModel,
+    DashpotHealthReading,
 };
 
 impl From<HealthImageError> for DashpotError {
@@ -56,8 +59,8 @@ unsafe fn made_health<'a>(health: *const DashpotHealth) -> Result<&'a Health, Da
     }
 }
 
-/// Makes the constants of an estimator from an image, the bytes of `HealthModel::to_image` of dashpot-core. Not for a
-/// tick.
+/// Makes the constants of an estimator from an image, the bytes that `dashpot export --health --lang c` writes and
+/// `HealthModel::to_image` of dashpot-core makes. Not for a tick; on the stack it takes as many bytes again.
 ///
 /// @param model   storage, its content does not matter
 /// @param image   the bytes, at any alignment, not in the storage of the model
@@ -111,6 +114,34 @@ pub unsafe extern "C" fn dashpot_health_set_baseline(
     DashpotError::from(done())
 }
 
+/// Sets how far estimates may lie from the baseline from now on. Alarms that were latched stay.
+///
+/// @param model   made by `dashpot_health_model_init`; no tick may run on it meanwhile
+/// @param limits  any numbers; one of infinity or NaN never alarms
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn dashpot_health_set_limits(
+    model: *mut DashpotHealthModel,
+    limits: *const DashpotHealthLimits,
+) -> DashpotError {
+    let done = || {
+        // SAFETY: the caller's promise; the reference ends here.
+        unsafe { made_model(model) }?;
+        // SAFETY: the caller's promise.
+        let given = *unsafe { shared(limits) }?;
+        Memory::of(model).check_apart(Memory::of(limits))?;
+        // SAFETY: the caller's promise; the storage is a HealthModel's to the byte.
+        let model: &mut HealthModel = unsafe { exclusive(model.cast()) }?;
+        model.set_limits(HealthLimits {
+            flow_factor: given.flow_factor,
+            compliance: given.compliance,
+            clearance_m: given.clearance_m,
+            deviations: given.deviations,
+        });
+        Ok(())
+    };
+    DashpotError::from(done())
+}
+
 /// Begins an estimate.
 ///
 /// @param health  storage, its content does not matter
@@ -132,7 +163,7 @@ pub unsafe extern "C" fn dashpot_health_init(
     DashpotError::from(done())
 }
 
-/// Takes the sample of a tick. One that is not finite or not credible is no error: it is left out, latched in the
+/// Takes the sample of a tick, at most 277 instructions. One that is not finite or not credible is no error: it is left out, latched in the
 /// status and counted.
 ///
 /// @param model           made by `dashpot_health_model_init`

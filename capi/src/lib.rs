@@ -26,7 +26,8 @@ pub use damper::{dashpot_damper_describe, dashpot_damper_init, dashpot_damper_se
 pub use error::{DashpotError, dashpot_error_text};
 pub use health::{
     dashpot_health_clear_status, dashpot_health_init, dashpot_health_model_init,
-    dashpot_health_read, dashpot_health_set_baseline, dashpot_health_tick,
+    dashpot_health_read, dashpot_health_set_baseline, dashpot_health_set_limits,
+    dashpot_health_tick,
 };
 pub use state::{
     dashpot_state_clear_status, dashpot_state_init, dashpot_state_read, dashpot_state_restore,

@@ -158,6 +158,20 @@ pub struct DashpotHealthBaseline {
     pub clearance_m: DashpotEstimate,
 }
 
+/// How far an estimate may lie from the baseline before an alarm; a limit of infinity or NaN never alarms.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DashpotHealthLimits {
+    /// Change of the flow factor either way (1); 0.15 in a model as it was built.
+    pub flow_factor: f32,
+    /// Change of the compliance either way, over that of the baseline (1); 0.43, which is a stiffness 30 % lower.
+    pub compliance: f32,
+    /// Change of the clearance either way (m); 0.5e-3.
+    pub clearance_m: f32,
+    /// Standard deviations, of estimate and baseline together, by which it must differ too (1); 5.
+    pub deviations: f32,
+}
+
 /// What is known of a damper now.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]

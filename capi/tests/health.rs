@@ -116,6 +116,60 @@ fn estimates_have_the_bits_of_the_core() {
     assert_eq!(read(&model, &health).rejected, 0);
 }
 
+/// A damper with another clearance: an alarm by the model's own limits, none by wider ones.
+#[test]
+fn limits_decide_what_is_an_alarm() {
+    let (damper, core) = core_model();
+    let mut worn = damper;
+    worn.set_clearance_m(1e-3).unwrap();
+    let alarms = |model: &DashpotHealthModel| {
+        let mut health = begun(model);
+        let mut state = worn.at_rest(0.0);
+        for tick in 0..20_000 {
+            let t = tick as f32 * 1e-3;
+            let x = 1e-3 * (9.0 * t).sin() + 0.5e-3 * (31.0 * t).sin();
+            let force = worn.step(&mut state, x);
+            // SAFETY: references are valid pointers.
+            let done = unsafe { dashpot_health_tick(model, &mut health, x, force) };
+            assert_eq!(done, DONE);
+        }
+        read(model, &health).status & DASHPOT_HEALTH_CLEARANCE
+    };
+    let mut model = made(&core);
+    assert_eq!(alarms(&model), DASHPOT_HEALTH_CLEARANCE);
+    let limits = core.limits();
+    let mut wide = DashpotHealthLimits {
+        flow_factor: limits.flow_factor,
+        compliance: limits.compliance,
+        clearance_m: 2e-3,
+        deviations: limits.deviations,
+    };
+    // SAFETY: references are valid pointers, and what is wrong is what the function checks.
+    unsafe {
+        assert_eq!(dashpot_health_set_limits(&mut model, &wide), DONE);
+        assert_eq!(alarms(&model), 0);
+        wide.clearance_m = f32::NAN;
+        assert_eq!(dashpot_health_set_limits(&mut model, &wide), DONE);
+        assert_eq!(alarms(&model), 0);
+        let inside = (&raw const model).cast();
+        assert_eq!(
+            dashpot_health_set_limits(&mut model, inside),
+            DashpotError::Overlap
+        );
+        assert_eq!(
+            dashpot_health_set_limits(&mut model, null()),
+            DashpotError::NullPointer
+        );
+        let mut zeros = DashpotHealthModel {
+            opaque: [0; DASHPOT_HEALTH_MODEL_WORDS],
+        };
+        assert_eq!(
+            dashpot_health_set_limits(&mut zeros, &wide),
+            DashpotError::NoHealth
+        );
+    }
+}
+
 #[test]
 fn wrong_calls_are_codes() {
     let (_, core) = core_model();

@@ -22,7 +22,7 @@ const BAUD: u32 = 1_000_000;
 static DUE: AtomicU32 = AtomicU32::new(0);
 
 /// All zeros until it is started, so it takes no flash, and is built where it stays.
-static DEVICE: ConstStaticCell<Device<DAMPERS>> = ConstStaticCell::new(Device::new());
+static DEVICE: ConstStaticCell<Device<DAMPERS, DAMPERS>> = ConstStaticCell::new(Device::new());
 
 #[exception]
 fn SysTick() {

@@ -8,12 +8,17 @@ use dashpot_core::Damper;
 use dashpot_core::link::{Clock, Device, FrameReader, REQUEST_BYTES, ResponseFrame};
 use libfuzzer_sys::fuzz_target;
 
-static DAMPER: Damper<f32> = Damper::<f32>::from_words(&[0; Damper::<f32>::WORDS]);
+/// Of zeros but for its step, that of the seed's model of health.
+static DAMPER: Damper<f32> = {
+    let mut words = [0; Damper::<f32>::WORDS];
+    words[3] = 1e-3_f32.to_bits();
+    Damper::<f32>::from_words(&words)
+};
 
 fuzz_target!(|bytes: &[u8]| {
     let mut reader = FrameReader::<REQUEST_BYTES>::new();
     let clock = Clock { now: || 0, hz: 1 };
-    let mut device = Box::new(Device::new());
+    let mut device = Box::new(Device::<2, 2>::new());
     device.start(&[&DAMPER; 2], clock).expect("one step");
     for byte in bytes.iter().chain(&[0]).chain(&signed(bytes)) {
         let _ = reader.push(*byte);

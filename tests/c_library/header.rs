@@ -115,6 +115,15 @@ fn stated_instructions(header: &str, function: &str) -> Vec<f64> {
         .collect()
 }
 
+/// The most instructions of `dashpot_health_tick` in the document of health, over all dampers there.
+fn most_of_a_health_tick() -> f64 {
+    let table = document::part("docs/health.md", "cost");
+    let rows = table.lines().filter(|line| line.starts_with("| `"));
+    let cells = rows.map(|row| row.split('|').nth(4).expect("a column for C"));
+    let numbers = cells.map(|cell| cell.trim().parse::<f64>().expect("a number"));
+    numbers.fold(f64::NAN, f64::max)
+}
+
 /// The figure of the Cortex-M7 in a row of the timing contract's table.
 fn measured_instructions(row: &str) -> f64 {
     let table = document::part("docs/timing-contract.md", "measured");
@@ -131,6 +140,8 @@ fn measured_instructions(row: &str) -> f64 {
 #[test]
 fn the_costs_stated_are_those_measured() {
     let header = document::read("capi/include/dashpot.h");
+    let stated = stated_instructions(&header, "dashpot_health_tick");
+    assert_eq!(stated, [most_of_a_health_tick()], "dashpot_health_tick");
     let swapped = "step that meets another damper's state";
     for (function, rows) in [
         ("dashpot_step", &["C: `dashpot_step`"][..]),

@@ -8,10 +8,10 @@ use dashpot_core::link::{Device, LossOfLink, Refusal, Request, Response, SafeOut
 use crate::common::{Bench, reals};
 
 /// Flips a bit of the only place in the device that holds these bytes.
-fn flip_a_bit_of(device: &mut Device<2>, bytes: &[u8]) {
+fn flip_a_bit_of(device: &mut Device<2, 2>, bytes: &[u8]) {
     let (start, length) = (
         std::ptr::from_mut(device).cast::<u8>(),
-        size_of::<Device<2>>(),
+        size_of::<Device<2, 2>>(),
     );
     // SAFETY: the device's memory; what is changed is a number, of which every bit pattern is one.
     let memory = unsafe { std::slice::from_raw_parts_mut(start, length) };

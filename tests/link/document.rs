@@ -10,9 +10,11 @@ use std::time::Duration;
 use dashpot::requests::every_request;
 use dashpot::signed_image::revise_and_sign;
 use dashpot::{damper, document};
+use dashpot_core::health::{Estimate, HealthImageError, HealthModel, HealthReading, HealthStatus};
 use dashpot_core::link::{
-    Counters, FrameReader, Header, PROTOCOL, Parameter, RESPONSE_BYTES, Reals, Refusal, Request,
-    Response, SafeOutput, Sample, Scalar, request_frame,
+    Counters, Forces, FrameReader, Header, MEASURED_BYTES, MOST_MEASURED, PROTOCOL, Parameter,
+    RESPONSE_BYTES, Reals, Refusal, Request, Response, SafeOutput, Sample, Scalar, Welcome,
+    request_frame,
 };
 use dashpot_core::{Damper, ImageError, Status};
 use dashpot_hil::target::pil::{Desk, Link};
@@ -54,6 +56,20 @@ fn name(choice: &impl std::fmt::Debug) -> String {
     text[..end.unwrap_or(text.len())].to_owned()
 }
 
+fn welcome() -> Welcome<'static> {
+    Welcome {
+        protocol: PROTOCOL,
+        core_version: "",
+        revisions: Vec::new().into_iter().collect(),
+        scalar: Scalar::F32,
+        step_s: 0.0,
+        image_bytes: 0,
+        tick: 0,
+        clock_hz: 0,
+        running: false,
+    }
+}
+
 fn numbered<T: Serialize + std::fmt::Debug>(choices: &[T]) -> Vec<(u8, String)> {
     choices
         .iter()
@@ -63,7 +79,7 @@ fn numbered<T: Serialize + std::fmt::Debug>(choices: &[T]) -> Vec<(u8, String)> 
 
 #[test]
 fn the_numbers_are_those_of_the_code() {
-    let requests = every_request(&[], &[], &Reals::new());
+    let requests = every_request(&[], &[], &[], &Reals::new());
     assert_eq!(rows("request"), numbered(&requests));
     let outputs = [
         SafeOutput::Hold,
@@ -89,6 +105,8 @@ fn the_numbers_are_those_of_the_code() {
         Refusal::NotRunning,
         Refusal::LinkLost,
         Refusal::Corrupted(0),
+        Refusal::NoHealth,
+        Refusal::HealthImage(HealthImageError::Magic),
     ];
     assert_eq!(rows("refusal"), numbered(&refusals));
     let image_errors = [
@@ -106,6 +124,41 @@ fn the_numbers_are_those_of_the_code() {
         ImageError::Scalars,
     ];
     assert_eq!(rows("image"), numbered(&image_errors));
+    let health_image_errors = [
+        HealthImageError::Length {
+            expected: 0,
+            found: 0,
+        },
+        HealthImageError::Magic,
+        HealthImageError::Version(0),
+        HealthImageError::Checksum,
+        HealthImageError::Values,
+    ];
+    assert_eq!(rows("model"), numbered(&health_image_errors));
+    let answers = [
+        Response::Welcome(welcome()),
+        Response::Done,
+        Response::Forces(Forces::default()),
+        Response::Saved {
+            tick: 0,
+            states: &[],
+        },
+        Response::Telemetry {
+            overwritten: 0,
+            samples: Vec::new().into_iter().collect(),
+        },
+        Response::Counters(Counters::default()),
+        Response::Outputs {
+            outputs_n: Reals::new(),
+        },
+        Response::Status {
+            status: Vec::new().into_iter().collect(),
+            rejected_inputs: Vec::new().into_iter().collect(),
+        },
+        Response::Refused(Refusal::State),
+        Response::Health(HealthReading::default()),
+    ];
+    assert_eq!(rows("answer"), numbered(&answers));
     let text = document::read(LINK);
     assert!(text.contains(&format!("This is protocol **{PROTOCOL}**.")));
     let parameters = [
@@ -132,6 +185,20 @@ fn the_numbers_are_those_of_the_code() {
     ] {
         assert!(stated.starts_with(&format!("{} ", bit.bits())) && text.contains(stated));
     }
+    for (bit, stated) in [
+        (HealthStatus::FLOW, "1 flow"),
+        (HealthStatus::STIFFNESS, "2 stiffness"),
+        (HealthStatus::CLEARANCE, "4 clearance"),
+        (HealthStatus::LITTLE_EXCITATION, "8 too little motion"),
+        (HealthStatus::INPUT_REJECTED, "16 a sample"),
+        (HealthStatus::RESTARTED, "32 the estimate"),
+    ] {
+        assert!(stated.starts_with(&format!("{} ", bit.bits())) && text.contains(stated));
+    }
+    let most = format!("1 to {MOST_MEASURED} samples of {MEASURED_BYTES} bytes");
+    assert!(text.contains(&most), "{most}");
+    let bytes = format!("{} bytes, whole", HealthModel::IMAGE_BYTES);
+    assert!(text.contains(&bytes), "{bytes}");
     // In order, for they have no numbers.
     let in_order = |fields: String| {
         let mut rest = &text[..];
@@ -153,6 +220,10 @@ fn the_numbers_are_those_of_the_code() {
         status: 0,
     };
     in_order(format!("{sample:?}"));
+    let reading = format!("{:?}", HealthReading::default());
+    // Value and deviation of each number are told once for all.
+    let estimate = format!("{:?}", Estimate::default());
+    in_order(reading.replace(&estimate, "number"));
 }
 
 #[test]

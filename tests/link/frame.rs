@@ -1,6 +1,7 @@
 //! Frames: what comes back, what is refused, and that a zero byte ends any trouble.
 
 use dashpot::signed_image::crc_32;
+use dashpot_core::health::{Estimate, HealthReading, HealthStatus};
 use dashpot_core::link::{
     Forces, FrameError, FrameReader, Header, MOST_DAMPERS, MOST_SAMPLES, REQUEST_BYTES,
     RESPONSE_BYTES, Request, RequestFrame, Response, ResponseFrame, Sample, Scalar, Welcome,
@@ -148,6 +149,21 @@ fn the_longest_messages_fit() {
         clock_ticks: tick,
     });
     assert!(response.write(&(header, forces)));
+    let bound = Estimate {
+        value: f32::MAX,
+        sd: f32::MAX,
+    };
+    let health = Response::Health(HealthReading {
+        flow_factor: bound,
+        stiffness_n_per_m: bound,
+        clearance_m: bound,
+        lag_s: bound,
+        compliance_m_per_n: bound,
+        samples: tick,
+        rejected: tick,
+        status: HealthStatus::from_bits_retain(u16::MAX),
+    });
+    assert!(response.write(&(header, health)));
 }
 
 #[test]

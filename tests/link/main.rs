@@ -5,5 +5,6 @@ mod damage;
 mod device;
 mod document;
 mod frame;
+mod health;
 mod load;
 mod running;

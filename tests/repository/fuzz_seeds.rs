@@ -8,7 +8,8 @@ use std::path::Path;
 use dashpot::requests::every_request;
 use dashpot::{damper, document};
 use dashpot_core::Damper;
-use dashpot_core::link::{Header, Reals, request_frame};
+use dashpot_core::health::HealthSettings;
+use dashpot_core::link::{Header, Reals, Request, request_frame};
 use dashpot_hil::files;
 use dashpot_hil::files::case::{CASES, CaseOptions};
 use dashpot_hil::files::damper::PRESETS;
@@ -157,7 +158,7 @@ fn images_are_of_dampers_of_either_precision() {
     );
 }
 
-/// A session with one request each, to two dampers at rest.
+/// A session with one request each, to two dampers at rest; those about health after its model was loaded.
 #[test]
 fn frames_are_of_every_request() {
     let built: Damper<f32> = damper("reduced-vertical", &[])
@@ -168,27 +169,36 @@ fn frames_are_of_every_request() {
     let zeros = Damper::<f32>::from_words(&[0; Damper::<f32>::WORDS]);
     let states = [zeros.at_rest(0.0).to_bytes(); 2].concat();
     let displacements_m = Reals::from_iter([1e-3, -2e-3]);
-    let requests = every_request(&image, &states, &displacements_m);
-    let frame = |sequence: u32| {
+    let settings = HealthSettings::new(60e-6, 60.0);
+    let checked = damper("reduced-vertical", &[]).check().expect("a preset");
+    let model = checked.health_model(&settings, 1e-3).expect("in range");
+    let model = model.to_image();
+    let requests = every_request(&image, &model, &states, &displacements_m);
+    let frame = |sequence: u32, request: &Request<'_>| {
         let header = Header {
             session: 1,
             sequence,
         };
-        let request = &requests[sequence as usize];
-        (
-            format!("{request:?}"),
-            request_frame(header, request).bytes().to_vec(),
-        )
+        request_frame(header, request).bytes().to_vec()
     };
-    let (_, hello) = frame(0);
-    let seeds = (0..requests.len() as u32).map(|number| {
-        let (request, frame) = frame(number);
-        let name: String = request
-            .chars()
-            .take_while(char::is_ascii_alphabetic)
-            .collect();
-        let opened = if number > 0 { &hello[..] } else { &[] };
-        (name.to_lowercase(), [opened, &frame].concat())
+    let hello = frame(0, &requests[0]);
+    let load = |request: &&Request<'_>| matches!(request, Request::LoadHealth { .. });
+    let load = requests.iter().find(load).expect("a model");
+    let seeds = requests.iter().map(|request| {
+        let text = format!("{request:?}");
+        let name = text.chars().take_while(char::is_ascii_alphabetic);
+        let name: String = name.collect();
+        // What a session was asked before.
+        let asked = match request {
+            Request::Hello { .. } => vec![],
+            Request::Measure { .. } | Request::Health { .. } | Request::ClearHealth { .. } => {
+                vec![hello.clone(), frame(1, load)]
+            }
+            _ => vec![hello.clone()],
+        };
+        let frame = frame(asked.len() as u32, request);
+        let all = asked.into_iter().chain([frame]);
+        (name.to_lowercase(), all.flatten().collect())
     });
     compare("link_frame", seeds.collect());
 }

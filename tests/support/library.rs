@@ -1,17 +1,23 @@
 //! What the C library is made of, read from its archive.
 
+use std::collections::{BTreeSet, HashMap};
 use std::path::Path;
 
-use object::{Object, ObjectSection, ObjectSymbol, SectionKind};
+use object::{Object, ObjectSection, ObjectSymbol, RelocationTarget, SectionKind};
 
 use crate::budget::Figures;
 
-/// Code and constants (bytes) of the C library for the target, which has the core and its border, and
-/// how many of its symbols panic, use a heap or compute in double precision.
+/// What functions of health start with.
+const HEALTH: &str = "dashpot_health_";
+
+/// Code and constants (bytes) of the C library for the target, which has the core and its border: those that a linker
+/// with `--gc-sections` takes for every function but those of health, and what these add. Also how many symbols of all
+/// panic, use a heap or compute in double precision.
 pub fn library_figures(library: &Path) -> Figures {
     let bytes = std::fs::read(library).expect("a library");
     let archive = object::read::archive::ArchiveFile::parse(&*bytes).expect("an archive");
-    let (mut code, mut panics, mut heap, mut doubles) = (0, 0, 0, 0);
+    let (mut panics, mut heap, mut doubles) = (0, 0, 0);
+    let mut sections = Sections::default();
     for member in archive.members() {
         let member = member.expect("an archive's member");
         if !member.name().starts_with(b"dashpot") {
@@ -19,27 +25,106 @@ pub fn library_figures(library: &Path) -> Figures {
         }
         let object = member.data(&*bytes).expect("a member's bytes");
         let object = object::File::parse(object).expect("an object file");
-        for section in object.sections() {
-            if matches!(
-                section.kind(),
-                SectionKind::Text | SectionKind::ReadOnlyData | SectionKind::ReadOnlyString
-            ) {
-                code += section.size();
-            }
-        }
         for symbol in object.symbols() {
             let name = symbol.name().unwrap_or_default();
             panics += u32::from(name.contains("panicking"));
             heap += u32::from(name.contains("alloc") || name.contains("free"));
             doubles += u32::from(is_soft_double(name));
         }
+        sections.add(&object);
     }
+    let function = |name: &&String| name.starts_with("dashpot_");
+    let functions: Vec<&String> = sections.defined.keys().filter(function).collect();
+    let (health, others): (Vec<&String>, Vec<&String>) =
+        functions.iter().partition(|name| name.starts_with(HEALTH));
+    assert!(
+        health.len() > 5 && others.len() > 10,
+        "{functions:?}: a section for each function"
+    );
+    let (without, all) = (sections.bytes_of(&others), sections.bytes_of(&functions));
     vec![
-        ("code_and_constant_bytes".into(), code as f64),
+        ("code_and_constant_bytes".into(), without as f64),
+        (
+            "health_code_and_constant_bytes".into(),
+            (all - without) as f64,
+        ),
         ("panic_symbols".into(), f64::from(panics)),
         ("heap_symbols".into(), f64::from(heap)),
         ("soft_double_symbols".into(), f64::from(doubles)),
     ]
+}
+
+/// Sections of code and constants, numbered over all members, and which of them each refers to.
+#[derive(Default)]
+struct Sections {
+    bytes: Vec<u64>,
+    targets: Vec<Vec<Target>>,
+    /// Section of each global symbol.
+    defined: HashMap<String, usize>,
+}
+
+/// What a section refers to.
+enum Target {
+    Section(usize),
+    /// Of another member, or none of the library's.
+    Symbol(String),
+}
+
+impl Sections {
+    /// Takes in the sections of a member.
+    fn add(&mut self, object: &object::File<'_>) {
+        let first = self.bytes.len();
+        for section in object.sections() {
+            let counts = matches!(
+                section.kind(),
+                SectionKind::Text | SectionKind::ReadOnlyData | SectionKind::ReadOnlyString
+            );
+            let place = first + section.index().0;
+            self.bytes.resize(self.bytes.len().max(place + 1), 0);
+            self.targets.resize_with(self.bytes.len(), Vec::new);
+            if !counts {
+                continue;
+            }
+            self.bytes[place] = section.size();
+            for (_, relocation) in section.relocations() {
+                let RelocationTarget::Symbol(index) = relocation.target() else {
+                    continue;
+                };
+                let symbol = object
+                    .symbol_by_index(index)
+                    .expect("the symbol referred to");
+                self.targets[place].push(match symbol.section_index() {
+                    Some(section) => Target::Section(first + section.0),
+                    None => Target::Symbol(symbol.name().unwrap_or_default().to_owned()),
+                });
+            }
+        }
+        for symbol in object.symbols().filter(|symbol| symbol.is_global()) {
+            if let (Ok(name), Some(section)) = (symbol.name(), symbol.section_index()) {
+                self.defined.insert(name.to_owned(), first + section.0);
+            }
+        }
+    }
+
+    /// Bytes of all sections that are reached from functions.
+    fn bytes_of(&self, functions: &[&String]) -> u64 {
+        let mut open: Vec<usize> = functions.iter().map(|name| self.defined[*name]).collect();
+        let mut seen = BTreeSet::new();
+        while let Some(place) = open.pop() {
+            if !seen.insert(place) {
+                continue;
+            }
+            open.extend(
+                self.targets[place]
+                    .iter()
+                    .filter_map(|target| match target {
+                        Target::Section(place) => Some(*place),
+                        Target::Symbol(name) => self.defined.get(name).copied(),
+                    }),
+            );
+        }
+        seen.iter().map(|place| self.bytes[*place]).sum()
+    }
 }
 
 /// Whether a function of the Arm run-time ABI or of GCC's computes with doubles.

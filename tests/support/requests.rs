@@ -5,9 +5,10 @@ use dashpot_core::link::{LossOfLink, PROTOCOL, Parameter, Reals, Request};
 /// All requests in order of their numbers, to damper 0: hello is the first.
 pub fn every_request<'a>(
     image: &'a [u8],
+    model: &'a [u8],
     states: &'a [u8],
     displacements_m: &Reals,
-) -> [Request<'a>; 16] {
+) -> [Request<'a>; 20] {
     let displacements_m = || displacements_m.clone();
     [
         Request::Hello { protocol: PROTOCOL },
@@ -39,5 +40,15 @@ pub fn every_request<'a>(
         Request::Outputs,
         Request::Status,
         Request::ClearStatus,
+        Request::LoadHealth {
+            damper: 0,
+            image: model,
+        },
+        Request::Measure {
+            damper: 0,
+            samples: states,
+        },
+        Request::Health { damper: 0 },
+        Request::ClearHealth { damper: 0 },
     ]
 }

@@ -1,17 +1,20 @@
 //! The firmware under QEMU: the host's bits through every fault, and the cost of a tick.
 
-use std::fmt::Write;
+use std::fmt::Write as _;
+use std::io::Write as _;
 
 use dashpot::in_turn::{InTurn, MOST_ANSWERS, RETRY_LIMITS, images};
-use dashpot::target::first_line;
+use dashpot::target::{first_line, symbol_address};
 use dashpot::{damper, document};
 use dashpot_core::Damper;
+use dashpot_core::health::HealthSettings;
 use dashpot_core::link::{Counters, LossOfLink, Reals, Refusal, Request, Response, SafeOutput};
 use dashpot_hil::study::excitation::Excitation;
 use dashpot_hil::target::pil::{
     Bank, Client, FaultRates, FaultyLink, LinkError, Pace, Report, Session, SessionError,
 };
 use object::{Object, ObjectSection, ObjectSymbol};
+use tempfile::NamedTempFile;
 use xtask::processor::CORTEX_M7;
 use xtask::target_toolchain::TargetToolchain;
 
@@ -20,6 +23,8 @@ const FIRMWARE: &str = "docs/firmware.md";
 
 /// Instructions of a 400 MHz core at one a cycle that a tick may take: 3 % at 1 kHz.
 const BUDGET_1_KHZ: f64 = 0.03 * 400e6 / 1e3;
+/// Instructions of a slice of a load, as docs/link.md states.
+const MOST_OF_A_SLICE: f64 = 2433.0;
 /// 25 % at 10 kHz.
 const BUDGET_10_KHZ: f64 = 0.25 * 400e6 / 10e3;
 
@@ -164,7 +169,16 @@ fn a_tick_with_everything_the_link_takes_keeps_the_budget() {
     let Some(images) = images() else {
         return;
     };
-    let printed = first_line(&images.join("link-cost"), &CORTEX_M7, 0, &[]);
+    let image = images.join("link-cost");
+    let mut model = NamedTempFile::new().unwrap();
+    let settings = HealthSettings::new(60e-6, 60.0);
+    let checked = damper("in-service", &[]).check().unwrap();
+    let built = checked.health_model(&settings, 1e-3).unwrap();
+    model.write_all(&built.to_image()).unwrap();
+    let address = symbol_address(&image, "__sheap");
+    let path = model.path().display();
+    let loader = format!("loader,file={path},addr={address:#x},force-raw=on");
+    let printed = first_line(&image, &CORTEX_M7, 0, &["-device", &loader]);
     let printed: serde_json::Value = serde_json::from_str(&printed).unwrap();
     let number = |key: &str| printed[key].as_f64().unwrap();
     let requests = number("requests");
@@ -174,17 +188,32 @@ fn a_tick_with_everything_the_link_takes_keeps_the_budget() {
     let most = number("most_clock_ticks") * instructions_per_clock_tick;
     assert!(most <= BUDGET_1_KHZ, "{most}");
     assert!(most <= BUDGET_10_KHZ, "{most}");
+    assert_eq!(
+        number("health_accepted"),
+        1001.0,
+        "a model, 500 requests of samples, 500 readings"
+    );
+    let [slice, measure, reading] = ["health_slice", "health_measure", "health_reading"]
+        .map(|key| number(key) * instructions_per_clock_tick);
+    assert!(slice <= MOST_OF_A_SLICE, "{slice}");
+    assert!(
+        measure.max(reading) <= BUDGET_10_KHZ,
+        "{measure}, {reading}"
+    );
     let [bytes_in, bytes_out] = ["bytes_in", "bytes_out"].map(|key| number(key) / requests);
     let compiler = TargetToolchain::find(CORTEX_M7.target).and_then(|found| found.version());
     let compiler = compiler.unwrap_or_else(|error| panic!("{error}"));
     let share = |frequency_hz: f64| 100.0 * most * frequency_hz / 400e6;
     let cost = format!(
         "| {compiler} | |\n|---|---|\n| instructions, mean | {mean:.0} |\n| instructions, most | {most:.0} |\n\
-         | share at 1 kHz, at 10 kHz | {:.1} %, {:.0} % |\n| bytes in, out | {bytes_in:.0}, {bytes_out:.0} |\n",
+         | share at 1 kHz, at 10 kHz | {:.1} %, {:.0} % |\n| bytes in, out | {bytes_in:.0}, {bytes_out:.0} |\n\
+         | a slice of loading a model of health, the most | {slice:.0} |\n\
+         | a request of 8 measured samples, the most | {measure:.0} |\n\
+         | a request for a reading of health, the most | {reading:.0} |\n",
         share(1e3),
         share(1e4),
     );
-    let memory = memory(&printed["device_bytes"]);
+    let memory = memory(&printed["device_bytes"], &printed["watching_device_bytes"]);
     // Another compiler keeps the budget, but need not have these figures.
     if document::blessing() || document::part(LINK, "cost").contains(&compiler) {
         document::compare_part(LINK, "cost", &cost);
@@ -193,11 +222,16 @@ fn a_tick_with_everything_the_link_takes_keeps_the_budget() {
 }
 
 /// RAM of devices of 1, 4, 12 and 16 dampers, as a table.
-fn memory(device_bytes: &serde_json::Value) -> String {
-    let mut table = String::from("| dampers | bytes of the device |\n|---|---|\n");
-    let bytes = device_bytes.as_array().expect("a number for each bank");
-    for (dampers, bytes) in [1, 4, 12, 16].iter().zip(bytes) {
-        writeln!(table, "| {dampers} | {bytes} |").expect("text grows");
+fn memory(device_bytes: &serde_json::Value, watching: &serde_json::Value) -> String {
+    let mut table =
+        String::from("| dampers | bytes of the device | with health of each |\n|---|---|---|\n");
+    let numbers = |value: &serde_json::Value| {
+        let numbers = value.as_array().expect("a number for each bank");
+        numbers.clone()
+    };
+    let rows = numbers(device_bytes).into_iter().zip(numbers(watching));
+    for (dampers, (bytes, watching)) in [1, 4, 12, 16].iter().zip(rows) {
+        writeln!(table, "| {dampers} | {bytes} | {watching} |").expect("text grows");
     }
     table
 }

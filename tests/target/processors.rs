@@ -165,7 +165,7 @@ fn every_processor_keeps_its_budget_and_has_the_hosts_bits() {
 }
 
 /// Rows of the documents' tables: what, and the figures that it has.
-const ROWS: [(&str, &[&str]); 18] = [
+const ROWS: [(&str, &[&str]); 19] = [
     (
         "instructions of a step: least, mean, most over four excitations",
         &[
@@ -218,8 +218,12 @@ const ROWS: [(&str, &[&str]); 18] = [
         &["stack_bytes"],
     ),
     (
-        "code and constants of the C library, bytes",
+        "code and constants of the C library without health, bytes",
         &["code_and_constant_bytes"],
+    ),
+    (
+        "what its functions of health add, bytes",
+        &["health_code_and_constant_bytes"],
     ),
     ("damper, bytes", &["damper_bytes"]),
     ("state, bytes", &["state_bytes"]),

@@ -1,13 +1,13 @@
 //! The constants of the estimator from the parameters of a damper.
 
-use super::model::{Baseline, HealthLimits, HealthModel, MARK, PIECE_SHIFT, PIECES, Piece};
+use super::model::{
+    Baseline, FEWEST_TICKS, HealthLimits, HealthModel, MARK, PIECE_SHIFT, PIECES, Piece,
+};
 use crate::build::CheckedParameters;
 use crate::error::BuildError;
 
 /// Time over which samples are gathered to one measurement (s): short beside the motion of a vehicle, long beside a tick.
 const BLOCK_S: f64 = 4e-3;
-/// Fewest ticks of a block: each stage of the filter takes one.
-const FEWEST_TICKS: f64 = 4.0;
 /// Time without contact after which a crossing of the clearance tells nothing more (s).
 const LONGEST_CROSSING_S: f64 = 0.5;
 /// Standard deviations of the force's noise that a force in contact must exceed.
@@ -131,7 +131,7 @@ impl CheckedParameters {
             })
         });
 
-        let ticks = libm::round(BLOCK_S / step_s).max(FEWEST_TICKS);
+        let ticks = libm::round(BLOCK_S / step_s).max(f64::from(FEWEST_TICKS));
         let block_s = ticks * step_s;
         let compliance = self.mount.compliance_m_per_n();
         let force_noise = settings.force_noise_n;

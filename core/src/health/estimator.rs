@@ -115,10 +115,10 @@ impl Gathered {
 }
 
 impl Health {
-    /// Before the first sample.
-    pub fn new(model: &HealthModel) -> Self {
-        let mut gathered = Gathered {
-            displacement: f32::NAN,
+    /// No estimate: of zero bits, not marked.
+    pub(crate) const EMPTY: Self = Self {
+        gathered: Gathered {
+            displacement: 0.0,
             velocity: 0.0,
             travel: 0.0,
             travels: 0.0,
@@ -130,34 +130,44 @@ impl Health {
             highest: 0.0,
             offset: 0.0,
             ticks_left: 0,
-        };
-        gathered.begin(model);
-        Self {
-            gathered,
+        },
+        mark: 0,
+        stage: stage::DONE,
+        block: Block {
+            travel: 0.0,
+            centre: 0.0,
+            position: 0.0,
+            force: 0.0,
+            velocity: 0.0,
+            rate: 0.0,
+            slope: 0.0,
+            lowest: 0.0,
+            highest: 0.0,
+        },
+        prepared: Prepared::NONE,
+        filter: Filter::new([0.0; STATES], [0.0; STATES]),
+        scale: 0.0,
+        unmeasured: 0,
+        forgetting: 0.0,
+        beyond: [0; 3],
+        outliers: 0,
+        status: HealthStatus::empty(),
+        samples: 0,
+        rejected: 0,
+    };
+
+    /// Before the first sample.
+    pub fn new(model: &HealthModel) -> Self {
+        let mut health = Self {
             mark: MARK,
-            stage: stage::DONE,
-            block: Block {
-                travel: 0.0,
-                centre: 0.0,
-                position: 0.0,
-                force: 0.0,
-                velocity: 0.0,
-                rate: 0.0,
-                slope: 0.0,
-                lowest: 0.0,
-                highest: 0.0,
-            },
-            prepared: Prepared::default(),
             filter: Self::start(model),
             scale: 1.0,
-            unmeasured: 0,
-            forgetting: 0.0,
-            beyond: [0; 3],
-            outliers: 0,
-            status: HealthStatus::empty(),
-            samples: 0,
-            rejected: 0,
-        }
+            ..Self::EMPTY
+        };
+        // No sample is near it: the first one is taken without a count.
+        health.gathered.displacement = f32::NAN;
+        health.gathered.begin(model);
+        health
     }
 
     fn start(model: &HealthModel) -> Filter {

@@ -18,7 +18,7 @@ pub(crate) struct Filter {
 }
 
 /// A measurement `z = h . state + noise`, prepared against a filter.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C)]
 pub(crate) struct Prepared {
     /// `U' h`.
@@ -31,6 +31,17 @@ pub(crate) struct Prepared {
     pub(crate) variance: f32,
     /// Part of it that comes of the parameters, not of position and noise.
     pub(crate) told: f32,
+}
+
+impl Prepared {
+    /// Of nothing.
+    pub(crate) const NONE: Self = Self {
+        projected: [0.0; STATES],
+        innovation: 0.0,
+        noise: 0.0,
+        variance: 0.0,
+        told: 0.0,
+    };
 }
 
 impl Filter {

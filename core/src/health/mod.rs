@@ -27,5 +27,7 @@ mod reading;
 pub use build::HealthSettings;
 pub use estimator::Health;
 pub use image::HealthImageError;
+#[cfg(feature = "link")]
+pub(crate) use image::HealthLoading;
 pub use model::{Baseline, BaselineError, HealthLimits, HealthModel};
 pub use reading::{Estimate, HealthReading, HealthStatus};

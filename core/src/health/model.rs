@@ -5,6 +5,9 @@ use zerocopy::{FromBytes, Immutable, IntoBytes};
 /// What stands in a model and in an estimate: memory that was never written has other bits.
 pub(crate) const MARK: u32 = 0x4d48_4144;
 
+/// Fewest ticks of a block: each stage of the filter takes one.
+pub(crate) const FEWEST_TICKS: u32 = 4;
+
 /// Pieces of a side: four to an octave of force, the first from no force.
 pub(crate) const PIECES: usize = 64;
 /// Bits of a force below those that number a piece.

@@ -19,8 +19,24 @@ bitflags::bitflags! {
     }
 }
 
+/// On the wire a number of 16 bits; bits of later versions stay.
+#[cfg(feature = "link")]
+impl serde::Serialize for HealthStatus {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_u16(self.bits())
+    }
+}
+
+#[cfg(feature = "link")]
+impl<'de> serde::Deserialize<'de> for HealthStatus {
+    fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        u16::deserialize(deserializer).map(Self::from_bits_retain)
+    }
+}
+
 /// A number and the standard deviation with which it is known.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "link", derive(serde::Serialize, serde::Deserialize))]
 #[repr(C)]
 pub struct Estimate {
     /// The number.
@@ -31,6 +47,7 @@ pub struct Estimate {
 
 /// What is known of a damper now.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "link", derive(serde::Serialize, serde::Deserialize))]
 #[repr(C)]
 pub struct HealthReading {
     /// Flow over nominal flow at the same force (1). Its inverse is the damping factor.

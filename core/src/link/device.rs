@@ -14,10 +14,10 @@ use crate::state::DamperState;
 /// Bytes taken of the line before ticks are looked at again.
 const BYTES_PER_PASS: usize = 32;
 
-/// A bank of `N` dampers behind a serial link.
+/// A bank of `N` dampers behind a serial link, the first `WATCHED` of which may have an estimate of their health.
 ///
-/// Of zeros until [`Device::start`], so it lies in static storage that takes no flash and is never moved: 22 KB
-/// and 13 KB a damper. A firmware calls [`Device::poll`] in a loop. While the host steps (after power on, and after
+/// Of zeros until [`Device::start`], so it lies in static storage that takes no flash and is never moved: 22 KB,
+/// 13 KB a damper and 2.4 KB a watched one. A firmware calls [`Device::poll`] in a loop. While the host steps (after power on, and after
 /// [`Request::Stop`](super::Request::Stop)) time is the tick of its step requests; after [`Request::Run`](super::Request::Run) it is that of the ticks due.
 ///
 /// ```
@@ -59,7 +59,7 @@ const BYTES_PER_PASS: usize = 32;
 /// ```
 #[derive(Debug)]
 #[repr(C)] // what every byte needs first, where an instruction reaches it
-pub struct Device<const N: usize> {
+pub struct Device<const N: usize, const WATCHED: usize = 0> {
     /// Bytes of the response still to send, from the end.
     unsent: usize,
     answers_with_notice: bool,
@@ -72,7 +72,7 @@ pub struct Device<const N: usize> {
     stored: ResponseFrame,
     /// Response to anything else.
     notice: ResponseFrame,
-    service: Service<N>,
+    service: Service<N, WATCHED>,
 }
 
 /// What becomes of a byte.
@@ -88,13 +88,13 @@ enum Intake {
     Dropping,
 }
 
-impl<const N: usize> Default for Device<N> {
+impl<const N: usize, const WATCHED: usize> Default for Device<N, WATCHED> {
     fn default() -> Self {
         Self::new()
     }
 }
 
-impl<const N: usize> Device<N> {
+impl<const N: usize, const WATCHED: usize> Device<N, WATCHED> {
     /// All bits zero: without dampers until it is started.
     pub const fn new() -> Self {
         Self {
@@ -264,6 +264,15 @@ impl<const N: usize> Device<N> {
     /// counted as overruns. Nothing while the host steps.
     pub fn tick(&mut self, due: u32) {
         self.service.tick(due);
+    }
+
+    /// Takes a sample of the real damper that a place stands for, as sensors of this board measure it: displacement
+    /// (m), positive in extension, and force (N), positive when it resists extension, once in each step. False, and
+    /// nothing done, where no model of health was loaded. What came of it is read over the link.
+    #[inline]
+    pub fn measured(&mut self, place: usize, displacement_m: f32, force_n: f32) -> bool {
+        let watched = &mut self.service.watched;
+        watched.sample(place, displacement_m, force_n)
     }
 
     /// Forces (N) for the actuators: of the last tick, or the safe output; 0 when stopped.

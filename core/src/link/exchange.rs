@@ -8,6 +8,7 @@ use super::refusal::Refusal;
 use super::service::{Service, count};
 use super::session::{Session, Verdict};
 use crate::encoding::Loading;
+use crate::health::HealthLoading;
 
 /// A load that is under way, in slices.
 #[derive(Clone, Debug)]
@@ -16,7 +17,14 @@ pub(super) struct Load {
     pub(super) damper: u8,
     /// Where the image is in the reader's message.
     pub(super) image: Range<usize>,
-    pub(super) progress: Loading,
+    pub(super) progress: Progress,
+}
+
+/// What is being loaded, and how far it has come.
+#[derive(Clone, Debug)]
+pub(super) enum Progress {
+    Damper(Loading),
+    Health(HealthLoading),
 }
 
 impl Load {
@@ -27,7 +35,7 @@ impl Load {
         },
         damper: 0,
         image: 0..0,
-        progress: Loading::START,
+        progress: Progress::Damper(Loading::START),
     };
 }
 
@@ -42,14 +50,14 @@ pub(super) enum Served {
 }
 
 /// A message, and what it is judged by and answered with.
-pub(super) struct Exchange<'a, const N: usize> {
+pub(super) struct Exchange<'a, const N: usize, const WATCHED: usize> {
     pub(super) session: &'a mut Session,
-    pub(super) service: &'a mut Service<N>,
+    pub(super) service: &'a mut Service<N, WATCHED>,
     pub(super) stored: &'a mut ResponseFrame,
     pub(super) notice: &'a mut ResponseFrame,
 }
 
-impl<const N: usize> Exchange<'_, N> {
+impl<const N: usize, const WATCHED: usize> Exchange<'_, N, WATCHED> {
     /// Judges a message and carries it out.
     #[inline(never)]
     pub(super) fn serve(self, message: Message<'_>) -> Served {
@@ -99,14 +107,23 @@ impl<const N: usize> Exchange<'_, N> {
             self.notice
         } else {
             self.session.advance(header, message.check);
-            if let (Request::Load { damper, image }, true) = (&request, carried_out) {
+            let loads = match request {
+                Request::Load { damper, image } => {
+                    Some((damper, image, Progress::Damper(Loading::START)))
+                }
+                Request::LoadHealth { damper, image } => {
+                    Some((damper, image, Progress::Health(HealthLoading::START)))
+                }
+                _ => None,
+            };
+            if let Some((damper, image, progress)) = loads.filter(|_| carried_out) {
                 // The image is the end of the message.
                 let end = message.bytes.len();
                 return Served::Loads(Load {
                     header,
-                    damper: *damper,
+                    damper,
                     image: end.saturating_sub(image.len())..end,
-                    progress: Loading::START,
+                    progress,
                 });
             }
             self.stored

@@ -5,13 +5,19 @@ use serde::{Deserialize, Serialize};
 
 use super::refusal::Refusal;
 use super::safe_output::LossOfLink;
+use crate::health::HealthReading;
 
-/// Version of the messages; changes whenever their bytes do.
+/// Version of the messages; changes whenever the bytes of one do. Messages are added behind the others without it: a
+/// device that does not have one answers [`Refusal::Unreadable`].
 pub const PROTOCOL: u16 = 3;
 /// Dampers a device may hold.
 pub const MOST_DAMPERS: usize = 16;
 /// Telemetry samples in one response at most.
 pub const MOST_SAMPLES: usize = 8;
+/// Measured samples in one request at most.
+pub const MOST_MEASURED: usize = 8;
+/// Bytes of a measured sample.
+pub const MEASURED_BYTES: usize = 8;
 
 /// One number for each damper, in order of the dampers.
 pub type Reals = Vec<f32, MOST_DAMPERS>;
@@ -99,6 +105,30 @@ pub enum Request<'a> {
     Status,
     /// Clears status bits and rejected inputs of every damper; the answer has what was cleared.
     ClearStatus,
+    /// Checks a model of health and begins an estimate of the damper in a place with it.
+    LoadHealth {
+        /// Which damper, from 0.
+        damper: u8,
+        /// [`HealthModel::to_image`](crate::health::HealthModel::to_image), whole.
+        image: &'a [u8],
+    },
+    /// Samples of a real damper for the estimate of its health, one a step.
+    Measure {
+        /// Which damper, from 0.
+        damper: u8,
+        /// Of each sample displacement (m) and force (N), little-endian in single precision; [`MOST_MEASURED`] at most.
+        samples: &'a [u8],
+    },
+    /// Asks for the health of a damper.
+    Health {
+        /// Which damper, from 0.
+        damper: u8,
+    },
+    /// Clears status bits and rejected samples of a damper's health; the answer has what was cleared.
+    ClearHealth {
+        /// Which damper, from 0.
+        damper: u8,
+    },
 }
 
 /// Parameters by their key in a damper file. Only the clearance can change without a rebuild.
@@ -158,6 +188,8 @@ pub enum Response<'a> {
     },
     /// Not done; nothing changed.
     Refused(Refusal),
+    /// To health and clear health.
+    Health(HealthReading),
 }
 
 /// Who answers, and what it holds.

@@ -19,6 +19,7 @@ mod safe_output;
 mod service;
 mod session;
 mod slots;
+mod watched;
 
 pub use board::{Line, Outputs};
 pub use device::Device;
@@ -28,8 +29,8 @@ pub use frame::{
 };
 pub use loaded::StepSizeError;
 pub use message::{
-    Counters, Forces, Header, MOST_DAMPERS, MOST_SAMPLES, PROTOCOL, Parameter, Reals, Request,
-    Response, Sample, Scalar, Welcome,
+    Counters, Forces, Header, MEASURED_BYTES, MOST_DAMPERS, MOST_MEASURED, MOST_SAMPLES, PROTOCOL,
+    Parameter, Reals, Request, Response, Sample, Scalar, Welcome,
 };
 pub use recorder::KEPT_TICKS;
 pub use refusal::Refusal;

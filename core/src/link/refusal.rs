@@ -2,8 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::message::PROTOCOL;
+use super::message::{MOST_MEASURED, PROTOCOL};
 use crate::encoding::ImageError;
+use crate::health::HealthImageError;
 use crate::parameters::Mount;
 
 /// Why a request was not carried out; its text is for a person at the host.
@@ -42,15 +43,15 @@ pub enum Refusal {
     /// The value is not finite or out of range.
     #[error(
         "the target refused a value as not finite or out of range; allowed: a clearance of {clearance}, \
-         finite displacements, a link lost after 1 tick or more",
+         finite displacements, a link lost after 1 tick or more, 1 to {MOST_MEASURED} whole samples",
         clearance = Mount::RANGES.clearance_m.allowed
     )]
     Range,
     /// The image is no damper of this device.
     #[error("the target refused the damper's image: {0}")]
     Image(#[source] ImageError),
-    /// The image is of a damper built for another step.
-    #[error("the target refused a damper built for another step")]
+    /// The image is of a damper, or of a model of health, built for another step.
+    #[error("the target refused a damper or model of health built for another step")]
     StepSize,
     /// A saved state is another damper's or damaged.
     #[error(
@@ -72,4 +73,13 @@ pub enum Refusal {
         "memory of the damper in place {0} was damaged; the outputs stay safe until it is loaded again and run"
     )]
     Corrupted(u8),
+    /// The damper in that place is not watched: load a model of health first. A device that was reset has none, and
+    /// there may be places that it keeps none for.
+    #[error(
+        "the target does not watch the damper in that place; load a model of health, in a place that it can watch"
+    )]
+    NoHealth,
+    /// The image is no model of health of this device.
+    #[error("the target refused the model of health: {0}")]
+    HealthImage(#[source] HealthImageError),
 }

@@ -1,5 +1,6 @@
 //! Carries requests out on the loaded dampers.
 
+use super::exchange::Progress;
 use super::guard::Guard;
 use super::loaded::{Loaded, SavedStates, StepSizeError};
 use super::message::{
@@ -8,8 +9,8 @@ use super::message::{
 use super::recorder::Recorder;
 use super::refusal::Refusal;
 use super::safe_output::{LossOfLink, Watch};
+use super::watched::Watched;
 use crate::damper::Damper;
-use crate::encoding::Loading;
 use crate::state::DamperState;
 
 /// A free-running clock to measure steps with.
@@ -23,7 +24,7 @@ pub struct Clock {
 
 /// Dampers, and everything a request can ask of them.
 #[derive(Debug)]
-pub(crate) struct Service<const N: usize> {
+pub(crate) struct Service<const N: usize, const WATCHED: usize> {
     loaded: Loaded<N>,
     guard: Guard,
     watch: Watch<N>,
@@ -33,13 +34,15 @@ pub(crate) struct Service<const N: usize> {
     clock_ticks: u32,
     recorder: Recorder<N>,
     saved: SavedStates,
+    pub(crate) watched: Watched<WATCHED>,
     pub(crate) counters: Counters,
 }
 
-impl<const N: usize> Service<N> {
+impl<const N: usize, const WATCHED: usize> Service<N, WATCHED> {
     /// All bits zero, to be started.
     pub(crate) const fn new() -> Self {
         const { assert!(N > 0 && N <= MOST_DAMPERS, "1 to MOST_DAMPERS dampers") };
+        const { assert!(WATCHED <= N, "no more places watched than there are") };
         Self {
             loaded: Loaded::new(),
             guard: Guard::new(),
@@ -50,6 +53,7 @@ impl<const N: usize> Service<N> {
             clock_ticks: 0,
             recorder: Recorder::new(),
             saved: [0; MOST_DAMPERS * DamperState::<f32>::BYTES],
+            watched: Watched::new(),
             counters: Counters::NONE,
         }
     }
@@ -112,13 +116,20 @@ impl<const N: usize> Service<N> {
         });
     }
 
-    /// A slice of loading an image; true when its damper is one of the bank.
+    /// A slice of loading an image; true when its damper is one of the bank, or its model watches one.
     pub(crate) fn load_slice(
         &mut self,
         damper: u8,
         image: &[u8],
-        loading: &mut Loading,
+        progress: &mut Progress,
     ) -> Result<bool, Refusal> {
+        let loading = match progress {
+            Progress::Damper(loading) => loading,
+            Progress::Health(loading) => {
+                let step_s = self.loaded.step_s();
+                return self.watched.load_slice(damper, image, loading, step_s);
+            }
+        };
         let done = self.loaded.spare().load_slice(image, loading);
         let done = done.map_err(Refusal::Image)?;
         if done {
@@ -225,6 +236,25 @@ impl<const N: usize> Service<N> {
                 let cleared = self.loaded.status();
                 self.loaded.clear_status();
                 return Ok(cleared);
+            }
+            // As of `Load`, the rest is done in slices.
+            Request::LoadHealth { damper, .. } => {
+                self.loaded.has(*damper)?;
+                self.watched.has(*damper)?;
+            }
+            Request::Measure { damper, samples } => {
+                self.loaded.has(*damper)?;
+                self.watched.samples(*damper, samples)?;
+            }
+            Request::Health { damper } => {
+                self.loaded.has(*damper)?;
+                return self.watched.reading(*damper).map(Response::Health);
+            }
+            Request::ClearHealth { damper } => {
+                self.loaded.has(*damper)?;
+                let cleared = self.watched.reading(*damper)?;
+                self.watched.clear_status(*damper)?;
+                return Ok(Response::Health(cleared));
             }
         }
         Ok(Response::Done)

@@ -10,6 +10,7 @@ use core::fmt::Write;
 use core::hint::black_box;
 
 use cortex_m_rt::entry;
+use dashpot::{DashpotHealth, DashpotHealthModel, dashpot_health_tick};
 use dashpot_core::health::{Health, HealthModel};
 use dashpot_experiment::watch::{BYTES, Watch};
 use dashpot_firmware::board::{self, CLOCK_HZ, Port, Uart};
@@ -25,6 +26,16 @@ unsafe extern "C" {
 /// Displacement and force lie in memory: two instructions fetch them.
 extern "C" fn tick(health: &mut Health, model: &HealthModel, sample: &[f32; 2]) {
     health.tick(model, sample[0], sample[1]);
+}
+
+/// The same by the C library.
+extern "C" fn c_tick(
+    health: *mut DashpotHealth,
+    model: *const DashpotHealthModel,
+    sample: &[f32; 2],
+) {
+    // SAFETY: the caller's pointers, of storage that is C's to the byte.
+    let _ = unsafe { dashpot_health_tick(model, health, sample[0], sample[1]) };
 }
 
 /// One instruction, the return.
@@ -77,9 +88,24 @@ fn measure(watch: &Watch<'_>, printer: &mut Printer) {
         most = ticks.max(most);
         sum += u64::from(ticks);
     });
+    let mut c_most = 0;
+    let c_digest = watch.run(&model, |health, model, sample| {
+        let integers = [
+            (&raw mut *health).expose_provenance(),
+            (&raw const *model).expose_provenance(),
+            (&raw const *sample).expose_provenance(),
+            0,
+            0,
+        ];
+        c_most = timed(c_tick as *const (), integers).max(c_most);
+    });
+    if c_digest.value() != digest.value() {
+        let _ = writeln!(printer, "the C library has other bits");
+        return;
+    }
     let _ = writeln!(
         printer,
-        "{{\"clock_hz\": {CLOCK_HZ}, \"call\": {call}, \"least\": {least}, \"most\": {most}, \"sum\": {sum}, \
+        "{{\"clock_hz\": {CLOCK_HZ}, \"call\": {call}, \"least\": {least}, \"most\": {most}, \"sum\": {sum}, \"c_most\": {c_most}, \
          \"digest\": \"{:016x}\", \"model_bytes\": {}, \"health_bytes\": {}}}",
         digest.value(),
         size_of::<HealthModel>(),

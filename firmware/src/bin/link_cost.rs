@@ -2,15 +2,19 @@
 //! from a UART's register, carried out, answered byte by byte, and the outputs sent.
 //!
 //! Answers go to the spare UART. Prints one JSON object on that of the link: clock ticks of [`CLOCK_HZ`] for all
-//! requests together, the most for one, bytes in and out; also what devices of 1, 4, 12 and 16 dampers take. Under QEMU's `-icount shift=0` a clock tick is 40
-//! instructions.
+//! requests together, the most for one, bytes in and out; then the same of health: the longest pass of loading a
+//! model that the host put at [`__sheap`], the longest request of measured samples, a reading; also what devices of 1, 4,
+//! 12 and 16 dampers take. Under QEMU's `-icount shift=0` a clock tick is 40 instructions.
 #![no_std]
 #![no_main]
 
 use core::fmt::Write;
 
 use cortex_m_rt::entry;
-use dashpot_core::link::{Device, Frame, Header, Line, PROTOCOL, Reals, Request};
+use dashpot_core::health::HealthModel;
+use dashpot_core::link::{
+    Device, Frame, Header, Line, MEASURED_BYTES, MOST_MEASURED, PROTOCOL, Reals, Request,
+};
 use dashpot_firmware::bank::{BANK, DAMPERS};
 use dashpot_firmware::board::{self, CLOCK_HZ, Port, Uart};
 use dashpot_firmware::outputs::SerialOutputs;
@@ -19,11 +23,24 @@ use dashpot_firmware::safe_state;
 use static_cell::ConstStaticCell;
 
 const REQUESTS: usize = 1000;
+/// Of measured samples, [`MOST_MEASURED`] each.
+const MEASUREMENTS: u32 = 500;
+/// Force over displacement of the samples measured (N/m): large enough to be in contact most of the time.
+const STIFFNESS_N_PER_M: f32 = 4e5;
 /// Of the triangular motion (m), its half period (ticks).
 const AMPLITUDE_M: f32 = 5e-3;
 const HALF_PERIOD: u32 = 125;
 
-static DEVICE: ConstStaticCell<Device<DAMPERS>> = ConstStaticCell::new(Device::new());
+/// A frame with a whole model of health.
+type LongFrame = Frame<{ HealthModel::IMAGE_BYTES + 64 }>;
+
+unsafe extern "C" {
+    /// Where the host loads the model: RAM that start-up code, data and stack leave alone. The symbol
+    /// is of cortex-m-rt's linker script.
+    static __sheap: [u8; HealthModel::IMAGE_BYTES];
+}
+
+static DEVICE: ConstStaticCell<Device<DAMPERS, DAMPERS>> = ConstStaticCell::new(Device::new());
 
 /// A line on which a frame waits, as if the UART had received it: its registers are read as when it had.
 struct Replayed<'a> {
@@ -60,25 +77,8 @@ fn main() -> ! {
     }
     let mut outputs = SerialOutputs::start();
     let mut frame = Frame::<128>::new();
-    let header = |sequence| Header {
-        session: 0x1234,
-        sequence,
-    };
-    let mut ask = |frame: &Frame<128>| {
-        let mut line = Replayed {
-            uart: Uart::start(Port::Spare, 1_562_500),
-            frame: frame.bytes(),
-        };
-        let start = board::clock_now();
-        while !line.frame.is_empty() || device.is_sending() {
-            device.poll(0, &mut line, &mut outputs);
-            outputs.send_waiting();
-        }
-        let taken = board::clock_now().wrapping_sub(start);
-        (taken, device.response().len())
-    };
     frame.write(&(header(0), Request::Hello { protocol: PROTOCOL }));
-    ask(&frame);
+    ask(device, &mut outputs, frame.bytes());
 
     let (mut total, mut most, mut bytes_in, mut bytes_out) = (0, 0, 0, 0);
     for tick in 1..=REQUESTS as u32 {
@@ -90,27 +90,129 @@ fn main() -> ! {
             displacements_m,
         };
         frame.write(&(header(tick), step));
-        let (taken, sent) = ask(&frame);
-        total += taken;
-        most = most.max(taken);
+        let asked = ask(device, &mut outputs, frame.bytes());
+        total += asked.ticks;
+        most = most.max(asked.ticks);
         bytes_in += frame.bytes().len();
-        bytes_out += sent;
+        bytes_out += asked.sent;
     }
     let accepted = device.counters().accepted;
+    let health = measure_health(device, &mut outputs, REQUESTS as u32);
     let mut printer = Printer(Uart::start(Port::Link, 1_000_000));
     let _ = writeln!(
         printer,
         "{{\"requests\": {REQUESTS}, \"accepted\": {accepted}, \"clock_hz\": {CLOCK_HZ}, \"clock_ticks\": {total}, \
          \"most_clock_ticks\": {most}, \"bytes_in\": {bytes_in}, \"bytes_out\": {bytes_out}, \
-         \"device_bytes\": [{}, {}, {}, {}]}}",
+         \"health_accepted\": {}, \"health_slice\": {}, \"health_measure\": {}, \"health_reading\": {}, \
+         \"device_bytes\": [{}, {}, {}, {}], \"watching_device_bytes\": [{}, {}, {}, {}]}}",
+        health.accepted,
+        health.slice,
+        health.measure,
+        health.reading,
         size_of::<Device<1>>(),
         size_of::<Device<4>>(),
         size_of::<Device<12>>(),
-        size_of::<Device<16>>()
+        size_of::<Device<16>>(),
+        size_of::<Device<1, 1>>(),
+        size_of::<Device<4, 4>>(),
+        size_of::<Device<12, 12>>(),
+        size_of::<Device<16, 16>>()
     );
     loop {
         cortex_m::asm::wfi();
     }
+}
+
+fn header(sequence: u32) -> Header {
+    Header {
+        session: 0x1234,
+        sequence,
+    }
+}
+
+/// What a request took.
+struct Asked {
+    /// Clock ticks with its answer and the outputs.
+    ticks: u32,
+    /// Clock ticks of the longest pass in which an image was being loaded.
+    slice: u32,
+    /// Bytes of the answer.
+    sent: usize,
+}
+
+#[inline(never)] // one copy of the device's loop, as in the image that it is measured for
+fn ask(device: &mut Device<DAMPERS, DAMPERS>, outputs: &mut SerialOutputs, frame: &[u8]) -> Asked {
+    let mut line = Replayed {
+        uart: Uart::start(Port::Spare, 1_562_500),
+        frame,
+    };
+    let start = board::clock_now();
+    let mut slice = 0;
+    while !line.frame.is_empty() || device.is_sending() || device.is_busy() {
+        let loading = device.is_busy().then(board::clock_now);
+        device.poll(0, &mut line, outputs);
+        if let Some(loading) = loading {
+            slice = slice.max(board::clock_now().wrapping_sub(loading));
+        }
+        outputs.send_waiting();
+    }
+    let ticks = board::clock_now().wrapping_sub(start);
+    let sent = device.response().len();
+    Asked { ticks, slice, sent }
+}
+
+/// Most clock ticks of what is asked about health.
+#[derive(Default)]
+struct HealthCost {
+    /// Requests carried out.
+    accepted: u32,
+    /// Of a slice of loading a model.
+    slice: u32,
+    /// Of a request of measured samples.
+    measure: u32,
+    /// Of a reading.
+    reading: u32,
+}
+
+fn measure_health(
+    device: &mut Device<DAMPERS, DAMPERS>,
+    outputs: &mut SerialOutputs,
+    mut sequence: u32,
+) -> HealthCost {
+    let before = device.counters().accepted;
+    let mut cost = HealthCost::default();
+    let mut frame = LongFrame::new();
+    sequence += 1;
+    let load = Request::LoadHealth {
+        damper: 0,
+        // SAFETY: the host wrote it before the start, nothing writes it now.
+        image: unsafe { &*core::hint::black_box(&raw const __sheap) },
+    };
+    frame.write(&(header(sequence), load));
+    cost.slice = ask(device, outputs, frame.bytes()).slice;
+    for number in 0..MEASUREMENTS {
+        let mut samples = [0; MEASURED_BYTES * MOST_MEASURED];
+        let (rows, _) = samples.as_chunks_mut::<4>();
+        for (place, row) in rows.iter_mut().enumerate() {
+            let tick = number * MOST_MEASURED as u32 + place as u32 / 2;
+            let displacement_m = triangle(tick);
+            let is_force = place % 2 == 1;
+            let force_n = STIFFNESS_N_PER_M * displacement_m;
+            *row = if is_force { force_n } else { displacement_m }.to_le_bytes();
+        }
+        sequence += 1;
+        let measure = Request::Measure {
+            damper: 0,
+            samples: &samples,
+        };
+        frame.write(&(header(sequence), measure));
+        cost.measure = cost.measure.max(ask(device, outputs, frame.bytes()).ticks);
+        sequence += 1;
+        frame.write(&(header(sequence), Request::Health { damper: 0 }));
+        cost.reading = cost.reading.max(ask(device, outputs, frame.bytes()).ticks);
+    }
+    cost.accepted = device.counters().accepted - before;
+    cost
 }
 
 /// Triangular motion (m).

@@ -1,10 +1,13 @@
 //! `dashpot export`: the built damper as a constant or as bytes for firmware.
 
+mod health;
+
 use std::path::{Path, PathBuf};
 
 use dashpot_core::Damper;
 use serde::Serialize;
 
+use super::sensors::SensorArguments;
 use super::step_size::{self, StepSize};
 use super::{DamperArguments, Format, print_report_beside};
 use crate::commands::failure::{Failure, Outcome};
@@ -40,9 +43,12 @@ impl Language {
   dashpot export --damper reduced-vertical --lang rust --step-us 500 --output vertical.rs
   dashpot export --damper in-service --lang c --output in_service.c
   dashpot export --damper in-service --lang bin --output in_service.bin
+  dashpot export --damper in-service --lang c --health --displacement-noise-m 60e-6 --force-noise-n 60 --output health.c
 
 Then in Rust: mod vertical; ... vertical::REDUCED_VERTICAL.step(&mut state, x)
-and in C: #include \"in_service.h\" ... dashpot_damper_init(&damper, IN_SERVICE, sizeof IN_SERVICE)")]
+and in C: #include \"in_service.h\" ... dashpot_damper_init(&damper, IN_SERVICE, sizeof IN_SERVICE)
+of its health: HealthModel::from_image(&health::IN_SERVICE_HEALTH), dashpot_health_model_init(&model, IN_SERVICE_HEALTH, \
+sizeof IN_SERVICE_HEALTH)")]
 pub struct ExportArguments {
     #[command(flatten)]
     damper: DamperArguments,
@@ -60,7 +66,12 @@ pub struct ExportArguments {
     /// Floating-point type.
     #[arg(long, value_enum, default_value_t = Scalar::F32)]
     scalar: Scalar,
-    /// Name of the constant; the damper's name in capitals when not given. Bytes alone have none.
+    /// Write what watches the damper's health in place of the damper: the bytes of its model in any language.
+    #[arg(long, requires = "displacement_noise_m")]
+    health: bool,
+    #[command(flatten)]
+    sensors: SensorArguments,
+    /// Name of the constant; the damper's name in capitals when not given, with _HEALTH of its health. Bytes alone have none.
     #[arg(long)]
     name: Option<String>,
     /// File to write, `-` for standard output.
@@ -96,6 +107,9 @@ struct Report {
 /// # Errors
 /// The damper or the name is refused, or the file cannot be written.
 pub fn run(arguments: &ExportArguments) -> Outcome<()> {
+    if let Some(settings) = arguments.sensors.settings() {
+        return health::run(arguments, &settings);
+    }
     let report = match arguments.scalar {
         Scalar::F32 => export::<f32>(arguments),
         Scalar::F64 => export::<f64>(arguments),
@@ -130,16 +144,7 @@ pub fn run(arguments: &ExportArguments) -> Outcome<()> {
 }
 
 fn export<T: Word>(arguments: &ExportArguments) -> Outcome<Report> {
-    let name = match (&arguments.name, arguments.lang) {
-        (None, Language::Bin) => None,
-        (Some(name), Language::Bin) => {
-            return Err(Failure::wrong_use(format!(
-                "--name {name}: bytes have no name, allowed: --lang rust or c"
-            )));
-        }
-        (Some(name), _) => Some(name.clone()),
-        (None, _) => Some(constant_name(&arguments.damper.damper)),
-    };
+    let name = name_of(arguments, "")?;
     let step_s = arguments.step_us.step_s();
     let damper: Damper<T> = arguments.damper.load()?.build(step_s)?;
     let constant = name.as_deref().unwrap_or_default();
@@ -176,6 +181,18 @@ fn export<T: Word>(arguments: &ExportArguments) -> Outcome<Report> {
         state_bytes: size_of::<dashpot_core::DamperState<T>>(),
         image_bytes: (arguments.lang != Language::Rust).then(|| T::image(&damper).len()),
     })
+}
+
+/// Of the constant, which ends in `end` where it is not given; bytes alone have none.
+fn name_of(arguments: &ExportArguments, end: &str) -> Outcome<Option<String>> {
+    match (&arguments.name, arguments.lang) {
+        (None, Language::Bin) => Ok(None),
+        (Some(name), Language::Bin) => Err(Failure::wrong_use(format!(
+            "--name {name}: bytes have no name, allowed: --lang rust or c"
+        ))),
+        (Some(name), _) => Ok(Some(name.clone())),
+        (None, _) => Ok(Some(constant_name(&arguments.damper.damper) + end)),
+    }
 }
 
 /// `folder/x.h` for `folder/x.c`.

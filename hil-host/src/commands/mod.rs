@@ -26,6 +26,7 @@ pub mod recording;
 pub mod replay;
 pub mod response;
 pub mod rig;
+pub mod sensors;
 pub mod shims;
 pub mod step_size;
 mod streams;

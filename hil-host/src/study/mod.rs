@@ -8,6 +8,7 @@ pub mod calibration;
 mod error;
 pub mod excitation;
 pub mod health;
+pub mod measured_ticks;
 pub mod plate;
 pub mod published;
 pub mod replay;

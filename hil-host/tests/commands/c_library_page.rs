@@ -112,7 +112,10 @@ fn the_page_about_the_c_library_works_word_for_word() {
             _ => {}
         }
     }
-    assert_eq!(compared, 4, "compiler alone, pkg-config, CMake, C++");
+    assert_eq!(
+        compared, 5,
+        "compiler alone, pkg-config, CMake, C++, health"
+    );
     // QEMU's semihosting prints to standard error.
     assert!(
         messages.contains("\nforces "),

@@ -9,6 +9,7 @@ mod contact;
 mod demonstration;
 mod export;
 mod export_c;
+mod export_health;
 mod firmware_bank;
 mod gaps;
 mod interruption;

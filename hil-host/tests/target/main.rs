@@ -4,6 +4,7 @@
 mod common;
 mod link_command;
 mod link_common;
+mod link_health;
 mod link_load;
 mod link_samples;
 mod link_states;

@@ -16,7 +16,7 @@ pub fn built(name: &str, overrides: &[&str]) -> Damper<f32> {
 
 /// Two different dampers behind a link, and the header of the next request.
 pub struct Bench {
-    pub device: Box<Device<2>>,
+    pub device: Box<Device<2, 2>>,
     pub dampers: [Damper<f32>; 2],
     pub header: Header,
 }

@@ -2,6 +2,7 @@
 
 mod change;
 mod drive;
+mod health;
 mod inspect;
 mod load;
 mod places;
@@ -14,6 +15,7 @@ use std::io::{self, Write};
 
 use change::{LossOfLinkArguments, SetArguments};
 use drive::DisplacementArguments;
+use health::HealthArguments;
 use load::LoadArguments;
 use saved::{RestoreArguments, SaveArguments};
 use serde::Serialize;
@@ -82,6 +84,7 @@ enum Action {
     /// End the free-running tick; the outputs are 0.
     Stop,
     Telemetry(TelemetryArguments),
+    Health(Box<HealthArguments>),
     Watch(WatchArguments),
     Save(SaveArguments),
     Restore(RestoreArguments),
@@ -105,6 +108,7 @@ pub fn run(arguments: &LinkArguments) -> Outcome<()> {
         Action::Displace(displace) => drive::displace(displace, arguments),
         Action::Stop => drive::stop(arguments),
         Action::Telemetry(telemetry) => telemetry::run(telemetry, arguments),
+        Action::Health(health) => health::run(health, arguments),
         Action::Watch(watch) => watch::run(watch, arguments),
         Action::Save(save) => saved::save(save, arguments),
         Action::Restore(restore) => saved::restore(restore, arguments),

@@ -55,6 +55,11 @@ impl Target {
         Ok(Self { client, greeting })
     }
 
+    /// Who asks it.
+    pub(super) fn client(&mut self) -> &mut Client<Box<dyn Link>> {
+        &mut self.client
+    }
+
     /// Asks, and takes what `read` finds in the answer; `None` where that is an answer to something else.
     pub(super) fn ask<R>(
         &mut self,

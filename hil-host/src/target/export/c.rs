@@ -18,19 +18,20 @@ pub fn c_source<T: Word>(
     damper: &Damper<T>,
     provenance: &Provenance<'_>,
 ) -> Result<String, ExportError> {
-    let mut text = declaration(constant, damper, provenance)?;
-    let image = T::image(damper);
-    text.push_str(&format!(
-        "\nconst uint8_t {constant}[{}] = {{\n",
-        image.len()
-    ));
-    for row in image.chunks(16) {
+    let declaration = declaration(constant, damper, provenance)?;
+    Ok(declaration + &array(constant, &T::image(damper)))
+}
+
+/// The array of some bytes.
+pub(super) fn array(constant: &str, bytes: &[u8]) -> String {
+    let mut text = format!("\nconst uint8_t {constant}[{}] = {{\n", bytes.len());
+    for row in bytes.chunks(16) {
         let bytes: Vec<String> = row.iter().map(|byte| format!("0x{byte:02x}")).collect();
         // Writing to a String does not fail.
         let _ = writeln!(text, "    {},", bytes.join(", "));
     }
     text.push_str("};\n");
-    Ok(text)
+    text
 }
 
 /// C header that declares the array of [`c_source`] with its size; C++ too.
@@ -43,10 +44,13 @@ pub fn c_header<T: Word>(
     provenance: &Provenance<'_>,
 ) -> Result<String, ExportError> {
     let declaration = declaration(constant, damper, provenance)?;
+    Ok(guarded(constant, &declaration))
+}
+
+/// A header of a declaration.
+pub(super) fn guarded(constant: &str, declaration: &str) -> String {
     let guard = format!("{}{constant}_H", name::C_LIBRARY_PREFIX);
-    Ok(format!(
-        "#ifndef {guard}\n#define {guard}\n\n{declaration}\n#endif\n"
-    ))
+    format!("#ifndef {guard}\n#define {guard}\n\n{declaration}\n#endif\n")
 }
 
 /// Where the damper is from, and its array declared: without a declaration before it a constant of C++
@@ -65,18 +69,22 @@ fn declaration<T: Word>(
     let length = T::image(damper).len();
     let stored = format!("{length} bytes");
     let needs = format!("the C library of dashpot {}", env!("CARGO_PKG_VERSION"));
-    Ok(format!(
-        "{}\n\
+    let comment = provenance.comment(damper, &stored, &needs);
+    Ok(declared(&comment, &provenance.title(), constant, length))
+}
+
+/// The declaration of an array of `length` bytes, after a comment.
+pub(super) fn declared(comment: &str, title: &str, constant: &str, length: usize) -> String {
+    format!(
+        "{comment}\n\
          #include <stdint.h>\n\n\
          #ifdef __cplusplus\n\
          extern \"C\" {{\n\
          #endif\n\n\
-         // {}\n\
+         // {title}\n\
          extern const uint8_t {constant}[{length}];\n\n\
          #ifdef __cplusplus\n\
          }}\n\
          #endif\n",
-        provenance.comment(damper, &stored, &needs),
-        provenance.title(),
-    ))
+    )
 }

@@ -2,6 +2,7 @@
 
 mod c;
 mod error;
+mod health;
 mod name;
 mod provenance;
 mod rust;
@@ -9,6 +10,7 @@ mod word;
 
 pub use c::{c_header, c_source};
 pub use error::ExportError;
+pub use health::{health_c_header, health_c_source, health_rust_source};
 pub use provenance::Provenance;
 pub use rust::rust_source;
 pub use word::Word;

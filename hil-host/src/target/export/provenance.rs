@@ -1,5 +1,6 @@
 //! Where an exported damper came from, as a comment of its source.
 
+use dashpot_core::health::{Health, HealthModel};
 use dashpot_core::{Damper, DamperState};
 
 use super::Word;
@@ -22,6 +23,33 @@ impl Provenance<'_> {
             "Damper `{}`, step {} us.",
             one_line(self.damper),
             self.step_us
+        )
+    }
+
+    /// As [`Self::title`], of the damper's model of health.
+    pub(super) fn health_title(&self) -> String {
+        format!(
+            "Model of health of damper `{}`, step {} us.",
+            one_line(self.damper),
+            self.step_us
+        )
+    }
+
+    /// As [`Self::comment`], of the damper's model of health.
+    pub(super) fn health_comment(&self, needs: &str) -> String {
+        let version = env!("CARGO_PKG_VERSION");
+        format!(
+            "// Model of health of damper `{}` for a step of {} us ({:.6} kHz).\n\
+             // {} bytes in flash; in memory it takes {} bytes, an estimate {}.\n\
+             // Made by dashpot {version} with\n//     {}\n\
+             // Needs {needs} {version}; do not edit.\n",
+            one_line(self.damper),
+            self.step_us,
+            1e3 / self.step_us,
+            HealthModel::IMAGE_BYTES,
+            size_of::<HealthModel>(),
+            size_of::<Health>(),
+            one_line(self.command),
         )
     }
 

@@ -13,7 +13,7 @@ use super::{Link, LinkError};
 #[derive(Debug)]
 pub struct Desk<const N: usize> {
     bank: [Damper<f32>; N],
-    device: Box<Device<N>>,
+    device: Box<Device<N, N>>,
     answers: VecDeque<u8>,
 }
 
@@ -31,12 +31,12 @@ impl<const N: usize> Desk<N> {
     }
 
     /// The device.
-    pub fn device(&mut self) -> &mut Device<N> {
+    pub fn device(&mut self) -> &mut Device<N, N> {
         &mut self.device
     }
 }
 
-fn power_on<const N: usize>(bank: &[Damper<f32>; N]) -> Result<Box<Device<N>>, StepSizeError> {
+fn power_on<const N: usize>(bank: &[Damper<f32>; N]) -> Result<Box<Device<N, N>>, StepSizeError> {
     let clock = Clock {
         now: || 0,
         hz: 1_000_000,

@@ -6,6 +6,7 @@ mod client;
 mod desk;
 mod emulator_error;
 mod fault;
+mod health;
 mod host_replica;
 mod link;
 mod link_error;

@@ -1,0 +1,259 @@
+//! `health`: the estimate of a place's real damper: its model loaded, a measurement fed, the reading told.
+
+use std::io::{self, Write};
+use std::path::PathBuf;
+
+use dashpot_core::health::{Estimate, HealthModel, HealthReading};
+use dashpot_core::link::MOST_MEASURED;
+use serde::Serialize;
+
+use super::LinkArguments;
+use super::places::{check, place};
+use super::target::Target;
+use crate::commands::arguments::damper_help;
+use crate::commands::failure::{Failure, Outcome};
+use crate::commands::gap_report::write_gaps;
+use crate::commands::print::{counted, nearest_nanosecond};
+use crate::commands::progress;
+use crate::commands::recording::MeasurementArguments;
+use crate::commands::sensors::SensorArguments;
+use crate::commands::step_size::StepSize;
+use crate::files::recording::{Gaps, Measurement};
+use crate::files::{damper, input};
+use crate::study::measured_ticks::MeasuredTicks;
+
+/// Tell the health of the real damper that a place stands for; load its model and feed a measurement first.
+#[derive(Debug, Clone, clap::Args)]
+#[command(after_help = "Examples:
+  dashpot link --link serial:/dev/ttyACM0 health --place 3
+  dashpot link --link serial:/dev/ttyACM0 health --place 3 --damper in-service --displacement-noise-m 60e-6 --force-noise-n 60
+  dashpot link --link serial:/dev/ttyACM0 health --place 3 --input run7.csv --every-s 1
+  dashpot link --link qemu health --damper my.toml --displacement-noise-m 60e-6 --force-noise-n 60 --input run7.csv
+
+--damper loads the model of that damper and begins the estimate anew; --input goes on with the model that is there.
+Input columns: time_s,displacement_m,force_n in any order, put on the target's ticks; a sample in a gap is left out.")]
+pub(super) struct HealthArguments {
+    /// Place of the bank, from 0.
+    #[arg(long, value_name = "PLACE", value_parser = place(), default_value_t = 0)]
+    place: u8,
+    /// The damper as it was built.
+    #[arg(help = damper_help("; its model is loaded"), long, value_name = "NAME|FILE")]
+    damper: Option<String>,
+    /// Overrides a key of the damper: table.key=value, such as mount.clearance_m=1e-3.
+    #[arg(long = "set", value_name = "KEY=VALUE", requires = "damper")]
+    overrides: Vec<String>,
+    #[command(flatten)]
+    sensors: SensorArguments,
+    /// Displacement and force measured on the real damper, CSV; `-` for standard input.
+    #[arg(long, value_name = "FILE")]
+    input: Option<PathBuf>,
+    /// Tell the estimate each time so much of the measurement was fed, s.
+    #[arg(long, value_name = "S", value_parser = positive, requires = "input")]
+    every_s: Option<f64>,
+    /// Clear the status afterwards, what was told before.
+    #[arg(long)]
+    clear: bool,
+    #[command(flatten)]
+    recording: MeasurementArguments,
+}
+
+fn positive(text: &str) -> Result<f64, &'static str> {
+    let number = text.parse().ok();
+    number
+        .filter(|number: &f64| *number > 0.0 && number.is_finite())
+        .ok_or("allowed: a finite number above 0")
+}
+
+/// An estimate, its status in words.
+#[derive(Serialize)]
+struct Told {
+    /// Time of the last sample before it (s); `None` where none was fed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    time_s: Option<f64>,
+    flow_factor: Estimate,
+    stiffness_n_per_m: Estimate,
+    clearance_m: Estimate,
+    lag_s: Estimate,
+    compliance_m_per_n: Estimate,
+    samples: u32,
+    rejected: u32,
+    status: Vec<String>,
+}
+
+impl Told {
+    fn new(time_s: Option<f64>, reading: &HealthReading) -> Self {
+        let names = reading.status.iter_names();
+        Self {
+            time_s,
+            flow_factor: reading.flow_factor,
+            stiffness_n_per_m: reading.stiffness_n_per_m,
+            clearance_m: reading.clearance_m,
+            lag_s: reading.lag_s,
+            compliance_m_per_n: reading.compliance_m_per_n,
+            samples: reading.samples,
+            rejected: reading.rejected,
+            status: names.map(|(name, _)| name.to_lowercase()).collect(),
+        }
+    }
+}
+
+#[derive(Serialize)]
+struct Report {
+    place: u8,
+    /// The damper whose model was loaded.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    damper: Option<String>,
+    /// Samples fed.
+    fed: u64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    gaps: Option<Gaps>,
+    /// In order of time, the last at the end.
+    readings: Vec<Told>,
+    cleared: bool,
+}
+
+/// `health`.
+pub(super) fn run(health: &HealthArguments, link: &LinkArguments) -> Outcome<()> {
+    let parameters = match (&health.damper, health.sensors.settings()) {
+        (None, None) => None,
+        (Some(name), Some(settings)) => {
+            Some((name, damper::load(name, &health.overrides)?, settings))
+        }
+        (Some(_), None) => {
+            return Err(Failure::wrong_use(
+                "--damper: its model needs the noise of the sensors, --displacement-noise-m and --force-noise-n",
+            ));
+        }
+        (None, Some(_)) => {
+            return Err(Failure::wrong_use(
+                "--displacement-noise-m: the noise of the sensors is part of a model, allowed: with --damper",
+            ));
+        }
+    };
+    let measurement = health
+        .input
+        .as_ref()
+        .map(|path| Measurement::open(path, &health.recording.channels()));
+    let measurement = measurement.transpose()?;
+    let mut target = Target::open(&link.line)?;
+    check(health.place, &target)?;
+    let step_s = StepSize::of_target(target.greeting.step_s)?.step_s();
+    if let Some((_, parameters, settings)) = &parameters {
+        let model: HealthModel = parameters.health_model(settings, step_s)?;
+        target.client().load_health(health.place, &model)?;
+    }
+    let mut report = Report {
+        place: health.place,
+        damper: parameters.map(|(name, ..)| name.clone()),
+        fed: 0,
+        gaps: None,
+        readings: Vec::new(),
+        cleared: health.clear,
+    };
+    let mut time_s = None;
+    if let Some(measurement) = measurement {
+        let mut ticks = MeasuredTicks::new(measurement, step_s)?;
+        feed(health, &mut target, &mut ticks, step_s, &mut report)?;
+        let last = report.fed.saturating_sub(1) as f64 * step_s;
+        time_s = Some(nearest_nanosecond(ticks.start_s() + last));
+        report.gaps = Some(ticks.measurement().gaps());
+    }
+    let told_already = report
+        .readings
+        .last()
+        .is_some_and(|told| told.time_s == time_s);
+    if !told_already {
+        let reading = target.client().health(health.place)?;
+        report.readings.push(Told::new(time_s, &reading));
+    }
+    if health.clear {
+        target.client().clear_health(health.place)?;
+    }
+    link.print(&report, print)
+}
+
+/// Feeds all samples, and reads the estimate each time that was asked for.
+fn feed(
+    health: &HealthArguments,
+    target: &mut Target,
+    ticks: &mut MeasuredTicks,
+    step_s: f64,
+    report: &mut Report,
+) -> Outcome<()> {
+    let every = health
+        .every_s
+        .map(|every_s| (every_s / step_s).round().max(1.0) as u64);
+    let length = health.input.as_deref().map_or(0, input::length);
+    let bar = progress::bar(length, "feed");
+    let mut batch: Vec<(f32, f32)> = Vec::with_capacity(MOST_MEASURED);
+    while let Some((displacement_m, force_n)) = ticks.next_sample()? {
+        batch.push((displacement_m as f32, force_n as f32));
+        report.fed += 1;
+        let is_due = every.is_some_and(|every| report.fed.is_multiple_of(every));
+        if is_due || batch.len() == MOST_MEASURED {
+            target.client().measure(health.place, &batch)?;
+            batch.clear();
+        }
+        if is_due {
+            let reading = target.client().health(health.place)?;
+            let time_s = ticks.start_s() + (report.fed - 1) as f64 * step_s;
+            let time_s = Some(nearest_nanosecond(time_s));
+            report.readings.push(Told::new(time_s, &reading));
+            bar.set_position(ticks.measurement().position());
+        }
+    }
+    target.client().measure(health.place, &batch)?;
+    bar.finish_and_clear();
+    Ok(())
+}
+
+fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
+    if let Some(damper) = &report.damper {
+        writeln!(out, "place {}: model of {damper} loaded", report.place)?;
+    }
+    if report.fed > 0 {
+        writeln!(out, "{} fed", counted(report.fed, "sample"))?;
+    }
+    if let Some(gaps) = &report.gaps {
+        write_gaps(out, gaps)?;
+    }
+    writeln!(
+        out,
+        "{:>10}  {:>15}  {:>17}  {:>15}  {:>15}  {:>9}  status",
+        "time, s", "flow factor", "stiffness, kN/mm", "clearance, mm", "lag, ms", "told"
+    )?;
+    for told in &report.readings {
+        let time = told
+            .time_s
+            .map_or_else(|| "now".into(), |time_s| format!("{time_s:.3}"));
+        let number = |estimate: Estimate, scale: f32, digits: usize| {
+            let (value, sd) = (estimate.value * scale, estimate.sd * scale);
+            format!("{value:.digits$} ± {sd:.digits$}")
+        };
+        writeln!(
+            out,
+            "{time:>10}  {:>15}  {:>17}  {:>15}  {:>15}  {:>9}  {}",
+            number(told.flow_factor, 1.0, 3),
+            number(told.stiffness_n_per_m, 1e-6, 3),
+            number(told.clearance_m, 1e3, 3),
+            number(told.lag_s, 1e3, 3),
+            told.samples,
+            if told.status.is_empty() {
+                "none".into()
+            } else {
+                told.status.join(", ")
+            }
+        )?;
+        if told.rejected > 0 {
+            writeln!(
+                out,
+                "            {} left out",
+                counted(told.rejected.into(), "sample")
+            )?;
+        }
+    }
+    if report.cleared {
+        writeln!(out, "status cleared")?;
+    }
+    Ok(())
+}
