@@ -230,21 +230,17 @@ impl Health {
         }
     }
 
-    /// Tells that samples are missing before the next one: the piston may be anywhere by then. What is known of the parameters stays.
-    pub fn interrupt(&mut self, model: &HealthModel) {
-        self.gathered.displacement = f32::NAN;
-        self.gathered.velocity = 0.0;
-        self.gathered.begin(model);
-        self.stage = stage::DONE;
-        self.filter.let_go(UNKNOWN);
-    }
-
     /// Leaves a sample out; its block measures nothing.
     #[cold]
     #[inline(never)]
     fn reject(&mut self, displacement: f32, model: &HealthModel) {
         let gathered = &mut self.gathered;
         let first = gathered.displacement.is_nan();
+        // Of a block without any sample it is not known how far the piston went.
+        if gathered.ticks_left == 1 && gathered.offset <= -model.block_centre {
+            gathered.velocity = 0.0;
+            self.filter.let_go(UNKNOWN);
+        }
         gathered.travel += 2.0 * model.half_step_s * gathered.velocity;
         gathered.lowest = -f32::MAX;
         gathered.highest = f32::MAX;

@@ -139,18 +139,7 @@ pub fn watch(
     };
     let mut raised = HealthStatus::empty();
     let mut count = 0_u64;
-    let mut is_interrupted = false;
     for (displacement_m, force_n) in samples {
-        let is_missing = displacement_m.is_nan();
-        if is_missing {
-            if !is_interrupted {
-                health.interrupt(model);
-            }
-            is_interrupted = true;
-            count += 1;
-            continue;
-        }
-        is_interrupted = false;
         health.tick(model, displacement_m as f32, force_n as f32);
         let time_s = count as f64 * step_s;
         count += 1;

@@ -1,7 +1,7 @@
 //! Recordings on the ticks of a step.
 
 use crate::files::FileError;
-use crate::files::recording::{MOST_TICKS, Measurement, Recording, RecordingError};
+use crate::files::recording::{GAP_IN_MEDIANS, MOST_TICKS, Measurement, Recording, RecordingError};
 
 /// One tick of a motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -17,12 +17,10 @@ pub struct Tick {
 pub struct MeasuredTick {
     /// Time (s), first sample plus a whole number of steps.
     pub time_s: f64,
-    /// Displacement there (m), linear between samples.
+    /// Displacement there (m), linear between samples; NaN in a gap, where nothing is known.
     pub displacement_m: f64,
-    /// Force there (N), linear between samples.
+    /// Force there (N), linear between samples; NaN in a gap.
     pub force_n: f64,
-    /// Time from the sample before to the one after it (s); 0 at a sample.
-    pub interval_s: f64,
 }
 
 /// What has rows of `N` values at times.
@@ -195,15 +193,32 @@ impl MeasuredGrid {
     /// # Errors
     /// As [`TickGrid::next_tick`].
     pub fn next_tick(&mut self) -> Result<Option<MeasuredTick>, FileError> {
-        let tick = self.0.next_tick()?;
-        Ok(tick.map(
-            |(time_s, [displacement_m, force_n], interval_s)| MeasuredTick {
-                time_s,
-                displacement_m,
-                force_n,
-                interval_s,
-            },
-        ))
+        let Some((time_s, [displacement_m, force_n], interval_s)) = self.0.next_tick()? else {
+            return Ok(None);
+        };
+        let known = |value: f64| {
+            if self.is_gap(interval_s) {
+                f64::NAN
+            } else {
+                value
+            }
+        };
+        Ok(Some(MeasuredTick {
+            time_s,
+            displacement_m: known(displacement_m),
+            force_n: known(force_n),
+        }))
+    }
+
+    /// Whether samples are further apart than a logger's own interval and jitter explain.
+    fn is_gap(&self, interval_s: f64) -> bool {
+        // The median is asked for where it matters.
+        interval_s > GAP_IN_MEDIANS * self.0.step_s
+            && self
+                .measurement()
+                .gaps()
+                .median_interval_s
+                .is_some_and(|median_s| interval_s > GAP_IN_MEDIANS * median_s)
     }
 
     /// Time of the first tick (s).
@@ -211,8 +226,63 @@ impl MeasuredGrid {
         self.0.start_s
     }
 
-    /// Bytes read so far, for a progress bar.
-    pub fn position(&self) -> u64 {
-        self.0.rows.position()
+    /// The measurement, read up to the last tick.
+    pub fn measurement(&self) -> &Measurement {
+        &self.0.rows
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use super::*;
+    use crate::files::recording::Channels;
+
+    fn ticks(rows: &str, step_s: f64) -> Vec<(f64, f64)> {
+        let text = format!("time_s,displacement_m,force_n\n{rows}");
+        let source = Box::new(std::io::Cursor::new(text.into_bytes()));
+        let channels = Channels::default();
+        let measurement = Measurement::read(Path::new("x.csv"), source, &channels).unwrap();
+        let mut ticks = MeasuredGrid::new(measurement, step_s).unwrap();
+        let next = || ticks.next_tick().unwrap();
+        let pair = |tick: MeasuredTick| (tick.displacement_m, tick.force_n);
+        std::iter::from_fn(next).map(pair).collect()
+    }
+
+    #[test]
+    fn rows_on_ticks_are_kept_and_others_interpolated() {
+        let found = ticks("1,0.1,10\n1.001,0.2,20\n1.003,0.4,60\n", 1e-3);
+        let expected = [(0.1, 10.0), (0.2, 20.0), (0.3, 40.0), (0.4, 60.0)];
+        assert_eq!(found.len(), expected.len());
+        for ((x, force), (expected_x, expected_force)) in found.into_iter().zip(expected) {
+            assert!((x - expected_x).abs() < 1e-9 && (force - expected_force).abs() < 1e-6);
+        }
+        // At the rate of the rows they are those of the file, to the bit.
+        assert_eq!(
+            ticks("0,0.1,7\n0.001,0.3,8\n0.002,0.7,9\n", 1e-3)[1],
+            (0.3, 8.0)
+        );
+    }
+
+    #[test]
+    fn nothing_is_made_up_in_a_gap() {
+        let rows: String = (0..10)
+            .map(|row| {
+                format!(
+                    "{},0.5,100\n",
+                    0.001 * f64::from(row + 40 * i32::from(row > 4))
+                )
+            })
+            .collect();
+        let found = ticks(&rows, 1e-3);
+        assert_eq!(found.len(), 50);
+        let unknown = found.iter().filter(|(x, _)| x.is_nan()).count();
+        assert_eq!(unknown, 40);
+        // A logger of a lower rate has no gaps for that.
+        let slow: String = (0..20)
+            .map(|row| format!("{},0.5,100\n", 0.01 * f64::from(row)))
+            .collect();
+        assert!(ticks(&slow, 1e-3).iter().all(|(x, _)| *x == 0.5));
     }
 }

@@ -20,7 +20,7 @@ use crate::commands::sensors::SensorArguments;
 use crate::commands::step_size::StepSize;
 use crate::files::recording::{Gaps, Measurement};
 use crate::files::{damper, input};
-use crate::study::measured_ticks::MeasuredTicks;
+use crate::study::tick_grid::MeasuredGrid;
 
 /// Tell the health of the real damper that a place stands for; load its model and feed a measurement first.
 #[derive(Debug, Clone, clap::Args)]
@@ -152,7 +152,7 @@ pub(super) fn run(health: &HealthArguments, link: &LinkArguments) -> Outcome<()>
     };
     let mut time_s = None;
     if let Some(measurement) = measurement {
-        let mut ticks = MeasuredTicks::new(measurement, step_s)?;
+        let mut ticks = MeasuredGrid::new(measurement, step_s)?;
         feed(health, &mut target, &mut ticks, step_s, &mut report)?;
         let last = report.fed.saturating_sub(1) as f64 * step_s;
         time_s = Some(nearest_nanosecond(ticks.start_s() + last));
@@ -176,7 +176,7 @@ pub(super) fn run(health: &HealthArguments, link: &LinkArguments) -> Outcome<()>
 fn feed(
     health: &HealthArguments,
     target: &mut Target,
-    ticks: &mut MeasuredTicks,
+    ticks: &mut MeasuredGrid,
     step_s: f64,
     report: &mut Report,
 ) -> Outcome<()> {
@@ -186,8 +186,8 @@ fn feed(
     let length = health.input.as_deref().map_or(0, input::length);
     let bar = progress::bar(length, "feed");
     let mut batch: Vec<(f32, f32)> = Vec::with_capacity(MOST_MEASURED);
-    while let Some((displacement_m, force_n)) = ticks.next_sample()? {
-        batch.push((displacement_m as f32, force_n as f32));
+    while let Some(tick) = ticks.next_tick()? {
+        batch.push((tick.displacement_m as f32, tick.force_n as f32));
         report.fed += 1;
         let is_due = every.is_some_and(|every| report.fed.is_multiple_of(every));
         if is_due || batch.len() == MOST_MEASURED {

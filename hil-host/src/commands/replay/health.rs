@@ -13,10 +13,9 @@ use super::ReplayArguments;
 use crate::commands::failure::{Failure, Outcome};
 use crate::commands::streams;
 use crate::files::input;
-use crate::files::recording::{GAP_IN_MEDIANS, Measurement};
+use crate::files::recording::Measurement;
 use crate::report::health::page;
 use crate::study::health::{ALARMS, History, Noise, watch};
-use crate::study::stretches::median_interval;
 use crate::study::tick_grid::MeasuredGrid;
 
 /// Readings of a page, about.
@@ -156,9 +155,9 @@ impl Watched {
             ("--output", Some(&arguments.output)),
             ("--health", Some(page_path)),
         ])?;
-        let (noise, gap_s) = noise(arguments)?;
+        let noise = noise(arguments)?;
         let model = model(arguments, parameters, noise)?;
-        let history = history(arguments, &model, gap_s)?;
+        let history = history(arguments, &model)?;
         let Some(last) = history.last() else {
             return Err(Failure::new("nothing was watched"));
         };
@@ -190,9 +189,16 @@ fn measured(arguments: &ReplayArguments) -> Outcome<MeasuredGrid> {
     Ok(MeasuredGrid::new(measurement, arguments.step_us.step_s())?)
 }
 
-/// The noise that is given, or that the first samples have, and the shortest interval that is a gap (s).
-fn noise(arguments: &ReplayArguments) -> Outcome<(Noise, f64)> {
+/// The noise that is given, or that the first samples have.
+fn noise(arguments: &ReplayArguments) -> Outcome<Noise> {
     let options = &arguments.health;
+    let given = (options.displacement_noise_m, options.force_noise_n);
+    if let (Some(displacement_m), Some(force_n)) = given {
+        return Ok(Noise {
+            displacement_m,
+            force_n,
+        });
+    }
     let mut measurement = Measurement::open(&arguments.input, &arguments.recording.channels())?;
     let (mut times_s, mut displacements_m, mut forces_n) = (Vec::new(), Vec::new(), Vec::new());
     while times_s.len() < NOISE_SAMPLES {
@@ -203,30 +209,20 @@ fn noise(arguments: &ReplayArguments) -> Outcome<(Noise, f64)> {
         displacements_m.push(sample.displacement_m);
         forces_n.push(sample.force_n);
     }
-    let gap_s = GAP_IN_MEDIANS * median_interval(&times_s).unwrap_or(0.0);
-    let given = (options.displacement_noise_m, options.force_noise_n);
-    let noise = if let (Some(displacement_m), Some(force_n)) = given {
-        Noise {
-            displacement_m,
-            force_n,
-        }
-    } else {
-        let step_s = arguments.step_us.step_s();
-        let found = Noise::found_in(&times_s, &displacements_m, &forces_n, step_s);
-        let found = found.filter(|noise| noise.displacement_m > 0.0 && noise.force_n > 0.0);
-        let found = found.ok_or_else(|| {
-            Failure::new(format!(
-                "{}: no noise is found in what does not move, or in less than 100 samples without a gap; give --displacement-noise-m and \
-                 --force-noise-n",
-                input::name(&arguments.input).display()
-            ))
-        })?;
-        Noise {
-            displacement_m: options.displacement_noise_m.unwrap_or(found.displacement_m),
-            force_n: options.force_noise_n.unwrap_or(found.force_n),
-        }
-    };
-    Ok((noise, gap_s))
+    let step_s = arguments.step_us.step_s();
+    let found = Noise::found_in(&times_s, &displacements_m, &forces_n, step_s);
+    let found = found.filter(|noise| noise.displacement_m > 0.0 && noise.force_n > 0.0);
+    let found = found.ok_or_else(|| {
+        Failure::new(format!(
+            "{}: no noise is found in what does not move, or in less than 100 samples without a gap; \
+             give --displacement-noise-m and --force-noise-n",
+            input::name(&arguments.input).display()
+        ))
+    })?;
+    Ok(Noise {
+        displacement_m: options.displacement_noise_m.unwrap_or(found.displacement_m),
+        force_n: options.force_noise_n.unwrap_or(found.force_n),
+    })
 }
 
 fn model(
@@ -271,7 +267,7 @@ fn model(
 }
 
 /// The estimates along the recording, some thousand of them.
-fn history(arguments: &ReplayArguments, model: &HealthModel, gap_s: f64) -> Outcome<History> {
+fn history(arguments: &ReplayArguments, model: &HealthModel) -> Outcome<History> {
     let step_s = arguments.step_us.step_s();
     let mut count = 0_u64;
     let mut ticks = measured(arguments)?;
@@ -283,8 +279,6 @@ fn history(arguments: &ReplayArguments, model: &HealthModel, gap_s: f64) -> Outc
     let start_s = ticks.start_s();
     let mut failed = None;
     let samples = std::iter::from_fn(|| match ticks.next_tick() {
-        // What the damper did in a gap is not known.
-        Ok(Some(tick)) if tick.interval_s > gap_s => Some((f64::NAN, f64::NAN)),
         Ok(tick) => tick.map(|tick| (tick.displacement_m, tick.force_n)),
         Err(error) => {
             failed = Some(error);
