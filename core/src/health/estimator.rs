@@ -239,7 +239,7 @@ impl Health {
         // Of a block without any sample it is not known how far the piston went.
         if gathered.ticks_left == 1 && gathered.offset <= -model.block_centre {
             gathered.velocity = 0.0;
-            self.filter.let_go(UNKNOWN);
+            self.unmeasured = model.most_unmeasured;
         }
         gathered.travel += 2.0 * model.half_step_s * gathered.velocity;
         gathered.lowest = -f32::MAX;

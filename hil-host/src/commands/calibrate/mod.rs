@@ -62,7 +62,7 @@ pub struct CalibrateArguments {
     #[arg(long, value_name = "N", default_value_t = 4, value_parser = clap::value_parser!(u16).range(1..=1000))]
     starts: u16,
     /// The step, us.
-    #[arg(help = step_size::help("Step of the model", ""), long, default_value = "500", value_name = "US", allow_negative_numbers = true)]
+    #[arg(help = step_size::help("Step of the model", ""), long, default_value = "250", value_name = "US", allow_negative_numbers = true)]
     step_us: StepSize,
     /// The damper found, TOML, with what it was found from in its head; a file is written whole or not at all, `-` is standard output.
     #[arg(long, value_name = "FILE")]

@@ -1,6 +1,6 @@
 //! Which numbers the tests determine, by the singular values of what the forces change by.
 
-use nalgebra::{DMatrix, SymmetricEigen};
+use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use serde::Serialize;
 
 use super::CalibrationError;
@@ -8,6 +8,9 @@ use super::model::Model;
 
 /// A direction whose singular value is below this share of the largest is not known: derivatives come from differences.
 const LEAST_SHARE: f64 = 1e-3;
+
+/// Stretches of a loop whose errors count as independent of each other.
+const STRETCHES: usize = 40;
 
 /// What such a direction counts as, of the least that is known: hardly anything.
 const UNKNOWN: f64 = 1e-12;
@@ -23,6 +26,9 @@ pub const CLOSE: f64 = 0.9;
 pub struct Determined {
     /// Standard deviation, in the number's unit, by linear theory.
     pub standard_deviation: f64,
+    /// By what its variance is greater than that of independent samples of equal scatter, at least 1: from what whole stretches of the tests pull it
+    /// by, for errors of the displacement act where the force changes fast and last as long as that.
+    pub inflation: f64,
     /// Whether it changes any force beyond what these scatter by.
     pub is_felt: bool,
     /// Keys of the numbers that could make up for it.
@@ -62,13 +68,21 @@ impl Model {
         for (number, _, slope) in self.off_priors(places) {
             with_priors[(number, number)] += (slope * tolerances[number]).powi(2);
         }
+        let pulls = self.pulls(&slopes, &self.deviations(places)?);
         let by_tests = Scatter::new(tests.clone());
+        let priors = &with_priors - &tests;
         let by_all = Scatter::new(with_priors);
+        let covariance = by_all.covariance();
+        // Of estimates by wrong weights (Huber 1967).
+        let robust = &covariance * (pulls + priors) * &covariance;
         let numbers = all.iter().map(|&number| {
-            let in_tolerances = by_all.deviations[number];
+            let plain = covariance[(number, number)];
+            let inflation = (robust[(number, number)] / plain).max(1.0);
+            let in_tolerances = by_all.deviations[number] * inflation.sqrt();
             let unit = tolerances[number] * self.varied[number].slope(values[number]);
             Determined {
                 standard_deviation: in_tolerances * unit,
+                inflation,
                 is_felt: tests[(number, number)] > 1.0,
                 together_with: by_tests
                     .partners(number)
@@ -80,6 +94,29 @@ impl Model {
             numbers: numbers.collect(),
             correlation: by_all.correlation(),
         })
+    }
+}
+
+impl Model {
+    /// Sum over stretches of the loops of what each pulls the numbers by, squared; each index is a stretch.
+    fn pulls(&self, slopes: &DMatrix<f64>, deviations: &[f64]) -> DMatrix<f64> {
+        let mut sum = DMatrix::zeros(slopes.ncols(), slopes.ncols());
+        let mut add = |rows: std::ops::Range<usize>| {
+            let pull = slopes.rows(rows.start, rows.len()).transpose()
+                * DVector::from_column_slice(&deviations[rows]);
+            sum += &pull * pull.transpose();
+        };
+        let mut row = 0;
+        for test in &self.loops {
+            let end = row + test.counted.len();
+            let length = test.counted.len().div_ceil(STRETCHES).max(1);
+            while row < end {
+                add(row..(row + length).min(end));
+                row = (row + length).min(end);
+            }
+        }
+        (row..deviations.len()).for_each(|index| add(index..index + 1));
+        sum
     }
 }
 
@@ -136,18 +173,18 @@ impl Scatter {
         worst.into_iter().flat_map(of_direction)
     }
 
+    fn covariance(&self) -> DMatrix<f64> {
+        let inverse = self.eigen.eigenvalues.map(|value| 1.0 / value);
+        let vectors = &self.eigen.eigenvectors;
+        vectors * DMatrix::from_diagonal(&inverse) * vectors.transpose()
+    }
+
     fn correlation(&self) -> Vec<Vec<f64>> {
         let count = self.deviations.len();
-        let covariance = |a: usize, b: usize| {
-            let terms = self.eigen.eigenvalues.iter().enumerate();
-            let terms = terms.map(|(index, value)| {
-                let vectors = &self.eigen.eigenvectors;
-                vectors[(a, index)] * vectors[(b, index)] / value
-            });
-            terms.sum::<f64>()
-        };
+        let covariance = self.covariance();
         let row = |a: usize| {
-            let of = |b: usize| covariance(a, b) / (covariance(a, a) * covariance(b, b)).sqrt();
+            let of =
+                |b: usize| covariance[(a, b)] / (covariance[(a, a)] * covariance[(b, b)]).sqrt();
             (0..count).map(of).collect()
         };
         (0..count).map(row).collect()

@@ -3,12 +3,13 @@
 //! The numbers are those of least `sum ((F_model - F)/s)^2 + sum ((p - mean)/sigma)^2` over all samples and priors, found by Levenberg and
 //! Marquardt's method from several starts. The model is the core's step in double precision over the recorded motion, freed of its noise by a
 //! smoothing spline and read earlier by the skew of the sensors. `s` is the scatter of a test about the model, found with the numbers
-//! (iterated maximum likelihood), times the root of the correlation time of what is left, in samples: neighbours that err together count once.
+//! (iterated maximum likelihood), times the root of the samples of what is left that count once, for neighbours err together.
 
 mod determined;
 mod error;
 mod fit;
 mod indices;
+mod left;
 mod loops;
 mod model;
 mod plausible;
@@ -19,8 +20,10 @@ pub use determined::{CLOSE, Determination, Determined};
 pub use error::CalibrationError;
 use fit::Fit;
 pub use indices::IndexTest;
+use left::missed_n;
 pub use loops::{LoopTest, Recorded};
 use model::Model;
+use profile::Better;
 pub use profile::{Profile, RISE_95};
 pub use varied::{Prior, SKEW, Varied};
 
@@ -34,6 +37,9 @@ const ROUNDS: usize = 3;
 
 /// Least scatter of a test, of its peak force: no sensor is better.
 const LEAST_SCATTER: f64 = 1e-4;
+
+/// Better minima that are taken up while intervals are searched, at most.
+const ANEW: usize = 5;
 
 /// Two sums of squares are the same minimum within this, relative and absolute.
 const SAME_MINIMUM: f64 = 1e-3;
@@ -128,7 +134,9 @@ impl Calibration {
                 let rms = left.rms_n.max(LEAST_SCATTER * test.peak_force_n);
                 *scatter = rms * left.correlation_samples.sqrt();
             }
-            best = model.fit(&best.places, &all).unwrap_or(best);
+            best = model.fit(&best.places, &all).ok_or_else(|| {
+                CalibrationError::NoFit("numbers that no damper has together".into())
+            })?;
         }
         begins("intervals");
         let determination = model.determination(&best.places)?;
@@ -148,12 +156,8 @@ impl Calibration {
         refuse(&|number| {
             determination.numbers[number].is_felt || self.varied[number].prior.is_some()
         })?;
+        let (best, profiles) = self.profiles(&model, best, &determination)?;
         let values = model.values(&best.places);
-        let profiles = workers::map(&all, |&number| -> Result<_, CalibrationError> {
-            let deviation = determination.numbers[number].standard_deviation;
-            let deviation = deviation / self.varied[number].slope(values[number]);
-            Ok(model.profile(&best, number, deviation))
-        })?;
         refuse(&|number| profiles[number].is_narrow(&self.varied[number], values[number]))?;
         let before = model.forces_n(&start)?;
         let after = model.forces_n(&best.places)?;
@@ -174,6 +178,33 @@ impl Calibration {
             profiles,
             same_minimum,
         })
+    }
+
+    /// The profiles of all numbers about the best fit, begun anew from a better one where a profile meets that.
+    fn profiles(
+        &self,
+        model: &Model,
+        mut best: Fit,
+        determination: &Determination,
+    ) -> Result<(Fit, Vec<Profile>), CalibrationError> {
+        let all: Vec<usize> = (0..self.varied.len()).collect();
+        for _ in 0..ANEW {
+            let found = workers::map(&all, |&number| {
+                model.profile(&best, number, &determination.numbers[number])
+            });
+            match found {
+                Ok(profiles) => return Ok((best, profiles)),
+                Err(Better(fit)) => {
+                    best = model
+                        .fit(&fit.places, &all)
+                        .filter(|refined| refined.chi_square < fit.chi_square)
+                        .unwrap_or(fit);
+                }
+            }
+        }
+        Err(CalibrationError::NoFit(
+            "each search for the intervals met a better minimum; give --starts more".into(),
+        ))
     }
 
     fn check(&self) -> Result<(), CalibrationError> {
@@ -201,55 +232,4 @@ impl Calibration {
         }
         Ok(())
     }
-}
-
-/// Root mean square of what `forces_n` of a model miss of a test (N).
-fn missed_n(test: &LoopTest, forces_n: &[f64]) -> f64 {
-    let pairs = test.counted_forces_n().iter().zip(forces_n);
-    let square: f64 = pairs.map(|(f, model)| (model - f).powi(2)).sum();
-    (square / forces_n.len().max(1) as f64).sqrt()
-}
-
-/// What a model leaves of a test.
-struct Left {
-    /// Root mean square (N).
-    rms_n: f64,
-    /// Correlation time (samples), 1 of white noise.
-    correlation_samples: f64,
-}
-
-impl Model {
-    fn left(&self, places: &[f64]) -> Result<Vec<Left>, CalibrationError> {
-        let forces = self.forces_n(places)?;
-        let left = self.loops.iter().zip(&forces).map(|(test, forces)| {
-            let measured = test.counted_forces_n().iter();
-            let left: Vec<f64> = measured.zip(forces).map(|(f, model)| model - f).collect();
-            Left {
-                rms_n: missed_n(test, forces),
-                correlation_samples: correlation_samples(&left),
-            }
-        });
-        Ok(left.collect())
-    }
-}
-
-/// Correlation time of a series, `1 + 2 sum rho_k`, as long as pairs of neighbouring terms stay positive (Geyer, Statistical Science 7, 1992).
-fn correlation_samples(series: &[f64]) -> f64 {
-    let square: f64 = series.iter().map(|value| value * value).sum();
-    if square == 0.0 {
-        return 1.0;
-    }
-    let correlation = |lag: usize| {
-        let pairs = series.iter().zip(series.get(lag..).unwrap_or_default());
-        pairs.map(|(a, b)| a * b).sum::<f64>() / square
-    };
-    let mut time = 1.0;
-    for pair in 0..series.len() / 20 {
-        let (even, odd) = (correlation(2 * pair), correlation(2 * pair + 1));
-        if even + odd <= 0.0 {
-            break;
-        }
-        time += 2.0 * (even + odd) - if pair == 0 { 2.0 } else { 0.0 };
-    }
-    time.max(1.0)
 }

@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 
+use super::determined::Determined;
 use super::fit::Fit;
 use super::model::Model;
 use super::varied::Varied;
@@ -11,6 +12,9 @@ pub const RISE_95: f64 = 3.841;
 
 /// Searches a side, at most: the rise is nearly a parabola.
 const SEARCHES: usize = 6;
+
+/// A sum of squares lower by this is another minimum, not rounding.
+const BETTER: f64 = 0.1;
 
 /// How near the root of the rise comes to that of [`RISE_95`].
 const NEAR: f64 = 0.05;
@@ -22,7 +26,7 @@ pub struct Profile {
     pub least: Option<f64>,
     /// Greatest value, likewise.
     pub greatest: Option<f64>,
-    /// Values and the rise of the sum of squares at them, in the order of the values.
+    /// Values and the rise of the sum of squares at them, over the inflation of the variance, in the order of the values.
     pub points: Vec<(f64, f64)>,
 }
 
@@ -50,76 +54,108 @@ impl Profile {
     }
 }
 
+/// A better minimum than the one that the profile was to be about.
+pub(super) struct Better(pub(super) Fit);
+
 impl Model {
-    /// The profile of the number `number` about `best`, whose standard deviation is about `deviation`, as a place.
-    pub(super) fn profile(&self, best: &Fit, number: usize, deviation: f64) -> Profile {
+    /// The profile of the number `number` about `best`; its rise is that of the sum of squares over the inflation.
+    ///
+    /// # Errors
+    /// A better minimum was met on the way.
+    pub(super) fn profile(
+        &self,
+        best: &Fit,
+        number: usize,
+        determined: &Determined,
+    ) -> Result<Profile, Better> {
         let value = |place: f64| self.varied[number].at(place);
-        // Linear theory may know nothing of it.
-        let tolerance = self.varied[number].tolerance(value(best.places[number]));
-        let deviation = deviation.min(tolerance);
         let mut points = vec![(value(best.places[number]), 0.0)];
-        let mut side = |sign: f64, bound: f64| -> Option<f64> {
-            let (centre, root) = (best.places[number], RISE_95.sqrt());
-            let room = (bound - centre).abs();
-            let mut distance = (root * deviation).clamp(1e-4, 1.0).min(room);
-            let mut places = best.places.clone();
-            let (mut inside, mut outside) = (0.0, f64::INFINITY);
-            for _ in 0..SEARCHES {
-                places[number] = (centre + sign * distance).clamp(0.0, 1.0);
-                let free: Vec<usize> = (0..places.len()).filter(|other| *other != number).collect();
-                let rise = match free.is_empty() {
-                    true => self.chi_square(&places)?,
-                    false => {
-                        let fit = self.fit(&places, &free)?;
-                        places = fit.places;
-                        fit.chi_square
-                    }
-                } - best.chi_square;
-                points.push((value(places[number]), rise.max(0.0)));
-                let reached = rise.max(1e-6).sqrt();
-                if (reached / root - 1.0).abs() < NEAR {
-                    return Some(value(places[number]));
-                }
-                if reached < root {
-                    if distance >= room {
-                        return None;
-                    }
-                    inside = distance;
-                } else {
-                    outside = distance;
-                }
-                let next = distance * (root / reached).clamp(0.2, 5.0);
-                // Between what is known on both sides, where the guess leaves that.
-                distance = if next > inside && next < outside {
-                    next.min(room)
-                } else {
-                    0.5 * (inside + outside.min(room))
-                };
-            }
-            Some(value((centre + sign * distance).clamp(0.0, 1.0)))
-        };
-        let (least, greatest) = (side(-1.0, 0.0), side(1.0, 1.0));
+        let slope = self.varied[number].slope(value(best.places[number]));
+        let deviation = determined.standard_deviation / slope;
+        let inflation = determined.inflation;
+        let least = self.side(best, number, (-deviation, inflation), &mut points)?;
+        let greatest = self.side(best, number, (deviation, inflation), &mut points)?;
         points.sort_by(|a, b| a.0.total_cmp(&b.0));
-        Profile {
+        Ok(Profile {
             least,
             greatest,
             points,
-        }
+        })
     }
 
-    /// Sum of the squares of all deviations at `places`.
-    fn chi_square(&self, places: &[f64]) -> Option<f64> {
-        let tests = self.deviations(places).ok()?;
+    /// The end of the interval on the side of the sign of `deviation`; `None` where a bound comes first. Every end was evaluated: where the
+    /// search does not come near enough, it is a point beyond.
+    fn side(
+        &self,
+        best: &Fit,
+        number: usize,
+        (deviation, inflation): (f64, f64),
+        points: &mut Vec<(f64, f64)>,
+    ) -> Result<Option<f64>, Better> {
+        let value = |place: f64| self.varied[number].at(place);
+        let (centre, root) = (best.places[number], RISE_95.sqrt());
+        let bound = if deviation < 0.0 { 0.0 } else { 1.0 };
+        let room = (bound - centre).abs();
+        // Linear theory may know nothing of the number.
+        let tolerance = self.varied[number].tolerance(value(centre));
+        let mut distance = (root * deviation.abs().min(tolerance)).clamp(1e-4, 1.0);
+        distance = distance.min(room);
+        let mut places = best.places.clone();
+        let (mut inside, mut outside) = (0.0, None);
+        for _ in 0..SEARCHES {
+            places[number] = (centre + distance.copysign(deviation)).clamp(0.0, 1.0);
+            let rise = match self.follow(&places, number) {
+                Some(fit) => {
+                    let rise = (fit.chi_square - best.chi_square) / inflation;
+                    if rise < -BETTER {
+                        return Err(Better(fit));
+                    }
+                    places = fit.places;
+                    points.push((value(places[number]), rise.max(0.0)));
+                    rise.max(1e-6)
+                }
+                // No damper has such numbers.
+                None => f64::INFINITY,
+            };
+            let reached = rise.sqrt();
+            if (reached / root - 1.0).abs() < NEAR {
+                return Ok(Some(value(places[number])));
+            }
+            if reached < root {
+                if distance >= room {
+                    return Ok(None);
+                }
+                inside = distance;
+            } else {
+                outside = Some(distance);
+            }
+            let next = distance * (root / reached).clamp(0.2, 5.0);
+            let most = outside.unwrap_or(room);
+            // Between what is known on both sides, where the guess leaves that.
+            distance = if next > inside && (next < most || outside.is_none()) {
+                next.min(room)
+            } else {
+                0.5 * (inside + most)
+            };
+        }
+        let end = outside.map(|distance| centre + distance.copysign(deviation));
+        Ok(end.map(|place| value(place.clamp(0.0, 1.0))))
+    }
+
+    /// The least squares with the number `number` held at its place.
+    fn follow(&self, places: &[f64], number: usize) -> Option<Fit> {
+        let free: Vec<usize> = (0..places.len()).filter(|other| *other != number).collect();
+        if !free.is_empty() {
+            return self.fit(places, &free);
+        }
+        let square = |deviation: f64| deviation * deviation;
+        let tests = self.deviations(places).ok()?.into_iter().map(square);
         let priors = self
             .off_priors(places)
-            .map(|(_, deviation, _)| deviation * deviation);
-        let priors: f64 = priors.sum();
-        Some(
-            priors
-                + tests
-                    .iter()
-                    .map(|deviation| deviation * deviation)
-                    .sum::<f64>(),
-        )
+            .map(|(_, deviation, _)| square(deviation));
+        Some(Fit {
+            places: places.to_vec(),
+            chi_square: tests.chain(priors).sum(),
+        })
     }
 }
