@@ -62,7 +62,7 @@ pub(super) fn refuse_same_output(outputs: &[(&str, Option<&Path>)]) -> Outcome<(
         .collect();
     for (number, (option, path)) in outputs.iter().enumerate() {
         for (other, earlier) in &outputs[..number] {
-            if !is_standard_stream(path) && place(path) == place(earlier) {
+            if place(path) == place(earlier) {
                 return Err(Failure::wrong_use(format!(
                     "{other} and {option}: both are {}; give each a file of its own",
                     path.display()

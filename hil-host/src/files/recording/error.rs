@@ -15,7 +15,9 @@ const MOST_NAMES: usize = 12;
 #[non_exhaustive]
 pub enum RecordingError {
     /// The file holds nothing.
-    #[error("empty; a header such as `time_s,displacement_m` and at least one row are needed")]
+    #[error(
+        "empty; a header such as `time_s,displacement_m` or `time_s,force_n`, and at least one row, are needed"
+    )]
     Empty,
     /// The file is of a kind that is not read.
     #[error("it is {kind}; read are text (CSV), MDF4 and Parquet, compressed with gzip or not")]
