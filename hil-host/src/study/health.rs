@@ -90,7 +90,7 @@ fn rms(signal: &[f64]) -> f64 {
 }
 
 /// A normal number (Box and Muller 1958), with functions that are the same on every machine.
-fn normal(rng: &mut Rng) -> f64 {
+pub(super) fn normal(rng: &mut Rng) -> f64 {
     let radius = (-2.0 * libm::log(1.0 - rng.f64())).sqrt();
     radius * libm::cos(TAU * rng.f64())
 }

@@ -179,12 +179,7 @@ mod tests {
     use std::f64::consts::{PI, TAU};
 
     use super::*;
-
-    /// Two numbers of a normal distribution (Box and Muller).
-    fn normal(rng: &mut Rng) -> f64 {
-        let radius = (-2.0 * (1.0 - rng.f64()).ln()).sqrt();
-        radius * (TAU * rng.f64()).cos()
-    }
+    use crate::study::health::normal;
 
     #[test]
     fn noise_goes_and_the_motion_stays_at_any_frequency_and_rate() {

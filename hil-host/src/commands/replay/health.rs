@@ -60,6 +60,13 @@ pub(super) struct HealthArguments {
     force_lag_s: Option<f64>,
 }
 
+impl HealthArguments {
+    /// The file of the baseline.
+    pub(super) fn baseline(&self) -> Option<&Path> {
+        self.health_baseline.as_deref()
+    }
+}
+
 /// A number and its standard deviation.
 #[derive(Clone, Copy, Deserialize, Serialize)]
 struct Told {
@@ -142,14 +149,8 @@ impl Watched {
         if input::is_standard_stream(page_path) {
             return Err(Failure::wrong_use("--health -: allowed: a file"));
         }
-        let baseline = options.health_baseline.iter().map(PathBuf::as_path);
-        let read = [
-            arguments.input.as_path(),
-            Path::new(&arguments.damper.damper),
-        ];
-        for input in read.into_iter().chain(baseline) {
+        for input in arguments.inputs() {
             streams::refuse_input("--health", page_path, input)?;
-            streams::refuse_input("--output", &arguments.output, input)?;
         }
         streams::refuse_same_output(&[
             ("--output", Some(&arguments.output)),

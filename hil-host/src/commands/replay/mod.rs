@@ -79,6 +79,15 @@ pub struct ReplayArguments {
     format: Format,
 }
 
+impl ReplayArguments {
+    /// The files that are read.
+    fn inputs(&self) -> impl Iterator<Item = &Path> {
+        let damper = Path::new(&self.damper.damper);
+        let inputs = [self.input.as_path(), damper].into_iter();
+        inputs.chain(self.health.baseline())
+    }
+}
+
 #[derive(Serialize)]
 struct Report {
     ticks: u64,
@@ -109,10 +118,7 @@ struct Report {
 pub fn run(arguments: &ReplayArguments) -> Outcome<()> {
     arguments.damper.refuse_same_input(&arguments.input)?;
     let parameters = arguments.damper.load()?;
-    for input in [
-        arguments.input.as_path(),
-        Path::new(&arguments.damper.damper),
-    ] {
+    for input in arguments.inputs() {
         streams::refuse_input("--output", &arguments.output, input)?;
     }
     let options = arguments
