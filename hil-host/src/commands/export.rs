@@ -14,7 +14,9 @@ use crate::commands::failure::{Failure, Outcome};
 use crate::files::input::is_standard_stream;
 use crate::files::output::{self, is_replaceable, write_bytes, write_together};
 use crate::study::Scalar;
-use crate::target::export::{Provenance, Word, c_header, c_source, rust_source};
+use crate::target::export::{
+    Provenance, Word, c_header, c_source, rust_source, standalone_header, standalone_source,
+};
 
 /// Language of the exported source.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
@@ -42,11 +44,13 @@ impl Language {
 #[command(after_help = "Examples:
   dashpot export --damper reduced-vertical --lang rust --step-us 500 --output vertical.rs
   dashpot export --damper in-service --lang c --output in_service.c
+  dashpot export --damper in-service --lang c --standalone --output in_service.c
   dashpot export --damper in-service --lang bin --output in_service.bin
   dashpot export --damper in-service --lang c --health --displacement-noise-m 60e-6 --force-noise-n 60 --output health.c
 
 Then in Rust: mod vertical; ... vertical::REDUCED_VERTICAL.step(&mut state, x)
 and in C: #include \"in_service.h\" ... dashpot_damper_init(&damper, IN_SERVICE, sizeof IN_SERVICE)
+without a library: #include \"in_service.h\" ... in_service_step(&in_service_as_built, &state, x), see docs/portable-c.md
 of its health: HealthModel::from_image(&health::IN_SERVICE_HEALTH), dashpot_health_model_init(&model, IN_SERVICE_HEALTH, \
 sizeof IN_SERVICE_HEALTH)")]
 pub struct ExportArguments {
@@ -66,6 +70,9 @@ pub struct ExportArguments {
     /// Floating-point type.
     #[arg(long, value_enum, default_value_t = Scalar::F32)]
     scalar: Scalar,
+    /// Write step and constants in C99 that need no library, for tool chains without Rust; `--lang c` in either scalar.
+    #[arg(long, conflicts_with = "health")]
+    standalone: bool,
     /// Write what watches the damper's health in place of the damper: the bytes of its model in any language.
     #[arg(long, requires = "displacement_noise_m")]
     health: bool,
@@ -109,6 +116,12 @@ struct Report {
 pub fn run(arguments: &ExportArguments) -> Outcome<()> {
     if let Some(settings) = arguments.sensors.settings() {
         return health::run(arguments, &settings);
+    }
+    if arguments.standalone && arguments.lang != Language::C {
+        return Err(Failure::wrong_use(format!(
+            "--standalone --lang {}: a step without a library is of C, allowed: --lang c",
+            arguments.lang.name()
+        )));
     }
     let report = match arguments.scalar {
         Scalar::F32 => export::<f32>(arguments),
@@ -159,12 +172,21 @@ fn export<T: Word>(arguments: &ExportArguments) -> Outcome<Report> {
         .transpose()?;
     let bytes = match arguments.lang {
         Language::Rust => rust_source(constant, &damper, &provenance)?.into_bytes(),
+        Language::C if arguments.standalone => {
+            let included = header.as_deref().and_then(Path::file_name);
+            let included = included.map(|name| name.to_string_lossy());
+            standalone_source(constant, &damper, &provenance, included.as_deref())?.into_bytes()
+        }
         Language::C => c_source(constant, &damper, &provenance)?.into_bytes(),
         Language::Bin => T::image(&damper),
     };
     match &header {
         Some(header) => {
-            let text = c_header(constant, &damper, &provenance)?;
+            let text = if arguments.standalone {
+                standalone_header(constant, &damper, &provenance)?
+            } else {
+                c_header(constant, &damper, &provenance)?
+            };
             write_together(&[(path, &bytes), (header, text.as_bytes())])?;
         }
         None => write_bytes(path, &bytes)?,
@@ -179,7 +201,8 @@ fn export<T: Word>(arguments: &ExportArguments) -> Outcome<Report> {
         revision: damper.revision(),
         damper_bytes: size_of::<Damper<T>>(),
         state_bytes: size_of::<dashpot_core::DamperState<T>>(),
-        image_bytes: (arguments.lang != Language::Rust).then(|| T::image(&damper).len()),
+        image_bytes: (arguments.lang != Language::Rust && !arguments.standalone)
+            .then(|| T::image(&damper).len()),
     })
 }
 
@@ -213,8 +236,13 @@ fn command_line(arguments: &ExportArguments, name: &str) -> String {
     for assignment in &arguments.damper.overrides {
         line.push_str(&format!(" --set '{assignment}'"));
     }
+    let standalone = if arguments.standalone {
+        " --standalone"
+    } else {
+        ""
+    };
     line.push_str(&format!(
-        " --lang {} --step-us {} --scalar {} --name {name} --output '{}'",
+        " --lang {}{standalone} --step-us {} --scalar {} --name {name} --output '{}'",
         arguments.lang.name(),
         arguments.step_us,
         arguments.scalar,

@@ -23,6 +23,14 @@ pub enum ExportError {
         /// The name.
         name: String,
     },
+    /// A file's name that C cannot include.
+    #[error(
+        "file {file}: C cannot include it, allowed: no quotation mark, backslash or control character"
+    )]
+    Include {
+        /// The name.
+        file: String,
+    },
     /// A scalar that the C library does not have.
     #[error("scalar {scalar}: the C library is of single precision, allowed for C: f32")]
     Scalar {
