@@ -1,0 +1,85 @@
+/* An instance of the model: what FMI 2 and 3 have in common. */
+
+#ifndef DASHPOT_COMPONENT_H
+#define DASHPOT_COMPONENT_H
+
+#include <stdbool.h>
+
+#include "model.h"
+
+/* Numbers of fmi2Status and fmi3Status. */
+typedef enum component_status {
+    COMPONENT_OK,
+    COMPONENT_WARNING,
+    COMPONENT_DISCARD,  /* refused, everything as before the call */
+    COMPONENT_ERROR     /* only reset, a restored state or the end are allowed now */
+} component_status;
+
+typedef enum component_phase {
+    INSTANTIATED = 1,
+    INITIALIZING = 2,
+    STEPPING = 4,
+    TERMINATED = 8,
+    FAILED = 16
+} component_phase;
+
+enum { ANY_BUT_FAILED = INSTANTIATED | INITIALIZING | STEPPING | TERMINATED };
+
+typedef struct component component;
+
+/* Hands a message to the importer. */
+typedef void component_log(const component *this, component_status status, const char *category, const char *message);
+
+struct component {
+    model *model;
+    char *name;
+    component_phase phase;
+    double start_s;
+    double stop_s;      /* HUGE_VAL where none is set */
+    uint64_t steps;     /* of model_step_s since the start */
+    bool logs;
+    unsigned categories;
+    component_log *log;
+    void (*logger)(void);  /* of the importer, whatever its type */
+    void *environment;
+};
+
+/* What an instance begins with; `name` is copied. NULL where it cannot be, told to `log`. */
+component *component_new(const component *with, const char *token, const char *resources);
+void component_free(component *this);
+
+/* Tells what happened, as far as it is to be logged, and returns the status. */
+component_status component_tell(component *this, component_status status, const char *format, ...);
+
+/* Whether a function may be called in this phase; an error that is told where not. */
+bool component_allows(component *this, unsigned phases, const char *function);
+
+/* Categories that are logged from now on; all where none is named. */
+component_status component_set_logging(component *this, bool logs, size_t count, const char *const categories[]);
+extern const char *const component_categories[COMPONENT_ERROR + 1];
+
+double component_time_s(const component *this);
+component_status component_begin(component *this, double start_s, bool stops, double stop_s);
+component_status component_end_initialization(component *this);
+component_status component_reset(component *this);
+
+component_status component_get_real(component *this, uint32_t variable, double *value);
+component_status component_set_real(component *this, uint32_t variable, double value);
+component_status component_get_integer(component *this, uint32_t variable, int32_t *value);
+component_status component_no_variable(component *this, uint32_t variable);
+
+/* A step to `at_s + step_s`; refused where it is no multiple of the internal step, or does not begin where the last ended. */
+component_status component_step(component *this, double at_s, double step_s);
+
+/* The whole instance in memory of its own; NULL where there is none. It is what is serialized, too. */
+typedef struct component_state {
+    size_t bytes;
+    uint8_t content[];
+} component_state;
+
+component_status component_get_state(component *this, void **state);
+component_status component_set_state(component *this, const component_state *state);
+component_status component_serialize(component *this, const component_state *state, uint8_t *bytes, size_t count);
+component_status component_deserialize(component *this, const uint8_t *bytes, size_t count, void **state);
+
+#endif

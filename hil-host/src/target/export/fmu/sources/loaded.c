@@ -1,0 +1,178 @@
+
+/* The dampers are those of the images in the folder of resources, as `dashpot export --lang bin` writes them: another
+ * image under the same name is another damper. */
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "dampers.h"
+
+const double dampers_largest_clearance_m = 0.1;
+
+enum {
+    SCALARS = 9,
+    WORDS_OF_PIECE = 13,
+    IMAGE_WORDS = SCALARS + 2 + 2 * DAMPER_PIECES * WORDS_OF_PIECE,
+    HEADER_BYTES = 16,
+    IMAGE_BYTES = HEADER_BYTES + IMAGE_WORDS * DAMPER_REAL_BYTES + 4,
+    IMAGE_VERSION = 2
+};
+
+/* A table in memory. */
+typedef struct table {
+    damper_piece pieces[2 * DAMPER_PIECES];
+    uint8_t bins[DAMPER_BINS][2];
+} table;
+
+/* CRC-32 (ISO-HDLC). */
+static uint32_t crc_32(const uint8_t *bytes, size_t count)
+{
+    uint32_t crc = 0xffffffffU;
+    int bit;
+
+    while (count-- > 0) {
+        crc ^= *bytes++;
+        for (bit = 0; bit < 8; bit++) {
+            crc = (crc >> 1) ^ ((crc & 1) != 0 ? UINT32_C(0xedb88320) : 0);
+        }
+    }
+    return crc ^ 0xffffffffU;
+}
+
+static damper_real word(const uint8_t *image, unsigned number)
+{
+    return damper_real_of(
+        (damper_bits)damper_get(image + HEADER_BYTES + number * DAMPER_REAL_BYTES, DAMPER_REAL_BYTES));
+}
+
+/* Names the piece at the lower border of each bin of a side. The knots rise, the first a power of two. */
+static void index_side(table *this, unsigned side)
+{
+    const unsigned end = (side + 1) * DAMPER_PIECES;
+    const damper_bits width = (damper_bits)1 << DAMPER_BIN_SHIFT;
+    const damper_bits first = damper_bits_of(this->pieces[side * DAMPER_PIECES].knot);
+    unsigned piece, next, bin;
+
+    for (piece = side * DAMPER_PIECES; piece < end; piece++) {
+        for (next = 0; next < 2; next++) {
+            const unsigned after = piece + next + 1;
+
+            this->pieces[piece].next_knots[next] =
+                after < end ? this->pieces[after].knot : (DAMPER_REAL_BYTES == 4 ? (damper_real)FLT_MAX : (damper_real)DBL_MAX);
+        }
+    }
+    piece = side * DAMPER_PIECES;
+    for (bin = 0; bin < DAMPER_BINS; bin++) {
+        const damper_bits border = (damper_bits)(first + width * bin);
+
+        while (piece + 1 < end && damper_bits_of(this->pieces[piece + 1].knot) <= border) {
+            piece++;
+        }
+        this->bins[(unsigned)(border / width) % DAMPER_BINS][side] = (uint8_t)piece;
+    }
+}
+
+/* Makes a damper of an image; returns what is wrong with it, or NULL. */
+static const char *load(damper_damper *damper, table *this, const uint8_t *image, size_t count)
+{
+    static const uint8_t magic[] = {'D', 'A', 'S', 'H', 0xff, 0xfe};
+    damper_real *const scalars[SCALARS] = {
+        &damper->largest_move_m, &damper->position_rounder_m, &damper->rest_rounder_m,
+        &damper->step_s,         &damper->offset_m,           &damper->first_knot_m,
+        &damper->half_clearance_m, &damper->half_force_limit_n, &damper->held_m
+    };
+    uint32_t hash = UINT32_C(0x811c9dc5);
+    unsigned number, piece;
+
+    if (count < HEADER_BYTES || memcmp(image, magic, sizeof magic) != 0) {
+        return "no image of a damper: it does not begin with DASH";
+    }
+    if (damper_get(image + 6, 2) != IMAGE_VERSION || damper_get(image + 8, 4) != DAMPER_REAL_BYTES) {
+        return DAMPER_REAL_BYTES == 4 ? "an image of another version or scalar; allowed: export --lang bin --scalar f32"
+                                      : "an image of another version or scalar; allowed: export --lang bin --scalar f64";
+    }
+    if (count != IMAGE_BYTES || damper_get(image + 12, 4) != IMAGE_BYTES) {
+        return "an image cut short or too long";
+    }
+    if (crc_32(image, IMAGE_BYTES - 4) != damper_get(image + IMAGE_BYTES - 4, 4)) {
+        return "a damaged image: its checksum is another";
+    }
+    for (number = 0; number < SCALARS; number++) {
+        *scalars[number] = word(image, number);
+        if (!(damper_is_finite(*scalars[number]) && *scalars[number] >= 0)) {
+            return "an image with a constant out of range";
+        }
+    }
+    for (piece = 0; piece < 2 * DAMPER_PIECES; piece++) {
+        damper_piece *const to = &this->pieces[piece];
+
+        for (number = 0; number < WORDS_OF_PIECE; number++) {
+            const damper_real value = word(image, SCALARS + 2 + piece * WORDS_OF_PIECE + number);
+            damper_real *const coefficients = number < 4 ? to->flow : number < 8 ? to->potential : to->stiffness;
+
+            if (!damper_is_finite(value)) {
+                return "an image with a number that is not finite";
+            }
+            hash = damper_hash_real(hash, value);
+            if (number == 12) {
+                to->knot = value;
+            } else {
+                coefficients[number % 4] = value;
+            }
+        }
+        to->padding = 0;
+    }
+    index_side(this, 0);
+    index_side(this, 1);
+    damper->table_revision = (uint32_t)damper_get(image + HEADER_BYTES + (SCALARS + 1) * DAMPER_REAL_BYTES, 4);
+    damper->pieces = this->pieces;
+    damper->bins = this->bins;
+    if (hash != damper->table_revision
+        || damper_set_clearance_m(damper, damper_clearance_m(damper)) != DAMPER_DONE
+        || damper->revision != damper_get(image + HEADER_BYTES + SCALARS * DAMPER_REAL_BYTES, 4)
+        || !(damper->largest_move_m > 0 && damper->first_knot_m > 0)
+        || !(damper->half_force_limit_n <= (damper_real)5e6)) {
+        return "an image whose constants do not go together";
+    }
+    if (damper->step_s != dampers_as_built[0]->step_s) {
+        return "an image for another step than that of this FMU";
+    }
+    return NULL;
+}
+
+damper_damper *dampers_new(const char *resources, char *reason, size_t reason_bytes)
+{
+    const size_t memory = dampers_count * (sizeof(damper_damper) + sizeof(table));
+    damper_damper *dampers = malloc(memory);
+    table *tables = (table *)(void *)(dampers + dampers_count);
+    unsigned number;
+
+    if (dampers == NULL) {
+        (void)snprintf(reason, reason_bytes, "not enough memory");
+        return NULL;
+    }
+    for (number = 0; number < dampers_count; number++) {
+        uint8_t image[IMAGE_BYTES + 1];
+        char path[4096];
+        const int length = snprintf(path, sizeof path, "%s/damper_%u.bin", resources == NULL ? "." : resources, number + 1);
+        FILE *file = length > 0 && (size_t)length < sizeof path ? fopen(path, "rb") : NULL;
+        const char *wrong = "cannot be read";
+
+        if (file != NULL) {
+            wrong = load(&dampers[number], &tables[number], image, fread(image, 1, sizeof image, file));
+            (void)fclose(file);
+        }
+        if (wrong != NULL) {
+            (void)snprintf(reason, reason_bytes, "%s: %s", path, wrong);
+            free(dampers);
+            return NULL;
+        }
+    }
+    return dampers;
+}
+
+void dampers_free(damper_damper *dampers)
+{
+    free(dampers);
+}
