@@ -302,7 +302,7 @@ fn what_would_change_the_bits_is_an_error() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     two_dampers(folder.path());
     let refused = |tool: Tool, options: &[&str]| {
-        let mut compiler = compiler(tool, &["-std=c99", "-ffreestanding", "-fsyntax-only"]);
+        let mut compiler = compiler(tool, &["-std=c99", "-ffreestanding", "-c", "-o", "front.o"]);
         let output = compiler
             .args(options)
             .arg("front.c")

@@ -15,6 +15,7 @@ pub mod random_damper;
 pub mod requests;
 pub mod signed_image;
 pub mod standalone;
+pub mod standalone_count;
 pub mod target;
 pub mod tolerance;
 
