@@ -12,6 +12,9 @@ use crate::target::export::Word;
 const SCALARS: usize = 9;
 const REVISIONS: usize = 2;
 
+/// The scalar that is half the force limit, which C has whole.
+const HALF_FORCE_LIMIT: usize = 7;
+
 /// Words of a piece: three cubics and its knot.
 const PIECE: usize = 13;
 
@@ -82,8 +85,12 @@ pub(super) fn definitions<T: Word>(name: &str, damper: &Damper<T>) -> String {
         let _ = writeln!(text, "    {},", row.join(", "));
     }
     let _ = write!(text, "}};\n\nconst {name}_damper {name}_as_built = {{\n");
-    for word in scalars {
-        let _ = writeln!(text, "    {},", hexadecimal(T::from_word(*word)));
+    for (place, word) in scalars.iter().enumerate() {
+        let mut number = T::from_word(*word);
+        if place == HALF_FORCE_LIMIT {
+            number = number + number;
+        }
+        let _ = writeln!(text, "    {},", hexadecimal(number));
     }
     for revision in revisions {
         let _ = writeln!(text, "    UINT32_C({revision:#010x}),");

@@ -1,7 +1,5 @@
 #include <float.h>
-#include <limits.h>
 #include <stdbool.h>
-#include <stddef.h>
 
 /* The bits of a force are those of the model in Rust only where a compiler computes what is written: every operation
  * rounded once, in its own type, none fused or reordered. Fusing is turned off below; the rest must not be asked for. */
@@ -38,15 +36,36 @@
 #define PREFIX_COLD static
 #endif
 
-/* Keeps a product from being fused where a compiler may be told to do so against the language's own word. */
-#if defined(__clang__) && defined(__SSE2__)
-#define PREFIX_ROUND(product) __asm__("" : "+x"(product))
-#elif defined(__clang__) && defined(__aarch64__)
-#define PREFIX_ROUND(product) __asm__("" : "+w"(product))
-#elif defined(__clang__) && defined(__riscv_flen)
-#define PREFIX_ROUND(product) __asm__("" : "+f"(product))
+/* Registers of numbers, where GCC and clang are told of them. */
+#if defined(__GNUC__) && defined(__SSE2__)
+#define PREFIX_REGISTER "+x"
+#elif defined(__GNUC__) && defined(__aarch64__)
+#define PREFIX_REGISTER "+w"
+#elif defined(__GNUC__) && defined(__ARM_FP) && SCALAR_BITS == 32
+#define PREFIX_REGISTER "+t"
+#endif
+
+/* Keeps a product from being fused: clang may be told to do so against the source's own word. */
+#if defined(__clang__) && defined(PREFIX_REGISTER)
+#define PREFIX_ROUND(product) __asm__("" : PREFIX_REGISTER(product))
 #else
 #define PREFIX_ROUND(product) (void)0
+#endif
+
+/* Keeps a number computed at every step, whether the step takes it or not: one cost. */
+#ifdef PREFIX_REGISTER
+#define PREFIX_ALWAYS(number) __asm__ volatile("" : PREFIX_REGISTER(number))
+#else
+#define PREFIX_ALWAYS(number) (void)0
+#endif
+
+/* Whether larger and smaller of two numbers are one instruction: Armv8-M and Armv8-A with single precision, and what
+ * a compiler says of a Cortex-M7. */
+#if SCALAR_BITS == 32 && defined(__GNUC__) && defined(__ARM_FP) && !defined(__aarch64__) \
+    && ((defined(__ARM_ARCH) && __ARM_ARCH >= 8) || defined(__ARM_FPV5__))
+#define PREFIX_HAS_MAXIMUM 1
+#else
+#define PREFIX_HAS_MAXIMUM 0
 #endif
 
 /* gamma of both stages, 1 - 1/sqrt 2, and the rest to 1. */
@@ -78,8 +97,6 @@ enum {
     PREFIX_FRACTION_BITS = (PREFIX_REAL_BYTES == 4 ? FLT_MANT_DIG : DBL_MANT_DIG) - 1,
     PREFIX_BIN_SHIFT = PREFIX_FRACTION_BITS - PREFIX_BIN_FRACTION_BITS
 };
-
-typedef char prefix_byte_has_8_bits[CHAR_BIT == 8 ? 1 : -1];
 
 /* A number and its bits. */
 typedef SCALAR_WORD prefix_bits;
@@ -129,12 +146,20 @@ PREFIX_INLINE prefix_real prefix_magnitude(prefix_real value)
 /* The larger and the smaller of two numbers; of NaN the other, which is not NaN. */
 PREFIX_INLINE prefix_real prefix_larger(prefix_real value, prefix_real other)
 {
+#if PREFIX_HAS_MAXIMUM
+    return __builtin_fmaxf(value, other);
+#else
     return value > other ? value : other;
+#endif
 }
 
 PREFIX_INLINE prefix_real prefix_smaller(prefix_real value, prefix_real other)
 {
+#if PREFIX_HAS_MAXIMUM
+    return __builtin_fminf(value, other);
+#else
     return value < other ? value : other;
+#endif
 }
 
 /* Whether a number is neither NaN nor infinite. */
@@ -227,27 +252,20 @@ PREFIX_INLINE prefix_real prefix_force(const prefix_damper *damper, prefix_real 
     return (prefix_larger(prefix_magnitude(stretch), clearance) - clearance) * stiffness;
 }
 
-PREFIX_COLD prefix_real prefix_limit_input(const prefix_damper *damper, prefix_state *state,
-                                           prefix_real displacement_m);
-
 /* With the stretch u = x - x_r of clearance and springs, the chain x = g + delta(F) + x_r, dx_r/dt = v_h(F) is one
  * equation, du/dt = dx/dt - f(u), with f = v_h(F(u)) zero in the clearance and rising beyond. A step takes two
  * implicit stages (Alexander's SDIRK2, gamma = 1 - 1/sqrt 2: second order, L-stable, last stage at the tick) and then
  * corrects the flow by the difference between its exact mean along the step's straight path and the stages'
  * quadrature of that path. Stated in docs/numerics.md of Dashpot; its other transcription is core/src/step.rs. */
-prefix_real prefix_step(const prefix_damper *damper, prefix_state *state, prefix_real displacement_m)
+PREFIX_INLINE prefix_real prefix_move(const prefix_damper *damper, prefix_state *state, prefix_real travel)
 {
     const prefix_real gamma = PREFIX_GAMMA;
-    prefix_real travel = displacement_m - state->displacement_m;
     prefix_real start, bend, quadrature, change, end;
     prefix_real end_potential, area, most, correction, contact;
     prefix_real stretch, magnitude, limit, limited, force;
     prefix_stage first, last;
     unsigned status_word;
 
-    if (!(state->revision == damper->revision && prefix_magnitude(travel) <= damper->largest_move_m)) {
-        travel = prefix_limit_input(damper, state, displacement_m);
-    }
     /* Sums of travels on this grid are exact, so a piston at rest in its clearance does not drift. */
     travel = (travel + damper->position_rounder_m) - damper->position_rounder_m;
     state->displacement_m = state->displacement_m + travel;
@@ -265,6 +283,7 @@ prefix_real prefix_step(const prefix_damper *damper, prefix_state *state, prefix
     area = prefix_add_product(end_potential - state->potential_m2, bend, bend);
     most = prefix_magnitude(change * PREFIX_LARGEST_CORRECTION);
     correction = prefix_larger(prefix_smaller(area / change - quadrature, most), -most);
+    PREFIX_ALWAYS(correction);
     contact = last.flow_m * start * state->potential_m2;
     if (contact > 0) {
         correction = 0;
@@ -272,7 +291,7 @@ prefix_real prefix_step(const prefix_damper *damper, prefix_state *state, prefix
 
     stretch = ((end + damper->rest_rounder_m) - correction) - damper->rest_rounder_m;
     magnitude = prefix_force(damper, stretch, prefix_cubic(last.piece->stiffness, last.z_m));
-    limit = damper->half_force_limit_n + damper->half_force_limit_n;
+    limit = damper->force_limit_n;
     limited = magnitude;
     status_word = state->status_word;
     if (!(magnitude < limit)) {
@@ -292,10 +311,22 @@ prefix_real prefix_step(const prefix_damper *damper, prefix_state *state, prefix
     return force;
 }
 
+PREFIX_COLD prefix_real prefix_unusual_step(const prefix_damper *damper, prefix_state *state,
+                                            prefix_real displacement_m);
+
+prefix_real prefix_step(const prefix_damper *damper, prefix_state *state, prefix_real displacement_m)
+{
+    const prefix_real travel = displacement_m - state->displacement_m;
+
+    if (state->revision == damper->revision && prefix_magnitude(travel) <= damper->largest_move_m) {
+        return prefix_move(damper, state, travel);
+    }
+    return prefix_unusual_step(damper, state, displacement_m);
+}
+
 /* The travel (m) to a displacement (m): a state that no damper made starts over, one that another damper stepped is
  * adopted, a travel that is not credible limited; each latched, the last counted. */
-PREFIX_COLD prefix_real prefix_limit_input(const prefix_damper *damper, prefix_state *state,
-                                           prefix_real displacement_m)
+static prefix_real prefix_limit_input(const prefix_damper *damper, prefix_state *state, prefix_real displacement_m)
 {
     const prefix_real most = damper->largest_move_m;
     prefix_real travel;
@@ -322,6 +353,12 @@ PREFIX_COLD prefix_real prefix_limit_input(const prefix_damper *damper, prefix_s
     travel = prefix_smaller(prefix_larger(travel, -most), most);
     /* What the displacement can move by: far out, less than the limit. */
     return (state->displacement_m + travel) - state->displacement_m;
+}
+
+PREFIX_COLD prefix_real prefix_unusual_step(const prefix_damper *damper, prefix_state *state,
+                                            prefix_real displacement_m)
+{
+    return prefix_move(damper, state, prefix_limit_input(damper, state, displacement_m));
 }
 
 void prefix_at_rest(const prefix_damper *damper, prefix_state *state, prefix_real displacement_m)
@@ -412,7 +449,7 @@ prefix_result prefix_set_clearance_m(prefix_damper *damper, prefix_real clearanc
     hash = prefix_hash_real(hash, damper->offset_m);
     hash = prefix_hash_real(hash, damper->first_knot_m);
     hash = prefix_hash_real(hash, damper->half_clearance_m);
-    hash = prefix_hash_real(hash, damper->half_force_limit_n);
+    hash = prefix_hash_real(hash, (prefix_real)0.5 * damper->force_limit_n); /* what the core keeps of it */
     hash = prefix_hash_real(hash, damper->held_m);
     damper->revision = hash == 0 ? 1 : hash;
     return PREFIX_DONE;
@@ -437,7 +474,7 @@ prefix_real prefix_clearance_m(const prefix_damper *damper)
 /* Of damaged constants too. */
 prefix_real prefix_force_limit_n(const prefix_damper *damper)
 {
-    const prefix_real limit = damper->half_force_limit_n + damper->half_force_limit_n;
+    const prefix_real limit = damper->force_limit_n;
 
     return limit <= PREFIX_LARGEST_FORCE_N ? prefix_larger(limit, 0) : PREFIX_LARGEST_FORCE_N;
 }
@@ -543,7 +580,10 @@ uint32_t prefix_digest(const prefix_damper *damper)
 
 #undef PREFIX_INLINE
 #undef PREFIX_COLD
+#undef PREFIX_REGISTER
 #undef PREFIX_ROUND
+#undef PREFIX_ALWAYS
+#undef PREFIX_HAS_MAXIMUM
 #undef PREFIX_GAMMA
 #undef PREFIX_REST_OF_GAMMA
 #undef PREFIX_LARGEST_CORRECTION

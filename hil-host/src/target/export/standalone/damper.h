@@ -39,7 +39,7 @@ typedef struct prefix_damper {
     prefix_real offset_m;            /* stretch up to which nothing flows: half the clearance and `held_m` */
     prefix_real first_knot_m;        /* where the first piece of either side begins, a power of two */
     prefix_real half_clearance_m;
-    prefix_real half_force_limit_n;  /* half the force at which the element yields */
+    prefix_real force_limit_n;       /* force at which the element yields */
     prefix_real held_m;              /* stretch of the mount under seal friction */
     uint32_t revision;               /* tells dampers apart */
     uint32_t table_revision;
@@ -68,7 +68,7 @@ void prefix_at_rest(const prefix_damper *damper, prefix_state *state, prefix_rea
 
 /* Force (N) at this tick for the displacement (m) of the tick; positive when it resists extension. Call it every
  * `step_s`. Never fails: bad input is held or limited and latched in the status; the force is finite and within
- * the force limit whatever the bits of input and state. Constant cost but for bad input and swapped dampers. */
+ * the force limit whatever the bits of input and state. One cost, but for bad input and swapped dampers. */
 prefix_real prefix_step(const prefix_damper *damper, prefix_state *state, prefix_real displacement_m);
 
 /* Sets the clearance 2a (m), the whole play, between two steps: states follow at their next step, their force kept.
