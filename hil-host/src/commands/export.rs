@@ -1,5 +1,6 @@
 //! `dashpot export`: the built damper as a constant or as bytes for firmware.
 
+mod fmu;
 mod health;
 
 use std::path::{Path, PathBuf};
@@ -46,6 +47,7 @@ impl Language {
   dashpot export --damper in-service --lang c --output in_service.c
   dashpot export --damper in-service --lang c --standalone --output in_service.c
   dashpot export --damper in-service --lang bin --output in_service.bin
+  dashpot export --damper in-service --fmi 3 --output in_service.fmu
   dashpot export --damper in-service --lang c --health --displacement-noise-m 60e-6 --force-noise-n 60 --output health.c
 
 Then in Rust: mod vertical; ... vertical::REDUCED_VERTICAL.step(&mut state, x)
@@ -57,8 +59,16 @@ pub struct ExportArguments {
     #[command(flatten)]
     damper: DamperArguments,
     /// Language of the source.
-    #[arg(long, value_enum)]
+    #[arg(
+        long,
+        value_enum,
+        required = false,
+        required_unless_present = "fmi",
+        default_value_if("fmi", clap::builder::ArgPredicate::IsPresent, "c")
+    )]
     lang: Language,
+    #[command(flatten)]
+    fmu: fmu::FmuArguments,
     /// The step, us.
     #[arg(help = step_size::help("Step the damper is built for", ""), 
         long,
@@ -114,6 +124,12 @@ struct Report {
 /// # Errors
 /// The damper or the name is refused, or the file cannot be written.
 pub fn run(arguments: &ExportArguments) -> Outcome<()> {
+    if let Some(interface) = arguments.fmu.interface() {
+        return match arguments.scalar {
+            Scalar::F32 => fmu::run::<f32>(arguments, interface),
+            Scalar::F64 => fmu::run::<f64>(arguments, interface),
+        };
+    }
     if let Some(settings) = arguments.sensors.settings() {
         return health::run(arguments, &settings);
     }

@@ -2,6 +2,7 @@
 
 mod c;
 mod error;
+pub mod fmu;
 mod health;
 mod name;
 mod provenance;

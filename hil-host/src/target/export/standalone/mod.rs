@@ -46,11 +46,26 @@ pub fn standalone_source<T: Word>(
         Some(header) => format!("#include \"{}\"\n\n", name::checked_include(header)?),
         None => declarations(constant, damper) + "\n",
     };
-    let constants = constants::definitions(&constant.to_lowercase(), damper);
+    let constants = constants_of(&constant.to_lowercase(), &constant.to_lowercase(), damper);
     Ok(comment(constant, damper, provenance)?
         + &declared
         + &rendered::<T>(SOURCE, constant)
         + &constants)
+}
+
+/// The header of the step alone, names beginning with `constant`.
+pub(super) fn header_of_step<T: Word>(constant: &str) -> String {
+    rendered::<T>(HEADER, constant) + END_OF_HEADER
+}
+
+/// The step alone.
+pub(super) fn source_of_step<T: Word>(constant: &str) -> String {
+    rendered::<T>(SOURCE, constant)
+}
+
+/// The constants of a damper, called `name`, for the step whose names begin with `prefix`.
+pub(super) fn constants_of<T: Word>(prefix: &str, name: &str, damper: &Damper<T>) -> String {
+    constants::definitions(prefix, name, damper)
 }
 
 fn declarations<T: Word>(constant: &str, damper: &Damper<T>) -> String {

@@ -80,7 +80,7 @@ static const char *load(damper_damper *damper, table *this, const uint8_t *image
     damper_real *const scalars[SCALARS] = {
         &damper->largest_move_m, &damper->position_rounder_m, &damper->rest_rounder_m,
         &damper->step_s,         &damper->offset_m,           &damper->first_knot_m,
-        &damper->half_clearance_m, &damper->half_force_limit_n, &damper->held_m
+        &damper->half_clearance_m, &damper->force_limit_n, &damper->held_m
     };
     uint32_t hash = UINT32_C(0x811c9dc5);
     unsigned number, piece;
@@ -104,6 +104,7 @@ static const char *load(damper_damper *damper, table *this, const uint8_t *image
             return "an image with a constant out of range";
         }
     }
+    damper->force_limit_n = damper->force_limit_n + damper->force_limit_n; /* an image has half of it */
     for (piece = 0; piece < 2 * DAMPER_PIECES; piece++) {
         damper_piece *const to = &this->pieces[piece];
 
@@ -127,12 +128,12 @@ static const char *load(damper_damper *damper, table *this, const uint8_t *image
     index_side(this, 1);
     damper->table_revision = (uint32_t)damper_get(image + HEADER_BYTES + (SCALARS + 1) * DAMPER_REAL_BYTES, 4);
     damper->pieces = this->pieces;
-    damper->bins = this->bins;
+    damper->bins = (const uint8_t (*)[2])this->bins;
     if (hash != damper->table_revision
         || damper_set_clearance_m(damper, damper_clearance_m(damper)) != DAMPER_DONE
         || damper->revision != damper_get(image + HEADER_BYTES + SCALARS * DAMPER_REAL_BYTES, 4)
         || !(damper->largest_move_m > 0 && damper->first_knot_m > 0)
-        || !(damper->half_force_limit_n <= (damper_real)5e6)) {
+        || !(damper->force_limit_n <= (damper_real)1e7)) {
         return "an image whose constants do not go together";
     }
     if (damper->step_s != dampers_as_built[0]->step_s) {

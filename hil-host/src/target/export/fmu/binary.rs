@@ -1,0 +1,105 @@
+//! The library of an FMU for the platform it is exported on, by the C compiler that is there.
+
+use std::env;
+use std::io;
+use std::process::{Command, Stdio};
+
+use super::{Fmu, Interface};
+use crate::target::export::Word;
+
+/// A compiled FMU.
+#[derive(Debug)]
+pub struct Binary {
+    /// Folder of the platform.
+    pub platform: String,
+    /// End of the library's name.
+    pub end: &'static str,
+    /// The library.
+    pub content: Vec<u8>,
+}
+
+/// Why there is no library.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum CompileError {
+    /// The compiler is not there.
+    #[error("the C compiler {compiler} cannot be started ({source}); allowed: another one by the variable CC, or no library for this platform with --sources-only")]
+    Missing {
+        /// Its name.
+        compiler: String,
+        /// Why.
+        source: io::Error,
+    },
+    /// The compiler refuses the sources.
+    #[error("the C compiler {compiler} failed: {message}\nallowed: another one by the variable CC, or no library for this platform with --sources-only")]
+    Failed {
+        /// Its name.
+        compiler: String,
+        /// What it said.
+        message: String,
+    },
+    /// A platform that this version of the interface has no name for.
+    #[error("FMI 2 has no folder for a library of {platform}, allowed: --fmi 3, or --sources-only")]
+    Platform {
+        /// The platform.
+        platform: String,
+    },
+    /// No place for what the compiler reads and writes.
+    #[error("a temporary folder: {0}")]
+    Folder(#[from] io::Error),
+}
+
+/// Compiles an FMU for this platform, with the compiler that the variable `CC` names, or `cc`.
+///
+/// # Errors
+/// There is no compiler, it fails, or the platform has no name.
+pub fn compile<T: Word>(fmu: &Fmu<T>) -> Result<Binary, CompileError> {
+    let platform = platform(fmu.interface)?;
+    let end = env::consts::DLL_EXTENSION;
+    let folder = tempfile::tempdir()?;
+    for (name, text) in fmu.sources() {
+        std::fs::write(folder.path().join(name), text)?;
+    }
+    let named = env::var("CC").unwrap_or_default();
+    let mut words = named.split_whitespace();
+    let compiler = words.next().unwrap_or("cc").to_owned();
+    let library = folder.path().join(format!("library.{end}"));
+    let mut command = Command::new(&compiler);
+    command
+        .args(words)
+        .args(["-std=c99", "-O2", "-fPIC", "-shared", "-fvisibility=hidden", "-o"])
+        .arg(&library)
+        .args(fmu.compiled())
+        .arg("-lm")
+        .current_dir(folder.path())
+        .stdin(Stdio::null());
+    let output = match command.output() {
+        Ok(output) => output,
+        Err(source) => return Err(CompileError::Missing { compiler, source }),
+    };
+    if !output.status.success() {
+        let message = String::from_utf8_lossy(&output.stderr).trim().to_owned();
+        return Err(CompileError::Failed { compiler, message });
+    }
+    Ok(Binary {
+        platform,
+        end,
+        content: std::fs::read(library)?,
+    })
+}
+
+/// The folder of this platform's libraries, FMI 3.0, 2.5.1.4.1 and FMI 2.0.4, 2.3.
+fn platform(interface: Interface) -> Result<String, CompileError> {
+    let (processor, system) = (env::consts::ARCH, env::consts::OS);
+    let system_name = if system == "macos" { "darwin" } else { system };
+    match (interface, processor) {
+        (Interface::Three, _) => Ok(format!("{processor}-{system_name}")),
+        (Interface::Two, "x86_64") => {
+            let short = if system == "windows" { "win" } else { system_name };
+            Ok(format!("{short}64"))
+        }
+        (Interface::Two, _) => Err(CompileError::Platform {
+            platform: format!("{processor}-{system_name}"),
+        }),
+    }
+}

@@ -1,0 +1,84 @@
+//! The sources of an FMU.
+
+use std::fmt::Write;
+
+use super::{Fmu, Interface};
+use crate::target::export::Word;
+use crate::target::export::standalone::{constants_of, header_of_step, source_of_step};
+
+/// Headers of the interface, which need no compiling.
+const HEADERS_2: [(&str, &str); 3] = [
+    ("fmi2FunctionTypes.h", include_str!("headers/fmi2FunctionTypes.h")),
+    ("fmi2Functions.h", include_str!("headers/fmi2Functions.h")),
+    ("fmi2TypesPlatform.h", include_str!("headers/fmi2TypesPlatform.h")),
+];
+const HEADERS_3: [(&str, &str); 3] = [
+    ("fmi3FunctionTypes.h", include_str!("headers/fmi3FunctionTypes.h")),
+    ("fmi3Functions.h", include_str!("headers/fmi3Functions.h")),
+    ("fmi3PlatformTypes.h", include_str!("headers/fmi3PlatformTypes.h")),
+];
+
+/// What both versions have.
+const COMMON: [(&str, &str); 6] = [
+    ("bytes.c", include_str!("sources/bytes.c")),
+    ("component.c", include_str!("sources/component.c")),
+    ("component.h", include_str!("sources/component.h")),
+    ("dampers.h", include_str!("sources/dampers.h")),
+    ("model.c", include_str!("sources/model.c")),
+    ("model.h", include_str!("sources/model.h")),
+];
+
+const FMI_2: (&str, &str) = ("fmi2.c", include_str!("sources/fmi2.c"));
+const FMI_3: (&str, &str) = ("fmi3.c", include_str!("sources/fmi3.c"));
+
+/// Where the dampers come from.
+const BUILT_IN: &str = include_str!("sources/built_in.c");
+const LOADED: &str = include_str!("sources/loaded.c");
+
+impl<T: Word> Fmu<T> {
+    /// Names of the files and their texts, in order of the names.
+    pub(super) fn sources(&self) -> Vec<(&'static str, String)> {
+        let (headers, functions) = match self.interface {
+            Interface::Two => (HEADERS_2, FMI_2),
+            Interface::Three => (HEADERS_3, FMI_3),
+        };
+        let fixed = COMMON.into_iter().chain(headers).chain([functions]);
+        let mut sources: Vec<_> = fixed.map(|(name, text)| (name, text.to_owned())).collect();
+        sources.push(("damper.h", header_of_step::<T>("DAMPER")));
+        sources.push(("dampers.c", self.dampers_source()));
+        sources.sort_unstable_by_key(|(name, _)| *name);
+        sources
+    }
+
+    /// Names of the files that are compiled.
+    pub(super) fn compiled(&self) -> Vec<&'static str> {
+        let names = self.sources().into_iter().map(|(name, _)| name);
+        names.filter(|name| name.ends_with(".c")).collect()
+    }
+
+    /// The step and the constants of all dampers.
+    fn dampers_source(&self) -> String {
+        let mut text = String::from("/* The step of a damper, and the constants of those of this FMU. */\n\n#include \"damper.h\"\n\n");
+        text += &source_of_step::<T>("DAMPER");
+        let mut names = Vec::new();
+        for (number, named) in (1..).zip(&self.dampers) {
+            let name = format!("damper_{number}");
+            text += &constants_of("damper", &name, &named.damper);
+            names.push(format!("&{name}_as_built"));
+        }
+        // Writing to a String does not fail.
+        let _ = write!(
+            text,
+            "\n#include \"model.h\"\n#include \"dampers.h\"\n\n\
+             const double model_step_s = {:e};\n\
+             const char model_token[] = \"{}\";\n\n\
+             const unsigned dampers_count = {};\n\
+             const damper_damper *const dampers_as_built[] = {{{}}};\n",
+            self.step_s,
+            self.token(),
+            self.dampers.len(),
+            names.join(", "),
+        );
+        text + if self.is_loaded { LOADED } else { BUILT_IN }
+    }
+}
