@@ -7,7 +7,12 @@ use crate::run::{Outcome, repository, run};
 use crate::tools::{PYTHON, skip};
 
 /// The packages.
-pub const PACKAGES: [&str; 3] = ["asammdf==8.8.28", "pandas==3.1.1", "pyarrow==26.0.1"];
+pub const PACKAGES: [&str; 4] = [
+    "asammdf==8.8.28",
+    "fmpy==0.3.32",
+    "pandas==3.1.1",
+    "pyarrow==26.0.1",
+];
 
 /// Debian's package without which its Python makes no environments.
 pub const ENVIRONMENTS: &str = "python3-venv";

@@ -124,7 +124,7 @@ struct Report {
 /// # Errors
 /// The damper or the name is refused, or the file cannot be written.
 pub fn run(arguments: &ExportArguments) -> Outcome<()> {
-    if let Some(interface) = arguments.fmu.interface() {
+    if let Some(interface) = arguments.fmu.interface()? {
         return match arguments.scalar {
             Scalar::F32 => fmu::run::<f32>(arguments, interface),
             Scalar::F64 => fmu::run::<f64>(arguments, interface),

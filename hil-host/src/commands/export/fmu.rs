@@ -20,23 +20,38 @@ pub(super) struct FmuArguments {
     #[arg(long, value_name = "2|3", value_parser = ["2", "3"], conflicts_with_all = ["lang", "standalone", "health"])]
     fmi: Option<String>,
     /// Another damper of the FMU, preset or TOML file, as it is there; repeated for a bank.
-    #[arg(long, value_name = "NAME|FILE", requires = "fmi")]
+    #[arg(long, value_name = "NAME|FILE")]
     also: Vec<String>,
     /// The constants are images in the folder of resources of the FMU, where others may take their place.
-    #[arg(long, requires = "fmi")]
+    #[arg(long)]
     loadable: bool,
     /// No library for this platform: no C compiler is needed here, and the importer compiles the sources.
-    #[arg(long, requires = "fmi")]
+    #[arg(long)]
     sources_only: bool,
 }
 
 impl FmuArguments {
     /// The interface asked for.
-    pub(super) fn interface(&self) -> Option<Interface> {
-        Some(match self.fmi.as_deref()? {
-            "2" => Interface::Two,
-            _ => Interface::Three,
-        })
+    ///
+    /// # Errors
+    /// None, with options that mean nothing then.
+    pub(super) fn interface(&self) -> Outcome<Option<Interface>> {
+        let others = [
+            ("--also", !self.also.is_empty()),
+            ("--loadable", self.loadable),
+            ("--sources-only", self.sources_only),
+        ];
+        match (
+            self.fmi.as_deref(),
+            others.iter().find(|(_, is_given)| *is_given),
+        ) {
+            (None, Some((option, _))) => Err(Failure::wrong_use(format!(
+                "{option}: it is of an FMU, allowed: with --fmi"
+            ))),
+            (None, None) => Ok(None),
+            (Some("2"), _) => Ok(Some(Interface::Two)),
+            (Some(_), _) => Ok(Some(Interface::Three)),
+        }
     }
 }
 
@@ -78,7 +93,13 @@ pub(super) fn run<T: Word>(arguments: &ExportArguments, interface: Interface) ->
         None => constant_name(&arguments.damper.damper).to_lowercase(),
     };
     let named = named.collect::<Outcome<_>>()?;
-    let fmu = Fmu::new(interface, &identifier, named, step_s, arguments.fmu.loadable)?;
+    let fmu = Fmu::new(
+        interface,
+        &identifier,
+        named,
+        step_s,
+        arguments.fmu.loadable,
+    )?;
     let binary = match arguments.fmu.sources_only {
         true => None,
         false => Some(compile(&fmu).map_err(|error| Failure::new(error.to_string()))?),
@@ -99,21 +120,26 @@ pub(super) fn run<T: Word>(arguments: &ExportArguments, interface: Interface) ->
         platform: binary.map(|binary| binary.platform),
         fmu_bytes: bytes.len(),
     };
-    print_report_beside(&arguments.output, arguments.format, &report, |out, report| {
-        writeln!(
-            out,
-            "{} in {}: FMI {}, {} for {} us, {}, {}; {} bytes",
-            report.name,
-            report.output,
-            report.fmi,
-            report.dampers.join(", "),
-            arguments.step_us,
-            report.scalar,
-            match &report.platform {
-                Some(platform) => format!("a library for {platform} and sources"),
-                None => "sources only".into(),
-            },
-            report.fmu_bytes
-        )
-    })
+    print_report_beside(
+        &arguments.output,
+        arguments.format,
+        &report,
+        |out, report| {
+            writeln!(
+                out,
+                "{} in {}: FMI {}, {} for {} us, {}, {}; {} bytes",
+                report.name,
+                report.output,
+                report.fmi,
+                report.dampers.join(", "),
+                arguments.step_us,
+                report.scalar,
+                match &report.platform {
+                    Some(platform) => format!("a library for {platform} and sources"),
+                    None => "sources only".into(),
+                },
+                report.fmu_bytes
+            )
+        },
+    )
 }

@@ -25,7 +25,12 @@ pub fn archive<T: Word>(fmu: &Fmu<T>, binary: Option<&Binary>) -> ZipResult<Vec<
     };
     put("modelDescription.xml", fmu.description().as_bytes(), false)?;
     put("documentation/index.html", fmu.page().as_bytes(), false)?;
-    if let Some(Binary { platform, end, content }) = binary {
+    if let Some(Binary {
+        platform,
+        end,
+        content,
+    }) = binary
+    {
         let name = format!("binaries/{platform}/{}.{end}", fmu.identifier);
         put(&name, content, true)?;
     }
@@ -39,7 +44,11 @@ pub fn archive<T: Word>(fmu: &Fmu<T>, binary: Option<&Binary>) -> ZipResult<Vec<
         put(&format!("sources/{name}"), text.as_bytes(), false)?;
     }
     if fmu.interface == Interface::Three {
-        put("sources/buildDescription.xml", fmu.build_description().as_bytes(), false)?;
+        put(
+            "sources/buildDescription.xml",
+            fmu.build_description().as_bytes(),
+            false,
+        )?;
     }
     Ok(zip.finish()?.into_inner())
 }

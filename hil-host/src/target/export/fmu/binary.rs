@@ -23,7 +23,9 @@ pub struct Binary {
 #[non_exhaustive]
 pub enum CompileError {
     /// The compiler is not there.
-    #[error("the C compiler {compiler} cannot be started ({source}); allowed: another one by the variable CC, or no library for this platform with --sources-only")]
+    #[error(
+        "the C compiler {compiler} cannot be started ({source}); allowed: another one by the variable CC, or no library for this platform with --sources-only"
+    )]
     Missing {
         /// Its name.
         compiler: String,
@@ -31,7 +33,9 @@ pub enum CompileError {
         source: io::Error,
     },
     /// The compiler refuses the sources.
-    #[error("the C compiler {compiler} failed: {message}\nallowed: another one by the variable CC, or no library for this platform with --sources-only")]
+    #[error(
+        "the C compiler {compiler} failed: {message}\nallowed: another one by the variable CC, or no library for this platform with --sources-only"
+    )]
     Failed {
         /// Its name.
         compiler: String,
@@ -67,7 +71,14 @@ pub fn compile<T: Word>(fmu: &Fmu<T>) -> Result<Binary, CompileError> {
     let mut command = Command::new(&compiler);
     command
         .args(words)
-        .args(["-std=c99", "-O2", "-fPIC", "-shared", "-fvisibility=hidden", "-o"])
+        .args([
+            "-std=c99",
+            "-O2",
+            "-fPIC",
+            "-shared",
+            "-fvisibility=hidden",
+            "-o",
+        ])
         .arg(&library)
         .args(fmu.compiled())
         .arg("-lm")
@@ -95,7 +106,11 @@ fn platform(interface: Interface) -> Result<String, CompileError> {
     match (interface, processor) {
         (Interface::Three, _) => Ok(format!("{processor}-{system_name}")),
         (Interface::Two, "x86_64") => {
-            let short = if system == "windows" { "win" } else { system_name };
+            let short = if system == "windows" {
+                "win"
+            } else {
+                system_name
+            };
             Ok(format!("{short}64"))
         }
         (Interface::Two, _) => Err(CompileError::Platform {

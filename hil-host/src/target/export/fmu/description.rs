@@ -76,8 +76,14 @@ const UNITS: [(&str, &str); 3] = [
 
 const CATEGORIES: [(&str, &str); 3] = [
     ("logStatusWarning", "Input that was held or limited"),
-    ("logStatusDiscard", "Calls that were refused; nothing has changed"),
-    ("logStatusError", "Calls after which the instance must be reset"),
+    (
+        "logStatusDiscard",
+        "Calls that were refused; nothing has changed",
+    ),
+    (
+        "logStatusError",
+        "Calls after which the instance must be reset",
+    ),
 ];
 
 impl<T: Word> Fmu<T> {
@@ -151,7 +157,10 @@ impl<T: Word> Fmu<T> {
     pub(super) fn build_description(&self) -> String {
         let mut xml = Xml::new();
         xml.open("fmiBuildDescription", &[("fmiVersion", "3.0")]);
-        xml.open("BuildConfiguration", &[("modelIdentifier", &self.identifier)]);
+        xml.open(
+            "BuildConfiguration",
+            &[("modelIdentifier", &self.identifier)],
+        );
         xml.open("SourceFileSet", &[("language", "C99")]);
         for name in self.compiled() {
             xml.empty("SourceFile", &[("name", name)]);
@@ -169,7 +178,12 @@ impl<T: Word> Fmu<T> {
             1 => "Damper",
             _ => "Dampers",
         };
-        format!("{what} {}, internal step {} s, {}", names.join(", "), self.step_s, T::NAME)
+        format!(
+            "{what} {}, internal step {} s, {}",
+            names.join(", "),
+            self.step_s,
+            T::NAME
+        )
     }
 
     fn variables(&self, xml: &mut Xml) {

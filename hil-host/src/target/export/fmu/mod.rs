@@ -77,8 +77,18 @@ impl<T: Word> Fmu<T> {
         for named in &self.dampers {
             hash.update(T::image(&named.damper));
         }
-        let hash: String = hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect();
-        let parts = [&hash[..8], &hash[8..12], &hash[12..16], &hash[16..20], &hash[20..32]];
+        let hash: String = hash
+            .finalize()
+            .iter()
+            .map(|byte| format!("{byte:02x}"))
+            .collect();
+        let parts = [
+            &hash[..8],
+            &hash[8..12],
+            &hash[12..16],
+            &hash[16..20],
+            &hash[20..32],
+        ];
         format!("{{{}}}", parts.join("-"))
     }
 }

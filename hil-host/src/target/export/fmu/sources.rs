@@ -8,14 +8,26 @@ use crate::target::export::standalone::{constants_of, header_of_step, source_of_
 
 /// Headers of the interface, which need no compiling.
 const HEADERS_2: [(&str, &str); 3] = [
-    ("fmi2FunctionTypes.h", include_str!("headers/fmi2FunctionTypes.h")),
+    (
+        "fmi2FunctionTypes.h",
+        include_str!("headers/fmi2FunctionTypes.h"),
+    ),
     ("fmi2Functions.h", include_str!("headers/fmi2Functions.h")),
-    ("fmi2TypesPlatform.h", include_str!("headers/fmi2TypesPlatform.h")),
+    (
+        "fmi2TypesPlatform.h",
+        include_str!("headers/fmi2TypesPlatform.h"),
+    ),
 ];
 const HEADERS_3: [(&str, &str); 3] = [
-    ("fmi3FunctionTypes.h", include_str!("headers/fmi3FunctionTypes.h")),
+    (
+        "fmi3FunctionTypes.h",
+        include_str!("headers/fmi3FunctionTypes.h"),
+    ),
     ("fmi3Functions.h", include_str!("headers/fmi3Functions.h")),
-    ("fmi3PlatformTypes.h", include_str!("headers/fmi3PlatformTypes.h")),
+    (
+        "fmi3PlatformTypes.h",
+        include_str!("headers/fmi3PlatformTypes.h"),
+    ),
 ];
 
 /// What both versions have.
@@ -58,7 +70,9 @@ impl<T: Word> Fmu<T> {
 
     /// The step and the constants of all dampers.
     fn dampers_source(&self) -> String {
-        let mut text = String::from("/* The step of a damper, and the constants of those of this FMU. */\n\n#include \"damper.h\"\n\n");
+        let mut text = String::from(
+            "/* The step of a damper, and the constants of those of this FMU. */\n\n#include \"damper.h\"\n\n",
+        );
         text += &source_of_step::<T>("DAMPER");
         let mut names = Vec::new();
         for (number, named) in (1..).zip(&self.dampers) {

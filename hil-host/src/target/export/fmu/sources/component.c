@@ -128,7 +128,7 @@ double component_time_s(const component *this)
 component_status component_begin(component *this, double start_s, bool stops, double stop_s)
 {
     if (!(start_s - start_s == 0) || (stops && !(stop_s >= start_s))) {
-        return component_tell(this, COMPONENT_ERROR, "an experiment from %.17g s to %.17g s", start_s, stop_s);
+        return component_tell(this, COMPONENT_ERROR, "an experiment from %.12g s to %.12g s", start_s, stop_s);
     }
     this->start_s = start_s;
     this->stop_s = stops ? stop_s : HUGE_VAL;
@@ -178,7 +178,7 @@ component_status component_set_real(component *this, uint32_t variable, double v
     case MODEL_DONE:
         return COMPONENT_OK;
     case MODEL_OUT_OF_RANGE:
-        return component_tell(this, COMPONENT_DISCARD, "value reference %lu: %.17g, allowed: %s", (unsigned long)variable,
+        return component_tell(this, COMPONENT_DISCARD, "value reference %lu: %.12g, allowed: %s", (unsigned long)variable,
                               value, model_allowed(variable));
     case MODEL_READ_ONLY:
         return component_tell(this, COMPONENT_ERROR, "value reference %lu is an output, and cannot be set",
@@ -203,15 +203,15 @@ component_status component_step(component *this, double at_s, double step_s)
     const char *notice;
 
     if (!(fabs(at_s - now_s) <= close_s)) {
-        return component_tell(this, COMPONENT_DISCARD, "a step from %.17g s, but the last one ended at %.17g s", at_s, now_s);
+        return component_tell(this, COMPONENT_DISCARD, "a step from %.12g s, but the last one ended at %.12g s", at_s, now_s);
     }
     if (!(count >= 1 && count < MOST_STEPS && fabs(step_s - count * model_step_s) <= close_s)) {
         return component_tell(this, COMPONENT_DISCARD,
-                              "a communication step of %.17g s, allowed: a multiple of the internal step of %.17g s", step_s,
+                              "a communication step of %.12g s, allowed: a multiple of the internal step of %.12g s", step_s,
                               model_step_s);
     }
     if (!(now_s + step_s <= this->stop_s + close_s)) {
-        return component_tell(this, COMPONENT_DISCARD, "a step to %.17g s, beyond the stop time of %.17g s", now_s + step_s,
+        return component_tell(this, COMPONENT_DISCARD, "a step to %.12g s, beyond the stop time of %.12g s", now_s + step_s,
                               this->stop_s);
     }
     model_step(this->model, (uint64_t)count);

@@ -1,0 +1,116 @@
+//! FMUs as importers use them: by a driver in C over the official headers, and by FMPy.
+
+#[path = "../common/mod.rs"]
+mod common;
+mod driver;
+mod forces;
+mod judge;
+mod loaded;
+mod refused;
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use dashpot_core::Damper;
+use dashpot_hil::files::damper;
+use dashpot_hil::study::excitation::Excitation;
+
+use crate::common::dashpot;
+
+/// An FMU in a folder of its own, unpacked.
+pub struct Unpacked {
+    /// Where the FMU and what is in it lie.
+    pub folder: tempfile::TempDir,
+    /// Its modelDescription.xml.
+    pub description: String,
+}
+
+impl Unpacked {
+    /// Exported as in-service.fmu with these options beside.
+    pub fn new(fmi: &str, more: &[&str]) -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        let line = [
+            &[
+                "export",
+                "--damper",
+                "in-service",
+                "--fmi",
+                fmi,
+                "--output",
+                "it.fmu",
+            ],
+            more,
+        ]
+        .concat();
+        dashpot(&line, folder.path()).success();
+        let file = fs::File::open(folder.path().join("it.fmu")).unwrap();
+        zip::ZipArchive::new(file)
+            .unwrap()
+            .extract(folder.path())
+            .unwrap();
+        let description = fs::read_to_string(folder.path().join("modelDescription.xml")).unwrap();
+        Self {
+            folder,
+            description,
+        }
+    }
+
+    /// A file of it.
+    pub fn path(&self, name: &str) -> PathBuf {
+        self.folder.path().join(name)
+    }
+
+    /// The library of this platform, wherever it lies.
+    pub fn library(&self) -> PathBuf {
+        let platforms = fs::read_dir(self.path("binaries")).unwrap();
+        let [platform] = &platforms
+            .map(|entry| entry.unwrap().path())
+            .collect::<Vec<_>>()[..]
+        else {
+            panic!("one platform");
+        };
+        let [library] = &fs::read_dir(platform)
+            .unwrap()
+            .map(|entry| entry.unwrap().path())
+            .collect::<Vec<_>>()[..]
+        else {
+            panic!("one library");
+        };
+        library.clone()
+    }
+
+    /// What the interface asks for to make an instance.
+    pub fn token(&self) -> &str {
+        let text = &self.description;
+        let from = text
+            .split_once("guid=\"")
+            .or_else(|| text.split_once("instantiationToken=\""));
+        from.unwrap().1.split_once('"').unwrap().0
+    }
+}
+
+/// A part of the ride, and a jump that no damper follows.
+pub fn displacements_m() -> Vec<f64> {
+    let mut ride = Excitation::Ride.displacements_m(1e-3);
+    ride.truncate(3000);
+    ride[2500] += 3.0;
+    ride
+}
+
+/// Forces of a preset's step over displacements (m), from a rest at the first.
+pub fn forces_n(name: &str, displacements_m: &[f64]) -> Vec<f64> {
+    let damper: Damper<f32> = damper::load(name, &[]).unwrap().build(1e-3).unwrap();
+    let mut state = damper.at_rest(displacements_m[0] as f32);
+    let step = |x: &f64| f64::from(damper.step(&mut state, *x as f32));
+    displacements_m.iter().map(step).collect()
+}
+
+/// The bits of numbers.
+pub fn bits(numbers: &[f64]) -> Vec<u64> {
+    numbers.iter().map(|number| number.to_bits()).collect()
+}
+
+/// A file of this package.
+pub fn source(file: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join(file)
+}
