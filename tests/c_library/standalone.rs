@@ -9,7 +9,7 @@ use dashpot::controller::{WARNINGS, succeed};
 use dashpot::golden::{MOTIONS, STEP_S, TICKS};
 use dashpot::memory::PlainData;
 use dashpot::random_damper::{self, Random};
-use dashpot::standalone::{Exported, Request, assert_same, driver, export};
+use dashpot::standalone::{Exported, Request, assert_same, driver, expected, export};
 use dashpot::{damper, document};
 use dashpot_core::{Damper, DamperParameters, DamperState};
 use fastrand::Rng;
@@ -160,6 +160,23 @@ fn requests<T: Exported>(damper: &Damper<T>, random: &mut Rng) -> Vec<Request<T>
         all.push(request);
     }
     all
+}
+
+/// Random requests are worth comparing: they meet every refusal and every status bit.
+#[test]
+fn random_requests_meet_everything() {
+    let (mut codes, mut status) = ([false; 4], 0);
+    for seed in 0..16 {
+        let parameters = random_damper::damper(&mut Random(seed));
+        let damper: Damper<f32> = parameters.build(STEP_S).expect("a valid damper");
+        let requests = requests(&damper, &mut Rng::with_seed(seed));
+        for answer in expected(&damper, &requests) {
+            codes[usize::from(answer.code)] = true;
+            let [_, [_, _, _, _, bits, ..]] = answer.rest;
+            status |= bits;
+        }
+    }
+    assert_eq!((codes, status), ([true; 4], 0x1f));
 }
 
 fn random_requests_by<T: Exported>(

@@ -7,8 +7,12 @@
     || defined(__ASSOCIATIVE_MATH__) || defined(__RECIPROCAL_MATH__)
 #error "the forces would not be those of the model: compile without -ffast-math and its parts (/fp:fast)"
 #endif
-#if !defined(FLT_EVAL_METHOD) || (FLT_EVAL_METHOD != 0 && FLT_EVAL_METHOD != 16)
-#error "the forces would not be those of the model: on 32-bit x86 compile with -msse2 -mfpmath=sse (/arch:SSE2)"
+#if defined(_MSC_VER) && !defined(__clang__)
+#if defined(_M_IX86) && _M_IX86_FP < 2
+#error "the forces would not be those of the model: on 32-bit x86 compile with /arch:SSE2"
+#endif
+#elif !defined(FLT_EVAL_METHOD) || (FLT_EVAL_METHOD != 0 && FLT_EVAL_METHOD != 16)
+#error "the forces would not be those of the model: on 32-bit x86 compile with -msse2 -mfpmath=sse"
 #endif
 #if FLT_RADIX != 2 || FLT_MANT_DIG != 24 || DBL_MANT_DIG != 53
 #error "floating-point numbers must be those of IEEE 754"
