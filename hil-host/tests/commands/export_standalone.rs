@@ -35,6 +35,10 @@ fn header_and_source_are_named_and_always_the_same() {
         text.starts_with("IN_SERVICE in a.c, declared in a.h: in-service for 1000 us, f32"),
         "{text}"
     );
+    assert!(
+        text.contains(": 12288 bytes of constants, a state 24 bytes"),
+        "{text}"
+    );
     assert!(!text.contains("image"), "{text}");
     let first = [read(folder, "a.c"), read(folder, "a.h")];
     for text in &first {

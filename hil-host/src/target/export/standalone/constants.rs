@@ -41,13 +41,13 @@ pub(super) fn declarations<T: Word>(constant: &str, damper: &Damper<T>) -> Strin
     )
 }
 
-/// The constants themselves.
-pub(super) fn definitions<T: Word>(name: &str, damper: &Damper<T>) -> String {
+/// The constants themselves, their names beginning with `name`, of the step whose names begin with `prefix`.
+pub(super) fn definitions<T: Word>(prefix: &str, name: &str, damper: &Damper<T>) -> String {
     let words = T::words(damper);
     let (scalars, rest) = words.split_at(SCALARS);
     let (revisions, pieces) = rest.split_at(REVISIONS);
     let mut text = format!(
-        "\nstatic const {name}_piece {name}_pieces[{}] = {{\n",
+        "\nstatic const {prefix}_piece {name}_pieces[{}] = {{\n",
         2 * PIECES
     );
     for side in pieces.chunks(PIECES * PIECE) {
@@ -84,7 +84,7 @@ pub(super) fn definitions<T: Word>(name: &str, damper: &Damper<T>) -> String {
             .collect();
         let _ = writeln!(text, "    {},", row.join(", "));
     }
-    let _ = write!(text, "}};\n\nconst {name}_damper {name}_as_built = {{\n");
+    let _ = write!(text, "}};\n\nconst {prefix}_damper {name}_as_built = {{\n");
     for (place, word) in scalars.iter().enumerate() {
         let mut number = T::from_word(*word);
         if place == HALF_FORCE_LIMIT {

@@ -46,11 +46,17 @@ pub fn standalone_source<T: Word>(
         Some(header) => format!("#include \"{}\"\n\n", name::checked_include(header)?),
         None => declarations(constant, damper) + "\n",
     };
-    let constants = constants::definitions(&constant.to_lowercase(), damper);
+    let name = constant.to_lowercase();
+    let constants = constants::definitions(&name, &name, damper);
     Ok(comment(constant, damper, provenance)?
         + &declared
         + &rendered::<T>(SOURCE, constant)
         + &constants)
+}
+
+/// Bytes of a damper's table as constants of C.
+pub fn standalone_table_bytes<T: Word>(damper: &Damper<T>) -> usize {
+    constants::bytes(damper)
 }
 
 fn declarations<T: Word>(constant: &str, damper: &Damper<T>) -> String {
@@ -64,7 +70,7 @@ fn comment<T: Word>(
     provenance: &Provenance<'_>,
 ) -> Result<String, ExportError> {
     name::check_c(constant)?;
-    let stored = format!("{} bytes of constants", constants::bytes(damper));
+    let stored = format!("{} bytes of constants", standalone_table_bytes(damper));
     let comment = provenance.comment(damper, &stored, "a compiler of C99 and nothing else");
     Ok(comment + "\n")
 }
