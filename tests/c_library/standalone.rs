@@ -9,11 +9,11 @@ use dashpot::controller::{WARNINGS, succeed};
 use dashpot::golden::{MOTIONS, STEP_S, TICKS};
 use dashpot::memory::PlainData;
 use dashpot::random_damper::{self, Random};
-use dashpot::standalone::{Exported, Request, assert_same, driver, export};
+use dashpot::standalone::{Exported, Request, assert_same, driver, expected, export};
 use dashpot::{damper, document};
 use dashpot_core::{Damper, DamperParameters, DamperState};
 use fastrand::Rng;
-use xtask::tools::{CLANG, GCC, GXX, Tool, have};
+use xtask::tools::{ARM_GCC, CLANG, GCC, GXX, Tool, have};
 
 /// Options with which the forces must keep their bits; each asks for fused products where the processor has them, or
 /// does not.
@@ -160,6 +160,23 @@ fn requests<T: Exported>(damper: &Damper<T>, random: &mut Rng) -> Vec<Request<T>
         all.push(request);
     }
     all
+}
+
+/// Random requests are worth comparing: they meet every refusal and every status bit.
+#[test]
+fn random_requests_meet_everything() {
+    let (mut codes, mut status) = ([false; 4], 0);
+    for seed in 0..16 {
+        let parameters = random_damper::damper(&mut Random(seed));
+        let damper: Damper<f32> = parameters.build(STEP_S).expect("a valid damper");
+        let requests = requests(&damper, &mut Rng::with_seed(seed));
+        for answer in expected(&damper, &requests) {
+            codes[usize::from(answer.code)] = true;
+            let [_, [_, _, _, _, bits, ..]] = answer.rest;
+            status |= bits;
+        }
+    }
+    assert_eq!((codes, status), ([true; 4], 0x1f));
 }
 
 fn random_requests_by<T: Exported>(
@@ -328,27 +345,46 @@ fn what_would_change_the_bits_is_an_error() {
     }
 }
 
+/// Names that an object of an exported source leaves to others.
+fn left_to_others(compiler: &mut Command, source: &str, folder: &Path) -> Vec<String> {
+    use object::{Object, ObjectSymbol};
+    let object = folder.join("object.o");
+    compiler
+        .args(["-std=c99", "-ffreestanding", "-c", source, "-o"])
+        .arg(&object);
+    succeed(compiler.current_dir(folder));
+    let bytes = std::fs::read(&object).expect("an object");
+    let object = object::File::parse(&*bytes).expect("an object");
+    let needed = object.symbols().filter(|symbol| symbol.is_undefined());
+    let named = needed.filter_map(|symbol| symbol.name().ok().map(str::to_owned));
+    named.filter(|name| !name.is_empty()).collect()
+}
+
 #[test]
 fn it_needs_no_library() {
-    use object::{Object, ObjectSymbol};
-    if !have(&[GCC], "what C without a library needs") {
+    if !have(&[GCC, ARM_GCC], "what C without a library needs") {
         return;
     }
     let folder = tempfile::tempdir().expect("a temporary folder");
     let folder = folder.path();
     two_dampers(folder);
-    for options in [&["-O0"], &["-O2"], &["-Os"]] {
-        let mut compiler = compiler(GCC, &["-std=c99", "-ffreestanding", "-c"]);
-        succeed(compiler.args(options).arg("front.c").current_dir(folder));
-        let bytes = std::fs::read(folder.join("front.o")).expect("an object");
-        let object = object::File::parse(&*bytes).expect("an object");
-        let needed: Vec<_> = object
-            .symbols()
-            .filter(|symbol| symbol.is_undefined())
-            .collect();
-        let named = needed.iter().filter_map(|symbol| symbol.name().ok());
-        let named: Vec<&str> = named.filter(|name| !name.is_empty()).collect();
-        assert!(named.is_empty(), "{options:?}: {named:?}");
+    for optimisation in ["-O0", "-O2", "-Os"] {
+        for source in ["front.c", "rear.c"] {
+            let left = left_to_others(&mut compiler(GCC, &[optimisation]), source, folder);
+            assert!(left.is_empty(), "{source} {optimisation}: {left:?}");
+            for processor in ["-mcpu=cortex-m0", "-mcpu=cortex-m4"] {
+                let mut compiler = compiler(ARM_GCC, &[optimisation, processor, "-mthumb"]);
+                let mut left = left_to_others(&mut compiler, source, folder);
+                // Of the compiler itself: arithmetic that the processor lacks.
+                left.retain(|name| {
+                    !name.starts_with("__aeabi_") && !name.starts_with("__gnu_thumb1_case")
+                });
+                assert!(
+                    left.is_empty(),
+                    "{source} {processor} {optimisation}: {left:?}"
+                );
+            }
+        }
     }
 }
 

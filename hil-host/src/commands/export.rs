@@ -17,6 +17,7 @@ use crate::files::output::{self, is_replaceable, write_bytes, write_together};
 use crate::study::Scalar;
 use crate::target::export::{
     Provenance, Word, c_header, c_source, rust_source, standalone_header, standalone_source,
+    standalone_table_bytes,
 };
 
 /// Language of the exported source.
@@ -112,6 +113,7 @@ struct Report {
     scalar: Scalar,
     step_s: f64,
     revision: u32,
+    /// In memory; of C without a library the table.
     damper_bytes: usize,
     state_bytes: usize,
     /// Bytes of an image; source in Rust holds words.
@@ -157,7 +159,7 @@ pub fn run(arguments: &ExportArguments) -> Outcome<()> {
             }
             writeln!(
                 out,
-                ": {} for {} us, {}, revision {:#010x}: {}{} bytes in memory, a state {} bytes",
+                ": {} for {} us, {}, revision {:#010x}: {}{} bytes {}, a state {} bytes",
                 report.damper,
                 arguments.step_us,
                 report.scalar,
@@ -166,6 +168,11 @@ pub fn run(arguments: &ExportArguments) -> Outcome<()> {
                     .image_bytes
                     .map_or_else(String::new, |bytes| format!("image {bytes} bytes, ")),
                 report.damper_bytes,
+                if arguments.standalone {
+                    "of constants"
+                } else {
+                    "in memory"
+                },
                 report.state_bytes
             )
         },
@@ -215,7 +222,11 @@ fn export<T: Word>(arguments: &ExportArguments) -> Outcome<Report> {
         scalar: Scalar::of::<T>(),
         step_s,
         revision: damper.revision(),
-        damper_bytes: size_of::<Damper<T>>(),
+        damper_bytes: if arguments.standalone {
+            standalone_table_bytes(&damper)
+        } else {
+            size_of::<Damper<T>>()
+        },
         state_bytes: size_of::<dashpot_core::DamperState<T>>(),
         image_bytes: (arguments.lang != Language::Rust && !arguments.standalone)
             .then(|| T::image(&damper).len()),

@@ -15,5 +15,5 @@ pub use error::ExportError;
 pub use health::{health_c_header, health_c_source, health_rust_source};
 pub use provenance::Provenance;
 pub use rust::rust_source;
-pub use standalone::{standalone_header, standalone_source};
+pub use standalone::{standalone_header, standalone_source, standalone_table_bytes};
 pub use word::Word;

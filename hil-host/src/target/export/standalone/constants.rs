@@ -41,7 +41,7 @@ pub(super) fn declarations<T: Word>(constant: &str, damper: &Damper<T>) -> Strin
     )
 }
 
-/// The constants themselves, called `name`, of the types whose names begin with `prefix`.
+/// The constants themselves, their names beginning with `name`, of the step whose names begin with `prefix`.
 pub(super) fn definitions<T: Word>(prefix: &str, name: &str, damper: &Damper<T>) -> String {
     let words = T::words(damper);
     let (scalars, rest) = words.split_at(SCALARS);

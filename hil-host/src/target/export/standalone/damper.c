@@ -7,8 +7,12 @@
     || defined(__ASSOCIATIVE_MATH__) || defined(__RECIPROCAL_MATH__)
 #error "the forces would not be those of the model: compile without -ffast-math and its parts (/fp:fast)"
 #endif
-#if !defined(FLT_EVAL_METHOD) || (FLT_EVAL_METHOD != 0 && FLT_EVAL_METHOD != 16)
-#error "the forces would not be those of the model: on 32-bit x86 compile with -msse2 -mfpmath=sse (/arch:SSE2)"
+#if defined(_MSC_VER) && !defined(__clang__)
+#if defined(_M_IX86) && _M_IX86_FP < 2
+#error "the forces would not be those of the model: on 32-bit x86 compile with /arch:SSE2"
+#endif
+#elif !defined(FLT_EVAL_METHOD) || (FLT_EVAL_METHOD != 0 && FLT_EVAL_METHOD != 16)
+#error "the forces would not be those of the model: on 32-bit x86 compile with -msse2 -mfpmath=sse"
 #endif
 #if FLT_RADIX != 2 || FLT_MANT_DIG != 24 || DBL_MANT_DIG != 53
 #error "floating-point numbers must be those of IEEE 754"
@@ -225,7 +229,7 @@ PREFIX_INLINE prefix_bits prefix_passed(prefix_bits reach, prefix_real knot)
 
 /* The stage whose stretch and flow sum to `reach` (m). A bin, named by exponent and leading bits of the reach beyond
  * the offset, names the piece at its lower border; at most two knots lie within it. Any number is safe to look up. */
-PREFIX_INLINE prefix_stage prefix_solve(const prefix_damper *damper, prefix_real reach)
+PREFIX_INLINE void prefix_solve(const prefix_damper *damper, prefix_real reach, prefix_stage *stage)
 {
     /* The larger of sums is the sum of the larger, and takes no zero. */
     const prefix_real knot = damper->first_knot_m;
@@ -236,12 +240,10 @@ PREFIX_INLINE prefix_stage prefix_solve(const prefix_damper *damper, prefix_real
     const unsigned first = damper->bins[bin][side] % (2U * PREFIX_PIECES);
     const prefix_real *next = damper->pieces[first].next_knots;
     const unsigned passed = (unsigned)(prefix_passed(bits, next[0]) + prefix_passed(bits, next[1]));
-    prefix_stage stage;
 
-    stage.piece = &damper->pieces[(first + passed) % (2U * PREFIX_PIECES)];
-    stage.z_m = place - stage.piece->knot;
-    stage.flow_m = prefix_cubic(stage.piece->flow, stage.z_m);
-    return stage;
+    stage->piece = &damper->pieces[(first + passed) % (2U * PREFIX_PIECES)];
+    stage->z_m = place - stage->piece->knot;
+    stage->flow_m = prefix_cubic(stage->piece->flow, stage->z_m);
 }
 
 /* Force magnitude (N) at a stretch (m), by the stiffness of the stage that ended there; it may exceed the limit. */
@@ -256,7 +258,8 @@ PREFIX_INLINE prefix_real prefix_force(const prefix_damper *damper, prefix_real 
  * equation, du/dt = dx/dt - f(u), with f = v_h(F(u)) zero in the clearance and rising beyond. A step takes two
  * implicit stages (Alexander's SDIRK2, gamma = 1 - 1/sqrt 2: second order, L-stable, last stage at the tick) and then
  * corrects the flow by the difference between its exact mean along the step's straight path and the stages'
- * quadrature of that path. Stated in docs/numerics.md of Dashpot; its other transcription is core/src/step.rs. */
+ * quadrature of that path. Stated in docs/numerics.md of Dashpot; its other transcription is core/src/step.rs.
+ * Inlined twice, so that the usual step calls nothing and saves no registers for a call. */
 PREFIX_INLINE prefix_real prefix_move(const prefix_damper *damper, prefix_state *state, prefix_real travel)
 {
     const prefix_real gamma = PREFIX_GAMMA;
@@ -271,8 +274,8 @@ PREFIX_INLINE prefix_real prefix_move(const prefix_damper *damper, prefix_state 
     state->displacement_m = state->displacement_m + travel;
 
     start = state->stretch_m;
-    first = prefix_solve(damper, prefix_add_product(start, gamma, travel));
-    last = prefix_solve(damper, prefix_subtract_product(start + travel, PREFIX_REST_OF_GAMMA, first.flow_m));
+    prefix_solve(damper, prefix_add_product(start, gamma, travel), &first);
+    prefix_solve(damper, prefix_subtract_product(start + travel, PREFIX_REST_OF_GAMMA, first.flow_m), &last);
     bend = prefix_product(gamma, last.flow_m - first.flow_m);
     quadrature = first.flow_m + bend;
     change = travel - quadrature;
@@ -398,9 +401,11 @@ void prefix_adopt(const prefix_damper *damper, prefix_state *state)
         for (halving = 0; halving < PREFIX_FRACTION_BITS + 3; halving++) {
             const prefix_real middle = (prefix_real)0.5 * (low + high);
             const prefix_real reach = force < 0 ? -middle : middle;
-            const prefix_stage stage = prefix_solve(damper, reach);
-            const prefix_real stretch = prefix_subtract_product(reach, PREFIX_GAMMA, stage.flow_m);
+            prefix_stage stage;
+            prefix_real stretch;
 
+            prefix_solve(damper, reach, &stage);
+            stretch = prefix_subtract_product(reach, PREFIX_GAMMA, stage.flow_m);
             state->stretch_m = stretch;
             state->potential_m2 = prefix_cubic(stage.piece->potential, stage.z_m);
             if (prefix_force(damper, stretch, prefix_cubic(stage.piece->stiffness, stage.z_m)) < target) {
@@ -535,15 +540,39 @@ prefix_result prefix_restore(const prefix_damper *damper, prefix_state *state,
           && prefix_magnitude(saved.force_n) <= prefix_force_limit_n(damper))) {
         return PREFIX_IMPOSSIBLE_VALUES;
     }
-    *state = saved;
+    /* Member by member: of a whole structure a compiler may make a call of memcpy. */
+    state->displacement_m = saved.displacement_m;
+    state->stretch_m = saved.stretch_m;
+    state->potential_m2 = saved.potential_m2;
+    state->force_n = saved.force_n;
+    state->revision = saved.revision;
+    state->status_word = saved.status_word;
+    state->rejected_inputs = saved.rejected_inputs;
     return PREFIX_DONE;
+}
+
+static void prefix_copy(prefix_damper *to, const prefix_damper *from)
+{
+    to->largest_move_m = from->largest_move_m;
+    to->position_rounder_m = from->position_rounder_m;
+    to->rest_rounder_m = from->rest_rounder_m;
+    to->step_s = from->step_s;
+    to->offset_m = from->offset_m;
+    to->first_knot_m = from->first_knot_m;
+    to->half_clearance_m = from->half_clearance_m;
+    to->force_limit_n = from->force_limit_n;
+    to->held_m = from->held_m;
+    to->revision = from->revision;
+    to->table_revision = from->table_revision;
+    to->pieces = from->pieces;
+    to->bins = from->bins;
 }
 
 /* Displacements by a linear congruential generator (Numerical Recipes), about zero, their moves halved every 128
  * steps from the largest credible one down, and again; on the way a reading that failed, a jump, another clearance. */
 uint32_t prefix_digest(const prefix_damper *damper)
 {
-    prefix_damper copy = *damper;
+    prefix_damper copy;
     prefix_state state;
     uint8_t bytes[PREFIX_STATE_BYTES];
     uint32_t hash = PREFIX_HASH_START;
@@ -552,6 +581,7 @@ uint32_t prefix_digest(const prefix_damper *damper)
     prefix_real displacement = 0;
     unsigned step, byte;
 
+    prefix_copy(&copy, damper);
     prefix_at_rest(&copy, &state, 0);
     for (step = 0; step < PREFIX_DIGEST_STEPS; step++) {
         const bool failed = step % 512 == 300;

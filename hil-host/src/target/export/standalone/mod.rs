@@ -46,7 +46,8 @@ pub fn standalone_source<T: Word>(
         Some(header) => format!("#include \"{}\"\n\n", name::checked_include(header)?),
         None => declarations(constant, damper) + "\n",
     };
-    let constants = constants_of(&constant.to_lowercase(), &constant.to_lowercase(), damper);
+    let name = constant.to_lowercase();
+    let constants = constants::definitions(&name, &name, damper);
     Ok(comment(constant, damper, provenance)?
         + &declared
         + &rendered::<T>(SOURCE, constant)
@@ -68,6 +69,11 @@ pub(super) fn constants_of<T: Word>(prefix: &str, name: &str, damper: &Damper<T>
     constants::definitions(prefix, name, damper)
 }
 
+/// Bytes of a damper's table as constants of C.
+pub fn standalone_table_bytes<T: Word>(damper: &Damper<T>) -> usize {
+    constants::bytes(damper)
+}
+
 fn declarations<T: Word>(constant: &str, damper: &Damper<T>) -> String {
     let constants = constants::declarations(constant, damper);
     rendered::<T>(HEADER, constant) + &constants + END_OF_HEADER
@@ -79,7 +85,7 @@ fn comment<T: Word>(
     provenance: &Provenance<'_>,
 ) -> Result<String, ExportError> {
     name::check_c(constant)?;
-    let stored = format!("{} bytes of constants", constants::bytes(damper));
+    let stored = format!("{} bytes of constants", standalone_table_bytes(damper));
     let comment = provenance.comment(damper, &stored, "a compiler of C99 and nothing else");
     Ok(comment + "\n")
 }
