@@ -67,7 +67,7 @@ pub struct ExportArguments {
     #[arg(long, value_enum, default_value_t = Scalar::F32)]
     scalar: Scalar,
     /// Write what watches the damper's health in place of the damper: the bytes of its model in any language.
-    #[arg(long, requires = "displacement_noise_m")]
+    #[arg(long)]
     health: bool,
     #[command(flatten)]
     sensors: SensorArguments,
@@ -107,9 +107,10 @@ struct Report {
 /// # Errors
 /// The damper or the name is refused, or the file cannot be written.
 pub fn run(arguments: &ExportArguments) -> Outcome<()> {
-    if let Some(settings) = arguments.sensors.settings() {
-        return health::run(arguments, &settings);
+    if arguments.health {
+        return health::run(arguments);
     }
+    arguments.sensors.refuse_without("--health")?;
     let report = match arguments.scalar {
         Scalar::F32 => export::<f32>(arguments),
         Scalar::F64 => export::<f64>(arguments),

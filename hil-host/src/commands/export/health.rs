@@ -1,11 +1,12 @@
 //! `dashpot export --health`: what watches a damper's health, as a constant or as bytes.
 
-use dashpot_core::health::{Health, HealthModel, HealthSettings};
+use dashpot_core::health::{Health, HealthModel};
 use serde::Serialize;
 
 use super::{ExportArguments, Language, command_line, header_beside, name_of};
 use crate::commands::failure::{Failure, Outcome};
 use crate::commands::print_report_beside;
+use crate::commands::sensors::model;
 use crate::files::output::{self, is_replaceable, write_bytes, write_together};
 use crate::study::Scalar;
 use crate::target::export::{Provenance, health_c_header, health_c_source, health_rust_source};
@@ -27,12 +28,9 @@ struct Report {
 }
 
 /// Builds the model and writes it.
-pub(super) fn run(arguments: &ExportArguments, settings: &HealthSettings) -> Outcome<()> {
-    if !arguments.health {
-        return Err(Failure::wrong_use(
-            "--displacement-noise-m: the noise of the sensors is no part of a damper, allowed: with --health",
-        ));
-    }
+pub(super) fn run(arguments: &ExportArguments) -> Outcome<()> {
+    let noise = arguments.sensors.noise_for("--health")?;
+    let settings = arguments.sensors.settings(noise);
     if arguments.scalar != Scalar::F32 {
         return Err(Failure::wrong_use(
             "--scalar f64: health is watched in single precision, allowed with --health: f32",
@@ -40,7 +38,7 @@ pub(super) fn run(arguments: &ExportArguments, settings: &HealthSettings) -> Out
     }
     let name = name_of(arguments, "_HEALTH")?;
     let step_s = arguments.step_us.step_s();
-    let model: HealthModel = arguments.damper.load()?.health_model(settings, step_s)?;
+    let model = model(&arguments.damper.load()?, &settings, step_s)?;
     let constant = name.as_deref().unwrap_or_default();
     let command = format!(
         "{} --health --displacement-noise-m {:e} --force-noise-n {} --memory-s {} --law-deviation {} --lag-s {} --lag-sd-s {}",
