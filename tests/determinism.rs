@@ -1,42 +1,13 @@
 //! One digest for every damper and motion: the same force bits on every machine.
-//!
-//! The motions are made with `libm`, not with the machine's own sine, so the input is the same too.
 
-use std::f64::consts::TAU;
 use std::fmt::Write;
 
 use dashpot::digest::Digest;
+use dashpot::golden::{MOTIONS, STEP_S, TICKS};
 use dashpot::target::{BANK_STEPS, STEPS, experiments};
 use dashpot::{damper, document};
 use dashpot_core::{Damper, DamperParameters, Real};
 use dashpot_experiment::BANK;
-
-const STEP_S: f64 = 1e-3;
-const TICKS: u32 = 4000;
-
-/// A motion: name and displacement [m] at a time [s].
-type Motion = (&'static str, fn(f64) -> f64);
-
-const MOTIONS: [Motion; 4] = [
-    ("ride", |t| {
-        (1..=20)
-            .map(f64::from)
-            .map(|line| 2e-3 / line * libm::sin(TAU * 0.71 * line * t + line * line))
-            .sum()
-    }),
-    ("sweep", |t| 0.8e-3 * libm::sin(TAU * 3.0 * t * t)),
-    ("saw", |t| {
-        let phase = 2.0 * t - libm::floor(2.0 * t);
-        if t < 3.0 {
-            0.05 * (0.25 - (phase - 0.5).abs())
-        } else {
-            -0.0125
-        }
-    }),
-    ("decay", |t| {
-        0.01 * libm::exp(-2.0 * t) * libm::sin(TAU * 1.4 * t)
-    }),
-];
 
 /// Digest of the bits of the forces.
 fn digest<T: Real>(parameters: &DamperParameters, motion: fn(f64) -> f64) -> u64 {

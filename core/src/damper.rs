@@ -94,6 +94,12 @@ impl<T: Real> Damper<T> {
         }
     }
 
+    /// For each bin of the reach the piece at its lower border, in extension and in compression, each side's pieces in
+    /// one count: what a step in another language looks up beside [`Damper::to_words`].
+    pub fn bins(&self) -> &[[u8; 2]] {
+        &self.table.bins
+    }
+
     /// Sets the clearance 2a (m): a live change for firmware, a few dozen operations, no table touched.
     ///
     /// # Errors

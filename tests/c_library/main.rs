@@ -1,5 +1,6 @@
-//! The C library: its header, and the example on the host and on targets.
+//! The C library: its header, and the example on the host and on targets; C without a library.
 
 mod header;
 mod host;
+mod standalone;
 mod targets;

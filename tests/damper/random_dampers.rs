@@ -9,12 +9,9 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use dashpot::accuracy::{STEPS_S, stepped};
+use dashpot::random_damper::{Random, damper};
+use dashpot_core::Damper;
 use dashpot_core::characteristic::{Characteristic, Corner};
-use dashpot_core::parameters::{
-    Element, Geometry, Hydraulics, Leakage, Limits, Mount, Oil, OilColumn, Orifice, Reduced,
-    Relief, Reservoir, Seal, TwoChamber, Valve, Valves,
-};
-use dashpot_core::{Damper, DamperParameters};
 use dashpot_hil::study::Scalar;
 use dashpot_hil::study::accuracy_limits::{
     AccuracyLimits, LEAST_RMS_FORCE_RATIO, relaxation_time_s,
@@ -30,135 +27,6 @@ const COVERED: f64 = 0.8;
 
 /// What an NRMSE is of, in the order of [`Case::nrmse`].
 const COLUMNS: [&str; 4] = ["1 kHz f64", "1 kHz f32", "10 kHz f64", "10 kHz f32"];
-
-/// Numbers that look random: SplitMix64 (Steele, Lea, Flood 2014).
-struct Random(u64);
-
-impl Random {
-    /// In [0, 1).
-    fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    fn between(&mut self, from: f64, to: f64) -> f64 {
-        from + (to - from) * self.unit()
-    }
-
-    /// Each decade as likely as another.
-    fn decades(&mut self, from: f64, to: f64) -> f64 {
-        self.between(from.ln(), to.ln()).exp()
-    }
-
-    fn happens(&mut self, probability: f64) -> bool {
-        self.unit() < probability
-    }
-
-    /// The value, or what is off.
-    fn some<T>(&mut self, probability: f64, value: impl FnOnce(&mut Self) -> T) -> Option<T> {
-        self.happens(probability).then(|| value(self))
-    }
-}
-
-fn valve(random: &mut Random, free_radius_m: f64) -> Valve {
-    Valve {
-        clamp_radius_m: 0.5 * free_radius_m,
-        free_radius_m,
-        shims_m: heapless::Vec::new(),
-        edge_compliance_m_per_pa: Some(random.decades(1e-13, 1e-10)),
-        equivalent_pressure_factor: random.between(0.2, 1.0),
-        discharge_coefficient: random.between(0.5, 0.8),
-        preload_pa: random.some(0.6, |r| r.decades(1e4, 1e7)).unwrap_or(0.0),
-        elastic_modulus_pa: 2e11,
-        poisson_ratio: 0.3,
-    }
-}
-
-fn oil(random: &mut Random) -> Oil {
-    Oil {
-        density_kg_per_m3: random.between(800.0, 900.0),
-        thermal_expansion_per_k: 7e-4,
-        temperature_c: random.between(-40.0, 90.0),
-        viscosity_40c_m2_per_s: 15e-6,
-        viscosity_100c_m2_per_s: 3.8e-6,
-        column: random.some(0.6, |r| OilColumn {
-            bulk_modulus_pa: r.decades(8e8, 2e9),
-            rod_side_volume_m3: r.decades(1e-4, 2e-3),
-            piston_side_volume_m3: r.decades(1e-4, 2e-3),
-            air_fraction: r.some(0.7, |r| r.decades(1e-5, 0.05)).unwrap_or(0.0),
-            polytropic_exponent: r.some(0.5, |r| r.between(1.0, 1.4)).unwrap_or(1.0),
-        }),
-    }
-}
-
-fn hydraulics(random: &mut Random) -> Hydraulics {
-    let piston = random.between(0.03, 0.12);
-    Hydraulics {
-        geometry: Geometry {
-            rod_diameter_m: piston * random.between(0.2, 0.7),
-            piston_diameter_m: piston,
-        },
-        orifice: Orifice {
-            diameter_m: random.some(0.9, |r| r.decades(5e-4, 4e-3)).unwrap_or(0.0),
-            discharge_coefficient: random.between(0.5, 0.9),
-            transition_reynolds: random.some(0.5, |r| r.decades(10.0, 2000.0)).unwrap_or(0.0),
-        },
-        valves: Valves {
-            piston_extension: valve(random, 0.3 * piston),
-            piston_compression: valve(random, 0.3 * piston),
-            foot_compression: valve(random, 0.15 * piston),
-        },
-        leakage: random.some(0.5, |r| Leakage {
-            radial_clearance_m: r.decades(1e-5, 1e-4),
-            length_m: r.between(0.01, 0.06),
-            eccentricity_ratio: r.unit(),
-        }),
-        relief: random.some(0.5, |r| Relief {
-            opening_pressure_pa: r.decades(3e5, 2e7),
-            area_gradient_m2_per_pa: r.decades(1e-13, 1e-11),
-            discharge_coefficient: r.between(0.5, 0.8),
-        }),
-        reservoir: random.some(0.5, |r| Reservoir {
-            fill_pressure_pa: r.some(0.5, |r| r.decades(1e4, 2e6)).unwrap_or(0.0),
-            gas_volume_m3: 1e-3,
-            fill_temperature_c: 20.0,
-            rod_insertion_m: r.between(-0.05, 0.05),
-        }),
-        seal: random.some(0.5, |r| Seal {
-            friction_n: r.decades(10.0, 1000.0),
-        }),
-        two_chamber: random.some(0.4, |r| TwoChamber {
-            vapour_pressure_pa: r.between(-1e5, -1e4),
-        }),
-        oil: oil(random),
-    }
-}
-
-fn damper(random: &mut Random) -> DamperParameters {
-    let element = if random.happens(0.15) {
-        Element::Reduced(Reduced {
-            damping_n_s_per_m: random.decades(1e4, 1e6),
-            saturation_velocity_m_per_s: random.decades(5e-3, 0.3),
-        })
-    } else {
-        Element::Physical(hydraulics(random))
-    };
-    DamperParameters {
-        element,
-        mount: Mount {
-            stiffness_n_per_m: random.decades(1e6, 4e7),
-            seat_stiffness_n_per_m: random.some(0.3, |r| r.decades(1e7, 1e9)),
-            clearance_m: random.some(0.5, |r| r.decades(1e-5, 5e-3)).unwrap_or(0.0),
-        },
-        limits: Limits {
-            force_n: random.decades(5e3, 2e5),
-            rate_m_per_s: random.between(2.0, 10.0),
-        },
-    }
-}
 
 const DURATION_S: f64 = 2.0;
 

@@ -5,13 +5,17 @@ pub mod bench_test;
 pub mod budget;
 pub mod controller;
 pub mod document;
+pub mod golden;
 pub mod in_turn;
 pub mod library;
 pub mod look_up;
 pub mod memory;
 pub mod newton;
+pub mod random_damper;
 pub mod requests;
 pub mod signed_image;
+pub mod standalone;
+pub mod standalone_count;
 pub mod target;
 pub mod tolerance;
 

@@ -9,6 +9,7 @@ use std::fmt::Write;
 use dashpot::budget::{Budget, Figures};
 use dashpot::document;
 use dashpot::library::library_figures;
+use dashpot::standalone_count::standalone_figures;
 use dashpot::target::{ELEMENTS, Found, experiments};
 use serde_json::{Map, Value, json};
 use xtask::processor::{CORTEX_M4F, CORTEX_M7, CORTEX_M33, Processor};
@@ -21,6 +22,9 @@ const CONTRACT: &str = "docs/timing-contract.md";
 
 /// Column of the Cortex-M7 by a distribution's compiler, beside the default one.
 const DISTRIBUTION: &str = "cortex_m7_distribution";
+
+/// Instructions of a step in C without a library over those of the core (%).
+const MOST_OF_STANDALONE: f64 = 110.0;
 
 /// Where and with what the figures of a column are measured.
 struct Column {
@@ -79,7 +83,25 @@ fn measure(column: &Column) -> Figures {
     }
     let mut figures = step_figures(&runs);
     figures.extend(library_figures(&library));
+    figures.extend(standalone_figures(&column.processor));
+    let share = share_of_the_core(&figures);
+    figures.push(("standalone_percent_of_the_core".into(), share));
     figures
+}
+
+/// A step in C without a library over one of the core (%): at most what is promised.
+fn share_of_the_core(figures: &Figures) -> f64 {
+    let figure = |name: &str| {
+        let found = figures.iter().find(|(figure, _)| figure == name);
+        found.unwrap_or_else(|| panic!("no {name}")).1
+    };
+    let share =
+        100.0 * figure("standalone_most_instructions") / figure("physical_most_instructions");
+    assert!(
+        share <= MOST_OF_STANDALONE,
+        "C without a library takes {share:.1} % of the core's instructions"
+    );
+    share.round()
 }
 
 /// Figures of the runs, by name.
@@ -165,7 +187,7 @@ fn every_processor_keeps_its_budget_and_has_the_hosts_bits() {
 }
 
 /// Rows of the documents' tables: what, and the figures that it has.
-const ROWS: [(&str, &[&str]); 19] = [
+const ROWS: [(&str, &[&str]); 22] = [
     (
         "instructions of a step: least, mean, most over four excitations",
         &[
@@ -212,6 +234,26 @@ const ROWS: [(&str, &[&str]); 19] = [
     (
         "C: `dashpot_check_slice`, the most of a round",
         &["c_check_slice_instructions"],
+    ),
+    (
+        "portable C: least and most of a step",
+        &[
+            "standalone_least_instructions",
+            "standalone_most_instructions",
+        ],
+    ),
+    (
+        "portable C: first, held, limited, carried over to another clearance",
+        &[
+            "standalone_first_step_instructions",
+            "standalone_held_input_instructions",
+            "standalone_limited_input_instructions",
+            "standalone_swapped_damper_instructions",
+        ],
+    ),
+    (
+        "portable C: a step over the core's, %",
+        &["standalone_percent_of_the_core"],
     ),
     (
         "stack of a step, the unusual ones included, bytes",

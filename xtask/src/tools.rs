@@ -23,6 +23,8 @@ pub struct Tool {
 
 /// C compiler of the host.
 pub const GCC: Tool = program("gcc", "gcc");
+/// Another C compiler of the host.
+pub const CLANG: Tool = program("clang", "clang");
 /// C++ compiler of the host.
 pub const GXX: Tool = program("g++", "g++");
 /// Memory checker.
@@ -69,8 +71,9 @@ pub const SBATCH: Tool = program("sbatch", "slurm-wlm");
 pub const PARALLEL: Tool = program("parallel", "parallel");
 
 /// What tests need.
-pub const TOOLS: [Tool; 16] = [
+pub const TOOLS: [Tool; 17] = [
     GCC,
+    CLANG,
     GXX,
     VALGRIND,
     ARM_GCC,

@@ -14,7 +14,10 @@ use crate::commands::failure::{Failure, Outcome};
 use crate::files::input::is_standard_stream;
 use crate::files::output::{self, is_replaceable, write_bytes, write_together};
 use crate::study::Scalar;
-use crate::target::export::{Provenance, Word, c_header, c_source, rust_source};
+use crate::target::export::{
+    Provenance, Word, c_header, c_source, rust_source, standalone_header, standalone_source,
+    standalone_table_bytes,
+};
 
 /// Language of the exported source.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
@@ -42,11 +45,13 @@ impl Language {
 #[command(after_help = "Examples:
   dashpot export --damper reduced-vertical --lang rust --step-us 500 --output vertical.rs
   dashpot export --damper in-service --lang c --output in_service.c
+  dashpot export --damper in-service --lang c --standalone --output in_service.c
   dashpot export --damper in-service --lang bin --output in_service.bin
   dashpot export --damper in-service --lang c --health --displacement-noise-m 60e-6 --force-noise-n 60 --output health.c
 
 Then in Rust: mod vertical; ... vertical::REDUCED_VERTICAL.step(&mut state, x)
 and in C: #include \"in_service.h\" ... dashpot_damper_init(&damper, IN_SERVICE, sizeof IN_SERVICE)
+without a library: #include \"in_service.h\" ... in_service_step(&in_service_as_built, &state, x), see docs/portable-c.md
 of its health: HealthModel::from_image(&health::IN_SERVICE_HEALTH), dashpot_health_model_init(&model, IN_SERVICE_HEALTH, \
 sizeof IN_SERVICE_HEALTH)")]
 pub struct ExportArguments {
@@ -66,6 +71,9 @@ pub struct ExportArguments {
     /// Floating-point type.
     #[arg(long, value_enum, default_value_t = Scalar::F32)]
     scalar: Scalar,
+    /// Write step and constants in C99 that need no library, for tool chains without Rust; `--lang c` in either scalar.
+    #[arg(long, conflicts_with = "health")]
+    standalone: bool,
     /// Write what watches the damper's health in place of the damper: the bytes of its model in any language.
     #[arg(long)]
     health: bool,
@@ -95,6 +103,7 @@ struct Report {
     scalar: Scalar,
     step_s: f64,
     revision: u32,
+    /// In memory; of C without a library the table.
     damper_bytes: usize,
     state_bytes: usize,
     /// Bytes of an image; source in Rust holds words.
@@ -111,6 +120,12 @@ pub fn run(arguments: &ExportArguments) -> Outcome<()> {
         return health::run(arguments);
     }
     arguments.sensors.refuse_without("--health")?;
+    if arguments.standalone && arguments.lang != Language::C {
+        return Err(Failure::wrong_use(format!(
+            "--standalone --lang {}: a step without a library is of C, allowed: --lang c",
+            arguments.lang.name()
+        )));
+    }
     let report = match arguments.scalar {
         Scalar::F32 => export::<f32>(arguments),
         Scalar::F64 => export::<f64>(arguments),
@@ -129,7 +144,7 @@ pub fn run(arguments: &ExportArguments) -> Outcome<()> {
             }
             writeln!(
                 out,
-                ": {} for {} us, {}, revision {:#010x}: {}{} bytes in memory, a state {} bytes",
+                ": {} for {} us, {}, revision {:#010x}: {}{} bytes {}, a state {} bytes",
                 report.damper,
                 arguments.step_us,
                 report.scalar,
@@ -138,6 +153,11 @@ pub fn run(arguments: &ExportArguments) -> Outcome<()> {
                     .image_bytes
                     .map_or_else(String::new, |bytes| format!("image {bytes} bytes, ")),
                 report.damper_bytes,
+                if arguments.standalone {
+                    "of constants"
+                } else {
+                    "in memory"
+                },
                 report.state_bytes
             )
         },
@@ -160,12 +180,21 @@ fn export<T: Word>(arguments: &ExportArguments) -> Outcome<Report> {
         .transpose()?;
     let bytes = match arguments.lang {
         Language::Rust => rust_source(constant, &damper, &provenance)?.into_bytes(),
+        Language::C if arguments.standalone => {
+            let included = header.as_deref().and_then(Path::file_name);
+            let included = included.map(|name| name.to_string_lossy());
+            standalone_source(constant, &damper, &provenance, included.as_deref())?.into_bytes()
+        }
         Language::C => c_source(constant, &damper, &provenance)?.into_bytes(),
         Language::Bin => T::image(&damper),
     };
     match &header {
         Some(header) => {
-            let text = c_header(constant, &damper, &provenance)?;
+            let text = if arguments.standalone {
+                standalone_header(constant, &damper, &provenance)?
+            } else {
+                c_header(constant, &damper, &provenance)?
+            };
             write_together(&[(path, &bytes), (header, text.as_bytes())])?;
         }
         None => write_bytes(path, &bytes)?,
@@ -178,9 +207,14 @@ fn export<T: Word>(arguments: &ExportArguments) -> Outcome<Report> {
         scalar: Scalar::of::<T>(),
         step_s,
         revision: damper.revision(),
-        damper_bytes: size_of::<Damper<T>>(),
+        damper_bytes: if arguments.standalone {
+            standalone_table_bytes(&damper)
+        } else {
+            size_of::<Damper<T>>()
+        },
         state_bytes: size_of::<dashpot_core::DamperState<T>>(),
-        image_bytes: (arguments.lang != Language::Rust).then(|| T::image(&damper).len()),
+        image_bytes: (arguments.lang != Language::Rust && !arguments.standalone)
+            .then(|| T::image(&damper).len()),
     })
 }
 
@@ -214,8 +248,13 @@ fn command_line(arguments: &ExportArguments, name: &str) -> String {
     for assignment in &arguments.damper.overrides {
         line.push_str(&format!(" --set '{assignment}'"));
     }
+    let standalone = if arguments.standalone {
+        " --standalone"
+    } else {
+        ""
+    };
     line.push_str(&format!(
-        " --lang {} --step-us {} --scalar {} --name {name} --output '{}'",
+        " --lang {}{standalone} --step-us {} --scalar {} --name {name} --output '{}'",
         arguments.lang.name(),
         arguments.step_us,
         arguments.scalar,

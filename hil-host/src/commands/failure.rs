@@ -277,10 +277,12 @@ impl From<RealtimeError> for Failure {
 
 impl From<ExportError> for Failure {
     fn from(error: ExportError) -> Self {
-        Self::wrong_use(match error {
+        Self::wrong_use(match &error {
             ExportError::Scalar { scalar } => format!(
-                "--scalar {scalar}: the C library is of single precision, allowed with --lang c: f32"
+                "--scalar {scalar}: the C library is of single precision, allowed with --lang c: f32, \
+                 or f64 with --standalone"
             ),
+            ExportError::Include { .. } => format!("--output: {error}"),
             // The field is called as the option is.
             name => format!("--{name}"),
         })

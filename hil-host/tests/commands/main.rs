@@ -10,6 +10,7 @@ mod demonstration;
 mod export;
 mod export_c;
 mod export_health;
+mod export_standalone;
 mod firmware_bank;
 mod gaps;
 mod interruption;

@@ -177,6 +177,7 @@ fn data_whose_reader_has_left_is_no_failure() {
     for arguments in [
         &["replay", "--input", ride, "--output", "-"][..],
         &["export", "--lang", "c", "--output", "-"],
+        &["export", "--lang", "c", "--standalone", "--output", "-"],
         &[
             "export", "--lang", "bin", "--output", "-", "--format", "json",
         ],

@@ -350,8 +350,28 @@ fn export() {
     wrong_use(
         &EXPORT,
         &["--lang", "c", "--scalar", "f64"],
-        "allowed with --lang c: f32",
+        "allowed with --lang c: f32, or f64 with --standalone",
     );
+    for lang in ["rust", "bin"] {
+        wrong_use(
+            &EXPORT,
+            &["--lang", lang, "--standalone"],
+            "allowed: --lang c",
+        );
+    }
+    let health = ["--health", "--displacement-noise-m", "6e-5"];
+    wrong_use(
+        &EXPORT,
+        &[&["--lang", "c", "--standalone"][..], &health].concat(),
+        "cannot be used with",
+    );
+    for name in ["int", "double", "A-B", "_X", "\u{c4}", "DASHPOT_X"] {
+        wrong_use(
+            &EXPORT,
+            &["--lang", "c", "--standalone", "--name", name],
+            "allowed: ",
+        );
+    }
     wrong_use(
         &EXPORT,
         &["--lang", "bin", "--name", "X"],

@@ -23,8 +23,17 @@ pub enum ExportError {
         /// The name.
         name: String,
     },
+    /// A file's name that C cannot include.
+    #[error(
+        "file {file}: C cannot include it, allowed: Unicode without \
+         quotation mark, backslash and control character"
+    )]
+    Include {
+        /// The name.
+        file: String,
+    },
     /// A scalar that the C library does not have.
-    #[error("scalar {scalar}: the C library is of single precision, allowed for C: f32")]
+    #[error("scalar {scalar}: the C library is of single precision, allowed for it: f32")]
     Scalar {
         /// The scalar.
         scalar: Scalar,

@@ -6,6 +6,7 @@ mod health;
 mod name;
 mod provenance;
 mod rust;
+mod standalone;
 mod word;
 
 pub use c::{c_header, c_source};
@@ -13,4 +14,5 @@ pub use error::ExportError;
 pub use health::{health_c_header, health_c_source, health_rust_source};
 pub use provenance::Provenance;
 pub use rust::rust_source;
+pub use standalone::{standalone_header, standalone_source, standalone_table_bytes};
 pub use word::Word;

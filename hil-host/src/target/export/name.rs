@@ -32,3 +32,14 @@ pub(super) fn check_c(name: &str) -> Result<(), ExportError> {
     }
     Ok(())
 }
+
+/// A file's name that may stand between the quotation marks of an `#include`.
+pub(super) fn checked_include(file: &str) -> Result<&str, ExportError> {
+    let unfit = |letter: char| {
+        letter.is_control() || ['"', '\\', char::REPLACEMENT_CHARACTER].contains(&letter)
+    };
+    if file.is_empty() || file.contains(unfit) {
+        return Err(ExportError::Include { file: file.into() });
+    }
+    Ok(file)
+}

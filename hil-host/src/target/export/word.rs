@@ -2,7 +2,7 @@
 
 use std::fmt::LowerHex;
 
-use dashpot_core::{Damper, Real};
+use dashpot_core::{Damper, DamperState, Real};
 
 /// A scalar whose dampers are written as words or as bytes.
 pub trait Word: Real {
@@ -10,6 +10,12 @@ pub trait Word: Real {
     fn literals(damper: &Damper<Self>) -> Vec<String>;
     /// The bytes of a damper, as firmware and the C library check them.
     fn image(damper: &Damper<Self>) -> Vec<u8>;
+    /// The words of a damper, zero-extended.
+    fn words(damper: &Damper<Self>) -> Vec<u64>;
+    /// The number of a word.
+    fn from_word(word: u64) -> Self;
+    /// A state as bare bytes.
+    fn state_bytes(state: &DamperState<Self>) -> Vec<u8>;
 }
 
 impl Word for f32 {
@@ -19,6 +25,15 @@ impl Word for f32 {
     fn image(damper: &Damper<f32>) -> Vec<u8> {
         damper.to_image().into()
     }
+    fn words(damper: &Damper<f32>) -> Vec<u64> {
+        damper.to_words().map(u64::from).into()
+    }
+    fn from_word(word: u64) -> Self {
+        Self::from_bits(word as u32)
+    }
+    fn state_bytes(state: &DamperState<f32>) -> Vec<u8> {
+        state.to_bytes().into()
+    }
 }
 
 impl Word for f64 {
@@ -27,6 +42,15 @@ impl Word for f64 {
     }
     fn image(damper: &Damper<f64>) -> Vec<u8> {
         damper.to_image().into()
+    }
+    fn words(damper: &Damper<f64>) -> Vec<u64> {
+        damper.to_words().into()
+    }
+    fn from_word(word: u64) -> Self {
+        Self::from_bits(word)
+    }
+    fn state_bytes(state: &DamperState<f64>) -> Vec<u8> {
+        state.to_bytes().into()
     }
 }
 

@@ -1,0 +1,628 @@
+#include <float.h>
+#include <stdbool.h>
+
+/* The bits of a force are those of the model in Rust only where a compiler computes what is written: every operation
+ * rounded once, in its own type, none fused or reordered. Fusing is turned off below; the rest must not be asked for. */
+#if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__) || defined(_M_FP_FAST) \
+    || defined(__ASSOCIATIVE_MATH__) || defined(__RECIPROCAL_MATH__)
+#error "the forces would not be those of the model: compile without -ffast-math and its parts (/fp:fast)"
+#endif
+#if defined(_MSC_VER) && !defined(__clang__)
+#if defined(_M_IX86) && _M_IX86_FP < 2
+#error "the forces would not be those of the model: on 32-bit x86 compile with /arch:SSE2"
+#endif
+#elif !defined(FLT_EVAL_METHOD) || (FLT_EVAL_METHOD != 0 && FLT_EVAL_METHOD != 16)
+#error "the forces would not be those of the model: on 32-bit x86 compile with -msse2 -mfpmath=sse"
+#endif
+#if FLT_RADIX != 2 || FLT_MANT_DIG != 24 || DBL_MANT_DIG != 53
+#error "floating-point numbers must be those of IEEE 754"
+#endif
+
+#if defined(__clang__)
+#pragma STDC FP_CONTRACT OFF
+#elif defined(__GNUC__)
+#pragma GCC push_options
+#pragma GCC optimize("fp-contract=off")
+#elif defined(_MSC_VER)
+#pragma fp_contract(off)
+#else
+#pragma STDC FP_CONTRACT OFF
+#endif
+
+#if defined(__GNUC__) || defined(__clang__)
+#define PREFIX_INLINE static inline __attribute__((always_inline))
+#define PREFIX_COLD static __attribute__((noinline, cold))
+#elif defined(_MSC_VER)
+#define PREFIX_INLINE static __forceinline
+#define PREFIX_COLD static __declspec(noinline)
+#else
+#define PREFIX_INLINE static inline
+#define PREFIX_COLD static
+#endif
+
+/* Registers of numbers, where GCC and clang are told of them. */
+#if defined(__GNUC__) && defined(__SSE2__)
+#define PREFIX_REGISTER "+x"
+#elif defined(__GNUC__) && defined(__aarch64__)
+#define PREFIX_REGISTER "+w"
+#elif defined(__GNUC__) && defined(__ARM_FP) && SCALAR_BITS == 32
+#define PREFIX_REGISTER "+t"
+#endif
+
+/* Keeps a product from being fused: clang may be told to do so against the source's own word. */
+#if defined(__clang__) && defined(PREFIX_REGISTER)
+#define PREFIX_ROUND(product) __asm__("" : PREFIX_REGISTER(product))
+#else
+#define PREFIX_ROUND(product) (void)0
+#endif
+
+/* Keeps a number computed at every step, whether the step takes it or not: one cost. */
+#ifdef PREFIX_REGISTER
+#define PREFIX_ALWAYS(number) __asm__ volatile("" : PREFIX_REGISTER(number))
+#else
+#define PREFIX_ALWAYS(number) (void)0
+#endif
+
+/* Whether larger and smaller of two numbers are one instruction: Armv8-M and Armv8-A with single precision, and what
+ * a compiler says of a Cortex-M7. */
+#if SCALAR_BITS == 32 && defined(__GNUC__) && defined(__ARM_FP) && !defined(__aarch64__) \
+    && ((defined(__ARM_ARCH) && __ARM_ARCH >= 8) || defined(__ARM_FPV5__))
+#define PREFIX_HAS_MAXIMUM 1
+#else
+#define PREFIX_HAS_MAXIMUM 0
+#endif
+
+/* gamma of both stages, 1 - 1/sqrt 2, and the rest to 1. */
+#define PREFIX_GAMMA ((prefix_real)0x1.2bec333018866p-2)
+#define PREFIX_REST_OF_GAMMA ((prefix_real)0x1.6a09e667f3bcdp-1)
+/* Largest correction over the change of the stretch in the step, so that it never undoes the damping. */
+#define PREFIX_LARGEST_CORRECTION ((prefix_real)0.125)
+/* Largest force limit (N) and largest clearance (m) that any damper can have. */
+#define PREFIX_LARGEST_FORCE_N ((prefix_real)1e7)
+#define PREFIX_LARGEST_CLEARANCE_M ((prefix_real)0.1)
+
+/* Upper bits of a state's status word: they tell a state from memory that was never written. */
+#define PREFIX_MARK 0x3960U
+#define PREFIX_MARK_BITS 0xffe0U
+
+/* Hash of nothing, and its factor: FNV-1a (Fowler, Noll, Vo; 32 bit). */
+#define PREFIX_HASH_START UINT32_C(0x811c9dc5)
+#define PREFIX_HASH_FACTOR UINT32_C(0x01000193)
+
+enum {
+    /* Pieces and bins a side. */
+    PREFIX_PIECES = 64,
+    PREFIX_BINS = 2048,
+    /* Leading bits of a number's fraction that take part in the number of a bin. */
+    PREFIX_BIN_FRACTION_BITS = 7,
+    /* Bits of a number, of its fraction, and those below the ones that number a bin. */
+    PREFIX_REAL_BYTES = sizeof(prefix_real),
+    PREFIX_REAL_BITS = 8 * PREFIX_REAL_BYTES,
+    PREFIX_FRACTION_BITS = (PREFIX_REAL_BYTES == 4 ? FLT_MANT_DIG : DBL_MANT_DIG) - 1,
+    PREFIX_BIN_SHIFT = PREFIX_FRACTION_BITS - PREFIX_BIN_FRACTION_BITS
+};
+
+/* A number and its bits. */
+typedef SCALAR_WORD prefix_bits;
+
+typedef union prefix_word {
+    prefix_real real;
+    prefix_bits bits;
+} prefix_word;
+
+/* Cubics of one piece in z, the reach beyond its knot: coefficients of 1, z, z^2, z^3. */
+struct prefix_piece {
+    prefix_real flow[4];        /* flow times the step (m), with the sign of the stretch */
+    prefix_real potential[4];   /* flow potential times the step (m^2), positive */
+    prefix_real stiffness[4];   /* force over stretch beyond the clearance (N/m) */
+    prefix_real knot;           /* where the piece begins (m) */
+    prefix_real next_knots[2];  /* where the next pieces begin (m) */
+    prefix_real padding;        /* sixteen numbers: the address of a piece takes one shift */
+};
+
+PREFIX_INLINE prefix_bits prefix_bits_of(prefix_real value)
+{
+    prefix_word word;
+
+    word.real = value;
+    return word.bits;
+}
+
+PREFIX_INLINE prefix_real prefix_real_of(prefix_bits bits)
+{
+    prefix_word word;
+
+    word.bits = bits;
+    return word.real;
+}
+
+PREFIX_INLINE prefix_real prefix_magnitude(prefix_real value)
+{
+#if !defined(__GNUC__)
+    return prefix_real_of(prefix_bits_of(value) & (prefix_bits)-1 >> 1);
+#elif SCALAR_BITS == 32
+    return __builtin_fabsf(value);
+#else
+    return __builtin_fabs(value);
+#endif
+}
+
+/* The larger and the smaller of two numbers; of NaN the other, which is not NaN. */
+PREFIX_INLINE prefix_real prefix_larger(prefix_real value, prefix_real other)
+{
+#if PREFIX_HAS_MAXIMUM
+    return __builtin_fmaxf(value, other);
+#else
+    return value > other ? value : other;
+#endif
+}
+
+PREFIX_INLINE prefix_real prefix_smaller(prefix_real value, prefix_real other)
+{
+#if PREFIX_HAS_MAXIMUM
+    return __builtin_fminf(value, other);
+#else
+    return value < other ? value : other;
+#endif
+}
+
+/* Whether a number is neither NaN nor infinite. */
+PREFIX_INLINE bool prefix_is_finite(prefix_real value)
+{
+    const prefix_bits exponent = ((prefix_bits)-1 >> 1) >> PREFIX_FRACTION_BITS << PREFIX_FRACTION_BITS;
+
+    return (prefix_bits_of(value) & exponent) != exponent;
+}
+
+/* a b, rounded whatever is done with it. */
+PREFIX_INLINE prefix_real prefix_product(prefix_real a, prefix_real b)
+{
+    prefix_real product = a * b;
+
+    PREFIX_ROUND(product);
+    return product;
+}
+
+/* sum + a b, and sum - a b: the product is rounded before it is added. */
+PREFIX_INLINE prefix_real prefix_add_product(prefix_real sum, prefix_real a, prefix_real b)
+{
+#if SCALAR_BITS == 32 && defined(__GNUC__) && defined(__ARM_FP) && !defined(__aarch64__)
+    /* One instruction, in which the product is rounded too; GCC would take two. */
+    __asm__("vmla.f32 %0, %1, %2" : "+t"(sum) : "t"(a), "t"(b));
+    return sum;
+#else
+    return sum + prefix_product(a, b);
+#endif
+}
+
+PREFIX_INLINE prefix_real prefix_subtract_product(prefix_real sum, prefix_real a, prefix_real b)
+{
+#if SCALAR_BITS == 32 && defined(__GNUC__) && defined(__ARM_FP) && !defined(__aarch64__)
+    __asm__("vmls.f32 %0, %1, %2" : "+t"(sum) : "t"(a), "t"(b));
+    return sum;
+#else
+    return sum - prefix_product(a, b);
+#endif
+}
+
+/* c0 + c1 z + c2 z^2 + c3 z^3, in pairs: a shorter chain than Horner's for one product more. */
+PREFIX_INLINE prefix_real prefix_cubic(const prefix_real c[4], prefix_real z)
+{
+    const prefix_real low = prefix_add_product(c[0], c[1], z);
+    const prefix_real high = prefix_add_product(c[2], c[3], z);
+
+    return prefix_add_product(low, high, z * z);
+}
+
+/* A solved implicit stage. */
+typedef struct prefix_stage {
+    prefix_real flow_m;  /* times the step */
+    const prefix_piece *piece;
+    prefix_real z_m;     /* in the piece */
+} prefix_stage;
+
+/* 1 where a positive number has reached a knot. Positive numbers are in the order of their bits. */
+PREFIX_INLINE prefix_bits prefix_passed(prefix_bits reach, prefix_real knot)
+{
+    return (prefix_bits)(prefix_bits_of(knot) - reach) >> (PREFIX_REAL_BITS - 1);
+}
+
+/* The stage whose stretch and flow sum to `reach` (m). A bin, named by exponent and leading bits of the reach beyond
+ * the offset, names the piece at its lower border; at most two knots lie within it. Any number is safe to look up. */
+PREFIX_INLINE void prefix_solve(const prefix_damper *damper, prefix_real reach, prefix_stage *stage)
+{
+    /* The larger of sums is the sum of the larger, and takes no zero. */
+    const prefix_real knot = damper->first_knot_m;
+    const prefix_real place = prefix_larger(prefix_magnitude(reach) - damper->offset_m + knot, knot);
+    const prefix_bits bits = prefix_bits_of(place);
+    const unsigned side = (unsigned)(prefix_bits_of(reach) >> (PREFIX_REAL_BITS - 1));
+    const unsigned bin = (unsigned)(bits >> PREFIX_BIN_SHIFT) % PREFIX_BINS;
+    const unsigned first = damper->bins[bin][side] % (2U * PREFIX_PIECES);
+    const prefix_real *next = damper->pieces[first].next_knots;
+    const unsigned passed = (unsigned)(prefix_passed(bits, next[0]) + prefix_passed(bits, next[1]));
+
+    stage->piece = &damper->pieces[(first + passed) % (2U * PREFIX_PIECES)];
+    stage->z_m = place - stage->piece->knot;
+    stage->flow_m = prefix_cubic(stage->piece->flow, stage->z_m);
+}
+
+/* Force magnitude (N) at a stretch (m), by the stiffness of the stage that ended there; it may exceed the limit. */
+PREFIX_INLINE prefix_real prefix_force(const prefix_damper *damper, prefix_real stretch, prefix_real stiffness)
+{
+    const prefix_real clearance = damper->half_clearance_m;
+
+    return (prefix_larger(prefix_magnitude(stretch), clearance) - clearance) * stiffness;
+}
+
+/* With the stretch u = x - x_r of clearance and springs, the chain x = g + delta(F) + x_r, dx_r/dt = v_h(F) is one
+ * equation, du/dt = dx/dt - f(u), with f = v_h(F(u)) zero in the clearance and rising beyond. A step takes two
+ * implicit stages (Alexander's SDIRK2, gamma = 1 - 1/sqrt 2: second order, L-stable, last stage at the tick) and then
+ * corrects the flow by the difference between its exact mean along the step's straight path and the stages'
+ * quadrature of that path. Stated in docs/numerics.md of Dashpot; its other transcription is core/src/step.rs.
+ * Inlined twice, so that the usual step calls nothing and saves no registers for a call. */
+PREFIX_INLINE prefix_real prefix_move(const prefix_damper *damper, prefix_state *state, prefix_real travel)
+{
+    const prefix_real gamma = PREFIX_GAMMA;
+    prefix_real start, bend, quadrature, change, end;
+    prefix_real end_potential, area, most, correction, contact;
+    prefix_real stretch, magnitude, limit, limited, force;
+    prefix_stage first, last;
+    unsigned status_word;
+
+    /* Sums of travels on this grid are exact, so a piston at rest in its clearance does not drift. */
+    travel = (travel + damper->position_rounder_m) - damper->position_rounder_m;
+    state->displacement_m = state->displacement_m + travel;
+
+    start = state->stretch_m;
+    prefix_solve(damper, prefix_add_product(start, gamma, travel), &first);
+    prefix_solve(damper, prefix_subtract_product(start + travel, PREFIX_REST_OF_GAMMA, first.flow_m), &last);
+    bend = prefix_product(gamma, last.flow_m - first.flow_m);
+    quadrature = first.flow_m + bend;
+    change = travel - quadrature;
+    end = start + change;
+
+    /* The flow's mean over the straight path, by its potential and, off the path, by its slope. */
+    end_potential = prefix_cubic(last.piece->potential, last.z_m);
+    area = prefix_add_product(end_potential - state->potential_m2, bend, bend);
+    most = prefix_magnitude(change * PREFIX_LARGEST_CORRECTION);
+    correction = prefix_larger(prefix_smaller(area / change - quadrature, most), -most);
+    PREFIX_ALWAYS(correction);
+    contact = last.flow_m * start * state->potential_m2;
+    if (contact > 0) {
+        correction = 0;
+    }
+
+    stretch = ((end + damper->rest_rounder_m) - correction) - damper->rest_rounder_m;
+    magnitude = prefix_force(damper, stretch, prefix_cubic(last.piece->stiffness, last.z_m));
+    limit = damper->force_limit_n;
+    limited = magnitude;
+    status_word = state->status_word;
+    if (!(magnitude < limit)) {
+        limited = limit;
+        status_word |= PREFIX_SATURATED;
+    }
+    state->status_word = (uint16_t)status_word;
+    /* Only damaged constants make it negative, NaN or larger than any limit: in the order of bits all are beyond. */
+    if (prefix_bits_of(limited) > prefix_bits_of(PREFIX_LARGEST_FORCE_N)) {
+        limited = prefix_larger(prefix_smaller(limited, PREFIX_LARGEST_FORCE_N), 0);
+    }
+    force = stretch >= 0 ? limited : -limited;
+
+    state->stretch_m = stretch;
+    state->potential_m2 = prefix_subtract_product(end_potential, last.flow_m, correction);
+    state->force_n = force;
+    return force;
+}
+
+PREFIX_COLD prefix_real prefix_unusual_step(const prefix_damper *damper, prefix_state *state,
+                                            prefix_real displacement_m);
+
+prefix_real prefix_step(const prefix_damper *damper, prefix_state *state, prefix_real displacement_m)
+{
+    const prefix_real travel = displacement_m - state->displacement_m;
+
+    if (state->revision == damper->revision && prefix_magnitude(travel) <= damper->largest_move_m) {
+        return prefix_move(damper, state, travel);
+    }
+    return prefix_unusual_step(damper, state, displacement_m);
+}
+
+/* The travel (m) to a displacement (m): a state that no damper made starts over, one that another damper stepped is
+ * adopted, a travel that is not credible limited; each latched, the last counted. */
+static prefix_real prefix_limit_input(const prefix_damper *damper, prefix_state *state, prefix_real displacement_m)
+{
+    const prefix_real most = damper->largest_move_m;
+    prefix_real travel;
+
+    if ((state->status_word & PREFIX_MARK_BITS) != PREFIX_MARK || !prefix_is_finite(state->displacement_m)) {
+        prefix_at_rest(damper, state, displacement_m);
+        state->status_word = (uint16_t)(state->status_word | PREFIX_CORRUPTED);
+    }
+    if (state->revision != damper->revision) {
+        prefix_adopt(damper, state);
+    }
+    travel = displacement_m - state->displacement_m;
+    if (prefix_magnitude(travel) <= most) {
+        return travel;
+    }
+    if (state->rejected_inputs != UINT16_MAX) {
+        state->rejected_inputs = (uint16_t)(state->rejected_inputs + 1);
+    }
+    if (!prefix_is_finite(travel)) {
+        state->status_word = (uint16_t)(state->status_word | PREFIX_INPUT_HELD);
+        return 0;
+    }
+    state->status_word = (uint16_t)(state->status_word | PREFIX_INPUT_LIMITED);
+    travel = prefix_smaller(prefix_larger(travel, -most), most);
+    /* What the displacement can move by: far out, less than the limit. */
+    return (state->displacement_m + travel) - state->displacement_m;
+}
+
+PREFIX_COLD prefix_real prefix_unusual_step(const prefix_damper *damper, prefix_state *state,
+                                            prefix_real displacement_m)
+{
+    return prefix_move(damper, state, prefix_limit_input(damper, state, displacement_m));
+}
+
+void prefix_at_rest(const prefix_damper *damper, prefix_state *state, prefix_real displacement_m)
+{
+    state->displacement_m = prefix_is_finite(displacement_m) ? displacement_m : 0;
+    state->stretch_m = 0;
+    state->potential_m2 = 0;
+    state->force_n = 0;
+    state->revision = damper->revision;
+    state->status_word = PREFIX_MARK;
+    state->rejected_inputs = 0;
+}
+
+/* Reach (m) at the end of the bins; no stage looks beyond it. */
+static prefix_real prefix_largest_reach(const prefix_damper *damper)
+{
+    const prefix_real end = (prefix_real)(1U << (PREFIX_BINS >> PREFIX_BIN_FRACTION_BITS));
+
+    return prefix_add_product(damper->offset_m, end, damper->first_knot_m);
+}
+
+/* Displacement and force stay, the stretch becomes the one the damper has under that force, by bisection of its
+ * stages; without force it stays within the clearance. */
+void prefix_adopt(const prefix_damper *damper, prefix_state *state)
+{
+    const prefix_real limit = prefix_force_limit_n(damper);
+    const prefix_real force = prefix_smaller(prefix_larger(state->force_n, -limit), limit);
+    const prefix_real target = prefix_magnitude(force);
+    prefix_real low = damper->half_clearance_m;
+    prefix_real high = prefix_largest_reach(damper);
+    int halving;
+
+    if (force == 0) {
+        state->stretch_m = prefix_smaller(prefix_larger(state->stretch_m, -low), low);
+        state->potential_m2 = 0;
+    } else {
+        for (halving = 0; halving < PREFIX_FRACTION_BITS + 3; halving++) {
+            const prefix_real middle = (prefix_real)0.5 * (low + high);
+            const prefix_real reach = force < 0 ? -middle : middle;
+            prefix_stage stage;
+            prefix_real stretch;
+
+            prefix_solve(damper, reach, &stage);
+            stretch = prefix_subtract_product(reach, PREFIX_GAMMA, stage.flow_m);
+            state->stretch_m = stretch;
+            state->potential_m2 = prefix_cubic(stage.piece->potential, stage.z_m);
+            if (prefix_force(damper, stretch, prefix_cubic(stage.piece->stiffness, stage.z_m)) < target) {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+    }
+    if (state->revision != 0) {
+        state->status_word = (uint16_t)(state->status_word | PREFIX_DAMPER_SWAPPED);
+    }
+    state->revision = damper->revision;
+}
+
+static uint32_t prefix_hash_byte(uint32_t hash, unsigned byte)
+{
+    return ((hash ^ byte) * PREFIX_HASH_FACTOR) & UINT32_MAX;
+}
+
+/* Hash continued over the bits of a number, zero-extended to 64, from the lowest byte. */
+static uint32_t prefix_hash_real(uint32_t hash, prefix_real value)
+{
+    const uint64_t bits = prefix_bits_of(value);
+    unsigned shift;
+
+    for (shift = 0; shift < 64; shift += 8) {
+        hash = prefix_hash_byte(hash, (unsigned)(bits >> shift & 0xff));
+    }
+    return hash;
+}
+
+prefix_result prefix_set_clearance_m(prefix_damper *damper, prefix_real clearance_m)
+{
+    uint32_t hash = damper->table_revision;
+
+    if (!(clearance_m >= 0 && clearance_m <= PREFIX_LARGEST_CLEARANCE_M)) {
+        return PREFIX_CLEARANCE_REFUSED;
+    }
+    damper->half_clearance_m = (prefix_real)0.5 * clearance_m;
+    damper->offset_m = damper->half_clearance_m + damper->held_m;
+    hash = prefix_hash_real(hash, damper->largest_move_m);
+    hash = prefix_hash_real(hash, damper->position_rounder_m);
+    hash = prefix_hash_real(hash, damper->rest_rounder_m);
+    hash = prefix_hash_real(hash, damper->step_s);
+    hash = prefix_hash_real(hash, damper->offset_m);
+    hash = prefix_hash_real(hash, damper->first_knot_m);
+    hash = prefix_hash_real(hash, damper->half_clearance_m);
+    hash = prefix_hash_real(hash, (prefix_real)0.5 * damper->force_limit_n); /* what the core keeps of it */
+    hash = prefix_hash_real(hash, damper->held_m);
+    damper->revision = hash == 0 ? 1 : hash;
+    return PREFIX_DONE;
+}
+
+unsigned prefix_status(const prefix_state *state)
+{
+    return state->status_word & ~PREFIX_MARK_BITS;
+}
+
+void prefix_clear_status(prefix_state *state)
+{
+    state->status_word = (uint16_t)(state->status_word & PREFIX_MARK_BITS);
+    state->rejected_inputs = 0;
+}
+
+prefix_real prefix_clearance_m(const prefix_damper *damper)
+{
+    return damper->half_clearance_m + damper->half_clearance_m;
+}
+
+/* Of damaged constants too. */
+prefix_real prefix_force_limit_n(const prefix_damper *damper)
+{
+    const prefix_real limit = damper->force_limit_n;
+
+    return limit <= PREFIX_LARGEST_FORCE_N ? prefix_larger(limit, 0) : PREFIX_LARGEST_FORCE_N;
+}
+
+static uint8_t *prefix_put(uint8_t *to, uint64_t value, unsigned bytes)
+{
+    unsigned byte;
+
+    for (byte = 0; byte < bytes; byte++) {
+        *to++ = (uint8_t)(value >> 8 * byte & 0xff);
+    }
+    return to;
+}
+
+static uint64_t prefix_get(const uint8_t *from, unsigned bytes)
+{
+    uint64_t value = 0;
+    unsigned byte;
+
+    for (byte = 0; byte < bytes; byte++) {
+        value |= (uint64_t)from[byte] << 8 * byte;
+    }
+    return value;
+}
+
+void prefix_save(const prefix_state *state, uint8_t bytes[PREFIX_STATE_BYTES])
+{
+    uint8_t *to = bytes;
+
+    to = prefix_put(to, prefix_bits_of(state->displacement_m), PREFIX_REAL_BYTES);
+    to = prefix_put(to, prefix_bits_of(state->stretch_m), PREFIX_REAL_BYTES);
+    to = prefix_put(to, prefix_bits_of(state->potential_m2), PREFIX_REAL_BYTES);
+    to = prefix_put(to, prefix_bits_of(state->force_n), PREFIX_REAL_BYTES);
+    to = prefix_put(to, state->revision, 4);
+    to = prefix_put(to, prefix_status(state), 2);
+    (void)prefix_put(to, state->rejected_inputs, 2);
+}
+
+prefix_result prefix_restore(const prefix_damper *damper, prefix_state *state,
+                             const uint8_t bytes[PREFIX_STATE_BYTES])
+{
+    const uint8_t *rest = bytes + 4 * PREFIX_REAL_BYTES;
+    prefix_state saved;
+
+    saved.displacement_m = prefix_real_of((prefix_bits)prefix_get(bytes, PREFIX_REAL_BYTES));
+    saved.stretch_m = prefix_real_of((prefix_bits)prefix_get(bytes + PREFIX_REAL_BYTES, PREFIX_REAL_BYTES));
+    saved.potential_m2 = prefix_real_of((prefix_bits)prefix_get(bytes + 2 * PREFIX_REAL_BYTES, PREFIX_REAL_BYTES));
+    saved.force_n = prefix_real_of((prefix_bits)prefix_get(bytes + 3 * PREFIX_REAL_BYTES, PREFIX_REAL_BYTES));
+    saved.revision = (uint32_t)prefix_get(rest, 4);
+    saved.status_word = (uint16_t)(PREFIX_MARK | (prefix_get(rest + 4, 2) & (~PREFIX_MARK_BITS & 0xffffU)));
+    saved.rejected_inputs = (uint16_t)prefix_get(rest + 6, 2);
+
+    if (saved.revision != damper->revision) {
+        return PREFIX_OTHER_DAMPER;
+    }
+    if (!(prefix_is_finite(saved.displacement_m) && prefix_is_finite(saved.potential_m2)
+          && prefix_magnitude(saved.stretch_m) <= prefix_largest_reach(damper)
+          && prefix_magnitude(saved.force_n) <= prefix_force_limit_n(damper))) {
+        return PREFIX_IMPOSSIBLE_VALUES;
+    }
+    /* Member by member: of a whole structure a compiler may make a call of memcpy. */
+    state->displacement_m = saved.displacement_m;
+    state->stretch_m = saved.stretch_m;
+    state->potential_m2 = saved.potential_m2;
+    state->force_n = saved.force_n;
+    state->revision = saved.revision;
+    state->status_word = saved.status_word;
+    state->rejected_inputs = saved.rejected_inputs;
+    return PREFIX_DONE;
+}
+
+static void prefix_copy(prefix_damper *to, const prefix_damper *from)
+{
+    to->largest_move_m = from->largest_move_m;
+    to->position_rounder_m = from->position_rounder_m;
+    to->rest_rounder_m = from->rest_rounder_m;
+    to->step_s = from->step_s;
+    to->offset_m = from->offset_m;
+    to->first_knot_m = from->first_knot_m;
+    to->half_clearance_m = from->half_clearance_m;
+    to->force_limit_n = from->force_limit_n;
+    to->held_m = from->held_m;
+    to->revision = from->revision;
+    to->table_revision = from->table_revision;
+    to->pieces = from->pieces;
+    to->bins = from->bins;
+}
+
+/* Displacements by a linear congruential generator (Numerical Recipes), about zero, their moves halved every 128
+ * steps from the largest credible one down, and again; on the way a reading that failed, a jump, another clearance. */
+uint32_t prefix_digest(const prefix_damper *damper)
+{
+    prefix_damper copy;
+    prefix_state state;
+    uint8_t bytes[PREFIX_STATE_BYTES];
+    uint32_t hash = PREFIX_HASH_START;
+    uint32_t random = 1;
+    prefix_real move = damper->largest_move_m;
+    prefix_real displacement = 0;
+    unsigned step, byte;
+
+    prefix_copy(&copy, damper);
+    prefix_at_rest(&copy, &state, 0);
+    for (step = 0; step < PREFIX_DIGEST_STEPS; step++) {
+        const bool failed = step % 512 == 300;
+        prefix_real fraction;
+
+        random = (random * UINT32_C(1664525) + UINT32_C(1013904223)) & UINT32_MAX;
+        fraction = (prefix_real)(random >> 9) * (prefix_real)0x1p-22 - 1; /* exact */
+        displacement = prefix_add_product(prefix_product((prefix_real)0.875, displacement), move, fraction);
+        if (step % 128 == 127) {
+            move = step % 1024 == 1023 ? damper->largest_move_m : (prefix_real)0.5 * move;
+        }
+        if (step == 700) {
+            displacement = displacement + 1;
+        }
+        if (step == 1500) {
+            (void)prefix_set_clearance_m(&copy, (prefix_real)0x1p-10);
+        }
+        (void)prefix_step(&copy, &state, failed ? prefix_real_of((prefix_bits)-1) : displacement);
+        prefix_save(&state, bytes);
+        for (byte = 0; byte < PREFIX_STATE_BYTES; byte++) {
+            hash = prefix_hash_byte(hash, bytes[byte]);
+        }
+    }
+    return hash;
+}
+
+#undef PREFIX_INLINE
+#undef PREFIX_COLD
+#undef PREFIX_REGISTER
+#undef PREFIX_ROUND
+#undef PREFIX_ALWAYS
+#undef PREFIX_HAS_MAXIMUM
+#undef PREFIX_GAMMA
+#undef PREFIX_REST_OF_GAMMA
+#undef PREFIX_LARGEST_CORRECTION
+#undef PREFIX_LARGEST_FORCE_N
+#undef PREFIX_LARGEST_CLEARANCE_M
+#undef PREFIX_MARK
+#undef PREFIX_MARK_BITS
+#undef PREFIX_HASH_START
+#undef PREFIX_HASH_FACTOR
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC pop_options
+#endif
