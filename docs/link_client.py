@@ -1,7 +1,10 @@
 #!/usr/bin/env python3
 """A host for the link of docs/link.md: steps a bank of dampers and prints its forces.
 
-    python3 link_client.py HOST PORT
+    python3 link_client.py HOST PORT [MODEL]
+
+MODEL is a model of health (`dashpot export --health --lang bin`): the first damper's forces are then given back as if a sensor
+had measured them, and its health is printed.
 """
 
 import random
@@ -11,9 +14,10 @@ import sys
 import zlib
 
 PROTOCOL = 3
-HELLO, SET, STEP, STATUS = 0, 2, 5, 14
-WELCOME, DONE, FORCES, STATUS_ANSWER, REFUSED = 0, 1, 2, 7, 8
+HELLO, STEP, LOAD_HEALTH, MEASURE, HEALTH = 0, 5, 16, 17, 18
+WELCOME, DONE, FORCES, REFUSED, READING = 0, 1, 2, 8, 9
 CORRUPT = 0
+MOST_MEASURED = 8
 
 
 def varint(value):
@@ -119,15 +123,43 @@ class Client:
         assert number == FORCES and fields.varint() == tick
         return fields.list(fields.f32), fields.list(fields.varint)
 
+    def load_health(self, place, model):
+        number, _ = self.ask(varint(LOAD_HEALTH) + varint(place) + varint(len(model)) + model)
+        assert number == DONE
+
+    def measure(self, place, samples):
+        """Displacements (m) and forces (N), in pairs."""
+        for first in range(0, len(samples), MOST_MEASURED):
+            batch = b"".join(struct.pack("<2f", *pair) for pair in samples[first : first + MOST_MEASURED])
+            number, _ = self.ask(varint(MEASURE) + varint(place) + varint(len(batch)) + batch)
+            assert number == DONE
+
+    def health(self, place):
+        """Value and standard deviation of five estimates, then samples that told something, rejected ones and status."""
+        number, fields = self.ask(varint(HEALTH) + varint(place))
+        assert number == READING
+        names = "flow_factor", "stiffness_n_per_m", "clearance_m", "lag_s", "compliance_m_per_n"
+        estimates = {name: (fields.f32(), fields.f32()) for name in names}
+        return estimates, fields.varint(), fields.varint(), fields.varint()
+
 
 def main():
     client = Client(sys.argv[1], int(sys.argv[2]))
     version, revisions, step_s, tick = client.hello()
     print(f"core {version}, {len(revisions)} dampers, step {step_s * 1e3:.3g} ms, tick {tick}")
+    measured = []
     for step in range(1, 101):
         displacement_m = 0.02 * step_s * step  # 0.02 m/s
         forces_n, status = client.step(tick + step, [displacement_m] * len(revisions))
+        measured.append((displacement_m, forces_n[0]))
     print("forces", " ".join(f"{force:.1f}" for force in forces_n), "N, status", status)
+    if len(sys.argv) > 3:
+        with open(sys.argv[3], "rb") as file:
+            client.load_health(0, file.read())
+        client.measure(0, measured)
+        estimates, samples, rejected, status = client.health(0)
+        value, deviation = estimates["flow_factor"]
+        print(f"flow factor {value:.4f} +- {deviation:.4f} by {samples} samples, {rejected} rejected, status {status}")
 
 
 if __name__ == "__main__":

@@ -1,66 +1,111 @@
-//! Replay by parts, per row: reading the recording alone, with the tick grid, with the step.
+//! `replay` by parts and by what the file is, beside the step alone in the same run: reading, with ticks and step, and with its output
+//! in the same form.
+//!
+//! Elements are rows, of which each is a tick. What a replay takes over the step alone is what the step does not limit.
 
 use std::hint::black_box;
-use std::io::Cursor;
-use std::path::Path;
+use std::io;
+use std::path::{Path, PathBuf};
 
-use criterion::{Criterion, Throughput, criterion_group, criterion_main};
+use criterion::measurement::WallTime;
+use criterion::{BenchmarkGroup, Criterion, Throughput, criterion_group, criterion_main};
 use dashpot_core::Damper;
 use dashpot_hil::files::FileError;
 use dashpot_hil::files::damper;
 use dashpot_hil::files::recording::Recording;
+use dashpot_hil::files::recording::written::{ColumnName, Form, Written};
 use dashpot_hil::study::replay::replay;
-use dashpot_hil::study::tick_grid::TickGrid;
+use dashpot_hil::study::tick_grid::{Tick, TickGrid};
 
 const ROWS: u32 = 100_000;
 const STEP_S: f64 = 1e-3;
 
-fn text() -> Vec<u8> {
-    let mut text = String::from("time_s,displacement_m\n");
-    for row in 0..ROWS {
-        let time_s = f64::from(row) * STEP_S;
-        let x = 1e-2 * (8.8 * time_s).sin() + 2e-3 * (31.1 * time_s).sin();
-        text.push_str(&format!("{time_s:.6},{x:.8}\n"));
-    }
-    text.into_bytes()
+const FORMS: [(&str, Form); 3] = [
+    ("CSV", Form::Text),
+    ("MDF4", Form::Mdf4),
+    ("Parquet", Form::Parquet),
+];
+
+const TIME: ColumnName = ("time_s", "s");
+const DISPLACEMENT: ColumnName = ("displacement_m", "m");
+const FORCE: ColumnName = ("force_n", "N");
+
+/// Time (s) and displacement (m) of a row, to the digits that a logger has.
+fn row(number: u32) -> [f64; 2] {
+    let time_s = f64::from(number) / 1e3;
+    let x = 1e-2 * (8.8 * time_s).sin() + 2e-3 * (31.1 * time_s).sin();
+    [time_s, (x * 1e8).round() / 1e8]
 }
 
-fn replays(criterion: &mut Criterion) {
-    let text = text();
-    let open = || {
-        let source = Box::new(Cursor::new(text.clone()));
-        Recording::read(Path::new("bench.csv"), source).expect("a recording")
-    };
-    let parameters = damper::load("in-service", &[]).expect("a preset");
-    let damper: Damper<f32> = parameters.build(STEP_S).expect("a preset");
-    let mut group = criterion.benchmark_group("replay, a row");
-    group.throughput(Throughput::Elements(u64::from(ROWS)));
-    group.bench_function("read", |bencher| {
+fn recording(folder: &Path, form: Form) -> PathBuf {
+    let path = folder.join("recording");
+    let mut file = std::fs::File::create(&path).expect("a temporary file");
+    let mut rows =
+        Written::new(&path, &mut file, form, &[TIME, DISPLACEMENT]).expect("a temporary file");
+    for values in (0..ROWS).map(row) {
+        rows.row(&values, values).expect("a temporary file");
+    }
+    rows.finish().expect("a temporary file");
+    path
+}
+
+fn open(path: &Path) -> TickGrid {
+    let recording = Recording::open(path).expect("a recording");
+    TickGrid::new(recording, STEP_S).expect("a row")
+}
+
+fn of(group: &mut BenchmarkGroup<'_, WallTime>, damper: &Damper<f32>, (name, form): (&str, Form)) {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let path = recording(folder.path(), form);
+    group.bench_function(format!("{name}: read"), |bencher| {
         bencher.iter(|| {
-            let mut recording = open();
+            let mut recording = Recording::open(&path).expect("a recording");
             while let Some(sample) = recording.next_sample().expect("a row") {
                 black_box(sample);
             }
         });
     });
-    group.bench_function("read, ticks", |bencher| {
+    group.bench_function(format!("{name}: replay"), |bencher| {
         bencher.iter(|| {
-            let mut ticks = TickGrid::new(open(), STEP_S).expect("a row");
-            while let Some(tick) = ticks.next_tick().expect("a row") {
-                black_box(tick);
-            }
-        });
-    });
-    group.bench_function("read, ticks, step", |bencher| {
-        bencher.iter(|| {
-            let mut ticks = TickGrid::new(open(), STEP_S).expect("a row");
-            replay(&damper, &mut ticks, None, |_, force, _| {
+            replay(damper, &mut open(&path), None, |_, force, _| {
                 black_box(force);
                 Ok::<_, FileError>(())
             })
             .expect("a row")
         });
     });
+    group.bench_function(format!("{name}: replay, written"), |bencher| {
+        bencher.iter(|| {
+            let mut sink = io::sink();
+            let columns = [TIME, DISPLACEMENT, FORCE];
+            let mut rows = Written::new(&path, &mut sink, form, &columns).expect("no file");
+            let summary = replay(damper, &mut open(&path), None, |tick: Tick, force, _| {
+                let values = [tick.time_s, tick.displacement_m, f64::from(force)];
+                rows.row(&values, (tick.time_s, tick.displacement_m, force))
+            });
+            rows.finish().expect("no file");
+            summary.expect("a row")
+        });
+    });
+}
+
+fn replays(criterion: &mut Criterion) {
+    let parameters = damper::load("in-service", &[]).expect("a preset");
+    let damper: Damper<f32> = parameters.build(STEP_S).expect("a preset");
+    let mut group = criterion.benchmark_group("replay, a row");
+    group.throughput(Throughput::Elements(u64::from(ROWS)));
+    group.bench_function("step alone", |bencher| {
+        let motion: Vec<f32> = (0..ROWS).map(|number| row(number)[1] as f32).collect();
+        bencher.iter(|| {
+            let mut state = damper.at_rest(motion[0]);
+            for &x in &motion {
+                black_box(damper.step(&mut state, black_box(x)));
+            }
+        });
+    });
+    for form in FORMS {
+        of(&mut group, &damper, form);
+    }
     group.finish();
 }
 

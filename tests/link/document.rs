@@ -10,7 +10,9 @@ use std::time::Duration;
 use dashpot::requests::every_request;
 use dashpot::signed_image::revise_and_sign;
 use dashpot::{damper, document};
-use dashpot_core::health::{Estimate, HealthImageError, HealthModel, HealthReading, HealthStatus};
+use dashpot_core::health::{
+    Estimate, Health, HealthImageError, HealthModel, HealthReading, HealthSettings, HealthStatus,
+};
 use dashpot_core::link::{
     Counters, Forces, FrameReader, Header, MEASURED_BYTES, MOST_MEASURED, PROTOCOL, Parameter,
     RESPONSE_BYTES, Reals, Refusal, Request, Response, SafeOutput, Sample, Scalar, Welcome,
@@ -226,10 +228,19 @@ fn the_numbers_are_those_of_the_code() {
     in_order(reading.replace(&estimate, "number"));
 }
 
+/// Of the damper of the worked frames.
+fn model() -> HealthModel {
+    let checked = damper("reduced-vertical", &[]).check().expect("a preset");
+    let settings = HealthSettings::new(20e-6, 20.0);
+    checked.health_model(&settings, 1e-3).expect("settings")
+}
+
 #[test]
 fn the_worked_frames_are_what_a_device_takes_and_sends() {
     let mut desk = desk(["reduced-vertical"]);
     let x = |x: f32| [x].into_iter().collect();
+    let model = model().to_image();
+    let sample = [2e-5_f32.to_le_bytes(), 30_f32.to_le_bytes()].concat();
     let requests = [
         Request::Hello { protocol: PROTOCOL },
         Request::Step {
@@ -242,15 +253,36 @@ fn the_worked_frames_are_what_a_device_takes_and_sends() {
             value: 1e-3,
         },
         Request::Status,
+        Request::LoadHealth {
+            damper: 0,
+            image: &model,
+        },
+        Request::Measure {
+            damper: 0,
+            samples: &sample,
+        },
+        Request::Health { damper: 0 },
         Request::Stop,
     ];
     let mut table = String::new();
     let hex = |bytes: &[u8]| {
-        bytes
-            .iter()
-            .map(|byte| format!("{byte:02x}"))
-            .collect::<Vec<_>>()
-            .join(" ")
+        let bytes: Vec<_> = bytes.iter().map(|byte| format!("{byte:02x}")).collect();
+        match &*bytes {
+            [.., a, b, c] if bytes.len() > 1000 => {
+                let between = bytes.len() - 15;
+                format!("{} ({between} bytes) {a} {b} {c}", bytes[..12].join(" "))
+            }
+            bytes => bytes.join(" "),
+        }
+    };
+    let told = |request: &Request<'_>| match request {
+        Request::LoadHealth { damper, image } => {
+            format!(
+                "LoadHealth {{ damper: {damper}, image: {} bytes }}",
+                image.len()
+            )
+        }
+        request => format!("{request:?}"),
     };
     for (sequence, request) in (1..).zip(&requests) {
         let header = Header {
@@ -274,8 +306,9 @@ fn the_worked_frames_are_what_a_device_takes_and_sends() {
         assert_eq!(found, header);
         writeln!(
             table,
-            "    session {}, sequence {sequence}: {request:?}",
-            header.session
+            "    session {}, sequence {sequence}: {}",
+            header.session,
+            told(request)
         )
         .expect("text");
         writeln!(table, "    {}", hex(frame.bytes())).expect("text");
@@ -332,9 +365,13 @@ fn the_client_in_python_drives_a_device() {
         }
         desk.device().counters()
     });
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("model.bin");
+    std::fs::write(&file, model().to_image()).expect("a file");
     let output = Command::new(PYTHON.program)
         .arg(document::in_repository("docs/link_client.py"))
         .args(["127.0.0.1", &port.to_string()])
+        .arg(&file)
         .output()
         .expect("python starts");
     let printed = String::from_utf8_lossy(&output.stdout).into_owned();
@@ -343,22 +380,39 @@ fn the_client_in_python_drives_a_device() {
         "{printed}{}",
         String::from_utf8_lossy(&output.stderr)
     );
+    let mut health = Health::new(&model());
     let forces = ["reduced-vertical", "in-service"].map(|name| {
         let damper: Damper<f32> = damper(name, &[]).build(1e-3).expect("a preset");
         let mut state = damper.at_rest(0.0);
         (1..=100).fold(0.0, |_, step| {
-            damper.step(
-                &mut state,
-                (0.02 * f64::from(1e-3_f32) * f64::from(step)) as f32,
-            )
+            let x = (0.02 * f64::from(1e-3_f32) * f64::from(step)) as f32;
+            let force = damper.step(&mut state, x);
+            if name == "reduced-vertical" {
+                health.tick(&model(), x, force);
+            }
+            force
         })
     });
     let [vertical, in_service] = forces;
-    let expected = format!("forces {vertical:.1} {in_service:.1} N, status [0, 0]");
-    assert_eq!(printed.lines().last(), Some(&*expected), "{printed}");
+    let reading = health.reading(&model());
+    assert!(reading.samples > 0);
+    let expected = [
+        format!("forces {vertical:.1} {in_service:.1} N, status [0, 0]"),
+        format!(
+            "flow factor {:.4} +- {:.4} by {} samples, {} rejected, status {}",
+            reading.flow_factor.value,
+            reading.flow_factor.sd,
+            reading.samples,
+            reading.rejected,
+            reading.status.bits()
+        ),
+    ];
+    let lines: Vec<&str> = printed.lines().skip(1).collect();
+    assert_eq!(lines, expected);
     let counters = target.join().expect("the target");
     assert_eq!(
         (counters.accepted, counters.repeated, counters.corrupt),
-        (101, 1, 0)
+        // Hello, 100 steps, a model, 100 samples by eight, a reading.
+        (1 + 100 + 1 + 13 + 1, 1, 0)
     );
 }

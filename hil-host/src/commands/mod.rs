@@ -13,6 +13,7 @@ pub mod demonstrate;
 pub mod export;
 pub mod failure;
 mod gap_report;
+mod health_reading;
 pub mod interruption;
 pub mod line;
 pub mod link;

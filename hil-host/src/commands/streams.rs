@@ -1,6 +1,6 @@
 //! Files that options name twice, which is wrong use.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use super::failure::{Failure, Outcome};
 use crate::files::input::is_standard_stream;
@@ -39,6 +39,23 @@ pub(super) fn refuse_input(option: &str, path: &Path, input: &Path) -> Outcome<(
         ))),
         _ => Ok(()),
     }
+}
+
+/// Refuses a file that `option` names twice.
+///
+/// # Errors
+/// Two paths are the same file.
+pub(super) fn refuse_twice(option: &str, inputs: &[PathBuf]) -> Outcome<()> {
+    let files: Vec<_> = inputs.iter().map(|path| path.canonicalize().ok()).collect();
+    for (number, file) in files.iter().enumerate() {
+        if file.is_some() && files[..number].contains(file) {
+            return Err(Failure::wrong_use(format!(
+                "{option} {}: given twice, and would count twice; allowed: each file once",
+                inputs[number].display()
+            )));
+        }
+    }
+    Ok(())
 }
 
 /// Refuses one file for two of `outputs`, each an option and the file it names.

@@ -8,10 +8,13 @@ use super::page::{Figure, document, figure, footer, panel, tiles};
 use super::plot::curves::Curve;
 use super::plot::sheet::Panel;
 use super::plot::style::{AMBER_LINE, BLUE_LINE, PALE};
-use crate::study::health::{ALARMS, History};
+use crate::study::health::{ALARMS, History, in_words, stiffness_in_words};
 
 /// Deviations that a band is wide on either side.
 const BAND: f64 = 2.0;
+
+/// What is known by its compliance.
+const STIFFNESS: &str = "stiffness";
 
 /// One parameter: how it is shown, where it lies in a reading, and what it is compared with.
 struct Shown {
@@ -73,7 +76,7 @@ fn shown(history: &History) -> [Shown; 4] {
             limits: around(baseline.flow_factor, limits.flow_factor),
         },
         Shown {
-            label: "stiffness",
+            label: STIFFNESS,
             unit: "MN/m",
             scale: 1e-6,
             of: |reading| reading.stiffness_n_per_m,
@@ -157,19 +160,17 @@ fn headline(history: &History, shown: &[Shown]) -> Markup {
     let values: Vec<(Markup, String)> = shown
         .iter()
         .filter_map(|parameter| {
-            let Estimate { value, sd } = (parameter.of)(last?);
-            let number = |value: f32| format!("{:.3}", parameter.scale * f64::from(value));
-            let unit = if parameter.unit == "1" {
-                ""
-            } else {
-                parameter.unit
+            let last = last?;
+            let told = match parameter.label {
+                STIFFNESS => stiffness_in_words(last.stiffness_n_per_m, last.compliance_m_per_n),
+                _ => in_words((parameter.of)(last), parameter.scale as f32),
             };
+            let unit = parameter.unit.trim_start_matches('1');
             let meaning = format!(
-                "{} at the end, to {} by one standard deviation",
-                parameter.label,
-                number(sd)
+                "{} at the end, with its standard deviation",
+                parameter.label
             );
-            Some((html! { (number(value)) " " (unit) }, meaning))
+            Some((html! { (told) " " (unit) }, meaning))
         })
         .collect();
     tiles(&values)

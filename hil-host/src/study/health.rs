@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use dashpot_core::health::{Health, HealthModel, HealthReading, HealthStatus};
+use dashpot_core::health::{Estimate, Health, HealthModel, HealthReading, HealthStatus};
 use fastrand::Rng;
 
 use super::smoothing::smooth;
@@ -122,15 +122,39 @@ pub const ALARMS: [(HealthStatus, &str); 3] = [
     (HealthStatus::CLEARANCE, "clearance"),
 ];
 
+/// An estimate, scaled to its unit, and its standard deviation: `1.604 ± 0.012`.
+pub fn in_words(estimate: Estimate, scale: f32) -> String {
+    let (value, sd) = (estimate.value * scale, estimate.sd * scale);
+    format!("{value:.3} ± {sd:.3}")
+}
+
+/// A stiffness (N/m) in MN/m as [`in_words`]; where its compliance is not told from none, the least stiffness within two
+/// standard deviations: `above 12.1`.
+pub fn stiffness_in_words(stiffness: Estimate, compliance: Estimate) -> String {
+    let Estimate { value, sd } = compliance;
+    let most = value + 2.0 * sd;
+    if value > 2.0 * sd {
+        in_words(stiffness, 1e-6)
+    } else if most > 0.0 {
+        format!("above {:.3}", 1e-6 / most)
+    } else {
+        "unknown".into()
+    }
+}
+
+/// Most readings that are kept of a run.
+const MOST_READINGS: usize = 4000;
+
 /// Runs the estimator over samples of displacement (m) and force (N), one at each step of `model`, and keeps a
-/// reading every `every_s` (s). A sample that is missing has NaN for its displacement.
+/// reading every `every_s` (s), every second of them again where a run is longer than 4000 readings. A sample that
+/// is missing has NaN for its displacement.
 pub fn watch(
     model: &HealthModel,
     samples: impl IntoIterator<Item = (f64, f64)>,
     every_s: f64,
 ) -> History {
     let step_s = f64::from(model.step_s());
-    let every = (every_s / step_s).round().max(1.0) as u64;
+    let mut every = (every_s / step_s).round().max(1.0) as u64;
     let mut health = Health::new(model);
     let mut history = History {
         model: *model,
@@ -151,8 +175,18 @@ pub fn watch(
             }
         }
         if count.is_multiple_of(every) {
-            let reading = health.reading(model);
-            history.readings.push(Reading { time_s, reading });
+            if history.readings.len() == MOST_READINGS {
+                let mut number = 0_usize;
+                history.readings.retain(|_| {
+                    number += 1;
+                    number.is_multiple_of(2)
+                });
+                every *= 2;
+            }
+            if count.is_multiple_of(every) {
+                let reading = health.reading(model);
+                history.readings.push(Reading { time_s, reading });
+            }
         }
     }
     if !count.is_multiple_of(every) {

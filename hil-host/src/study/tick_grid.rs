@@ -101,7 +101,7 @@ impl<R: Rows<N>, const N: usize> Grid<R, N> {
             let Some(next) = self.rows.next_row()? else {
                 return Ok(None);
             };
-            if (next.0 - self.start_s) / self.step_s > MOST_TICKS {
+            if next.0 - self.start_s > MOST_TICKS * self.step_s {
                 let time_s = next.0;
                 return Err(self.rows.in_time(RecordingError::TooLong { time_s }));
             }

@@ -157,7 +157,13 @@ fn what_does_not_go_together_is_wrong_use() {
     let double = [&EXPORT[..], &["bin", "--scalar", "f64"]].concat();
     assert!(wrong(&double, 2).contains("single precision"));
     let step = [&EXPORT[..], &["bin", "--step-us", "5000"]].concat();
-    assert!(wrong(&step, 1).contains("step"), "{}", wrong(&step, 1));
+    assert!(
+        wrong(&step, 2).contains("1e-5 to 2e-3 s"),
+        "{}",
+        wrong(&step, 2)
+    );
+    let noise = [&EXPORT[..], &["bin", "--memory-s", "0"]].concat();
+    assert!(wrong(&noise, 2).contains("--memory-s 0: allowed: 0.1 to 1e5 s"));
     let named = [&EXPORT[..], &["bin", "--name", "X"]].concat();
     assert!(wrong(&named, 2).contains("bytes have no name"));
     let text = text_of(

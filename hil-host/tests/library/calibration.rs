@@ -9,6 +9,7 @@ use dashpot_hil::study::bench_test::Harmonic;
 use dashpot_hil::study::calibration::{
     Calibrated, Calibration, CalibrationError, IndexTest, LoopTest, Prior, Recorded, SKEW, Varied,
 };
+use dashpot_hil::study::health::Noise;
 use dashpot_hil::study::verification::reference_forces;
 use fastrand::Rng;
 
@@ -26,16 +27,6 @@ const MOTIONS: [(f64, f64); 5] = [
     (5e-3, 2.0),
     (2e-3, 4.0),
 ];
-
-/// A number of a normal distribution (Box and Muller).
-fn normal(rng: &mut Rng) -> f64 {
-    let radius = (-2.0 * (1.0 - rng.f64()).ln()).sqrt();
-    radius * (TAU * rng.f64()).cos()
-}
-
-fn rms(values: &[f64]) -> f64 {
-    (values.iter().map(|value| value * value).sum::<f64>() / values.len() as f64).sqrt()
-}
 
 /// A recording of `damper` on the bench; `noise` is the standard deviation over the rms of each signal.
 fn recorded(
@@ -56,20 +47,15 @@ fn recorded(
         })
         .collect();
     let forces = reference_forces(damper, INTERVAL_S, &x).unwrap();
-    let (x_noise, force_noise) = (noise * rms(&x), noise * rms(&forces));
+    let noise = Noise::of_rms(noise, &x, &forces);
+    let (x, forces) = noise.on(&x, &forces, rng.u64(..));
     Recorded {
         name: format!("{frequency_hz} Hz"),
         times_s: (LATE..samples)
             .map(|sample| sample as f64 * INTERVAL_S)
             .collect(),
-        displacements_m: x[LATE..]
-            .iter()
-            .map(|x| x + x_noise * normal(rng))
-            .collect(),
-        forces_n: forces[..samples - LATE]
-            .iter()
-            .map(|force| force + force_noise * normal(rng))
-            .collect(),
+        displacements_m: x[LATE..].to_vec(),
+        forces_n: forces[..samples - LATE].to_vec(),
     }
 }
 

@@ -28,7 +28,7 @@ const OWN: [&str; 3] = [""; 3];
 const GERMAN: [&str; 3] = ["Zeit", "Weg", "Kraft"];
 
 /// What `make.py` writes, but for files that lack values.
-pub const FORMS: [Form; 24] = [
+pub const FORMS: [Form; 25] = [
     form("plain.mf4", MDF),
     form("deflated.mf4", MDF),
     form("transposed.mf4", MDF),
@@ -36,6 +36,10 @@ pub const FORMS: [Form; 24] = [
     Form {
         group: "Messung",
         ..form("groups.mf4", MDF)
+    },
+    Form {
+        group: "Messung",
+        ..form("unsorted.mf4", MDF)
     },
     form("none.parquet", OWN),
     form("snappy.parquet", OWN),

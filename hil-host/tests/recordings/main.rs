@@ -7,4 +7,5 @@ mod forms;
 mod listed;
 mod python;
 mod refused;
+mod unsorted;
 mod written;

@@ -13,6 +13,8 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 from asammdf import MDF, Signal
 
+import unsorted
+
 folder, rows = Path(sys.argv[1]), int(sys.argv[2])
 folder.mkdir(parents=True, exist_ok=True)
 
@@ -57,6 +59,15 @@ mdf("invalid.mf4", [(signals(weg=invalid), "Messung")])
 slow = Signal(20.0 + number[::10] / 8, time_s[::10], "degC", "Temperatur")
 other = Signal(displacement_mm[::10], time_s[::10], "mm", "Weg")
 mdf("groups.mf4", [([slow, other], "langsam"), (signals(), "Messung")])
+
+# One block of data, and blocks that end in the midst of records.
+for name, block_bytes in [("unsorted.mf4", None), ("unsorted_parts.mf4", 333)]:
+    unsorted.write(folder / name, time_s, displacement_mm, force_n, block_bytes)
+    with MDF(folder / name) as file:
+        for channel, values in [("Weg", displacement_mm), ("Kraft", force_n)]:
+            signal = file.get(channel)
+            assert np.array_equal(signal.timestamps, time_s)
+            assert np.array_equal(signal.samples, values)
 
 table = pa.table({"time_s": time_s, "displacement_m": displacement_mm / 1e3, "force_n": force_n})
 

@@ -48,6 +48,7 @@ fn told(reading: &HealthReading, time_s: Option<f64>) -> Value {
     let status: Vec<String> = names.map(|(name, _)| name.to_lowercase()).collect();
     let mut told = json!({
         "flow_factor": estimate(reading.flow_factor),
+        "damping_factor": estimate(reading.damping_factor()),
         "stiffness_n_per_m": estimate(reading.stiffness_n_per_m),
         "clearance_m": estimate(reading.clearance_m),
         "lag_s": estimate(reading.lag_s),

@@ -9,7 +9,7 @@ mod report;
 use std::path::PathBuf;
 
 use numbers::{NamedPrior, Variation};
-use report::Report;
+use report::{Recording, Report};
 
 use super::recording::MeasurementArguments;
 use super::step_size::{self, StepSize};
@@ -18,7 +18,7 @@ use crate::commands::failure::{Failure, Outcome};
 use crate::files::FileError;
 use crate::files::damper::Keyed;
 use crate::files::output::{cannot_write, write_bytes, write_whole_if};
-use crate::study::calibration::{Calibration, IndexTest, LoopTest, Varied};
+use crate::study::calibration::{Calibration, IndexTest, LoopTest, Progress, Varied};
 
 /// Find the numbers of a damper from bench tests: force-displacement loops, or tables of their indices.
 ///
@@ -90,10 +90,12 @@ pub fn run(arguments: &CalibrateArguments) -> Outcome<()> {
     let mut varied = numbers::varied(&damper, arguments)?;
     let step_s = arguments.step_us.step_s();
     let bar = progress::bar(0, "reading");
-    let mut loops = Vec::new();
+    let (mut recordings, mut loops) = (Vec::new(), Vec::new());
     for path in &arguments.input {
-        let recorded = recorded::read(path, &arguments.channels.channels())?;
-        loops.extend(LoopTest::of(&recorded, step_s)?);
+        let (recorded, gaps) = recorded::read(path, &arguments.channels.channels())?;
+        let tests = LoopTest::of(&recorded, step_s)?;
+        recordings.push(Recording::new(&recorded, &gaps, tests.len()));
+        loops.extend(tests);
     }
     if !loops.is_empty() && !arguments.no_skew {
         varied.push(Varied::skew());
@@ -110,9 +112,12 @@ pub fn run(arguments: &CalibrateArguments) -> Outcome<()> {
         step_s,
         starts: usize::from(arguments.starts),
     };
-    let found = calibration.run(&|stage| bar.set_message(stage))?;
+    let found = calibration.run(&|progress| {
+        let Progress { stage, done, of } = progress;
+        bar.set_message(format!("{stage}: {done} of {of}"));
+    })?;
     bar.finish_and_clear();
-    let report = Report::new(arguments, &calibration, &found)?;
+    let report = Report::new(arguments, &calibration, recordings, &found)?;
     let file = damper_file::text(&report, &found.damper)?;
     let page = match &arguments.page {
         Some(_) => page::write(&report, &calibration, &found)?,
@@ -142,6 +147,8 @@ fn refuse_same_streams(arguments: &CalibrateArguments) -> Outcome<()> {
         .map(|path| ("--indices", path.as_path()));
     let read: Vec<_> = damper.into_iter().chain(inputs).chain(indices).collect();
     streams::refuse_second_standard_input(&read)?;
+    streams::refuse_twice("--input", &arguments.input)?;
+    streams::refuse_twice("--indices", &arguments.indices)?;
     streams::refuse_same_output(&[
         ("--output", Some(&arguments.output)),
         ("--page", arguments.page.as_deref()),

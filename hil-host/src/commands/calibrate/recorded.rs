@@ -4,14 +4,14 @@ use std::path::Path;
 
 use crate::files::FileError;
 use crate::files::input;
-use crate::files::recording::{Channels, Measurement};
+use crate::files::recording::{Channels, Gaps, Measurement};
 use crate::study::calibration::Recorded;
 
-/// The loops recorded in the file at `path`.
+/// The loops recorded in the file at `path`, and its gaps.
 ///
 /// # Errors
 /// A file that cannot be read, or that has not the channels.
-pub(super) fn read(path: &Path, channels: &Channels) -> Result<Recorded, FileError> {
+pub(super) fn read(path: &Path, channels: &Channels) -> Result<(Recorded, Gaps), FileError> {
     let mut measurement = Measurement::open(path, channels)?;
     let mut recorded = Recorded {
         name: input::name(path).file_name().map_or_else(
@@ -25,5 +25,5 @@ pub(super) fn read(path: &Path, channels: &Channels) -> Result<Recorded, FileErr
         recorded.displacements_m.push(sample.displacement_m);
         recorded.forces_n.push(sample.force_n);
     }
-    Ok(recorded)
+    Ok((recorded, measurement.gaps()))
 }

@@ -8,8 +8,9 @@ use super::CalibrateArguments;
 use crate::commands::counted;
 use crate::commands::failure::Outcome;
 use crate::files::output;
+use crate::files::recording::Gaps;
 use crate::study::bench_test::{Indices, run_until_periodic};
-use crate::study::calibration::{CLOSE, Calibrated, Calibration, IndexTest, Prior};
+use crate::study::calibration::{CLOSE, Calibrated, Calibration, IndexTest, Prior, Recorded};
 
 /// A model that misses more than so many times what a force scatters by lacks something.
 const MISSES: f64 = 2.0;
@@ -41,6 +42,40 @@ impl Number {
         self.bounds
             .into_iter()
             .find(|bound| (self.found - bound).abs() <= near)
+    }
+}
+
+/// What was read of a file of loops, and what was left out.
+#[derive(Serialize)]
+pub(super) struct Recording {
+    file: String,
+    tests: usize,
+    /// Stretches between gaps with too few samples for a test.
+    too_short: usize,
+    /// Rows that lacked a value.
+    rows_left_out: u64,
+}
+
+impl Recording {
+    pub(super) fn new(recorded: &Recorded, gaps: &Gaps, tests: usize) -> Self {
+        Self {
+            file: recorded.name.clone(),
+            tests,
+            too_short: recorded.too_short(),
+            rows_left_out: gaps.left_out.rows,
+        }
+    }
+
+    /// What was left out, in words.
+    fn left_out(&self) -> Option<String> {
+        let rows = (self.rows_left_out > 0)
+            .then(|| format!("{} that lacked a value", counted(self.rows_left_out, "row")));
+        let short = (self.too_short > 0).then(|| {
+            let parts = counted(self.too_short as u64, "part");
+            format!("{parts} between gaps, too short for a test")
+        });
+        let parts: Vec<String> = [rows, short].into_iter().flatten().collect();
+        (!parts.is_empty()).then(|| parts.join("; "))
     }
 }
 
@@ -81,6 +116,7 @@ pub(super) struct Report {
     overrides: Vec<String>,
     step_s: f64,
     pub(super) numbers: Vec<Number>,
+    recordings: Vec<Recording>,
     pub(super) loops: Vec<Loop>,
     pub(super) indices: Vec<IndexRow>,
     starts: usize,
@@ -97,6 +133,7 @@ impl Report {
     pub(super) fn new(
         arguments: &CalibrateArguments,
         calibration: &Calibration,
+        recordings: Vec<Recording>,
         found: &Calibrated,
     ) -> Outcome<Self> {
         let determination = &found.determination;
@@ -152,6 +189,7 @@ impl Report {
             overrides: arguments.damper.overrides.clone(),
             step_s: calibration.step_s,
             numbers: numbers.collect(),
+            recordings,
             loops: loops.collect(),
             indices: indices.collect::<Outcome<_>>()?,
             starts: found.same_minimum[1],
@@ -186,7 +224,13 @@ impl Report {
     /// The output cannot be written.
     pub(super) fn print(out: &mut dyn Write, report: &Self) -> io::Result<()> {
         let tests = counted((report.loops.len() + report.indices.len()) as u64, "test");
-        writeln!(out, "{} calibrated from {tests}\n", report.before())?;
+        writeln!(out, "{} calibrated from {tests}", report.before())?;
+        for recording in &report.recordings {
+            if let Some(left_out) = recording.left_out() {
+                writeln!(out, "note: {}: left out {left_out}", recording.file)?;
+            }
+        }
+        writeln!(out)?;
         report.print_loops(out)?;
         report.print_indices(out)?;
         let width = report

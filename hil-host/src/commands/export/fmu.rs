@@ -3,7 +3,8 @@
 use dashpot_core::Damper;
 use serde::Serialize;
 
-use super::{ExportArguments, constant_name};
+use super::ExportArguments;
+use super::named::constant_name;
 use crate::commands::failure::{Failure, Outcome};
 use crate::commands::print_report_beside;
 use crate::files::damper;

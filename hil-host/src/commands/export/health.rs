@@ -1,25 +1,22 @@
 //! `dashpot export --health`: what watches a damper's health, as a constant or as bytes.
 
-use dashpot_core::health::{Health, HealthModel, HealthSettings};
+use dashpot_core::health::{Health, HealthModel};
 use serde::Serialize;
 
-use super::{ExportArguments, Language, command_line, header_beside, name_of};
+use super::named::{command_line, name_of};
+use super::written::Exported;
+use super::{ExportArguments, Language};
 use crate::commands::failure::{Failure, Outcome};
 use crate::commands::print_report_beside;
-use crate::files::output::{self, is_replaceable, write_bytes, write_together};
+use crate::commands::sensors::model;
 use crate::study::Scalar;
 use crate::target::export::{Provenance, health_c_header, health_c_source, health_rust_source};
 
 #[derive(Serialize)]
 struct Report {
     damper: String,
-    /// Of the constant; `None` for bytes alone.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    name: Option<String>,
-    output: String,
-    /// Beside a C source that is a file.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    header: Option<String>,
+    #[serde(flatten)]
+    exported: Exported,
     step_s: f64,
     image_bytes: usize,
     model_bytes: usize,
@@ -27,12 +24,9 @@ struct Report {
 }
 
 /// Builds the model and writes it.
-pub(super) fn run(arguments: &ExportArguments, settings: &HealthSettings) -> Outcome<()> {
-    if !arguments.health {
-        return Err(Failure::wrong_use(
-            "--displacement-noise-m: the noise of the sensors is no part of a damper, allowed: with --health",
-        ));
-    }
+pub(super) fn run(arguments: &ExportArguments) -> Outcome<()> {
+    let noise = arguments.sensors.noise_for("--health")?;
+    let settings = arguments.sensors.settings(noise);
     if arguments.scalar != Scalar::F32 {
         return Err(Failure::wrong_use(
             "--scalar f64: health is watched in single precision, allowed with --health: f32",
@@ -40,7 +34,7 @@ pub(super) fn run(arguments: &ExportArguments, settings: &HealthSettings) -> Out
     }
     let name = name_of(arguments, "_HEALTH")?;
     let step_s = arguments.step_us.step_s();
-    let model: HealthModel = arguments.damper.load()?.health_model(settings, step_s)?;
+    let model = model(&arguments.damper.load()?, &settings, step_s)?;
     let constant = name.as_deref().unwrap_or_default();
     let command = format!(
         "{} --health --displacement-noise-m {:e} --force-noise-n {} --memory-s {} --law-deviation {} --lag-s {} --lag-sd-s {}",
@@ -57,48 +51,37 @@ pub(super) fn run(arguments: &ExportArguments, settings: &HealthSettings) -> Out
         step_us: arguments.step_us.step_us(),
         command: &command,
     };
-    let path = &arguments.output;
-    let header = (arguments.lang == Language::C && is_replaceable(path))
-        .then(|| header_beside(path))
-        .transpose()?;
-    let bytes = match arguments.lang {
-        Language::Rust => health_rust_source(constant, &model, &provenance)?.into_bytes(),
-        Language::C => health_c_source(constant, &model, &provenance)?.into_bytes(),
-        Language::Bin => model.to_image().into(),
+    let content = |_: Option<&str>| {
+        Ok(match arguments.lang {
+            Language::Rust => health_rust_source(constant, &model, &provenance)?.into_bytes(),
+            Language::C => health_c_source(constant, &model, &provenance)?.into_bytes(),
+            Language::Bin => model.to_image().into(),
+        })
     };
-    match &header {
-        Some(header) => {
-            let text = health_c_header(constant, &provenance)?;
-            write_together(&[(path, &bytes), (header, text.as_bytes())])?;
-        }
-        None => write_bytes(path, &bytes)?,
-    }
+    let header = || health_c_header(constant, &provenance);
     let report = Report {
         damper: arguments.damper.damper.clone(),
-        name,
-        output: output::name(path).display().to_string(),
-        header: header.map(|header| header.display().to_string()),
+        exported: Exported::write(arguments, name.clone(), content, header)?,
         step_s,
         image_bytes: HealthModel::IMAGE_BYTES,
         model_bytes: size_of::<HealthModel>(),
         health_bytes: size_of::<Health>(),
     };
-    print_report_beside(path, arguments.format, &report, |out, report| {
-        if let Some(name) = &report.name {
-            write!(out, "{name} in ")?;
-        }
-        write!(out, "{}", report.output)?;
-        if let Some(header) = &report.header {
-            write!(out, ", declared in {header}")?;
-        }
-        writeln!(
-            out,
-            ": health of {} for {} us: image {} bytes, {} bytes in memory, an estimate {} bytes",
-            report.damper,
-            arguments.step_us,
-            report.image_bytes,
-            report.model_bytes,
-            report.health_bytes
-        )
-    })
+    print_report_beside(
+        &arguments.output,
+        arguments.format,
+        &report,
+        |out, report| {
+            report.exported.print(out)?;
+            writeln!(
+                out,
+                ": health of {} for {} us: image {} bytes, {} bytes in memory, an estimate {} bytes",
+                report.damper,
+                arguments.step_us,
+                report.image_bytes,
+                report.model_bytes,
+                report.health_bytes
+            )
+        },
+    )
 }

@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 use std::path::PathBuf;
 
-use dashpot_core::health::{Estimate, HealthModel, HealthReading};
+use dashpot_core::health::HealthReading;
 use dashpot_core::link::MOST_MEASURED;
 use serde::Serialize;
 
@@ -11,15 +11,17 @@ use super::LinkArguments;
 use super::places::{check, place};
 use super::target::Target;
 use crate::commands::arguments::damper_help;
-use crate::commands::failure::{Failure, Outcome};
+use crate::commands::failure::Outcome;
 use crate::commands::gap_report::write_gaps;
+use crate::commands::health_reading::Told;
 use crate::commands::print::{counted, nearest_nanosecond};
 use crate::commands::progress;
 use crate::commands::recording::MeasurementArguments;
-use crate::commands::sensors::SensorArguments;
+use crate::commands::sensors::{SensorArguments, model};
 use crate::commands::step_size::StepSize;
 use crate::files::recording::{Gaps, Measurement};
 use crate::files::{damper, input};
+use crate::study::health::in_words;
 use crate::study::tick_grid::MeasuredGrid;
 
 /// Tell the health of the real damper that a place stands for; load its model and feed a measurement first.
@@ -64,35 +66,21 @@ fn positive(text: &str) -> Result<f64, &'static str> {
         .ok_or("allowed: a finite number above 0")
 }
 
-/// An estimate, its status in words.
+/// A reading and when it was.
 #[derive(Serialize)]
-struct Told {
+struct Timed {
     /// Time of the last sample before it (s); `None` where none was fed.
     #[serde(skip_serializing_if = "Option::is_none")]
     time_s: Option<f64>,
-    flow_factor: Estimate,
-    stiffness_n_per_m: Estimate,
-    clearance_m: Estimate,
-    lag_s: Estimate,
-    compliance_m_per_n: Estimate,
-    samples: u32,
-    rejected: u32,
-    status: Vec<String>,
+    #[serde(flatten)]
+    told: Told,
 }
 
-impl Told {
+impl Timed {
     fn new(time_s: Option<f64>, reading: &HealthReading) -> Self {
-        let names = reading.status.iter_names();
         Self {
             time_s,
-            flow_factor: reading.flow_factor,
-            stiffness_n_per_m: reading.stiffness_n_per_m,
-            clearance_m: reading.clearance_m,
-            lag_s: reading.lag_s,
-            compliance_m_per_n: reading.compliance_m_per_n,
-            samples: reading.samples,
-            rejected: reading.rejected,
-            status: names.map(|(name, _)| name.to_lowercase()).collect(),
+            told: reading.into(),
         }
     }
 }
@@ -108,26 +96,21 @@ struct Report {
     #[serde(skip_serializing_if = "Option::is_none")]
     gaps: Option<Gaps>,
     /// In order of time, the last at the end.
-    readings: Vec<Told>,
+    readings: Vec<Timed>,
     cleared: bool,
 }
 
 /// `health`.
 pub(super) fn run(health: &HealthArguments, link: &LinkArguments) -> Outcome<()> {
-    let parameters = match (&health.damper, health.sensors.settings()) {
-        (None, None) => None,
-        (Some(name), Some(settings)) => {
-            Some((name, damper::load(name, &health.overrides)?, settings))
+    let parameters = match &health.damper {
+        None => {
+            health.sensors.refuse_without("--damper")?;
+            None
         }
-        (Some(_), None) => {
-            return Err(Failure::wrong_use(
-                "--damper: its model needs the noise of the sensors, --displacement-noise-m and --force-noise-n",
-            ));
-        }
-        (None, Some(_)) => {
-            return Err(Failure::wrong_use(
-                "--displacement-noise-m: the noise of the sensors is part of a model, allowed: with --damper",
-            ));
+        Some(name) => {
+            let noise = health.sensors.noise_for("--damper")?;
+            let parameters = damper::load(name, &health.overrides)?;
+            Some((name, parameters, health.sensors.settings(noise)))
         }
     };
     let measurement = health
@@ -139,7 +122,7 @@ pub(super) fn run(health: &HealthArguments, link: &LinkArguments) -> Outcome<()>
     check(health.place, &target)?;
     let step_s = StepSize::of_target(target.greeting.step_s)?.step_s();
     if let Some((_, parameters, settings)) = &parameters {
-        let model: HealthModel = parameters.health_model(settings, step_s)?;
+        let model = model(parameters, settings, step_s)?;
         target.client().load_health(health.place, &model)?;
     }
     let mut report = Report {
@@ -164,7 +147,7 @@ pub(super) fn run(health: &HealthArguments, link: &LinkArguments) -> Outcome<()>
         .is_some_and(|told| told.time_s == time_s);
     if !told_already {
         let reading = target.client().health(health.place)?;
-        report.readings.push(Told::new(time_s, &reading));
+        report.readings.push(Timed::new(time_s, &reading));
     }
     if health.clear {
         target.client().clear_health(health.place)?;
@@ -198,7 +181,7 @@ fn feed(
             let reading = target.client().health(health.place)?;
             let time_s = ticks.start_s() + (report.fed - 1) as f64 * step_s;
             let time_s = Some(nearest_nanosecond(time_s));
-            report.readings.push(Told::new(time_s, &reading));
+            report.readings.push(Timed::new(time_s, &reading));
             bar.set_position(ticks.measurement().position());
         }
     }
@@ -226,17 +209,14 @@ fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
         let time = told
             .time_s
             .map_or_else(|| "now".into(), |time_s| format!("{time_s:.3}"));
-        let number = |estimate: Estimate, scale: f32, digits: usize| {
-            let (value, sd) = (estimate.value * scale, estimate.sd * scale);
-            format!("{value:.digits$} ± {sd:.digits$}")
-        };
+        let told = &told.told;
         writeln!(
             out,
             "{time:>10}  {:>15}  {:>17}  {:>15}  {:>15}  {:>9}  {}",
-            number(told.flow_factor, 1.0, 3),
-            number(told.stiffness_n_per_m, 1e-6, 3),
-            number(told.clearance_m, 1e3, 3),
-            number(told.lag_s, 1e3, 3),
+            in_words(told.flow_factor, 1.0),
+            told.stiffness_in_words(),
+            in_words(told.clearance_m, 1e3),
+            in_words(told.lag_s, 1e3),
             told.samples,
             if told.status.is_empty() {
                 "none".into()

@@ -4,22 +4,19 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use dashpot_core::CheckedParameters;
-use dashpot_core::health::{
-    Baseline, Estimate, HealthModel, HealthReading, HealthSettings, HealthStatus,
-};
+use dashpot_core::health::{Baseline, Estimate, HealthModel, HealthReading, HealthStatus};
 use serde::{Deserialize, Serialize};
 
 use super::ReplayArguments;
 use crate::commands::failure::{Failure, Outcome};
+use crate::commands::health_reading::Told;
+use crate::commands::sensors::{SensorArguments, model};
 use crate::commands::streams;
 use crate::files::input;
 use crate::files::recording::Measurement;
 use crate::report::health::page;
-use crate::study::health::{ALARMS, History, Noise, watch};
+use crate::study::health::{ALARMS, History, Noise, in_words, watch};
 use crate::study::tick_grid::MeasuredGrid;
-
-/// Readings of a page, about.
-const READINGS: f64 = 2000.0;
 
 /// Samples that the noise is found from, where it is not given.
 const NOISE_SAMPLES: usize = 20_000;
@@ -34,52 +31,15 @@ pub(super) struct HealthArguments {
     /// What it is compared with: the report of a healthy run, as --format json prints it; the damper as it is named where not given.
     #[arg(long, value_name = "FILE", requires = "health")]
     health_baseline: Option<PathBuf>,
-    /// Noise of the displacement, standard deviation, m; found in the recording where not given.
-    #[arg(
-        long,
-        value_name = "M",
-        requires = "health",
-        allow_negative_numbers = true
-    )]
-    displacement_noise_m: Option<f64>,
-    /// Noise of the force, standard deviation, N; found in the recording where not given.
-    #[arg(
-        long,
-        value_name = "N",
-        requires = "health",
-        allow_negative_numbers = true
-    )]
-    force_noise_n: Option<f64>,
-    /// How much later the force is recorded than the displacement, s; estimated where not given.
-    #[arg(
-        long,
-        value_name = "S",
-        requires = "health",
-        allow_negative_numbers = true
-    )]
-    force_lag_s: Option<f64>,
+    /// Noise that is not given is found in the recording.
+    #[command(flatten)]
+    sensors: SensorArguments,
 }
 
 impl HealthArguments {
     /// The file of the baseline.
     pub(super) fn baseline(&self) -> Option<&Path> {
         self.health_baseline.as_deref()
-    }
-}
-
-/// A number and its standard deviation.
-#[derive(Clone, Copy, Deserialize, Serialize)]
-struct Told {
-    value: f32,
-    standard_deviation: f32,
-}
-
-impl From<Estimate> for Told {
-    fn from(Estimate { value, sd }: Estimate) -> Self {
-        Self {
-            value,
-            standard_deviation: sd,
-        }
     }
 }
 
@@ -94,16 +54,8 @@ struct Alarm {
 pub(super) struct HealthReport {
     displacement_noise_m: f64,
     force_noise_n: f64,
-    flow_factor: Told,
-    damping_factor: Told,
-    stiffness_n_per_m: Told,
-    compliance_m_per_n: Told,
-    clearance_m: Told,
-    force_lag_s: Told,
-    samples: u32,
-    rejected: u32,
-    little_excitation: bool,
-    restarted: bool,
+    #[serde(flatten)]
+    told: Told,
     alarms: Vec<Alarm>,
     page: String,
 }
@@ -116,9 +68,9 @@ struct Earlier {
 
 #[derive(Deserialize)]
 struct EarlierHealth {
-    flow_factor: Told,
-    compliance_m_per_n: Told,
-    clearance_m: Told,
+    flow_factor: Estimate,
+    compliance_m_per_n: Estimate,
+    clearance_m: Estimate,
 }
 
 /// A recording that was watched, its page not yet written.
@@ -139,6 +91,7 @@ impl Watched {
     ) -> Outcome<Option<Self>> {
         let options = &arguments.health;
         let Some(page_path) = &options.health else {
+            options.sensors.refuse_without("--health")?;
             return Ok(None);
         };
         if input::is_standard_stream(&arguments.input) {
@@ -157,7 +110,12 @@ impl Watched {
             ("--health", Some(page_path)),
         ])?;
         let noise = noise(arguments)?;
-        let model = model(arguments, parameters, noise)?;
+        let settings = options.sensors.settings(noise);
+        let mut model = model(parameters, &settings, arguments.step_us.step_s())?;
+        if let Some(path) = &options.health_baseline {
+            let set = model.set_baseline(baseline(path)?);
+            set.map_err(|error| no_baseline(path, error))?;
+        }
         let history = history(arguments, &model)?;
         let Some(last) = history.last() else {
             return Err(Failure::new("nothing was watched"));
@@ -185,20 +143,11 @@ impl Watched {
     }
 }
 
-fn measured(arguments: &ReplayArguments) -> Outcome<MeasuredGrid> {
-    let measurement = Measurement::open(&arguments.input, &arguments.recording.channels())?;
-    Ok(MeasuredGrid::new(measurement, arguments.step_us.step_s())?)
-}
-
 /// The noise that is given, or that the first samples have.
 fn noise(arguments: &ReplayArguments) -> Outcome<Noise> {
-    let options = &arguments.health;
-    let given = (options.displacement_noise_m, options.force_noise_n);
-    if let (Some(displacement_m), Some(force_n)) = given {
-        return Ok(Noise {
-            displacement_m,
-            force_n,
-        });
+    let sensors = &arguments.health.sensors;
+    if let Some(noise) = sensors.noise() {
+        return Ok(noise);
     }
     let mut measurement = Measurement::open(&arguments.input, &arguments.recording.channels())?;
     let (mut times_s, mut displacements_m, mut forces_n) = (Vec::new(), Vec::new(), Vec::new());
@@ -221,62 +170,41 @@ fn noise(arguments: &ReplayArguments) -> Outcome<Noise> {
         ))
     })?;
     Ok(Noise {
-        displacement_m: options.displacement_noise_m.unwrap_or(found.displacement_m),
-        force_n: options.force_noise_n.unwrap_or(found.force_n),
+        displacement_m: sensors.displacement_noise_m.unwrap_or(found.displacement_m),
+        force_n: sensors.force_noise_n.unwrap_or(found.force_n),
     })
 }
 
-fn model(
-    arguments: &ReplayArguments,
-    parameters: &CheckedParameters,
-    noise: Noise,
-) -> Outcome<HealthModel> {
-    let mut settings = HealthSettings::new(noise.displacement_m, noise.force_n);
-    if let Some(lag_s) = arguments.health.force_lag_s {
-        settings.lag_s = lag_s;
-        settings.lag_sd_s = 0.0;
-    }
-    let mut model = parameters.health_model(&settings, arguments.step_us.step_s())?;
-    if let Some(path) = &arguments.health.health_baseline {
-        let refuse = |reason: String| {
-            let name = input::name(path);
-            Failure::new(format!(
-                "{}: {reason}; allowed: the report of a healthy run, `dashpot replay --health FILE --format json`",
-                name.display()
-            ))
-        };
-        let earlier: Earlier = serde_json::from_str(&input::read_text(path)?)
-            .map_err(|error| refuse(error.to_string()))?;
-        let EarlierHealth {
-            flow_factor,
-            compliance_m_per_n,
-            clearance_m,
-        } = earlier.health;
-        let baseline = Baseline {
-            flow_factor: flow_factor.value,
-            compliance_m_per_n: compliance_m_per_n.value,
-            clearance_m: clearance_m.value,
-            flow_factor_sd: flow_factor.standard_deviation,
-            compliance_sd_m_per_n: compliance_m_per_n.standard_deviation,
-            clearance_sd_m: clearance_m.standard_deviation,
-        };
-        model
-            .set_baseline(baseline)
-            .map_err(|error| refuse(error.to_string()))?;
-    }
-    Ok(model)
+/// What the report of an earlier run has found.
+fn baseline(path: &Path) -> Outcome<Baseline> {
+    let earlier: Result<Earlier, _> = serde_json::from_str(&input::read_text(path)?);
+    let EarlierHealth {
+        flow_factor,
+        compliance_m_per_n,
+        clearance_m,
+    } = earlier.map_err(|error| no_baseline(path, error))?.health;
+    Ok(Baseline {
+        flow_factor: flow_factor.value,
+        compliance_m_per_n: compliance_m_per_n.value,
+        clearance_m: clearance_m.value,
+        flow_factor_sd: flow_factor.sd,
+        compliance_sd_m_per_n: compliance_m_per_n.sd,
+        clearance_sd_m: clearance_m.sd,
+    })
 }
 
-/// The estimates along the recording, some thousand of them.
+fn no_baseline(path: &Path, reason: impl std::fmt::Display) -> Failure {
+    Failure::new(format!(
+        "{}: {reason}; allowed: the report of a healthy run, `dashpot replay --health FILE --format json`",
+        input::name(path).display()
+    ))
+}
+
+/// The estimates along the recording.
 fn history(arguments: &ReplayArguments, model: &HealthModel) -> Outcome<History> {
     let step_s = arguments.step_us.step_s();
-    let mut count = 0_u64;
-    let mut ticks = measured(arguments)?;
-    while ticks.next_tick()?.is_some() {
-        count += 1;
-    }
-    let every_s = (count as f64 * step_s / READINGS).max(step_s);
-    let mut ticks = measured(arguments)?;
+    let measurement = Measurement::open(&arguments.input, &arguments.recording.channels())?;
+    let mut ticks = MeasuredGrid::new(measurement, step_s)?;
     let start_s = ticks.start_s();
     let mut failed = None;
     let samples = std::iter::from_fn(|| match ticks.next_tick() {
@@ -286,7 +214,7 @@ fn history(arguments: &ReplayArguments, model: &HealthModel) -> Outcome<History>
             None
         }
     });
-    let mut history = watch(model, samples, every_s);
+    let mut history = watch(model, samples, step_s);
     for reading in &mut history.readings {
         reading.time_s += start_s;
     }
@@ -309,16 +237,7 @@ impl HealthReport {
         Self {
             displacement_noise_m: noise.displacement_m,
             force_noise_n: noise.force_n,
-            flow_factor: last.flow_factor.into(),
-            damping_factor: last.damping_factor().into(),
-            stiffness_n_per_m: last.stiffness_n_per_m.into(),
-            compliance_m_per_n: last.compliance_m_per_n.into(),
-            clearance_m: last.clearance_m.into(),
-            force_lag_s: last.lag_s.into(),
-            samples: last.samples,
-            rejected: last.rejected,
-            little_excitation: last.status.contains(HealthStatus::LITTLE_EXCITATION),
-            restarted: last.status.contains(HealthStatus::RESTARTED),
+            told: last.into(),
             alarms: alarms.collect(),
             page,
         }
@@ -335,18 +254,21 @@ impl HealthReport {
             self.displacement_noise_m * 1e3,
             self.force_noise_n
         )?;
-        for (name, told, scale, unit) in [
-            ("damping over nominal", self.damping_factor, 1.0, ""),
-            ("effective stiffness", self.stiffness_n_per_m, 1e-6, " MN/m"),
-            ("clearance 2a", self.clearance_m, 1e3, " mm"),
-            ("lag of the force", self.force_lag_s, 1e3, " ms"),
+        for (name, told, unit) in [
+            (
+                "damping over nominal",
+                in_words(self.told.damping_factor, 1.0),
+                "",
+            ),
+            (
+                "effective stiffness",
+                self.told.stiffness_in_words(),
+                " MN/m",
+            ),
+            ("clearance 2a", in_words(self.told.clearance_m, 1e3), " mm"),
+            ("lag of the force", in_words(self.told.lag_s, 1e3), " ms"),
         ] {
-            writeln!(
-                out,
-                "{name:<22} {:>12.3} +- {:.3}{unit}",
-                told.value * scale,
-                told.standard_deviation * scale
-            )?;
+            writeln!(out, "{name:<22} {told:>20}{unit}")?;
         }
         for alarm in &self.alarms {
             writeln!(
@@ -358,13 +280,13 @@ impl HealthReport {
         if self.alarms.is_empty() {
             writeln!(out, "no alarm")?;
         }
-        if self.little_excitation {
+        if self.told.has(HealthStatus::LITTLE_EXCITATION) {
             writeln!(
                 out,
                 "note: too little motion in contact at the end for an alarm"
             )?;
         }
-        if self.restarted {
+        if self.told.has(HealthStatus::RESTARTED) {
             writeln!(
                 out,
                 "warning: the force contradicted the damper for long and the estimate began anew: is it the force of this damper?"

@@ -122,7 +122,7 @@ fn differences(report: &Report) -> Markup {
         @if let Some(sweep) = &report.swept_sine {
             h2 { "Swept beside harmonic" }
             p {
-                "One motion of constant amplitude through all frequencies, " (sweep.octaves_per_minute) " octaves/min; each value by \
+                "One motion of constant amplitude through all frequencies, " (sweep.octaves_per_minute) " octaves a minute; each value by \
                  synchronous demodulation under a " (sweep.window) " window of " (sweep.window_cycles) " cycles."
             }
             div.wide {

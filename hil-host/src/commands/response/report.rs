@@ -226,7 +226,7 @@ impl Report {
         if let Some(sweep) = &report.swept_sine {
             writeln!(
                 out,
-                "\nswept: {} octaves/min, each value under a {} window of {} cycles",
+                "\nswept: {} octaves a minute, each value under a {} window of {} cycles",
                 sweep.octaves_per_minute, sweep.window, sweep.window_cycles
             )?;
         }

@@ -93,7 +93,7 @@ impl Keyed {
 /// ```
 /// use dashpot_hil::files::damper::{load, parse, text};
 /// let damper = load("in-service", &[])?;
-/// assert_eq!(parse("again", &text(&damper)?, &[])?, damper);
+/// assert_eq!(*parse("again", &text(&damper)?, &[])?, *damper);
 /// # Ok::<(), dashpot_hil::files::damper::DamperError>(())
 /// ```
 pub fn text(damper: &DamperParameters) -> Result<String, DamperError> {

@@ -40,11 +40,7 @@ impl ForceHistory {
     ) -> Result<Self, FileError> {
         let quantities = [Quantity::Time, Quantity::Force];
         let mut rows = open_rows(Origin::Path(path), channels, quantities)?;
-        let mut samples: Vec<[f64; 2]> = Vec::new();
-        while let Some(sample) = rows.next()? {
-            rows.reserve(&mut samples)?;
-            samples.push(sample);
-        }
+        let samples = rows.read_all(|sample| sample)?;
         if let (Some([from_s, _]), Some([to_s, _])) = (samples.first(), samples.last())
             && (*from_s > needed_s[0] + SAME_S || *to_s < needed_s[1] - SAME_S)
         {

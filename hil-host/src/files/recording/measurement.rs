@@ -21,6 +21,16 @@ pub struct MeasuredSample {
     pub force_n: f64,
 }
 
+impl MeasuredSample {
+    fn of([time_s, displacement_m, force_n]: [f64; 3]) -> Self {
+        Self {
+            time_s,
+            displacement_m,
+            force_n,
+        }
+    }
+}
+
 /// Displacement and force over time, read row by row in bounded memory from the same files as a [`Recording`](super::Recording).
 pub struct Measurement {
     rows: Rows<3>,
@@ -58,12 +68,7 @@ impl Measurement {
     /// # Errors
     /// As [`Recording::next_sample`](super::Recording::next_sample).
     pub fn next_sample(&mut self) -> Result<Option<MeasuredSample>, FileError> {
-        let row = self.rows.next()?;
-        Ok(row.map(|[time_s, displacement_m, force_n]| MeasuredSample {
-            time_s,
-            displacement_m,
-            force_n,
-        }))
+        Ok(self.rows.next()?.map(MeasuredSample::of))
     }
 
     /// All rows left.
@@ -71,12 +76,7 @@ impl Measurement {
     /// # Errors
     /// As [`Measurement::next_sample`].
     pub fn read_all(&mut self) -> Result<Vec<MeasuredSample>, FileError> {
-        let mut samples = Vec::new();
-        while let Some(sample) = self.next_sample()? {
-            self.rows.reserve(&mut samples)?;
-            samples.push(sample);
-        }
-        Ok(samples)
+        self.rows.read_all(MeasuredSample::of)
     }
 
     /// Bytes read so far, for a progress bar.

@@ -50,6 +50,15 @@ pub struct Sample {
     pub displacement_m: f64,
 }
 
+impl Sample {
+    fn of([time_s, displacement_m]: [f64; 2]) -> Self {
+        Self {
+            time_s,
+            displacement_m,
+        }
+    }
+}
+
 /// A recorded motion, read row by row in bounded memory. What the file is, is found in its first bytes.
 pub struct Recording {
     rows: Rows<2>,
@@ -112,11 +121,7 @@ impl Recording {
     /// # Errors
     /// A value that is no finite number, a row of other length, or time that does not grow; with line or row, and column.
     pub fn next_sample(&mut self) -> Result<Option<Sample>, FileError> {
-        let row = self.rows.next()?;
-        Ok(row.map(|[time_s, displacement_m]| Sample {
-            time_s,
-            displacement_m,
-        }))
+        Ok(self.rows.next()?.map(Sample::of))
     }
 
     /// All rows left.
@@ -124,12 +129,7 @@ impl Recording {
     /// # Errors
     /// As [`Recording::next_sample`].
     pub fn read_all(&mut self) -> Result<Vec<Sample>, FileError> {
-        let mut samples = Vec::new();
-        while let Some(sample) = self.next_sample()? {
-            self.rows.reserve(&mut samples)?;
-            samples.push(sample);
-        }
-        Ok(samples)
+        self.rows.read_all(Sample::of)
     }
 
     /// Bytes read so far, for a progress bar.

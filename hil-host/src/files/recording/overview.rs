@@ -239,7 +239,7 @@ impl Times {
         if self.first_s.is_none() {
             self.first_s = Some(time_s);
         } else if time_s > self.last_s {
-            self.intervals.add(self.last_s, time_s, source.place());
+            self.intervals.add(self.last_s, time_s, || source.place());
             self.regular.take(time_s - self.last_s);
         } else {
             self.not_growing += 1;

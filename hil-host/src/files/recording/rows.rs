@@ -1,5 +1,6 @@
 //! Rows of a recording in SI, from whatever file.
 
+use std::hint::black_box;
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -76,9 +77,9 @@ impl<const N: usize> Rows<N> {
 
     /// The next row in SI; `None` at the end.
     pub(super) fn next(&mut self) -> Result<Option<[f64; N]>, FileError> {
-        let mut row = [0.0; N];
-        loop {
-            if !self.source.next(&mut row)? {
+        let mut numbers = [0.0; N];
+        let row = loop {
+            if !self.source.next(&mut numbers)? {
                 return match self.last_time_s {
                     None => Err(self.in_text(RecordingError::NoRow {
                         left_out: self.left_out.rows,
@@ -86,36 +87,39 @@ impl<const N: usize> Rows<N> {
                     Some(_) => Ok(None),
                 };
             }
-            for (value, chosen) in row.iter_mut().zip(&self.chosen) {
-                *value = chosen.unit.to_si(*value);
-                if chosen.reversed {
-                    *value = -*value;
-                }
-            }
+            // Into an array of its own, one by one: a copy of all that the source wrote one by one would wait for its writes, which wait
+            // for the step before.
+            let row: [f64; N] =
+                std::array::from_fn(|place| self.chosen[place].in_si(black_box(numbers[place])));
             match row.iter().position(|value| !value.is_finite()) {
-                None => break,
+                None => break row,
                 Some(_) if self.skip_invalid => {
                     self.left_out.rows += 1;
                     self.left_out.first.get_or_insert(self.source.place());
                 }
                 Some(place) => return Err(self.in_cell(place, self.source.missing(place))),
             }
-        }
+        };
         let time_s = row[0];
         if let Some(before_s) = self.last_time_s {
             if time_s <= before_s {
                 return Err(self.in_time(RecordingError::Time { time_s, before_s }));
             }
-            self.intervals.add(before_s, time_s, self.source.place());
+            self.intervals.add(before_s, time_s, || self.source.place());
         }
         self.last_time_s = Some(time_s);
         Ok(Some(row))
     }
 
-    /// Room for one more of the rows that are kept in memory.
-    pub(super) fn reserve<T>(&self, kept: &mut Vec<T>) -> Result<(), FileError> {
-        kept.try_reserve(1)
-            .map_err(|_| FileError::read(&self.path, io::ErrorKind::OutOfMemory.into()))
+    /// All rows left, each as `of` has it.
+    pub(super) fn read_all<T>(&mut self, of: impl Fn([f64; N]) -> T) -> Result<Vec<T>, FileError> {
+        let mut kept = Vec::new();
+        while let Some(row) = self.next()? {
+            kept.try_reserve(1)
+                .map_err(|_| FileError::read(&self.path, io::ErrorKind::OutOfMemory.into()))?;
+            kept.push(of(row));
+        }
+        Ok(kept)
     }
 
     pub(super) fn position(&self) -> u64 {

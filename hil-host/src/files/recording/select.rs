@@ -34,6 +34,15 @@ pub(super) struct Chosen {
     pub(super) reversed: bool,
 }
 
+impl Chosen {
+    /// A number of the file in SI, positive in extension.
+    #[inline]
+    pub(super) fn in_si(&self, number: f64) -> f64 {
+        let value = self.unit.to_si(number);
+        if self.reversed { -value } else { value }
+    }
+}
+
 /// The channels of `quantities`, which begin with the time, among those `found` in `groups`.
 ///
 /// # Errors

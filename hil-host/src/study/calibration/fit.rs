@@ -110,8 +110,8 @@ impl Model {
     }
 
     /// The fits from the numbers as they are and from `starts - 1` places about them, those of the least sum of squares first; always the
-    /// same for the same tests.
-    pub(super) fn fits(&self, starts: usize) -> Vec<Fit> {
+    /// same for the same tests. Each is told to `ended`.
+    pub(super) fn fits(&self, starts: usize, ended: &(dyn Fn() + Sync)) -> Vec<Fit> {
         let first: Vec<f64> = self
             .varied
             .iter()
@@ -128,7 +128,11 @@ impl Model {
             places.push(about.collect());
         }
         let all: Vec<usize> = (0..self.varied.len()).collect();
-        let fits = workers::map(&places, |places| Ok::<_, ()>(self.fit(places, &all)));
+        let fits = workers::map(&places, |places| {
+            let fit = self.fit(places, &all);
+            ended();
+            Ok::<_, ()>(fit)
+        });
         let mut fits: Vec<Fit> = fits.unwrap_or_default().into_iter().flatten().collect();
         fits.sort_by(|a, b| a.chi_square.total_cmp(&b.chi_square));
         fits

@@ -47,8 +47,18 @@ impl IndexTest {
             .comment(Some(b'#'))
             .trim(csv::Trim::All)
             .from_reader(text.as_bytes());
-        let rows: Result<Vec<Self>, csv::Error> = reader.deserialize().collect();
-        let rows = rows.map_err(|error| FileError::in_file(path, error))?;
+        let in_file = |error| FileError::in_file(path, error);
+        let header = reader.headers().map_err(in_file)?.clone();
+        let mut rows = Vec::new();
+        for record in reader.records() {
+            let record = record.map_err(in_file)?;
+            let line = record.position().map_or(0, |from| line_of_row(&text, from));
+            let row = record.deserialize(Some(&header));
+            let row: Self = row.map_err(|error| in_cell(path, line, &header, error))?;
+            row.check()
+                .map_err(|reason| FileError::in_line(path, line, reason))?;
+            rows.push(row);
+        }
         if rows.is_empty() {
             let empty = csv::Error::from(io::Error::other("no row below the header"));
             return Err(FileError::in_file(path, empty));
@@ -115,5 +125,28 @@ impl IndexTest {
             let most = most?;
             Some((value - most).max(0.0) / (scatter * most))
         }))
+    }
+}
+
+/// The line of a row of `text`, which begins at `from` or after the comments and empty lines there.
+fn line_of_row(text: &str, from: &csv::Position) -> u64 {
+    let rest = text.get(from.byte() as usize..).unwrap_or_default();
+    let before = rest
+        .lines()
+        .take_while(|line| line.is_empty() || line.starts_with('#'));
+    from.line() + before.count() as u64
+}
+
+/// A cell of a row that is not what it must be.
+fn in_cell(path: &Path, line: u64, header: &csv::StringRecord, error: csv::Error) -> FileError {
+    match error.kind() {
+        csv::ErrorKind::Deserialize { err, .. } => {
+            let column = err.field().and_then(|field| header.get(field as usize));
+            match column {
+                Some(column) => FileError::in_cell(path, line, column, err.kind().to_string()),
+                None => FileError::in_line(path, line, err.kind().to_string()),
+            }
+        }
+        _ => FileError::in_file(path, error),
     }
 }

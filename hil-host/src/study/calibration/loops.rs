@@ -32,6 +32,21 @@ const CONTACT: f64 = 0.05;
 /// Time before the end of a recording in which a smoothed motion is not known well enough (s).
 const END_S: f64 = 0.05;
 
+impl Recorded {
+    /// The stretches without a gap, and how many more there are that are too short to be a test.
+    fn tests(&self) -> (Vec<Range<usize>>, usize) {
+        let (tests, short): (Vec<_>, Vec<_>) = stretches(&self.times_s)
+            .into_iter()
+            .partition(|stretch| stretch.len() >= FEWEST_SAMPLES);
+        (tests, short.len())
+    }
+
+    /// How many stretches without a gap are no test, for they have less than 100 samples.
+    pub fn too_short(&self) -> usize {
+        self.tests().1
+    }
+}
+
 /// One bench test, ready to be compared with a model.
 #[derive(Clone, Debug)]
 pub struct LoopTest {
@@ -63,8 +78,7 @@ impl LoopTest {
     /// # Errors
     /// Too few samples, too many ticks, or a force that never acts in both directions.
     pub fn of(recorded: &Recorded, step_s: f64) -> Result<Vec<Self>, CalibrationError> {
-        let mut stretches = stretches(&recorded.times_s);
-        stretches.retain(|stretch| stretch.len() >= FEWEST_SAMPLES);
+        let (stretches, _) = recorded.tests();
         let count = stretches.len();
         let tests = stretches.into_iter().enumerate().map(|(number, stretch)| {
             let name = match count {

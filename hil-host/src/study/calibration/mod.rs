@@ -27,6 +27,8 @@ use profile::Better;
 pub use profile::{Profile, RISE_95};
 pub use varied::{Prior, SKEW, Varied};
 
+use std::sync::atomic::{AtomicUsize, Ordering};
+
 use dashpot_core::CheckedParameters;
 
 use crate::files::damper::Keyed;
@@ -59,6 +61,50 @@ pub struct Calibration {
     pub step_s: f64,
     /// Starts of the search.
     pub starts: usize,
+}
+
+/// How far a calibration is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Progress {
+    /// What is done.
+    pub stage: &'static str,
+    /// Parts of it that are done.
+    pub done: usize,
+    /// Parts that it has.
+    pub of: usize,
+}
+
+/// The parts of a stage, counted by whoever does them.
+struct Stage<'a> {
+    name: &'static str,
+    of: usize,
+    done: AtomicUsize,
+    tell: &'a (dyn Fn(Progress) + Sync),
+}
+
+impl<'a> Stage<'a> {
+    fn new(name: &'static str, of: usize, tell: &'a (dyn Fn(Progress) + Sync)) -> Self {
+        let stage = Self {
+            name,
+            of,
+            done: AtomicUsize::new(0),
+            tell,
+        };
+        stage.tell(0);
+        stage
+    }
+
+    fn tell(&self, done: usize) {
+        (self.tell)(Progress {
+            stage: self.name,
+            done,
+            of: self.of,
+        });
+    }
+
+    fn one_more(&self) {
+        self.tell(self.done.fetch_add(1, Ordering::Relaxed) + 1);
+    }
 }
 
 /// What was found.
@@ -94,13 +140,12 @@ pub struct LoopFit {
 }
 
 impl Calibration {
-    /// Finds the numbers; `begins` is told what begins.
+    /// Finds the numbers; `tell` is told how far it is.
     ///
     /// # Errors
     /// Nothing to do, a damper that cannot be, or numbers that the tests do not determine: then none are told.
-    pub fn run(&self, begins: &dyn Fn(&'static str)) -> Result<Calibrated, CalibrationError> {
+    pub fn run(&self, tell: &(dyn Fn(Progress) + Sync)) -> Result<Calibrated, CalibrationError> {
         self.check()?;
-        begins("searching");
         let scatter = |test: &LoopTest| test.force_noise_n.max(LEAST_SCATTER * test.peak_force_n);
         let mut model = Model {
             damper: self.damper.clone(),
@@ -111,7 +156,8 @@ impl Calibration {
             scatter_n: self.loops.iter().map(scatter).collect(),
         };
         let start: Vec<f64> = self.varied.iter().map(|v| v.place(v.start)).collect();
-        let fits = model.fits(self.starts);
+        let searches = Stage::new("searches", self.starts, tell);
+        let fits = model.fits(self.starts, &|| searches.one_more());
         let Some(first) = fits.first() else {
             // What fails at the start fails everywhere.
             let reason = model
@@ -138,7 +184,6 @@ impl Calibration {
                 CalibrationError::NoFit("numbers that no damper has together".into())
             })?;
         }
-        begins("intervals");
         let determination = model.determination(&best.places)?;
         let refuse = |is_determined: &dyn Fn(usize) -> bool| {
             let refused = all.iter().filter(|number| !is_determined(**number));
@@ -156,7 +201,7 @@ impl Calibration {
         refuse(&|number| {
             determination.numbers[number].is_felt || self.varied[number].prior.is_some()
         })?;
-        let (best, profiles) = self.profiles(&model, best, &determination)?;
+        let (best, profiles) = self.profiles(&model, best, &determination, tell)?;
         let values = model.values(&best.places);
         refuse(&|number| profiles[number].is_narrow(&self.varied[number], values[number]))?;
         let before = model.forces_n(&start)?;
@@ -186,11 +231,15 @@ impl Calibration {
         model: &Model,
         mut best: Fit,
         determination: &Determination,
+        tell: &(dyn Fn(Progress) + Sync),
     ) -> Result<(Fit, Vec<Profile>), CalibrationError> {
         let all: Vec<usize> = (0..self.varied.len()).collect();
         for _ in 0..ANEW {
+            let intervals = Stage::new("intervals", all.len(), tell);
             let found = workers::map(&all, |&number| {
-                model.profile(&best, number, &determination.numbers[number])
+                let profile = model.profile(&best, number, &determination.numbers[number]);
+                intervals.one_more();
+                profile
             });
             match found {
                 Ok(profiles) => return Ok((best, profiles)),

@@ -13,6 +13,9 @@ use super::ColumnName;
 use crate::files::FileError;
 use crate::files::output::cannot_write;
 
+/// Bytes of rows that go to or come from the temporary file at once.
+const PART: usize = 1 << 16;
+
 /// Bytes of a number in a row.
 const NUMBER: usize = 8;
 
@@ -44,7 +47,7 @@ impl<'a> Rows<'a> {
             path,
             file,
             head: of_one_row(columns).map_err(failed)?,
-            rows: BufWriter::new(tempfile::tempfile().map_err(failed)?),
+            rows: BufWriter::with_capacity(PART, tempfile::tempfile().map_err(failed)?),
             width: columns.len(),
             count: 0,
         })
@@ -77,7 +80,7 @@ impl<'a> Rows<'a> {
         self.file.write_all(&self.head[..data + DATA_HEADER])?;
         let mut rows = self.rows.into_inner().map_err(|error| error.into_error())?;
         rows.rewind()?;
-        io::copy(&mut BufReader::new(rows), self.file)?;
+        io::copy(&mut BufReader::with_capacity(PART, rows), self.file)?;
         Ok(())
     }
 }

@@ -110,6 +110,8 @@ fn start(
     let units = serde_json::Value::Object(units).to_string();
     let properties = WriterProperties::builder()
         .set_compression(Compression::SNAPPY)
+        // Hardly a number is there twice.
+        .set_dictionary_enabled(false)
         .set_key_value_metadata(Some(vec![KeyValue::new(UNITS.into(), units)]));
     SerializedFileWriter::new(bytes, Arc::new(schema), Arc::new(properties.build()))
 }

@@ -1,0 +1,113 @@
+//! `dashpot export`: the built damper for firmware and for other tools.
+
+mod damper;
+mod fmu;
+mod health;
+mod named;
+mod written;
+
+use std::path::PathBuf;
+
+use super::sensors::SensorArguments;
+use super::step_size::{self, StepSize};
+use super::{DamperArguments, Format};
+use crate::commands::failure::Outcome;
+use crate::study::Scalar;
+
+/// Language of the exported source.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+pub enum Language {
+    /// A Rust source with a `static` of dashpot-core.
+    Rust,
+    /// A C source with the bytes that the C library takes, and beside it its header (x.c and x.h); C++ too.
+    C,
+    /// The bytes alone: for a link, a file system or another linker.
+    Bin,
+}
+
+impl Language {
+    fn name(self) -> &'static str {
+        match self {
+            Self::Rust => "rust",
+            Self::C => "c",
+            Self::Bin => "bin",
+        }
+    }
+}
+
+/// Write the built damper as a constant or as bytes for firmware.
+#[derive(Debug, Clone, clap::Args)]
+#[command(after_help = "Examples:
+  dashpot export --damper reduced-vertical --lang rust --step-us 500 --output vertical.rs
+  dashpot export --damper in-service --lang c --output in_service.c
+  dashpot export --damper in-service --lang c --standalone --output in_service.c
+  dashpot export --damper in-service --lang bin --output in_service.bin
+  dashpot export --damper in-service --fmi 3 --output in_service.fmu
+  dashpot export --damper in-service --lang c --health --displacement-noise-m 60e-6 --force-noise-n 60 --output health.c
+
+Then in Rust: mod vertical; ... vertical::REDUCED_VERTICAL.step(&mut state, x)
+and in C: #include \"in_service.h\" ... dashpot_damper_init(&damper, IN_SERVICE, sizeof IN_SERVICE)
+without a library: #include \"in_service.h\" ... in_service_step(&in_service_as_built, &state, x), see docs/portable-c.md
+of its health: HealthModel::from_image(&health::IN_SERVICE_HEALTH), dashpot_health_model_init(&model, IN_SERVICE_HEALTH, \
+sizeof IN_SERVICE_HEALTH)")]
+pub struct ExportArguments {
+    #[command(flatten)]
+    damper: DamperArguments,
+    /// Language of the source.
+    #[arg(
+        long,
+        value_enum,
+        required = false,
+        required_unless_present = "fmi",
+        default_value_if("fmi", clap::builder::ArgPredicate::IsPresent, "c")
+    )]
+    lang: Language,
+    #[command(flatten)]
+    fmu: fmu::FmuArguments,
+    /// The step, us.
+    #[arg(help = step_size::help("Step the damper is built for", ""), 
+        long,
+        default_value = "1000",
+        value_name = "US",
+        allow_negative_numbers = true
+    )]
+    step_us: StepSize,
+    /// Floating-point type.
+    #[arg(long, value_enum, default_value_t = Scalar::F32)]
+    scalar: Scalar,
+    /// Write step and constants in C99 that need no library, for tool chains without Rust; `--lang c` in either scalar.
+    #[arg(long, conflicts_with = "health")]
+    standalone: bool,
+    /// Write what watches the damper's health in place of the damper: the bytes of its model in any language.
+    #[arg(long)]
+    health: bool,
+    #[command(flatten)]
+    sensors: SensorArguments,
+    /// Name of the constant; the damper's name in capitals when not given, with _HEALTH of its health. Bytes alone have none.
+    #[arg(long)]
+    name: Option<String>,
+    /// File to write, `-` for standard output.
+    #[arg(long, value_name = "FILE")]
+    output: PathBuf,
+    /// How results are printed.
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    format: Format,
+}
+
+/// Builds the damper and writes it.
+///
+/// # Errors
+/// The damper or the name is refused, or the file cannot be written.
+pub fn run(arguments: &ExportArguments) -> Outcome<()> {
+    let interface = arguments.fmu.interface()?;
+    if arguments.health {
+        return health::run(arguments);
+    }
+    arguments.sensors.refuse_without("--health")?;
+    match (interface, arguments.scalar) {
+        (Some(interface), Scalar::F32) => fmu::run::<f32>(arguments, interface),
+        (Some(interface), Scalar::F64) => fmu::run::<f64>(arguments, interface),
+        (None, Scalar::F32) => damper::run::<f32>(arguments),
+        (None, Scalar::F64) => damper::run::<f64>(arguments),
+    }
+}

@@ -1,0 +1,108 @@
+//! Parquet, read a bounded part at a time.
+
+mod column;
+mod rows;
+mod schema;
+
+use std::fs::File;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use parquet::errors::ParquetError;
+use parquet::file::reader::{FileReader, SerializedFileReader};
+
+use super::error::RecordingError;
+use super::guarded::guarded;
+use super::open::Opened;
+use super::rows::Source;
+use super::select::Found;
+use super::text::found;
+use crate::files::FileError;
+use column::Column;
+use rows::ParquetRows;
+
+/// Key of the units in the file's metadata: an object of JSON with the unit of each column by its name.
+pub(super) const UNITS: &str = "units";
+
+/// A Parquet file whose columns are known.
+pub(super) struct Parquet {
+    path: PathBuf,
+    reader: Arc<SerializedFileReader<File>>,
+    found: Vec<Found>,
+    bytes: u64,
+}
+
+impl Parquet {
+    /// Reads what columns there are.
+    pub(super) fn open(path: &Path, file: File) -> Result<Self, FileError> {
+        let bytes = file.metadata().map_or(0, |data| data.len());
+        let reader = read(path, || SerializedFileReader::new(file))?;
+        let metadata = reader.metadata().file_metadata();
+        let rows = u64::try_from(metadata.num_rows()).unwrap_or(0);
+        let units = metadata
+            .key_value_metadata()
+            .into_iter()
+            .flatten()
+            .find(|pair| pair.key == UNITS)
+            .and_then(|pair| serde_json::from_str(pair.value.as_deref()?).ok());
+        let units: serde_json::Value = units.unwrap_or_default();
+        let columns = metadata.schema_descr().columns();
+        let found = columns.iter().map(|column| {
+            let name = column.path().string();
+            let told = units.get(&name).and_then(|unit| unit.as_str());
+            let from_name = found(&name);
+            Found {
+                unit: told
+                    .map(str::to_owned)
+                    .or(schema::unit(column))
+                    .or(from_name.unit),
+                kind: schema::kind(column),
+                is_number: schema::is_number(column),
+                rows: Some(rows),
+                ..from_name
+            }
+        });
+        let found = found.collect();
+        Ok(Self {
+            path: path.to_owned(),
+            reader: Arc::new(reader),
+            found,
+            bytes,
+        })
+    }
+}
+
+impl Opened for Parquet {
+    fn found(&self) -> &[Found] {
+        &self.found
+    }
+
+    fn groups(&self) -> &[String] {
+        &[]
+    }
+
+    fn rows(&mut self, indices: &[usize], _: bool) -> Result<Box<dyn Source>, FileError> {
+        let schema = self.reader.metadata().file_metadata().schema_descr();
+        let columns = indices
+            .iter()
+            .map(|&index| Column::new(index, &schema.column(index)));
+        let rows = self.found.first().and_then(|f| f.rows).unwrap_or(0);
+        let reader = Arc::clone(&self.reader);
+        let rows = ParquetRows::new(&self.path, reader, columns.collect(), rows, self.bytes);
+        Ok(Box::new(rows))
+    }
+}
+
+/// What the library reads.
+fn read<T>(path: &Path, read: impl FnOnce() -> Result<T, ParquetError>) -> Result<T, FileError> {
+    let reason = match guarded(read) {
+        Some(Ok(read)) => return Ok(read),
+        Some(Err(error)) => error.to_string(),
+        None => "its parts contradict each other".into(),
+    };
+    let kind = "Parquet";
+    Err(FileError::in_file(
+        path,
+        RecordingError::Damaged { kind, reason },
+    ))
+}

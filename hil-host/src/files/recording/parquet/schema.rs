@@ -1,0 +1,59 @@
+//! What a column of a Parquet file is, by its type.
+
+use parquet::basic::{ConvertedType, LogicalType, TimeUnit, Type as Physical};
+use parquet::schema::types::ColumnDescriptor;
+
+/// The unit of a time, which its type tells.
+pub(super) fn unit(column: &ColumnDescriptor) -> Option<String> {
+    let unit = match column.logical_type_ref() {
+        Some(LogicalType::Timestamp(stamp)) => Some(&stamp.unit),
+        Some(LogicalType::Time(time)) => Some(&time.unit),
+        _ => None,
+    };
+    let name = match (unit, column.converted_type()) {
+        (Some(TimeUnit::MILLIS), _)
+        | (None, ConvertedType::TIMESTAMP_MILLIS | ConvertedType::TIME_MILLIS) => "ms",
+        (Some(TimeUnit::MICROS), _)
+        | (None, ConvertedType::TIMESTAMP_MICROS | ConvertedType::TIME_MICROS) => "us",
+        (Some(TimeUnit::NANOS), _) => "ns",
+        (None, _) => return None,
+    };
+    Some(name.to_owned())
+}
+
+pub(super) fn is_instant(column: &ColumnDescriptor) -> bool {
+    matches!(column.logical_type_ref(), Some(LogicalType::Timestamp(_)))
+        || matches!(
+            column.converted_type(),
+            ConvertedType::TIMESTAMP_MILLIS | ConvertedType::TIMESTAMP_MICROS
+        )
+}
+
+pub(super) fn is_number(column: &ColumnDescriptor) -> bool {
+    let is_plain = match column.logical_type_ref() {
+        None | Some(LogicalType::Timestamp(_) | LogicalType::Time(_)) => true,
+        // Of 64 bits without sign, half the numbers would be read as negative ones.
+        Some(LogicalType::Integer(integer)) => integer.is_signed || integer.bit_width < 32,
+        Some(_) => false,
+    };
+    let physical = [
+        Physical::INT32,
+        Physical::INT64,
+        Physical::FLOAT,
+        Physical::DOUBLE,
+    ];
+    is_plain && column.max_rep_level() == 0 && physical.contains(&column.physical_type())
+}
+
+pub(super) fn kind(column: &ColumnDescriptor) -> String {
+    match (column.logical_type_ref(), column.physical_type()) {
+        (Some(LogicalType::Timestamp(_)), _) => "timestamp".into(),
+        (Some(LogicalType::Time(_)), _) => "time".into(),
+        (Some(LogicalType::String), _) => "text".into(),
+        (_, Physical::DOUBLE) => "f64".into(),
+        (_, Physical::FLOAT) => "f32".into(),
+        (None, Physical::INT32) => "i32".into(),
+        (None, Physical::INT64) => "i64".into(),
+        (_, other) => other.to_string().to_ascii_lowercase(),
+    }
+}

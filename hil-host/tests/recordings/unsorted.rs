@@ -1,0 +1,105 @@
+//! MDF4 whose records are not sorted: several groups and texts of any length in one stream, as loggers write as they go.
+
+use std::path::Path;
+
+use dashpot_hil::files::recording::{Channel, Channels};
+
+use crate::common::{dashpot, error_of, json_of};
+use crate::forms::{rows, samples};
+
+#[test]
+fn channels_of_all_groups_are_listed() {
+    let ended = dashpot(
+        &["channels", "unsorted.mf4", "--format", "json"],
+        &samples(),
+    );
+    let report = json_of(&ended.success());
+    let channels = report["channels"].as_array().unwrap();
+    let listed: Vec<_> = channels
+        .iter()
+        .map(|c| {
+            (
+                c["name"].as_str().unwrap(),
+                c["group"].as_u64().unwrap(),
+                c["rows"].as_u64().unwrap(),
+            )
+        })
+        .collect();
+    assert_eq!(
+        listed,
+        [
+            ("time", 1, 60),
+            ("Weg", 1, 60),
+            ("Kraft", 1, 60),
+            ("Notiz", 1, 60),
+            ("time", 2, 6),
+            ("Temperatur", 2, 6)
+        ]
+    );
+    let temperature = &channels[5];
+    assert_eq!(
+        (&temperature["min"], &temperature["max"]),
+        (&20.0.into(), &26.25.into())
+    );
+    // Texts have no range.
+    assert_eq!(channels[3]["min"], serde_json::Value::Null);
+}
+
+/// The force over `file`.
+fn replayed(file: &str, folder: &Path) -> Vec<u8> {
+    let input = samples().join(file);
+    let replay = ["replay", "--input", input.to_str().unwrap()];
+    let channels = ["--group", "Messung", "--displacement", "Weg"];
+    let output = ["--output", "force.csv"];
+    dashpot(&[&replay[..], &channels, &output].concat(), folder).success();
+    std::fs::read(folder.join("force.csv")).unwrap()
+}
+
+#[test]
+fn a_replay_is_that_of_the_sorted_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let force = replayed("unsorted.mf4", folder.path());
+    assert_eq!(force, replayed("plain.mf4", folder.path()));
+}
+
+#[test]
+fn texts_are_no_signal() {
+    let channels = Channels {
+        displacement: Channel {
+            name: Some("Weg".into()),
+            ..Channel::default()
+        },
+        force: Channel {
+            name: Some("Notiz".into()),
+            ..Channel::default()
+        },
+        ..Channels::default()
+    };
+    let error = rows(&samples().join("unsorted.mf4"), &channels).expect_err("texts");
+    let error = error.to_string();
+    assert!(
+        error.contains("--force: channel Notiz holds"),
+        "no word of what it holds: {error}"
+    );
+}
+
+/// The library does not join records that blocks of data divide: no row is taken from what follows, none is lost unsaid.
+#[test]
+fn records_over_the_ends_of_blocks_are_refused() {
+    let path = samples().join("unsorted_parts.mf4");
+    let ended = dashpot(
+        &[
+            "replay",
+            "--input",
+            path.to_str().unwrap(),
+            "--displacement",
+            "Weg",
+            "--output",
+            "-",
+        ],
+        &samples(),
+    );
+    let error = error_of(&ended);
+    assert!(error.contains("it says that it has 60 rows"), "{error}");
+    ended.code(1);
+}
