@@ -178,9 +178,9 @@ fn no_memory_is_lost_or_misused() {
     if !have(&[VALGRIND], "memory of FMUs") {
         return;
     }
-    for (fmi, more) in [
-        ("2", &[][..]),
-        ("3", &["--loadable", "--also", "paper"][..]),
+    for (fmi, more, steps) in [
+        ("2", &["--loadable", "--also", "paper"][..], "100000"),
+        ("3", &[][..], "1000000"),
     ] {
         let fmu = Unpacked::new(fmi, more);
         let driver = Driver::new(fmi);
@@ -191,7 +191,7 @@ fn no_memory_is_lost_or_misused() {
             "--errors-for-leak-kinds=all",
             "--error-exitcode=9",
         ];
-        let output = driver.output(&valgrind, &fmu, fmu.token(), &["many", "100000"], "");
+        let output = driver.output(&valgrind, &fmu, fmu.token(), &["many", steps], "");
         assert!(
             output.status.success(),
             "{}",
