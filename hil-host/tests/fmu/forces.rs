@@ -8,7 +8,7 @@ use xtask::tools::{CLANG, GCC, VALGRIND, have};
 
 use crate::common::dashpot;
 use crate::driver::{Driver, hexadecimal};
-use crate::{Unpacked, bits, displacements_m, forces_n};
+use crate::{Unpacked, bits, displacements_m, forces_n, source};
 
 fn lines(displacements_m: &[f64]) -> String {
     displacements_m.iter().fold(String::new(), |mut text, x| {
@@ -119,9 +119,13 @@ fn with_the_velocity_the_force_is_not_late() {
                 .map(|number| wave(1e-3 * (number * steps) as f64))
                 .collect();
             let without = error(hexadecimal(&driver.run(&fmu, &["run", &count], &lines(&x))));
-            println!(
-                "FMI {fmi}, {steps} ms: {with:.1e} of the largest force with the velocity, {without:.1e} without"
+            let row = format!(
+                "| {steps} ms | {:.1} % | {:.3} % |",
+                1e2 * without,
+                1e2 * with
             );
+            let page = fs::read_to_string(source("../docs/fmu.md")).unwrap();
+            assert!(page.contains(&row), "docs/fmu.md has not {row}");
             assert!(with < 0.2 * without, "{with} {without}");
         }
     }
