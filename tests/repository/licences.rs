@@ -9,10 +9,11 @@ use spdx::{Expression, ParseMode};
 use crate::workspaces::WORKSPACES;
 
 /// Licences that ask for no more than ours do: that their text is kept.
-const ALLOWED: [&str; 6] = [
+const ALLOWED: [&str; 7] = [
     "Apache-2.0",
     "BSD-2-Clause",
     "BSD-3-Clause",
+    "ISC",
     "MIT",
     "Unicode-3.0",
     "Zlib",

@@ -8,6 +8,7 @@ use std::process::Command;
 
 use assert_cmd::assert::Assert;
 use assert_cmd::cargo::{cargo_bin, cargo_bin_cmd};
+use sha2::{Digest, Sha256};
 
 /// The path of the command.
 pub fn program() -> &'static Path {
@@ -72,4 +73,31 @@ pub fn files_in(folder: &Path) -> Vec<String> {
         .collect();
     names.sort();
     names
+}
+
+/// Compares the files of a folder that others made with the table of them in its README.md: name, place in the package, SHA-256.
+pub fn are_as_their_readme_says(folder: &Path) {
+    let readme = std::fs::read_to_string(folder.join("README.md")).unwrap();
+    let rows: Vec<Vec<&str>> = readme
+        .lines()
+        .filter(|line| line.starts_with("| `"))
+        .map(|line| {
+            line.split('|')
+                .map(|cell| cell.trim().trim_matches('`'))
+                .collect()
+        })
+        .collect();
+    for row in &rows {
+        let digest = Sha256::digest(std::fs::read(folder.join(row[1])).unwrap());
+        let digest: String = digest.iter().map(|byte| format!("{byte:02x}")).collect();
+        assert_eq!(digest, row[3], "{}", row[1]);
+    }
+    let mut told: Vec<&str> = rows.iter().map(|row| row[1]).chain(["README.md"]).collect();
+    let mut there: Vec<String> = std::fs::read_dir(folder)
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .collect();
+    told.sort_unstable();
+    there.sort_unstable();
+    assert_eq!(there, told);
 }

@@ -2,9 +2,9 @@
 
 use std::fs;
 
-use crate::Unpacked;
-use crate::common::{command, dashpot, error_of};
+use crate::common::{are_as_their_readme_says, command, dashpot, error_of};
 use crate::driver::Driver;
+use crate::{Unpacked, source};
 
 const REFUSED: &str = "\
 log it 3 logStatusError: fmi#DoStep is not allowed while the instance is instantiated
@@ -72,7 +72,7 @@ fn a_description_of_another_fmu_makes_no_instance() {
 #[test]
 fn every_function_of_the_interface_is_there() {
     for (fmi, count) in [("2", 34), ("3", 75)] {
-        let header = fs::read_to_string(crate::source(&format!(
+        let header = fs::read_to_string(source(&format!(
             "src/target/export/fmu/headers/fmi{fmi}Functions.h"
         )))
         .unwrap();
@@ -149,4 +149,9 @@ fn the_same_export_has_the_same_bytes() {
     let sources = Unpacked::new("3", &["--sources-only"]);
     assert!(!sources.path("binaries").exists());
     assert_ne!(sources.token(), a.token());
+}
+
+#[test]
+fn the_headers_of_the_interface_are_what_their_readme_says() {
+    are_as_their_readme_says(&source("src/target/export/fmu/headers"));
 }
