@@ -1,6 +1,5 @@
 //! The library in the pages is the one that its README names.
 
-use std::fs;
 use std::path::Path;
 
 use crate::common::are_as_their_readme_says;
