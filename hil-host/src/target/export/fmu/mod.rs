@@ -1,7 +1,7 @@
 //! A damper or a bank of them as an FMU: the portable C behind the Functional Mock-up Interface 2.0 or 3.0, for co-simulation.
 //!
-//! `sources/` is the interface in C over the step of [`standalone`](super::standalone), `headers/` are the official headers of the
-//! interface (Modelica Association, BSD 2-Clause). Constants are compiled in, or lie as images in the folder of resources.
+//! `sources/` is the interface in C over the step of `standalone/`, `headers/` are the official headers of the interface (Modelica
+//! Association, BSD 2-Clause). Constants are compiled in, or lie as images in the folder of resources.
 
 mod archive;
 mod binary;
