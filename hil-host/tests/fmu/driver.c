@@ -111,7 +111,7 @@ static void refuse(importer *of)
     printf("a step back: %d\n", step(of, 1e-3, -1e-3));
     printf("no number: %d\n", step(of, 1e-3, NAN));
     printf("from elsewhere: %d\n", step(of, 2e-3, 1e-3));
-    printf("beyond the end: %d\n", step(of, 1e-3, 11));
+    printf("too many: %d\n", step(of, 1e-3, 1e7));
     printf("clearance: %d\n", set(of, CLEARANCE, 0.2));
     printf("clearance: %d\n", set(of, CLEARANCE, NAN));
     check("time", get(of, 0, &value), 0);
@@ -139,6 +139,37 @@ static void refuse(importer *of)
     printf("after an error: %d\n", get(of, FORCE, &value));
     check("reset", reset(of), 0);
     printf("set an output: %d\n", set(of, FORCE, 1));
+    check("reset", reset(of), 0);
+    printf("a start that no step can be told from: %d\n", begin(of, 1e15, 0));
+    check("reset", reset(of), 0);
+    check("set", set(of, DISPLACEMENT, NAN), 0);
+    check("clearance", set(of, CLEARANCE, 0.1), 0);
+    check("clearance", get(of, CLEARANCE, &value), 0);
+    check("clearance as it is told", set(of, CLEARANCE, value), 0);
+    check("begin", begin(of, 0, 0.01), 0);
+    printf("a start at NaN: %d\n", initialized(of));
+    check("status", get_integer(of, STATUS, &bits), 0);
+    printf("status %d\n", bits);
+    printf("beyond the end: %d\n", step(of, 0, 0.02));
+    check("reset", reset(of), 0);
+    printf("some and one out of range: %d, ", set_two(of, DISPLACEMENT, 0.01, CLEARANCE, 9));
+    check("displacement", get(of, DISPLACEMENT, &value), 0);
+    printf("displacement still %g\n", value);
+}
+
+/* Times that an importer adds up, and what that rounds. */
+static void added(importer *of, unsigned count)
+{
+    double at_s = 0, time_s;
+    unsigned number;
+
+    start(of);
+    for (number = 0; number < count; number++) {
+        check("step", step(of, at_s, internal_s), 0);
+        at_s += internal_s;
+    }
+    check("time", get(of, 0, &time_s), 0);
+    printf("%.17g s added up, time %.17g s\n", at_s, time_s);
 }
 
 static double wave(unsigned number)
@@ -255,6 +286,8 @@ int main(int count, char **arguments)
         run(&it, number);
     } else if (strcmp(task, "rate") == 0) {
         rate(&it, number);
+    } else if (strcmp(task, "added") == 0) {
+        added(&it, number);
     } else if (strcmp(task, "refuse") == 0) {
         refuse(&it);
     } else if (strcmp(task, "states") == 0) {

@@ -176,6 +176,16 @@ fn a_bank_has_its_dampers_side_by_side() {
     );
 }
 
+/// Time is a count of steps: what an importer rounds when it adds them up does not matter.
+#[test]
+fn times_that_are_added_up_are_followed() {
+    let text = Driver::new("2").run(&Unpacked::new("2", &[]), &["added", "10000000"], "");
+    assert!(
+        text.ends_with(", time 10000 s\n") && !text.starts_with("10000 s"),
+        "{text}"
+    );
+}
+
 /// Nothing is lost, whatever comes and goes.
 #[test]
 fn no_memory_is_lost_or_misused() {
@@ -233,6 +243,8 @@ fn the_sources_are_clean() {
                     "-shared",
                 ])
                 .args(["-fsanitize=undefined", "-o", "library.so"])
+                .arg("-I")
+                .arg(source("src/target/export/fmu/headers"))
                 .args(&compiled)
                 .current_dir(fmu.path("sources"));
             let output = command.output().unwrap();

@@ -47,6 +47,13 @@ static void release(importer *of)
     ((fmi2FreeInstanceTYPE *)symbol(of->library, "fmi2FreeInstance"))(of->instance);
 }
 static int set(importer *of, unsigned variable, double value) { return CALL(SetReal, &variable, 1, &value); }
+static int set_two(importer *of, unsigned a, double a_value, unsigned b, double b_value)
+{
+    const unsigned variables[] = {a, b};
+    const double values[] = {a_value, b_value};
+
+    return CALL(SetReal, variables, 2, values);
+}
 static int get(importer *of, unsigned variable, double *value) { return CALL(GetReal, &variable, 1, value); }
 static int get_integer(importer *of, unsigned variable, int *value) { return CALL(GetInteger, &variable, 1, value); }
 static int step(importer *of, double at_s, double step_s) { return CALL(DoStep, at_s, step_s, fmi2False); }
@@ -65,10 +72,12 @@ static int deserialize(importer *of, const void *bytes, size_t size, void **stat
 static int quiet(importer *of) { return CALL(SetDebugLogging, fmi2False, 0, NULL); }
 static int loud(importer *of, const char *category) { return CALL(SetDebugLogging, fmi2True, 1, &category); }
 
-/* The rate of an input by the interface's own function. */
+/* The rate of an input by the interface's own function, as importers give it: of every input. */
 static int set_rate(importer *of, unsigned variable, double value)
 {
-    const fmi2Integer order = 1;
+    const unsigned variables[] = {variable, variable + 1};
+    const fmi2Integer orders[] = {1, 1};
+    const double values[] = {value, 0};
 
-    return CALL(SetRealInputDerivatives, &variable, 1, &order, &value);
+    return CALL(SetRealInputDerivatives, variables, 2, orders, values);
 }

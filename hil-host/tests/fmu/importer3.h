@@ -36,6 +36,13 @@ static void release(importer *of)
     ((fmi3FreeInstanceTYPE *)symbol(of->library, "fmi3FreeInstance"))(of->instance);
 }
 static int set(importer *of, unsigned variable, double value) { return CALL(SetFloat64, &variable, 1, &value, 1); }
+static int set_two(importer *of, unsigned a, double a_value, unsigned b, double b_value)
+{
+    const unsigned variables[] = {a, b};
+    const double values[] = {a_value, b_value};
+
+    return CALL(SetFloat64, variables, 2, values, 2);
+}
 static int get(importer *of, unsigned variable, double *value) { return CALL(GetFloat64, &variable, 1, value, 1); }
 static int get_integer(importer *of, unsigned variable, int *value) { return CALL(GetInt32, &variable, 1, value, 1); }
 static int step(importer *of, double at_s, double step_s)

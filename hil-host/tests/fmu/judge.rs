@@ -29,6 +29,38 @@ fn judged(python: &Path, fmu: &Unpacked, more: &[&str]) -> (String, Vec<f64>) {
     )
 }
 
+/// Steps that do not divide a second: FMPy ends where the description says.
+#[test]
+fn fmpy_simulates_any_step() {
+    let Some(python) = have_packages("FMUs of any step by FMPy") else {
+        return;
+    };
+    for (fmi, step_us) in [("2", "300"), ("3", "333.3333"), ("3", "20000")] {
+        let fmu = Unpacked::new(fmi, &["--step-us", step_us]);
+        let mut simulate = Command::new(&python);
+        simulate.args([
+            "-m",
+            "fmpy",
+            "simulate",
+            "it.fmu",
+            "--output-file",
+            "out.csv",
+            "--timeout",
+            "60",
+        ]);
+        let output = simulate.current_dir(fmu.folder.path()).output().unwrap();
+        let text = String::from_utf8_lossy(&output.stderr);
+        assert!(output.status.success(), "FMI {fmi} {step_us} us: {text}");
+        assert!(
+            fs::read_to_string(fmu.path("out.csv"))
+                .unwrap()
+                .lines()
+                .count()
+                > 40
+        );
+    }
+}
+
 #[test]
 fn fmpy_finds_no_problem_and_the_same_forces() {
     if !have(&[CMAKE, MAKE], "FMUs compiled by FMPy") {

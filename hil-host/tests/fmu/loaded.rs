@@ -37,7 +37,7 @@ fn another_image_is_another_damper() {
             "--lang",
             "bin",
             "--output",
-            "resources/damper_1.bin",
+            "resources/image_1.bin",
         ];
         dashpot(&line, fmu.folder.path()).success();
         assert_eq!(
@@ -52,7 +52,7 @@ fn another_image_is_another_damper() {
 fn what_is_no_image_for_it_is_refused_with_the_reason() {
     let fmu = Unpacked::new("2", &["--loadable"]);
     let driver = Driver::new("2");
-    let image = fmu.path("resources/damper_1.bin");
+    let image = fmu.path("resources/image_1.bin");
     let whole = fs::read(&image).unwrap();
     let mut damaged = whole.clone();
     damaged[3000] ^= 4;
@@ -91,7 +91,7 @@ fn what_is_no_image_for_it_is_refused_with_the_reason() {
             text.contains(expected) && text.contains("no instance"),
             "{text}"
         );
-        assert!(text.contains("damper_1.bin"), "{text}");
+        assert!(text.contains("image_1.bin"), "{text}");
     }
     fs::remove_file(&image).unwrap();
     assert!(

@@ -1,6 +1,7 @@
 //! What an FMU and its export refuse, and what they say.
 
 use std::fs;
+use std::process::Command;
 
 use crate::common::{are_as_their_readme_says, command, dashpot, error_of};
 use crate::driver::Driver;
@@ -12,20 +13,20 @@ step before the start: 3
 reset: 0
 log it 3 logStatusError: fmi#ExitInitializationMode is not allowed while the instance is instantiated
 end of no initialization: 3
-log it 2 logStatusDiscard: a communication step of 0.0005 s, allowed: a multiple of the internal step of 0.001 s
+log it 2 logStatusDiscard: a communication step of 0.0005 s, allowed: a multiple of the internal step of 0.001 s, up to 1e+09 of it
 half a step: 2
-log it 2 logStatusDiscard: a communication step of 0.0015 s, allowed: a multiple of the internal step of 0.001 s
+log it 2 logStatusDiscard: a communication step of 0.0015 s, allowed: a multiple of the internal step of 0.001 s, up to 1e+09 of it
 one and a half: 2
-log it 2 logStatusDiscard: a communication step of 0 s, allowed: a multiple of the internal step of 0.001 s
+log it 2 logStatusDiscard: a communication step of 0 s, allowed: a multiple of the internal step of 0.001 s, up to 1e+09 of it
 no step: 2
-log it 2 logStatusDiscard: a communication step of -0.001 s, allowed: a multiple of the internal step of 0.001 s
+log it 2 logStatusDiscard: a communication step of -0.001 s, allowed: a multiple of the internal step of 0.001 s, up to 1e+09 of it
 a step back: 2
-log it 2 logStatusDiscard: a communication step of nan s, allowed: a multiple of the internal step of 0.001 s
+log it 2 logStatusDiscard: a communication step of nan s, allowed: a multiple of the internal step of 0.001 s, up to 1e+09 of it
 no number: 2
 log it 2 logStatusDiscard: a step from 0.002 s, but the last one ended at 0.001 s
 from elsewhere: 2
-log it 2 logStatusDiscard: a step to 11.001 s, beyond the stop time of 10 s
-beyond the end: 2
+log it 2 logStatusDiscard: a communication step of 10000000 s, allowed: a multiple of the internal step of 0.001 s, up to 1e+09 of it
+too many: 2
 log it 2 logStatusDiscard: value reference 4: 0.2, allowed: 0 to 0.1 m
 clearance: 2
 log it 2 logStatusDiscard: value reference 4: nan, allowed: 0 to 0.1 m
@@ -50,6 +51,10 @@ fn an_importer_is_told_what_is_allowed_and_nothing_changes() {
             "no variable of this type has the value reference 77",
             "after an error: 3",
             "value reference 3 is an output, and cannot be set",
+            "allowed: times within 4.5e+09 s of 0\na start that no step can be told from: 3",
+            "a start at NaN: 1\nstatus 1\n",
+            "logStatusError: a step to 0.02 s, beyond the stop time of 0.01 s\nbeyond the end: 3",
+            "some and one out of range: 2, displacement still 0\n",
         ] {
             assert!(text.contains(line), "{line} in {text}");
         }
@@ -103,11 +108,16 @@ fn every_function_of_the_interface_is_there() {
 #[test]
 fn an_export_that_cannot_be_says_what_is_allowed_and_writes_nothing() {
     let folder = tempfile::tempdir().unwrap();
-    let cases: [(&[&str], i32, &str); 6] = [
+    let cases: [(&[&str], i32, &str); 7] = [
         (&["--fmi", "4"], 2, "2, 3"),
         (&["--fmi", "3", "--lang", "c"], 2, "--lang"),
         (&["--lang", "c", "--also", "paper"], 2, "--fmi"),
         (&["--fmi", "3", "--also", "none.toml"], 1, "none.toml"),
+        (
+            &["--fmi", "3", "--name", "straße"],
+            2,
+            "no name of a constant",
+        ),
         (
             &["--fmi", "3", "--name", "9lives"],
             2,
@@ -122,7 +132,7 @@ fn an_export_that_cannot_be_says_what_is_allowed_and_writes_nothing() {
     }
     for (compiler, expected) in [
         ("no-such-compiler", "cannot be started"),
-        ("false", "failed"),
+        ("false", "failed: exit status: 1"),
     ] {
         let line = ["export", "--fmi", "3", "--output", "it.fmu"];
         let output = command(&line, folder.path())
@@ -137,6 +147,58 @@ fn an_export_that_cannot_be_says_what_is_allowed_and_writes_nothing() {
         );
     }
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
+}
+
+/// A loop of two FMUs is none at a communication point.
+#[test]
+fn outputs_depend_on_no_input_of_the_same_time() {
+    for fmi in ["2", "3"] {
+        let fmu = Unpacked::new(fmi, &["--step-us", "300"]);
+        let (_, structure) = fmu.description.split_once("<ModelStructure>").unwrap();
+        assert_eq!(structure.matches("dependencies=\"\"").count(), 6);
+        assert!(
+            fmu.description.contains("stopTime=\"0.9999\""),
+            "{}",
+            fmu.description
+        );
+        assert!(!fmu.path("sources/fmi3Functions.h").exists());
+    }
+}
+
+/// Two FMUs of one version link into one program.
+#[test]
+fn sources_share_no_name() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut linker = Command::new("cc");
+    linker.args(["-std=c99", "-shared", "-fPIC", "-o", "both.so"]);
+    for fmi in ["2", "3"] {
+        for name in ["one", "another_model"] {
+            let fmu = Unpacked::new(fmi, &["--name", name, "--sources-only", "--loadable"]);
+            let mut compiler = Command::new("cc");
+            compiler.args(["-std=c99", "-fPIC", "-r", "-o"]);
+            let object = folder.path().join(format!("{name}{fmi}.o"));
+            compiler
+                .arg(&object)
+                .arg("-I")
+                .arg(source("src/target/export/fmu/headers"));
+            for file in fs::read_dir(fmu.path("sources")).unwrap() {
+                let path = file.unwrap().path();
+                if path.extension().is_some_and(|end| end == "c") {
+                    compiler.arg(path);
+                }
+            }
+            assert!(compiler.status().unwrap().success());
+            if fmi == "3" {
+                linker.arg(&object);
+            }
+        }
+    }
+    let linked = linker.current_dir(folder.path()).output().unwrap();
+    assert!(
+        linked.status.success(),
+        "{}",
+        String::from_utf8_lossy(&linked.stderr)
+    );
 }
 
 #[test]

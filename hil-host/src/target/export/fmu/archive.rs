@@ -36,7 +36,7 @@ pub fn archive<T: Word>(fmu: &Fmu<T>, binary: Option<&Binary>) -> ZipResult<Vec<
     }
     if fmu.is_loaded {
         for (number, named) in (1..).zip(&fmu.dampers) {
-            let name = format!("resources/damper_{number}.bin");
+            let name = format!("resources/image_{number}.bin");
             put(&name, &T::image(&named.damper), false)?;
         }
     }

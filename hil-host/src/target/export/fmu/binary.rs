@@ -2,6 +2,7 @@
 
 use std::env;
 use std::io;
+use std::path::Path;
 use std::process::{Command, Stdio};
 
 use super::{Fmu, Interface};
@@ -64,19 +65,22 @@ pub fn compile<T: Word>(fmu: &Fmu<T>) -> Result<Binary, CompileError> {
     for (name, text) in fmu.sources() {
         std::fs::write(folder.path().join(name), text)?;
     }
-    let named = env::var("CC").unwrap_or_default();
-    let mut words = named.split_whitespace();
-    let compiler = words.next().unwrap_or("cc").to_owned();
+    for (name, text) in fmu.headers() {
+        std::fs::write(folder.path().join(name), text)?;
+    }
+    let (compiler, options) = compiler(&env::var("CC").unwrap_or_default());
     let library = folder.path().join(format!("library.{end}"));
     let mut command = Command::new(&compiler);
     command
-        .args(words)
+        .args(options)
         .args([
             "-std=c99",
             "-O2",
             "-fPIC",
             "-shared",
             "-fvisibility=hidden",
+            "-DFMI2_OVERRIDE_FUNCTION_PREFIX",
+            "-DFMI3_OVERRIDE_FUNCTION_PREFIX",
             "-o",
         ])
         .arg(&library)
@@ -89,7 +93,8 @@ pub fn compile<T: Word>(fmu: &Fmu<T>) -> Result<Binary, CompileError> {
         Err(source) => return Err(CompileError::Missing { compiler, source }),
     };
     if !output.status.success() {
-        let message = String::from_utf8_lossy(&output.stderr).trim().to_owned();
+        let message = String::from_utf8_lossy(&output.stderr);
+        let message = format!("{}\n{}", output.status, message.trim());
         return Err(CompileError::Failed { compiler, message });
     }
     Ok(Binary {
@@ -99,9 +104,24 @@ pub fn compile<T: Word>(fmu: &Fmu<T>) -> Result<Binary, CompileError> {
     })
 }
 
+/// A compiler and options of it, as the variable `CC` names them: a path may have spaces.
+fn compiler(named: &str) -> (String, Vec<String>) {
+    let mut words = named.split_whitespace().map(str::to_owned);
+    match words.next() {
+        None => ("cc".to_owned(), Vec::new()),
+        Some(_) if Path::new(named).is_file() => (named.to_owned(), Vec::new()),
+        Some(first) => (first, words.collect()),
+    }
+}
+
 /// The folder of this platform's libraries, FMI 3.0, 2.5.1.4.1 and FMI 2.0.4, 2.3.
 fn platform(interface: Interface) -> Result<String, CompileError> {
     let (processor, system) = (env::consts::ARCH, env::consts::OS);
+    let processor = if processor == "arm" {
+        "aarch32"
+    } else {
+        processor
+    };
     let system_name = if system == "macos" { "darwin" } else { system };
     match (interface, processor) {
         (Interface::Three, _) => Ok(format!("{processor}-{system_name}")),

@@ -74,6 +74,9 @@ const UNITS: [(&str, &str); 3] = [
     ("N", r#"kg="1" m="1" s="-2""#),
 ];
 
+/// Outputs at a communication point change by a step alone, by no input there: no loop of connected FMUs is an algebraic one.
+const NOTHING: (&str, &str) = ("dependencies", "");
+
 const CATEGORIES: [(&str, &str); 3] = [
     ("logStatusWarning", "Input that was held or limited"),
     (
@@ -144,10 +147,15 @@ impl<T: Word> Fmu<T> {
             xml.empty("Category", &[("name", name), ("description", description)]);
         }
         xml.close("LogCategories");
-        xml.empty(
-            "DefaultExperiment",
-            &[("startTime", "0"), ("stopTime", "1"), ("stepSize", &step)],
-        );
+        // Steps of this size end there.
+        let stop_s = (1.0 / self.step_s).round() * self.step_s;
+        let stop = ((stop_s * 1e9).round() / 1e9).to_string();
+        let experiment = [
+            ("startTime", "0"),
+            ("stopTime", &*stop),
+            ("stepSize", &step),
+        ];
+        xml.empty("DefaultExperiment", &experiment);
         self.variables(&mut xml);
         xml.close("fmiModelDescription");
         xml.text
@@ -165,6 +173,9 @@ impl<T: Word> Fmu<T> {
         for name in self.compiled() {
             xml.empty("SourceFile", &[("name", name)]);
         }
+        // Of a shared library; linked statically, functions have the prefix.
+        let definition = [("name", "FMI3_OVERRIDE_FUNCTION_PREFIX"), ("value", "1")];
+        xml.empty("PreprocessorDefinition", &definition);
         xml.close("SourceFileSet");
         xml.close("BuildConfiguration");
         xml.close("fmiBuildDescription");
@@ -214,7 +225,8 @@ impl<T: Word> Fmu<T> {
                 for list in ["Outputs", "InitialUnknowns"] {
                     xml.open(list, &[]);
                     for (index, _) in &outputs {
-                        xml.empty("Unknown", &[("index", &index.to_string())]);
+                        let index = index.to_string();
+                        xml.empty("Unknown", &[("index", &index), NOTHING]);
                     }
                     xml.close(list);
                 }
@@ -222,7 +234,8 @@ impl<T: Word> Fmu<T> {
             Interface::Three => {
                 for element in ["Output", "InitialUnknown"] {
                     for (_, reference) in &outputs {
-                        xml.empty(element, &[("valueReference", &reference.to_string())]);
+                        let reference = reference.to_string();
+                        xml.empty(element, &[("valueReference", &reference), NOTHING]);
                     }
                 }
             }

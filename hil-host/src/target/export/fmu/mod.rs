@@ -46,11 +46,11 @@ pub struct Named<T> {
 }
 
 impl<T: Word> Fmu<T> {
-    /// An FMU whose functions begin with `identifier`; all dampers are built for the step `step_s` (s). `is_loaded`: the constants are
+    /// An FMU whose functions begin with `identifier`, of ASCII letters, digits and `_`; all dampers are built for the step `step_s` (s). `is_loaded`: the constants are
     /// images in the folder of resources, which may be replaced.
     ///
     /// # Errors
-    /// The identifier in capitals is no name of a constant.
+    /// The identifier in capitals is no name of a constant of C.
     pub fn new(
         interface: Interface,
         identifier: &str,
@@ -58,7 +58,7 @@ impl<T: Word> Fmu<T> {
         step_s: f64,
         is_loaded: bool,
     ) -> Result<Self, ExportError> {
-        name::check_c(&identifier.to_uppercase())?;
+        name::check_c(&identifier.to_ascii_uppercase())?;
         Ok(Self {
             interface,
             identifier: identifier.to_owned(),

@@ -47,19 +47,56 @@ const FMI_3: (&str, &str) = ("fmi3.c", include_str!("sources/fmi3.c"));
 const BUILT_IN: &str = include_str!("sources/built_in.c");
 const LOADED: &str = include_str!("sources/loaded.c");
 
+/// How names begin that several FMUs in one program must not share.
+const SHARED: [&str; 4] = ["component_", "damper_", "dampers_", "model_"];
+
 impl<T: Word> Fmu<T> {
-    /// Names of the files and their texts, in order of the names.
+    /// Names of the files and their texts, in order of the names. What other files see begins with the identifier.
     pub(super) fn sources(&self) -> Vec<(&'static str, String)> {
-        let (headers, functions) = match self.interface {
-            Interface::Two => (HEADERS_2, FMI_2),
-            Interface::Three => (HEADERS_3, FMI_3),
+        let functions = match self.interface {
+            Interface::Two => FMI_2,
+            Interface::Three => FMI_3,
         };
-        let fixed = COMMON.into_iter().chain(headers).chain([functions]);
+        let fixed = COMMON.into_iter().chain([functions]);
         let mut sources: Vec<_> = fixed.map(|(name, text)| (name, text.to_owned())).collect();
         sources.push(("damper.h", header_of_step::<T>("DAMPER")));
         sources.push(("dampers.c", self.dampers_source()));
         sources.sort_unstable_by_key(|(name, _)| *name);
-        sources
+        let named = |(name, text): (&'static str, String)| (name, self.with_own_names(&text));
+        sources.into_iter().map(named).collect()
+    }
+
+    /// The headers of the interface, which are the importer's and in no FMU.
+    pub(super) fn headers(&self) -> [(&'static str, &'static str); 3] {
+        match self.interface {
+            Interface::Two => HEADERS_2,
+            Interface::Three => HEADERS_3,
+        }
+    }
+
+    /// A text whose shared names begin with the identifier.
+    fn with_own_names(&self, text: &str) -> String {
+        let is_of_name = |letter: char| letter.is_ascii_alphanumeric() || letter == '_';
+        let mut own = String::with_capacity(2 * text.len());
+        let mut rest = text;
+        while let Some(start) = rest.find(is_of_name) {
+            let (between, from) = rest.split_at(start);
+            let end = from.find(|letter| !is_of_name(letter));
+            let (word, after) = from.split_at(end.unwrap_or(from.len()));
+            own += between;
+            if word == "MODEL_IDENTIFIER_" {
+                own += &self.identifier;
+                own.push('_');
+            } else {
+                if SHARED.iter().any(|begin| word.starts_with(begin)) {
+                    own += &self.identifier;
+                    own.push('_');
+                }
+                own += word;
+            }
+            rest = after;
+        }
+        own + rest
     }
 
     /// Names of the files that are compiled.

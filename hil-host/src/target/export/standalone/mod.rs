@@ -96,9 +96,10 @@ fn rendered<T: Word>(text: &str, constant: &str) -> String {
         Scalar::F32 => ("float", "uint32_t", "32"),
         Scalar::F64 => ("double", "uint64_t", "64"),
     };
-    text.replace("prefix_", &format!("{}_", constant.to_lowercase()))
-        .replace("PREFIX_", &format!("{constant}_"))
-        .replace("SCALAR_TYPE", float)
+    // The name comes last: it may have any of these words in it.
+    text.replace("SCALAR_TYPE", float)
         .replace("SCALAR_WORD", word)
         .replace("SCALAR_BITS", bits)
+        .replace("prefix_", &format!("{}_", constant.to_lowercase()))
+        .replace("PREFIX_", &format!("{constant}_"))
 }

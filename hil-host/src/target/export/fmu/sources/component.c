@@ -8,11 +8,18 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Part of an internal step by which times of the importer may be off. */
+/* Part of an internal step by which the size of a step may be off. */
 #define CLOSE 1e-6
 
-/* More steps than a double can count. */
-#define MOST_STEPS 9007199254740992.0
+/* The same for the time at which it begins: importers that add up steps add up what they round. */
+#define CLOSE_AT 0.1
+
+/* Relative spacing of numbers in double precision. */
+#define EPSILON 2.220446049250313e-16
+
+/* Internal steps of a communication step, and of a run, at most: more of these no time can tell apart. */
+#define MOST_STEPS 1e9
+#define MOST_STEPS_OF_ALL 4503599627370496.0
 
 const char *const component_categories[COMPONENT_ERROR + 1] = {
     NULL, "logStatusWarning", "logStatusDiscard", "logStatusError"
@@ -20,7 +27,7 @@ const char *const component_categories[COMPONENT_ERROR + 1] = {
 
 component_status component_tell(component *this, component_status status, const char *format, ...)
 {
-    char message[512];
+    char message[4800];
     va_list values;
 
     va_start(values, format);
@@ -38,8 +45,8 @@ component_status component_tell(component *this, component_status status, const 
 component *component_new(const component *with, const char *token, const char *resources)
 {
     component *this = malloc(sizeof *this);
-    const char *name = with->name == NULL ? "" : with->name;
-    char reason[4400];
+    const char *name = with->name;
+    char reason[4600];
 
     if (this == NULL) {
         return NULL;
@@ -125,10 +132,22 @@ double component_time_s(const component *this)
     return this->start_s + (double)this->steps * model_step_s;
 }
 
+/* Times of which a thousandth of an internal step can be told. */
+static double latest_s(void)
+{
+    return 1e-3 / EPSILON * model_step_s;
+}
+
+static bool is_time(double time_s)
+{
+    return fabs(time_s) <= latest_s();
+}
+
 component_status component_begin(component *this, double start_s, bool stops, double stop_s)
 {
-    if (!(start_s - start_s == 0) || (stops && !(stop_s >= start_s))) {
-        return component_tell(this, COMPONENT_ERROR, "an experiment from %.12g s to %.12g s", start_s, stop_s);
+    if (!is_time(start_s) || (stops && !(stop_s >= start_s))) {
+        return component_tell(this, COMPONENT_ERROR, "an experiment from %.12g s to %.12g s, allowed: times within %.3g s of 0",
+                              start_s, stop_s, latest_s());
     }
     this->start_s = start_s;
     this->stop_s = stops ? stop_s : HUGE_VAL;
@@ -172,20 +191,29 @@ component_status component_get_real(component *this, uint32_t variable, double *
                                                                       : component_no_variable(this, variable);
 }
 
-component_status component_set_real(component *this, uint32_t variable, double value)
+component_status component_set_reals(component *this, const uint32_t variables[], size_t count, const double values[])
 {
-    switch (model_set_real(this->model, variable, value)) {
-    case MODEL_DONE:
-        return COMPONENT_OK;
-    case MODEL_OUT_OF_RANGE:
-        return component_tell(this, COMPONENT_DISCARD, "value reference %lu: %.12g, allowed: %s", (unsigned long)variable,
-                              value, model_allowed(variable));
-    case MODEL_READ_ONLY:
-        return component_tell(this, COMPONENT_ERROR, "value reference %lu is an output, and cannot be set",
-                              (unsigned long)variable);
-    default:
-        return component_no_variable(this, variable);
+    size_t number;
+
+    for (number = 0; number < count; number++) {
+        const unsigned long reference = variables[number];
+
+        switch (model_check_real(this->model, variables[number], values[number])) {
+        case MODEL_DONE:
+            break;
+        case MODEL_OUT_OF_RANGE:
+            return component_tell(this, COMPONENT_DISCARD, "value reference %lu: %.12g, allowed: %s", reference, values[number],
+                                  model_allowed(variables[number]));
+        case MODEL_READ_ONLY:
+            return component_tell(this, COMPONENT_ERROR, "value reference %lu is an output, and cannot be set", reference);
+        default:
+            return component_no_variable(this, variables[number]);
+        }
     }
+    for (number = 0; number < count; number++) {
+        model_set_real(this->model, variables[number], values[number]);
+    }
+    return COMPONENT_OK;
 }
 
 component_status component_get_integer(component *this, uint32_t variable, int32_t *value)
@@ -198,21 +226,25 @@ component_status component_step(component *this, double at_s, double step_s)
 {
     const double now_s = component_time_s(this);
     const double count = floor(step_s / model_step_s + 0.5);
-    /* Sums of steps err by the last digits of the time, too. */
-    const double close_s = CLOSE * model_step_s + 4 * 2.3e-16 * fabs(now_s);
+    /* A size that is the difference of two times errs by their last digits, too. */
+    const double close_s = CLOSE * model_step_s + 4 * EPSILON * fabs(now_s);
     const char *notice;
 
-    if (!(fabs(at_s - now_s) <= close_s)) {
+    if (!(fabs(at_s - now_s) <= CLOSE_AT * model_step_s)) {
         return component_tell(this, COMPONENT_DISCARD, "a step from %.12g s, but the last one ended at %.12g s", at_s, now_s);
     }
-    if (!(count >= 1 && count < MOST_STEPS && fabs(step_s - count * model_step_s) <= close_s)) {
+    if (!(count >= 1 && count <= MOST_STEPS && fabs(step_s - count * model_step_s) <= close_s)) {
         return component_tell(this, COMPONENT_DISCARD,
-                              "a communication step of %.12g s, allowed: a multiple of the internal step of %.12g s", step_s,
-                              model_step_s);
+                              "a communication step of %.12g s, allowed: a multiple of the internal step of %.12g s, up to %.0e of it",
+                              step_s, model_step_s, MOST_STEPS);
     }
-    if (!(now_s + step_s <= this->stop_s + close_s)) {
-        return component_tell(this, COMPONENT_DISCARD, "a step to %.12g s, beyond the stop time of %.12g s", now_s + step_s,
+    if (!(now_s + step_s <= this->stop_s + CLOSE_AT * model_step_s)) {
+        return component_tell(this, COMPONENT_ERROR, "a step to %.12g s, beyond the stop time of %.12g s", now_s + step_s,
                               this->stop_s);
+    }
+    if (!(is_time(now_s + step_s) && (double)this->steps + count <= MOST_STEPS_OF_ALL)) {
+        return component_tell(this, COMPONENT_DISCARD, "a step to %.12g s, allowed: times within %.3g s of 0", now_s + step_s,
+                              latest_s());
     }
     model_step(this->model, (uint64_t)count);
     this->steps += (uint64_t)count;
@@ -296,7 +328,8 @@ component_status component_set_state(component *this, const component_state *sta
     from = model_take(from, &steps, 8);
     from = model_take_real(from, &start_s);
     from = model_take_real(from, &stop_s);
-    if (phase == 0 || phase > FAILED || (phase & (phase - 1)) != 0 || model_restore(this->model, from) != MODEL_DONE) {
+    if (phase == 0 || phase > FAILED || (phase & (phase - 1)) != 0 || !is_time(start_s) || !(stop_s >= start_s)
+        || (double)steps > MOST_STEPS_OF_ALL || model_restore(this->model, from) != MODEL_DONE) {
         return component_tell(this, COMPONENT_DISCARD, "the state is of another damper");
     }
     this->phase = (component_phase)phase;

@@ -64,7 +64,8 @@ component_status component_end_initialization(component *this);
 component_status component_reset(component *this);
 
 component_status component_get_real(component *this, uint32_t variable, double *value);
-component_status component_set_real(component *this, uint32_t variable, double value);
+/* All of them, or where one is refused, none. */
+component_status component_set_reals(component *this, const uint32_t variables[], size_t count, const double values[]);
 component_status component_get_integer(component *this, uint32_t variable, int32_t *value);
 component_status component_no_variable(component *this, uint32_t variable);
 

@@ -1,8 +1,11 @@
 /* FMI 2.0 for co-simulation, every function of it, over component.h. */
 
+#if !defined(FMI2_FUNCTION_PREFIX) && !defined(FMI2_OVERRIDE_FUNCTION_PREFIX)
+#define FMI2_FUNCTION_PREFIX MODEL_IDENTIFIER_
+#endif
 #include "fmi2Functions.h"
 
-#include <math.h>
+#include <stdlib.h>
 
 #include "component.h"
 
@@ -55,8 +58,8 @@ static int hexadecimal(char digit)
                                           : -1;
 }
 
-/* The folder of a URI: `file:///a%20b` is /a b, `file:///C:/a` is C:/a. */
-static void folder_of(const char *uri, char *folder, size_t bytes)
+/* The folder of a URI: `file:///a%20b` is /a b, `file:///C:/a` is C:/a. False where it is none that can be had. */
+static bool folder_of(const char *uri, char *folder, size_t bytes)
 {
     static const char scheme[] = "file:";
     size_t at = 0;
@@ -76,28 +79,31 @@ static void folder_of(const char *uri, char *folder, size_t bytes)
         uri++;
     }
 #endif
-    while (*uri != '\0' && bytes > 1) {
+    for (; *uri != '\0' && bytes > 1; bytes--) {
         const int high = uri[0] == '%' ? hexadecimal(uri[1]) : -1;
         const int low = high >= 0 ? hexadecimal(uri[2]) : -1;
 
+        if (low == 0 && high == 0) {
+            return false;
+        }
         *folder++ = low >= 0 ? (char)(16 * high + low) : *uri;
         uri += low >= 0 ? 3 : 1;
-        bytes--;
     }
     *folder = '\0';
+    return *uri == '\0';
 }
 
 fmi2Component fmi2Instantiate(fmi2String instanceName, fmi2Type fmuType, fmi2String fmuGUID, fmi2String fmuResourceLocation,
                               const fmi2CallbackFunctions *functions, fmi2Boolean visible, fmi2Boolean loggingOn)
 {
-    char folder[4096] = ".";
+    char folder[4096];
     component with = {0};
 
     (void)visible;
     if (functions == NULL) {
         return NULL;
     }
-    with.name = (char *)(size_t)instanceName;
+    with.name = (char *)(size_t)(instanceName == NULL ? "" : instanceName);
     with.logs = loggingOn != fmi2False;
     with.log = log_message;
     with.logger = (void (*)(void))functions->logger;
@@ -106,10 +112,11 @@ fmi2Component fmi2Instantiate(fmi2String instanceName, fmi2Type fmuType, fmi2Str
         log_message(&with, COMPONENT_ERROR, component_categories[COMPONENT_ERROR], "this FMU is for co-simulation");
         return NULL;
     }
-    if (fmuResourceLocation != NULL) {
-        folder_of(fmuResourceLocation, folder, sizeof folder);
+    if (fmuResourceLocation != NULL && !folder_of(fmuResourceLocation, folder, sizeof folder)) {
+        log_message(&with, COMPONENT_ERROR, component_categories[COMPONENT_ERROR], "the URI of the resources is too long, or no path");
+        return NULL;
     }
-    return component_new(&with, fmuGUID, folder);
+    return component_new(&with, fmuGUID, fmuResourceLocation == NULL ? NULL : folder);
 }
 
 void fmi2FreeInstance(fmi2Component c)
@@ -204,14 +211,8 @@ fmi2Status fmi2GetString(fmi2Component c, const fmi2ValueReference vr[], size_t 
 
 fmi2Status fmi2SetReal(fmi2Component c, const fmi2ValueReference vr[], size_t nvr, const fmi2Real value[])
 {
-    fmi2Status status = fmi2OK;
-    size_t number;
-
     ENTER(INSTANTIATED | INITIALIZING | STEPPING, SetReal)
-    for (number = 0; number < nvr && status < fmi2Error; number++) {
-        status = worse(status, component_set_real(this, vr[number], value[number]));
-    }
-    return status;
+    return (fmi2Status)component_set_reals(this, vr, nvr, value);
 }
 
 fmi2Status fmi2SetInteger(fmi2Component c, const fmi2ValueReference vr[], size_t nvr, const fmi2Integer value[])

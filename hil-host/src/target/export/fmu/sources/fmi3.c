@@ -1,8 +1,10 @@
 /* FMI 3.0 for co-simulation, every function of it, over component.h. */
 
+#if !defined(FMI3_FUNCTION_PREFIX) && !defined(FMI3_OVERRIDE_FUNCTION_PREFIX)
+#define FMI3_FUNCTION_PREFIX MODEL_IDENTIFIER_
+#endif
 #include "fmi3Functions.h"
 
-#include <math.h>
 #include <stdlib.h>
 
 #include "component.h"
@@ -56,7 +58,7 @@ static component imported(fmi3String name, fmi3Boolean logs, fmi3InstanceEnviron
 {
     component with = {0};
 
-    with.name = (char *)(size_t)name;
+    with.name = (char *)(size_t)(name == NULL ? "" : name);
     with.logs = logs;
     with.log = log_message;
     with.logger = (void (*)(void))logger;
@@ -161,17 +163,11 @@ fmi3Status fmi3GetFloat64(fmi3Instance instance, const fmi3ValueReference valueR
 fmi3Status fmi3SetFloat64(fmi3Instance instance, const fmi3ValueReference valueReferences[], size_t nValueReferences,
                           const fmi3Float64 values[], size_t nValues)
 {
-    fmi3Status status = fmi3OK;
-    size_t number;
-
     ENTER(INSTANTIATED | INITIALIZING | STEPPING, SetFloat64)
     if (!counts(this, nValueReferences, nValues)) {
         return fmi3Error;
     }
-    for (number = 0; number < nValues && status < fmi3Error; number++) {
-        status = worse(status, component_set_real(this, valueReferences[number], values[number]));
-    }
-    return status;
+    return (fmi3Status)component_set_reals(this, valueReferences, nValues, values);
 }
 
 fmi3Status fmi3GetInt32(fmi3Instance instance, const fmi3ValueReference valueReferences[], size_t nValueReferences,

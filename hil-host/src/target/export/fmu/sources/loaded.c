@@ -156,16 +156,16 @@ damper_damper *dampers_new(const char *resources, char *reason, size_t reason_by
     for (number = 0; number < dampers_count; number++) {
         uint8_t image[IMAGE_BYTES + 1];
         char path[4096];
-        const int length = snprintf(path, sizeof path, "%s/damper_%u.bin", resources == NULL ? "." : resources, number + 1);
-        FILE *file = length > 0 && (size_t)length < sizeof path ? fopen(path, "rb") : NULL;
-        const char *wrong = "cannot be read";
+        const int length = snprintf(path, sizeof path, "%s/image_%u.bin", resources == NULL ? "" : resources, number + 1);
+        FILE *file = resources != NULL && length > 0 && (size_t)length < sizeof path ? fopen(path, "rb") : NULL;
+        const char *wrong = resources == NULL ? "the importer named no folder of resources" : "cannot be read";
 
         if (file != NULL) {
             wrong = load(&dampers[number], &tables[number], image, fread(image, 1, sizeof image, file));
             (void)fclose(file);
         }
         if (wrong != NULL) {
-            (void)snprintf(reason, reason_bytes, "%s: %s", path, wrong);
+            (void)snprintf(reason, reason_bytes, "%s: %s", wrong, path);
             free(dampers);
             return NULL;
         }

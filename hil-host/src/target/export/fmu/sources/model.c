@@ -1,8 +1,10 @@
 /* A bank of dampers: displacement in, force out.
  *
- * A communication step ends at the displacement `displacement_m + h velocity_m_per_s`; on the way there the
+ * A communication step of h ends at the displacement `displacement_m + h velocity_m_per_s`; on the way there the
  * displacement is linear over the internal steps. Without velocity the force at t + h is thus that of the displacement
- * given at t: one communication step late. With it the force belongs to t + h. */
+ * given at t: one communication step late. With it the force belongs to t + h. An importer that interpolates gives the
+ * derivative of the displacement, which then stands for the velocity, or that of the velocity, half of which times h is
+ * added to it: the mean over the step. */
 
 #include "model.h"
 
@@ -27,24 +29,41 @@ typedef struct place {
     damper_state state;
     double displacement_m;
     double velocity_m_per_s;
-    double derivative_m_per_s;  /* of the displacement, for the next communication step */
+    double clearance_m;         /* as it was given, before it was rounded */
     double reached_m;           /* the displacement at the last communication point */
+    double derivative_m_per_s;  /* of the displacement, for the next communication step, */
+    double is_derived;          /* where this is not 0 */
+    double derivative_m_per_s2; /* of the velocity, for the next communication step */
 } place;
 
 struct model {
     damper_damper *dampers;
     damper_damper *as_loaded;
     unsigned told;              /* status bits of any damper that were told */
+    bool is_started;
     place places[];
 };
 
+/* A displacement that is not finite counts as 0, and as an input that was held. */
 static void start(model *this, unsigned number)
 {
     place *at = &this->places[number];
     const damper_real displacement = (damper_real)at->displacement_m;
 
     damper_at_rest(&this->dampers[number], &at->state, displacement);
-    at->reached_m = (double)at->state.displacement_m == (double)displacement ? at->displacement_m : 0;
+    if (displacement - displacement == 0) {
+        at->reached_m = at->displacement_m;
+    } else {
+        at->reached_m = 0;
+        (void)damper_step(&this->dampers[number], &at->state, displacement);
+    }
+}
+
+static void forget_derivatives(place *at)
+{
+    at->derivative_m_per_s = 0;
+    at->is_derived = 0;
+    at->derivative_m_per_s2 = 0;
 }
 
 static const place *find(const model *this, uint32_t variable, unsigned *kind)
@@ -96,12 +115,14 @@ void model_reset(model *this)
 
     memcpy(this->dampers, this->as_loaded, dampers_count * sizeof *this->dampers);
     this->told = 0;
+    this->is_started = false;
     for (number = 0; number < dampers_count; number++) {
         place *at = &this->places[number];
 
         at->displacement_m = 0;
         at->velocity_m_per_s = 0;
-        at->derivative_m_per_s = 0;
+        at->clearance_m = (double)damper_clearance_m(&this->dampers[number]);
+        forget_derivatives(at);
         start(this, number);
     }
 }
@@ -122,47 +143,57 @@ model_result model_get_real(const model *this, uint32_t variable, double *value)
         *value = (double)at->state.force_n;
         return MODEL_DONE;
     case CLEARANCE:
-        *value = (double)damper_clearance_m(&this->dampers[at - this->places]);
+        *value = at->clearance_m;
         return MODEL_DONE;
     default:
         return MODEL_NO_VARIABLE;
     }
 }
 
-model_result model_set_real(model *this, uint32_t variable, double value)
+model_result model_check_real(const model *this, uint32_t variable, double value)
 {
     unsigned kind;
-    const place *found = find(this, variable, &kind);
-    place *at;
-    damper_damper *damper;
 
-    if (found == NULL) {
-        return MODEL_NO_VARIABLE;
-    }
-    at = &this->places[found - this->places];
-    damper = &this->dampers[found - this->places];
-    switch (kind) {
+    switch (find(this, variable, &kind) == NULL ? VARIABLES : (int)kind) {
     case DISPLACEMENT:
-        at->displacement_m = value;
-        return MODEL_DONE;
     case VELOCITY:
-        at->velocity_m_per_s = value;
         return MODEL_DONE;
     case FORCE:
         return MODEL_READ_ONLY;
     case CLEARANCE:
-        /* In double precision first: rounded, a number beyond the largest may be the largest. */
-        if (!(value >= 0 && value <= dampers_largest_clearance_m)
-            || damper_set_clearance_m(damper, (damper_real)value) != DAMPER_DONE) {
-            return MODEL_OUT_OF_RANGE;
-        }
-        /* As the next step would: a state is always of its damper. */
-        if (at->state.revision != damper->revision) {
-            damper_adopt(damper, &at->state);
-        }
-        return MODEL_DONE;
+        return value >= 0 && value <= dampers_largest_clearance_m ? MODEL_DONE : MODEL_OUT_OF_RANGE;
     default:
         return MODEL_NO_VARIABLE;
+    }
+}
+
+void model_set_real(model *this, uint32_t variable, double value)
+{
+    unsigned kind;
+    const place *found = find(this, variable, &kind);
+    const size_t number = found == NULL ? 0 : (size_t)(found - this->places);
+    place *at = &this->places[number];
+    damper_damper *damper = &this->dampers[number];
+
+    if (model_check_real(this, variable, value) != MODEL_DONE) {
+        return;
+    }
+    switch (kind) {
+    case DISPLACEMENT:
+        at->displacement_m = value;
+        break;
+    case VELOCITY:
+        at->velocity_m_per_s = value;
+        break;
+    default:
+        at->clearance_m = value;
+        (void)damper_set_clearance_m(damper, (damper_real)value);
+        if (!this->is_started) {
+            start(this, (unsigned)number);
+        } else if (at->state.revision != damper->revision) {
+            /* As the next step would: a state is always of its damper. */
+            damper_adopt(damper, &at->state);
+        }
     }
 }
 
@@ -170,12 +201,23 @@ model_result model_set_derivative(model *this, uint32_t variable, double value)
 {
     unsigned kind;
     const place *found = find(this, variable, &kind);
+    place *at;
 
-    if (found == NULL || kind != DISPLACEMENT) {
+    if (found == NULL) {
         return MODEL_NO_VARIABLE;
     }
-    this->places[found - this->places].derivative_m_per_s = value;
-    return MODEL_DONE;
+    at = &this->places[found - this->places];
+    switch (kind) {
+    case DISPLACEMENT:
+        at->derivative_m_per_s = value;
+        at->is_derived = 1;
+        return MODEL_DONE;
+    case VELOCITY:
+        at->derivative_m_per_s2 = value;
+        return MODEL_DONE;
+    default:
+        return MODEL_NO_VARIABLE;
+    }
 }
 
 model_result model_get_integer(const model *this, uint32_t variable, int32_t *value)
@@ -205,6 +247,16 @@ void model_start(model *this)
     for (number = 0; number < dampers_count; number++) {
         start(this, number);
     }
+    this->is_started = true;
+}
+
+/* The mean velocity over a step of h. */
+static double velocity(const place *at, double h)
+{
+    if (at->is_derived != 0) {
+        return at->derivative_m_per_s;
+    }
+    return at->derivative_m_per_s2 == 0 ? at->velocity_m_per_s : at->velocity_m_per_s + 0.5 * h * at->derivative_m_per_s2;
 }
 
 void model_step(model *this, uint64_t steps)
@@ -215,10 +267,9 @@ void model_step(model *this, uint64_t steps)
     for (number = 0; number < dampers_count; number++) {
         const damper_damper *damper = &this->dampers[number];
         place *at = &this->places[number];
-        const double velocity = at->velocity_m_per_s + at->derivative_m_per_s;
+        const double h = (double)steps * model_step_s;
         const double from = at->reached_m;
-        const double move = velocity == 0 ? 0 : velocity * ((double)steps * model_step_s);
-        const double to = at->displacement_m + move;
+        const double to = at->displacement_m + velocity(at, h) * h;
 
         for (step = 1; step < steps; step++) {
             const double part = (double)step / (double)steps;
@@ -226,7 +277,7 @@ void model_step(model *this, uint64_t steps)
             (void)damper_step(damper, &at->state, (damper_real)(from + (to - from) * part));
         }
         (void)damper_step(damper, &at->state, (damper_real)to);
-        at->derivative_m_per_s = 0;
+        forget_derivatives(at);
         if (to - to == 0) {
             at->reached_m = to;
         }
@@ -254,12 +305,35 @@ const char *model_notice(model *this)
     return NULL;
 }
 
-enum { PLACE_BYTES = 5 * 8 + DAMPER_STATE_BYTES };
+/* Of a place, before the state. */
+enum { PLACE_REALS = 7, PLACE_BYTES = PLACE_REALS * 8 + DAMPER_STATE_BYTES };
+
+static uint8_t *put_reals(uint8_t *bytes, const place *at)
+{
+    bytes = model_put_real(bytes, at->clearance_m);
+    bytes = model_put_real(bytes, at->displacement_m);
+    bytes = model_put_real(bytes, at->velocity_m_per_s);
+    bytes = model_put_real(bytes, at->reached_m);
+    bytes = model_put_real(bytes, at->derivative_m_per_s);
+    bytes = model_put_real(bytes, at->is_derived);
+    return model_put_real(bytes, at->derivative_m_per_s2);
+}
+
+static const uint8_t *take_reals(const uint8_t *bytes, place *at)
+{
+    bytes = model_take_real(bytes, &at->clearance_m);
+    bytes = model_take_real(bytes, &at->displacement_m);
+    bytes = model_take_real(bytes, &at->velocity_m_per_s);
+    bytes = model_take_real(bytes, &at->reached_m);
+    bytes = model_take_real(bytes, &at->derivative_m_per_s);
+    bytes = model_take_real(bytes, &at->is_derived);
+    return model_take_real(bytes, &at->derivative_m_per_s2);
+}
 
 size_t model_saved_bytes(const model *this)
 {
     (void)this;
-    return 4 + dampers_count * PLACE_BYTES;
+    return 2 * 4 + dampers_count * PLACE_BYTES;
 }
 
 void model_save(const model *this, uint8_t *bytes)
@@ -267,51 +341,45 @@ void model_save(const model *this, uint8_t *bytes)
     unsigned number;
 
     bytes = model_put(bytes, this->told, 4);
+    bytes = model_put(bytes, this->is_started, 4);
     for (number = 0; number < dampers_count; number++) {
-        const place *at = &this->places[number];
-
-        bytes = model_put_real(bytes, (double)damper_clearance_m(&this->dampers[number]));
-        bytes = model_put_real(bytes, at->displacement_m);
-        bytes = model_put_real(bytes, at->velocity_m_per_s);
-        bytes = model_put_real(bytes, at->derivative_m_per_s);
-        bytes = model_put_real(bytes, at->reached_m);
-        damper_save(&at->state, bytes);
+        bytes = put_reals(bytes, &this->places[number]);
+        damper_save(&this->places[number].state, bytes);
         bytes += DAMPER_STATE_BYTES;
     }
+}
+
+/* A damper with its clearance and its state, of bytes. */
+static bool restored(const damper_damper *of, damper_damper *damper, place *at, const uint8_t *bytes)
+{
+    *damper = *of;
+    bytes = take_reals(bytes, at);
+    return at->clearance_m >= 0 && at->clearance_m <= dampers_largest_clearance_m && at->reached_m - at->reached_m == 0
+           && damper_set_clearance_m(damper, (damper_real)at->clearance_m) == DAMPER_DONE
+           && damper_restore(damper, &at->state, bytes) == DAMPER_DONE;
 }
 
 /* All are read before any is written. */
 model_result model_restore(model *this, const uint8_t *bytes)
 {
-    const uint8_t *const first = bytes + 4;
+    const uint8_t *const first = bytes + 2 * 4;
+    damper_damper damper;
+    place at;
+    uint64_t told, is_started;
     unsigned number;
-    uint64_t told;
 
-    for (number = 0, bytes = first; number < dampers_count; number++, bytes += PLACE_BYTES) {
-        damper_damper damper = this->dampers[number];
-        damper_state state;
-        double clearance_m;
-
-        (void)model_take_real(bytes, &clearance_m);
-        if (damper_set_clearance_m(&damper, (damper_real)clearance_m) != DAMPER_DONE
-            || damper_restore(&damper, &state, bytes + 5 * 8) != DAMPER_DONE) {
+    for (number = 0; number < dampers_count; number++) {
+        if (!restored(&this->dampers[number], &damper, &at, first + (size_t)number * PLACE_BYTES)) {
             return MODEL_OTHER;
         }
     }
-    (void)model_take(first - 4, &told, 4);
+    (void)model_take(model_take(bytes, &told, 4), &is_started, 4);
     this->told = (unsigned)told;
-    for (number = 0, bytes = first; number < dampers_count; number++) {
-        place *at = &this->places[number];
-        double clearance_m;
-
-        bytes = model_take_real(bytes, &clearance_m);
-        (void)damper_set_clearance_m(&this->dampers[number], (damper_real)clearance_m);
-        bytes = model_take_real(bytes, &at->displacement_m);
-        bytes = model_take_real(bytes, &at->velocity_m_per_s);
-        bytes = model_take_real(bytes, &at->derivative_m_per_s);
-        bytes = model_take_real(bytes, &at->reached_m);
-        (void)damper_restore(&this->dampers[number], &at->state, bytes);
-        bytes += DAMPER_STATE_BYTES;
+    this->is_started = is_started != 0;
+    for (number = 0; number < dampers_count; number++) {
+        (void)restored(&this->dampers[number], &damper, &at, first + (size_t)number * PLACE_BYTES);
+        this->dampers[number] = damper;
+        this->places[number] = at;
     }
     return MODEL_DONE;
 }

@@ -3,8 +3,18 @@
 #ifndef DASHPOT_MODEL_H
 #define DASHPOT_MODEL_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
+
+/* Sums and products are rounded one by one, as they are written. */
+#if defined(__clang__)
+#pragma STDC FP_CONTRACT OFF
+#elif defined(__GNUC__)
+#pragma GCC optimize("fp-contract=off")
+#elif defined(_MSC_VER)
+#pragma fp_contract(off)
+#endif
 
 typedef struct model model;
 
@@ -27,9 +37,11 @@ void model_free(model *this);
 /* Start values again. */
 void model_reset(model *this);
 
-/* Variables from 1 on; 0 is the time. A derivative is that of an input, for the next step alone. */
+/* Variables from 1 on; 0 is the time. A derivative is that of an input, for the next step alone. Whether a value may be set is known
+ * before it is. */
 model_result model_get_real(const model *this, uint32_t variable, double *value);
-model_result model_set_real(model *this, uint32_t variable, double value);
+model_result model_check_real(const model *this, uint32_t variable, double value);
+void model_set_real(model *this, uint32_t variable, double value);
 model_result model_set_derivative(model *this, uint32_t variable, double value);
 model_result model_get_integer(const model *this, uint32_t variable, int32_t *value);
 
