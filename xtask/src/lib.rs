@@ -14,3 +14,4 @@ pub mod target_toolchain;
 pub mod test_run;
 pub mod tools;
 pub mod vehicle_validation;
+pub mod wheel;

@@ -9,6 +9,7 @@ use xtask::rust_version::numbers;
 use xtask::test_run::test;
 use xtask::tools::install_missing;
 use xtask::vehicle_validation::vehicle_validation;
+use xtask::wheel::wheel;
 use xtask::{firmware, nightly, python, slurm};
 
 const HELP: &str = "\
@@ -28,7 +29,8 @@ Commands:
                          when none is named; into target/c-library
   kalker-book            compute the tables of the recommended creep law anew, from exact theory (some fifteen minutes)
   vehicle-validation     run the studies of docs/vehicle-validation.md anew and write it (some six minutes)
-  python                 install the packages of Python that tests read and write recordings with, in target/python
+  wheel                  build the package `dashpot` of Python: a wheel in target/wheels, for pip install
+  python                 install the packages of Python that tests need, in target/python, and what builds wheels, in target/maturin
   miri                   run the tests of the C interface under Miri (needs a nightly compiler)
   fuzz [--seconds N]     run each fuzz target from its kept seeds for N seconds, 60 when not given (needs a
                          nightly compiler)
@@ -83,6 +85,7 @@ fn main() -> ExitCode {
         ]),
         ["vehicle-validation"] => vehicle_validation(),
         ["python"] => python::install(),
+        ["wheel"] => build_wheel(),
         ["miri"] => nightly::miri(),
         ["fuzz"] => nightly::fuzz(60),
         ["fuzz", "--seconds", text] => match text.parse() {
@@ -110,6 +113,12 @@ fn main() -> ExitCode {
 
 fn build_firmware() -> Outcome {
     println!("images are in {}", firmware::build_default()?.display());
+    Ok(())
+}
+
+fn build_wheel() -> Outcome {
+    let path = wheel("release", &repository().join("target/wheels"))?;
+    println!("python3 -m pip install {}", path.display());
     Ok(())
 }
 

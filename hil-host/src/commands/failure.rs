@@ -9,6 +9,7 @@ use dashpot_reference::ReferenceError;
 use crate::files::FileError;
 use crate::files::case::CaseError;
 use crate::files::damper::{ContentError, DamperError, FORM};
+use crate::files::profile::NamedProfileError;
 use crate::files::sheet::SheetFileError;
 use crate::files::study::StudyFileError;
 use crate::files::track::TrackFileError;
@@ -308,6 +309,18 @@ impl From<SessionError> for Failure {
             SessionError::Link(error) => error.into(),
             SessionError::Dampers { .. } => Self::wrong_use(format!("--damper: {error}")),
             other => Self::new(other.to_string()),
+        }
+    }
+}
+
+impl From<NamedProfileError> for Failure {
+    fn from(error: NamedProfileError) -> Self {
+        match error {
+            NamedProfileError::File(error) => error.into(),
+            NamedProfileError::Smoothing(smoothing_m) => Self::wrong_use(format!(
+                "--smoothing-m: {smoothing_m}, allowed: 0 to 0.05 m"
+            )),
+            _ => Self::wrong_use(error.to_string()),
         }
     }
 }

@@ -3,9 +3,75 @@
 use std::path::Path;
 
 use dashpot_rail::profile::measured::{self, Options, ProfileError, Reading};
-use dashpot_rail::profile::{Body, Profile};
+use dashpot_rail::profile::{Body, Profile, s1002, uic60};
 
 use super::{FileError, input};
+
+/// Why there is no profile.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum NamedProfileError {
+    /// A wavelength that no profile is smoothed by.
+    #[error("smoothing_m: {0}, allowed: 0 to 0.05 m")]
+    Smoothing(f64),
+    /// A built-in profile is read in no format.
+    #[error("{known} is built in; allowed with a format or mirror: a profile file")]
+    BuiltIn {
+        /// The profile.
+        known: &'static str,
+    },
+    /// The name is neither the built-in profile's nor a file's.
+    #[error("{name}: no such profile, allowed: {known} or a profile file")]
+    Unknown {
+        /// The name.
+        name: String,
+        /// The built-in profile.
+        known: &'static str,
+    },
+    /// The file cannot be used.
+    #[error(transparent)]
+    File(#[from] FileError),
+}
+
+/// The profile of `body` called `name`: the built-in one, `s1002` or `uic60`, or a file, with what was read of that.
+///
+/// # Errors
+/// No such profile, options that there are not for it, or as [`read`].
+///
+/// ```
+/// use dashpot_hil::files::profile;
+/// use dashpot_rail::profile::{Body, measured::Options};
+/// let (wheel, reading) = profile::load("s1002", Body::Wheel, &Options::default())?;
+/// assert!(reading.is_none());
+/// assert!(profile::load("uic60", Body::Wheel, &Options::default()).is_err());
+/// # Ok::<(), profile::NamedProfileError>(())
+/// ```
+pub fn load(
+    name: &str,
+    body: Body,
+    options: &Options,
+) -> Result<(Profile, Option<Reading>), NamedProfileError> {
+    let (known, built_in) = match body {
+        Body::Wheel => ("s1002", s1002::profile as fn() -> Profile),
+        Body::Rail => ("uic60", uic60::profile as fn() -> Profile),
+    };
+    if !(0.0..=0.05).contains(&options.smoothing_m) {
+        return Err(NamedProfileError::Smoothing(options.smoothing_m));
+    }
+    if name.eq_ignore_ascii_case(known) {
+        return match options.format.is_some() || options.mirror.is_some() {
+            true => Err(NamedProfileError::BuiltIn { known }),
+            false => Ok((built_in(), None)),
+        };
+    }
+    let path = Path::new(name);
+    if input::is_file_name(path) || path.exists() {
+        let (profile, reading) = read(path, body, options)?;
+        return Ok((profile, Some(reading)));
+    }
+    let name = name.to_owned();
+    Err(NamedProfileError::Unknown { name, known })
+}
 
 /// Reads the profile of `body` at `path`, where `-` is standard input, as [`measured::parse`] does.
 ///

@@ -8,6 +8,7 @@ pub mod calibration;
 mod error;
 pub mod excitation;
 pub mod health;
+pub mod motion;
 pub mod plate;
 pub mod published;
 pub mod replay;
@@ -21,6 +22,7 @@ pub mod swept_sine;
 pub mod tick_grid;
 pub mod vehicle;
 pub mod verification;
+pub mod wheelset_geometry;
 pub mod workers;
 
 pub use error::StudyError;

@@ -60,6 +60,13 @@ impl Rows<2> for Measurement {
     }
 }
 
+/// The nearest nanosecond (s), free of the rounding of sums; the nearest microsecond from 100 days on,
+/// where a clock's time in `f64` has no nanoseconds.
+pub fn nearest_nanosecond(time_s: f64) -> f64 {
+    let per_s = if time_s.abs() < 8.64e6 { 1e9 } else { 1e6 };
+    (time_s * per_s).round() / per_s
+}
+
 /// How far a sample meant for the tick at `time_s` (s) of steps of `step_s` (s) may lie from it by
 /// rounding (s).
 pub(crate) fn rounding_s(time_s: f64, step_s: f64) -> f64 {

@@ -14,6 +14,7 @@ use report::{print, report};
 use super::{Format, print_report};
 use crate::commands::failure::{Failure, Outcome};
 use crate::files::output::write_folder;
+use crate::study::wheelset_geometry::WheelsetGeometry;
 
 /// Contact geometry of a wheelset on a track: contact points, rolling radius, equivalent conicity.
 #[derive(Debug, Clone, clap::Args)]
@@ -57,13 +58,8 @@ pub struct ContactArguments {
     pub format: Format,
 }
 
-/// Largest lateral shift that is evaluated, m.
-const LARGEST_SHIFT_M: f64 = 0.012;
 /// Largest lateral shift that is drawn: there the flange face touches, m.
 const LARGEST_SHIFT_DRAWN_M: f64 = 8e-3;
-/// Cells of the rolling radius difference from left to right: 25 um each, which locates its jumps as well.
-const CELLS: usize = 960;
-
 /// Prints and draws the contact geometry of the given profiles.
 ///
 /// # Errors
@@ -83,25 +79,18 @@ pub fn run(arguments: &ContactArguments) -> Outcome<()> {
         inclination: arguments.inclination,
     };
     let pair = Pair::new(wheel, &rail, installation)?;
-    let mut scratch = Vec::new();
-    let contacts: Vec<RigidContact> = (0..=CELLS)
-        .map(|i| LARGEST_SHIFT_M * (2.0 * i as f64 / CELLS as f64 - 1.0))
-        .map(|shift| pair.rigid_contact(shift, 0.0, &mut scratch))
-        .collect();
-    let rolling = RollingRadiusDifference::new(
-        contacts.iter().map(|c| c.lateral_m).collect(),
-        contacts
-            .iter()
-            .map(RigidContact::rolling_radius_difference_m)
-            .collect(),
-    )
-    .map_err(|error| Failure::new(error.to_string()))?;
+    let geometry = WheelsetGeometry::of(&pair).map_err(|error| Failure::new(error.to_string()))?;
     let plots = if arguments.no_plots {
         Vec::new()
     } else {
-        draw(&arguments.plots, &pair, &contacts, &rolling)?
+        draw(
+            &arguments.plots,
+            &pair,
+            &geometry.contacts,
+            &geometry.rolling,
+        )?
     };
-    let report = report(&pair, readings, &contacts, &rolling, plots);
+    let report = report(&pair, readings, &geometry, plots);
     print_report(arguments.format, &report, print)
 }
 

@@ -4,11 +4,11 @@ use std::path::Path;
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use dashpot_rail::profile::measured::{self, Format, Mirror, Options, Reading};
-use dashpot_rail::profile::{Body, Profile, s1002, uic60};
+use dashpot_rail::profile::{Body, Profile};
 
-use crate::commands::failure::{Failure, Outcome};
+use crate::commands::failure::Outcome;
 use crate::commands::streams;
-use crate::files::{input, profile};
+use crate::files::profile;
 
 /// Which wheel runs on which rail.
 #[derive(Debug, Clone, clap::Args)]
@@ -71,11 +71,6 @@ impl ProfileArguments {
     /// No such profile, a file that is none, or an option out of its range.
     pub(super) fn load(&self) -> Outcome<Profiles> {
         let smoothing_m = self.smoothing_m;
-        if !(0.0..=0.05).contains(&smoothing_m) {
-            return Err(Failure::wrong_use(format!(
-                "--smoothing-m: {smoothing_m}, allowed: 0 to 0.05 m"
-            )));
-        }
         streams::refuse_second_standard_input(&[
             ("--wheel", Path::new(&self.wheel)),
             ("--rail", Path::new(&self.rail)),
@@ -87,10 +82,8 @@ impl ProfileArguments {
         };
         let wheel_options = options(self.wheel_format, self.wheel_mirror);
         let rail_options = options(self.rail_format, self.rail_mirror);
-        let s1002 = ("s1002", s1002::profile as fn() -> Profile);
-        let uic60 = ("uic60", uic60::profile as fn() -> Profile);
-        let (wheel, of_wheel) = profile(&self.wheel, Body::Wheel, s1002, &wheel_options)?;
-        let (rail, of_rail) = profile(&self.rail, Body::Rail, uic60, &rail_options)?;
+        let (wheel, of_wheel) = profile::load(&self.wheel, Body::Wheel, &wheel_options)?;
+        let (rail, of_rail) = profile::load(&self.rail, Body::Rail, &rail_options)?;
         Ok(Profiles {
             wheel,
             rail,
@@ -100,29 +93,4 @@ impl ProfileArguments {
             },
         })
     }
-}
-
-/// The profile called `name`: the built-in one or a file.
-fn profile(
-    name: &str,
-    body: Body,
-    (known, built_in): (&str, fn() -> Profile),
-    options: &Options,
-) -> Outcome<(Profile, Option<Reading>)> {
-    let path = Path::new(name);
-    if name.eq_ignore_ascii_case(known) {
-        if options.format.is_some() || options.mirror.is_some() {
-            return Err(Failure::wrong_use(format!(
-                "{known} is built in; allowed with a format or mirror: a profile file"
-            )));
-        }
-        return Ok((built_in(), None));
-    }
-    if input::is_file_name(path) || path.exists() {
-        let (profile, reading) = profile::read(path, body, options)?;
-        return Ok((profile, Some(reading)));
-    }
-    Err(Failure::wrong_use(format!(
-        "{name}: no such profile, allowed: {known} or a profile file"
-    )))
 }

@@ -2,12 +2,12 @@
 
 use std::io::{self, Write};
 
-use dashpot_rail::contact::{Pair, RigidContact};
-use dashpot_rail::indices::RollingRadiusDifference;
+use dashpot_rail::contact::Pair;
 use dashpot_rail::profile::measured::Reading;
 use serde::Serialize;
 
 use super::profiles::Readings;
+use crate::study::wheelset_geometry::{Conicity, Shift, WheelsetGeometry};
 
 /// What was read of a profile file, for programs.
 #[derive(Serialize)]
@@ -34,23 +34,6 @@ impl From<Reading> for FileReport {
 }
 
 #[derive(Serialize)]
-struct Conicity {
-    amplitude_m: f64,
-    equivalent_conicity: Option<f64>,
-}
-
-#[derive(Serialize)]
-struct Shift {
-    lateral_shift_m: f64,
-    rolling_radius_difference_m: f64,
-    roll_rad: f64,
-    contact_angle_left_rad: f64,
-    contact_angle_right_rad: f64,
-    wheel_place_left_m: f64,
-    wheel_place_right_m: f64,
-}
-
-#[derive(Serialize)]
 pub(super) struct Report {
     wheel: String,
     rail: String,
@@ -68,16 +51,14 @@ pub(super) struct Report {
     plots: Vec<String>,
 }
 
-/// The report on `pair`, of which `readings` were read: `contacts` at lateral shifts from left to right, and the files of the plots.
+/// The report on `pair`, of which `readings` were read, and the files of the plots.
 pub(super) fn report(
     pair: &Pair,
     readings: Readings,
-    contacts: &[RigidContact],
-    rolling: &RollingRadiusDifference,
+    geometry: &WheelsetGeometry,
     plots: Vec<String>,
 ) -> Report {
     let installation = pair.installation();
-    let conicity = |amplitude| rolling.equivalent_conicity(amplitude, installation.wheel_radius_m);
     Report {
         wheel: pair.wheel().name().to_owned(),
         rail: pair.rail().name().to_owned(),
@@ -88,26 +69,16 @@ pub(super) fn report(
         back_to_back_m: installation.back_to_back_m,
         wheel_radius_m: installation.wheel_radius_m,
         rail_inclination: installation.inclination,
-        conicity_at_3mm: conicity(3e-3),
-        conicity: (1..=16)
-            .map(|i| f64::from(i) * 0.5e-3)
-            .map(|amplitude_m| Conicity {
-                amplitude_m,
-                equivalent_conicity: conicity(amplitude_m),
-            })
-            .collect(),
-        shifts: contacts
+        conicity_at_3mm: geometry
+            .rolling
+            .equivalent_conicity(3e-3, installation.wheel_radius_m),
+        conicity: geometry.conicities(pair),
+        // A row each millimetre.
+        shifts: geometry
+            .contacts
             .iter()
             .step_by(40)
-            .map(|c| Shift {
-                lateral_shift_m: c.lateral_m,
-                rolling_radius_difference_m: c.rolling_radius_difference_m(),
-                roll_rad: c.roll_rad,
-                contact_angle_left_rad: -c.sides[0].slope.atan(),
-                contact_angle_right_rad: -c.sides[1].slope.atan(),
-                wheel_place_left_m: c.sides[0].wheel_y_m,
-                wheel_place_right_m: c.sides[1].wheel_y_m,
-            })
+            .map(Shift::from)
             .collect(),
         plots,
     }

@@ -24,6 +24,7 @@ use crate::files::case::Case;
 use crate::files::columns;
 use crate::files::output::{cannot_write_rows, create_folder, write_bytes, write_whole};
 use crate::realtime::pacing::Pacer;
+use crate::study::vehicle::recorded::all_signals;
 use crate::study::vehicle::{Ending, Indexer, Run, signals};
 
 /// A vehicle on a track: time histories, indices and a page.
@@ -158,8 +159,7 @@ fn follow(
     mut pacer: Option<Pacer>,
     path: &Path,
 ) -> Outcome<(History, Report)> {
-    let mut all = signals::all(run.vehicle());
-    all.extend(signals::of_ride(&case.vehicle));
+    let all = all_signals(run, &case.vehicle);
     let mut history = History::new(all.clone(), run.ticks(), case.step_s);
     let mut indexer = Indexer::new(case);
     let bar = progress::bar(run.ticks(), "vehicle");

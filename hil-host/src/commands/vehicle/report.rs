@@ -62,10 +62,7 @@ impl Report {
         pace: &Pace,
         pacing: Option<&PacingReport>,
     ) -> Self {
-        let is_whole = matches!(
-            ending,
-            Ending::Completed | Ending::Interrupted { .. } | Ending::OutsideLost { .. }
-        );
+        let has_indices = ending.has_indices();
         Self {
             case: case.name.clone(),
             vehicle: case.vehicle.name.clone(),
@@ -76,7 +73,7 @@ impl Report {
             step_s: case.step_s,
             ticks: pace.ticks,
             ending,
-            indices: indices.filter(|_| is_whole),
+            indices: indices.filter(|_| has_indices),
             mean_tick_s: pace.time.as_secs_f64() / pace.ticks.max(1) as f64,
             realtime: pacing.map(Paced::from),
             outside: None,

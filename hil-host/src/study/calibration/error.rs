@@ -71,6 +71,14 @@ pub enum CalibrationError {
     /// No number or no test.
     #[error("no {0}")]
     Nothing(&'static str),
+    /// Samples that are none.
+    #[error("{test}: {reason}")]
+    Samples {
+        /// The test.
+        test: String,
+        /// What is wrong with them, and what is allowed.
+        reason: String,
+    },
     /// A test too short to tell anything.
     #[error("{test}: too short, allowed: {fewest} samples or more without a gap")]
     TooShort {

@@ -33,6 +33,51 @@ const CONTACT: f64 = 0.05;
 const END_S: f64 = 0.05;
 
 impl Recorded {
+    /// Samples that are in memory, called `name` in results.
+    ///
+    /// # Errors
+    /// As many times as displacements and forces are allowed, finite numbers, and times that rise.
+    pub fn new(
+        name: String,
+        times_s: Vec<f64>,
+        displacements_m: Vec<f64>,
+        forces_n: Vec<f64>,
+    ) -> Result<Self, CalibrationError> {
+        let wrong = |reason| {
+            Err(CalibrationError::Samples {
+                test: name.clone(),
+                reason,
+            })
+        };
+        let counts = [&times_s, &displacements_m, &forces_n].map(Vec::len);
+        if counts.iter().any(|count| *count != counts[0]) {
+            let [times, displacements, forces] = counts;
+            return wrong(format!(
+                "{times} times, {displacements} displacements and {forces} forces, allowed: as many of each"
+            ));
+        }
+        let is_finite = |place: &usize| {
+            let sample = [&times_s, &displacements_m, &forces_n].map(|values| values[*place]);
+            sample.iter().all(|value| value.is_finite())
+        };
+        if let Some(place) = (0..counts[0]).find(|place| !is_finite(place)) {
+            return wrong(format!("sample {place}: allowed: finite numbers"));
+        }
+        if let Some(place) = times_s.windows(2).position(|pair| pair[1] <= pair[0]) {
+            let place = place + 1;
+            return wrong(format!(
+                "sample {place}: time {}, allowed: times that rise",
+                times_s[place]
+            ));
+        }
+        Ok(Self {
+            name,
+            times_s,
+            displacements_m,
+            forces_n,
+        })
+    }
+
     /// The stretches without a gap, and how many more there are that are too short to be a test.
     fn tests(&self) -> (Vec<Range<usize>>, usize) {
         let (tests, short): (Vec<_>, Vec<_>) = stretches(&self.times_s)

@@ -17,7 +17,7 @@ pub use journal::Journal;
 pub use merge::{Gaps, MergeError, merge};
 pub use observed::{OBSERVED, Observed};
 pub use row::{Arithmetic, Row, RowError, VERSION};
-pub use run::{Observation, RunError, observe, run};
+pub use run::{Observation, RunError, observe, row, run, run_with};
 pub use shared::Shared;
 pub use study::{Shard, Study, StudyCase};
 pub use summary::Estimate;

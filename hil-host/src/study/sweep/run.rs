@@ -110,15 +110,36 @@ pub fn run<E: From<RunError>>(
     numbers: &[u64],
     threads: usize,
     is_unwanted: &(dyn Fn() -> bool + Sync),
+    take: impl FnMut(Row) -> Result<(), E>,
+) -> Result<(), E> {
+    run_with(
+        study,
+        &Shared::default(),
+        numbers,
+        threads,
+        is_unwanted,
+        take,
+    )
+}
+
+/// As [`run`], with what other runs have made.
+///
+/// # Errors
+/// As [`run`].
+pub fn run_with<E: From<RunError>>(
+    study: &Study,
+    shared: &Shared,
+    numbers: &[u64],
+    threads: usize,
+    is_unwanted: &(dyn Fn() -> bool + Sync),
     mut take: impl FnMut(Row) -> Result<(), E>,
 ) -> Result<(), E> {
-    let shared = Shared::default();
     let work = |number: &u64, is_ended: &dyn Fn() -> bool| {
         let is_unwanted = || is_ended() || is_unwanted();
         if is_unwanted() {
             return Ok(None);
         }
-        one(study, *number, &shared, &is_unwanted)
+        row(study, *number, shared, &is_unwanted)
     };
     workers::in_parallel(numbers, threads, work, |_, row| match row? {
         Some(row) => take(row),
@@ -126,8 +147,11 @@ pub fn run<E: From<RunError>>(
     })
 }
 
-/// The row of a case; none where it was interrupted.
-fn one(
+/// The row of a case; none of a number that no case has, or where it became unwanted.
+///
+/// # Errors
+/// A case that is refused.
+pub fn row(
     study: &Study,
     number: u64,
     shared: &Shared,

@@ -28,6 +28,24 @@ pub enum VehicleStudyError {
     /// The tables of the contact cannot be made or kept.
     #[error("tables of the contact: {0}")]
     Tables(#[from] CacheError),
+    /// A signal that the vehicle has not.
+    #[error("no signal `{name}`{near}")]
+    NoSignal {
+        /// Its name.
+        name: String,
+        /// The nearest one, in words.
+        near: String,
+    },
+    /// A history does not fit into memory.
+    #[error(
+        "{signals} signals of {ticks} ticks: no memory, allowed: fewer signals or a shorter run"
+    )]
+    Memory {
+        /// Ticks of the run.
+        ticks: u64,
+        /// Signals.
+        signals: usize,
+    },
     /// The reference has no solution.
     #[error(transparent)]
     Reference(#[from] ReferenceError),

@@ -7,6 +7,7 @@ mod error;
 pub mod hunting;
 mod indices;
 mod inside;
+pub mod recorded;
 mod run;
 pub mod seeds;
 pub mod signals;

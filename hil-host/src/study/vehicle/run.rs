@@ -72,6 +72,16 @@ pub enum Ending {
     },
 }
 
+impl Ending {
+    /// Whether there are indices of what was run: not of one that derailed, diverged or left the tables.
+    pub fn has_indices(&self) -> bool {
+        matches!(
+            self,
+            Self::Completed | Self::Interrupted { .. } | Self::OutsideLost { .. }
+        )
+    }
+}
+
 impl fmt::Display for Ending {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {

@@ -1,0 +1,37 @@
+//! An environment with numpy alone, an empty folder, and the examples.
+
+use crate::installed::{alone, package, run, unpacked};
+use xtask::python::have_packages;
+
+#[test]
+fn the_examples_run_from_an_empty_folder_with_numpy_alone() {
+    if have_packages("the examples of the package of Python").is_none() {
+        return;
+    }
+    let environment = tempfile::tempdir().unwrap();
+    let python = alone(environment.path());
+    let mut count = 0;
+    for entry in std::fs::read_dir(package().join("examples")).unwrap() {
+        let example = entry.unwrap().path();
+        if example.is_dir() {
+            continue;
+        }
+        let folder = tempfile::tempdir().unwrap();
+        let told = run(&python, folder.path(), None, &[example.to_str().unwrap()]);
+        assert!(!told.contains("Warning"), "{}: {told}", example.display());
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
+        count += 1;
+    }
+    assert!(count > 0);
+}
+
+#[test]
+fn the_example_on_a_cluster_runs_from_an_empty_folder() {
+    let Some(python) = have_packages("the example of the package of Python on Dask") else {
+        return;
+    };
+    let (path, folder) = (unpacked(&python), tempfile::tempdir().unwrap());
+    let example = package().join("examples/dask/study.py");
+    let arguments = [example.to_str().unwrap()];
+    run(&python, folder.path(), Some(path.path()), &arguments);
+}

@@ -1,0 +1,101 @@
+//! The package's own tests, a file each, under an interpreter that has pandas, Dask and mypy beside it.
+
+use crate::installed::{package, run, unpacked};
+use xtask::python::have_packages;
+
+/// Runs a file of tests, in which there must be some.
+fn suite(name: &str) {
+    let Some(python) = have_packages("the package of Python") else {
+        return;
+    };
+    let path = unpacked(&python);
+    let folder = tempfile::tempdir().unwrap();
+    let tests = package().join("tests");
+    let tests = tests.to_str().unwrap();
+    let arguments = [
+        "-m",
+        "unittest",
+        "discover",
+        "--start-directory",
+        tests,
+        "--pattern",
+        name,
+    ];
+    let told = run(&python, folder.path(), Some(path.path()), &arguments);
+    assert!(
+        told.contains("\nOK\n") && !told.contains("Ran 0 tests"),
+        "{told}"
+    );
+}
+
+macro_rules! suites {
+    ($($name:ident),* $(,)?) => {$(
+        #[test]
+        fn $name() {
+            suite(concat!(stringify!($name), ".py"));
+        }
+    )*};
+}
+
+suites!(
+    test_arrays,
+    test_bank,
+    test_calibration,
+    test_contact,
+    test_damper,
+    test_documentation,
+    test_recording,
+    test_replay,
+    test_rig,
+    test_state,
+    test_study,
+    test_vehicle,
+);
+
+/// Whether every file of tests is run by a test here.
+#[test]
+fn no_file_of_tests_is_forgotten() {
+    let here = include_str!("suites.rs");
+    let mut count = 0;
+    for entry in std::fs::read_dir(package().join("tests")).unwrap() {
+        let name = entry.unwrap().file_name().into_string().unwrap();
+        if let Some(stem) = name
+            .strip_suffix(".py")
+            .filter(|stem| stem.starts_with("test_"))
+        {
+            assert!(here.contains(&format!("\n    {stem},\n")), "{name}");
+            count += 1;
+        }
+    }
+    assert!(count > 0);
+}
+
+/// Whether the stubs tell what the compiled package has: names, parameters, defaults.
+#[test]
+fn the_stubs_are_those_of_the_package() {
+    let Some(python) = have_packages("the stubs of the package of Python") else {
+        return;
+    };
+    let path = unpacked(&python);
+    let folder = tempfile::tempdir().unwrap();
+    let told = run(
+        &python,
+        folder.path(),
+        Some(path.path()),
+        &["-m", "mypy.stubtest", "dashpot"],
+    );
+    assert!(told.contains("Success: no issues found"), "{told}");
+    // And whether a user's types are checked by them.
+    let example = folder.path().join("example.py");
+    std::fs::write(
+        &example,
+        "import dashpot\nreveal_type(dashpot.Damper(\"paper\").build().at_rest().force_n)\n",
+    )
+    .unwrap();
+    let arguments = ["-m", "mypy", "--strict", "example.py"];
+    let told = run(&python, folder.path(), Some(path.path()), &arguments);
+    assert!(
+        told.contains("\"builtins.float\"") || told.contains("\"float\""),
+        "{told}"
+    );
+}

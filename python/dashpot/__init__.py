@@ -1,0 +1,50 @@
+"""Dashpot: a real-time model of a rail vehicle's hydraulic damper, on numpy arrays. Numbers are SI, units stand in names.
+
+>>> import dashpot, numpy
+>>> damper = dashpot.Damper("in-service", {"mount.clearance_m": 1e-3})
+>>> built = damper.build(step_s=1e-3, dtype=numpy.float32)
+>>> x = (5e-3 * numpy.sin(2 * numpy.pi * numpy.arange(2000) * 1e-3)).astype(numpy.float32)
+>>> force_n = built.replay(x)
+>>> force_n.dtype, force_n.shape
+(dtype('float32'), (2000,))
+"""
+
+from ._dashpot import VERSION as __version__
+from ._dashpot import (
+    Bank,
+    BuiltDamper,
+    Calibrated,
+    Contact,
+    Cycle,
+    Damper,
+    State,
+    Study,
+    VehicleRun,
+    calibrate,
+    contact,
+    creep_forces,
+    read,
+    vehicle,
+)
+from ._errors import DashpotError, DashpotFileError
+from ._status import Status
+
+__all__ = [
+    "Bank",
+    "BuiltDamper",
+    "Calibrated",
+    "Contact",
+    "Cycle",
+    "Damper",
+    "DashpotError",
+    "DashpotFileError",
+    "State",
+    "Status",
+    "Study",
+    "VehicleRun",
+    "calibrate",
+    "contact",
+    "creep_forces",
+    "read",
+    "vehicle",
+]

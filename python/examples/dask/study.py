@@ -1,0 +1,23 @@
+# A study on a cluster of Dask, here of two processes of this machine: `Client("tcp://scheduler:8786")` in its place is one of many machines.
+
+from distributed import Client, LocalCluster
+
+import dashpot
+
+if __name__ == "__main__":
+    study = dashpot.Study.from_toml("""
+name = "clearance"
+observed = ["sperling_vertical", "derailment_greatest"]
+[[sweep]]
+name = "clearance"
+case = "straight-180"
+duration_s = 0.5
+seeds = [1, 2]
+vary = [{ parameter = "vertical.mount.clearance_m", values = [0.0, 1e-3, 2e-3] }]
+""")
+    with LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster, Client(cluster) as client:
+        rows = client.gather(client.map(study.row, range(len(study))))
+    for row in rows:
+        print(row["vertical.mount.clearance_m"], row["seed"], row["derailment_greatest"])
+    # The same bits as on one machine.
+    assert [row["derailment_greatest"] for row in rows] == study.run()["derailment_greatest"].tolist()

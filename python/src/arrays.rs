@@ -1,0 +1,116 @@
+//! numpy's arrays as they are borrowed: one kind of number, contiguous, aligned, never copied.
+
+use numpy::{
+    Element, PyArray, PyArrayDescr, PyArrayDescrMethods, PyArrayMethods, PyReadonlyArray,
+    PyReadwriteArray, PyUntypedArray, PyUntypedArrayMethods, dtype,
+};
+use pyo3::prelude::*;
+
+use crate::error::{Outcome, refuse};
+
+/// An array of Python that is read, called `name` in errors.
+pub fn read<'py, T: Element, D: numpy::ndarray::Dimension>(
+    name: &str,
+    array: &Bound<'py, PyAny>,
+) -> Outcome<PyReadonlyArray<'py, T, D>> {
+    match usable::<T, D>(name, array, false)?.try_readonly() {
+        Ok(array) => Ok(array),
+        Err(_) => refuse(format!("{name}: it is being written to by another call")),
+    }
+}
+
+/// An array of Python that is written to, called `name` in errors.
+pub fn write<'py, T: Element, D: numpy::ndarray::Dimension>(
+    name: &str,
+    array: &Bound<'py, PyAny>,
+) -> Outcome<PyReadwriteArray<'py, T, D>> {
+    match usable::<T, D>(name, array, true)?.try_readwrite() {
+        Ok(array) => Ok(array),
+        Err(_) => refuse(format!(
+            "{name}: it shares memory with an array that is read, or that another call uses; allowed: memory of its own"
+        )),
+    }
+}
+
+/// The array, where it can be borrowed as it lies in memory.
+fn usable<'a, 'py, T: Element, D: numpy::ndarray::Dimension>(
+    name: &str,
+    array: &'a Bound<'py, PyAny>,
+    is_written: bool,
+) -> Outcome<&'a Bound<'py, PyArray<T, D>>> {
+    let py = array.py();
+    let expected = dtype::<T>(py);
+    let dimensions = D::NDIM.unwrap_or(1);
+    let allowed = format!(
+        "a numpy array of {expected} with {dimensions} dimension{}",
+        if dimensions == 1 { "" } else { "s" }
+    );
+    let Ok(untyped) = array.cast::<PyUntypedArray>() else {
+        let found = array.get_type().name()?;
+        return refuse(format!("{name}: {found}, allowed: {allowed}"));
+    };
+    let found = untyped.dtype();
+    if !found.is_equiv_to(&expected) {
+        return refuse(format!(
+            "{name}: array of {found}, allowed: {allowed}, as {name}.astype(numpy.{expected}) makes one"
+        ));
+    }
+    if untyped.ndim() != dimensions {
+        return refuse(format!(
+            "{name}: {} dimensions, allowed: {allowed}",
+            untyped.ndim()
+        ));
+    }
+    let flags = array.getattr("flags")?;
+    let is = |flag| -> PyResult<bool> { flags.getattr(flag)?.extract() };
+    if !is("c_contiguous")? || !is("aligned")? {
+        return refuse(format!(
+            "{name}: its numbers do not lie one after the other in memory, allowed: a contiguous and aligned array, as \
+             numpy.ascontiguousarray({name}) or a copy is"
+        ));
+    }
+    if is_written && !is("writeable")? {
+        return refuse(format!(
+            "{name}: read-only, allowed: an array that can be written to"
+        ));
+    }
+    match array.cast::<PyArray<T, D>>() {
+        Ok(array) => Ok(array),
+        Err(_) => refuse(format!("{name}: allowed: {allowed}")),
+    }
+}
+
+/// Precision of a step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Precision {
+    /// `float32`, as on the target.
+    Single,
+    /// `float64`.
+    Double,
+}
+
+impl Precision {
+    /// Of a dtype or what stands for one; single where there is none.
+    pub fn of(dtype_like: Option<&Bound<'_, PyAny>>) -> Outcome<Self> {
+        let Some(dtype_like) = dtype_like else {
+            return Ok(Self::Single);
+        };
+        let py = dtype_like.py();
+        let found = PyArrayDescr::new(py, dtype_like)?;
+        if found.is_equiv_to(&dtype::<f32>(py)) {
+            Ok(Self::Single)
+        } else if found.is_equiv_to(&dtype::<f64>(py)) {
+            Ok(Self::Double)
+        } else {
+            refuse(format!("dtype: {found}, allowed: float32 or float64"))
+        }
+    }
+
+    /// The dtype.
+    pub fn dtype(self, py: Python<'_>) -> Bound<'_, PyArrayDescr> {
+        match self {
+            Self::Single => dtype::<f32>(py),
+            Self::Double => dtype::<f64>(py),
+        }
+    }
+}

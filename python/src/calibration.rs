@@ -1,0 +1,279 @@
+//! From bench tests in memory to the numbers of a damper, with their intervals.
+
+use dashpot_core::parameters::STEP_RANGE_S;
+use dashpot_hil::study::StudyError;
+use dashpot_hil::study::calibration::{
+    Calibrated as Found, Calibration, IndexTest, LoopTest, Prior, Recorded, Varied,
+};
+use numpy::{Ix1, PyArray1, PyArray2};
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyList};
+
+use crate::arrays;
+use crate::damper::Damper;
+use crate::error::{Outcome, Refusal, refuse};
+
+/// Arrays of time (s), displacement (m) and force (N).
+type Samples<'py> = [Bound<'py, PyAny>; 3];
+
+/// What a calibration has found. `dashpot.calibrate` makes one.
+///
+/// >>> import dashpot
+/// >>> tests = [{"amplitude_m": 0.025, "frequency_hz": hz, "max_extension_force_n": n} for hz, n in ((0.05, 942.3), (0.1, 1883.4))]
+/// >>> damper = dashpot.Damper("reduced-vertical", {"mount.clearance_m": 0.0})
+/// >>> found = dashpot.calibrate(damper, vary=["reduced.damping_n_s_per_m"], indices=tests)
+/// >>> least, greatest = found.intervals["reduced.damping_n_s_per_m"]
+/// >>> least < 120e3 < greatest
+/// True
+#[pyclass(module = "dashpot", frozen)]
+pub struct Calibrated {
+    calibration: Calibration,
+    found: Found,
+    damper: Py<Damper>,
+}
+
+#[pymethods]
+impl Calibrated {
+    /// The damper that was found.
+    #[getter]
+    fn damper(&self, py: Python<'_>) -> Py<Damper> {
+        self.damper.clone_ref(py)
+    }
+
+    /// The numbers that were varied, by their keys; `sensor_skew_s` is the time (s) by which the force is recorded later than the displacement.
+    #[getter]
+    fn values<'py>(&self, py: Python<'py>) -> Outcome<Bound<'py, PyDict>> {
+        self.by_key(py, self.found.values.iter())
+    }
+
+    /// Their intervals of 95 %, pairs of the least and the greatest value; `None` in a pair where a bound comes first.
+    #[getter]
+    fn intervals<'py>(&self, py: Python<'py>) -> Outcome<Bound<'py, PyDict>> {
+        let profiles = self.found.profiles.iter();
+        self.by_key(
+            py,
+            profiles.map(|profile| (profile.least, profile.greatest)),
+        )
+    }
+
+    /// Their standard deviations by linear theory, in their units.
+    #[getter]
+    fn standard_deviations<'py>(&self, py: Python<'py>) -> Outcome<Bound<'py, PyDict>> {
+        let numbers = self.found.determination.numbers.iter();
+        self.by_key(py, numbers.map(|number| number.standard_deviation))
+    }
+
+    /// The correlation of each with each, in the order of `values`.
+    #[getter]
+    fn correlation<'py>(&self, py: Python<'py>) -> Outcome<Bound<'py, PyArray2<f64>>> {
+        match PyArray2::from_vec2(py, &self.found.determination.correlation) {
+            Ok(correlation) => Ok(correlation),
+            Err(error) => refuse(error),
+        }
+    }
+
+    /// Each recorded loop beside the model, at the samples that count: arrays `time_s`, `displacement_m`, `force_n`, `before_n` and
+    /// `after_n`, and the root mean squares of what the model misses, `missed_before_n` and `missed_after_n`.
+    #[getter]
+    fn loops<'py>(&self, py: Python<'py>) -> Outcome<Bound<'py, PyList>> {
+        let step_s = self.calibration.step_s;
+        let loops = PyList::empty(py);
+        for (test, fit) in self.calibration.loops.iter().zip(&self.found.loops) {
+            let one = PyDict::new(py);
+            one.set_item("name", &test.name)?;
+            one.set_item(
+                "time_s",
+                PyArray1::from_vec(py, test.counted_times_s(step_s)),
+            )?;
+            one.set_item(
+                "displacement_m",
+                PyArray1::from_vec(py, test.counted_displacements_m()),
+            )?;
+            one.set_item("force_n", PyArray1::from_slice(py, test.counted_forces_n()))?;
+            one.set_item("before_n", PyArray1::from_slice(py, &fit.before_n))?;
+            one.set_item("after_n", PyArray1::from_slice(py, &fit.after_n))?;
+            one.set_item("missed_before_n", fit.missed_before_n)?;
+            one.set_item("missed_after_n", fit.missed_after_n)?;
+            loops.append(one)?;
+        }
+        Ok(loops)
+    }
+}
+
+impl Calibrated {
+    fn by_key<'py, V: IntoPyObject<'py>>(
+        &self,
+        py: Python<'py>,
+        values: impl Iterator<Item = V>,
+    ) -> Outcome<Bound<'py, PyDict>> {
+        let named = PyDict::new(py);
+        for (varied, value) in self.calibration.varied.iter().zip(values) {
+            named.set_item(&varied.key, value)?;
+        }
+        Ok(named)
+    }
+}
+
+/// Finds numbers of `damper` from bench tests: recorded loops `tests`, each of three arrays of float64, time (s), displacement (m) and force
+/// (N), or the `indices` of tests, each a dictionary of the columns that `dashpot calibrate --indices` reads.
+///
+/// `vary` names the numbers, a list of keys, or a dictionary from keys to bounds, pairs or `None` for the plausible ones. `priors` has what is
+/// known of them before, pairs of mean and standard deviation; without `known_priors` only these count. Without `skew` the sensors record at
+/// the same instant. What the tests do not determine is refused. Ctrl-C acts when the calibration is done.
+///
+/// >>> import dashpot, numpy
+/// >>> made = dashpot.Damper("reduced-vertical", {"mount.clearance_m": 0.0, "reduced.damping_n_s_per_m": 100e3})
+/// >>> time_s = numpy.arange(4000) * 1e-3
+/// >>> x = 4e-3 * numpy.sin(2 * numpy.pi * time_s)
+/// >>> force_n = made.build(1e-3, float).replay(x) + numpy.random.default_rng(1).normal(0, 10, 4000)
+/// >>> start = made.replace({"reduced.damping_n_s_per_m": 130e3})
+/// >>> found = dashpot.calibrate(start, [(time_s, x, force_n)], ["reduced.damping_n_s_per_m"], step_s=1e-3)
+/// >>> abs(found.damper["reduced.damping_n_s_per_m"] / 100e3 - 1) < 0.01
+/// True
+#[pyfunction]
+#[pyo3(signature = (
+    damper, tests=None, vary=None, *, indices=None, priors=None, known_priors=true, skew=true, starts=4, step_s=0.00025
+))]
+#[expect(clippy::too_many_arguments, reason = "what Python names when it calls")]
+pub fn calibrate(
+    py: Python<'_>,
+    damper: &Bound<'_, Damper>,
+    tests: Option<Vec<Samples<'_>>>,
+    vary: Option<&Bound<'_, PyAny>>,
+    indices: Option<&Bound<'_, PyAny>>,
+    priors: Option<&Bound<'_, PyDict>>,
+    known_priors: bool,
+    skew: bool,
+    starts: usize,
+    step_s: f64,
+) -> Outcome<Calibrated> {
+    if !STEP_RANGE_S.contains(&step_s) {
+        return Err(StudyError::Step { step_s }.into());
+    }
+    if !(1..=1000).contains(&starts) {
+        return refuse(format!("starts: {starts}, allowed: 1 to 1000"));
+    }
+    let damper = damper.get();
+    let mut varied = varied(damper, vary, priors, known_priors)?;
+    let tests: Vec<Recorded> = tests
+        .unwrap_or_default()
+        .iter()
+        .enumerate()
+        .map(|(number, test)| recorded(number, test))
+        .collect::<Outcome<_>>()?;
+    let indices = index_tests(indices)?;
+    // The skew alone is no calibration of a damper.
+    if skew && !tests.is_empty() && !varied.is_empty() {
+        varied.push(Varied::skew());
+    }
+    let (calibration, found) = py.detach(|| {
+        let mut loops = Vec::new();
+        for test in &tests {
+            loops.extend(LoopTest::of(test, step_s)?);
+        }
+        let calibration = Calibration {
+            damper: damper.keyed().clone(),
+            varied,
+            loops,
+            indices,
+            step_s,
+            starts,
+        };
+        let found = calibration.run(&|_| {})?;
+        Ok::<_, Refusal>((calibration, found))
+    })?;
+    let name = format!("{}, calibrated", damper.name);
+    let damper = Py::new(py, Damper::of(name, found.damper.clone())?)?;
+    Ok(Calibrated {
+        calibration,
+        found,
+        damper,
+    })
+}
+
+/// The numbers to vary.
+fn varied(
+    damper: &Damper,
+    vary: Option<&Bound<'_, PyAny>>,
+    priors: Option<&Bound<'_, PyDict>>,
+    known_priors: bool,
+) -> Outcome<Vec<Varied>> {
+    let mut keys: Vec<(String, Option<[f64; 2]>)> = Vec::new();
+    match vary.map(|vary| (vary, vary.cast::<PyDict>())) {
+        Some((_, Ok(bounded))) => {
+            for (key, bounds) in bounded {
+                keys.push((key.extract()?, bounds.extract()?));
+            }
+        }
+        Some((listed, Err(_))) => {
+            let listed: Vec<String> = listed.extract()?;
+            keys.extend(listed.into_iter().map(|key| (key, None)));
+        }
+        None => {}
+    }
+    let mut given: Vec<(String, Prior)> = Vec::new();
+    for (key, pair) in priors.into_iter().flatten() {
+        let (key, (mean, standard_deviation)): (String, (f64, f64)) =
+            (key.extract()?, pair.extract()?);
+        if !(standard_deviation > 0.0 && standard_deviation.is_finite()) {
+            return refuse(format!(
+                "prior {key}: standard deviation {standard_deviation}, allowed: above 0"
+            ));
+        }
+        if !keys.iter().any(|(varied, _)| *varied == key) {
+            return refuse(format!(
+                "prior {key}: not varied; allowed: a number that is varied"
+            ));
+        }
+        let prior = Prior {
+            mean,
+            standard_deviation,
+        };
+        given.push((key, prior));
+    }
+    let one = |(key, bounds): &(String, Option<[f64; 2]>)| {
+        let prior = given
+            .iter()
+            .find(|(of, _)| of == key)
+            .map(|(_, prior)| *prior);
+        let mut varied = Varied::new(damper.keyed(), key, *bounds, prior)?;
+        if !known_priors {
+            varied.prior = prior;
+        }
+        Ok(varied)
+    };
+    keys.iter().map(one).collect()
+}
+
+/// A recorded loop of three arrays.
+fn recorded(number: usize, [time_s, displacement_m, force_n]: &Samples<'_>) -> Outcome<Recorded> {
+    let numbers = |name: &str, array| {
+        let name = format!("tests[{number}]: {name}");
+        let array = arrays::read::<f64, Ix1>(&name, array)?;
+        Ok::<_, Refusal>(array.as_array().to_vec())
+    };
+    let (times, displacements) = (
+        numbers("time", time_s)?,
+        numbers("displacement", displacement_m)?,
+    );
+    let forces = numbers("force", force_n)?;
+    Ok(Recorded::new(
+        format!("test {number}"),
+        times,
+        displacements,
+        forces,
+    )?)
+}
+
+/// Tests of which the indices are known.
+fn index_tests(indices: Option<&Bound<'_, PyAny>>) -> Outcome<Vec<IndexTest>> {
+    let Some(indices) = indices else {
+        return Ok(Vec::new());
+    };
+    let json = indices.py().import("json")?;
+    let text: String = json.call_method1("dumps", (indices,))?.extract()?;
+    match serde_json::from_str(&text) {
+        Ok(tests) => Ok(tests),
+        Err(error) => refuse(format!("indices: {error}")),
+    }
+}

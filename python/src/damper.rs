@@ -1,0 +1,263 @@
+//! A damper: its numbers by their keys, and what is made of them.
+
+use dashpot_core::CheckedParameters;
+use dashpot_core::characteristic::Characteristic;
+use dashpot_hil::files::damper::{self, Keyed};
+use dashpot_hil::study::verification::reference_forces;
+use numpy::{Ix1, PyArray1};
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyList};
+
+use crate::arrays::{self, Precision};
+use crate::built::BuiltDamper;
+use crate::error::{Outcome, Refusal, refuse};
+use crate::overrides::assignments;
+use crate::pickled::{Pickled, pickled};
+use crate::rig::{Cycle, indices};
+
+/// A damper: a preset or the TOML file at a path, with other numbers at the keys of `overrides`.
+///
+/// A mapping from keys `table.key` to numbers in SI units.
+///
+/// >>> import dashpot
+/// >>> damper = dashpot.Damper("in-service", {"mount.clearance_m": 1e-3})
+/// >>> damper["mount.clearance_m"]
+/// 0.001
+/// >>> damper
+/// Damper('in-service', mount.clearance_m=0.001)
+#[pyclass(module = "dashpot", frozen, mapping)]
+pub struct Damper {
+    /// How it is called, with what was changed of it.
+    pub name: String,
+    pub parameters: CheckedParameters,
+    keyed: Keyed,
+}
+
+impl Damper {
+    /// The damper of checked parameters; `name` stands for it in errors.
+    pub fn of(name: String, parameters: CheckedParameters) -> Outcome<Self> {
+        let keyed = Keyed::new(&name, &parameters)?;
+        Ok(Self {
+            name,
+            parameters,
+            keyed,
+        })
+    }
+
+    /// Its numbers by their keys.
+    pub fn keyed(&self) -> &Keyed {
+        &self.keyed
+    }
+
+    /// As a damper file has it.
+    pub fn text(&self) -> Outcome<String> {
+        Ok(damper::text(&self.parameters)?)
+    }
+}
+
+/// A name with what was changed.
+fn changed(name: &str, assignments: &[String]) -> String {
+    let changes = assignments.iter().map(|one| format!(", {one}"));
+    format!("{name}{}", changes.collect::<String>())
+}
+
+#[pymethods]
+impl Damper {
+    #[new]
+    #[pyo3(signature = (name, overrides=None))]
+    fn new(name: &Bound<'_, PyAny>, overrides: Option<&Bound<'_, PyAny>>) -> Outcome<Self> {
+        let name = crate::overrides::path(name)?;
+        let changes = assignments(overrides)?;
+        let parameters = damper::load(&name, &changes)?;
+        Self::of(changed(&name, &changes), parameters)
+    }
+
+    /// The damper that is written in `text`, a damper file; `name` stands for it in errors.
+    ///
+    /// >>> import dashpot
+    /// >>> text = dashpot.Damper("reduced-vertical").to_toml()
+    /// >>> dashpot.Damper.from_toml(text)["reduced.damping_n_s_per_m"]
+    /// 120000.0
+    #[staticmethod]
+    #[pyo3(signature = (text, overrides=None, name="damper"))]
+    fn from_toml(text: &str, overrides: Option<&Bound<'_, PyAny>>, name: &str) -> Outcome<Self> {
+        let changes = assignments(overrides)?;
+        let parameters = damper::parse(name, text, &changes)?;
+        Self::of(changed(name, &changes), parameters)
+    }
+
+    /// The damper as the text of a damper file, of which `from_toml` makes the same damper.
+    ///
+    /// >>> import dashpot
+    /// >>> print(dashpot.Damper("reduced-lateral").to_toml().splitlines()[0])
+    /// [reduced]
+    fn to_toml(&self) -> Outcome<String> {
+        self.text()
+    }
+
+    /// The damper with other numbers at these keys.
+    ///
+    /// >>> import dashpot
+    /// >>> worn = dashpot.Damper("in-service").replace({"mount.clearance_m": 3e-3})
+    /// >>> worn["mount.clearance_m"]
+    /// 0.003
+    fn replace(&self, overrides: &Bound<'_, PyAny>) -> Outcome<Self> {
+        let changes = assignments(Some(overrides))?;
+        let parameters = damper::change(&self.name, &self.parameters, &changes)?;
+        Self::of(changed(&self.name, &changes), parameters)
+    }
+
+    /// How the damper is called in errors.
+    #[getter]
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// The keys of all numbers, in order.
+    ///
+    /// >>> import dashpot
+    /// >>> dashpot.Damper("reduced-vertical").keys()[:2]
+    /// ['limits.force_n', 'limits.rate_m_per_s']
+    fn keys(&self) -> Vec<String> {
+        self.keyed.keys()
+    }
+
+    fn __getitem__(&self, key: &str) -> Outcome<f64> {
+        Ok(self.keyed.number(key)?)
+    }
+
+    fn __contains__(&self, key: &Bound<'_, PyAny>) -> bool {
+        let key = key.extract::<String>();
+        key.is_ok_and(|key| self.keyed.number(&key).is_ok())
+    }
+
+    fn __len__(&self) -> usize {
+        self.keyed.keys().len()
+    }
+
+    fn __iter__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        Ok(PyList::new(py, self.keyed.keys())?.try_iter()?.into_any())
+    }
+
+    /// The constants of the damper for a fixed step (s), in the precision of `dtype`: float32 where there is none, as on the target.
+    ///
+    /// >>> import dashpot
+    /// >>> dashpot.Damper("paper").build(step_s=1e-3).step_s
+    /// 0.001
+    #[pyo3(signature = (step_s=1e-3, dtype=None))]
+    fn build(&self, step_s: f64, dtype: Option<&Bound<'_, PyAny>>) -> Outcome<BuiltDamper> {
+        let precision = Precision::of(dtype)?;
+        BuiltDamper::new(&self.name, &self.parameters, step_s, precision)
+    }
+
+    /// The bench test: the harmonic motion of the seats until the force repeats, with steps of at most `step_s` (s), in double precision.
+    ///
+    /// >>> import dashpot
+    /// >>> cycle = dashpot.Damper("paper").rig(amplitude_m=24.875e-3, frequency_hz=0.64)
+    /// >>> cycle.force_n.shape == cycle.velocity_m_per_s.shape
+    /// True
+    #[pyo3(signature = (amplitude_m, frequency_hz, step_s=1e-4))]
+    fn rig(
+        &self,
+        py: Python<'_>,
+        amplitude_m: f64,
+        frequency_hz: f64,
+        step_s: f64,
+    ) -> Outcome<Cycle> {
+        Cycle::run(py, &self.parameters, amplitude_m, frequency_hz, step_s)
+    }
+
+    /// The indices of the bench test by their names; `None` where there is none without force.
+    ///
+    /// >>> import dashpot
+    /// >>> damper = dashpot.Damper("reduced-vertical", {"mount.clearance_m": 0.0})
+    /// >>> indices = damper.indices(amplitude_m=1e-3, frequency_hz=1.0)
+    /// >>> round(indices["max_extension_force_n"])  # C w A/sqrt(1 + (w C/K)^2)
+    /// 751
+    #[pyo3(signature = (amplitude_m, frequency_hz, step_s=1e-4))]
+    fn indices<'py>(
+        &self,
+        py: Python<'py>,
+        amplitude_m: f64,
+        frequency_hz: f64,
+        step_s: f64,
+    ) -> Outcome<Bound<'py, PyDict>> {
+        let cycle = Cycle::run(py, &self.parameters, amplitude_m, frequency_hz, step_s)?;
+        indices(py, &cycle)
+    }
+
+    /// The force (N) at each constant velocity (m/s), springs at rest and clearance taken up; both positive in extension.
+    ///
+    /// >>> import dashpot, numpy
+    /// >>> damper = dashpot.Damper("reduced-vertical")
+    /// >>> damper.characteristic(numpy.array([0.01, -0.1])).tolist()
+    /// [1200.0, -3600.0]
+    fn characteristic<'py>(
+        &self,
+        py: Python<'py>,
+        velocity_m_per_s: &Bound<'py, PyAny>,
+    ) -> Outcome<Bound<'py, PyArray1<f64>>> {
+        let velocities = arrays::read::<f64, Ix1>("velocity_m_per_s", velocity_m_per_s)?;
+        let velocities = velocities.as_slice().map_err(PyErr::from)?;
+        if let Some(wrong) = velocities.iter().find(|velocity| !velocity.is_finite()) {
+            return refuse(format!(
+                "velocity_m_per_s: {wrong}, allowed: finite numbers"
+            ));
+        }
+        let parameters = &self.parameters;
+        let forces: Vec<f64> = py.detach(|| {
+            let characteristic = Characteristic::new(parameters);
+            let force = |velocity: &f64| characteristic.force_n(*velocity);
+            velocities.iter().map(force).collect()
+        });
+        Ok(PyArray1::from_vec(py, forces))
+    }
+
+    /// The force (N) of the reference solution at displacements (m) of the seats `step_s` (s) apart, linear between: adaptive, written
+    /// independently of the step; some thousand times its cost.
+    ///
+    /// >>> import dashpot, numpy
+    /// >>> damper, x = dashpot.Damper("paper"), 5e-3 * numpy.sin(numpy.arange(500.0) / 80)
+    /// >>> fixed = damper.build(1e-3, numpy.float64).replay(x)
+    /// >>> error = damper.reference(x, 1e-3) - fixed
+    /// >>> bool(abs(error).max() < 0.01 * abs(fixed).max())
+    /// True
+    fn reference<'py>(
+        &self,
+        py: Python<'py>,
+        x: &Bound<'py, PyAny>,
+        step_s: f64,
+    ) -> Outcome<Bound<'py, PyArray1<f64>>> {
+        let motion = arrays::read::<f64, Ix1>("x", x)?;
+        let displacements = motion.as_slice().map_err(PyErr::from)?;
+        let parameters = &self.parameters;
+        let forces = py.detach(|| reference_forces(parameters, step_s, displacements));
+        Ok(PyArray1::from_vec(py, forces.map_err(Refusal::from)?))
+    }
+
+    fn __eq__(&self, other: &Bound<'_, PyAny>) -> bool {
+        let other = other.cast::<Self>();
+        other.is_ok_and(|other| *other.get().parameters == *self.parameters)
+    }
+
+    fn __hash__(&self) -> Outcome<isize> {
+        use std::hash::{DefaultHasher, Hash, Hasher};
+        let mut hasher = DefaultHasher::new();
+        self.text()?.hash(&mut hasher);
+        Ok(hasher.finish() as isize)
+    }
+
+    fn __repr__(&self) -> String {
+        match self.name.split_once(", ") {
+            Some((name, changes)) => format!("Damper('{name}', {changes})"),
+            None => format!("Damper('{}')", self.name),
+        }
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> Outcome<Pickled<'py>> {
+        let damper = slf.get();
+        let make = slf.get_type().getattr("from_toml")?;
+        let arguments = (damper.text()?, None::<Py<PyAny>>, damper.name.clone());
+        pickled(make, arguments)
+    }
+}

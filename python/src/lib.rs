@@ -1,0 +1,50 @@
+//! Dashpot from Python: what the package `dashpot` is made of. No physics and no rule is written here; arrays, exceptions and the release of
+//! Python's lock are.
+#![deny(unsafe_code)]
+#![warn(missing_docs)]
+
+mod arrays;
+mod bank;
+mod built;
+mod calibration;
+mod contact;
+mod damper;
+mod error;
+mod interruption;
+mod json;
+mod overrides;
+mod pickled;
+mod recording;
+mod rig;
+mod state;
+mod sweep;
+mod vehicle;
+
+/// The part of the package that is compiled.
+#[pyo3::pymodule]
+mod _dashpot {
+    /// Version of the package, and of the rows of a study.
+    #[pymodule_export]
+    const VERSION: &str = dashpot_hil::study::sweep::VERSION;
+
+    #[pymodule_export]
+    use crate::bank::Bank;
+    #[pymodule_export]
+    use crate::built::BuiltDamper;
+    #[pymodule_export]
+    use crate::calibration::{Calibrated, calibrate};
+    #[pymodule_export]
+    use crate::contact::{Contact, contact, creep_forces};
+    #[pymodule_export]
+    use crate::damper::Damper;
+    #[pymodule_export]
+    use crate::recording::read;
+    #[pymodule_export]
+    use crate::rig::Cycle;
+    #[pymodule_export]
+    use crate::state::State;
+    #[pymodule_export]
+    use crate::sweep::Study;
+    #[pymodule_export]
+    use crate::vehicle::{VehicleRun, vehicle};
+}

@@ -1,0 +1,77 @@
+//! Names, paths and overrides as Python gives them, in the words of the files.
+
+use pyo3::prelude::*;
+use pyo3::types::{PyBool, PyDict, PyDictMethods, PyFloat, PyInt, PyString};
+
+use crate::error::{Outcome, refuse};
+
+/// A name, or a path of any kind, as text.
+pub fn path(name: &Bound<'_, PyAny>) -> Outcome<String> {
+    let path = name.py().import("os")?.getattr("fspath")?.call1((name,))?;
+    match path.extract::<String>() {
+        Ok(path) => Ok(path),
+        Err(_) => refuse(format!("{name}: allowed: a name or a path in text")),
+    }
+}
+
+/// A dictionary from keys to values as `table.key=value`; none where there is none.
+pub fn assignments(overrides: Option<&Bound<'_, PyAny>>) -> Outcome<Vec<String>> {
+    let Some(overrides) = overrides.filter(|overrides| !overrides.is_none()) else {
+        return Ok(Vec::new());
+    };
+    let Ok(overrides) = overrides.cast::<PyDict>() else {
+        return refuse(format!(
+            "overrides: {}, allowed: a dictionary such as {{\"mount.clearance_m\": 1e-3}}",
+            overrides.get_type().name()?
+        ));
+    };
+    let one = |(key, value): (Bound<'_, PyAny>, Bound<'_, PyAny>)| {
+        Ok(format!("{}={}", key.str()?, written(&key, &value)?))
+    };
+    overrides.iter().map(one).collect()
+}
+
+/// A value as TOML writes it.
+fn written(key: &Bound<'_, PyAny>, value: &Bound<'_, PyAny>) -> Outcome<String> {
+    if let Ok(value) = value.cast::<PyBool>() {
+        return Ok(value.is_true().to_string());
+    }
+    if let Ok(text) = value.cast::<PyString>() {
+        return Ok(quoted(&text.to_cow()?));
+    }
+    // Numbers of numpy are no floats, but are read as such.
+    let is_number = value.is_instance_of::<PyFloat>() || value.is_instance_of::<PyInt>();
+    if is_number || value.hasattr("__float__")? {
+        let number: f64 = value.extract()?;
+        return Ok(match number.is_nan() {
+            true => "nan".into(),
+            false => format!("{number:?}"),
+        });
+    }
+    refuse(format!(
+        "override {key}: {}, allowed: a number, a text or a truth value",
+        value.get_type().name()?
+    ))
+}
+
+/// A text in quotes, as TOML and JSON have it alike.
+fn quoted(text: &str) -> String {
+    serde_json::Value::from(text).to_string()
+}
+
+/// A dictionary from texts to names or paths, called `name` in errors; none where there is none.
+pub fn texts(name: &str, given: Option<&Bound<'_, PyAny>>) -> Outcome<Vec<(String, String)>> {
+    let Some(given) = given else {
+        return Ok(Vec::new());
+    };
+    let Ok(given) = given.cast::<PyDict>() else {
+        return refuse(format!(
+            "{name}: {}, allowed: a dictionary",
+            given.get_type().name()?
+        ));
+    };
+    let one = |(key, value): (Bound<'_, PyAny>, Bound<'_, PyAny>)| {
+        Ok((key.str()?.to_string(), path(&value)?))
+    };
+    given.iter().map(one).collect()
+}

@@ -1,0 +1,271 @@
+//! Studies: many cases of a vehicle, a row of indices each, by their numbers.
+
+use dashpot_hil::files::study::{StudyParameters, Value};
+use dashpot_hil::study::sweep::{self, Row, Shard};
+use dashpot_hil::study::workers;
+use numpy::PyArray1;
+use pyo3::exceptions::PyIndexError;
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyList};
+
+use crate::error::{Outcome, Refusal, refuse};
+use crate::interruption::Interruption;
+use crate::overrides::path;
+use crate::pickled::{Pickled, pickled};
+use crate::vehicle::SHARED;
+
+/// A study that ships or a TOML file: its cases are counted from 0, and a row is that of its case alone, the same bits in any order, on any
+/// number of threads and machines.
+///
+/// With `seeds` every sweep that has seeds has the seeds 1 to that. A study goes to another process by its name: there the files must be the
+/// same, which is checked.
+///
+/// >>> import dashpot
+/// >>> study = dashpot.Study("paper", seeds=1)
+/// >>> len(study), study.columns[:3]
+/// (67, ['case', 'sweep', 'vertical.reduced.damping_n_s_per_m'])
+#[pyclass(module = "dashpot", frozen)]
+pub struct Study {
+    name: String,
+    text: Option<String>,
+    seeds: Option<u64>,
+    study: sweep::Study,
+}
+
+impl Study {
+    fn read(name: String, text: Option<String>, seeds: Option<u64>) -> Outcome<Self> {
+        if let Some(wrong) = seeds.filter(|seeds| !(1..=100_000).contains(seeds)) {
+            return refuse(format!("seeds: {wrong}, allowed: 1 to 100000"));
+        }
+        let parameters = match &text {
+            Some(text) => StudyParameters::parse(&name, text)?,
+            None => StudyParameters::load(&name)?,
+        };
+        let parameters = match seeds {
+            Some(seeds) => parameters.with_seeds(seeds),
+            None => parameters,
+        };
+        Ok(Self {
+            study: sweep::Study::new(parameters)?,
+            name,
+            text,
+            seeds,
+        })
+    }
+
+    /// A row by its columns.
+    fn in_python<'py>(&self, py: Python<'py>, row: &Row) -> Outcome<Bound<'py, PyDict>> {
+        let Some(case) = self.study.case(row.case) else {
+            return refuse(format!("case {}: not of this study", row.case));
+        };
+        let cells = PyDict::new(py);
+        for (name, cell) in self
+            .study
+            .columns()
+            .iter()
+            .zip(self.study.record(&case, row))
+        {
+            cells.set_item(name, (!cell.is_empty()).then_some(cell))?;
+        }
+        cells.set_item("case", row.case)?;
+        cells.set_item("seed", case.seed)?;
+        for (axis, value) in case.sweep.axes.iter().zip(case.values()) {
+            match value {
+                Value::Number(number) => cells.set_item(&axis.parameter, number)?,
+                Value::Word(word) => cells.set_item(&axis.parameter, word)?,
+            }
+        }
+        for (index, value) in self.study.observed.iter().zip(&row.observed) {
+            cells.set_item(index.name, value)?;
+        }
+        Ok(cells)
+    }
+
+    /// Columns of rows: numbers as arrays with NaN where there is none, else lists.
+    fn columns_of<'py>(&self, py: Python<'py>, rows: &[Row]) -> Outcome<Bound<'py, PyDict>> {
+        let dictionaries: Vec<Bound<'py, PyDict>> = rows
+            .iter()
+            .map(|row| self.in_python(py, row))
+            .collect::<Outcome<_>>()?;
+        let columns = PyDict::new(py);
+        for name in self.study.columns() {
+            let cells: Vec<Option<Bound<'py, PyAny>>> = dictionaries
+                .iter()
+                .map(|row| row.get_item(&name))
+                .collect::<PyResult<_>>()?;
+            let cells = PyList::new(py, cells)?;
+            let is_observed = self.study.observed.iter().any(|index| index.name == name);
+            let is_varied = self.study.varied.contains(&name);
+            let numbers = cells.extract::<Vec<Option<f64>>>();
+            match numbers {
+                Ok(numbers) if is_observed || is_varied => {
+                    let numbers = numbers.into_iter().map(|number| number.unwrap_or(f64::NAN));
+                    columns.set_item(name, PyArray1::from_iter(py, numbers))?;
+                }
+                _ if name == "case" => {
+                    let numbers = rows.iter().map(|row| row.case as i64);
+                    columns.set_item(name, PyArray1::from_iter(py, numbers))?;
+                }
+                _ => columns.set_item(name, cells)?,
+            }
+        }
+        Ok(columns)
+    }
+}
+
+#[pymethods]
+impl Study {
+    #[new]
+    #[pyo3(signature = (name, seeds=None))]
+    fn new(py: Python<'_>, name: &Bound<'_, PyAny>, seeds: Option<u64>) -> Outcome<Self> {
+        let name = path(name)?;
+        py.detach(|| Self::read(name, None, seeds))
+    }
+
+    /// The study that is written in `text`, a study file; `name` stands for it in errors, and files that it names count from the working folder.
+    ///
+    /// >>> import dashpot
+    /// >>> study = dashpot.Study.from_toml('''
+    /// ... name = "clearance"
+    /// ... observed = ["sperling_vertical"]
+    /// ... [[sweep]]
+    /// ... name = "clearance"
+    /// ... case = "straight-180"
+    /// ... seeds = [1, 2]
+    /// ... vary = [{ parameter = "vertical.mount.clearance_m", values = [1e-3, 2e-3, 3e-3] }]
+    /// ... ''')
+    /// >>> len(study)
+    /// 6
+    #[staticmethod]
+    #[pyo3(signature = (text, seeds=None, name="study"))]
+    fn from_toml(py: Python<'_>, text: String, seeds: Option<u64>, name: &str) -> Outcome<Self> {
+        let name = name.to_owned();
+        py.detach(|| Self::read(name, Some(text), seeds))
+    }
+
+    /// Names of the columns of a row, those of rows.csv of the command.
+    #[getter]
+    fn columns(&self) -> Vec<String> {
+        self.study.columns()
+    }
+
+    /// Of what the cases are: rows of studies with the same digest and version belong together.
+    #[getter]
+    fn digest(&self) -> &str {
+        self.study.digest()
+    }
+
+    fn __len__(&self) -> Outcome<usize> {
+        match usize::try_from(self.study.cases()) {
+            Ok(cases) => Ok(cases),
+            Err(error) => refuse(error),
+        }
+    }
+
+    /// Runs the case of a number and gives its row, by the names of the columns; `None` stands for what a case has not. So that many
+    /// machines share a study, map this over `range(len(study))`, as Dask's `client.map` does. Ctrl-C ends it.
+    ///
+    /// >>> import dashpot
+    /// >>> study = dashpot.Study.from_toml('''
+    /// ... name = "short"
+    /// ... observed = ["derailment_rms"]
+    /// ... [[sweep]]
+    /// ... name = "short"
+    /// ... case = "straight-180"
+    /// ... duration_s = 0.2
+    /// ... vary = [{ parameter = "speed_km_h", values = [100, 160] }]
+    /// ... ''')
+    /// >>> row = study.row(1)
+    /// >>> row["speed_km_h"], row["ending"]
+    /// (160.0, 'completed')
+    fn row<'py>(&self, py: Python<'py>, number: u64) -> Outcome<Bound<'py, PyDict>> {
+        let row = py.detach(|| {
+            let interruption = Interruption::default();
+            let row = sweep::row(&self.study, number, &SHARED, &|| interruption.is_wanted());
+            interruption.raised()?;
+            row.map_err(Refusal::from)
+        })?;
+        match row {
+            Some(row) => self.in_python(py, &row),
+            None => {
+                let cases = self.study.cases();
+                let words = format!("case {number}, allowed: 0 to {}", cases.saturating_sub(1));
+                Err(PyIndexError::new_err(words).into())
+            }
+        }
+    }
+
+    /// Runs the cases on so many threads, one a core where none are given, and gives their columns, in the order of the cases: what
+    /// `pandas.DataFrame` takes. `shard`, a pair of its number from 0 and how many there are, takes only that part. Ctrl-C ends it after
+    /// the case that is next done.
+    #[pyo3(signature = (*, shard=None, threads=None))]
+    fn run<'py>(
+        &self,
+        py: Python<'py>,
+        shard: Option<(u64, u64)>,
+        threads: Option<usize>,
+    ) -> Outcome<Bound<'py, PyDict>> {
+        let shard = match shard {
+            Some((number, of)) if number < of => Some(Shard { number, of }),
+            Some((number, of)) => {
+                return refuse(format!(
+                    "shard: {number} of {of}, allowed: 0 to one less than there are"
+                ));
+            }
+            None => None,
+        };
+        if let Some(wrong) = threads.filter(|threads| !(1..=1024).contains(threads)) {
+            return refuse(format!("threads: {wrong}, allowed: 1 to 1024"));
+        }
+        let rows = py.detach(|| {
+            let numbers: Vec<u64> = self.study.part(shard).collect();
+            let threads = threads.unwrap_or_else(workers::threads);
+            let mut rows = Vec::new();
+            let take = |row: Row| -> Outcome<()> {
+                rows.push(row);
+                let interruption = Interruption::default();
+                interruption.is_wanted();
+                Ok(interruption.raised()?)
+            };
+            sweep::run_with(&self.study, &SHARED, &numbers, threads, &|| false, take)?;
+            rows.sort_by_key(|row| row.case);
+            Ok::<_, Refusal>(rows)
+        })?;
+        self.columns_of(py, &rows)
+    }
+
+    fn __repr__(&self) -> String {
+        format!("<Study '{}', {} cases>", self.name, self.study.cases())
+    }
+
+    #[staticmethod]
+    #[pyo3(name = "_restore")]
+    fn restore(
+        py: Python<'_>,
+        name: String,
+        text: Option<String>,
+        seeds: Option<u64>,
+        digest: &str,
+    ) -> Outcome<Self> {
+        let study = py.detach(|| Self::read(name, text, seeds))?;
+        if study.study.digest() == digest {
+            return Ok(study);
+        }
+        refuse(format!(
+            "{}: its files or this version are not those that the study was read with",
+            study.name
+        ))
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> Outcome<Pickled<'py>> {
+        let Self {
+            name,
+            text,
+            seeds,
+            study,
+        } = slf.get();
+        let digest = study.digest().to_owned();
+        let arguments = (name.clone(), text.clone(), *seeds, digest);
+        pickled(slf.get_type().getattr("_restore")?, arguments)
+    }
+}

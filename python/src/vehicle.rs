@@ -1,0 +1,169 @@
+//! A vehicle on a track in time.
+
+use std::sync::LazyLock;
+
+use dashpot_hil::files::case::{CASES, Case, CaseOptions, CaseParts};
+use dashpot_hil::files::vehicle::Replacement;
+use dashpot_hil::study::sweep::Shared;
+use dashpot_hil::study::vehicle::Ending;
+use dashpot_hil::study::vehicle::recorded::{Recorded, record};
+use numpy::PyArray1;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use crate::error::{Outcome, Refusal, refuse};
+use crate::interruption::Interruption;
+use crate::json;
+use crate::overrides::{assignments, path, texts};
+
+/// Contacts and tracks, each made once in a process.
+pub static SHARED: LazyLock<Shared> = LazyLock::new(Shared::default);
+
+/// A run of a vehicle. `dashpot.vehicle` makes one.
+///
+/// >>> import dashpot
+/// >>> run = dashpot.vehicle("straight-180", duration_s=0.1, signals=["time_s", "body_vertical_m"])
+/// >>> run
+/// <VehicleRun 'straight, 180 km/h', completed>
+#[pyclass(module = "dashpot", frozen)]
+pub struct VehicleRun {
+    case: String,
+    step_s: f64,
+    ending: Ending,
+    history: Py<PyDict>,
+    indices: Py<PyAny>,
+}
+
+#[pymethods]
+impl VehicleRun {
+    /// How the case is called.
+    #[getter]
+    fn case(&self) -> &str {
+        &self.case
+    }
+
+    /// Step (s).
+    #[getter]
+    fn step_s(&self) -> f64 {
+        self.step_s
+    }
+
+    /// How the run ended, in words: `completed`, or when and where it derailed, diverged or left the tables of the contact.
+    #[getter]
+    fn ending(&self) -> String {
+        self.ending.to_string()
+    }
+
+    /// Whether it came to its end.
+    #[getter]
+    fn is_completed(&self) -> bool {
+        self.ending == Ending::Completed
+    }
+
+    /// An array of each signal by its name, a number a tick: what `pandas.DataFrame` takes, and history.csv of the command has.
+    #[getter]
+    fn history(&self, py: Python<'_>) -> Py<PyDict> {
+        self.history.clone_ref(py)
+    }
+
+    /// The indices, as indices.json of the command has them; `None` of a run that derailed, diverged or left the tables.
+    #[getter]
+    fn indices(&self, py: Python<'_>) -> Py<PyAny> {
+        self.indices.clone_ref(py)
+    }
+
+    fn __repr__(&self) -> String {
+        format!("<VehicleRun '{}', {}>", self.case, self.ending)
+    }
+}
+
+/// Runs a vehicle along a track: a case that ships or a TOML file, of which what is given changes the case's; or a track and a speed.
+///
+/// `dampers` replaces dampers along a direction or of a name by a preset or a file, `overrides` changes numbers of the vehicle, as
+/// `--damper` and `--set` of the command do. `signals` names what the history is to have; all when not given. Ctrl-C ends it.
+///
+/// >>> import dashpot
+/// >>> run = dashpot.vehicle("straight-180", duration_s=0.5, dampers={"vertical": "in-service"})
+/// >>> run.history["time_s"][-1]
+/// np.float64(0.5)
+/// >>> sorted(run.indices)[:2]
+/// ['bodies', 'duration_s']
+#[pyfunction]
+#[pyo3(signature = (
+    case=None, *, vehicle=None, track=None, speed_km_h=None, duration_s=None, start_m=None, friction=None,
+    normal_damping_s_per_m=None, step_us=None, push_m=None, dampers=None, overrides=None, signals=None
+))]
+#[expect(clippy::too_many_arguments, reason = "what Python names when it calls")]
+pub fn vehicle(
+    py: Python<'_>,
+    case: Option<&Bound<'_, PyAny>>,
+    vehicle: Option<&Bound<'_, PyAny>>,
+    track: Option<&Bound<'_, PyAny>>,
+    speed_km_h: Option<f64>,
+    duration_s: Option<f64>,
+    start_m: Option<f64>,
+    friction: Option<f64>,
+    normal_damping_s_per_m: Option<f64>,
+    step_us: Option<f64>,
+    push_m: Option<f64>,
+    dampers: Option<&Bound<'_, PyAny>>,
+    overrides: Option<&Bound<'_, PyAny>>,
+    signals: Option<Vec<String>>,
+) -> Outcome<VehicleRun> {
+    let name = |given: Option<&Bound<'_, PyAny>>| given.map(path).transpose();
+    let (case, vehicle, track) = (name(case)?, name(vehicle)?, name(track)?);
+    let parts = CaseParts {
+        case: case.as_deref(),
+        vehicle: vehicle.as_deref(),
+        track: track.as_deref(),
+        numbers: [
+            speed_km_h,
+            duration_s,
+            start_m,
+            friction,
+            normal_damping_s_per_m,
+            step_us,
+            push_m,
+        ],
+    };
+    let Some(mut options) = parts.options()? else {
+        let names = CASES.map(|(name, _)| name).join(", ");
+        return refuse(format!(
+            "no case: give case ({names}), or track with speed_km_h"
+        ));
+    };
+    let replacements = texts("dampers", dampers)?.into_iter();
+    let replaced = replacements.map(|(dampers, by)| Replacement { dampers, by });
+    options.dampers.extend(replaced);
+    options.overrides.extend(assignments(overrides)?);
+    run(py, &options, signals.as_deref())
+}
+
+fn run(py: Python<'_>, options: &CaseOptions, signals: Option<&[String]>) -> Outcome<VehicleRun> {
+    let (case, recorded) = py.detach(|| {
+        let case: Case = options.case()?;
+        let interruption = Interruption::default();
+        let run = SHARED.run(&case);
+        let recorded = run
+            .and_then(|run| record(&case, run, signals, &|| interruption.is_wanted()))
+            .map_err(|error| Refusal::of_case(&case.name, error));
+        interruption.raised()?;
+        Ok::<_, Refusal>((case, recorded?))
+    })?;
+    let Recorded {
+        ending,
+        history: recorded,
+        indices,
+    } = recorded;
+    let history = PyDict::new(py);
+    for (name, column) in recorded {
+        history.set_item(name, PyArray1::from_vec(py, column))?;
+    }
+    Ok(VehicleRun {
+        case: case.name,
+        step_s: case.step_s,
+        ending,
+        history: history.unbind(),
+        indices: json::report(py, &indices)?.unbind(),
+    })
+}

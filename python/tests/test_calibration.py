@@ -1,0 +1,114 @@
+"""Numbers of a damper from bench tests that were made, so that they are known."""
+
+import math
+
+import dashpot
+import numpy
+from common import Test
+
+STIFFNESS, DAMPING = "mount.stiffness_n_per_m", "reduced.damping_n_s_per_m"
+MADE = {STIFFNESS: 7e6, DAMPING: 100e3, "mount.clearance_m": 0.0}
+
+
+def loop(seed, frequency_hz, amplitude_m=3e-3, noise_n=20.0, seconds=3):
+    """Displacement and noisy force of the made damper."""
+    time_s = numpy.arange(seconds * 1000) * 1e-3
+    x = amplitude_m * numpy.sin(2 * math.pi * frequency_hz * time_s)
+    made = dashpot.Damper("reduced-vertical", MADE).build(1e-3, numpy.float64)
+    return time_s, x, made.replay(x) + numpy.random.default_rng(seed).normal(0, noise_n, len(x))
+
+
+class Calibration(Test):
+    @classmethod
+    def setUpClass(cls):
+        cls.start = dashpot.Damper("reduced-vertical", {**MADE, STIFFNESS: 9e6, DAMPING: 140e3})
+        # Below saturation and well above it in frequency, so that both numbers are felt.
+        cls.tests = [loop(1, 1.0), loop(2, 12.0, 3e-4)]
+
+    def test_made_numbers_are_found_with_their_intervals(self):
+        found = dashpot.calibrate(self.start, self.tests, [STIFFNESS, DAMPING], step_s=1e-3)
+        self.assertEqual(list(found.values), [STIFFNESS, DAMPING, "sensor_skew_s"])
+        for key in (STIFFNESS, DAMPING):
+            self.assertAlmostEqual(found.values[key] / MADE[key], 1, 2)
+            self.assertEqual(found.damper[key], found.values[key])
+            least, greatest = found.intervals[key]
+            self.assertLess(least, found.values[key])
+            self.assertLess(found.values[key], greatest)
+            # Two intervals wide: one in twenty misses by itself.
+            width = greatest - least
+            self.assertLess(least - width, MADE[key])
+            self.assertLess(MADE[key], greatest + width)
+            self.assertGreater(found.standard_deviations[key], 0)
+        self.assertLess(abs(found.values["sensor_skew_s"]), 1e-4)
+        self.assertEqual(found.correlation.shape, (3, 3))
+        numpy.testing.assert_allclose(numpy.diag(found.correlation), 1)
+        self.assertEqual(len(found.loops), 2)
+        for one in found.loops:
+            missed_n = numpy.sqrt(numpy.mean((one["force_n"] - one["after_n"]) ** 2))
+            self.assertAlmostEqual(missed_n / one["missed_after_n"], 1, 6)
+            self.assertLess(one["missed_after_n"], 25)
+            self.assertGreater(one["missed_before_n"], 2 * one["missed_after_n"])
+
+    def test_bounds_priors_and_skew_are_given(self):
+        bounded = {DAMPING: (50e3, 200e3)}
+        found = dashpot.calibrate(self.start.replace({STIFFNESS: 7e6}), self.tests, bounded, skew=False, step_s=1e-3,
+                                  priors={DAMPING: (100e3, 5e3)}, known_priors=False, starts=2)
+        self.assertEqual(list(found.values), [DAMPING])
+        self.assertAlmostEqual(found.values[DAMPING] / 100e3, 1, 2)
+
+    def test_indices_alone_determine_a_number(self):
+        made = dashpot.Damper("reduced-vertical", MADE)
+        tests = [
+            {"amplitude_m": 3e-3, "frequency_hz": hz, "max_extension_force_n": made.indices(3e-3, hz)["max_extension_force_n"]}
+            for hz in (0.5, 1.0)
+        ]
+        found = dashpot.calibrate(self.start.replace({STIFFNESS: 7e6}), vary=[DAMPING], indices=tests)
+        self.assertAlmostEqual(found.values[DAMPING] / 100e3, 1, 3)
+        self.assertEqual(found.loops, [])
+
+    def test_what_tests_do_not_determine_is_refused(self):
+        with self.assertRaisesRegex(dashpot.DashpotError, f"the tests do not determine\n  {STIFFNESS}: "):
+            dashpot.calibrate(self.start, [loop(3, 0.05, seconds=20)], [STIFFNESS, DAMPING], step_s=1e-3, starts=1)
+
+    def test_wrong_requests_are_refused(self):
+        test, calibrate = self.tests[0], dashpot.calibrate
+        self.assert_refused("no number to vary", calibrate, self.start, [test], [])
+        self.assert_refused("no test", calibrate, self.start, [], [DAMPING])
+        self.assert_refused(f"{DAMPING}: varied twice", calibrate, self.start, [test], [DAMPING, DAMPING])
+        self.assert_refused(f"prior {STIFFNESS}: not varied; allowed: a number that is varied", calibrate, self.start,
+                            [test], [DAMPING], priors={STIFFNESS: (1, 1)})
+        self.assert_refused("starts: 0, allowed: 1 to 1000", calibrate, self.start, [test], [DAMPING], starts=0)
+        for prior in ((1e5, 0.0), (1e5, -1.0), (1e5, math.nan), (math.nan, 1.0)):
+            with self.assertRaises(dashpot.DashpotError):
+                calibrate(self.start, [test], [DAMPING], priors={DAMPING: prior})
+        for bounds in ((2e5, 1e5), (math.nan, 1e5), (-1, 1e6), (1e3, 1e4)):
+            with self.assertRaises(dashpot.DashpotError):
+                calibrate(self.start, [test], {DAMPING: bounds})
+        for step_s in (0, -1, math.nan, 1):
+            with self.assertRaisesRegex(dashpot.DashpotError, "^step: "):
+                calibrate(self.start, [test], [DAMPING], step_s=step_s)
+        with self.assertRaisesRegex(dashpot.DashpotError, "no number at `reduced.dampling`"):
+            calibrate(self.start, [test], ["reduced.dampling"])
+
+    def test_wrong_samples_are_refused(self):
+        time_s, x, force_n = self.tests[0]
+
+        def calibrate(*test):
+            return dashpot.calibrate(self.start, [test], [DAMPING])
+
+        nan, back = x.copy(), time_s.copy()
+        nan[7], back[9] = math.nan, back[8]
+        self.assert_refused("test 0: 3000 times, 2999 displacements and 3000 forces, allowed: as many of each", calibrate,
+                            time_s, x[:-1], force_n)
+        self.assert_refused("test 0: sample 7: allowed: finite numbers", calibrate, time_s, nan, force_n)
+        self.assert_refused("test 0: sample 9: time 0.008, allowed: times that rise", calibrate, back, x, force_n)
+        self.assert_refused("test 0: too short, allowed: 100 samples or more without a gap", calibrate, time_s[:5], x[:5],
+                            force_n[:5])
+        self.assert_refused("test 0: too short, allowed: 100 samples or more without a gap", calibrate,
+                            *[numpy.empty(0)] * 3)
+        with self.assertRaisesRegex(dashpot.DashpotError, r"^tests\[0\]: force: array of float32"):
+            calibrate(time_s, x, force_n.astype(numpy.float32))
+        with self.assertRaisesRegex(dashpot.DashpotError, "^indices: "):
+            dashpot.calibrate(self.start, vary=[DAMPING], indices=[{"amplitude": 1}])
+        with self.assertRaisesRegex(dashpot.DashpotError, "^table of indices, test 1: "):
+            dashpot.calibrate(self.start, vary=[DAMPING], indices=[{"amplitude_m": 1e-3, "frequency_hz": 1.0}])

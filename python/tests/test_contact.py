@@ -1,0 +1,70 @@
+"""Wheel on rail beside the command and beside what is known."""
+
+import json
+import math
+
+import dashpot
+import numpy
+from common import DATA, Test, command, refusal
+
+PROFILES = DATA.parent / "rail" / "tests" / "data"
+CONTACT = {"load_n": 106.7e3, "a_m": 6.304e-3, "b_m": 12.61e-3, "friction": 0.33}
+
+
+class Contacts(Test):
+    def assert_is_that_of_the_command(self, geometry, *arguments):
+        told = json.loads(command("contact", "--no-plots", "--format", "json", *arguments))
+        for place, row in enumerate(told["conicity"]):
+            self.assertEqual(geometry.conicity["amplitude_m"][place], row["amplitude_m"])
+            value = geometry.conicity["equivalent_conicity"][place]
+            expected = math.nan if row["equivalent_conicity"] is None else row["equivalent_conicity"]
+            numpy.testing.assert_equal(value, expected)
+        self.assertEqual(list(geometry.shifts), list(told["shifts"][0]))
+        for place, row in enumerate(told["shifts"]):
+            self.assertEqual({name: column[40 * place] for name, column in geometry.shifts.items()}, row)
+
+    def test_geometry_is_that_of_the_command(self):
+        self.assert_is_that_of_the_command(dashpot.contact())
+        self.assert_is_that_of_the_command(
+            dashpot.contact("S1002", PROFILES / "uic60.ban", gauge_m=1.432, inclination=0.05),
+            "--rail", PROFILES / "uic60.ban", "--gauge-m", 1.432, "--inclination", 0.05,
+        )
+
+    def test_what_is_refused_has_the_words_of_the_command(self):
+        self.assert_refused(refusal("contact", "--wheel", "s1003"), dashpot.contact, "s1003")
+        self.assert_refused(refusal("contact", "--wheel", "no/such.whl"), dashpot.contact, "no/such.whl")
+        self.assert_refused(refusal("contact", "--gauge-m", 9), dashpot.contact, gauge_m=9)
+        self.assert_refused(refusal("contact", "--wheel-mirror", "y"), dashpot.contact, wheel_mirror="y")
+        self.assert_refused("smoothing_m: NaN, allowed: 0 to 0.05 m", dashpot.contact, smoothing_m=math.nan)
+        with self.assertRaises(OSError):
+            dashpot.contact("no/such.whl")
+        for wrong in ({"wheel_format": "paper"}, {"rail_mirror": "x"}, {"wheel_radius_m": -1}, {"gauge_m": math.nan}):
+            with self.assertRaises(dashpot.DashpotError):
+                dashpot.contact(**wrong)
+
+    def test_creep_forces_are_within_friction_and_oppose(self):
+        creepages = numpy.random.default_rng(7).normal(0, 1e-2, (500, 3))
+        forces = dashpot.creep_forces(creepages, **CONTACT)
+        self.assertEqual(forces.shape, (500, 3))
+        self.assertLessEqual(numpy.hypot(forces[:, 0], forces[:, 1]).max(), 0.33 * 106.7e3 * (1 + 1e-9))
+        self.assertTrue((numpy.sum(forces * creepages, axis=1) <= 0).all())
+        # Far beyond, all of friction.
+        slid = dashpot.creep_forces(numpy.array([[0.5, 0.0, 0.0]]), **CONTACT)
+        self.assertAlmostEqual(slid[0, 0] / (-0.33 * 106.7e3), 1, 2)
+        self.assertEqual(dashpot.creep_forces(numpy.zeros((4, 3)), **CONTACT).any(), False)
+        self.assertEqual(dashpot.creep_forces(numpy.empty((0, 3)), **CONTACT).shape, (0, 3))
+
+    def test_extreme_creepages_give_finite_forces(self):
+        for extreme in (math.nan, math.inf, -math.inf, 1e300):
+            self.assertTrue(numpy.isfinite(dashpot.creep_forces(numpy.full((1, 3), extreme), **CONTACT)).all())
+
+    def test_a_contact_that_cannot_be_is_refused(self):
+        zero = numpy.zeros((1, 3))
+        for name in CONTACT:
+            for wrong in (0, -1, math.nan, math.inf):
+                with self.assertRaisesRegex(dashpot.DashpotError, f"^{name}: .*, allowed: above 0"):
+                    dashpot.creep_forces(zero, **{**CONTACT, name: wrong})
+        with self.assertRaises(dashpot.DashpotError):
+            dashpot.creep_forces(zero, **CONTACT, poisson_ratio=7)
+        self.assert_refused("creepages: 2 columns, allowed: 3, longitudinal, lateral and spin", dashpot.creep_forces,
+                            zero[:, :2].copy(), **CONTACT)

@@ -1,0 +1,68 @@
+"""Every public name has a documentation with an example that does what it shows, and `__all__` names them all."""
+
+import doctest
+import os
+import re
+import tempfile
+import types
+import unittest
+
+import dashpot
+from common import DATA, command
+
+FLAGS = doctest.ELLIPSIS | doctest.IGNORE_EXCEPTION_DETAIL
+
+
+def documented():
+    """Each public object and its name."""
+    yield "dashpot", dashpot
+    for name in dashpot.__all__:
+        thing = getattr(dashpot, name)
+        yield name, thing
+        if isinstance(thing, type) and not issubclass(thing, (BaseException, int)):
+            for member, value in vars(thing).items():
+                if not member.startswith("_"):
+                    yield f"{name}.{member}", value
+
+
+class Documentation(unittest.TestCase):
+    def test_all_is_what_there_is(self):
+        public = {
+            name for name, thing in vars(dashpot).items()
+            if not name.startswith("_") and not isinstance(thing, types.ModuleType)
+        }
+        self.assertEqual(set(dashpot.__all__), public)
+        self.assertEqual(dashpot.__all__, sorted(dashpot.__all__, key=lambda name: (name[0].islower(), name)))
+
+    def test_the_version_is_that_of_the_command(self):
+        self.assertEqual(command("--version").split()[-1], dashpot.__version__)
+
+    def test_everything_is_documented(self):
+        missing = [name for name, thing in documented() if not getattr(thing, "__doc__", None)]
+        self.assertEqual(missing, [])
+
+    def test_examples_do_what_they_show(self):
+        parser, runner, run = doctest.DocTestParser(), doctest.DocTestRunner(optionflags=FLAGS), []
+        for name, thing in documented():
+            test = parser.get_doctest(thing.__doc__, {}, name, None, None)
+            if test.examples:
+                runner.run(test)
+                run.append(name)
+        self.assertEqual(runner.summarize().failed, 0)
+        without = [name for name in dashpot.__all__ if name not in run and name != "DashpotFileError"]
+        self.assertEqual(without, [])
+
+    def test_code_in_documents_does_what_it_asserts(self):
+        for document, least in (("README.md", 1), ("docs/python.md", 9)):
+            text = (DATA.parent / document).read_text()
+            blocks = re.findall(r"^```python\n(.*?)^```$", text, re.MULTILINE | re.DOTALL)
+            self.assertGreaterEqual(len(blocks), least)
+            before = os.getcwd()
+            with tempfile.TemporaryDirectory() as folder:
+                os.chdir(folder)
+                try:
+                    space = {}
+                    for number, block in enumerate(blocks):
+                        exec(compile(block, f"{document}, block {number}", "exec"), space)
+                finally:
+                    os.chdir(before)

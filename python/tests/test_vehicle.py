@@ -1,0 +1,84 @@
+"""A vehicle on a track, beside the command."""
+
+import json
+import math
+import pathlib
+import tempfile
+import threading
+
+import dashpot
+import numpy
+import pandas
+from common import DATA, Test, command, refusal
+from interruption import interrupted
+
+
+class Vehicles(Test):
+    def test_history_and_indices_are_those_of_the_command(self):
+        with tempfile.TemporaryDirectory() as folder:
+            command("vehicle", "--case", "straight-180", "--duration-s", 1.5, "--damper", "vertical=in-service",
+                    "--set", "body.mass_kg=61e3", "--set", "vertical.mount.clearance_m=2e-3", "--no-page",
+                    "--output", "told", folder=folder)
+            told = pandas.read_csv(pathlib.Path(folder, "told", "history.csv"), float_precision="round_trip")
+            report = json.loads(pathlib.Path(folder, "told", "indices.json").read_text())
+        run = dashpot.vehicle("straight-180", duration_s=1.5, dampers={"vertical": "in-service"},
+                              overrides={"body.mass_kg": 61e3, "vertical.mount.clearance_m": 2e-3})
+        self.assertEqual((run.ending, run.is_completed), ("completed", True))
+        self.assertEqual((run.case, run.step_s), (report["case"], report["step_s"]))
+        frame = pandas.DataFrame(run.history)
+        self.assertEqual(frame.shape[0], 1500)
+        pandas.testing.assert_frame_equal(frame, told, check_exact=True, check_dtype=False)
+        self.assertEqual(run.indices, report["indices"])
+
+    def test_signals_are_chosen(self):
+        names = ["front_lateral_damper_1_force_n", "time_s"]
+        run = dashpot.vehicle(track="straight", speed_km_h=80, duration_s=0.3, signals=names)
+        self.assertEqual(list(run.history), names)
+        self.assertEqual(run.history["time_s"].tolist(), [tick / 1000 for tick in range(1, 301)])
+        with self.assertRaisesRegex(dashpot.DashpotError, "no signal `time`, the nearest: time_s|no signal `time`"):
+            dashpot.vehicle("straight-180", signals=["time"])
+
+    def test_a_run_that_does_not_come_to_its_end_says_so(self):
+        run = dashpot.vehicle("curve-r300", speed_km_h=260, duration_s=60)
+        self.assertFalse(run.is_completed)
+        self.assertRegex(run.ending, r"(derailed|left the tables|diverged).* s, .* m along the track")
+        self.assertIsNone(run.indices)
+        self.assertLess(len(run.history["time_s"]), 60_000)
+
+    def test_what_is_refused_has_the_words_of_the_command(self):
+        self.assert_refused(refusal("vehicle", "--case", "straight"), dashpot.vehicle, "straight")
+        self.assert_refused(refusal("vehicle", "--case", "no/such.toml"), dashpot.vehicle, "no/such.toml")
+        self.assert_refused(refusal("vehicle", "--track", "straigt", "--speed-km-h", 80), dashpot.vehicle,
+                            track="straigt", speed_km_h=80)
+        with self.assertRaises(OSError):
+            dashpot.vehicle("no/such.toml")
+        self.assert_refused("no case: give case (straight-180, curve-r200, curve-r300, curve-r600), or track with "
+                            "speed_km_h", dashpot.vehicle)
+        for key, value in (("speed_km_h", -1), ("duration_s", math.nan), ("duration_s", math.inf), ("step_us", 0),
+                           ("friction", 7), ("push_m", 3), ("start_m", -math.inf)):
+            with self.assertRaisesRegex(dashpot.DashpotError, f"^{key} .*, allowed: "):
+                dashpot.vehicle("straight-180", **{key: value})
+        with self.assertRaises(dashpot.DashpotError):
+            dashpot.vehicle("straight-180", dampers={"upward": "paper"})
+        with self.assertRaises(dashpot.DashpotError):
+            dashpot.vehicle("straight-180", overrides={"body.mass": 1.0})
+
+    def test_names_may_be_paths(self):
+        named = dashpot.vehicle("straight-180", duration_s=0.1, signals=["body_vertical_m"])
+        path = dashpot.vehicle(DATA / "cases" / "straight-180.toml", duration_s=0.1, signals=["body_vertical_m"])
+        self.assertEqual(named.history["body_vertical_m"].tobytes(), path.history["body_vertical_m"].tobytes())
+
+    def test_an_interruption_ends_it(self):
+        self.assertTrue(interrupted(dashpot.vehicle, "straight-180", duration_s=60, signals=["time_s"]))
+
+    def test_two_threads_run_at_once(self):
+        def run():
+            return dashpot.vehicle("straight-180", duration_s=0.3, signals=["body_vertical_m"]).history
+
+        expected, got = run()["body_vertical_m"], []
+        threads = [threading.Thread(target=lambda: got.append(run()["body_vertical_m"])) for _ in range(2)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        self.assertTrue(all(numpy.array_equal(one, expected) for one in got) and len(got) == 2)
