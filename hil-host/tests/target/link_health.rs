@@ -157,9 +157,9 @@ fn what_cannot_be_done_is_told() {
         "--force-noise-n",
         "60",
     ];
-    let wrong = rig.error(&wrong, 1);
+    let wrong = rig.error(&wrong, 2);
     assert!(
-        wrong.contains("displacement_noise_m") && wrong.contains("1e-9 to 1e-2 m"),
+        wrong.contains("--displacement-noise-m -1: allowed: 1e-9 to 1e-2 m"),
         "{wrong}"
     );
     rig.write("run.csv", "time_s,displacement_m\n0,0\n");

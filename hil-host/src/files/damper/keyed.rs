@@ -10,7 +10,7 @@ use crate::files::overrides::{explain, nearest};
 ///
 /// ```
 /// use dashpot_hil::files::damper::{Keyed, load};
-/// let damper = Keyed::new("reduced", &load("reduced-vertical", &[])?)?;
+/// let damper = Keyed::new("reduced", &*load("reduced-vertical", &[])?)?;
 /// assert_eq!(damper.number("mount.stiffness_n_per_m")?, 8e6);
 /// let softer = damper.with(&[("mount.stiffness_n_per_m", 4e6)])?;
 /// assert_eq!(softer.mount.stiffness_n_per_m, 4e6);
