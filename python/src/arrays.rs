@@ -1,5 +1,7 @@
 //! numpy's arrays as they are borrowed: one kind of number, contiguous, aligned, never copied.
 
+use std::ops::Range;
+
 use numpy::{
     Element, PyArray, PyArrayDescr, PyArrayDescrMethods, PyArrayMethods, PyReadonlyArray,
     PyReadwriteArray, PyUntypedArray, PyUntypedArrayMethods, dtype,
@@ -19,17 +21,30 @@ pub fn read<'py, T: Element, D: numpy::ndarray::Dimension>(
     }
 }
 
-/// An array of Python that is written to, called `name` in errors.
+/// An array of Python that is written to while `beside` is read, called `name` in errors.
 pub fn write<'py, T: Element, D: numpy::ndarray::Dimension>(
     name: &str,
     array: &Bound<'py, PyAny>,
+    beside: &PyReadonlyArray<'py, T, D>,
 ) -> Outcome<PyReadwriteArray<'py, T, D>> {
-    match usable::<T, D>(name, array, true)?.try_readwrite() {
-        Ok(array) => Ok(array),
-        Err(_) => refuse(format!(
+    let array = usable::<T, D>(name, array, true)?;
+    // numpy's borrows tell views of one array apart, not arrays that two others made of the same memory.
+    let [to, from] = [memory(array), memory(beside)];
+    let is_shared = to.start < from.end && from.start < to.end;
+    match array.try_readwrite() {
+        Ok(array) if !is_shared => Ok(array),
+        _ => refuse(format!(
             "{name}: it shares memory with an array that is read, or that another call uses; allowed: memory of its own"
         )),
     }
+}
+
+/// The addresses of a contiguous array.
+fn memory<T: Element, D: numpy::ndarray::Dimension>(
+    array: &Bound<'_, PyArray<T, D>>,
+) -> Range<usize> {
+    let start = array.data().addr();
+    start..start + array.len() * size_of::<T>()
 }
 
 /// The array, where it can be borrowed as it lies in memory.
@@ -49,10 +64,20 @@ fn usable<'a, 'py, T: Element, D: numpy::ndarray::Dimension>(
         let found = array.get_type().name()?;
         return refuse(format!("{name}: {found}, allowed: {allowed}"));
     };
+    let masked = py.import("numpy.ma")?.getattr("MaskedArray")?;
+    if array.is_instance(&masked)? {
+        return refuse(format!(
+            "{name}: a masked array, allowed: {allowed}, as {name}.filled(numpy.nan) makes one; the step holds what is NaN"
+        ));
+    }
     let found = untyped.dtype();
     if !found.is_equiv_to(&expected) {
+        let one = match is_written {
+            true => "numpy.empty_like(x)".to_owned(),
+            false => format!("{name}.astype(numpy.{expected})"),
+        };
         return refuse(format!(
-            "{name}: array of {found}, allowed: {allowed}, as {name}.astype(numpy.{expected}) makes one"
+            "{name}: array of {found}, allowed: {allowed}, as {one} makes one"
         ));
     }
     if untyped.ndim() != dimensions {

@@ -48,7 +48,7 @@ impl Bank {
             Some(out) => out.clone(),
             None => PyArray2::<T>::zeros(py, [ticks, count], false).into_any(),
         };
-        let mut written = arrays::write::<T, Ix2>("out", &forces)?;
+        let mut written = arrays::write::<T, Ix2>("out", &forces, &motion)?;
         if written.shape() != motion.shape() {
             return refuse(format!(
                 "out: shape {:?}, allowed: that of x, {:?}",

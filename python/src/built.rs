@@ -130,7 +130,7 @@ impl BuiltDamper {
             Some(out) => out.clone(),
             None => PyArray1::<T>::zeros(py, displacements.len(), false).into_any(),
         };
-        let mut written = arrays::write::<T, Ix1>("out", &forces)?;
+        let mut written = arrays::write::<T, Ix1>("out", &forces, &motion)?;
         let into = written.as_slice_mut().map_err(PyErr::from)?;
         if into.len() != displacements.len() {
             return refuse(format!(

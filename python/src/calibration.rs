@@ -7,7 +7,7 @@ use dashpot_hil::study::calibration::{
 };
 use numpy::{Ix1, PyArray1, PyArray2};
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyList};
+use pyo3::types::{IntoPyDict, PyDict, PyList};
 
 use crate::arrays;
 use crate::damper::Damper;
@@ -248,8 +248,10 @@ fn varied(
 /// A recorded loop of three arrays.
 fn recorded(number: usize, [time_s, displacement_m, force_n]: &Samples<'_>) -> Outcome<Recorded> {
     let numbers = |name: &str, array| {
-        let name = format!("tests[{number}]: {name}");
-        let array = arrays::read::<f64, Ix1>(&name, array)?;
+        let array = arrays::read::<f64, Ix1>(name, array).map_err(|refusal| match refusal {
+            Refusal::Value(words) => Refusal::Value(format!("tests[{number}]: {words}")),
+            other => other,
+        })?;
         Ok::<_, Refusal>(array.as_array().to_vec())
     };
     let (times, displacements) = (
@@ -270,8 +272,20 @@ fn index_tests(indices: Option<&Bound<'_, PyAny>>) -> Outcome<Vec<IndexTest>> {
     let Some(indices) = indices else {
         return Ok(Vec::new());
     };
-    let json = indices.py().import("json")?;
-    let text: String = json.call_method1("dumps", (indices,))?.extract()?;
+    let py = indices.py();
+    let finite = [("allow_nan", false)].into_py_dict(py)?;
+    let text = py
+        .import("json")?
+        .call_method("dumps", (indices,), Some(&finite));
+    let text: String = match text {
+        Ok(text) => text.extract()?,
+        Err(error) => {
+            return refuse(format!(
+                "indices: {}; allowed: a list of dicts of Python's own finite numbers, without what was not measured",
+                error.value(py)
+            ));
+        }
+    };
     match serde_json::from_str(&text) {
         Ok(tests) => Ok(tests),
         Err(error) => refuse(format!("indices: {error}")),

@@ -184,7 +184,19 @@ pub fn creep_forces<'py>(
     {
         return refuse(format!("{name}: {wrong}, allowed: above 0"));
     }
+    for (name, axis_m) in [("a_m", a_m), ("b_m", b_m)] {
+        if !(1e-6..=1.0).contains(&axis_m) {
+            return refuse(format!("{name}: {axis_m}, allowed: 1e-6 to 1"));
+        }
+    }
     let numbers = rows.as_slice().map_err(PyErr::from)?;
+    if let Some(place) = numbers.iter().position(|number| !number.is_finite()) {
+        return refuse(format!(
+            "creepages: row {} has {}, allowed: finite numbers",
+            place / columns,
+            numbers[place]
+        ));
+    }
     let forces: Vec<f64> = py.detach(|| {
         let kalker = KalkerTable::new(poisson_ratio).map(|table| table.at(a_m / b_m));
         let contact = LoadedContact {

@@ -51,6 +51,34 @@ class Arrays(Test):
         beside = self.x[:50], self.x[50:]
         self.assertIs(self.built.replay(beside[0], out=beside[1]), beside[1])
 
+    def test_forces_over_memory_of_the_motion_by_another_way(self):
+        words = (
+            "out: it shares memory with an array that is read, or that another call uses; allowed: memory of its own"
+        )
+        memory = bytearray(4 * 101)
+        x = numpy.frombuffer(memory, numpy.float32, 100, 0)
+        x[:] = self.x
+        for out in (
+            numpy.frombuffer(memory, numpy.float32, 100, 4),
+            numpy.asarray(memoryview(x)),
+            numpy.lib.stride_tricks.as_strided(x),
+        ):
+            self.assert_refused(words, self.built.replay, x, out=out)
+        self.assertTrue(numpy.array_equal(x, self.x))
+        wide = x[:, None]
+        bank = dashpot.Bank([self.built])
+        self.assert_refused(words, bank.replay, wide, out=numpy.frombuffer(memory, numpy.float32, 100, 4)[:, None])
+
+    def test_a_masked_array(self):
+        masked = numpy.ma.array(self.x, mask=True)
+        self.assert_refused(
+            "x: a masked array, allowed: a numpy array of float32 with 1 dimension, as x.filled(numpy.nan) makes one; the step"
+            " holds what is NaN",
+            self.built.replay,
+            masked,
+        )
+        self.assertEqual(len(self.built.replay(masked.filled(numpy.nan))), 100)
+
     def test_what_cannot_be_written_to(self):
         out = numpy.zeros(100, numpy.float32)
         out.setflags(write=False)

@@ -55,8 +55,18 @@ class Contacts(Test):
         self.assertEqual(dashpot.creep_forces(numpy.empty((0, 3)), **CONTACT).shape, (0, 3))
 
     def test_extreme_creepages_give_finite_forces(self):
-        for extreme in (math.nan, math.inf, -math.inf, 1e300):
+        for extreme in (1e-300, -1e300, 1e300):
             self.assertTrue(numpy.isfinite(dashpot.creep_forces(numpy.full((1, 3), extreme), **CONTACT)).all())
+
+    def test_creepages_and_axes_that_are_none_are_refused(self):
+        for wrong, words in ((math.nan, "NaN"), (math.inf, "inf"), (-math.inf, "-inf")):
+            creepages = numpy.zeros((4, 3))
+            creepages[2, 1] = wrong
+            self.assert_refused(f"creepages: row 2 has {words}, allowed: finite numbers", dashpot.creep_forces, creepages,
+                                **CONTACT)
+        for name, wrong in (("a_m", 1e300), ("b_m", 1e-300)):
+            with self.assertRaisesRegex(dashpot.DashpotError, f"^{name}: .*, allowed: 1e-6 to 1$"):
+                dashpot.creep_forces(numpy.zeros((1, 3)), **{**CONTACT, name: wrong})
 
     def test_a_contact_that_cannot_be_is_refused(self):
         zero = numpy.zeros((1, 3))
