@@ -86,9 +86,10 @@ impl Driver {
     }
 }
 
-/// Numbers as C prints them with %a.
+/// Numbers as C prints them with %a, a line each, between messages of the log.
 pub fn hexadecimal(text: &str) -> Vec<f64> {
-    text.lines().map(number).collect()
+    let lines = text.lines().filter(|line| !line.starts_with("log "));
+    lines.map(number).collect()
 }
 
 fn number(text: &str) -> f64 {

@@ -5,6 +5,7 @@ use std::fmt::Write;
 use maud::Escaper;
 
 use super::{Fmu, Interface};
+use crate::study::tick_grid::nearest_nanosecond;
 use crate::target::export::Word;
 
 /// Largest clearance (m), as the core allows it.
@@ -149,7 +150,7 @@ impl<T: Word> Fmu<T> {
         xml.close("LogCategories");
         // Steps of this size end there.
         let stop_s = (1.0 / self.step_s).round() * self.step_s;
-        let stop = ((stop_s * 1e9).round() / 1e9).to_string();
+        let stop = nearest_nanosecond(stop_s).to_string();
         let experiment = [
             ("startTime", "0"),
             ("stopTime", &*stop),

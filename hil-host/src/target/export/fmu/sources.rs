@@ -43,6 +43,9 @@ const COMMON: [(&str, &str); 6] = [
 const FMI_2: (&str, &str) = ("fmi2.c", include_str!("sources/fmi2.c"));
 const FMI_3: (&str, &str) = ("fmi3.c", include_str!("sources/fmi3.c"));
 
+/// The step and the constants.
+const DAMPERS: &str = "dampers.c";
+
 /// Where the dampers come from.
 const BUILT_IN: &str = include_str!("sources/built_in.c");
 const LOADED: &str = include_str!("sources/loaded.c");
@@ -53,14 +56,10 @@ const SHARED: [&str; 4] = ["component_", "damper_", "dampers_", "model_"];
 impl<T: Word> Fmu<T> {
     /// Names of the files and their texts, in order of the names. What other files see begins with the identifier.
     pub(super) fn sources(&self) -> Vec<(&'static str, String)> {
-        let functions = match self.interface {
-            Interface::Two => FMI_2,
-            Interface::Three => FMI_3,
-        };
-        let fixed = COMMON.into_iter().chain([functions]);
+        let fixed = self.fixed();
         let mut sources: Vec<_> = fixed.map(|(name, text)| (name, text.to_owned())).collect();
         sources.push(("damper.h", header_of_step::<T>("DAMPER")));
-        sources.push(("dampers.c", self.dampers_source()));
+        sources.push((DAMPERS, self.dampers_source()));
         sources.sort_unstable_by_key(|(name, _)| *name);
         let named = |(name, text): (&'static str, String)| (name, self.with_own_names(&text));
         sources.into_iter().map(named).collect()
@@ -101,8 +100,19 @@ impl<T: Word> Fmu<T> {
 
     /// Names of the files that are compiled.
     pub(super) fn compiled(&self) -> Vec<&'static str> {
-        let names = self.sources().into_iter().map(|(name, _)| name);
-        names.filter(|name| name.ends_with(".c")).collect()
+        let names = self.fixed().map(|(name, _)| name).chain([DAMPERS]);
+        let mut compiled: Vec<_> = names.filter(|name| name.ends_with(".c")).collect();
+        compiled.sort_unstable();
+        compiled
+    }
+
+    /// The files that are the same for every damper.
+    fn fixed(&self) -> impl Iterator<Item = (&'static str, &'static str)> {
+        let functions = match self.interface {
+            Interface::Two => FMI_2,
+            Interface::Three => FMI_3,
+        };
+        COMMON.into_iter().chain([functions])
     }
 
     /// The step and the constants of all dampers.

@@ -181,6 +181,22 @@ component_status component_no_variable(component *this, uint32_t variable)
                           (unsigned long)variable);
 }
 
+component_status component_none(component *this, const char *function, const uint32_t variables[], size_t count)
+{
+    if (!component_allows(this, ANY_BUT_FAILED, function)) {
+        return COMPONENT_ERROR;
+    }
+    return count == 0 ? COMPONENT_OK : component_no_variable(this, variables[0]);
+}
+
+component_status component_unsupported(component *this, const char *function)
+{
+    if (!component_allows(this, ANY_BUT_FAILED, function)) {
+        return COMPONENT_ERROR;
+    }
+    return component_tell(this, COMPONENT_ERROR, "%s is no capability of this FMU", function);
+}
+
 component_status component_get_real(component *this, uint32_t variable, double *value)
 {
     if (variable == 0) {
@@ -336,6 +352,30 @@ component_status component_set_state(component *this, const component_state *sta
     this->steps = steps;
     this->start_s = start_s;
     this->stop_s = stop_s;
+    return COMPONENT_OK;
+}
+
+component_status component_free_state(component *this, const char *function, void **state)
+{
+    if (!component_allows(this, ANY_BUT_FAILED | FAILED, function)) {
+        return COMPONENT_ERROR;
+    }
+    if (state != NULL) {
+        free(*state);
+        *state = NULL;
+    }
+    return COMPONENT_OK;
+}
+
+component_status component_state_size(component *this, const char *function, const component_state *state, size_t *size)
+{
+    if (!component_allows(this, ANY_BUT_FAILED, function)) {
+        return COMPONENT_ERROR;
+    }
+    if (state == NULL) {
+        return component_tell(this, COMPONENT_DISCARD, "no state");
+    }
+    *size = state->bytes;
     return COMPONENT_OK;
 }
 

@@ -69,6 +69,12 @@ component_status component_set_reals(component *this, const uint32_t variables[]
 component_status component_get_integer(component *this, uint32_t variable, int32_t *value);
 component_status component_no_variable(component *this, uint32_t variable);
 
+/* Of a type without variables: nothing asked is no error. */
+component_status component_none(component *this, const char *function, const uint32_t variables[], size_t count);
+
+/* A function that is no capability of this FMU, or belongs to a mode that it has not. */
+component_status component_unsupported(component *this, const char *function);
+
 /* A step to `at_s + step_s`; refused where it is no multiple of the internal step, or does not begin where the last ended. */
 component_status component_step(component *this, double at_s, double step_s);
 
@@ -80,6 +86,8 @@ typedef struct component_state {
 
 component_status component_get_state(component *this, void **state);
 component_status component_set_state(component *this, const component_state *state);
+component_status component_free_state(component *this, const char *function, void **state);
+component_status component_state_size(component *this, const char *function, const component_state *state, size_t *size);
 component_status component_serialize(component *this, const component_state *state, uint8_t *bytes, size_t count);
 component_status component_deserialize(component *this, const uint8_t *bytes, size_t count, void **state);
 

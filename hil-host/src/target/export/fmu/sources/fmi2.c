@@ -5,8 +5,6 @@
 #endif
 #include "fmi2Functions.h"
 
-#include <stdlib.h>
-
 #include "component.h"
 
 #define ENTER(phases, function)                              \
@@ -14,10 +12,6 @@
     if (!component_allows(this, phases, "fmi2" #function)) { \
         return fmi2Error;                                    \
     }
-
-#define UNSUPPORTED(function)                                                                            \
-    ENTER(ANY_BUT_FAILED, function)                                                                      \
-    return (fmi2Status)component_tell(this, COMPONENT_ERROR, "fmi2%s is no capability of this FMU", #function)
 
 static void log_message(const component *this, component_status status, const char *category, const char *message)
 {
@@ -186,27 +180,16 @@ fmi2Status fmi2GetInteger(fmi2Component c, const fmi2ValueReference vr[], size_t
     return status;
 }
 
-/* Of a type without variables: nothing asked is no error. */
-static fmi2Status none(fmi2Component c, const char *function, const fmi2ValueReference vr[], size_t nvr)
-{
-    component *const this = c;
-
-    if (!component_allows(this, ANY_BUT_FAILED, function)) {
-        return fmi2Error;
-    }
-    return nvr == 0 ? fmi2OK : (fmi2Status)component_no_variable(this, vr[0]);
-}
-
 fmi2Status fmi2GetBoolean(fmi2Component c, const fmi2ValueReference vr[], size_t nvr, fmi2Boolean value[])
 {
     (void)value;
-    return none(c, "fmi2GetBoolean", vr, nvr);
+    return (fmi2Status)component_none(c, "fmi2GetBoolean", vr, nvr);
 }
 
 fmi2Status fmi2GetString(fmi2Component c, const fmi2ValueReference vr[], size_t nvr, fmi2String value[])
 {
     (void)value;
-    return none(c, "fmi2GetString", vr, nvr);
+    return (fmi2Status)component_none(c, "fmi2GetString", vr, nvr);
 }
 
 fmi2Status fmi2SetReal(fmi2Component c, const fmi2ValueReference vr[], size_t nvr, const fmi2Real value[])
@@ -218,19 +201,19 @@ fmi2Status fmi2SetReal(fmi2Component c, const fmi2ValueReference vr[], size_t nv
 fmi2Status fmi2SetInteger(fmi2Component c, const fmi2ValueReference vr[], size_t nvr, const fmi2Integer value[])
 {
     (void)value;
-    return none(c, "fmi2SetInteger", vr, nvr);
+    return (fmi2Status)component_none(c, "fmi2SetInteger", vr, nvr);
 }
 
 fmi2Status fmi2SetBoolean(fmi2Component c, const fmi2ValueReference vr[], size_t nvr, const fmi2Boolean value[])
 {
     (void)value;
-    return none(c, "fmi2SetBoolean", vr, nvr);
+    return (fmi2Status)component_none(c, "fmi2SetBoolean", vr, nvr);
 }
 
 fmi2Status fmi2SetString(fmi2Component c, const fmi2ValueReference vr[], size_t nvr, const fmi2String value[])
 {
     (void)value;
-    return none(c, "fmi2SetString", vr, nvr);
+    return (fmi2Status)component_none(c, "fmi2SetString", vr, nvr);
 }
 
 fmi2Status fmi2GetFMUstate(fmi2Component c, fmi2FMUstate *FMUstate)
@@ -247,22 +230,12 @@ fmi2Status fmi2SetFMUstate(fmi2Component c, fmi2FMUstate FMUstate)
 
 fmi2Status fmi2FreeFMUstate(fmi2Component c, fmi2FMUstate *FMUstate)
 {
-    ENTER(ANY_BUT_FAILED | FAILED, FreeFMUstate)
-    if (FMUstate != NULL) {
-        free(*FMUstate);
-        *FMUstate = NULL;
-    }
-    return fmi2OK;
+    return (fmi2Status)component_free_state(c, "fmi2FreeFMUstate", FMUstate);
 }
 
 fmi2Status fmi2SerializedFMUstateSize(fmi2Component c, fmi2FMUstate FMUstate, size_t *size)
 {
-    ENTER(ANY_BUT_FAILED, SerializedFMUstateSize)
-    if (FMUstate == NULL) {
-        return (fmi2Status)component_tell(this, COMPONENT_DISCARD, "no state");
-    }
-    *size = ((const component_state *)FMUstate)->bytes;
-    return fmi2OK;
+    return (fmi2Status)component_state_size(c, "fmi2SerializedFMUstateSize", FMUstate, size);
 }
 
 fmi2Status fmi2SerializeFMUstate(fmi2Component c, fmi2FMUstate FMUstate, fmi2Byte serializedState[], size_t size)
@@ -282,7 +255,7 @@ fmi2Status fmi2GetDirectionalDerivative(fmi2Component c, const fmi2ValueReferenc
                                         fmi2Real dvUnknown[])
 {
     (void)vUnknown_ref, (void)nUnknown, (void)vKnown_ref, (void)nKnown, (void)dvKnown, (void)dvUnknown;
-    UNSUPPORTED(GetDirectionalDerivative);
+    return (fmi2Status)component_unsupported(c, "fmi2GetDirectionalDerivative");
 }
 
 fmi2Status fmi2SetRealInputDerivatives(fmi2Component c, const fmi2ValueReference vr[], size_t nvr, const fmi2Integer order[],
@@ -306,7 +279,7 @@ fmi2Status fmi2GetRealOutputDerivatives(fmi2Component c, const fmi2ValueReferenc
                                         const fmi2Integer order[], fmi2Real value[])
 {
     (void)vr, (void)nvr, (void)order, (void)value;
-    UNSUPPORTED(GetRealOutputDerivatives);
+    return (fmi2Status)component_unsupported(c, "fmi2GetRealOutputDerivatives");
 }
 
 fmi2Status fmi2DoStep(fmi2Component c, fmi2Real currentCommunicationPoint, fmi2Real communicationStepSize,
@@ -319,7 +292,7 @@ fmi2Status fmi2DoStep(fmi2Component c, fmi2Real currentCommunicationPoint, fmi2R
 
 fmi2Status fmi2CancelStep(fmi2Component c)
 {
-    UNSUPPORTED(CancelStep);
+    return (fmi2Status)component_unsupported(c, "fmi2CancelStep");
 }
 
 /* A step has ended when fmi2DoStep returns, so there is nothing to tell but the time. */

@@ -5,8 +5,6 @@
 #endif
 #include "fmi3Functions.h"
 
-#include <stdlib.h>
-
 #include "component.h"
 
 #define ENTER(phases, function)                              \
@@ -186,24 +184,12 @@ fmi3Status fmi3GetInt32(fmi3Instance instance, const fmi3ValueReference valueRef
     return status;
 }
 
-/* Of a type without variables: nothing asked is no error. */
-static fmi3Status none(fmi3Instance instance, const char *function, const fmi3ValueReference valueReferences[],
-                       size_t nValueReferences)
-{
-    component *const this = instance;
-
-    if (!component_allows(this, ANY_BUT_FAILED, function)) {
-        return fmi3Error;
-    }
-    return nValueReferences == 0 ? fmi3OK : (fmi3Status)component_no_variable(this, valueReferences[0]);
-}
-
 #define NONE(function, values)                                                                                   \
     fmi3Status fmi3##function(fmi3Instance instance, const fmi3ValueReference valueReferences[],                 \
                               size_t nValueReferences, values, size_t nValues)                                   \
     {                                                                                                            \
         (void)values_, (void)nValues;                                                                            \
-        return none(instance, "fmi3" #function, valueReferences, nValueReferences);                              \
+        return (fmi3Status)component_none(instance, "fmi3" #function, valueReferences, nValueReferences);                              \
     }
 
 NONE(GetFloat32, fmi3Float32 values_[])
@@ -232,28 +218,28 @@ fmi3Status fmi3GetBinary(fmi3Instance instance, const fmi3ValueReference valueRe
                          size_t valueSizes[], fmi3Binary values[], size_t nValues)
 {
     (void)valueSizes, (void)values, (void)nValues;
-    return none(instance, "fmi3GetBinary", valueReferences, nValueReferences);
+    return (fmi3Status)component_none(instance, "fmi3GetBinary", valueReferences, nValueReferences);
 }
 
 fmi3Status fmi3SetBinary(fmi3Instance instance, const fmi3ValueReference valueReferences[], size_t nValueReferences,
                          const size_t valueSizes[], const fmi3Binary values[], size_t nValues)
 {
     (void)valueSizes, (void)values, (void)nValues;
-    return none(instance, "fmi3SetBinary", valueReferences, nValueReferences);
+    return (fmi3Status)component_none(instance, "fmi3SetBinary", valueReferences, nValueReferences);
 }
 
 fmi3Status fmi3GetClock(fmi3Instance instance, const fmi3ValueReference valueReferences[], size_t nValueReferences,
                         fmi3Clock values[])
 {
     (void)values;
-    return none(instance, "fmi3GetClock", valueReferences, nValueReferences);
+    return (fmi3Status)component_none(instance, "fmi3GetClock", valueReferences, nValueReferences);
 }
 
 fmi3Status fmi3SetClock(fmi3Instance instance, const fmi3ValueReference valueReferences[], size_t nValueReferences,
                         const fmi3Clock values[])
 {
     (void)values;
-    return none(instance, "fmi3SetClock", valueReferences, nValueReferences);
+    return (fmi3Status)component_none(instance, "fmi3SetClock", valueReferences, nValueReferences);
 }
 
 fmi3Status fmi3GetFMUState(fmi3Instance instance, fmi3FMUState *FMUState)
@@ -270,22 +256,12 @@ fmi3Status fmi3SetFMUState(fmi3Instance instance, fmi3FMUState FMUState)
 
 fmi3Status fmi3FreeFMUState(fmi3Instance instance, fmi3FMUState *FMUState)
 {
-    ENTER(ANY_BUT_FAILED | FAILED, FreeFMUState)
-    if (FMUState != NULL) {
-        free(*FMUState);
-        *FMUState = NULL;
-    }
-    return fmi3OK;
+    return (fmi3Status)component_free_state(instance, "fmi3FreeFMUState", FMUState);
 }
 
 fmi3Status fmi3SerializedFMUStateSize(fmi3Instance instance, fmi3FMUState FMUState, size_t *size)
 {
-    ENTER(ANY_BUT_FAILED, SerializedFMUStateSize)
-    if (FMUState == NULL) {
-        return (fmi3Status)component_tell(this, COMPONENT_DISCARD, "no state");
-    }
-    *size = ((const component_state *)FMUState)->bytes;
-    return fmi3OK;
+    return (fmi3Status)component_state_size(instance, "fmi3SerializedFMUStateSize", FMUState, size);
 }
 
 fmi3Status fmi3SerializeFMUState(fmi3Instance instance, fmi3FMUState FMUState, fmi3Byte serializedState[], size_t size)
@@ -319,26 +295,16 @@ fmi3Status fmi3DoStep(fmi3Instance instance, fmi3Float64 currentCommunicationPoi
 
 /* What is no capability of this FMU, or belongs to a mode that it has not. */
 
-static fmi3Status unsupported(fmi3Instance instance, const char *function)
-{
-    component *const this = instance;
-
-    if (!component_allows(this, ANY_BUT_FAILED, function)) {
-        return fmi3Error;
-    }
-    return (fmi3Status)component_tell(this, COMPONENT_ERROR, "%s is no capability of this FMU", function);
-}
-
 fmi3Status fmi3EnterEventMode(fmi3Instance instance)
 {
-    return unsupported(instance, "fmi3EnterEventMode");
+    return (fmi3Status)component_unsupported(instance, "fmi3EnterEventMode");
 }
 
 fmi3Status fmi3GetNumberOfVariableDependencies(fmi3Instance instance, fmi3ValueReference valueReference,
                                                size_t *nDependencies)
 {
     (void)valueReference, (void)nDependencies;
-    return unsupported(instance, "fmi3GetNumberOfVariableDependencies");
+    return (fmi3Status)component_unsupported(instance, "fmi3GetNumberOfVariableDependencies");
 }
 
 fmi3Status fmi3GetVariableDependencies(fmi3Instance instance, fmi3ValueReference dependent,
@@ -347,7 +313,7 @@ fmi3Status fmi3GetVariableDependencies(fmi3Instance instance, fmi3ValueReference
                                        size_t nDependencies)
 {
     (void)dependent, (void)elementIndicesOfDependent, (void)independents, (void)elementIndicesOfIndependents, (void)dependencyKinds, (void)nDependencies;
-    return unsupported(instance, "fmi3GetVariableDependencies");
+    return (fmi3Status)component_unsupported(instance, "fmi3GetVariableDependencies");
 }
 
 fmi3Status fmi3GetDirectionalDerivative(fmi3Instance instance, const fmi3ValueReference unknowns[], size_t nUnknowns,
@@ -355,7 +321,7 @@ fmi3Status fmi3GetDirectionalDerivative(fmi3Instance instance, const fmi3ValueRe
                                         size_t nSeed, fmi3Float64 sensitivity[], size_t nSensitivity)
 {
     (void)unknowns, (void)nUnknowns, (void)knowns, (void)nKnowns, (void)seed, (void)nSeed, (void)sensitivity, (void)nSensitivity;
-    return unsupported(instance, "fmi3GetDirectionalDerivative");
+    return (fmi3Status)component_unsupported(instance, "fmi3GetDirectionalDerivative");
 }
 
 fmi3Status fmi3GetAdjointDerivative(fmi3Instance instance, const fmi3ValueReference unknowns[], size_t nUnknowns,
@@ -363,24 +329,24 @@ fmi3Status fmi3GetAdjointDerivative(fmi3Instance instance, const fmi3ValueRefere
                                     size_t nSeed, fmi3Float64 sensitivity[], size_t nSensitivity)
 {
     (void)unknowns, (void)nUnknowns, (void)knowns, (void)nKnowns, (void)seed, (void)nSeed, (void)sensitivity, (void)nSensitivity;
-    return unsupported(instance, "fmi3GetAdjointDerivative");
+    return (fmi3Status)component_unsupported(instance, "fmi3GetAdjointDerivative");
 }
 
 fmi3Status fmi3EnterConfigurationMode(fmi3Instance instance)
 {
-    return unsupported(instance, "fmi3EnterConfigurationMode");
+    return (fmi3Status)component_unsupported(instance, "fmi3EnterConfigurationMode");
 }
 
 fmi3Status fmi3ExitConfigurationMode(fmi3Instance instance)
 {
-    return unsupported(instance, "fmi3ExitConfigurationMode");
+    return (fmi3Status)component_unsupported(instance, "fmi3ExitConfigurationMode");
 }
 
 fmi3Status fmi3GetIntervalDecimal(fmi3Instance instance, const fmi3ValueReference valueReferences[],
                                   size_t nValueReferences, fmi3Float64 intervals[], fmi3IntervalQualifier qualifiers[])
 {
     (void)valueReferences, (void)nValueReferences, (void)intervals, (void)qualifiers;
-    return unsupported(instance, "fmi3GetIntervalDecimal");
+    return (fmi3Status)component_unsupported(instance, "fmi3GetIntervalDecimal");
 }
 
 fmi3Status fmi3GetIntervalFraction(fmi3Instance instance, const fmi3ValueReference valueReferences[],
@@ -388,54 +354,54 @@ fmi3Status fmi3GetIntervalFraction(fmi3Instance instance, const fmi3ValueReferen
                                    fmi3IntervalQualifier qualifiers[])
 {
     (void)valueReferences, (void)nValueReferences, (void)counters, (void)resolutions, (void)qualifiers;
-    return unsupported(instance, "fmi3GetIntervalFraction");
+    return (fmi3Status)component_unsupported(instance, "fmi3GetIntervalFraction");
 }
 
 fmi3Status fmi3GetShiftDecimal(fmi3Instance instance, const fmi3ValueReference valueReferences[],
                                size_t nValueReferences, fmi3Float64 shifts[])
 {
     (void)valueReferences, (void)nValueReferences, (void)shifts;
-    return unsupported(instance, "fmi3GetShiftDecimal");
+    return (fmi3Status)component_unsupported(instance, "fmi3GetShiftDecimal");
 }
 
 fmi3Status fmi3GetShiftFraction(fmi3Instance instance, const fmi3ValueReference valueReferences[],
                                 size_t nValueReferences, fmi3UInt64 counters[], fmi3UInt64 resolutions[])
 {
     (void)valueReferences, (void)nValueReferences, (void)counters, (void)resolutions;
-    return unsupported(instance, "fmi3GetShiftFraction");
+    return (fmi3Status)component_unsupported(instance, "fmi3GetShiftFraction");
 }
 
 fmi3Status fmi3SetIntervalDecimal(fmi3Instance instance, const fmi3ValueReference valueReferences[],
                                   size_t nValueReferences, const fmi3Float64 intervals[])
 {
     (void)valueReferences, (void)nValueReferences, (void)intervals;
-    return unsupported(instance, "fmi3SetIntervalDecimal");
+    return (fmi3Status)component_unsupported(instance, "fmi3SetIntervalDecimal");
 }
 
 fmi3Status fmi3SetIntervalFraction(fmi3Instance instance, const fmi3ValueReference valueReferences[],
                                    size_t nValueReferences, const fmi3UInt64 counters[], const fmi3UInt64 resolutions[])
 {
     (void)valueReferences, (void)nValueReferences, (void)counters, (void)resolutions;
-    return unsupported(instance, "fmi3SetIntervalFraction");
+    return (fmi3Status)component_unsupported(instance, "fmi3SetIntervalFraction");
 }
 
 fmi3Status fmi3SetShiftDecimal(fmi3Instance instance, const fmi3ValueReference valueReferences[],
                                size_t nValueReferences, const fmi3Float64 shifts[])
 {
     (void)valueReferences, (void)nValueReferences, (void)shifts;
-    return unsupported(instance, "fmi3SetShiftDecimal");
+    return (fmi3Status)component_unsupported(instance, "fmi3SetShiftDecimal");
 }
 
 fmi3Status fmi3SetShiftFraction(fmi3Instance instance, const fmi3ValueReference valueReferences[],
                                 size_t nValueReferences, const fmi3UInt64 counters[], const fmi3UInt64 resolutions[])
 {
     (void)valueReferences, (void)nValueReferences, (void)counters, (void)resolutions;
-    return unsupported(instance, "fmi3SetShiftFraction");
+    return (fmi3Status)component_unsupported(instance, "fmi3SetShiftFraction");
 }
 
 fmi3Status fmi3EvaluateDiscreteStates(fmi3Instance instance)
 {
-    return unsupported(instance, "fmi3EvaluateDiscreteStates");
+    return (fmi3Status)component_unsupported(instance, "fmi3EvaluateDiscreteStates");
 }
 
 fmi3Status fmi3UpdateDiscreteStates(fmi3Instance instance, fmi3Boolean *discreteStatesNeedUpdate,
@@ -444,73 +410,73 @@ fmi3Status fmi3UpdateDiscreteStates(fmi3Instance instance, fmi3Boolean *discrete
                                     fmi3Float64 *nextEventTime)
 {
     (void)discreteStatesNeedUpdate, (void)terminateSimulation, (void)nominalsOfContinuousStatesChanged, (void)valuesOfContinuousStatesChanged, (void)nextEventTimeDefined, (void)nextEventTime;
-    return unsupported(instance, "fmi3UpdateDiscreteStates");
+    return (fmi3Status)component_unsupported(instance, "fmi3UpdateDiscreteStates");
 }
 
 fmi3Status fmi3EnterContinuousTimeMode(fmi3Instance instance)
 {
-    return unsupported(instance, "fmi3EnterContinuousTimeMode");
+    return (fmi3Status)component_unsupported(instance, "fmi3EnterContinuousTimeMode");
 }
 
 fmi3Status fmi3CompletedIntegratorStep(fmi3Instance instance, fmi3Boolean noSetFMUStatePriorToCurrentPoint,
                                        fmi3Boolean *enterEventMode, fmi3Boolean *terminateSimulation)
 {
     (void)noSetFMUStatePriorToCurrentPoint, (void)enterEventMode, (void)terminateSimulation;
-    return unsupported(instance, "fmi3CompletedIntegratorStep");
+    return (fmi3Status)component_unsupported(instance, "fmi3CompletedIntegratorStep");
 }
 
 fmi3Status fmi3SetTime(fmi3Instance instance, fmi3Float64 time)
 {
     (void)time;
-    return unsupported(instance, "fmi3SetTime");
+    return (fmi3Status)component_unsupported(instance, "fmi3SetTime");
 }
 
 fmi3Status fmi3SetContinuousStates(fmi3Instance instance, const fmi3Float64 continuousStates[],
                                    size_t nContinuousStates)
 {
     (void)continuousStates, (void)nContinuousStates;
-    return unsupported(instance, "fmi3SetContinuousStates");
+    return (fmi3Status)component_unsupported(instance, "fmi3SetContinuousStates");
 }
 
 fmi3Status fmi3GetContinuousStateDerivatives(fmi3Instance instance, fmi3Float64 derivatives[], size_t nContinuousStates)
 {
     (void)derivatives, (void)nContinuousStates;
-    return unsupported(instance, "fmi3GetContinuousStateDerivatives");
+    return (fmi3Status)component_unsupported(instance, "fmi3GetContinuousStateDerivatives");
 }
 
 fmi3Status fmi3GetEventIndicators(fmi3Instance instance, fmi3Float64 eventIndicators[], size_t nEventIndicators)
 {
     (void)eventIndicators, (void)nEventIndicators;
-    return unsupported(instance, "fmi3GetEventIndicators");
+    return (fmi3Status)component_unsupported(instance, "fmi3GetEventIndicators");
 }
 
 fmi3Status fmi3GetContinuousStates(fmi3Instance instance, fmi3Float64 continuousStates[], size_t nContinuousStates)
 {
     (void)continuousStates, (void)nContinuousStates;
-    return unsupported(instance, "fmi3GetContinuousStates");
+    return (fmi3Status)component_unsupported(instance, "fmi3GetContinuousStates");
 }
 
 fmi3Status fmi3GetNominalsOfContinuousStates(fmi3Instance instance, fmi3Float64 nominals[], size_t nContinuousStates)
 {
     (void)nominals, (void)nContinuousStates;
-    return unsupported(instance, "fmi3GetNominalsOfContinuousStates");
+    return (fmi3Status)component_unsupported(instance, "fmi3GetNominalsOfContinuousStates");
 }
 
 fmi3Status fmi3GetNumberOfEventIndicators(fmi3Instance instance, size_t *nEventIndicators)
 {
     (void)nEventIndicators;
-    return unsupported(instance, "fmi3GetNumberOfEventIndicators");
+    return (fmi3Status)component_unsupported(instance, "fmi3GetNumberOfEventIndicators");
 }
 
 fmi3Status fmi3GetNumberOfContinuousStates(fmi3Instance instance, size_t *nContinuousStates)
 {
     (void)nContinuousStates;
-    return unsupported(instance, "fmi3GetNumberOfContinuousStates");
+    return (fmi3Status)component_unsupported(instance, "fmi3GetNumberOfContinuousStates");
 }
 
 fmi3Status fmi3EnterStepMode(fmi3Instance instance)
 {
-    return unsupported(instance, "fmi3EnterStepMode");
+    return (fmi3Status)component_unsupported(instance, "fmi3EnterStepMode");
 }
 
 fmi3Status fmi3GetOutputDerivatives(fmi3Instance instance, const fmi3ValueReference valueReferences[],
@@ -518,12 +484,12 @@ fmi3Status fmi3GetOutputDerivatives(fmi3Instance instance, const fmi3ValueRefere
                                     size_t nValues)
 {
     (void)valueReferences, (void)nValueReferences, (void)orders, (void)values, (void)nValues;
-    return unsupported(instance, "fmi3GetOutputDerivatives");
+    return (fmi3Status)component_unsupported(instance, "fmi3GetOutputDerivatives");
 }
 
 fmi3Status fmi3ActivateModelPartition(fmi3Instance instance, fmi3ValueReference clockReference,
                                       fmi3Float64 activationTime)
 {
     (void)clockReference, (void)activationTime;
-    return unsupported(instance, "fmi3ActivateModelPartition");
+    return (fmi3Status)component_unsupported(instance, "fmi3ActivateModelPartition");
 }
