@@ -74,7 +74,7 @@ fn fmu(criterion: &mut Criterion) {
         damper,
         clearance_m: parameters.mount.clearance_m,
     };
-    let fmu = Fmu::new(Interface::Three, "it", vec![named], STEP_S, false).expect("a name");
+    let fmu = Fmu::of_dampers(Interface::Three, "it", &[named], STEP_S, false).expect("a name");
     let folder = tempfile::tempdir().expect("a temporary folder");
     let path = folder.path().join("it.so");
     std::fs::write(&path, compile(&fmu).expect("a C compiler").content).expect("a temporary file");

@@ -10,6 +10,7 @@ pub const MAX_SHIMS: usize = 16;
 
 /// The physical damper: geometry, flow paths and oil.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Hydraulics {
     /// Piston and rod.
     pub geometry: Geometry,

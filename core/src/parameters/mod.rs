@@ -48,6 +48,7 @@ pub const LARGEST_FORCE_N: f64 = Limits::RANGES.force_n.greatest;
 /// assert_eq!(parameters.limits.force_n, 50e3);
 /// ```
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct DamperParameters {
     /// What makes the force: hydraulics or the reduced in-service law.
     pub element: Element,
@@ -60,6 +61,7 @@ pub struct DamperParameters {
 /// The velocity law inside the series chain.
 #[derive(Clone, Debug, PartialEq)]
 #[allow(clippy::large_enum_variant)] // built once on the host, never in an array
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Element {
     /// Oil through orifice and shim-pack valves.
     Physical(Hydraulics),

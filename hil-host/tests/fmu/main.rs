@@ -7,6 +7,7 @@ mod forces;
 mod judge;
 mod loaded;
 mod refused;
+mod vehicle;
 
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -7,6 +7,7 @@ use super::rails::{Channels, RailDeviation};
 
 /// Rails that have a defect.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Rails {
     /// The left rail.
     Left,
@@ -30,6 +31,7 @@ impl Rails {
 
 /// A defect at one place, added to layout and irregularity; zero outside of its length.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Defect {
     /// Vertical `depth_m (1 - cos(2 pi t / length_m)) / 2`, `t` from its start: `depth_m` in the middle, level ends.
     CosineDip {

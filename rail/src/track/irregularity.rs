@@ -9,6 +9,7 @@ const MARGIN: usize = 30;
 
 /// Deviations of the four channels at a node.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 struct Node {
     value_m: [f64; 4],
     /// Slope times spacing, m.
@@ -25,6 +26,7 @@ const ZERO: Node = Node {
 /// Made by [`Generation::irregularity`](super::Generation::irregularity) from a spectrum or by [`measured::parse`](super::measured::parse)
 /// from a file. Each evaluation costs the same: the node is found by index, a cubic lies between two nodes.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Irregularity {
     first_node_m: f64,
     nodes_per_m: f64,

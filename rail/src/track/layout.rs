@@ -35,6 +35,7 @@ const CANT_M: [f64; 2] = [-0.1, 0.3];
 
 /// What a layout is at one place.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Alignment {
     /// Curvature `k` of the centre line, right positive, 1/m.
     pub curvature_per_m: f64,
@@ -48,6 +49,7 @@ pub struct Alignment {
 
 /// A part as it is evaluated.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 struct Piece {
     start_m: f64,
     start: Alignment,
@@ -113,6 +115,7 @@ impl Piece {
 /// # Ok::<(), dashpot_rail::track::TrackError>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Layout {
     pieces: Vec<Piece>,
     length_m: f64,

@@ -6,6 +6,7 @@ use super::ride_point::RidePoint;
 
 /// A vehicle: rigid bodies and wheelsets, connected by elements.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct VehicleParameters {
     /// Name.
     pub name: String,
@@ -21,6 +22,7 @@ pub struct VehicleParameters {
 
 /// A rigid body.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Body {
     /// Name, by which elements are attached to it.
     pub name: String,
@@ -36,6 +38,7 @@ pub struct Body {
 
 /// A wheelset.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Wheelset {
     /// Name, by which elements are attached to it.
     pub name: String,

@@ -7,6 +7,7 @@ use super::error::VehicleError;
 
 /// An element between two points.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Element {
     /// Name.
     pub name: String,
@@ -18,6 +19,7 @@ pub struct Element {
 
 /// An end of an element.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct End {
     /// Name of the body or wheelset; of none on the track.
     pub on: Option<String>,
@@ -48,6 +50,7 @@ impl End {
 
 /// A direction of the track.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Direction {
     /// Along the track.
     Longitudinal,
@@ -70,6 +73,7 @@ impl Direction {
 
 /// How the force of an element follows from the displacement of its second end against its first.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Law {
     /// Springs and dashpots side by side along x, y and z: a coil spring, a rubber bush. The ends are at one place.
     SpringDamper {

@@ -5,6 +5,7 @@ use super::error::VehicleError;
 
 /// A point of a body where an accelerometer stands.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct RidePoint {
     /// Name.
     pub name: String,

@@ -1,4 +1,7 @@
-//! `dashpot export --fmi`: a damper or a bank as an FMU.
+//! `dashpot export --fmi`: a damper, a bank or a vehicle as an FMU.
+
+use std::fmt;
+use std::path::PathBuf;
 
 use dashpot_core::Damper;
 use serde::Serialize;
@@ -26,6 +29,20 @@ pub(super) struct FmuArguments {
     /// The constants are images in the folder of resources of the FMU, where others may take their place.
     #[arg(long)]
     loadable: bool,
+    /// A vehicle on its track in place of a damper: the FMU of a case, the name of one that ships or a TOML file.
+    #[arg(
+        long,
+        value_name = "CASE",
+        requires = "fmi",
+        conflicts_with_all = ["damper", "overrides", "step_us", "scalar", "also", "loadable", "sources_only"]
+    )]
+    pub(super) case: Option<String>,
+    /// A damper of the case's vehicle whose force is an input of the FMU, by its name and number; may be given several times.
+    #[arg(long, value_name = "DAMPER")]
+    pub(super) outside: Vec<String>,
+    /// The library of vehicles, which `cargo build --release -p dashpot-vehicle-model` makes; the one beside this program when not given.
+    #[arg(long, value_name = "FILE")]
+    pub(super) library: Option<PathBuf>,
     /// No library for this platform: no C compiler is needed here, and the importer compiles the sources.
     #[arg(long)]
     sources_only: bool,
@@ -37,10 +54,22 @@ impl FmuArguments {
     /// # Errors
     /// None, with options that mean nothing then.
     pub(super) fn interface(&self) -> Outcome<Option<Interface>> {
+        let of_vehicles = [
+            ("--outside", !self.outside.is_empty()),
+            ("--library", self.library.is_some()),
+        ];
+        if self.case.is_none()
+            && let Some((option, _)) = of_vehicles.iter().find(|(_, is_given)| *is_given)
+        {
+            return Err(Failure::wrong_use(format!(
+                "{option}: it is of the FMU of a vehicle, allowed: with --case"
+            )));
+        }
         let others = [
             ("--also", !self.also.is_empty()),
             ("--loadable", self.loadable),
             ("--sources-only", self.sources_only),
+            ("--case", self.case.is_some()),
         ];
         match (
             self.fmi.as_deref(),
@@ -56,15 +85,40 @@ impl FmuArguments {
     }
 }
 
+/// What an FMU is of.
 #[derive(Serialize)]
-struct Report {
-    dampers: Vec<String>,
+#[serde(untagged)]
+pub(super) enum Content {
+    Dampers {
+        dampers: Vec<String>,
+        scalar: Scalar,
+    },
+    Vehicle {
+        case: String,
+        outside: Vec<String>,
+    },
+}
+
+impl fmt::Display for Content {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Dampers { dampers, scalar } => write!(f, "{}, {scalar}", dampers.join(", ")),
+            Self::Vehicle { case, outside } => {
+                write!(f, "{case}, outside: {}", outside.join(", "))
+            }
+        }
+    }
+}
+
+#[derive(Serialize)]
+struct Report<'a> {
+    #[serde(flatten)]
+    content: Content,
     fmi: &'static str,
-    name: String,
+    name: &'a str,
     output: String,
-    scalar: Scalar,
     step_s: f64,
-    token: String,
+    token: &'a str,
     /// Of the library; `None` where there are only sources.
     #[serde(skip_serializing_if = "Option::is_none")]
     platform: Option<String>,
@@ -79,7 +133,6 @@ pub(super) fn run<T: Word>(arguments: &ExportArguments, interface: Interface) ->
     for name in &arguments.fmu.also {
         dampers.push((name.clone(), damper::load(name, &[])?));
     }
-    let names: Vec<String> = dampers.iter().map(|(name, _)| name.clone()).collect();
     let named = dampers.into_iter().map(|(name, parameters)| -> Outcome<_> {
         let damper: Damper<T> = parameters.build(step_s)?;
         let clearance_m = parameters.mount.clearance_m;
@@ -89,34 +142,44 @@ pub(super) fn run<T: Word>(arguments: &ExportArguments, interface: Interface) ->
             clearance_m,
         })
     });
-    let identifier = match &arguments.name {
-        Some(name) => name.clone(),
-        None => constant_name(&arguments.damper.damper).to_lowercase(),
+    let named = named.collect::<Outcome<Vec<_>>>()?;
+    let name = fmu_name(arguments, &arguments.damper.damper);
+    let is_loaded = arguments.fmu.loadable;
+    let fmu = Fmu::of_dampers(interface, &name, &named, step_s, is_loaded)?;
+    let content = Content::Dampers {
+        dampers: named.into_iter().map(|named| named.name).collect(),
+        scalar: Scalar::of::<T>(),
     };
-    let named = named.collect::<Outcome<_>>()?;
-    let fmu = Fmu::new(
-        interface,
-        &identifier,
-        named,
-        step_s,
-        arguments.fmu.loadable,
-    )?;
+    write(arguments, &fmu, content)
+}
+
+/// The FMU's, of what it is of where none is given.
+pub(super) fn fmu_name(arguments: &ExportArguments, of: &str) -> String {
+    match &arguments.name {
+        Some(name) => name.clone(),
+        None => constant_name(of).to_lowercase(),
+    }
+}
+
+/// Compiles the FMU, unless only sources are wanted, writes it and tells of it.
+///
+/// # Errors
+/// The compiler fails; the file cannot be written.
+pub(super) fn write(arguments: &ExportArguments, fmu: &Fmu, content: Content) -> Outcome<()> {
+    // Free of the rounding of the product, to the picosecond.
+    let step_us = (fmu.step_s() * 1e12).round() / 1e6;
     let binary = match arguments.fmu.sources_only {
         true => None,
-        false => Some(compile(&fmu).map_err(|error| Failure::new(error.to_string()))?),
+        false => Some(compile(fmu).map_err(|error| Failure::new(error.to_string()))?),
     };
-    let bytes = archive(&fmu, binary.as_ref()).map_err(|error| Failure::new(error.to_string()))?;
+    let bytes = archive(fmu, binary.as_ref()).map_err(|error| Failure::new(error.to_string()))?;
     write_bytes(&arguments.output, &bytes)?;
     let report = Report {
-        dampers: names,
-        fmi: match interface {
-            Interface::Two => "2.0",
-            Interface::Three => "3.0",
-        },
-        name: identifier,
+        content,
+        fmi: fmu.interface().number(),
+        name: fmu.identifier(),
         output: output::name(&arguments.output).display().to_string(),
-        scalar: Scalar::of::<T>(),
-        step_s,
+        step_s: fmu.step_s(),
         token: fmu.token(),
         platform: binary.map(|binary| binary.platform),
         fmu_bytes: bytes.len(),
@@ -126,20 +189,15 @@ pub(super) fn run<T: Word>(arguments: &ExportArguments, interface: Interface) ->
         arguments.format,
         &report,
         |out, report| {
+            let library = match (&report.platform, fmu.has_sources()) {
+                (Some(platform), true) => format!("a library for {platform} and sources"),
+                (Some(platform), false) => format!("a library for {platform}"),
+                (None, _) => "sources only".into(),
+            };
             writeln!(
                 out,
-                "{} in {}: FMI {}, {} for {} us, {}, {}; {} bytes",
-                report.name,
-                report.output,
-                report.fmi,
-                report.dampers.join(", "),
-                arguments.step_us,
-                report.scalar,
-                match &report.platform {
-                    Some(platform) => format!("a library for {platform} and sources"),
-                    None => "sources only".into(),
-                },
-                report.fmu_bytes
+                "{} in {}: FMI {}, {} for {step_us} us, {library}; {} bytes",
+                report.name, report.output, report.fmi, report.content, report.fmu_bytes
             )
         },
     )

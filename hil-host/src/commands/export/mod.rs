@@ -4,6 +4,7 @@ mod damper;
 mod fmu;
 mod health;
 mod named;
+mod vehicle;
 mod written;
 
 use std::path::PathBuf;
@@ -43,6 +44,7 @@ impl Language {
   dashpot export --damper in-service --lang c --standalone --output in_service.c
   dashpot export --damper in-service --lang bin --output in_service.bin
   dashpot export --damper in-service --fmi 3 --output in_service.fmu
+  dashpot export --case straight-180 --outside \"front lateral damper 1\" --fmi 3 --output locomotive.fmu
   dashpot export --damper in-service --lang c --health --displacement-noise-m 60e-6 --force-noise-n 60 --output health.c
 
 Then in Rust: mod vertical; ... vertical::REDUCED_VERTICAL.step(&mut state, x)
@@ -104,6 +106,9 @@ pub fn run(arguments: &ExportArguments) -> Outcome<()> {
         return health::run(arguments);
     }
     arguments.sensors.refuse_without("--health")?;
+    if let (Some(interface), Some(case)) = (interface, &arguments.fmu.case) {
+        return vehicle::run(arguments, case, interface);
+    }
     match (interface, arguments.scalar) {
         (Some(interface), Scalar::F32) => fmu::run::<f32>(arguments, interface),
         (Some(interface), Scalar::F64) => fmu::run::<f64>(arguments, interface),

@@ -7,7 +7,7 @@ use super::CaseError;
 use crate::files::{damper, vehicle};
 
 /// A damper that becomes another while the vehicle runs.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Fault {
     /// When, s.
     pub time_s: f64,

@@ -49,7 +49,7 @@ const SHIPPED: Shipped = Shipped {
 pub const NORMAL_DAMPING_S_PER_M: f64 = 5.0;
 
 /// A vehicle on a track at a speed.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Case {
     /// Name.
     pub name: String,

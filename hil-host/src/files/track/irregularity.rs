@@ -4,18 +4,21 @@ use std::path::{Path, PathBuf};
 
 use dashpot_rail::track::measured::{self, MeasuredTrackError, Options};
 use dashpot_rail::track::{Band, Generation, Irregularity, Seeds, Spectrum};
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use crate::files::overrides::nearest;
 use crate::files::shipped::named_in;
 use crate::files::{FileError, input};
 
 /// Where an irregularity is from.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum IrregularityParameters {
     /// There is none.
     None,
+    /// Computed or read before, as it is.
+    Given(Irregularity),
     /// A published spectrum.
+    #[serde(skip)]
     Generated {
         /// Its name in the file.
         spectrum: String,
@@ -25,6 +28,7 @@ pub enum IrregularityParameters {
         generation: Box<Generation>,
     },
     /// A measured file.
+    #[serde(skip)]
     Measured {
         /// The file.
         file: PathBuf,

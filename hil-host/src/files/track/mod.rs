@@ -13,6 +13,7 @@ use std::path::{Path, PathBuf};
 use dashpot_rail::track::{Defect, Irregularity, Layout, Track};
 pub use error::TrackFileError;
 pub use irregularity::IrregularityParameters;
+use serde::{Deserialize, Serialize};
 use tables::TrackTables;
 
 use crate::files::FileError;
@@ -55,7 +56,7 @@ const SHIPPED: Shipped = Shipped {
 };
 
 /// What a track file gives: all but the irregularity, which [`TrackParameters::build`] generates or reads.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct TrackParameters {
     /// Name.
     pub name: String,
@@ -76,17 +77,36 @@ impl TrackParameters {
     /// # Errors
     /// A spectrum that cannot be generated with what the file says of it, a measured file that cannot be read or used; with file and line.
     pub fn build(&self) -> Result<Track, FileError> {
-        let irregularity = match &self.irregularity {
-            IrregularityParameters::None => Irregularity::default(),
+        Track::new(
+            self.layout.clone(),
+            self.irregularity()?,
+            self.defects.clone(),
+        )
+        .map_err(|error| self.in_irregularity(error))
+    }
+
+    /// The same with its irregularity as [`Self::build`] has it, which needs no other file and is written by serde.
+    ///
+    /// # Errors
+    /// As [`Self::build`].
+    pub fn given(&self) -> Result<Self, FileError> {
+        Ok(Self {
+            irregularity: IrregularityParameters::Given(self.irregularity()?),
+            ..self.clone()
+        })
+    }
+
+    fn irregularity(&self) -> Result<Irregularity, FileError> {
+        match &self.irregularity {
+            IrregularityParameters::None => Ok(Irregularity::default()),
+            IrregularityParameters::Given(irregularity) => Ok(irregularity.clone()),
             IrregularityParameters::Generated { generation, .. } => generation
                 .irregularity()
-                .map_err(|error| self.in_irregularity(error))?,
+                .map_err(|error| self.in_irregularity(error)),
             IrregularityParameters::Measured { file, options } => {
-                irregularity::read(file, options).map_err(|error| self.in_irregularity(error))?
+                irregularity::read(file, options).map_err(|error| self.in_irregularity(error))
             }
-        };
-        Track::new(self.layout.clone(), irregularity, self.defects.clone())
-            .map_err(|error| self.in_irregularity(error))
+        }
     }
 
     /// The same with an irregularity of another seed; none where it is not generated.

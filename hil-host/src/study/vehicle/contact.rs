@@ -1,6 +1,6 @@
 //! The contact of a vehicle's wheels: standard profiles under its mean wheel load.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use dashpot_rail::contact::{
@@ -51,8 +51,26 @@ impl ContactOf {
     /// # Errors
     /// A load that wheel and rail do not carry; a cache folder that cannot be used.
     pub fn tables(&self) -> Result<Arc<Tables>, VehicleStudyError> {
-        let tables = Tables::cached(&cache_folder(), self.geometry()?, Grid::default())?;
+        self.tables_in(&cache_folder())
+    }
+
+    /// As [`Self::tables`], kept in another folder.
+    ///
+    /// # Errors
+    /// As [`Self::tables`].
+    pub fn tables_in(&self, folder: &Path) -> Result<Arc<Tables>, VehicleStudyError> {
+        let tables = Tables::cached(folder, self.geometry()?, Grid::default())?;
         Ok(Arc::new(tables))
+    }
+
+    /// The file in which [`Self::tables`] keeps them, which is there then.
+    ///
+    /// # Errors
+    /// As [`Self::tables`].
+    pub fn tables_file(&self) -> Result<PathBuf, VehicleStudyError> {
+        self.tables()?;
+        let name = Tables::file_name(&self.geometry()?, &Grid::default());
+        Ok(cache_folder().join(name))
     }
 
     /// S1002 wheels of the first wheelset's radius on UIC 60 rails at 1:40, their softness that of the vehicle's mean wheel load.

@@ -4,6 +4,7 @@ use dashpot_rail::contact::{CacheError, GeometryError, PairError, SurfaceError};
 use dashpot_rail::vehicle::VehicleError;
 use dashpot_reference::ReferenceError;
 
+use super::OutsideError;
 use crate::files::FileError;
 
 /// Why a case is not run.
@@ -28,6 +29,20 @@ pub enum VehicleStudyError {
     /// The tables of the contact cannot be made or kept.
     #[error("tables of the contact: {0}")]
     Tables(#[from] CacheError),
+    /// A damper that cannot be outside.
+    #[error("`{name}` outside: {source}")]
+    Outside {
+        /// Its name.
+        name: String,
+        /// Why.
+        source: OutsideError,
+    },
+    /// A case that another version has written.
+    #[error("a case written by Dashpot {version}, allowed: {}", env!("CARGO_PKG_VERSION"))]
+    Version {
+        /// The version.
+        version: String,
+    },
     /// A signal that the vehicle has not.
     #[error("no signal `{name}`{near}")]
     NoSignal {

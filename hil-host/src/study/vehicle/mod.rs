@@ -2,11 +2,13 @@
 
 mod accelerometer;
 pub mod contact;
+mod coupled;
 pub mod deviations;
 mod error;
 pub mod hunting;
 mod indices;
 mod inside;
+mod outside;
 pub mod recorded;
 mod run;
 pub mod seeds;
@@ -15,10 +17,12 @@ pub mod spectra;
 pub mod verification;
 
 pub use accelerometer::Accelerometer;
+pub use coupled::{Coupled, CoupledCase, CoupledVariable};
 pub use error::VehicleStudyError;
 pub use indices::{
     BodyIndices, Indexer, Indices, Nadal, RideIndices, Sample, UnbalancedIndices, WINDOW_M,
     WheelIndices, WheelsetIndices,
 };
 pub use inside::{Beside, DamperEffect, Effect, Forces};
+pub use outside::{OutsideError, number_outside};
 pub use run::{Ending, Run};

@@ -32,6 +32,9 @@ pub enum ExportError {
         /// The name.
         file: String,
     },
+    /// A case that cannot be written.
+    #[error("the case cannot be written: {0}")]
+    Case(String),
     /// A scalar that the C library does not have.
     #[error("scalar {scalar}: the C library is of single precision, allowed for it: f32")]
     Scalar {

@@ -50,8 +50,7 @@ impl Tables {
         grid: Grid,
     ) -> Result<Self, CacheError> {
         let key = key(&geometry, &grid);
-        let name: String = key.iter().map(|byte| format!("{byte:02x}")).collect();
-        let path = folder.join(format!("{name}.tables"));
+        let path = folder.join(Self::file_name(&geometry, &grid));
         let failed = |path: &Path| {
             let path = path.to_owned();
             move |source| CacheError::File { path, source }
@@ -76,6 +75,13 @@ impl Tables {
         };
         write().map_err(failed(&path))?;
         Ok(tables)
+    }
+
+    /// What [`Tables::cached`] calls the file of the tables.
+    pub fn file_name(geometry: &ContactGeometry, grid: &Grid) -> String {
+        let key = key(geometry, grid);
+        let name: String = key.iter().map(|byte| format!("{byte:02x}")).collect();
+        format!("{name}.tables")
     }
 }
 

@@ -8,6 +8,7 @@ use crate::vehicle::error::VehicleError;
 
 /// What carries a rail under a wheel: a mass that moves with the wheel along the track, on a spring and a dashpot each way.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct RailSupport {
     /// Mass of rail and sleeper that moves, kg.
     pub mass_kg: f64,

@@ -14,9 +14,8 @@ use crate::commands::failure::{Failure, Outcome};
 use crate::commands::line::LineOptions;
 use crate::commands::recording::ForceHistoryArguments;
 use crate::files::case::Case;
-use crate::files::nearest;
 use crate::files::recording::ForceHistory;
-use crate::study::vehicle::{Beside, Effect, Ending, Forces, Run};
+use crate::study::vehicle::{Beside, Effect, Ending, Forces, Run, number_outside};
 
 /// Which dampers are outside, and how their links are used.
 #[derive(Debug, Clone, clap::Args)]
@@ -91,26 +90,12 @@ impl OutsideArguments {
 
     /// Numbers of the dampers.
     fn dampers(&self, case: &Case) -> Outcome<Vec<usize>> {
-        let all = parameters(case);
-        let names = || all.iter().map(|(name, _)| *name);
         let mut dampers = Vec::new();
         for choice in &self.choices {
             let name = &choice.damper;
-            let wrong = |reason: &str| {
-                Failure::wrong_use(format!("--outside \"{name}={}\": {reason}", choice.name))
-            };
-            let damper = names()
-                .position(|other| other == name)
-                .ok_or_else(|| wrong(&format!("no damper `{name}`{}", nearest(name, names()))))?;
-            if dampers.contains(&damper) {
-                return Err(wrong("the damper is given twice, allowed: once"));
-            }
-            if let Some(fault) = case.faults.iter().find(|fault| fault.damper == *name) {
-                return Err(wrong(&format!(
-                    "the case changes this damper at {} s, allowed: dampers without faults",
-                    fault.time_s
-                )));
-            }
+            let damper = number_outside(case, name, &dampers).map_err(|error| {
+                Failure::wrong_use(format!("--outside \"{name}={}\": {error}", choice.name))
+            })?;
             dampers.push(damper);
         }
         Ok(dampers)

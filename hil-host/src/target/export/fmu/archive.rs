@@ -7,13 +7,18 @@ use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, DateTime, ZipWriter};
 
 use super::{Binary, Fmu, Interface};
-use crate::target::export::Word;
+
+/// Where FMI 3.0, 2.5.1.4, has the licence.
+const LICENCE: (&str, &str) = (
+    "documentation/licenses/license.txt",
+    include_str!("../../../../../LICENSE-MIT"),
+);
 
 /// The FMU as bytes, the same for the same content; with a library where there is one.
 ///
 /// # Errors
 /// A name of a file that no archive can have.
-pub fn archive<T: Word>(fmu: &Fmu<T>, binary: Option<&Binary>) -> ZipResult<Vec<u8>> {
+pub fn archive(fmu: &Fmu, binary: Option<&Binary>) -> ZipResult<Vec<u8>> {
     let mut zip = ZipWriter::new(Cursor::new(Vec::new()));
     let options = SimpleFileOptions::default()
         .compression_method(CompressionMethod::Deflated)
@@ -25,6 +30,7 @@ pub fn archive<T: Word>(fmu: &Fmu<T>, binary: Option<&Binary>) -> ZipResult<Vec<
     };
     put("modelDescription.xml", fmu.description().as_bytes(), false)?;
     put("documentation/index.html", fmu.page().as_bytes(), false)?;
+    put(LICENCE.0, LICENCE.1.as_bytes(), false)?;
     if let Some(Binary {
         platform,
         end,
@@ -34,21 +40,17 @@ pub fn archive<T: Word>(fmu: &Fmu<T>, binary: Option<&Binary>) -> ZipResult<Vec<
         let name = format!("binaries/{platform}/{}.{end}", fmu.identifier);
         put(&name, content, true)?;
     }
-    if fmu.is_loaded {
-        for (number, named) in (1..).zip(&fmu.dampers) {
-            let name = format!("resources/image_{number}.bin");
-            put(&name, &T::image(&named.damper), false)?;
+    for (name, content) in &fmu.resources {
+        put(&format!("resources/{name}"), content, false)?;
+    }
+    if fmu.library.is_none() {
+        for (name, text) in &fmu.sources {
+            put(&format!("sources/{name}"), text.as_bytes(), false)?;
         }
-    }
-    for (name, text) in fmu.sources() {
-        put(&format!("sources/{name}"), text.as_bytes(), false)?;
-    }
-    if fmu.interface == Interface::Three {
-        put(
-            "sources/buildDescription.xml",
-            fmu.build_description().as_bytes(),
-            false,
-        )?;
+        if fmu.interface == Interface::Three {
+            let build = fmu.build_description();
+            put("sources/buildDescription.xml", build.as_bytes(), false)?;
+        }
     }
     Ok(zip.finish()?.into_inner())
 }

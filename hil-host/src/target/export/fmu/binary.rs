@@ -6,7 +6,6 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 
 use super::{Fmu, Interface};
-use crate::target::export::Word;
 
 /// A compiled FMU.
 #[derive(Debug)]
@@ -54,15 +53,29 @@ pub enum CompileError {
     Folder(#[from] io::Error),
 }
 
+/// What a library of Rust is linked with; only the functions of the interface are seen from outside, and nothing is left that they do not
+/// use.
+#[cfg(target_os = "linux")]
+const BESIDE_A_LIBRARY: [&str; 6] = [
+    "-Wl,--exclude-libs,ALL",
+    "-Wl,--gc-sections",
+    "-Wl,--strip-all",
+    "-lgcc_s",
+    "-lpthread",
+    "-ldl",
+];
+#[cfg(not(target_os = "linux"))]
+const BESIDE_A_LIBRARY: [&str; 0] = [];
+
 /// Compiles an FMU for this platform, with the compiler that the variable `CC` names, or `cc`.
 ///
 /// # Errors
 /// There is no compiler, it fails, or the platform has no name.
-pub fn compile<T: Word>(fmu: &Fmu<T>) -> Result<Binary, CompileError> {
+pub fn compile(fmu: &Fmu) -> Result<Binary, CompileError> {
     let platform = platform(fmu.interface)?;
     let end = env::consts::DLL_EXTENSION;
     let folder = tempfile::tempdir()?;
-    for (name, text) in fmu.sources() {
+    for (name, text) in &fmu.sources {
         std::fs::write(folder.path().join(name), text)?;
     }
     for (name, text) in fmu.headers() {
@@ -84,7 +97,12 @@ pub fn compile<T: Word>(fmu: &Fmu<T>) -> Result<Binary, CompileError> {
             "-o",
         ])
         .arg(&library)
-        .args(fmu.compiled())
+        .args(fmu.compiled());
+    if let Some(library) = &fmu.library {
+        command.arg(std::path::absolute(library)?);
+        command.args(BESIDE_A_LIBRARY);
+    }
+    command
         .arg("-lm")
         .current_dir(folder.path())
         .stdin(Stdio::null());

@@ -4,76 +4,8 @@ use std::fmt::Write;
 
 use maud::Escaper;
 
+use super::variable::{Kind, UNITS, Variable};
 use super::{Fmu, Interface};
-use crate::study::tick_grid::nearest_nanosecond;
-use crate::target::export::Word;
-
-/// Largest clearance (m), as the core allows it.
-const LARGEST_CLEARANCE_M: f64 = dashpot_core::parameters::LARGEST_CLEARANCE_M;
-
-/// Causality, variability and how a variable begins.
-#[derive(Clone, Copy)]
-enum Kind {
-    Input,
-    Output,
-    Tunable { start: f64 },
-    Counter,
-}
-
-/// A variable of a damper; its place is that of `model.c`.
-struct Variable {
-    name: &'static str,
-    unit: &'static str,
-    description: &'static str,
-    kind: Kind,
-}
-
-fn variables(clearance_m: f64) -> [Variable; 6] {
-    [
-        Variable {
-            name: "displacement_m",
-            unit: "m",
-            description: "Displacement of the seats at the communication point, positive in extension",
-            kind: Kind::Input,
-        },
-        Variable {
-            name: "velocity_m_per_s",
-            unit: "m/s",
-            description: "Its rate over the communication step to come; with it the force is not late",
-            kind: Kind::Input,
-        },
-        Variable {
-            name: "force_n",
-            unit: "N",
-            description: "Force, positive when it resists extension",
-            kind: Kind::Output,
-        },
-        Variable {
-            name: "clearance_m",
-            unit: "m",
-            description: "Clearance 2a, the whole play",
-            kind: Kind::Tunable { start: clearance_m },
-        },
-        Variable {
-            name: "status",
-            unit: "",
-            description: "Bits latched: 1 input held, 2 input limited, 4 saturated, 8 damper swapped, 16 corrupted",
-            kind: Kind::Counter,
-        },
-        Variable {
-            name: "rejected_inputs",
-            unit: "",
-            description: "Steps whose displacement was held or limited, up to 65535",
-            kind: Kind::Counter,
-        },
-    ]
-}
-
-const UNITS: [(&str, &str); 3] = [
-    ("m", r#"m="1""#),
-    ("m/s", r#"m="1" s="-1""#),
-    ("N", r#"kg="1" m="1" s="-2""#),
-];
 
 /// Outputs at a communication point change by a step alone, by no input there: no loop of connected FMUs is an algebraic one.
 const NOTHING: (&str, &str) = ("dependencies", "");
@@ -90,7 +22,7 @@ const CATEGORIES: [(&str, &str); 3] = [
     ),
 ];
 
-impl<T: Word> Fmu<T> {
+impl Fmu {
     /// `modelDescription.xml`.
     pub(super) fn description(&self) -> String {
         let mut xml = Xml::new();
@@ -104,8 +36,8 @@ impl<T: Word> Fmu<T> {
             &[
                 ("fmiVersion", number),
                 ("modelName", &self.identifier),
-                (token, &self.token()),
-                ("description", &self.title()),
+                (token, &self.token),
+                ("description", &self.title),
                 ("generationTool", version),
                 ("variableNamingConvention", "structured"),
             ],
@@ -116,20 +48,27 @@ impl<T: Word> Fmu<T> {
         let mut capabilities = vec![
             ("modelIdentifier", &*self.identifier),
             ("canHandleVariableCommunicationStepSize", "true"),
-            (&can_get, "true"),
-            (&can_serialize, "true"),
         ];
+        if self.has_states {
+            capabilities.extend([(&*can_get, "true"), (&can_serialize, "true")]);
+        }
         match self.interface {
             Interface::Two => {
-                capabilities.push(("canInterpolateInputs", "true"));
-                capabilities.push(("canNotUseMemoryManagementFunctions", "true"));
-                xml.open("CoSimulation", &capabilities);
-                xml.open("SourceFiles", &[]);
-                for name in self.compiled() {
-                    xml.empty("File", &[("name", name)]);
+                if self.has_input_derivatives {
+                    capabilities.push(("canInterpolateInputs", "true"));
                 }
-                xml.close("SourceFiles");
-                xml.close("CoSimulation");
+                capabilities.push(("canNotUseMemoryManagementFunctions", "true"));
+                if self.library.is_some() {
+                    xml.empty("CoSimulation", &capabilities);
+                } else {
+                    xml.open("CoSimulation", &capabilities);
+                    xml.open("SourceFiles", &[]);
+                    for name in self.compiled() {
+                        xml.empty("File", &[("name", name)]);
+                    }
+                    xml.close("SourceFiles");
+                    xml.close("CoSimulation");
+                }
             }
             Interface::Three => {
                 capabilities.push(("fixedInternalStepSize", &step));
@@ -148,9 +87,7 @@ impl<T: Word> Fmu<T> {
             xml.empty("Category", &[("name", name), ("description", description)]);
         }
         xml.close("LogCategories");
-        // Steps of this size end there.
-        let stop_s = (1.0 / self.step_s).round() * self.step_s;
-        let stop = nearest_nanosecond(stop_s).to_string();
+        let stop = self.stop_s.to_string();
         let experiment = [
             ("startTime", "0"),
             ("stopTime", &*stop),
@@ -183,40 +120,14 @@ impl<T: Word> Fmu<T> {
         xml.text
     }
 
-    /// What it is, in a line.
-    pub(super) fn title(&self) -> String {
-        let names: Vec<&str> = self.dampers.iter().map(|named| &*named.name).collect();
-        let what = match names.len() {
-            1 => "Damper",
-            _ => "Dampers",
-        };
-        format!(
-            "{what} {}, internal step {} s, {}",
-            names.join(", "),
-            self.step_s,
-            T::NAME
-        )
-    }
-
     fn variables(&self, xml: &mut Xml) {
-        let dampers = self.dampers.len();
-        let all = (0..dampers).flat_map(|number| {
-            let variables = variables(self.dampers[number].clearance_m).into_iter();
-            variables.enumerate().map(move |(place, variable)| {
-                let name = match dampers {
-                    1 => variable.name.to_owned(),
-                    _ => format!("damper[{}].{}", number + 1, variable.name),
-                };
-                (name, 1 + 6 * number + place, variable)
-            })
-        });
         xml.open("ModelVariables", &[]);
-        self.variable(xml, "time", 0, None);
+        self.variable(xml, 0, None);
         let mut outputs = Vec::new();
-        for (index, (name, reference, variable)) in (2..).zip(all) {
-            self.variable(xml, &name, reference, Some(&variable));
+        for (reference, variable) in (1..).zip(&self.variables) {
+            self.variable(xml, reference, Some(variable));
             if matches!(variable.kind, Kind::Output | Kind::Counter) {
-                outputs.push((index, reference));
+                outputs.push(reference);
             }
         }
         xml.close("ModelVariables");
@@ -225,8 +136,9 @@ impl<T: Word> Fmu<T> {
             Interface::Two => {
                 for list in ["Outputs", "InitialUnknowns"] {
                     xml.open(list, &[]);
-                    for (index, _) in &outputs {
-                        let index = index.to_string();
+                    for reference in &outputs {
+                        // By place in the list, which begins with the time as number 1.
+                        let index = (reference + 1).to_string();
                         xml.empty("Unknown", &[("index", &index), NOTHING]);
                     }
                     xml.close(list);
@@ -234,7 +146,7 @@ impl<T: Word> Fmu<T> {
             }
             Interface::Three => {
                 for element in ["Output", "InitialUnknown"] {
-                    for (_, reference) in &outputs {
+                    for reference in &outputs {
                         let reference = reference.to_string();
                         xml.empty(element, &[("valueReference", &reference), NOTHING]);
                     }
@@ -245,12 +157,12 @@ impl<T: Word> Fmu<T> {
     }
 
     /// One variable; `None` is the time.
-    fn variable(&self, xml: &mut Xml, name: &str, reference: usize, variable: Option<&Variable>) {
+    fn variable(&self, xml: &mut Xml, reference: usize, variable: Option<&Variable>) {
         let reference = reference.to_string();
-        let largest = LARGEST_CLEARANCE_M.to_string();
+        let name = variable.map_or("time", |variable| &variable.name);
         let mut head = vec![("name", name), ("valueReference", &reference)];
         let mut own = Vec::new();
-        let start;
+        let (start, most);
         match variable.map(|variable| variable.kind) {
             None => head.extend([("causality", "independent"), ("variability", "continuous")]),
             Some(Kind::Input) => {
@@ -262,14 +174,17 @@ impl<T: Word> Fmu<T> {
                 ("variability", "continuous"),
                 ("initial", "calculated"),
             ]),
-            Some(Kind::Tunable { start: value }) => {
+            Some(Kind::Tunable {
+                start: value,
+                greatest,
+            }) => {
                 head.extend([
                     ("causality", "parameter"),
                     ("variability", "tunable"),
                     ("initial", "exact"),
                 ]);
-                start = value.to_string();
-                own.extend([("min", "0"), ("max", &largest), ("start", &start)]);
+                (start, most) = (value.to_string(), greatest.to_string());
+                own.extend([("min", "0"), ("max", &*most), ("start", &start)]);
             }
             Some(Kind::Counter) => head.extend([
                 ("causality", "output"),
@@ -278,7 +193,9 @@ impl<T: Word> Fmu<T> {
             ]),
         }
         let description = variable.map_or("Time, s", |variable| variable.description);
-        head.push(("description", description));
+        if !description.is_empty() {
+            head.push(("description", description));
+        }
         if let Some(variable) = variable
             && !variable.unit.is_empty()
         {

@@ -1,21 +1,30 @@
-//! A damper or a bank of them as an FMU: the portable C behind the Functional Mock-up Interface 2.0 or 3.0, for co-simulation.
+//! FMUs: a damper, a bank of them, or a vehicle around dampers behind the Functional Mock-up Interface 2.0 or 3.0, for co-simulation.
 //!
-//! `sources/` is the interface in C over the step of `standalone/`, `headers/` are the official headers of the interface (Modelica
-//! Association, BSD 2-Clause). Constants are compiled in, or lie as images in the folder of resources.
+//! `sources/` is the interface in C, over the step of `standalone/` or over a library; `headers/` are the official headers of the
+//! interface (Modelica Association, BSD 2-Clause). Constants are compiled in, or lie as images in the folder of resources.
 
 mod archive;
+mod bank;
 mod binary;
 mod description;
 mod page;
 mod sources;
+mod variable;
+mod vehicle;
 
-use dashpot_core::Damper;
+use std::path::PathBuf;
+
+use maud::Markup;
 use sha2::{Digest, Sha256};
 
 pub use archive::archive;
+pub use bank::Named;
 pub use binary::{Binary, CompileError, compile};
+pub use vehicle::CASE_FILE;
 
-use super::{ExportError, Word, name};
+use super::{ExportError, name};
+use sources::Source;
+use variable::Variable;
 
 /// Version of the interface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -26,69 +35,91 @@ pub enum Interface {
     Three,
 }
 
+impl Interface {
+    /// Its number.
+    pub fn number(self) -> &'static str {
+        match self {
+            Self::Two => "2.0",
+            Self::Three => "3.0",
+        }
+    }
+}
+
 /// What an FMU is made of.
-pub struct Fmu<T> {
+pub struct Fmu {
     interface: Interface,
     identifier: String,
-    dampers: Vec<Named<T>>,
+    token: String,
+    /// What it is, in a line.
+    title: String,
     step_s: f64,
-    is_loaded: bool,
+    stop_s: f64,
+    variables: Vec<Variable>,
+    /// Whether states are got, set and serialized, and derivatives of inputs taken.
+    has_states: bool,
+    has_input_derivatives: bool,
+    /// Paragraphs of its page.
+    about: Markup,
+    /// Files in the folder of resources.
+    resources: Vec<(String, Vec<u8>)>,
+    sources: Vec<Source>,
+    /// What the sources are linked with. An importer has no use for sources that need more than themselves.
+    library: Option<PathBuf>,
 }
 
-/// A damper and where it came from.
-pub struct Named<T> {
-    /// Preset or file.
-    pub name: String,
-    /// As built.
-    pub damper: Damper<T>,
-    /// Clearance 2a as its file has it (m).
-    pub clearance_m: f64,
+impl Fmu {
+    /// Tells this FMU from others, as a UUID is written.
+    pub fn token(&self) -> &str {
+        &self.token
+    }
+
+    /// What its functions begin with.
+    pub fn identifier(&self) -> &str {
+        &self.identifier
+    }
+
+    /// Version of the interface.
+    pub fn interface(&self) -> Interface {
+        self.interface
+    }
+
+    /// Internal step, s.
+    pub fn step_s(&self) -> f64 {
+        self.step_s
+    }
+
+    /// Whether an importer may compile its sources.
+    pub fn has_sources(&self) -> bool {
+        self.library.is_none()
+    }
 }
 
-impl<T: Word> Fmu<T> {
-    /// An FMU whose functions begin with `identifier`, of ASCII letters, digits and `_`; all dampers are built for the step `step_s` (s). `is_loaded`: the constants are
-    /// images in the folder of resources, which may be replaced.
-    ///
-    /// # Errors
-    /// The identifier in capitals is no name of a constant of C.
-    pub fn new(
-        interface: Interface,
-        identifier: &str,
-        dampers: Vec<Named<T>>,
-        step_s: f64,
-        is_loaded: bool,
-    ) -> Result<Self, ExportError> {
-        name::check_c(&identifier.to_ascii_uppercase())?;
-        Ok(Self {
-            interface,
-            identifier: identifier.to_owned(),
-            dampers,
-            step_s,
-            is_loaded,
-        })
-    }
+/// Functions that begin with `identifier` need one of ASCII letters, digits and `_`.
+fn check(identifier: &str) -> Result<(), ExportError> {
+    name::check_c(&identifier.to_ascii_uppercase())
+}
 
-    /// Tells this FMU from others: the hash of its constants and of what they are behind, as a UUID is written.
-    pub fn token(&self) -> String {
-        let mut hash = Sha256::new();
-        hash.update(env!("CARGO_PKG_VERSION"));
-        hash.update(&self.identifier);
-        hash.update([self.interface as u8, u8::from(self.is_loaded)]);
-        for named in &self.dampers {
-            hash.update(T::image(&named.damper));
-        }
-        let hash: String = hash
-            .finalize()
-            .iter()
-            .map(|byte| format!("{byte:02x}"))
-            .collect();
-        let parts = [
-            &hash[..8],
-            &hash[8..12],
-            &hash[12..16],
-            &hash[16..20],
-            &hash[20..32],
-        ];
-        format!("{{{}}}", parts.join("-"))
+/// The hash of what an FMU is made of, as a UUID is written.
+fn token_of<'a>(
+    identifier: &str,
+    interface: Interface,
+    parts: impl IntoIterator<Item = &'a [u8]>,
+) -> String {
+    let mut hash = Sha256::new();
+    hash.update(env!("CARGO_PKG_VERSION"));
+    hash.update(identifier);
+    hash.update([interface as u8]);
+    for part in parts {
+        hash.update(part);
     }
+    let bytes = hash.finalize();
+    let hash: String = bytes.iter().map(|byte| format!("{byte:02x}")).collect();
+    let parts = [
+        &hash[..8],
+        &hash[8..12],
+        &hash[12..16],
+        &hash[16..20],
+        &hash[20..32],
+    ];
+    format!("{{{}}}", parts.join("-"))
 }

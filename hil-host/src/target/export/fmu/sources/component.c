@@ -262,10 +262,14 @@ component_status component_step(component *this, double at_s, double step_s)
         return component_tell(this, COMPONENT_DISCARD, "a step to %.12g s, allowed: times within %.3g s of 0", now_s + step_s,
                               latest_s());
     }
-    model_step(this->model, (uint64_t)count);
-    this->steps += (uint64_t)count;
+    this->steps += model_step(this->model, (uint64_t)count);
     notice = model_notice(this->model);
     return notice == NULL ? COMPONENT_OK : component_tell(this, COMPONENT_WARNING, "%s", notice);
+}
+
+bool component_has_ended(const component *this)
+{
+    return model_has_ended(this->model);
 }
 
 /* Of a state: hash of all that follows, hash of the token, phase, steps, times, then the model. */
@@ -301,10 +305,14 @@ static component_state *new_state(component *this, size_t bytes)
 
 component_status component_get_state(component *this, void **pointer)
 {
-    const size_t bytes = HEAD_BYTES + model_saved_bytes(this->model);
-    component_state *state = *pointer == NULL ? new_state(this, bytes) : *pointer;
+    const size_t model_bytes = model_saved_bytes(this->model), bytes = HEAD_BYTES + model_bytes;
+    component_state *state;
     uint8_t *to;
 
+    if (model_bytes == 0) {
+        return component_unsupported(this, "a saved state");
+    }
+    state = *pointer == NULL ? new_state(this, bytes) : *pointer;
     if (state == NULL) {
         return COMPONENT_ERROR;
     }

@@ -75,8 +75,10 @@ component_status component_none(component *this, const char *function, const uin
 /* A function that is no capability of this FMU, or belongs to a mode that it has not. */
 component_status component_unsupported(component *this, const char *function);
 
-/* A step to `at_s + step_s`; refused where it is no multiple of the internal step, or does not begin where the last ended. */
+/* A step to `at_s + step_s`; refused where it is no multiple of the internal step, or does not begin where the last ended. It is shorter where
+ * the model ends on the way. */
 component_status component_step(component *this, double at_s, double step_s);
+bool component_has_ended(const component *this);
 
 /* The whole instance in memory of its own; NULL where there is none. It is what is serialized, too. */
 typedef struct component_state {

@@ -285,9 +285,13 @@ fmi2Status fmi2GetRealOutputDerivatives(fmi2Component c, const fmi2ValueReferenc
 fmi2Status fmi2DoStep(fmi2Component c, fmi2Real currentCommunicationPoint, fmi2Real communicationStepSize,
                       fmi2Boolean noSetFMUStatePriorToCurrentPoint)
 {
+    component_status status;
+
     ENTER(STEPPING, DoStep)
     (void)noSetFMUStatePriorToCurrentPoint;
-    return (fmi2Status)component_step(this, currentCommunicationPoint, communicationStepSize);
+    status = component_step(this, currentCommunicationPoint, communicationStepSize);
+    /* FMI 2.0.4, 4.2.2: the way to say that the simulation should end, which fmi2GetBooleanStatus then tells. */
+    return status < COMPONENT_DISCARD && component_has_ended(this) ? fmi2Discard : (fmi2Status)status;
 }
 
 fmi2Status fmi2CancelStep(fmi2Component c)
@@ -334,7 +338,7 @@ fmi2Status fmi2GetBooleanStatus(fmi2Component c, const fmi2StatusKind s, fmi2Boo
     if (s != fmi2Terminated) {
         return no_status(c, "fmi2GetBooleanStatus");
     }
-    *value = fmi2False;
+    *value = component_has_ended(this);
     return fmi2OK;
 }
 

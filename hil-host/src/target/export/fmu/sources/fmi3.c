@@ -287,7 +287,7 @@ fmi3Status fmi3DoStep(fmi3Instance instance, fmi3Float64 currentCommunicationPoi
     (void)noSetFMUStatePriorToCurrentPoint;
     status = component_step(this, currentCommunicationPoint, communicationStepSize);
     *eventHandlingNeeded = false;
-    *terminateSimulation = false;
+    *terminateSimulation = component_has_ended(this);
     *earlyReturn = false;
     *lastSuccessfulTime = component_time_s(this);
     return (fmi3Status)status;

@@ -259,7 +259,7 @@ static double velocity(const place *at, double h)
     return at->derivative_m_per_s2 == 0 ? at->velocity_m_per_s : at->velocity_m_per_s + 0.5 * h * at->derivative_m_per_s2;
 }
 
-void model_step(model *this, uint64_t steps)
+uint64_t model_step(model *this, uint64_t steps)
 {
     unsigned number;
     uint64_t step;
@@ -282,6 +282,13 @@ void model_step(model *this, uint64_t steps)
             at->reached_m = to;
         }
     }
+    return steps;
+}
+
+bool model_has_ended(const model *this)
+{
+    (void)this;
+    return false;
 }
 
 const char *model_notice(model *this)

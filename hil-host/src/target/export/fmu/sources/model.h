@@ -51,13 +51,16 @@ const char *model_allowed(uint32_t variable);
 /* Ends the initialization: at rest at the inputs. */
 void model_start(model *this);
 
-/* Steps of model_step_s, the last at the communication point to come. */
-void model_step(model *this, uint64_t steps);
+/* Steps of model_step_s, the last at the communication point to come, and how many it took: fewer where the model ends on the way. */
+uint64_t model_step(model *this, uint64_t steps);
+
+/* Whether it goes no further; model_notice has said why. */
+bool model_has_ended(const model *this);
 
 /* What happened since it was last asked and should be told; NULL where nothing did. */
 const char *model_notice(model *this);
 
-/* All that changes, as bytes of a fixed number; little-endian. */
+/* All that changes, as bytes of a fixed number, little-endian; of none where the model cannot. */
 size_t model_saved_bytes(const model *this);
 void model_save(const model *this, uint8_t *bytes);
 /* Refused, the model stays as it is. */

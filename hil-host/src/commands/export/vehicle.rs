@@ -1,0 +1,65 @@
+//! `dashpot export --fmi --case`: a vehicle as an FMU, some of its dampers outside.
+
+use std::path::PathBuf;
+
+use super::ExportArguments;
+use super::fmu::{Content, fmu_name, write};
+use crate::commands::failure::{Failure, Outcome};
+use crate::files::case::Case;
+use crate::files::input;
+use crate::study::vehicle::contact::ContactOf;
+use crate::study::vehicle::{Coupled, CoupledCase, VehicleStudyError};
+use crate::target::export::fmu::{Fmu, Interface};
+
+/// Name of the library in the folder of a build.
+const LIBRARY: &str = "libdashpot_vehicle_model.a";
+
+/// Builds the vehicle of the case called `name` and writes the FMU.
+pub(super) fn run(arguments: &ExportArguments, name: &str, interface: Interface) -> Outcome<()> {
+    let options = &arguments.fmu;
+    if options.outside.is_empty() {
+        return Err(Failure::wrong_use(
+            "--case: no damper is outside, allowed: with --outside DAMPER",
+        ));
+    }
+    let library = library(options.library.clone())?;
+    let case = Case::load(name)?;
+    let refused = |error: VehicleStudyError| Failure::new(format!("{}: {error}", case.name));
+    let of = CoupledCase::new(&case, &options.outside).map_err(refused)?;
+    let contact = ContactOf::new(&case.vehicle, case.friction, case.normal_damping_s_per_m);
+    let tables = contact
+        .map_err(VehicleStudyError::from)
+        .and_then(|contact| contact.tables_file())
+        .map_err(refused)?;
+    let folder = tables.parent().unwrap_or(&tables);
+    let coupled = Coupled::new(&of, folder).map_err(refused)?;
+    let name_in_fmu = tables.file_name().unwrap_or_default().to_string_lossy();
+    let content = input::read(&tables)?;
+    let fmu = Fmu::of_vehicle(
+        interface,
+        &fmu_name(arguments, name),
+        &of,
+        &coupled,
+        (name_in_fmu.into_owned(), content),
+        library,
+    )?;
+    let content = Content::Vehicle {
+        case: case.name,
+        outside: of.outside,
+    };
+    write(arguments, &fmu, content)
+}
+
+/// The library of vehicles: the one that is named, else that beside the program.
+fn library(named: Option<PathBuf>) -> Outcome<PathBuf> {
+    let beside = || Some(std::env::current_exe().ok()?.parent()?.join(LIBRARY));
+    let library = named.or_else(beside).unwrap_or_else(|| LIBRARY.into());
+    if library.is_file() {
+        return Ok(library);
+    }
+    Err(Failure::new(format!(
+        "{}: no library of vehicles there; allowed: --library FILE, which `cargo build --release -p dashpot-vehicle-model` makes as \
+         target/release/{LIBRARY}",
+        library.display()
+    )))
+}

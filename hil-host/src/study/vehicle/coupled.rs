@@ -1,0 +1,239 @@
+//! A vehicle as a part of another simulation: forces of the dampers outside go in, ticks are taken, signals come out.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
+
+use super::recorded::all_signals;
+use super::signals::{Signal, slug};
+use super::{Ending, Run, VehicleStudyError, contact, number_outside};
+use crate::files::case::Case;
+
+/// What a coupled vehicle is made of but for the tables of its contact; whole when it is written by serde.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct CoupledCase {
+    /// Version of Dashpot that it was written by, and is read by.
+    pub version: String,
+    /// The case; its track needs no other file.
+    pub case: Case,
+    /// Names of the dampers outside.
+    pub outside: Vec<String>,
+}
+
+impl CoupledCase {
+    /// Of a case, with these dampers outside.
+    ///
+    /// # Errors
+    /// A damper that cannot be outside; a track that is refused.
+    pub fn new(case: &Case, outside: &[String]) -> Result<Self, VehicleStudyError> {
+        let mut numbers = Vec::new();
+        for name in outside {
+            let number = number_outside(case, name, &numbers).map_err(|source| {
+                let name = name.clone();
+                VehicleStudyError::Outside { name, source }
+            })?;
+            numbers.push(number);
+        }
+        Ok(Self {
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+            case: Case {
+                track: case.track.given()?,
+                ..case.clone()
+            },
+            outside: outside.to_vec(),
+        })
+    }
+}
+
+/// A number of a coupled vehicle.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CoupledVariable {
+    /// That of the signal, with the unit.
+    pub name: String,
+    /// Where it goes or comes from.
+    role: Role,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+enum Role {
+    /// Force of a damper outside, by its place among them.
+    Force(usize),
+    /// Rate of its displacement over the last tick.
+    Velocity(usize),
+    Output(Signal),
+}
+
+impl CoupledVariable {
+    /// Whether it is the force of a damper outside, which others set.
+    pub fn is_force(&self) -> bool {
+        matches!(self.role, Role::Force(_))
+    }
+}
+
+/// A damper outside.
+#[derive(Debug, Clone)]
+struct Outside {
+    number: usize,
+    force_n: f64,
+    /// Displacement a tick ago, m.
+    last_m: f64,
+}
+
+/// A vehicle whose dampers outside are others' to compute.
+///
+/// The displacement of a tick is told at its end; a force that is set acts at the end of the next: one tick after the displacement that
+/// it answers, as with `dashpot vehicle --outside`.
+#[derive(Debug, Clone)]
+pub struct Coupled {
+    start: Run,
+    run: Run,
+    variables: Arc<[CoupledVariable]>,
+    outside: Vec<Outside>,
+    ending: Option<Ending>,
+}
+
+impl Coupled {
+    /// At the start of its case; tables of the contact are read from `folder`, or computed and left there.
+    ///
+    /// # Errors
+    /// A case of another version; a vehicle that is refused; a folder that cannot be used.
+    pub fn new(of: &CoupledCase, folder: &Path) -> Result<Self, VehicleStudyError> {
+        if of.version != env!("CARGO_PKG_VERSION") {
+            let version = of.version.clone();
+            return Err(VehicleStudyError::Version { version });
+        }
+        let case = &of.case;
+        let contact =
+            contact::ContactOf::new(&case.vehicle, case.friction, case.normal_damping_s_per_m)?;
+        let contact = contact::with(contact.tables_in(folder)?, &contact)?;
+        let run = Run::on(case, contact, Arc::new(case.track.build()?))?;
+        Ok(Self::of(run, of))
+    }
+
+    fn of(mut run: Run, of: &CoupledCase) -> Self {
+        let names: Vec<String> = run.vehicle().damper_names().map(str::to_owned).collect();
+        let mut outside = Vec::new();
+        let number_of = |name: &String| names.iter().position(|other| other == name);
+        for number in of.outside.iter().filter_map(number_of) {
+            run.state_mut().set_outside_force_n(number, Some(0.0));
+            outside.push(Outside {
+                number,
+                force_n: 0.0,
+                last_m: run.state().damper_displacements_m()[number],
+            });
+        }
+        let mut variables = Vec::new();
+        for (place, damper) in outside.iter().enumerate() {
+            let name = slug(&names[damper.number]);
+            let roles = [
+                ("force_n", Role::Force(place)),
+                ("velocity_m_per_s", Role::Velocity(place)),
+            ];
+            variables.extend(roles.map(|(what, role)| CoupledVariable {
+                name: format!("{name}_{what}"),
+                role,
+            }));
+        }
+        let forces = variables.len();
+        for signal in all_signals(&run, &of.case.vehicle) {
+            let name = signal.name().to_owned();
+            let is_there = variables[..forces].iter().any(|other| other.name == name);
+            // The simulation around it has the time.
+            if !is_there && name != "time_s" {
+                let role = Role::Output(signal);
+                variables.push(CoupledVariable { name, role });
+            }
+        }
+        Self {
+            start: run.clone(),
+            run,
+            variables: variables.into(),
+            outside,
+            ending: None,
+        }
+    }
+
+    /// Its numbers: force and velocity of each damper outside, then every signal of the vehicle but the time.
+    pub fn variables(&self) -> &[CoupledVariable] {
+        &self.variables
+    }
+
+    /// Step of the case, s.
+    pub fn step_s(&self) -> f64 {
+        self.run.vehicle().step_s()
+    }
+
+    /// At the start again, without forces outside.
+    pub fn reset(&mut self) {
+        self.run.clone_from(&self.start);
+        self.ending = None;
+        let displacements_m = self.run.state().damper_displacements_m();
+        for damper in &mut self.outside {
+            damper.force_n = 0.0;
+            damper.last_m = displacements_m[damper.number];
+        }
+    }
+
+    /// The number of a variable, by its place.
+    pub fn number(&self, place: usize) -> Option<f64> {
+        Some(match &self.variables.get(place)?.role {
+            Role::Force(outside) => self.outside[*outside].force_n,
+            Role::Velocity(outside) => {
+                let damper = &self.outside[*outside];
+                let displacements_m = self.run.state().damper_displacements_m();
+                (displacements_m[damper.number] - damper.last_m) / self.step_s()
+            }
+            Role::Output(signal) => signal.of(self.run.state(), self.run.time_s()),
+        })
+    }
+
+    /// Sets the force of a damper outside, N, by the variable's place, for all ticks that come; none that is no finite number.
+    pub fn set_force_n(&mut self, place: usize, force_n: f64) {
+        if let Some(Role::Force(outside)) = self.variables.get(place).map(|variable| &variable.role)
+            && force_n.is_finite()
+        {
+            let damper = &mut self.outside[*outside];
+            damper.force_n = force_n;
+            let state = self.run.state_mut();
+            state.set_outside_force_n(damper.number, Some(force_n));
+        }
+    }
+
+    /// Takes up to `ticks` ticks, fewer where the case ends: how many it took.
+    ///
+    /// # Errors
+    /// As [`Run::step`].
+    pub fn step(&mut self, ticks: u64) -> Result<u64, VehicleStudyError> {
+        for tick in 0..ticks {
+            if self.ending.is_some() {
+                return Ok(tick);
+            }
+            let displacements_m = self.run.state().damper_displacements_m();
+            for damper in &mut self.outside {
+                damper.last_m = displacements_m[damper.number];
+            }
+            self.ending = self.run.step()?;
+            if self.ending == Some(Ending::Completed) {
+                return Ok(tick);
+            }
+        }
+        Ok(ticks)
+    }
+
+    /// How it ended in a number: 0 not yet, 1 the case is over, 2 derailed, 3 outside the tables of the contact, 4 diverged.
+    pub fn ending_number(&self) -> i32 {
+        match &self.ending {
+            None => 0,
+            Some(Ending::Completed | Ending::Interrupted { .. } | Ending::OutsideLost { .. }) => 1,
+            Some(Ending::Derailed { .. }) => 2,
+            Some(Ending::OutsideTables { .. }) => 3,
+            Some(Ending::Diverged { .. }) => 4,
+        }
+    }
+
+    /// How it ended, if it did.
+    pub fn ending(&self) -> Option<&Ending> {
+        self.ending.as_ref()
+    }
+}

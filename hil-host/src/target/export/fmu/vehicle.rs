@@ -1,0 +1,109 @@
+//! A vehicle whose dampers outside other FMUs are: the interface in C over a library of Rust.
+
+use std::path::PathBuf;
+
+use maud::{Markup, html};
+
+use super::sources::of_interface;
+use super::variable::{Kind, Variable};
+use super::{Fmu, Interface, check, token_of};
+use crate::study::vehicle::{Coupled, CoupledCase, CoupledVariable};
+use crate::target::export::ExportError;
+
+/// What its library reads in the folder of resources.
+pub const CASE_FILE: &str = "case.json";
+
+/// Units by the ends of names, longest first.
+const UNITS: [(&str, &str); 5] = [
+    ("_m_per_s2", "m/s2"),
+    ("_m_per_s", "m/s"),
+    ("_rad", "rad"),
+    ("_m", "m"),
+    ("_n", "N"),
+];
+
+impl Fmu {
+    /// Of a vehicle that has the variables of `coupled`; its functions begin with `identifier`, of ASCII letters, digits and `_`. `library`
+    /// is that of `dashpot-vehicle-model`, `tables` name and content of the contact's tables.
+    ///
+    /// # Errors
+    /// The identifier in capitals is no name of a constant of C; a case that cannot be written.
+    pub fn of_vehicle(
+        interface: Interface,
+        identifier: &str,
+        of: &CoupledCase,
+        coupled: &Coupled,
+        tables: (String, Vec<u8>),
+        library: PathBuf,
+    ) -> Result<Self, ExportError> {
+        check(identifier)?;
+        let case = serde_json::to_vec(of).map_err(|error| ExportError::Case(error.to_string()))?;
+        let token = token_of(identifier, interface, [case.as_slice()]);
+        let step_s = coupled.step_s();
+        let mut sources = of_interface(interface);
+        sources.push(("constants.c", constants(step_s, &token)));
+        let mut variables: Vec<Variable> = coupled.variables().iter().map(variable).collect();
+        variables.push(Variable {
+            name: "ending".into(),
+            unit: "",
+            description: "0 on its way, 1 the case is over, 2 derailed, 3 outside the tables of the contact, 4 diverged",
+            kind: Kind::Counter,
+        });
+        Ok(Self {
+            interface,
+            identifier: identifier.to_owned(),
+            token,
+            title: format!(
+                "{}, internal step {step_s} s, outside: {}",
+                of.case.name,
+                of.outside.join(", ")
+            ),
+            step_s,
+            stop_s: of.case.duration_s,
+            variables,
+            has_states: false,
+            has_input_derivatives: false,
+            about: about(of),
+            resources: vec![(CASE_FILE.into(), case), tables],
+            sources,
+            library: Some(library),
+        })
+    }
+}
+
+fn variable(of: &CoupledVariable) -> Variable {
+    let unit = UNITS.iter().find(|(end, _)| of.name.ends_with(end));
+    Variable {
+        name: of.name.clone(),
+        unit: unit.map_or("", |(_, unit)| unit),
+        description: match of.is_force() {
+            true => "Force of the damper outside, positive when it resists extension",
+            false => "",
+        },
+        kind: match of.is_force() {
+            true => Kind::Input,
+            false => Kind::Output,
+        },
+    }
+}
+
+fn constants(step_s: f64, token: &str) -> String {
+    format!(
+        "/* What this FMU is. */\n\n#include \"model.h\"\n\n\
+         const double model_step_s = {step_s:e};\nconst char model_token[] = \"{token}\";\n"
+    )
+}
+
+fn about(of: &CoupledCase) -> Markup {
+    html! {
+        p {
+            "The vehicle of the case " (of.case.name) " on its track, without the force of " (of.outside.join(", ")) ": that is an \
+             input. Outputs are the columns of history.csv of " code { "dashpot vehicle" } ", and the rate of each damper outside over the \
+             last internal step."
+        }
+        p {
+            "A force that is set at t acts at the end of the internal step from t, and stays until another is set. A simulation ends with the \
+             case, or when the vehicle derails: " code { "ending" } " tells why."
+        }
+    }
+}

@@ -1,0 +1,275 @@
+//! A vehicle around a damper, each an FMU: docs/fmu.md word for word, the bits of the command, how a run ends, what is refused.
+
+use std::fs;
+use std::os::unix::fs::{PermissionsExt, symlink};
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::sync::OnceLock;
+
+use xtask::python::have_packages;
+use xtask::run::cargo_output;
+
+use crate::common::{dashpot, error_of, program};
+use crate::source;
+
+/// The library of vehicles, built once.
+fn library() -> &'static Path {
+    static LIBRARY: OnceLock<PathBuf> = OnceLock::new();
+    LIBRARY.get_or_init(|| {
+        let told = cargo_output(&[
+            "build",
+            "--locked",
+            "--package",
+            "dashpot-vehicle-model",
+            "--message-format",
+            "json-render-diagnostics",
+        ])
+        .unwrap();
+        let messages = told.lines().map(|line| serde_json::from_str(line).unwrap());
+        let files = messages.flat_map(|message: serde_json::Value| {
+            let files = message["filenames"].as_array().cloned().unwrap_or_default();
+            files
+                .into_iter()
+                .filter_map(|file| file.as_str().map(PathBuf::from))
+        });
+        let mut libraries = files.filter(|file| file.ends_with("libdashpot_vehicle_model.a"));
+        libraries.next().unwrap()
+    })
+}
+
+/// The FMU of a case in `folder`, with these dampers outside.
+fn export(folder: &Path, fmi: &str, case: &str, outside: &[&str]) {
+    let mut line = vec!["export", "--fmi", fmi, "--case", case, "--output", "it.fmu"];
+    let library = library().to_str().unwrap();
+    line.extend(["--library", library]);
+    for damper in outside {
+        line.extend(["--outside", damper]);
+    }
+    dashpot(&line, folder).success();
+}
+
+/// Columns of a CSV file by their names.
+fn columns(path: &Path) -> Vec<(String, Vec<u64>)> {
+    let mut rows = csv::Reader::from_path(path).unwrap();
+    let names = rows.headers().unwrap().clone();
+    let mut columns: Vec<(String, Vec<u64>)> = names
+        .iter()
+        .map(|name| (name.to_owned(), Vec::new()))
+        .collect();
+    for row in rows.records() {
+        for ((_, column), number) in columns.iter_mut().zip(&row.unwrap()) {
+            column.push(number.parse::<f64>().unwrap().to_bits());
+        }
+    }
+    columns
+}
+
+/// The commands of the page's section, in a folder where `cargo` has built what it is asked for.
+#[test]
+fn the_page_couples_a_vehicle_and_a_damper_to_the_bits_of_the_command() {
+    let Some(python) = have_packages("FMUs of a vehicle and a damper coupled by FMPy") else {
+        return;
+    };
+    let page = fs::read_to_string(source("../docs/fmu.md")).unwrap();
+    let section = page
+        .split_once("\n## A vehicle around a damper\n")
+        .unwrap()
+        .1;
+    let section = section.split_once("\n## ").unwrap().0;
+    let lines = section.lines().filter_map(|line| line.strip_prefix("    "));
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    fs::create_dir_all(at("target/release")).unwrap();
+    symlink(library(), at("target/release/libdashpot_vehicle_model.a")).unwrap();
+    symlink(source("../docs"), at("docs")).unwrap();
+    fs::create_dir(at("bin")).unwrap();
+    fs::write(at("bin/cargo"), "#!/bin/sh\n").unwrap();
+    fs::set_permissions(at("bin/cargo"), fs::Permissions::from_mode(0o755)).unwrap();
+    symlink(program(), at("bin/dashpot")).unwrap();
+    let path = [&at("bin"), python.parent().unwrap()].map(|folder| folder.to_owned());
+    let others = std::env::var_os("PATH").unwrap();
+    let path = path.into_iter().chain(std::env::split_paths(&others));
+    let path = std::env::join_paths(path).unwrap();
+    for line in lines {
+        let mut shell = Command::new("sh");
+        shell
+            .args(["-ec", line])
+            .current_dir(folder.path())
+            .env("PATH", &path);
+        shell.env("XDG_CACHE_HOME", env!("CARGO_TARGET_TMPDIR"));
+        let output = shell.output().unwrap();
+        let told = String::from_utf8_lossy(&output.stderr);
+        assert!(output.status.success(), "{line}: {told}");
+    }
+    let coupled = columns(&at("coupled.csv"));
+    let history = columns(&at("dashpot-vehicle/history.csv"));
+    let of_history = |name: &str| history.iter().find(|(other, _)| other == name);
+    let mut compared = 0;
+    for (name, bits) in &coupled {
+        let Some((_, expected)) = of_history(name) else {
+            assert_eq!(name, "front_lateral_damper_1_velocity_m_per_s");
+            continue;
+        };
+        assert_eq!(bits, expected, "{name}");
+        compared += 1;
+    }
+    // All but the time.
+    assert_eq!(compared, history.len() - 1);
+    assert_eq!(history[0].1.len(), 5000);
+}
+
+/// Both versions have the same numbers, the rate of the displacement is that of its last step, and a run ends where the vehicle leaves the
+/// rails; the rest is FMPy's to judge.
+#[test]
+fn fmpy_simulates_both_versions_to_the_end_of_the_run() {
+    let Some(python) = have_packages("FMUs of a vehicle by FMPy") else {
+        return;
+    };
+    let folder = tempfile::tempdir().unwrap();
+    let text = "name = \"too fast\"\nvehicle = \"locomotive\"\ntrack = \"curve-r200\"\nspeed_km_h = 200\nduration_s = 5\n";
+    fs::write(folder.path().join("fast.toml"), text).unwrap();
+    let mut told = Vec::new();
+    for fmi in ["2", "3"] {
+        let outside = ["front lateral damper 1", "rear vertical damper 2"];
+        export(folder.path(), fmi, "fast.toml", &outside);
+        let mut judge = Command::new(&python);
+        judge
+            .arg(source("tests/fmu/vehicle_judge.py"))
+            .arg("it.fmu");
+        let output = judge.current_dir(folder.path()).output().unwrap();
+        let text = String::from_utf8_lossy(&output.stderr);
+        assert!(output.status.success(), "FMI {fmi}: {text}");
+        told.push(String::from_utf8(output.stdout).unwrap());
+    }
+    assert_eq!(told[0], told[1]);
+    // Without these dampers the command says the same of its own.
+    fs::write(
+        folder.path().join("none.csv"),
+        "time_s,force_n\n0,0\n10,0\n",
+    )
+    .unwrap();
+    let run = dashpot(
+        &[
+            "vehicle",
+            "--case",
+            "fast.toml",
+            "--no-page",
+            "--outside",
+            "front lateral damper 1=none.csv",
+            "--outside",
+            "rear vertical damper 2=none.csv",
+        ],
+        folder.path(),
+    )
+    .code(1);
+    let error = error_of(&run);
+    let time_s = told[0]
+        .split_once("ended at ")
+        .unwrap()
+        .1
+        .split(' ')
+        .next()
+        .unwrap();
+    assert!(
+        error.contains(&format!("left the tables of the contact at {time_s} s")),
+        "{error} {}",
+        told[0]
+    );
+}
+
+#[test]
+fn what_is_no_vehicle_around_a_damper_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("it.a"), "no library").unwrap();
+    // `@` stands for the words of a damper outside that there is.
+    let one = "--outside front_lateral_damper_1";
+    for (code, words, expected) in [
+        (
+            2,
+            "--fmi 3 --case straight-180",
+            "no damper is outside, allowed: with --outside DAMPER",
+        ),
+        (
+            2,
+            "--fmi 3 @",
+            "--outside: it is of the FMU of a vehicle, allowed: with --case",
+        ),
+        (
+            2,
+            "--lang c --case straight-180",
+            "--case: it is of an FMU, allowed: with --fmi",
+        ),
+        (
+            2,
+            "--fmi 3 --case straight-180 @ --damper paper",
+            "cannot be used with",
+        ),
+        (
+            1,
+            "--fmi 3 --case straight-180 @ --library none.a",
+            "none.a: no library of vehicles there; allowed: --library FILE",
+        ),
+        (
+            2,
+            "--fmi 3 --case none @ --library it.a",
+            "case `none`: no such case or file",
+        ),
+        (
+            1,
+            "--fmi 3 --case straight-180 --outside front_lateral --library it.a",
+            "no damper `front lateral`; did you mean `front lateral",
+        ),
+        (
+            1,
+            "--fmi 3 --case straight-180 @ @ --library it.a",
+            "the damper is given twice, allowed: once",
+        ),
+        (
+            1,
+            "--fmi 3 --case straight-180 @ --library it.a",
+            "the C compiler cc failed",
+        ),
+    ] {
+        let line = format!("export --output it.fmu {}", words.replace('@', one));
+        let line: Vec<String> = line.split(' ').map(|word| word.replace('_', " ")).collect();
+        let line: Vec<&str> = line.iter().map(String::as_str).collect();
+        let error = error_of(&dashpot(&line, folder.path()).code(code));
+        assert!(error.contains(expected), "{words}: {error}");
+        assert!(!folder.path().join("it.fmu").exists());
+    }
+}
+
+#[cfg(all(target_os = "linux", target_arch = "x86_64"))]
+/// What a library of Rust brings with it is hidden from programs that load several.
+#[test]
+fn only_functions_of_the_interface_are_seen() {
+    let folder = tempfile::tempdir().unwrap();
+    export(
+        folder.path(),
+        "3",
+        "straight-180",
+        &["front lateral damper 1"],
+    );
+    let file = fs::File::open(folder.path().join("it.fmu")).unwrap();
+    zip::ZipArchive::new(file)
+        .unwrap()
+        .extract(folder.path())
+        .unwrap();
+    let binary = folder.path().join("binaries/x86_64-linux/straight_180.so");
+    let mut nm = Command::new("nm");
+    nm.args(["--dynamic", "--defined-only", "--format=just-symbols"])
+        .arg(binary);
+    let names = String::from_utf8(nm.output().unwrap().stdout).unwrap();
+    assert_eq!(
+        names
+            .lines()
+            .filter(|name| name.starts_with("fmi3"))
+            .count(),
+        75
+    );
+    assert!(
+        names.lines().all(|name| name.starts_with("fmi3")),
+        "{names}"
+    );
+    assert!(!folder.path().join("sources").exists());
+}

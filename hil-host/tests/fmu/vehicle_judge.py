@@ -1,0 +1,53 @@
+"""What FMPy finds of the FMU of a vehicle: problems of its description, a run to its end, calls that are refused.
+
+    python3 vehicle_judge.py FMU
+"""
+
+import sys
+
+import fmpy
+import numpy as np
+from fmpy.validation import validate_fmu
+
+FORCE = "front_lateral_damper_1_force_n"
+VELOCITY = "front_lateral_damper_1_velocity_m_per_s"
+DISPLACEMENT = "front_lateral_damper_1_displacement_m"
+
+
+def main():
+    path = sys.argv[1]
+    problems = validate_fmu(path)
+    if problems:
+        sys.exit("\n".join(problems))
+    messages = []
+    result = fmpy.simulate_fmu(
+        path,
+        output=["ending", "distance_m", DISPLACEMENT, VELOCITY],
+        output_interval=1e-3,
+        debug_logging=True,
+        logger=lambda *told: messages.append(told[-1].decode()),
+    )
+    rates = np.diff(result[DISPLACEMENT]) / 1e-3
+    assert np.array_equal(rates, result[VELOCITY][1:]), "the rate is not that of the last step"
+    assert list(result["ending"][:-1]) == [0] * (len(result) - 1)
+    print("rows", len(result), "ending", result["ending"][-1], "distance", repr(result["distance_m"][-1]))
+    print("ended at", f"{result['time'][-1]:.3f}", "s")
+    print(*messages, sep="\n")
+    print("with a force:", run(path, "9e3"))
+    print("no number:", run(path, "nan"))
+    print("an output:", run(path, "1", DISPLACEMENT))
+
+
+def run(path, value, name=FORCE):
+    """The body's displacement after half a second with a start value, or what is told of it."""
+    try:
+        result = fmpy.simulate_fmu(
+            path, stop_time=0.5, start_values={name: value}, output=["body_lateral_m"], output_interval=1e-3
+        )
+        return result["body_lateral_m"][-1]
+    except Exception as error:  # FMPy has a class for each version
+        return str(error).split(" ", 1)[1]
+
+
+if __name__ == "__main__":
+    main()

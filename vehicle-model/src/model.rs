@@ -1,0 +1,112 @@
+//! A coupled vehicle with its variables by number, and what it has to tell.
+
+use std::ffi::{CStr, CString};
+use std::path::Path;
+
+use dashpot_hil::study::vehicle::{Coupled, CoupledCase};
+use dashpot_hil::target::export::fmu::CASE_FILE;
+
+use crate::result::ModelResult;
+
+/// A model of `model.h`.
+pub struct Model {
+    vehicle: Coupled,
+    /// Why it goes no further, where its case does not say.
+    failure: bool,
+    /// To be told next.
+    notice: Option<CString>,
+    /// Told last, and read by others until the next.
+    told: Option<CString>,
+}
+
+impl Model {
+    /// Of the case and the tables in a folder.
+    ///
+    /// # Errors
+    /// A file that is not there or is none of this version, in words.
+    pub fn new(resources: &Path) -> Result<Self, String> {
+        let path = resources.join(CASE_FILE);
+        let told = |error: &dyn std::fmt::Display| format!("{}: {error}", path.display());
+        let text = std::fs::read(&path).map_err(|error| told(&error))?;
+        let case: CoupledCase = serde_json::from_slice(&text).map_err(|error| told(&error))?;
+        let vehicle = Coupled::new(&case, resources).map_err(|error| error.to_string())?;
+        Ok(Self {
+            vehicle,
+            failure: false,
+            notice: None,
+            told: None,
+        })
+    }
+
+    pub fn reset(&mut self) {
+        self.vehicle.reset();
+        self.failure = false;
+        self.notice = None;
+    }
+
+    /// Place of a variable: they count from 1 on.
+    fn place(variable: u32) -> Option<usize> {
+        usize::try_from(variable).ok()?.checked_sub(1)
+    }
+
+    pub fn number(&self, variable: u32) -> Option<f64> {
+        self.vehicle.number(Self::place(variable)?)
+    }
+
+    /// Behind the last number there is how it ended.
+    pub fn integer(&self, variable: u32) -> Option<i32> {
+        let is_ending = Self::place(variable)? == self.vehicle.variables().len();
+        is_ending.then(|| self.vehicle.ending_number())
+    }
+
+    pub fn check(&self, variable: u32, value: f64) -> ModelResult {
+        let place = Self::place(variable);
+        match place.and_then(|place| self.vehicle.variables().get(place)) {
+            None => ModelResult::NoVariable,
+            Some(variable) if !variable.is_force() => ModelResult::ReadOnly,
+            Some(_) if !value.is_finite() => ModelResult::OutOfRange,
+            Some(_) => ModelResult::Done,
+        }
+    }
+
+    pub fn set(&mut self, variable: u32, value: f64) {
+        if let Some(place) = Self::place(variable) {
+            self.vehicle.set_force_n(place, value);
+        }
+    }
+
+    /// Ticks, fewer where it ends: how many.
+    pub fn step(&mut self, ticks: u64) -> u64 {
+        if self.failure {
+            return 0;
+        }
+        let had_ended = self.vehicle.ending().is_some();
+        match self.vehicle.step(ticks) {
+            Ok(taken) => {
+                if let Some(ending) = self.vehicle.ending()
+                    && !had_ended
+                {
+                    self.notice = CString::new(ending.to_string()).ok();
+                }
+                taken
+            }
+            Err(error) => self.fail(&error.to_string()),
+        }
+    }
+
+    /// It goes no further, for this reason; no ticks.
+    pub fn fail(&mut self, reason: &str) -> u64 {
+        self.failure = true;
+        self.notice = CString::new(reason).ok();
+        0
+    }
+
+    pub fn has_ended(&self) -> bool {
+        self.failure || self.vehicle.ending().is_some()
+    }
+
+    pub fn notice(&mut self) -> Option<&CStr> {
+        self.told = self.notice.take();
+        self.told.as_deref()
+    }
+}
