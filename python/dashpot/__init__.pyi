@@ -203,7 +203,7 @@ def calibrate(
     priors: dict[str, tuple[float, float]] | None = None,
     known_priors: bool = True,
     skew: bool = True,
-    starts: int = 4,
+    starts: int | None = None,
     step_s: float = 0.00025,
 ) -> Calibrated: ...
 @final

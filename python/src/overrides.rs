@@ -1,5 +1,6 @@
 //! Names, paths and overrides as Python gives them, in the words of the files.
 
+use pyo3::exceptions::PyOverflowError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict, PyDictMethods, PyFloat, PyInt, PyString};
 
@@ -42,7 +43,14 @@ fn written(key: &Bound<'_, PyAny>, value: &Bound<'_, PyAny>) -> Outcome<String> 
     // Numbers of numpy are no floats, but are read as such.
     let is_number = value.is_instance_of::<PyFloat>() || value.is_instance_of::<PyInt>();
     if is_number || value.hasattr("__float__")? {
-        let number: f64 = value.extract()?;
+        let number = match value.extract::<f64>() {
+            Err(error) if error.is_instance_of::<PyOverflowError>(value.py()) => {
+                return refuse(format!(
+                    "override {key}: a number beyond all of float64, allowed: finite numbers"
+                ));
+            }
+            number => number?,
+        };
         return Ok(match number.is_nan() {
             true => "nan".into(),
             false => format!("{number:?}"),

@@ -77,7 +77,9 @@ class Calibration(Test):
         self.assert_refused(f"{DAMPING}: varied twice", calibrate, self.start, [test], [DAMPING, DAMPING])
         self.assert_refused(f"prior {STIFFNESS}: not varied; allowed: a number that is varied", calibrate, self.start,
                             [test], [DAMPING], priors={STIFFNESS: (1, 1)})
-        self.assert_refused("starts: 0, allowed: 1 to 1000", calibrate, self.start, [test], [DAMPING], starts=0)
+        for starts in (0, -1, 1001, 2**64):
+            self.assert_refused(f"starts: {starts}, allowed: 1 to 1000", calibrate, self.start, [test], [DAMPING],
+                                starts=starts)
         for prior in ((1e5, 0.0), (1e5, -1.0), (1e5, math.nan), (math.nan, 1.0)):
             with self.assertRaises(dashpot.DashpotError):
                 calibrate(self.start, [test], [DAMPING], priors={DAMPING: prior})

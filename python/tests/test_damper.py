@@ -60,6 +60,8 @@ class Dampers(Test):
                             dashpot.Damper, "paper", {"mount.clearance_m": None})
         self.assert_refused('overrides: list, allowed: a dictionary such as {"mount.clearance_m": 1e-3}',
                             dashpot.Damper, "paper", ["mount.clearance_m=1"])
+        self.assert_refused("override mount.clearance_m: a number beyond all of float64, allowed: finite numbers",
+                            dashpot.Damper, "paper", {"mount.clearance_m": 10**400})
         for value in (float("nan"), float("inf"), -1e300, "wide", True):
             with self.assertRaises(dashpot.DashpotError):
                 dashpot.Damper("paper", {"mount.clearance_m": value})
