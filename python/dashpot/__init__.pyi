@@ -33,7 +33,8 @@ __all__ = [
 __version__: str
 
 class DashpotError(ValueError): ...
-class DashpotFileError(DashpotError, OSError): ...
+class DashpotFileError(DashpotError, OSError):
+    def __init__(self, words: str, errno: int | None = None, filename: str | None = None) -> None: ...
 
 class Status(enum.IntFlag):
     INPUT_HELD = 1

@@ -1,5 +1,7 @@
 """What the package raises: the words of the command `dashpot`, as exceptions."""
 
+import os
+
 
 class DashpotError(ValueError):
     """A damper, case, study, array or number that is refused: what is wrong, where, and what is allowed there.
@@ -12,7 +14,26 @@ class DashpotError(ValueError):
 
 
 class DashpotFileError(DashpotError, OSError):
-    """A file that cannot be read or written, with the system's reason."""
+    """A file that cannot be read or written, with the system's reason: `filename` and, where the system gave one, `errno`.
+
+    >>> import dashpot, errno
+    >>> try:
+    ...     dashpot.Damper("no/such.toml")
+    ... except OSError as error:
+    ...     print(error.filename, error.errno == errno.ENOENT)
+    no/such.toml True
+    """
+
+    def __init__(self, words, errno=None, filename=None):
+        super().__init__(words)
+        self.errno, self.filename = errno, filename
+        self.strerror = None if errno is None else os.strerror(errno)
+
+    def __str__(self):
+        return self.args[0]
+
+    def __reduce__(self):
+        return type(self), (self.args[0], self.errno, self.filename)
 
 
 DashpotError.__module__ = "dashpot"

@@ -1,6 +1,8 @@
 """Dampers from presets, files and text; what is refused, in the words of the command."""
 
 import copy
+import errno
+import os
 import pathlib
 import pickle
 import tempfile
@@ -49,11 +51,26 @@ class Dampers(Test):
                 self.assert_refused(refusal(*rig, path), dashpot.Damper, path)
 
     def test_a_file_that_is_not_there_is_an_error_of_the_system(self):
-        with self.assertRaises(OSError):
+        with self.assertRaises(OSError) as raised:
             dashpot.Damper("no/such.toml")
-        with self.assertRaises(dashpot.DashpotFileError):
-            dashpot.Damper("no/such.toml")
+        error = raised.exception
+        self.assertIsInstance(error, dashpot.DashpotFileError)
+        self.assertEqual(str(error), refusal("rig", "--damper", "no/such.toml"))
+        again = pickle.loads(pickle.dumps(error))
+        self.assertEqual((str(again), again.args), (str(error), error.args))
+        for told in (error, again):
+            self.assertEqual((told.errno, told.filename), (errno.ENOENT, "no/such.toml"))
+            self.assertEqual(told.strerror, os.strerror(errno.ENOENT))
         self.assertFalse(issubclass(dashpot.DashpotError, OSError))
+
+    def test_a_reason_that_is_not_the_systems_has_no_number(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder, "mine.toml")
+            path.write_bytes(b"\xff")
+            with self.assertRaises(dashpot.DashpotFileError) as raised:
+                dashpot.Damper(path)
+        self.assertEqual((raised.exception.errno, raised.exception.filename), (None, str(path)))
+        self.assertTrue(str(raised.exception).startswith(f"{path}: cannot read: "))
 
     def test_wrong_overrides_are_refused(self):
         self.assert_refused("override mount.clearance_m: NoneType, allowed: a number, a text or a truth value",

@@ -145,6 +145,10 @@ class Studies(Test):
                           STUDY.replace("seeds", "sedes"), "name = 3"):
                 path.write_text(wrong)
                 self.assert_refused(refusal(*sweep, path), dashpot.Study, path)
+        with self.assertRaises(OSError) as raised:
+            dashpot.Study.from_toml(STUDY.replace("straight-180", "no/such.toml", 1))
+        self.assertRegex(str(raised.exception), "^study:[0-9]+: sweep clearance: no/such.toml: cannot read: ")
+        self.assertEqual(raised.exception.filename, "no/such.toml")
         study = dashpot.Study.from_toml(STUDY)
         for number in (9, -1, 2**64, -(10**30)):
             with self.assertRaisesRegex(IndexError, f"^case {number}, allowed: 0 to 8$"):
