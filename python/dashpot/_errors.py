@@ -9,8 +9,21 @@ class DashpotError(ValueError):
     >>> import dashpot
     >>> dashpot.Damper("papr")
     Traceback (most recent call last):
-    dashpot.DashpotError: damper `papr`: no such preset or file; give a TOML file or a preset: paper, calibrated, in-service, reduced-vertical, reduced-lateral, the nearest: paper
+    dashpot.DashpotError: damper `papr`: no such preset or file; give a TOML file or a preset: paper, calibrated, in-service, reduced-vertical, reduced-lateral; did you mean `paper`?
     """
+
+
+class DashpotKeyError(DashpotError, KeyError):
+    """A key at which a damper has no number.
+
+    >>> import dashpot
+    >>> dashpot.Damper("paper")["mount.clearanse_m"]
+    Traceback (most recent call last):
+    dashpot.DashpotKeyError: paper: no number at `mount.clearanse_m`; did you mean `mount.clearance_m`?
+    """
+
+    def __str__(self):
+        return self.args[0]
 
 
 class DashpotFileError(DashpotError, OSError):
@@ -37,4 +50,5 @@ class DashpotFileError(DashpotError, OSError):
 
 
 DashpotError.__module__ = "dashpot"
+DashpotKeyError.__module__ = "dashpot"
 DashpotFileError.__module__ = "dashpot"

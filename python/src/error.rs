@@ -27,6 +27,8 @@ use pyo3::types::PyType;
 pub enum Refusal {
     /// Something that is asked for is not allowed, or there is no result.
     Value(String),
+    /// A mapping has nothing at a key.
+    Key(String),
     /// A file cannot be read or written.
     File(Unusable),
     /// What Python raised itself, an interruption among it.
@@ -161,6 +163,7 @@ impl Refusal {
     fn worded(self, words: String) -> Self {
         match self {
             Self::Value(_) => Self::Value(words),
+            Self::Key(_) => Self::Key(words),
             Self::File(file) => Self::File(Unusable { words, ..file }),
             python => python,
         }
@@ -188,6 +191,7 @@ without_file!(
 );
 
 static VALUE: PyOnceLock<Py<PyType>> = PyOnceLock::new();
+static KEY: PyOnceLock<Py<PyType>> = PyOnceLock::new();
 static FILE: PyOnceLock<Py<PyType>> = PyOnceLock::new();
 
 impl From<Refusal> for PyErr {
@@ -201,6 +205,8 @@ impl From<Refusal> for PyErr {
             let raised = match refusal {
                 Refusal::Python(error) => return error,
                 Refusal::Value(words) => exception(&VALUE, "DashpotError")
+                    .map(|exception| PyErr::from_type(exception, words)),
+                Refusal::Key(words) => exception(&KEY, "DashpotKeyError")
                     .map(|exception| PyErr::from_type(exception, words)),
                 Refusal::File(Unusable { words, errno, path }) => {
                     exception(&FILE, "DashpotFileError").map(|exception| {

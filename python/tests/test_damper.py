@@ -82,10 +82,22 @@ class Dampers(Test):
         for value in (float("nan"), float("inf"), -1e300, "wide", True):
             with self.assertRaises(dashpot.DashpotError):
                 dashpot.Damper("paper", {"mount.clearance_m": value})
-        with self.assertRaises(dashpot.DashpotError):
-            dashpot.Damper("paper")["mount.clearanse_m"]
         with self.assertRaises(TypeError):
             dashpot.Damper(7)
+
+    def test_it_is_a_mapping(self):
+        damper, clearance = dashpot.Damper("in-service"), "mount.clearance_m"
+        self.assertEqual(damper.items(), list(dict(damper).items()))
+        self.assertEqual(damper.values(), [damper[key] for key in damper])
+        self.assertEqual(list(damper), damper.keys())
+        self.assertEqual(damper.get(clearance), damper[clearance])
+        self.assertEqual([damper.get("no.such"), damper.get("no.such", 7), damper.get(3, 7)], [None, 7, 7])
+        words = "paper: no number at `mount.clearanse_m`; did you mean `mount.clearance_m`?"
+        for kind in (KeyError, dashpot.DashpotError, dashpot.DashpotKeyError):
+            with self.assertRaises(kind) as raised:
+                dashpot.Damper("paper")["mount.clearanse_m"]
+            self.assertEqual(str(raised.exception), words)
+        self.assertEqual(str(pickle.loads(pickle.dumps(raised.exception))), words)
 
     def test_steps_that_cannot_be_are_refused(self):
         damper = dashpot.Damper("paper")

@@ -10,8 +10,6 @@ import unittest
 import dashpot
 from common import DATA, command
 
-FLAGS = doctest.ELLIPSIS | doctest.IGNORE_EXCEPTION_DETAIL
-
 
 def documented():
     """Each public object and its name."""
@@ -42,7 +40,7 @@ class Documentation(unittest.TestCase):
         self.assertEqual(missing, [])
 
     def test_examples_do_what_they_show(self):
-        parser, runner, run = doctest.DocTestParser(), doctest.DocTestRunner(optionflags=FLAGS), []
+        parser, runner, run = doctest.DocTestParser(), doctest.DocTestRunner(), []
         for name, thing in documented():
             test = parser.get_doctest(thing.__doc__, {}, name, None, None)
             if test.examples:
