@@ -1,7 +1,10 @@
 """Every public name has a documentation with an example that does what it shows, and `__all__` names them all."""
 
+import ast
 import doctest
+import importlib.metadata
 import os
+import pathlib
 import re
 import tempfile
 import types
@@ -34,6 +37,14 @@ class Documentation(unittest.TestCase):
 
     def test_the_version_is_that_of_the_command(self):
         self.assertEqual(command("--version").split()[-1], dashpot.__version__)
+
+    def test_what_python_reads_is_of_the_oldest_it_is_for(self):
+        oldest = importlib.metadata.metadata("dashpot")["Requires-Python"].removeprefix(">=")
+        major, minor = map(int, oldest.split("."))
+        files = [path for path in pathlib.Path(dashpot.__file__).parent.iterdir() if path.suffix in (".py", ".pyi")]
+        self.assertIn("__init__.pyi", [path.name for path in files])
+        for path in files:
+            ast.parse(path.read_text(), path, feature_version=(major, minor))
 
     def test_everything_is_documented(self):
         missing = [name for name, thing in documented() if not getattr(thing, "__doc__", None)]
