@@ -12,6 +12,7 @@ use pyo3::types::{IntoPyDict, PyDict, PyList};
 use crate::arrays;
 use crate::damper::Damper;
 use crate::error::{Outcome, Refusal, refuse};
+use crate::interruption::beside;
 use crate::whole::Whole;
 
 /// Starts of the search where none are given, as of the command.
@@ -123,7 +124,7 @@ impl Calibrated {
 ///
 /// `vary` names the numbers, a list of keys, or a dictionary from keys to bounds, pairs or `None` for the plausible ones. `priors` has what is
 /// known of them before, pairs of mean and standard deviation; without `known_priors` only these count. Without `skew` the sensors record at
-/// the same instant. The search begins at `starts` places, 4 where none are given. What the tests do not determine is refused. Ctrl-C acts when the calibration is done.
+/// the same instant. The search begins at `starts` places, 4 where none are given. What the tests do not determine is refused. Ctrl-C ends it.
 ///
 /// >>> import dashpot, numpy
 /// >>> made = dashpot.Damper("reduced-vertical", {"mount.clearance_m": 0.0, "reduced.damping_n_s_per_m": 100e3})
@@ -169,7 +170,7 @@ pub fn calibrate(
     if skew && !tests.is_empty() && !varied.is_empty() {
         varied.push(Varied::skew());
     }
-    let (calibration, found) = py.detach(|| {
+    let work = |is_unwanted: &(dyn Fn() -> bool + Sync)| {
         let mut loops = Vec::new();
         for test in &tests {
             loops.extend(LoopTest::of(test, step_s)?);
@@ -182,9 +183,10 @@ pub fn calibrate(
             step_s,
             starts,
         };
-        let found = calibration.run(&|_| {})?;
+        let found = calibration.run_unless(&|_| {}, is_unwanted)?;
         Ok::<_, Refusal>((calibration, found))
-    })?;
+    };
+    let (calibration, found) = py.detach(|| beside(work))??;
     let name = format!("{}, calibrated", damper.name);
     let damper = Py::new(py, Damper::of(name, found.damper.clone())?)?;
     Ok(Calibrated {

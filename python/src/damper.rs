@@ -3,7 +3,7 @@
 use dashpot_core::CheckedParameters;
 use dashpot_core::characteristic::Characteristic;
 use dashpot_hil::files::damper::{self, Keyed};
-use dashpot_hil::study::verification::reference_forces;
+use dashpot_hil::study::verification::reference_forces_unless;
 use numpy::{Ix1, PyArray1};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyFloat, PyList};
@@ -11,6 +11,7 @@ use pyo3::types::{PyDict, PyFloat, PyList};
 use crate::arrays::{self, Precision};
 use crate::built::BuiltDamper;
 use crate::error::{Outcome, Refusal, refuse};
+use crate::interruption::Interruption;
 use crate::overrides::assignments;
 use crate::pickled::{Pickled, pickled};
 use crate::rig::{Cycle, indices};
@@ -273,8 +274,14 @@ impl Damper {
         let motion = arrays::read::<f64, Ix1>("x", x)?;
         let displacements = motion.as_slice().map_err(PyErr::from)?;
         let parameters = &self.parameters;
-        let forces = py.detach(|| reference_forces(parameters, step_s, displacements));
-        Ok(PyArray1::from_vec(py, forces.map_err(Refusal::from)?))
+        let forces = py.detach(|| {
+            let interruption = Interruption::default();
+            let is_unwanted = || interruption.is_wanted();
+            let forces = reference_forces_unless(parameters, step_s, displacements, &is_unwanted);
+            interruption.raised()?;
+            forces.map_err(Refusal::from)
+        });
+        Ok(PyArray1::from_vec(py, forces?))
     }
 
     fn __eq__(&self, other: &Bound<'_, PyAny>) -> bool {

@@ -7,7 +7,8 @@ use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::error::Outcome;
+use crate::error::{Outcome, Refusal};
+use crate::interruption::Interruption;
 
 /// One settled cycle of a bench test. `Damper.rig` makes one.
 ///
@@ -31,7 +32,13 @@ impl Cycle {
             amplitude_m,
             frequency_hz,
         };
-        let cycle = py.detach(|| bench_test::run_until_periodic(parameters, motion, step_s));
+        let cycle = py.detach(|| {
+            let interruption = Interruption::default();
+            let is_unwanted = || interruption.is_wanted();
+            let cycle = bench_test::run_unless(parameters, motion, step_s, &is_unwanted);
+            interruption.raised()?;
+            cycle.map_err(Refusal::from)
+        });
         Ok(Self(cycle?))
     }
 }

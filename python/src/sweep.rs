@@ -9,7 +9,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 
 use crate::error::{Outcome, Refusal, refuse};
-use crate::interruption::Interruption;
+use crate::interruption::{Interruption, beside};
 use crate::overrides::path;
 use crate::pickled::{Pickled, pickled};
 use crate::vehicle::SHARED;
@@ -206,8 +206,7 @@ impl Study {
     }
 
     /// Runs the cases on so many threads, one a core where none are given, and gives their columns, in the order of the cases: what
-    /// `pandas.DataFrame` takes. `shard`, a pair of its number from 0 and how many there are, takes only that part. Ctrl-C ends it after
-    /// the case that is next done.
+    /// `pandas.DataFrame` takes. `shard`, a pair of its number from 0 and how many there are, takes only that part. Ctrl-C ends it.
     #[pyo3(signature = (*, shard=None, threads=None))]
     fn run<'py>(
         &self,
@@ -232,17 +231,17 @@ impl Study {
         };
         let rows = py.detach(|| {
             let numbers: Vec<u64> = self.study.part(shard).collect();
-            let mut rows = Vec::new();
-            let take = |row: Row| -> Outcome<()> {
-                rows.push(row);
-                let interruption = Interruption::default();
-                interruption.is_wanted();
-                Ok(interruption.raised()?)
-            };
-            sweep::run_with(&self.study, &SHARED, &numbers, threads, &|| false, take)?;
-            rows.sort_by_key(|row| row.case);
-            Ok::<_, Refusal>(rows)
-        })?;
+            beside(|is_unwanted| {
+                let mut rows = Vec::new();
+                let take = |row: Row| -> Outcome<()> {
+                    rows.push(row);
+                    Ok(())
+                };
+                sweep::run_with(&self.study, &SHARED, &numbers, threads, is_unwanted, take)?;
+                rows.sort_by_key(|row| row.case);
+                Ok::<_, Refusal>(rows)
+            })
+        })??;
         self.columns_of(py, &rows)
     }
 

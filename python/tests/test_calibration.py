@@ -5,6 +5,7 @@ import math
 import dashpot
 import numpy
 from common import Test
+from interruption import interrupted
 
 STIFFNESS, DAMPING = "mount.stiffness_n_per_m", "reduced.damping_n_s_per_m"
 MADE = {STIFFNESS: 7e6, DAMPING: 100e3, "mount.clearance_m": 0.0}
@@ -65,6 +66,12 @@ class Calibration(Test):
         found = dashpot.calibrate(self.start.replace({STIFFNESS: 7e6}), vary=[DAMPING], indices=tests)
         self.assertAlmostEqual(found.values[DAMPING] / 100e3, 1, 3)
         self.assertEqual(found.loops, [])
+
+    def test_an_interruption_ends_it(self):
+        indices = [{"amplitude_m": 3e-3, "frequency_hz": 1.0, "max_extension_force_n": 1900.0}]
+        for tests in ({"tests": self.tests}, {"indices": indices}):
+            call = {"vary": [STIFFNESS, DAMPING], "starts": 1000, "step_s": 1e-4, **tests}
+            self.assertTrue(interrupted(dashpot.calibrate, self.start, **call))
 
     def test_what_tests_do_not_determine_is_refused(self):
         with self.assertRaisesRegex(dashpot.DashpotError, f"the tests do not determine\n  {STIFFNESS}: "):

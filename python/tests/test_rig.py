@@ -6,6 +6,7 @@ import math
 import dashpot
 import numpy
 from common import Test, command, refusal
+from interruption import interrupted
 
 
 class Rig(Test):
@@ -56,6 +57,13 @@ class Rig(Test):
         for step_s in (0, -1, math.nan, 1):
             with self.assertRaises(dashpot.DashpotError):
                 damper.rig(1e-3, 1, step_s)
+
+    def test_an_interruption_ends_it(self):
+        damper = dashpot.Damper("paper")
+        self.assertTrue(interrupted(damper.rig, 1e-3, 1e-3))
+        self.assertTrue(interrupted(damper.indices, 1e-3, 1e-3))
+        x = 5e-3 * numpy.sin(numpy.arange(200_000) / 80)
+        self.assertTrue(interrupted(damper.reference, x, 1e-3))
 
     def test_the_characteristic_is_the_law(self):
         reduced = dashpot.Damper("reduced-lateral")

@@ -127,8 +127,8 @@ class Studies(Test):
     def test_an_interruption_ends_a_row(self):
         long = dashpot.Study.from_toml(STUDY.replace("duration_s = 0.5", "duration_s = 60"))
         self.assertTrue(interrupted(long.row, 0))
-        # Of many threads at the next row.
-        self.assertTrue(interrupted(dashpot.Study(self.path).run, threads=2, looks=3))
+        # Many threads within their rows.
+        self.assertTrue(interrupted(long.run, threads=2))
 
     def test_shipped_studies_are_there(self):
         for path in (DATA / "studies").glob("*.toml"):
