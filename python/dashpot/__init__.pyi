@@ -1,12 +1,12 @@
 import enum
 from collections.abc import Iterator, Sequence
 from os import PathLike
-from typing import Any, TypeAlias, TypeVar, final, overload
+from typing import Any, Literal, TypeAlias, TypeVar, final, overload
 
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
-_Path: TypeAlias = str | PathLike[str]
+_Path: TypeAlias = str | bytes | PathLike[str] | PathLike[bytes]
 _Overrides: TypeAlias = dict[str, float | str | bool]
 _Floats: TypeAlias = NDArray[np.float32] | NDArray[np.float64]
 _Column: TypeAlias = NDArray[np.float64] | NDArray[np.int64] | list[str | int | float | None]
@@ -263,4 +263,6 @@ def read(
     force_unit: str | None = None,
     group: str | None = None,
     skip_invalid: bool = False,
+    header: bool | None = None,
+    decimal_mark: Literal["point", "comma"] | None = None,
 ) -> dict[str, NDArray[np.float64]]: ...

@@ -159,6 +159,17 @@ impl Refusal {
         Self::from(error).worded(words)
     }
 
+    /// The same in words made of its own.
+    pub fn with(self, words: impl Fn(&str) -> String) -> Self {
+        let own = match &self {
+            Self::Value(words) | Self::Key(words) => words,
+            Self::File(file) => &file.words,
+            Self::Python(_) => return self,
+        };
+        let words = words(own);
+        self.worded(words)
+    }
+
     /// The same in other words.
     fn worded(self, words: String) -> Self {
         match self {

@@ -1,5 +1,7 @@
 //! Names, paths and overrides as Python gives them, in the words of the files.
 
+use std::path::PathBuf;
+
 use dashpot_core::DamperParameters;
 use dashpot_hil::files::vehicle::Replacement;
 use pyo3::exceptions::PyOverflowError;
@@ -11,11 +13,19 @@ use crate::error::{Outcome, refuse};
 
 /// A name, or a path of any kind, as text.
 pub fn path(name: &Bound<'_, PyAny>) -> Outcome<String> {
-    let path = name.py().import("os")?.getattr("fspath")?.call1((name,))?;
-    match path.extract::<String>() {
+    match path_of_file(name)?.into_os_string().into_string() {
         Ok(path) => Ok(path),
-        Err(_) => refuse(format!("{name}: allowed: a name or a path in text")),
+        Err(path) => refuse(format!(
+            "{}: allowed: a name or a path in UTF-8",
+            path.display()
+        )),
     }
+}
+
+/// A path of any kind, of any bytes that the system allows.
+pub fn path_of_file(path: &Bound<'_, PyAny>) -> Outcome<PathBuf> {
+    let os = path.py().import("os")?;
+    Ok(os.call_method1("fsdecode", (path,))?.extract()?)
 }
 
 /// A dictionary from keys to values as `table.key=value`; none where there is none.

@@ -63,6 +63,17 @@ class Dampers(Test):
             self.assertEqual(told.strerror, os.strerror(errno.ENOENT))
         self.assertFalse(issubclass(dashpot.DashpotError, OSError))
 
+    def test_paths_are_text_or_bytes(self):
+        path = DATA / "dampers" / "paper.toml"
+        for kind in (str(path), os.fsencode(path), path, b"paper"):
+            self.assertEqual(dashpot.Damper(kind), dashpot.Damper("paper"))
+        for wrong in (b"dampers/\xff.toml", "dampers/\udcff.toml", pathlib.Path("dampers/\udcff.toml")):
+            words = "dampers/\ufffd.toml: allowed: a name or a path in UTF-8"
+            self.assert_refused(words, dashpot.Damper, wrong)
+            self.assert_refused(words, dashpot.vehicle, wrong)
+            self.assert_refused(words, dashpot.Study, wrong)
+            self.assert_refused(words, dashpot.contact, wrong)
+
     def test_a_reason_that_is_not_the_systems_has_no_number(self):
         with tempfile.TemporaryDirectory() as folder:
             path = pathlib.Path(folder, "mine.toml")

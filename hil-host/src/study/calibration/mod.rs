@@ -265,7 +265,7 @@ impl Calibration {
             }
         }
         Err(CalibrationError::NoFit(
-            "each search for the intervals met a better minimum; give --starts more".into(),
+            "each search for the intervals met a better minimum; give more starts".into(),
         ))
     }
 
