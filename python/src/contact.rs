@@ -12,7 +12,7 @@ use pyo3::types::PyDict;
 
 use crate::arrays;
 use crate::error::{Outcome, Refusal, refuse};
-use crate::interruption::Interruption;
+use crate::interruption::asking;
 use crate::overrides::path;
 
 /// Rows between two looks whether their forces are still wanted.
@@ -213,13 +213,12 @@ pub fn creep_forces<'py>(
         };
         let book = KalkerBook::new();
         let (rows, _) = numbers.as_chunks::<3>();
-        let interruption = Interruption::default();
         let mut forces = Vec::with_capacity(numbers.len());
-        for rows in rows.chunks(ROWS_A_LOOK) {
-            if interruption.is_wanted() {
-                break;
-            }
-            for &[longitudinal, lateral, spin_per_m] in rows {
+        asking(|is_unwanted| {
+            let parts = rows.chunks(ROWS_A_LOOK);
+            for &[longitudinal, lateral, spin_per_m] in
+                parts.take_while(|_| !is_unwanted()).flatten()
+            {
                 let creepage = Creepage {
                     longitudinal,
                     lateral,
@@ -227,8 +226,7 @@ pub fn creep_forces<'py>(
                 };
                 forces.extend(book.forces(&contact, &creepage).components());
             }
-        }
-        interruption.raised()?;
+        })?;
         Ok::<_, Refusal>(forces)
     })?;
     Ok(PyArray1::from_vec(py, forces).reshape([rows.shape()[0], 3])?)

@@ -11,7 +11,7 @@ use pyo3::types::{PyDict, PyFloat, PyList};
 use crate::arrays::{self, Precision};
 use crate::built::BuiltDamper;
 use crate::error::{Outcome, Refusal, refuse};
-use crate::interruption::Interruption;
+use crate::interruption::asking;
 use crate::overrides::assignments;
 use crate::pickled::{Pickled, pickled};
 use crate::rig::{Cycle, indices};
@@ -274,14 +274,10 @@ impl Damper {
         let motion = arrays::read::<f64, Ix1>("x", x)?;
         let displacements = motion.as_slice().map_err(PyErr::from)?;
         let parameters = &self.parameters;
-        let forces = py.detach(|| {
-            let interruption = Interruption::default();
-            let is_unwanted = || interruption.is_wanted();
-            let forces = reference_forces_unless(parameters, step_s, displacements, &is_unwanted);
-            interruption.raised()?;
-            forces.map_err(Refusal::from)
-        });
-        Ok(PyArray1::from_vec(py, forces?))
+        let solve = |is_unwanted: &dyn Fn() -> bool| {
+            reference_forces_unless(parameters, step_s, displacements, is_unwanted)
+        };
+        Ok(PyArray1::from_vec(py, py.detach(|| asking(solve))??))
     }
 
     fn __eq__(&self, other: &Bound<'_, PyAny>) -> bool {

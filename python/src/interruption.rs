@@ -29,6 +29,14 @@ impl Interruption {
     }
 }
 
+/// Does work that asks whether it is unwanted, in this thread.
+pub fn asking<T>(work: impl FnOnce(&dyn Fn() -> bool) -> T) -> PyResult<T> {
+    let interruption = Interruption::default();
+    let result = work(&|| interruption.is_wanted());
+    interruption.raised()?;
+    Ok(result)
+}
+
 /// Time between two looks while other threads work: shorter than a person notices.
 const LOOK: Duration = Duration::from_millis(20);
 

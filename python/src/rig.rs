@@ -7,8 +7,8 @@ use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::error::{Outcome, Refusal};
-use crate::interruption::Interruption;
+use crate::error::Outcome;
+use crate::interruption::asking;
 
 /// One settled cycle of a bench test. `Damper.rig` makes one.
 ///
@@ -32,14 +32,10 @@ impl Cycle {
             amplitude_m,
             frequency_hz,
         };
-        let cycle = py.detach(|| {
-            let interruption = Interruption::default();
-            let is_unwanted = || interruption.is_wanted();
-            let cycle = bench_test::run_unless(parameters, motion, step_s, &is_unwanted);
-            interruption.raised()?;
-            cycle.map_err(Refusal::from)
-        });
-        Ok(Self(cycle?))
+        let run = |is_unwanted: &dyn Fn() -> bool| {
+            bench_test::run_unless(parameters, motion, step_s, is_unwanted)
+        };
+        Ok(Self(py.detach(|| asking(run))??))
     }
 }
 

@@ -9,7 +9,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 
 use crate::error::{Outcome, Refusal, refuse};
-use crate::interruption::{Interruption, beside};
+use crate::interruption::{asking, beside};
 use crate::overrides::path;
 use crate::pickled::{Pickled, pickled};
 use crate::vehicle::SHARED;
@@ -193,13 +193,9 @@ impl Study {
         let Whole::Count(number) = number else {
             return Err(self.no_case(&number));
         };
-        let row = py.detach(|| {
-            let interruption = Interruption::default();
-            let row = sweep::row(&self.study, number, &SHARED, &|| interruption.is_wanted());
-            interruption.raised()?;
-            row.map_err(Refusal::from)
-        })?;
-        match row {
+        let run =
+            |is_unwanted: &dyn Fn() -> bool| sweep::row(&self.study, number, &SHARED, is_unwanted);
+        match py.detach(|| asking(run))?? {
             Some(row) => self.in_python(py, &row),
             None => Err(self.no_case(&Whole::Count(number))),
         }
