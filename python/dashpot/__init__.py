@@ -26,7 +26,7 @@ from ._dashpot import (
     read,
     vehicle,
 )
-from ._errors import DashpotError, DashpotFileError
+from ._errors import DashpotError, DashpotFileError, DashpotKeyError
 from ._status import Status
 
 __all__ = [
@@ -38,6 +38,7 @@ __all__ = [
     "Damper",
     "DashpotError",
     "DashpotFileError",
+    "DashpotKeyError",
     "State",
     "Status",
     "Study",

@@ -1,14 +1,17 @@
 import enum
 from collections.abc import Iterator, Sequence
 from os import PathLike
-from typing import Any, Literal, final
+from typing import Any, Literal, TypeAlias, TypeVar, final, overload
 
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
-type _Path = str | PathLike[str]
-type _Overrides = dict[str, float | str | bool]
-type _Floats = NDArray[np.float32] | NDArray[np.float64]
+_Path: TypeAlias = str | bytes | PathLike[str] | PathLike[bytes]
+_Overrides: TypeAlias = dict[str, float | str | bool]
+_Floats: TypeAlias = NDArray[np.float32] | NDArray[np.float64]
+_Column: TypeAlias = NDArray[np.float64] | NDArray[np.int64] | list[str | int | float | None]
+_T = TypeVar("_T")
+_A = TypeVar("_A", NDArray[np.float32], NDArray[np.float64])
 
 __all__ = [
     "Bank",
@@ -19,6 +22,7 @@ __all__ = [
     "Damper",
     "DashpotError",
     "DashpotFileError",
+    "DashpotKeyError",
     "State",
     "Status",
     "Study",
@@ -33,7 +37,9 @@ __all__ = [
 __version__: str
 
 class DashpotError(ValueError): ...
-class DashpotFileError(DashpotError, OSError): ...
+class DashpotKeyError(DashpotError, KeyError): ...
+class DashpotFileError(DashpotError, OSError):
+    def __init__(self, words: str, errno: int | None = None, filename: str | None = None) -> None: ...
 
 class Status(enum.IntFlag):
     INPUT_HELD = 1
@@ -52,6 +58,12 @@ class Damper:
     @property
     def name(self) -> str: ...
     def keys(self) -> list[str]: ...
+    def values(self) -> list[float]: ...
+    def items(self) -> list[tuple[str, float]]: ...
+    @overload
+    def get(self, key: object, default: None = None, /) -> float | None: ...
+    @overload
+    def get(self, key: object, default: _T, /) -> float | _T: ...
     def __getitem__(self, key: str, /) -> float: ...
     def __contains__(self, key: object, /) -> bool: ...
     def __len__(self) -> int: ...
@@ -79,9 +91,9 @@ class BuiltDamper:
     def with_clearance_m(self, clearance_m: float) -> BuiltDamper: ...
     def at_rest(self, displacement_m: float = 0.0) -> State: ...
     def step(self, state: State, displacement_m: float) -> float: ...
-    def replay[A: (NDArray[np.float32], NDArray[np.float64])](
-        self, x: A, *, state: State | None = None, out: A | None = None
-    ) -> A: ...
+    def replay(
+        self, x: _A, *, state: State | None = None, out: _A | None = None
+    ) -> _A: ...
     def state_from_bytes(self, saved: bytes) -> State: ...
 
 @final
@@ -108,14 +120,15 @@ class State:
 class Bank:
     def __new__(cls, dampers: Sequence[BuiltDamper]) -> Bank: ...
     def at_rest(self, displacements_m: _Floats | None = None) -> list[State]: ...
-    def replay[A: (NDArray[np.float32], NDArray[np.float64])](
-        self, x: A, *, states: Sequence[State] | None = None, out: A | None = None
-    ) -> A: ...
+    def replay(
+        self, x: _A, *, states: Sequence[State] | None = None, out: _A | None = None
+    ) -> _A: ...
     @property
     def step_s(self) -> float: ...
     @property
     def dtype(self) -> np.dtype[np.float32] | np.dtype[np.float64]: ...
     def __len__(self) -> int: ...
+    def __iter__(self) -> Iterator[BuiltDamper]: ...
 
 @final
 class Cycle:
@@ -131,8 +144,6 @@ class Cycle:
     def cycles(self) -> int: ...
     @property
     def indices(self) -> dict[str, float | None]: ...
-
-type _Column = NDArray[np.float64] | NDArray[np.int64] | list[str | int | float | None]
 
 @final
 class VehicleRun:
@@ -161,7 +172,7 @@ def vehicle(
     normal_damping_s_per_m: float | None = None,
     step_us: float | None = None,
     push_m: float | None = None,
-    dampers: dict[str, _Path] | None = None,
+    dampers: dict[str, _Path | Damper] | dict[str, _Path] | dict[str, Damper] | None = None,
     overrides: _Overrides | None = None,
     signals: Sequence[str] | None = None,
 ) -> VehicleRun: ...
@@ -203,7 +214,7 @@ def calibrate(
     priors: dict[str, tuple[float, float]] | None = None,
     known_priors: bool = True,
     skew: bool = True,
-    starts: int = 4,
+    starts: int | None = None,
     step_s: float = 0.00025,
 ) -> Calibrated: ...
 @final
@@ -252,4 +263,6 @@ def read(
     force_unit: str | None = None,
     group: str | None = None,
     skip_invalid: bool = False,
+    header: bool | None = None,
+    decimal_mark: Literal["point", "comma"] | None = None,
 ) -> dict[str, NDArray[np.float64]]: ...

@@ -1,5 +1,7 @@
 """What the package raises: the words of the command `dashpot`, as exceptions."""
 
+import os
+
 
 class DashpotError(ValueError):
     """A damper, case, study, array or number that is refused: what is wrong, where, and what is allowed there.
@@ -7,13 +9,46 @@ class DashpotError(ValueError):
     >>> import dashpot
     >>> dashpot.Damper("papr")
     Traceback (most recent call last):
-    dashpot.DashpotError: damper `papr`: no such preset or file; give a TOML file or a preset: paper, calibrated, in-service, reduced-vertical, reduced-lateral, the nearest: paper
+    dashpot.DashpotError: damper `papr`: no such preset or file; give a TOML file or a preset: paper, calibrated, in-service, reduced-vertical, reduced-lateral; did you mean `paper`?
     """
 
 
+class DashpotKeyError(DashpotError, KeyError):
+    """A key at which a damper has no number.
+
+    >>> import dashpot
+    >>> dashpot.Damper("paper")["mount.clearanse_m"]
+    Traceback (most recent call last):
+    dashpot.DashpotKeyError: paper: no number at `mount.clearanse_m`; did you mean `mount.clearance_m`?
+    """
+
+    def __str__(self):
+        return self.args[0]
+
+
 class DashpotFileError(DashpotError, OSError):
-    """A file that cannot be read or written, with the system's reason."""
+    """A file that cannot be read or written, with the system's reason: `filename` and, where the system gave one, `errno`.
+
+    >>> import dashpot, errno
+    >>> try:
+    ...     dashpot.Damper("no/such.toml")
+    ... except OSError as error:
+    ...     print(error.filename, error.errno == errno.ENOENT)
+    no/such.toml True
+    """
+
+    def __init__(self, words, errno=None, filename=None):
+        super().__init__(words)
+        self.errno, self.filename = errno, filename
+        self.strerror = None if errno is None else os.strerror(errno)
+
+    def __str__(self):
+        return self.args[0]
+
+    def __reduce__(self):
+        return type(self), (self.args[0], self.errno, self.filename)
 
 
 DashpotError.__module__ = "dashpot"
+DashpotKeyError.__module__ = "dashpot"
 DashpotFileError.__module__ = "dashpot"

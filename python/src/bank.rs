@@ -4,11 +4,13 @@ use dashpot_core::{Damper as Constants, DamperState};
 use dashpot_hil::study::motion::follow_bank;
 use numpy::{Ix1, Ix2, PyArray2, PyArrayDescr, PyUntypedArrayMethods};
 use pyo3::prelude::*;
+use pyo3::types::PyList;
 
 use crate::arrays::{self, Precision};
 use crate::built::{BuiltDamper, Scalar};
 use crate::error::{Outcome, refuse};
 use crate::interruption::Interruption;
+use crate::pickled::{Pickled, pickled};
 use crate::state::State;
 
 /// Built dampers of one step and one precision, stepped together; one damper may be there several times.
@@ -105,6 +107,11 @@ impl Bank {
             }
         }
         Ok(forces)
+    }
+
+    /// The dampers as a list.
+    fn in_python<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
+        PyList::new(py, self.dampers.iter().map(|damper| damper.bind(py)))
     }
 
     /// The states, for this call alone.
@@ -204,5 +211,18 @@ impl Bank {
 
     fn __len__(&self) -> usize {
         self.dampers.len()
+    }
+
+    fn __iter__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        Ok(self.in_python(py)?.try_iter()?.into_any())
+    }
+
+    fn __repr__(&self, py: Python<'_>) -> PyResult<String> {
+        Ok(format!("Bank({})", self.in_python(py)?.repr()?))
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> Outcome<Pickled<'py>> {
+        let dampers = slf.get().in_python(slf.py())?;
+        pickled(slf.get_type().into_any(), (dampers,))
     }
 }

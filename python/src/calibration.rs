@@ -12,6 +12,11 @@ use pyo3::types::{IntoPyDict, PyDict, PyList};
 use crate::arrays;
 use crate::damper::Damper;
 use crate::error::{Outcome, Refusal, refuse};
+use crate::interruption::beside;
+use crate::whole::Whole;
+
+/// Starts of the search where none are given, as of the command.
+const STARTS: u64 = 4;
 
 /// Arrays of time (s), displacement (m) and force (N).
 type Samples<'py> = [Bound<'py, PyAny>; 3];
@@ -119,7 +124,7 @@ impl Calibrated {
 ///
 /// `vary` names the numbers, a list of keys, or a dictionary from keys to bounds, pairs or `None` for the plausible ones. `priors` has what is
 /// known of them before, pairs of mean and standard deviation; without `known_priors` only these count. Without `skew` the sensors record at
-/// the same instant. What the tests do not determine is refused. Ctrl-C acts when the calibration is done.
+/// the same instant. The search begins at `starts` places, 4 where none are given. What the tests do not determine is refused. Ctrl-C ends it.
 ///
 /// >>> import dashpot, numpy
 /// >>> made = dashpot.Damper("reduced-vertical", {"mount.clearance_m": 0.0, "reduced.damping_n_s_per_m": 100e3})
@@ -132,7 +137,7 @@ impl Calibrated {
 /// True
 #[pyfunction]
 #[pyo3(signature = (
-    damper, tests=None, vary=None, *, indices=None, priors=None, known_priors=true, skew=true, starts=4, step_s=0.00025
+    damper, tests=None, vary=None, *, indices=None, priors=None, known_priors=true, skew=true, starts=None, step_s=0.00025
 ))]
 #[expect(clippy::too_many_arguments, reason = "what Python names when it calls")]
 pub fn calibrate(
@@ -144,15 +149,14 @@ pub fn calibrate(
     priors: Option<&Bound<'_, PyDict>>,
     known_priors: bool,
     skew: bool,
-    starts: usize,
+    starts: Option<Whole>,
     step_s: f64,
 ) -> Outcome<Calibrated> {
     if !STEP_RANGE_S.contains(&step_s) {
         return Err(StudyError::Step { step_s }.into());
     }
-    if !(1..=1000).contains(&starts) {
-        return refuse(format!("starts: {starts}, allowed: 1 to 1000"));
-    }
+    let starts = starts.unwrap_or(Whole::Count(STARTS));
+    let starts = starts.within("starts", 1..=1000)? as usize;
     let damper = damper.get();
     let mut varied = varied(damper, vary, priors, known_priors)?;
     let tests: Vec<Recorded> = tests
@@ -166,7 +170,7 @@ pub fn calibrate(
     if skew && !tests.is_empty() && !varied.is_empty() {
         varied.push(Varied::skew());
     }
-    let (calibration, found) = py.detach(|| {
+    let work = |is_unwanted: &(dyn Fn() -> bool + Sync)| {
         let mut loops = Vec::new();
         for test in &tests {
             loops.extend(LoopTest::of(test, step_s)?);
@@ -179,9 +183,10 @@ pub fn calibrate(
             step_s,
             starts,
         };
-        let found = calibration.run(&|_| {})?;
+        let found = calibration.run_unless(&|_| {}, is_unwanted)?;
         Ok::<_, Refusal>((calibration, found))
-    })?;
+    };
+    let (calibration, found) = py.detach(|| beside(work))??;
     let name = format!("{}, calibrated", damper.name);
     let damper = Py::new(py, Damper::of(name, found.damper.clone())?)?;
     Ok(Calibrated {

@@ -12,7 +12,11 @@ use pyo3::types::PyDict;
 
 use crate::arrays;
 use crate::error::{Outcome, Refusal, refuse};
+use crate::interruption::asking;
 use crate::overrides::path;
+
+/// Rows between two looks whether their forces are still wanted.
+const ROWS_A_LOOK: usize = 1 << 12;
 
 /// A number of a row.
 type Column = fn(&Shift) -> f64;
@@ -209,17 +213,21 @@ pub fn creep_forces<'py>(
         };
         let book = KalkerBook::new();
         let (rows, _) = numbers.as_chunks::<3>();
-        let forces = rows
-            .iter()
-            .flat_map(|&[longitudinal, lateral, spin_per_m]| {
+        let mut forces = Vec::with_capacity(numbers.len());
+        asking(|is_unwanted| {
+            let parts = rows.chunks(ROWS_A_LOOK);
+            for &[longitudinal, lateral, spin_per_m] in
+                parts.take_while(|_| !is_unwanted()).flatten()
+            {
                 let creepage = Creepage {
                     longitudinal,
                     lateral,
                     spin_per_m,
                 };
-                book.forces(&contact, &creepage).components()
-            });
-        Ok::<_, Refusal>(forces.collect())
+                forces.extend(book.forces(&contact, &creepage).components());
+            }
+        })?;
+        Ok::<_, Refusal>(forces)
     })?;
     Ok(PyArray1::from_vec(py, forces).reshape([rows.shape()[0], 3])?)
 }

@@ -3,14 +3,15 @@
 use dashpot_core::CheckedParameters;
 use dashpot_core::characteristic::Characteristic;
 use dashpot_hil::files::damper::{self, Keyed};
-use dashpot_hil::study::verification::reference_forces;
+use dashpot_hil::study::verification::reference_forces_unless;
 use numpy::{Ix1, PyArray1};
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyList};
+use pyo3::types::{PyDict, PyFloat, PyList};
 
 use crate::arrays::{self, Precision};
 use crate::built::BuiltDamper;
 use crate::error::{Outcome, Refusal, refuse};
+use crate::interruption::asking;
 use crate::overrides::assignments;
 use crate::pickled::{Pickled, pickled};
 use crate::rig::{Cycle, indices};
@@ -47,6 +48,11 @@ impl Damper {
     /// Its numbers by their keys.
     pub fn keyed(&self) -> &Keyed {
         &self.keyed
+    }
+
+    /// The number at a key of any kind.
+    fn at(&self, key: &Bound<'_, PyAny>) -> Option<f64> {
+        self.keyed.number(&key.extract::<String>().ok()?).ok()
     }
 
     /// As a damper file has it.
@@ -122,13 +128,50 @@ impl Damper {
         self.keyed.keys()
     }
 
+    /// All numbers, in the order of the keys.
+    ///
+    /// >>> import dashpot
+    /// >>> dashpot.Damper("reduced-vertical").values()[:2]
+    /// [50000.0, 2.0]
+    fn values(&self) -> Outcome<Vec<f64>> {
+        Ok(self.items()?.into_iter().map(|(_, value)| value).collect())
+    }
+
+    /// Pairs of the keys and their numbers, in order.
+    ///
+    /// >>> import dashpot
+    /// >>> dashpot.Damper("reduced-vertical").items()[1]
+    /// ('limits.rate_m_per_s', 2.0)
+    fn items(&self) -> Outcome<Vec<(String, f64)>> {
+        let keys = self.keyed.keys().into_iter();
+        keys.map(|key| Ok((key.clone(), self.keyed.number(&key)?)))
+            .collect()
+    }
+
+    /// The number at a key, or `default` where this damper has none there.
+    ///
+    /// >>> import dashpot
+    /// >>> dashpot.Damper("reduced-vertical").get("oil.density_kg_per_m3", 850.0)
+    /// 850.0
+    #[pyo3(signature = (key, default=None, /))]
+    fn get<'py>(
+        &self,
+        key: &Bound<'py, PyAny>,
+        default: Option<Bound<'py, PyAny>>,
+    ) -> Option<Bound<'py, PyAny>> {
+        match self.at(key) {
+            Some(number) => Some(PyFloat::new(key.py(), number).into_any()),
+            None => default,
+        }
+    }
+
     fn __getitem__(&self, key: &str) -> Outcome<f64> {
-        Ok(self.keyed.number(key)?)
+        let number = self.keyed.number(key);
+        number.map_err(|error| Refusal::Key(error.to_string()))
     }
 
     fn __contains__(&self, key: &Bound<'_, PyAny>) -> bool {
-        let key = key.extract::<String>();
-        key.is_ok_and(|key| self.keyed.number(&key).is_ok())
+        self.at(key).is_some()
     }
 
     fn __len__(&self) -> usize {
@@ -231,8 +274,10 @@ impl Damper {
         let motion = arrays::read::<f64, Ix1>("x", x)?;
         let displacements = motion.as_slice().map_err(PyErr::from)?;
         let parameters = &self.parameters;
-        let forces = py.detach(|| reference_forces(parameters, step_s, displacements));
-        Ok(PyArray1::from_vec(py, forces.map_err(Refusal::from)?))
+        let solve = |is_unwanted: &dyn Fn() -> bool| {
+            reference_forces_unless(parameters, step_s, displacements, is_unwanted)
+        };
+        Ok(PyArray1::from_vec(py, py.detach(|| asking(solve))??))
     }
 
     fn __eq__(&self, other: &Bound<'_, PyAny>) -> bool {

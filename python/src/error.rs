@@ -1,6 +1,7 @@
 //! Why a call has no result, and the exception that tells it: the words are the library's.
 
 use std::fmt::Display;
+use std::path::PathBuf;
 
 use dashpot_core::{BuildError, ClearanceError, SavedStateError};
 use dashpot_hil::files::FileError;
@@ -26,10 +27,29 @@ use pyo3::types::PyType;
 pub enum Refusal {
     /// Something that is asked for is not allowed, or there is no result.
     Value(String),
+    /// A mapping has nothing at a key.
+    Key(String),
     /// A file cannot be read or written.
-    File(String),
+    File(Unusable),
     /// What Python raised itself, an interruption among it.
     Python(PyErr),
+}
+
+/// A file that cannot be read or written.
+#[derive(Debug)]
+pub struct Unusable {
+    words: String,
+    /// The system's number of the reason, where it gave one.
+    errno: Option<i32>,
+    path: PathBuf,
+}
+
+impl Unusable {
+    fn new(words: String, path: PathBuf, source: &std::io::Error) -> Self {
+        // Elsewhere the system's numbers are not those of C.
+        let errno = source.raw_os_error().filter(|_| cfg!(unix));
+        Self { words, errno, path }
+    }
 }
 
 /// Result of a call.
@@ -48,11 +68,12 @@ impl From<PyErr> for Refusal {
 
 impl From<FileError> for Refusal {
     fn from(error: FileError) -> Self {
+        let words = error.to_string();
         match error {
-            FileError::Read { .. } | FileError::Write { .. } | FileError::Folder { .. } => {
-                Self::File(error.to_string())
-            }
-            other => Self::Value(other.to_string()),
+            FileError::Read { path, source }
+            | FileError::Write { path, source }
+            | FileError::Folder { path, source } => Self::File(Unusable::new(words, path, &source)),
+            _ => Self::Value(words),
         }
     }
 }
@@ -75,7 +96,6 @@ with_file!(
     DamperError::File,
     NamedProfileError::File,
     StudyError::Recording,
-    VehicleFileError::File,
     TrackFileError::File,
     VehicleStudyError::Track,
 );
@@ -101,11 +121,24 @@ impl From<CalibrationError> for Refusal {
     }
 }
 
+impl From<VehicleFileError> for Refusal {
+    fn from(error: VehicleFileError) -> Self {
+        let words = error.to_string();
+        match error {
+            VehicleFileError::File(error) => error.into(),
+            VehicleFileError::Damper { source, .. } => Self::from(*source).worded(words),
+            _ => Self::Value(words),
+        }
+    }
+}
+
 impl From<StudyFileError> for Refusal {
     fn from(error: StudyFileError) -> Self {
+        let words = error.to_string();
         match error {
             StudyFileError::File(error) => error.into(),
-            other => Self::Value(other.to_string()),
+            StudyFileError::Case { source, .. } => Self::from(*source).worded(words),
+            _ => Self::Value(words),
         }
     }
 }
@@ -122,10 +155,27 @@ impl From<RunError> for Refusal {
 impl Refusal {
     /// What a case of this name is refused for.
     pub fn of_case(name: &str, error: VehicleStudyError) -> Self {
-        let named = |words: String| format!("{name}: {words}");
-        match Self::from(error) {
-            Self::Value(words) => Self::Value(named(words)),
-            Self::File(words) => Self::File(named(words)),
+        let words = format!("{name}: {error}");
+        Self::from(error).worded(words)
+    }
+
+    /// The same in words made of its own.
+    pub fn with(self, words: impl Fn(&str) -> String) -> Self {
+        let own = match &self {
+            Self::Value(words) | Self::Key(words) => words,
+            Self::File(file) => &file.words,
+            Self::Python(_) => return self,
+        };
+        let words = words(own);
+        self.worded(words)
+    }
+
+    /// The same in other words.
+    fn worded(self, words: String) -> Self {
+        match self {
+            Self::Value(_) => Self::Value(words),
+            Self::Key(_) => Self::Key(words),
+            Self::File(file) => Self::File(Unusable { words, ..file }),
             python => python,
         }
     }
@@ -152,19 +202,30 @@ without_file!(
 );
 
 static VALUE: PyOnceLock<Py<PyType>> = PyOnceLock::new();
+static KEY: PyOnceLock<Py<PyType>> = PyOnceLock::new();
 static FILE: PyOnceLock<Py<PyType>> = PyOnceLock::new();
 
 impl From<Refusal> for PyErr {
     fn from(refusal: Refusal) -> Self {
-        let (kept, name, words) = match refusal {
-            Refusal::Python(error) => return error,
-            Refusal::Value(words) => (&VALUE, "DashpotError", words),
-            Refusal::File(words) => (&FILE, "DashpotFileError", words),
-        };
         // Written in Python, for Rust makes no exception of two bases.
-        Python::attach(|py| match kept.import(py, "dashpot._errors", name) {
-            Ok(exception) => PyErr::from_type(exception.clone(), words),
-            Err(error) => error,
+        Python::attach(|py| {
+            let exception = |kept: &PyOnceLock<Py<PyType>>, name| {
+                let exception = kept.import(py, "dashpot._errors", name);
+                exception.cloned()
+            };
+            let raised = match refusal {
+                Refusal::Python(error) => return error,
+                Refusal::Value(words) => exception(&VALUE, "DashpotError")
+                    .map(|exception| PyErr::from_type(exception, words)),
+                Refusal::Key(words) => exception(&KEY, "DashpotKeyError")
+                    .map(|exception| PyErr::from_type(exception, words)),
+                Refusal::File(Unusable { words, errno, path }) => {
+                    exception(&FILE, "DashpotFileError").map(|exception| {
+                        PyErr::from_type(exception, (words, errno, path.into_os_string()))
+                    })
+                }
+            };
+            raised.unwrap_or_else(|error| error)
         })
     }
 }

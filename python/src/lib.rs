@@ -19,6 +19,7 @@ mod rig;
 mod state;
 mod sweep;
 mod vehicle;
+mod whole;
 
 /// The part of the package that is compiled.
 #[pyo3::pymodule]

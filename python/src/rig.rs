@@ -8,6 +8,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::error::Outcome;
+use crate::interruption::asking;
 
 /// One settled cycle of a bench test. `Damper.rig` makes one.
 ///
@@ -31,8 +32,10 @@ impl Cycle {
             amplitude_m,
             frequency_hz,
         };
-        let cycle = py.detach(|| bench_test::run_until_periodic(parameters, motion, step_s));
-        Ok(Self(cycle?))
+        let run = |is_unwanted: &dyn Fn() -> bool| {
+            bench_test::run_unless(parameters, motion, step_s, is_unwanted)
+        };
+        Ok(Self(py.detach(|| asking(run))??))
     }
 }
 

@@ -9,10 +9,11 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 
 use crate::error::{Outcome, Refusal, refuse};
-use crate::interruption::Interruption;
+use crate::interruption::{asking, beside};
 use crate::overrides::path;
 use crate::pickled::{Pickled, pickled};
 use crate::vehicle::SHARED;
+use crate::whole::Whole;
 
 /// A study that ships or a TOML file: its cases are counted from 0, and a row is that of its case alone, the same bits in any order, on any
 /// number of threads and machines.
@@ -34,9 +35,6 @@ pub struct Study {
 
 impl Study {
     fn read(name: String, text: Option<String>, seeds: Option<u64>) -> Outcome<Self> {
-        if let Some(wrong) = seeds.filter(|seeds| !(1..=100_000).contains(seeds)) {
-            return refuse(format!("seeds: {wrong}, allowed: 1 to 100000"));
-        }
         let parameters = match &text {
             Some(text) => StudyParameters::parse(&name, text)?,
             None => StudyParameters::load(&name)?,
@@ -51,6 +49,12 @@ impl Study {
             text,
             seeds,
         })
+    }
+
+    /// A number that no case has, as Python tells it of its own lists.
+    fn no_case(&self, number: &Whole) -> Refusal {
+        let last = self.study.cases().saturating_sub(1);
+        PyIndexError::new_err(format!("case {number}, allowed: 0 to {last}")).into()
     }
 
     /// A row by its columns.
@@ -113,12 +117,19 @@ impl Study {
     }
 }
 
+/// How many seeds are asked for.
+fn seeds_of(seeds: Option<Whole>) -> Outcome<Option<u64>> {
+    seeds
+        .map(|seeds| seeds.within("seeds", 1..=100_000))
+        .transpose()
+}
+
 #[pymethods]
 impl Study {
     #[new]
     #[pyo3(signature = (name, seeds=None))]
-    fn new(py: Python<'_>, name: &Bound<'_, PyAny>, seeds: Option<u64>) -> Outcome<Self> {
-        let name = path(name)?;
+    fn new(py: Python<'_>, name: &Bound<'_, PyAny>, seeds: Option<Whole>) -> Outcome<Self> {
+        let (name, seeds) = (path(name)?, seeds_of(seeds)?);
         py.detach(|| Self::read(name, None, seeds))
     }
 
@@ -138,8 +149,8 @@ impl Study {
     /// 6
     #[staticmethod]
     #[pyo3(signature = (text, seeds=None, name="study"))]
-    fn from_toml(py: Python<'_>, text: String, seeds: Option<u64>, name: &str) -> Outcome<Self> {
-        let name = name.to_owned();
+    fn from_toml(py: Python<'_>, text: String, seeds: Option<Whole>, name: &str) -> Outcome<Self> {
+        let (name, seeds) = (name.to_owned(), seeds_of(seeds)?);
         py.detach(|| Self::read(name, Some(text), seeds))
     }
 
@@ -178,35 +189,31 @@ impl Study {
     /// >>> row = study.row(1)
     /// >>> row["speed_km_h"], row["ending"]
     /// (160.0, 'completed')
-    fn row<'py>(&self, py: Python<'py>, number: u64) -> Outcome<Bound<'py, PyDict>> {
-        let row = py.detach(|| {
-            let interruption = Interruption::default();
-            let row = sweep::row(&self.study, number, &SHARED, &|| interruption.is_wanted());
-            interruption.raised()?;
-            row.map_err(Refusal::from)
-        })?;
-        match row {
+    fn row<'py>(&self, py: Python<'py>, number: Whole) -> Outcome<Bound<'py, PyDict>> {
+        let Whole::Count(number) = number else {
+            return Err(self.no_case(&number));
+        };
+        let run =
+            |is_unwanted: &dyn Fn() -> bool| sweep::row(&self.study, number, &SHARED, is_unwanted);
+        match py.detach(|| asking(run))?? {
             Some(row) => self.in_python(py, &row),
-            None => {
-                let cases = self.study.cases();
-                let words = format!("case {number}, allowed: 0 to {}", cases.saturating_sub(1));
-                Err(PyIndexError::new_err(words).into())
-            }
+            None => Err(self.no_case(&Whole::Count(number))),
         }
     }
 
     /// Runs the cases on so many threads, one a core where none are given, and gives their columns, in the order of the cases: what
-    /// `pandas.DataFrame` takes. `shard`, a pair of its number from 0 and how many there are, takes only that part. Ctrl-C ends it after
-    /// the case that is next done.
+    /// `pandas.DataFrame` takes. `shard`, a pair of its number from 0 and how many there are, takes only that part. Ctrl-C ends it.
     #[pyo3(signature = (*, shard=None, threads=None))]
     fn run<'py>(
         &self,
         py: Python<'py>,
-        shard: Option<(u64, u64)>,
-        threads: Option<usize>,
+        shard: Option<(Whole, Whole)>,
+        threads: Option<Whole>,
     ) -> Outcome<Bound<'py, PyDict>> {
         let shard = match shard {
-            Some((number, of)) if number < of => Some(Shard { number, of }),
+            Some((Whole::Count(number), Whole::Count(of))) if number < of => {
+                Some(Shard { number, of })
+            }
             Some((number, of)) => {
                 return refuse(format!(
                     "shard: {number} of {of}, allowed: 0 to one less than there are"
@@ -214,23 +221,23 @@ impl Study {
             }
             None => None,
         };
-        if let Some(wrong) = threads.filter(|threads| !(1..=1024).contains(threads)) {
-            return refuse(format!("threads: {wrong}, allowed: 1 to 1024"));
-        }
+        let threads = match threads {
+            Some(threads) => threads.within("threads", 1..=1024)? as usize,
+            None => workers::threads(),
+        };
         let rows = py.detach(|| {
             let numbers: Vec<u64> = self.study.part(shard).collect();
-            let threads = threads.unwrap_or_else(workers::threads);
-            let mut rows = Vec::new();
-            let take = |row: Row| -> Outcome<()> {
-                rows.push(row);
-                let interruption = Interruption::default();
-                interruption.is_wanted();
-                Ok(interruption.raised()?)
-            };
-            sweep::run_with(&self.study, &SHARED, &numbers, threads, &|| false, take)?;
-            rows.sort_by_key(|row| row.case);
-            Ok::<_, Refusal>(rows)
-        })?;
+            beside(|is_unwanted| {
+                let mut rows = Vec::new();
+                let take = |row: Row| -> Outcome<()> {
+                    rows.push(row);
+                    Ok(())
+                };
+                sweep::run_with(&self.study, &SHARED, &numbers, threads, is_unwanted, take)?;
+                rows.sort_by_key(|row| row.case);
+                Ok::<_, Refusal>(rows)
+            })
+        })??;
         self.columns_of(py, &rows)
     }
 
@@ -244,9 +251,10 @@ impl Study {
         py: Python<'_>,
         name: String,
         text: Option<String>,
-        seeds: Option<u64>,
+        seeds: Option<Whole>,
         digest: &str,
     ) -> Outcome<Self> {
+        let seeds = seeds_of(seeds)?;
         let study = py.detach(|| Self::read(name, text, seeds))?;
         if study.study.digest() == digest {
             return Ok(study);

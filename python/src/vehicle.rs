@@ -3,7 +3,6 @@
 use std::sync::LazyLock;
 
 use dashpot_hil::files::case::{CASES, Case, CaseOptions, CaseParts};
-use dashpot_hil::files::vehicle::Replacement;
 use dashpot_hil::study::sweep::Shared;
 use dashpot_hil::study::vehicle::Ending;
 use dashpot_hil::study::vehicle::recorded::{Recorded, record};
@@ -14,7 +13,7 @@ use pyo3::types::PyDict;
 use crate::error::{Outcome, Refusal, refuse};
 use crate::interruption::Interruption;
 use crate::json;
-use crate::overrides::{assignments, path, texts};
+use crate::overrides::{assignments, path, replacements};
 
 /// Contacts and tracks, each made once in a process.
 pub static SHARED: LazyLock<Shared> = LazyLock::new(Shared::default);
@@ -79,7 +78,7 @@ impl VehicleRun {
 
 /// Runs a vehicle along a track: a case that ships or a TOML file, of which what is given changes the case's; or a track and a speed.
 ///
-/// `dampers` replaces dampers along a direction or of a name by a preset or a file, `overrides` changes numbers of the vehicle, as
+/// `dampers` replaces dampers along a direction or of a name by a preset, a file or a `Damper`, `overrides` changes numbers of the vehicle, as
 /// `--damper` and `--set` of the command do. `signals` names what the history is to have; all when not given. Ctrl-C ends it.
 ///
 /// >>> import dashpot
@@ -132,9 +131,7 @@ pub fn vehicle(
             "no case: give case ({names}), or track with speed_km_h"
         ));
     };
-    let replacements = texts("dampers", dampers)?.into_iter();
-    let replaced = replacements.map(|(dampers, by)| Replacement { dampers, by });
-    options.dampers.extend(replaced);
+    options.dampers.extend(replacements(dampers)?);
     options.overrides.extend(assignments(overrides)?);
     run(py, &options, signals.as_deref())
 }

@@ -9,17 +9,21 @@ def interrupted(call, *arguments, looks=10, **options):
 
     Python itself handles one signal before the call and one after; only a call that asks meanwhile handles more.
     """
-    seen, ended = 0, threading.Event()
+    seen, handled, ended = 0, threading.Event(), threading.Event()
 
     def handler(*_):
         nonlocal seen
         seen += 1
+        handled.set()
         if seen == looks:
             raise KeyboardInterrupt
 
     def send():
+        # One at a time: a thread that is only interrupted does nothing else.
         while not ended.is_set():
+            handled.clear()
             signal.pthread_kill(threading.main_thread().ident, signal.SIGINT)
+            handled.wait()
 
     before = signal.signal(signal.SIGINT, handler)
     thread = threading.Thread(target=send)
@@ -32,5 +36,6 @@ def interrupted(call, *arguments, looks=10, **options):
     finally:
         seen = looks
         ended.set()
+        handled.set()
         thread.join()
         signal.signal(signal.SIGINT, before)

@@ -1,5 +1,7 @@
 """A bank beside its dampers one by one."""
 
+import copy
+import pickle
 import threading
 
 import dashpot
@@ -36,6 +38,16 @@ class Banks(Test):
         states = bank.at_rest(x[0])
         parts = [bank.replay(x[:400], states=states), bank.replay(x[400:], states=states)]
         self.assertEqual(numpy.concatenate(parts).tobytes(), bank.replay(x).tobytes())
+
+    def test_it_is_a_row_of_its_dampers(self):
+        built = [dashpot.Damper(name).build() for name in NAMES[:2]] * 2
+        bank, x = dashpot.Bank(built), motion(1000, 4, numpy.float32)
+        self.assertEqual([id(one) for one in bank], [id(one) for one in built])
+        self.assertEqual(repr(bank), f"Bank({built})")
+        self.assertIn("BuiltDamper('in-service', step_s=0.001, dtype=float32)", repr(bank))
+        for other in (copy.copy(bank), copy.deepcopy(bank), pickle.loads(pickle.dumps(bank))):
+            self.assertEqual([one.revision for one in other], [one.revision for one in bank])
+            self.assertEqual(other.replay(x).tobytes(), bank.replay(x).tobytes())
 
     def test_what_is_no_bank_is_refused(self):
         paper = dashpot.Damper("paper")

@@ -5,6 +5,7 @@ import math
 import dashpot
 import numpy
 from common import Test
+from interruption import interrupted
 
 STIFFNESS, DAMPING = "mount.stiffness_n_per_m", "reduced.damping_n_s_per_m"
 MADE = {STIFFNESS: 7e6, DAMPING: 100e3, "mount.clearance_m": 0.0}
@@ -66,6 +67,12 @@ class Calibration(Test):
         self.assertAlmostEqual(found.values[DAMPING] / 100e3, 1, 3)
         self.assertEqual(found.loops, [])
 
+    def test_an_interruption_ends_it(self):
+        indices = [{"amplitude_m": 3e-3, "frequency_hz": 1.0, "max_extension_force_n": 1900.0}]
+        for tests in ({"tests": self.tests}, {"indices": indices}):
+            call = {"vary": [STIFFNESS, DAMPING], "starts": 1000, "step_s": 1e-4, **tests}
+            self.assertTrue(interrupted(dashpot.calibrate, self.start, **call))
+
     def test_what_tests_do_not_determine_is_refused(self):
         with self.assertRaisesRegex(dashpot.DashpotError, f"the tests do not determine\n  {STIFFNESS}: "):
             dashpot.calibrate(self.start, [loop(3, 0.05, seconds=20)], [STIFFNESS, DAMPING], step_s=1e-3, starts=1)
@@ -77,7 +84,9 @@ class Calibration(Test):
         self.assert_refused(f"{DAMPING}: varied twice", calibrate, self.start, [test], [DAMPING, DAMPING])
         self.assert_refused(f"prior {STIFFNESS}: not varied; allowed: a number that is varied", calibrate, self.start,
                             [test], [DAMPING], priors={STIFFNESS: (1, 1)})
-        self.assert_refused("starts: 0, allowed: 1 to 1000", calibrate, self.start, [test], [DAMPING], starts=0)
+        for starts in (0, -1, 1001, 2**64):
+            self.assert_refused(f"starts: {starts}, allowed: 1 to 1000", calibrate, self.start, [test], [DAMPING],
+                                starts=starts)
         for prior in ((1e5, 0.0), (1e5, -1.0), (1e5, math.nan), (math.nan, 1.0)):
             with self.assertRaises(dashpot.DashpotError):
                 calibrate(self.start, [test], [DAMPING], priors={DAMPING: prior})

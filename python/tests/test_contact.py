@@ -6,6 +6,7 @@ import math
 import dashpot
 import numpy
 from common import DATA, Test, command, refusal
+from interruption import interrupted
 
 PROFILES = DATA.parent / "rail" / "tests" / "data"
 CONTACT = {"load_n": 106.7e3, "a_m": 6.304e-3, "b_m": 12.61e-3, "friction": 0.33}
@@ -53,6 +54,9 @@ class Contacts(Test):
         self.assertAlmostEqual(slid[0, 0] / (-0.33 * 106.7e3), 1, 2)
         self.assertEqual(dashpot.creep_forces(numpy.zeros((4, 3)), **CONTACT).any(), False)
         self.assertEqual(dashpot.creep_forces(numpy.empty((0, 3)), **CONTACT).shape, (0, 3))
+
+    def test_an_interruption_ends_them(self):
+        self.assertTrue(interrupted(dashpot.creep_forces, numpy.full((1_000_000, 3), 1e-3), **CONTACT))
 
     def test_extreme_creepages_give_finite_forces(self):
         for extreme in (1e-300, -1e300, 1e300):

@@ -1,6 +1,8 @@
 """Dampers from presets, files and text; what is refused, in the words of the command."""
 
 import copy
+import errno
+import os
 import pathlib
 import pickle
 import tempfile
@@ -49,24 +51,64 @@ class Dampers(Test):
                 self.assert_refused(refusal(*rig, path), dashpot.Damper, path)
 
     def test_a_file_that_is_not_there_is_an_error_of_the_system(self):
-        with self.assertRaises(OSError):
+        with self.assertRaises(OSError) as raised:
             dashpot.Damper("no/such.toml")
-        with self.assertRaises(dashpot.DashpotFileError):
-            dashpot.Damper("no/such.toml")
+        error = raised.exception
+        self.assertIsInstance(error, dashpot.DashpotFileError)
+        self.assertEqual(str(error), refusal("rig", "--damper", "no/such.toml"))
+        again = pickle.loads(pickle.dumps(error))
+        self.assertEqual((str(again), again.args), (str(error), error.args))
+        for told in (error, again):
+            self.assertEqual((told.errno, told.filename), (errno.ENOENT, "no/such.toml"))
+            self.assertEqual(told.strerror, os.strerror(errno.ENOENT))
         self.assertFalse(issubclass(dashpot.DashpotError, OSError))
+
+    def test_paths_are_text_or_bytes(self):
+        path = DATA / "dampers" / "paper.toml"
+        for kind in (str(path), os.fsencode(path), path, b"paper"):
+            self.assertEqual(dashpot.Damper(kind), dashpot.Damper("paper"))
+        for wrong in (b"dampers/\xff.toml", "dampers/\udcff.toml", pathlib.Path("dampers/\udcff.toml")):
+            words = "dampers/\ufffd.toml: allowed: a name or a path in UTF-8"
+            self.assert_refused(words, dashpot.Damper, wrong)
+            self.assert_refused(words, dashpot.vehicle, wrong)
+            self.assert_refused(words, dashpot.Study, wrong)
+            self.assert_refused(words, dashpot.contact, wrong)
+
+    def test_a_reason_that_is_not_the_systems_has_no_number(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder, "mine.toml")
+            path.write_bytes(b"\xff")
+            with self.assertRaises(dashpot.DashpotFileError) as raised:
+                dashpot.Damper(path)
+        self.assertEqual((raised.exception.errno, raised.exception.filename), (None, str(path)))
+        self.assertTrue(str(raised.exception).startswith(f"{path}: cannot read: "))
 
     def test_wrong_overrides_are_refused(self):
         self.assert_refused("override mount.clearance_m: NoneType, allowed: a number, a text or a truth value",
                             dashpot.Damper, "paper", {"mount.clearance_m": None})
         self.assert_refused('overrides: list, allowed: a dictionary such as {"mount.clearance_m": 1e-3}',
                             dashpot.Damper, "paper", ["mount.clearance_m=1"])
+        self.assert_refused("override mount.clearance_m: a number beyond all of float64, allowed: finite numbers",
+                            dashpot.Damper, "paper", {"mount.clearance_m": 10**400})
         for value in (float("nan"), float("inf"), -1e300, "wide", True):
             with self.assertRaises(dashpot.DashpotError):
                 dashpot.Damper("paper", {"mount.clearance_m": value})
-        with self.assertRaises(dashpot.DashpotError):
-            dashpot.Damper("paper")["mount.clearanse_m"]
         with self.assertRaises(TypeError):
             dashpot.Damper(7)
+
+    def test_it_is_a_mapping(self):
+        damper, clearance = dashpot.Damper("in-service"), "mount.clearance_m"
+        self.assertEqual(damper.items(), list(dict(damper).items()))
+        self.assertEqual(damper.values(), [damper[key] for key in damper])
+        self.assertEqual(list(damper), damper.keys())
+        self.assertEqual(damper.get(clearance), damper[clearance])
+        self.assertEqual([damper.get("no.such"), damper.get("no.such", 7), damper.get(3, 7)], [None, 7, 7])
+        words = "paper: no number at `mount.clearanse_m`; did you mean `mount.clearance_m`?"
+        for kind in (KeyError, dashpot.DashpotError, dashpot.DashpotKeyError):
+            with self.assertRaises(kind) as raised:
+                dashpot.Damper("paper")["mount.clearanse_m"]
+            self.assertEqual(str(raised.exception), words)
+        self.assertEqual(str(pickle.loads(pickle.dumps(raised.exception))), words)
 
     def test_steps_that_cannot_be_are_refused(self):
         damper = dashpot.Damper("paper")

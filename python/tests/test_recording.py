@@ -1,7 +1,9 @@
 """Recordings as arrays, beside pandas and the command."""
 
 import math
+import os
 import pathlib
+import shutil
 import tempfile
 
 import dashpot
@@ -45,9 +47,56 @@ class Recordings(Test):
             self.assertEqual(dashpot.read(path, **names)["displacement_m"].tolist(), [1e-3, 2e-3, 3e-3])
             forces = dashpot.read(path, with_force=True, force="kraft", force_unit="kN", skip_invalid=True, **names)
             self.assertEqual(forces["force_n"].tolist(), [2e3, 4e3])
-            self.assert_refused(refusal("replay", "--input", path, "--output", "-"), dashpot.read, path)
+            words = refusal("replay", "--input", path, "--output", "-")
+            self.assertIn("choose one with --time NAME or its number", words)
+            self.assert_refused(words.replace("--time NAME", "time=NAME"), dashpot.read, path)
             with self.assertRaisesRegex(dashpot.DashpotError, "^unit `furlong`, allowed: "):
                 dashpot.read(path, **{**names, "displacement_unit": "furlong"})
+
+    def test_what_the_file_does_not_tell_is_asked_for_by_arguments(self):
+        names = {"time": "time_s", "displacement": "x --force"}
+        for text, options, told in (
+            ("t,x\n0,1\n1,2\n", {}, "time=NAME"),
+            ("time_s,x\n0,1\n1,2\n", {}, "displacement=NAME"),
+            ("0,1\n1,2\n", {}, "header=True or header=False"),
+            ("0,1\n1,2\n", {"header": False}, "with time, and its unit with time_unit"),
+            ("time_s,x --force\n0,1\n1,2\n", names, "displacement_unit with"),
+            ("time_s,displacement_m\n0,1\n1,\n2,3\n", {}, "skip_invalid=True leaves out rows"),
+            ("1;2\n1.5;2,5\n", {"time": "1", "displacement": "2", "time_unit": "s", "displacement_unit": "m",
+                                "header": False}, "decimal_mark says so"),
+        ):
+            with tempfile.TemporaryDirectory(prefix="--time ") as folder:
+                path = pathlib.Path(folder, "run --force.csv")
+                path.write_text(text)
+                with self.assertRaises(dashpot.DashpotError) as raised:
+                    dashpot.read(path, **options)
+                file, reason = str(path), str(raised.exception)
+                self.assertTrue(reason.startswith(file), reason)
+                self.assertIn(told, reason)
+                reason = reason.removeprefix(file).replace("`x --force`", "")
+                self.assertNotIn("--", reason)
+
+    def test_how_text_is_written_is_given(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder, "run.csv")
+            path.write_text("1900;1,5\n1901;2\n")
+            columns = {"time": "1", "displacement": "2", "time_unit": "s", "displacement_unit": "m"}
+            read = dashpot.read(path, header=False, decimal_mark="comma", **columns)
+            self.assertEqual(read["displacement_m"].tolist(), [1.5, 2.0])
+            self.assert_refused("decimal_mark: `dot`, allowed: `point` or `comma`", dashpot.read, path, decimal_mark="dot")
+
+    def test_paths_of_any_kind_are_read(self):
+        expected = dashpot.read(RIDE)["displacement_m"].tobytes()
+        with tempfile.TemporaryDirectory() as folder:
+            # Bytes that are no UTF-8.
+            path = os.path.join(os.fsencode(folder), b"run\xff.csv")
+            shutil.copy(RIDE, path)
+            for kind in (path, os.fsdecode(path), pathlib.Path(os.fsdecode(path))):
+                self.assertEqual(dashpot.read(kind)["displacement_m"].tobytes(), expected)
+            os.unlink(path)
+            with self.assertRaises(OSError) as raised:
+                dashpot.read(path)
+            self.assertEqual(raised.exception.filename, os.fsdecode(path))
 
     def test_what_cannot_be_read_is_refused(self):
         self.assert_refused(refusal("replay", "--input", "no/such.csv", "--output", "-"), dashpot.read, "no/such.csv")

@@ -127,8 +127,8 @@ class Studies(Test):
     def test_an_interruption_ends_a_row(self):
         long = dashpot.Study.from_toml(STUDY.replace("duration_s = 0.5", "duration_s = 60"))
         self.assertTrue(interrupted(long.row, 0))
-        # Of many threads at the next row.
-        self.assertTrue(interrupted(dashpot.Study(self.path).run, threads=2, looks=3))
+        # Many threads within their rows.
+        self.assertTrue(interrupted(long.run, threads=2))
 
     def test_shipped_studies_are_there(self):
         for path in (DATA / "studies").glob("*.toml"):
@@ -145,11 +145,24 @@ class Studies(Test):
                           STUDY.replace("seeds", "sedes"), "name = 3"):
                 path.write_text(wrong)
                 self.assert_refused(refusal(*sweep, path), dashpot.Study, path)
+        with self.assertRaises(OSError) as raised:
+            dashpot.Study.from_toml(STUDY.replace("straight-180", "no/such.toml", 1))
+        self.assertRegex(str(raised.exception), "^study:[0-9]+: sweep clearance: no/such.toml: cannot read: ")
+        self.assertEqual(raised.exception.filename, "no/such.toml")
         study = dashpot.Study.from_toml(STUDY)
-        with self.assertRaisesRegex(IndexError, "case 9, allowed: 0 to 8"):
-            study.row(9)
-        with self.assertRaises(OverflowError):
-            study.row(-1)
-        self.assert_refused("shard: 2 of 2, allowed: 0 to one less than there are", study.run, shard=(2, 2))
-        self.assert_refused("threads: 0, allowed: 1 to 1024", study.run, threads=0)
-        self.assert_refused("seeds: 0, allowed: 1 to 100000", dashpot.Study, "paper", seeds=0)
+        for number in (9, -1, 2**64, -(10**30)):
+            with self.assertRaisesRegex(IndexError, f"^case {number}, allowed: 0 to 8$"):
+                study.row(number)
+        for number, of in ((2, 2), (-1, 2), (0, -2), (2**70, 2)):
+            self.assert_refused(f"shard: {number} of {of}, allowed: 0 to one less than there are", study.run,
+                                shard=(number, of))
+        for wrong in (0, -1, 1025, 2**64):
+            self.assert_refused(f"threads: {wrong}, allowed: 1 to 1024", study.run, threads=wrong)
+        for wrong in (0, -1, 2**64):
+            words = f"seeds: {wrong}, allowed: 1 to 100000"
+            self.assert_refused(words, dashpot.Study, "paper", seeds=wrong)
+            self.assert_refused(words, dashpot.Study.from_toml, STUDY, seeds=wrong)
+        # Python itself does not write such a number.
+        self.assert_refused("threads: a number of thousands of digits, allowed: 1 to 1024", study.run, threads=10**5000)
+        with self.assertRaises(TypeError):
+            study.row(1.0)

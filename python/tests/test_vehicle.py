@@ -3,6 +3,7 @@
 import json
 import math
 import pathlib
+import re
 import tempfile
 import threading
 
@@ -29,6 +30,33 @@ class Vehicles(Test):
         self.assertEqual(frame.shape[0], 1500)
         pandas.testing.assert_frame_equal(frame, told, check_exact=True, check_dtype=False)
         self.assertEqual(run.indices, report["indices"])
+
+    def test_a_damper_in_memory_replaces_as_its_file_does(self):
+        vertical = dashpot.Damper("in-service", {"mount.clearance_m": 0.0})
+        # A name that a preset has stands for the damper that was given.
+        lateral = dashpot.Damper.from_toml(dashpot.Damper("reduced-lateral").to_toml(), {"mount.clearance_m": 1e-6}, "paper")
+        options = {"duration_s": 1.0, "overrides": {"lateral.mount.stiffness_n_per_m": 9e6}}
+        with tempfile.TemporaryDirectory() as folder:
+            files = {}
+            for name, damper in (("vertical", vertical), ("lateral", lateral)):
+                files[name] = pathlib.Path(folder, f"{name}.toml")
+                files[name].write_text(damper.to_toml())
+            told = dashpot.vehicle("straight-180", dampers=files, **options)
+        mixed = {"vertical": vertical, "lateral": lateral, "front vertical damper": "in-service"}
+        run = dashpot.vehicle("straight-180", dampers={"vertical": vertical, "lateral": lateral}, **options)
+        for name, column in told.history.items():
+            self.assertTrue(numpy.array_equal(run.history[name], column), name)
+        self.assertEqual(run.indices, told.indices)
+        # A name counts more than a direction.
+        named = dashpot.vehicle("straight-180", dampers=mixed, **options)
+        for place in ("vertical", "lateral"):
+            force = f"front_{place}_damper_1_force_n"
+            self.assertFalse(numpy.array_equal(named.history[force], run.history[force]), force)
+        words = f"dampers upward={vertical!r}: no damper `upward`"
+        with self.assertRaisesRegex(dashpot.DashpotError, f"^{re.escape(words)}"):
+            dashpot.vehicle("straight-180", dampers={"upward": vertical})
+        self.assert_refused('dampers: Damper, allowed: a dictionary such as {"vertical": "in-service"}', dashpot.vehicle,
+                            "straight-180", dampers=vertical)
 
     def test_signals_are_chosen(self):
         names = ["front_lateral_damper_1_force_n", "time_s"]

@@ -101,6 +101,9 @@ pub enum ReferenceError {
         /// What failed.
         source: Box<ReferenceError>,
     },
+    /// Nobody wants the solution any more.
+    #[error("reference: ended before its end, as was asked")]
+    Unwanted,
     /// A rolling contact that has no solution.
     #[error(
         "reference: a/b {a_over_b} must be above 0, Poisson's ratio {poisson_ratio} within 0 to 0.5, and the mesh \

@@ -15,6 +15,9 @@ const PERIODIC: f64 = 1e-9;
 /// A force that is not periodic after so many cycles will not become so.
 const MOST_CYCLES: usize = 200;
 
+/// Ticks between two looks whether the cycle is still wanted.
+const TICKS_A_LOOK: usize = 1 << 16;
+
 /// Largest amplitude of a harmonic motion (m).
 pub const LARGEST_AMPLITUDE_M: f64 = 1.0;
 /// Steps that a cycle may have.
@@ -112,6 +115,19 @@ pub fn run_until_periodic(
     motion: Harmonic,
     step_s: f64,
 ) -> Result<Cycle, StudyError> {
+    run_unless(parameters, motion, step_s, &|| false)
+}
+
+/// As [`run_until_periodic`], until it is unwanted.
+///
+/// # Errors
+/// As [`run_until_periodic`]; [`StudyError::Unwanted`].
+pub fn run_unless(
+    parameters: &CheckedParameters,
+    motion: Harmonic,
+    step_s: f64,
+    is_unwanted: &dyn Fn() -> bool,
+) -> Result<Cycle, StudyError> {
     let ticks = ticks_of(motion, step_s)?;
     let period = 1.0 / motion.frequency_hz;
     let step_s = period / ticks as f64;
@@ -123,7 +139,10 @@ pub fn run_until_periodic(
     let mut forces = vec![0.0; ticks];
     for cycle in 1..=MOST_CYCLES {
         let (mut peak, mut change) = (0.0_f64, 0.0_f64);
-        for (force, &x) in forces.iter_mut().zip(&displacements) {
+        for (tick, (force, &x)) in forces.iter_mut().zip(&displacements).enumerate() {
+            if tick.is_multiple_of(TICKS_A_LOOK) && is_unwanted() {
+                return Err(StudyError::Unwanted);
+            }
             let before = *force;
             *force = damper.step(&mut state, x);
             peak = peak.max(force.abs());

@@ -67,6 +67,9 @@ pub enum StudyError {
         /// The motion.
         motion: Harmonic,
     },
+    /// Nobody wants the result any more.
+    #[error("ended before its end, as was asked")]
+    Unwanted,
     /// A swept sine rises too fast for its first frequency.
     #[error(
         "{octaves_per_minute} octaves a minute from {from_hz} Hz on, allowed: above 0 and at most {most:.4}"

@@ -67,10 +67,24 @@ pub fn reference_forces(
     step_s: f64,
     displacements_m: &[f64],
 ) -> Result<Vec<f64>, StudyError> {
+    reference_forces_unless(parameters, step_s, displacements_m, &|| false)
+}
+
+/// As [`reference_forces`], until they are unwanted.
+///
+/// # Errors
+/// As [`reference_forces`]; forces that have become unwanted.
+pub fn reference_forces_unless(
+    parameters: &DamperParameters,
+    step_s: f64,
+    displacements_m: &[f64],
+    is_unwanted: &dyn Fn() -> bool,
+) -> Result<Vec<f64>, StudyError> {
     let times: Vec<f64> = (0..displacements_m.len())
         .map(|tick| tick as f64 * step_s)
         .collect();
-    Ok(Reference::new(parameters)?.forces(&times, displacements_m)?)
+    let mut reference = Reference::new(parameters)?;
+    Ok(reference.forces_unless(&times, displacements_m, is_unwanted)?)
 }
 
 /// Reference force (N) at each of `ticks` for the motion of the recording itself: linear between its

@@ -4,4 +4,5 @@
 mod common;
 mod empty_folder;
 mod installed;
+mod licences;
 mod suites;

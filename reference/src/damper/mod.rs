@@ -27,6 +27,9 @@ pub use self::segment::{Arrival, Integrator, STATES, Segment};
 use self::side::Side;
 use crate::error::ReferenceError;
 
+/// Pieces of a motion between two looks whether its forces are still wanted.
+const PIECES_A_LOOK: usize = 64;
+
 /// Reference solver of one damper.
 pub struct Reference {
     sides: Rc<[Side; 2]>,
@@ -65,12 +68,25 @@ impl Reference {
         times_s: &[f64],
         displacements_m: &[f64],
     ) -> Result<Vec<f64>, ReferenceError> {
+        self.forces_unless(times_s, displacements_m, &|| false)
+    }
+
+    /// As [`Self::forces`], until they are unwanted.
+    ///
+    /// # Errors
+    /// As [`Self::forces`]; [`ReferenceError::Unwanted`].
+    pub fn forces_unless(
+        &mut self,
+        times_s: &[f64],
+        displacements_m: &[f64],
+        is_unwanted: &dyn Fn() -> bool,
+    ) -> Result<Vec<f64>, ReferenceError> {
         check_samples(times_s, displacements_m)?;
         let Some((motion, first)) = self.prepare(times_s, displacements_m) else {
             return Ok(vec![0.0; times_s.len()]);
         };
         let (forces, statistics) = esdirk::with_esdirk(first, |solver| {
-            run(motion, times_s, displacements_m, solver)
+            run(motion, times_s, displacements_m, solver, is_unwanted)
         })?;
         self.statistics = statistics;
         Ok(forces)
@@ -90,7 +106,7 @@ impl Reference {
         let Some((motion, _)) = self.prepare(times_s, displacements_m) else {
             return Ok(vec![0.0; times_s.len()]);
         };
-        let (forces, statistics) = run(motion, times_s, displacements_m, solver)?;
+        let (forces, statistics) = run(motion, times_s, displacements_m, solver, &|| false)?;
         self.statistics = statistics;
         Ok(forces)
     }
@@ -137,16 +153,20 @@ impl Reference {
     }
 }
 
-/// Run the chain over the whole motion.
+/// Run the chain over the whole motion, until it is unwanted.
 fn run(
     mut motion: Motion,
     times: &[f64],
     x: &[f64],
     solver: &mut dyn Integrator,
+    is_unwanted: &dyn Fn() -> bool,
 ) -> Result<(Vec<f64>, Statistics), ReferenceError> {
     let mut forces = Vec::with_capacity(times.len());
     forces.push(motion.force(x[0]));
     for i in 1..times.len() {
+        if i % PIECES_A_LOOK == 0 && is_unwanted() {
+            return Err(ReferenceError::Unwanted);
+        }
         let piece = Piece {
             start: x[i - 1],
             end: x[i],

@@ -120,7 +120,7 @@ impl CaseTables {
         for (which, by) in self.dampers {
             let start = by.span().start;
             let by = named_in(folder, by.get_ref());
-            let replacement = Replacement { dampers: which, by };
+            let replacement = Replacement::named(which, by);
             at(&replacement.to_string(), start);
             dampers.push(replacement);
         }

@@ -113,10 +113,9 @@ impl Axis {
                 };
                 case.overrides.push(format!("{path}={value}"));
             }
-            (dampers, Value::Word(by)) if !is_number => case.dampers.push(Replacement {
-                dampers: dampers.to_owned(),
-                by: by.clone(),
-            }),
+            (dampers, Value::Word(by)) if !is_number => case
+                .dampers
+                .push(Replacement::named(dampers.to_owned(), by.clone())),
             (_, Value::Word(word)) => return Err(format!("\"{word}\", allowed: a number")),
             ("vehicle" | "track" | WORN_DAMPER, Value::Number(number)) => {
                 return Err(format!("{number}, allowed: a name in quotes"));

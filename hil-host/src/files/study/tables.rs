@@ -181,10 +181,10 @@ impl SweepTable {
             let message = format!("sweep {sweep}: give `case`, or `track` and `speed_km_h`");
             return Err(wrong(line, message));
         };
-        let replacements = self.dampers.iter().map(|(dampers, by)| Replacement {
-            dampers: dampers.clone(),
-            by: named(by),
-        });
+        let replacements = self
+            .dampers
+            .iter()
+            .map(|(dampers, by)| Replacement::named(dampers.clone(), named(by)));
         case.dampers.extend(replacements);
         case.overrides.extend(self.set);
         let mut axes: Vec<Axis> = Vec::new();

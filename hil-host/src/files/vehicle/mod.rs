@@ -116,7 +116,7 @@ fn parse_in(
     let _: VehicleFile = toml::from_str(text).map_err(in_text)?;
     let mut tree: toml::Table = toml::from_str(text).map_err(in_text)?;
     dampers::name_files_from(folder, &mut tree);
-    replacement::apply(&mut tree, replacements)?;
+    let replaced = replacement::apply(&mut tree, replacements)?;
     let (of_dampers, of_parts): (Vec<_>, Vec<_>) = overrides
         .iter()
         .partition(|assignment| change::of_dampers(assignment).is_some());
@@ -129,7 +129,7 @@ fn parse_in(
             name: name.clone(),
             message: explain(&error),
         })?;
-    let mut vehicle = file.vehicle(|part| located(name, text, part))?;
+    let mut vehicle = file.vehicle(&replaced, |part| located(name, text, part))?;
     for assignment in of_dampers {
         change::apply(&mut vehicle, assignment)?;
     }

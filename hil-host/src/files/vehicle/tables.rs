@@ -6,6 +6,7 @@ use dashpot_rail::vehicle::{
 };
 use serde::Deserialize;
 
+use super::Replacement;
 use super::error::VehicleFileError;
 use crate::files::damper;
 
@@ -179,6 +180,7 @@ impl VehicleFile {
     /// The vehicle; in errors a part is where `located` has it.
     pub fn vehicle(
         self,
+        replaced: &[Option<&Replacement>],
         located: impl Fn(&str) -> String,
     ) -> Result<VehicleParameters, VehicleFileError> {
         let bodies = self.body.into_iter().map(|table| Body {
@@ -232,13 +234,18 @@ impl VehicleFile {
             };
             all.extend(elements(&table.name, &table.between, &table.at_m, &law));
         }
-        for table in &self.damper {
-            let parameters = damper::load(&table.damper, &table.set).map_err(|source| {
-                VehicleFileError::Damper {
-                    name: located(&table.name),
-                    element: table.name.clone(),
-                    source: Box::new(source),
-                }
+        for (number, table) in self.damper.iter().enumerate() {
+            let by = replaced.get(number).copied().flatten();
+            // An override may name another damper since.
+            let made = by.filter(|by| by.by == table.damper);
+            let parameters = match made.and_then(|by| by.made.as_deref()) {
+                Some(made) => damper::change(&table.damper, made, &table.set),
+                None => damper::load(&table.damper, &table.set),
+            };
+            let parameters = parameters.map_err(|source| VehicleFileError::Damper {
+                name: located(&table.name),
+                element: table.name.clone(),
+                source: Box::new(source),
             })?;
             let law = Law::Damper {
                 direction: table.direction.into(),

@@ -44,7 +44,7 @@ pub struct Determination {
     pub correlation: Vec<Vec<f64>>,
 }
 
-impl Model {
+impl Model<'_> {
     /// What the tests determine at `places`.
     ///
     /// # Errors
@@ -97,7 +97,7 @@ impl Model {
     }
 }
 
-impl Model {
+impl Model<'_> {
     /// Sum over stretches of the loops of what each pulls the numbers by, squared; each index is a stretch.
     fn pulls(&self, slopes: &DMatrix<f64>, deviations: &[f64]) -> DMatrix<f64> {
         let mut sum = DMatrix::zeros(slopes.ncols(), slopes.ncols());

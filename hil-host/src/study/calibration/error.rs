@@ -19,6 +19,9 @@ pub enum CalibrationError {
     /// A bench test of the model fails.
     #[error(transparent)]
     Study(#[from] StudyError),
+    /// Nobody wants the result any more.
+    #[error("ended before its end, as was asked")]
+    Unwanted,
     /// A number that forces do not tell.
     #[error("{key}: it is measured on the part, not found from forces; set it in the damper")]
     NotVaried {

@@ -26,7 +26,7 @@ pub(super) struct Fit {
 
 /// A search for the places of the numbers `free`, the others held.
 struct Search<'a> {
-    model: &'a Model,
+    model: &'a Model<'a>,
     free: &'a [usize],
     places: Vec<f64>,
     angles: DVector<f64>,
@@ -81,7 +81,7 @@ impl LeastSquaresProblem<f64, Dyn, Dyn> for Search<'_> {
     }
 }
 
-impl Model {
+impl Model<'_> {
     /// The least squares from `places` on, over the numbers `free`; `None` where the search came to numbers that no damper has.
     pub(super) fn fit(&self, places: &[f64], free: &[usize]) -> Option<Fit> {
         let angles = free.iter().map(|number| angle_of(places[*number]));

@@ -14,7 +14,7 @@ pub(super) struct Left {
     pub(super) correlation_samples: f64,
 }
 
-impl Model {
+impl Model<'_> {
     /// Of each loop.
     ///
     /// # Errors

@@ -145,6 +145,18 @@ impl Calibration {
     /// # Errors
     /// Nothing to do, a damper that cannot be, or numbers that the tests do not determine: then none are told.
     pub fn run(&self, tell: &(dyn Fn(Progress) + Sync)) -> Result<Calibrated, CalibrationError> {
+        self.run_unless(tell, &|| false)
+    }
+
+    /// As [`run`](Self::run), until the numbers are unwanted, as they then stay.
+    ///
+    /// # Errors
+    /// As [`run`](Self::run); numbers that have become unwanted.
+    pub fn run_unless(
+        &self,
+        tell: &(dyn Fn(Progress) + Sync),
+        is_unwanted: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Calibrated, CalibrationError> {
         self.check()?;
         let scatter = |test: &LoopTest| test.force_noise_n.max(LEAST_SCATTER * test.peak_force_n);
         let mut model = Model {
@@ -154,6 +166,7 @@ impl Calibration {
             indices: self.indices.clone(),
             step_s: self.step_s,
             scatter_n: self.loops.iter().map(scatter).collect(),
+            is_unwanted,
         };
         let start: Vec<f64> = self.varied.iter().map(|v| v.place(v.start)).collect();
         let searches = Stage::new("searches", self.starts, tell);
@@ -228,7 +241,7 @@ impl Calibration {
     /// The profiles of all numbers about the best fit, begun anew from a better one where a profile meets that.
     fn profiles(
         &self,
-        model: &Model,
+        model: &Model<'_>,
         mut best: Fit,
         determination: &Determination,
         tell: &(dyn Fn(Progress) + Sync),
@@ -252,7 +265,7 @@ impl Calibration {
             }
         }
         Err(CalibrationError::NoFit(
-            "each search for the intervals met a better minimum; give --starts more".into(),
+            "each search for the intervals met a better minimum; give more starts".into(),
         ))
     }
 

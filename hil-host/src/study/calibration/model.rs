@@ -14,8 +14,7 @@ use crate::study::bench_test;
 const CHANGE: f64 = 0.3;
 
 /// A damper, the numbers of it that vary, and the tests.
-#[derive(Clone, Debug)]
-pub(super) struct Model {
+pub(super) struct Model<'a> {
     pub(super) damper: Keyed,
     pub(super) varied: Vec<Varied>,
     pub(super) loops: Vec<LoopTest>,
@@ -24,9 +23,11 @@ pub(super) struct Model {
     pub(super) step_s: f64,
     /// What one sample of each loop scatters by (N), so that the samples count as if they were independent.
     pub(super) scatter_n: Vec<f64>,
+    /// Whether nobody wants the result any more: then nothing is compared.
+    pub(super) is_unwanted: &'a (dyn Fn() -> bool + Sync),
 }
 
-impl Model {
+impl Model<'_> {
     /// The damper with the varied numbers at `places`.
     ///
     /// # Errors
@@ -60,8 +61,11 @@ impl Model {
     /// Forces of the model at the samples that count (N), loop by loop.
     ///
     /// # Errors
-    /// Numbers that no damper has together.
+    /// Numbers that no damper has together; forces that are unwanted.
     pub(super) fn forces_n(&self, places: &[f64]) -> Result<Vec<Vec<f64>>, CalibrationError> {
+        if (self.is_unwanted)() {
+            return Err(CalibrationError::Unwanted);
+        }
         let damper = self.damper_at(places)?;
         let built = damper.build::<f64>(self.step_s)?;
         let later = self.skew_s(places) / self.step_s;
@@ -77,7 +81,7 @@ impl Model {
     /// What the tests have and the model lacks, each over what it scatters by: loops, then indices.
     ///
     /// # Errors
-    /// Numbers that no damper has together, or a damper whose force does not become periodic.
+    /// As [`Model::forces_n`]; a damper whose force does not become periodic.
     pub(super) fn deviations(&self, places: &[f64]) -> Result<Vec<f64>, CalibrationError> {
         let forces = self.forces_n(places)?;
         let mut deviations = Vec::with_capacity(self.count());
@@ -88,7 +92,8 @@ impl Model {
         if !self.indices.is_empty() {
             let damper = self.damper_at(places)?;
             for test in &self.indices {
-                let cycle = bench_test::run_until_periodic(&damper, test.motion(), self.step_s)?;
+                let cycle =
+                    bench_test::run_unless(&damper, test.motion(), self.step_s, self.is_unwanted)?;
                 deviations.extend(test.deviations(&cycle.indices()));
             }
         }

@@ -57,7 +57,7 @@ impl Profile {
 /// A better minimum than the one that the profile was to be about.
 pub(super) struct Better(pub(super) Fit);
 
-impl Model {
+impl Model<'_> {
     /// The profile of the number `number` about `best`; its rise is that of the sum of squares over the inflation.
     ///
     /// # Errors
