@@ -7,6 +7,7 @@ mod c_library_page;
 mod common;
 mod contact;
 mod demonstration;
+mod documented;
 mod export;
 mod export_c;
 mod export_health;

@@ -1,0 +1,130 @@
+//! Every command line of the documents and of `--help` is one that the command takes; those of pages about other tools are run.
+
+use std::path::{Path, PathBuf};
+use std::{fs, iter};
+
+use clap::Subcommand;
+use xtask::run::repository;
+
+use crate::common::dashpot;
+
+/// Pages whose exports go into other tools.
+const EXPORTS: [&str; 3] = ["fmu.md", "portable-c.md", "simulink.md"];
+
+/// A document's lines of commands, one that goes on behind a backslash as one.
+fn lines(text: &str) -> Vec<String> {
+    let mut found = Vec::new();
+    let mut lines = text.lines().map(str::trim);
+    while let Some(line) = lines.next() {
+        let mut whole = line.to_owned();
+        while let Some(begun) = whole.strip_suffix('\\') {
+            whole = format!("{} {}", begun.trim(), lines.next().unwrap_or_default());
+        }
+        found.push(whole);
+    }
+    found
+}
+
+/// The words after `dashpot` of each command in a line: alone, behind `&&`, or of `cargo run`.
+fn commands(line: &str) -> Vec<Vec<String>> {
+    let words = shlex::split(line).unwrap_or_default();
+    let of_one = |words: &[String]| {
+        let words: Vec<String> = words
+            .iter()
+            .take_while(|word| ![">", "|"].contains(&&***word))
+            .cloned()
+            .collect();
+        let words = match words.iter().position(|word| word == "--") {
+            Some(end) if words.starts_with(&["cargo".into(), "run".into()]) => {
+                words[end..].to_vec()
+            }
+            _ if words.first().is_some_and(|word| word == "dashpot") => words,
+            _ => return None,
+        };
+        Some(words[1..].to_vec())
+    };
+    words
+        .split(|word| word == "&&")
+        .filter_map(of_one)
+        .collect()
+}
+
+fn documents() -> Vec<PathBuf> {
+    let pages = fs::read_dir(repository().join("docs")).unwrap();
+    let pages = pages.map(|entry| entry.unwrap().path());
+    let pages = pages.filter(|path| path.extension().is_some_and(|end| end == "md"));
+    let others = ["README.md", "capi/README.md", "CONTRIBUTING.md"];
+    pages
+        .chain(others.map(|name| repository().join(name)))
+        .collect()
+}
+
+/// The indented lines of a document, and those of its blocks of shell commands.
+fn indented(document: &Path) -> String {
+    let text = fs::read_to_string(document).unwrap();
+    let mut is_shell = false;
+    let mut found = String::new();
+    for line in text.lines() {
+        if let Some(language) = line.strip_prefix("```") {
+            is_shell = !is_shell && ["sh", "bash", "console"].contains(&language);
+        } else if is_shell || line.starts_with("    ") {
+            found += line;
+            found.push('\n');
+        }
+    }
+    found
+}
+
+#[test]
+fn every_command_line_is_one() {
+    let whole = dashpot_hil::commands::Command::augment_subcommands(clap::Command::new("dashpot"));
+    let helps = whole.get_subcommands().map(|command| {
+        let help = command.get_after_help().map(ToString::to_string);
+        (
+            format!("dashpot {} --help", command.get_name()),
+            help.unwrap_or_default(),
+        )
+    });
+    let documents = documents();
+    let pages = documents
+        .iter()
+        .map(|path| (path.display().to_string(), indented(path)));
+    let mut count = 0;
+    for (place, text) in pages.chain(helps.collect::<Vec<_>>()) {
+        for words in lines(&text).iter().flat_map(|line| commands(line)) {
+            // Without a command it is the demonstration, or asks for help.
+            if words.first().is_none_or(|word| word.starts_with('-')) {
+                continue;
+            }
+            let line = iter::once("dashpot").chain(words.iter().map(String::as_str));
+            let taken = whole.clone().try_get_matches_from(line);
+            assert!(taken.is_ok(), "{place}: {words:?}: {}", taken.unwrap_err());
+            count += 1;
+        }
+    }
+    // A test that finds none would not fail.
+    assert!(count > 100, "{count}");
+}
+
+#[test]
+fn exports_for_other_tools_are_run_as_they_stand() {
+    for page in EXPORTS {
+        let folder = tempfile::tempdir().unwrap();
+        let text = indented(&repository().join("docs").join(page));
+        let all: Vec<_> = lines(&text)
+            .iter()
+            .flat_map(|line| commands(line))
+            .collect();
+        // The vehicle's is run by the tests of FMUs, which build its library.
+        let exports = all
+            .iter()
+            .filter(|words| words[0] == "export" && !words.contains(&"--case".to_owned()));
+        let mut count = 0;
+        for words in exports {
+            let words: Vec<&str> = words.iter().map(String::as_str).collect();
+            dashpot(&words, folder.path()).success();
+            count += 1;
+        }
+        assert!(count > 0, "{page}");
+    }
+}
