@@ -9,36 +9,8 @@ use std::process::Command;
 use xtask::run::repository;
 use xtask::tools::{ARM_GCC, ARM_LIBC, CMAKE, GCC, GXX, MAKE, PKG_CONFIG, QEMU, have, have_target};
 
+use crate::common::page::blocks;
 use crate::common::program;
-
-/// Fenced blocks: language, and content after the last line of the text that names a file.
-struct Block<'a> {
-    language: &'a str,
-    file: Option<&'a str>,
-    content: String,
-}
-
-fn blocks(page: &str) -> Vec<Block<'_>> {
-    let mut found = Vec::new();
-    let mut file = None;
-    let mut lines = page.lines();
-    while let Some(line) = lines.next() {
-        let named = line
-            .strip_prefix('`')
-            .and_then(|rest| rest.strip_suffix("`:"));
-        file = named.or(file);
-        if let Some(language) = line.strip_prefix("```") {
-            let content = lines.by_ref().take_while(|line| *line != "```");
-            let content = content.map(|line| format!("{line}\n")).collect();
-            found.push(Block {
-                language,
-                file: file.take(),
-                content,
-            });
-        }
-    }
-    found
-}
 
 /// A `cargo` whose `cargo run --release --` is the command under test, already built.
 fn stand_in_for_cargo(folder: &Path) {

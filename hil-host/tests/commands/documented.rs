@@ -9,7 +9,13 @@ use xtask::run::repository;
 use crate::common::dashpot;
 
 /// Pages whose exports go into other tools.
-const EXPORTS: [&str; 3] = ["fmu.md", "portable-c.md", "simulink.md"];
+const EXPORTS: [&str; 5] = [
+    "fmu.md",
+    "labview.md",
+    "portable-c.md",
+    "simulink.md",
+    "twincat.md",
+];
 
 /// A document's lines of commands, one that goes on behind a backslash as one.
 fn lines(text: &str) -> Vec<String> {

@@ -15,6 +15,7 @@ mod export_standalone;
 mod firmware_bank;
 mod gaps;
 mod interruption;
+mod labview_page;
 mod modes;
 mod modes_coach;
 mod replay;

@@ -3,6 +3,8 @@
 // Each test binary uses a part of these.
 #![allow(dead_code)]
 
+pub mod page;
+
 use std::path::Path;
 use std::process::Command;
 
