@@ -12,6 +12,7 @@ const MARK_BITS: u16 = 0xffe0;
 /// [`Damper::at_rest`](crate::Damper::at_rest) makes one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct DamperState<T> {
     /// Displacement used last (m).
     pub(crate) displacement: T,

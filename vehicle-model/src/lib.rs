@@ -171,29 +171,33 @@ pub unsafe extern "C" fn model_notice(this: &mut Model) -> *const c_char {
     this.notice().map_or(std::ptr::null(), CStr::as_ptr)
 }
 
-/// It has no states to save.
+/// Bytes of a state.
 ///
 /// # Safety
 /// As above.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn model_saved_bytes(_: &Model) -> usize {
-    0
+pub unsafe extern "C" fn model_saved_bytes(this: &Model) -> usize {
+    this.saved_bytes()
 }
 
-/// As much as nothing.
+/// All that changes.
 ///
 /// # Safety
-/// As above.
+/// As above; `bytes` has as many as [`model_saved_bytes`] says.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn model_save(_: &Model, _: *mut u8) {}
+pub unsafe extern "C" fn model_save(this: &Model, bytes: *mut u8) {
+    // SAFETY: as many as the caller promises, and nobody else's.
+    this.save(unsafe { std::slice::from_raw_parts_mut(bytes, this.saved_bytes()) });
+}
 
-/// None is of this model.
+/// Goes on from a state; refused, the model stays as it is.
 ///
 /// # Safety
-/// As above.
+/// As above; `bytes` has as many as [`model_saved_bytes`] says.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn model_restore(_: &mut Model, _: *const u8) -> ModelResult {
-    ModelResult::Other
+pub unsafe extern "C" fn model_restore(this: &mut Model, bytes: *const u8) -> ModelResult {
+    // SAFETY: as many as the caller promises.
+    this.restore(unsafe { std::slice::from_raw_parts(bytes, this.saved_bytes()) })
 }
 
 /// As much of a text as there is room for, and a zero.

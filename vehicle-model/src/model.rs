@@ -11,6 +11,8 @@ use crate::result::ModelResult;
 /// A model of `model.h`.
 pub struct Model {
     vehicle: Coupled,
+    /// Room for a saved state: twice that of the start, which leaves every count its largest.
+    saved_bytes: usize,
     /// Why it goes no further, where its case does not say.
     failure: bool,
     /// To be told next.
@@ -30,7 +32,9 @@ impl Model {
         let text = std::fs::read(&path).map_err(|error| told(&error))?;
         let case: CoupledCase = serde_json::from_slice(&text).map_err(|error| told(&error))?;
         let vehicle = Coupled::new(&case, resources).map_err(|error| error.to_string())?;
+        let saved = vehicle.saved().map_err(|error| error.to_string())?;
         Ok(Self {
+            saved_bytes: size_of::<u64>() + 2 * saved.len(),
             vehicle,
             failure: false,
             notice: None,
@@ -91,6 +95,37 @@ impl Model {
                 taken
             }
             Err(error) => self.fail(&error.to_string()),
+        }
+    }
+
+    pub fn saved_bytes(&self) -> usize {
+        self.saved_bytes
+    }
+
+    /// How many bytes follow, those, then zeros. All zeros where there is no room, which is no state.
+    pub fn save(&self, to: &mut [u8]) {
+        to.fill(0);
+        let saved = self.vehicle.saved().unwrap_or_default();
+        if let Some((count, content)) = to.split_first_chunk_mut()
+            && let Some(content) = content.get_mut(..saved.len())
+        {
+            *count = (saved.len() as u64).to_le_bytes();
+            content.copy_from_slice(&saved);
+        }
+    }
+
+    pub fn restore(&mut self, from: &[u8]) -> ModelResult {
+        let saved = from.split_first_chunk().and_then(|(count, content)| {
+            let count = usize::try_from(u64::from_le_bytes(*count)).ok()?;
+            content.get(..count)
+        });
+        match saved.map(|saved| self.vehicle.restore(saved)) {
+            Some(Ok(())) => {
+                self.failure = false;
+                self.notice = None;
+                ModelResult::Done
+            }
+            _ => ModelResult::Other,
         }
     }
 

@@ -3,6 +3,7 @@
     python3 vehicle_judge.py FMU
 """
 
+import shutil
 import sys
 
 import fmpy
@@ -33,9 +34,50 @@ def main():
     print("rows", len(result), "ending", result["ending"][-1], "distance", repr(result["distance_m"][-1]))
     print("ended at", f"{result['time'][-1]:.3f}", "s")
     print(*messages, sep="\n")
+    states(path)
     print("with a force:", run(path, "9e3"))
     print("no number:", run(path, "nan"))
     print("an output:", run(path, "1", DISPLACEMENT))
+
+
+def states(path):
+    """A state that is got, serialized, deserialized and set goes on with the same bits."""
+    folder = fmpy.extract(path)
+    description = fmpy.read_model_description(folder)
+    references = {v.name: v.valueReference for v in description.modelVariables}
+    fmu = fmpy.instantiate_fmu(folder, description, fmi_type="CoSimulation")
+    is_3 = description.fmiVersion == "3.0"
+    if not is_3:
+        fmu.setupExperiment(startTime=0)
+    fmu.enterInitializationMode()
+    fmu.exitInitializationMode()
+    outputs = [v.valueReference for v in description.modelVariables if v.causality == "output" and v.name != "ending"]
+    get, put = (fmu.getFloat64, fmu.setFloat64) if is_3 else (fmu.getReal, fmu.setReal)
+
+    def steps(begin, end):
+        rows = []
+        for step in range(begin, end):
+            put([references[FORCE]], [1e4 * np.sin(0.1 * step)])
+            fmu.doStep(step * 1e-3, 1e-3)
+            rows.append(list(get(outputs)))
+        return rows
+
+    steps(0, 300)
+    got = fmu.getFMUState()
+    serialized = fmu.serializeFMUState(got)
+    at_300 = list(get(outputs))
+    expected = steps(300, 600)
+    again = fmu.deserializeFMUState(serialized)
+    fmu.setFMUState(again)
+    assert list(get(outputs)) == at_300, "outputs of a state that was set"
+    assert steps(300, 600) == expected, "steps from a state that was set"
+    fmu.setFMUState(got)
+    assert steps(300, 600) == expected, "steps from a state that was got"
+    fmu.freeFMUState(got)
+    fmu.freeFMUState(again)
+    fmu.terminate()
+    fmu.freeInstance()
+    shutil.rmtree(folder, ignore_errors=True)
 
 
 def run(path, value, name=FORCE):

@@ -2,6 +2,7 @@
 
 mod calibration;
 mod case_file;
+mod coupled;
 mod damper_response;
 mod pacing;
 mod plate;

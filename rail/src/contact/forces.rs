@@ -7,6 +7,7 @@ use crate::creep::{CreepForces, Creepage};
 /// State of a wheel on its rail, from harmless to worst.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Status {
     /// No patch is loaded.
     #[default]
@@ -27,6 +28,7 @@ pub enum Status {
 /// Forces of the rail on one patch of the wheel.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct PatchForces {
     /// Normal load, N.
     pub load_n: f64,
@@ -53,6 +55,7 @@ pub struct PatchForces {
 /// Forces of one rail on its wheel.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct WheelForces {
     /// The patch of each zone, from the flange to the field side; zeros where the zone is not loaded.
     pub patches: [PatchForces; ZONES],
@@ -79,6 +82,7 @@ pub struct WheelDerivatives {
 /// Forces of both rails on a wheelset.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct WheelsetForces {
     /// The left wheel, then the right wheel.
     pub wheels: [WheelForces; 2],

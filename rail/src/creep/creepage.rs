@@ -2,6 +2,7 @@
 
 /// Velocity of the wheel's surface relative to the rail over the speed, in [contact axes](crate::creep).
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Creepage {
     /// Longitudinal creepage, dimensionless.
     pub longitudinal: f64,

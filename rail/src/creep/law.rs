@@ -28,6 +28,7 @@ pub struct LoadedContact {
 
 /// Creep forces on the wheel, in [contact axes](crate::creep).
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct CreepForces {
     /// Force in the rolling direction, N.
     pub longitudinal_n: f64,

@@ -3,6 +3,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
+use dashpot_rail::vehicle::VehicleState;
 use serde::{Deserialize, Serialize};
 
 use super::recorded::all_signals;
@@ -219,6 +220,34 @@ impl Coupled {
             }
         }
         Ok(ticks)
+    }
+
+    /// All that changes, as bytes for [`Self::restore`]; their number grows with the numbers of ticks, by less than half.
+    ///
+    /// # Errors
+    /// None that is known.
+    pub fn saved(&self) -> Result<Vec<u8>, postcard::Error> {
+        let of_damper = |damper: &Outside| [damper.force_n, damper.last_m];
+        let outside: Vec<[f64; 2]> = self.outside.iter().map(of_damper).collect();
+        postcard::to_stdvec(&(self.run.state(), outside, self.ending.is_some()))
+    }
+
+    /// Goes on from bytes that a vehicle of the same case has saved.
+    ///
+    /// # Errors
+    /// Bytes that are no state of this vehicle; then nothing changes.
+    pub fn restore(&mut self, bytes: &[u8]) -> Result<(), postcard::Error> {
+        let (state, outside, has_ended): (VehicleState, Vec<[f64; 2]>, bool) =
+            postcard::from_bytes(bytes)?;
+        if !state.has_shape_of(self.run.state()) || outside.len() != self.outside.len() {
+            return Err(postcard::Error::DeserializeBadEncoding);
+        }
+        for (damper, [force_n, last_m]) in self.outside.iter_mut().zip(outside) {
+            (damper.force_n, damper.last_m) = (force_n, last_m);
+        }
+        self.run.restore(&self.start, state);
+        self.ending = has_ended.then(|| self.run.ending().unwrap_or(Ending::Completed));
+        Ok(())
     }
 
     /// How it ended in a number: 0 not yet, 1 the case is over, 2 derailed, 3 outside the tables of the contact, 4 diverged.

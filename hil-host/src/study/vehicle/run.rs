@@ -189,6 +189,13 @@ impl Run {
         &mut self.state
     }
 
+    /// Goes on from a state that this run has had; `start` is the run before its first tick.
+    pub fn restore(&mut self, start: &Self, state: VehicleState) {
+        // The next tick makes the faults until then again, which leaves a damper that has had one as it is.
+        self.clone_from(start);
+        self.state = state;
+    }
+
     /// One tick, with the faults that are due; how the run ended, if it did.
     ///
     /// # Errors
@@ -225,7 +232,8 @@ impl Run {
         }
     }
 
-    fn ending(&self) -> Option<Ending> {
+    /// How the state ends the run, if it does.
+    pub(super) fn ending(&self) -> Option<Ending> {
         let (time_s, distance_m) = (self.time_s(), self.state.distance_m());
         if self.state.is_diverged() {
             return Some(Ending::Diverged { time_s, distance_m });

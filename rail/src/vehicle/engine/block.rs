@@ -42,6 +42,7 @@ impl Weighted {
 /// One number for each pair of coordinates of two bodies.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[repr(align(64))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Block([[f64; WIDTH]; N]);
 
 /// The numbers of the coordinates in a row.

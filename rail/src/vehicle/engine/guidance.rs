@@ -16,6 +16,7 @@ pub(super) struct Stand {
 
 /// The track frame under each body, in the order of its coordinates.
 #[derive(Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Guidance {
     /// How far the frame has moved and turned the body's centre since the distance 0: what its own velocities lack.
     pub pose: Vec<Vector>,

@@ -13,6 +13,7 @@ use crate::contact::{Status, WheelsetForces};
 /// Bodies come in the order of the parameters, wheelsets after them; coordinates in that of
 /// [`COORDINATES`](crate::vehicle::COORDINATES).
 #[derive(Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct VehicleState {
     /// Bodies and wheelsets; rails that give way follow them.
     pub(super) bodies: usize,
@@ -41,6 +42,7 @@ pub struct VehicleState {
 
 /// What a step writes over.
 #[derive(Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Work {
     pub guidance: Guidance,
     pub system: Blocks,
@@ -127,6 +129,47 @@ impl VehicleState {
         if let Some(outside) = self.outside_forces_n.get_mut(damper) {
             *outside = force_n.filter(|force| force.is_finite());
         }
+    }
+
+    /// Whether a vehicle that has stepped `other` can step this one: a state that was read may be of another vehicle.
+    pub fn has_shape_of(&self, other: &Self) -> bool {
+        self.shape() == other.shape()
+    }
+
+    /// The number of bodies, and all lengths.
+    fn shape(&self) -> [usize; 29] {
+        let (work, guidance, system) = (&self.work, &self.work.guidance, &self.work.system);
+        [
+            self.bodies,
+            self.coordinates.len(),
+            self.velocities.len(),
+            self.accelerations.len(),
+            self.last_accelerations.len(),
+            self.forces.len(),
+            self.inertia.len(),
+            self.pose.len(),
+            self.contacts.len(),
+            self.dampers.len(),
+            self.damper_displacements_m.len(),
+            self.damper_forces_n.len(),
+            self.outside_forces_n.len(),
+            self.stop_forces_n.len(),
+            guidance.pose.len(),
+            guidance.pose_rate.len(),
+            guidance.relative.len(),
+            guidance.relative_rate.len(),
+            guidance.acceleration.len(),
+            system.diagonal.len(),
+            system.couplings.len(),
+            system.carried.len(),
+            work.residual.len(),
+            work.in_middle.len(),
+            work.rates_in_middle.len(),
+            work.tick_forces.len(),
+            work.tick_changes.len(),
+            work.target_damper_forces_n.len(),
+            work.target_stop_forces_n.len(),
+        ]
     }
 
     /// The worst status of all wheels.

@@ -47,6 +47,7 @@ pub(super) struct Structure {
 
 /// The numbers of a structure: the matrix, or its factors in the same place.
 #[derive(Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Blocks {
     /// Factorised, the inverse of each body's block when its turn comes.
     pub diagonal: Vec<Block>,

@@ -88,7 +88,6 @@ impl Fmu {
             // Steps of this size end there.
             stop_s: nearest_nanosecond((1.0 / step_s).round() * step_s),
             variables: all_variables(dampers),
-            has_states: true,
             has_input_derivatives: true,
             about: about::<T>(step_s, is_loaded),
             resources,

@@ -48,10 +48,9 @@ impl Fmu {
         let mut capabilities = vec![
             ("modelIdentifier", &*self.identifier),
             ("canHandleVariableCommunicationStepSize", "true"),
+            (&can_get, "true"),
+            (&can_serialize, "true"),
         ];
-        if self.has_states {
-            capabilities.extend([(&*can_get, "true"), (&can_serialize, "true")]);
-        }
         match self.interface {
             Interface::Two => {
                 if self.has_input_derivatives {

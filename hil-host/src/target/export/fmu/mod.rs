@@ -55,8 +55,7 @@ pub struct Fmu {
     step_s: f64,
     stop_s: f64,
     variables: Vec<Variable>,
-    /// Whether states are got, set and serialized, and derivatives of inputs taken.
-    has_states: bool,
+    /// Whether derivatives of inputs are taken.
     has_input_derivatives: bool,
     /// Paragraphs of its page.
     about: Markup,

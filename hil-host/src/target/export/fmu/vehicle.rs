@@ -61,7 +61,6 @@ impl Fmu {
             step_s,
             stop_s: of.case.duration_s,
             variables,
-            has_states: false,
             has_input_derivatives: false,
             about: about(of),
             resources: vec![(CASE_FILE.into(), case), tables],

@@ -305,14 +305,10 @@ static component_state *new_state(component *this, size_t bytes)
 
 component_status component_get_state(component *this, void **pointer)
 {
-    const size_t model_bytes = model_saved_bytes(this->model), bytes = HEAD_BYTES + model_bytes;
-    component_state *state;
+    const size_t bytes = HEAD_BYTES + model_saved_bytes(this->model);
+    component_state *state = *pointer == NULL ? new_state(this, bytes) : *pointer;
     uint8_t *to;
 
-    if (model_bytes == 0) {
-        return component_unsupported(this, "a saved state");
-    }
-    state = *pointer == NULL ? new_state(this, bytes) : *pointer;
     if (state == NULL) {
         return COMPONENT_ERROR;
     }
@@ -354,7 +350,7 @@ component_status component_set_state(component *this, const component_state *sta
     from = model_take_real(from, &stop_s);
     if (phase == 0 || phase > FAILED || (phase & (phase - 1)) != 0 || !is_time(start_s) || !(stop_s >= start_s)
         || (double)steps > MOST_STEPS_OF_ALL || model_restore(this->model, from) != MODEL_DONE) {
-        return component_tell(this, COMPONENT_DISCARD, "the state is of another damper");
+        return component_tell(this, COMPONENT_DISCARD, "the state is of another model");
     }
     this->phase = (component_phase)phase;
     this->steps = steps;

@@ -60,7 +60,7 @@ bool model_has_ended(const model *this);
 /* What happened since it was last asked and should be told; NULL where nothing did. */
 const char *model_notice(model *this);
 
-/* All that changes, as bytes of a fixed number, little-endian; of none where the model cannot. */
+/* All that changes, as bytes of a fixed number; little-endian. */
 size_t model_saved_bytes(const model *this);
 void model_save(const model *this, uint8_t *bytes);
 /* Refused, the model stays as it is. */
