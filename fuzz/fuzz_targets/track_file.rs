@@ -18,7 +18,7 @@ fn built(parameters: &TrackParameters) -> Option<Track> {
                 return None;
             }
         }
-        IrregularityParameters::None => {}
+        IrregularityParameters::None | IrregularityParameters::Given(_) => {}
     }
     parameters.build().ok()
 }
