@@ -1,4 +1,4 @@
-"""A vehicle and one of its dampers, each an FMU, step by step in FMPy.
+"""A vehicle and its one damper outside, each an FMU, step by step in FMPy.
 
     python3 coupled_fmus.py VEHICLE.fmu DAMPER.fmu OUTPUT.csv
 
@@ -11,6 +11,8 @@ import shutil
 import sys
 
 from fmpy import extract, instantiate_fmu, read_model_description
+from fmpy.fmi1 import FMICallException
+from fmpy.fmi2 import fmi2Discard, fmi2Terminated
 
 
 class Part:
@@ -19,15 +21,24 @@ class Part:
     def __init__(self, path):
         self.folder = extract(path)
         self.description = read_model_description(self.folder)
+        self.step_s = float(self.description.defaultExperiment.stepSize)
         self.variables = {v.name: v for v in self.description.modelVariables}
+        self.is_2 = self.description.fmiVersion == "2.0"
+
+    def __enter__(self):
         self.fmu = instantiate_fmu(self.folder, self.description, fmi_type="CoSimulation")
-        if self.description.fmiVersion == "2.0":
+        if self.is_2:
             self.fmu.setupExperiment(startTime=0)
             self.get_reals, self.set_reals = self.fmu.getReal, self.fmu.setReal
         else:
             self.get_reals, self.set_reals = self.fmu.getFloat64, self.fmu.setFloat64
         self.fmu.enterInitializationMode()
         self.fmu.exitInitializationMode()
+        return self
+
+    def __exit__(self, *_):
+        self.fmu.freeInstance()
+        shutil.rmtree(self.folder, ignore_errors=True)
 
     def names(self, causality):
         return [name for name, v in self.variables.items() if v.causality == causality and v.type in ("Real", "Float64")]
@@ -38,30 +49,39 @@ class Part:
     def set(self, name, value):
         self.set_reals([self.variables[name].valueReference], [value])
 
-    def end(self):
-        self.fmu.terminate()
-        self.fmu.freeInstance()
-        shutil.rmtree(self.folder)
+    def step(self, number):
+        """Whether it goes on after the step of this number, from 0 on."""
+        try:
+            told = self.fmu.doStep(number * self.step_s, self.step_s)
+        except FMICallException as error:
+            if error.status == fmi2Discard and self.is_2 and self.fmu.getBooleanStatus(fmi2Terminated):
+                return False
+            raise
+        return self.is_2 or not told[1]
 
 
 def main():
-    vehicle, damper = Part(sys.argv[1]), Part(sys.argv[2])
-    experiment = vehicle.description.defaultExperiment
-    step_s = float(experiment.stepSize)
-    (force,) = vehicle.names("input")
-    displacement = force.removesuffix("_force_n") + "_displacement_m"
-    outputs = vehicle.names("output")
-    with open(sys.argv[3], "w", newline="") as file:
-        rows = csv.writer(file)
-        rows.writerow([*outputs, force])
-        for step in range(round(float(experiment.stopTime) / step_s)):
-            vehicle.fmu.doStep(step * step_s, step_s)
-            damper.set("displacement_m", *vehicle.get([displacement]))
-            damper.fmu.doStep(step * step_s, step_s)
-            rows.writerow(map(repr, vehicle.get([*outputs, force])))
-            vehicle.set(force, *damper.get(["force_n"]))
-    vehicle.end()
-    damper.end()
+    with Part(sys.argv[1]) as vehicle, Part(sys.argv[2]) as damper:
+        if vehicle.step_s != damper.step_s:
+            sys.exit(f"the vehicle steps {vehicle.step_s} s, the damper {damper.step_s} s: export it with --step-us")
+        force, *others = vehicle.names("input")
+        if others:
+            sys.exit(f"one damper outside is coupled here, the vehicle has {1 + len(others)}")
+        displacement = force.removesuffix("_force_n") + "_displacement_m"
+        outputs = [*vehicle.names("output"), force]
+        steps = round(float(vehicle.description.defaultExperiment.stopTime) / vehicle.step_s)
+        with open(sys.argv[3], "w", newline="") as file:
+            rows = csv.writer(file)
+            rows.writerow(outputs)
+            for step in range(steps):
+                goes_on = vehicle.step(step)
+                rows.writerow(map(repr, vehicle.get(outputs)))
+                if not goes_on:
+                    print(f"the vehicle ended after {step + 1} steps")
+                    break
+                damper.set("displacement_m", *vehicle.get([displacement]))
+                damper.step(step)
+                vehicle.set(force, *damper.get(["force_n"]))
 
 
 if __name__ == "__main__":

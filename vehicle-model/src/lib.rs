@@ -13,6 +13,21 @@ use std::path::Path;
 use model::Model;
 use result::ModelResult;
 
+unsafe extern "C" {
+    /// Digest of the case that the FMU was exported with.
+    static model_case_digest: c_char;
+}
+
+/// What a call does with a model that no panic leaves; after one it has failed, and `or` is the answer.
+fn guarded<T>(this: &mut Model, or: T, act: impl FnOnce(&mut Model) -> T) -> T {
+    catch_unwind(AssertUnwindSafe(|| act(this))).unwrap_or_else(|_| {
+        this.fail(FAULT);
+        or
+    })
+}
+
+const FAULT: &str = "a fault of the program";
+
 /// A model of the files in the folder `resources`; null with a reason where they make none.
 ///
 /// # Safety
@@ -32,9 +47,11 @@ pub unsafe extern "C" fn model_new(
         let folder = folder
             .to_str()
             .map_err(|error| format!("the folder of resources: {error}"))?;
-        Model::new(Path::new(folder))
+        // SAFETY: a constant of the FMU that ends in a zero.
+        let digest = unsafe { CStr::from_ptr(&raw const model_case_digest) };
+        Model::new(Path::new(folder), &digest.to_string_lossy())
     });
-    match made.unwrap_or_else(|_| Err("a fault of the program".into())) {
+    match made.unwrap_or_else(|_| Err(FAULT.into())) {
         Ok(model) => Box::into_raw(Box::new(model)),
         Err(text) => {
             // SAFETY: as many bytes as the length says.
@@ -62,7 +79,7 @@ pub unsafe extern "C" fn model_free(this: *mut Model) {
 /// As above.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn model_reset(this: &mut Model) {
-    this.reset();
+    guarded(this, (), Model::reset);
 }
 
 /// A number.
@@ -71,13 +88,14 @@ pub unsafe extern "C" fn model_reset(this: &mut Model) {
 /// As above.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn model_get_real(
-    this: &Model,
+    this: &mut Model,
     variable: u32,
-    value: &mut f64,
+    value: *mut f64,
 ) -> ModelResult {
-    match this.number(variable) {
+    match guarded(this, None, |this| this.number(variable)) {
         Some(number) => {
-            *value = number;
+            // SAFETY: to one value.
+            unsafe { value.write(number) };
             ModelResult::Done
         }
         None => ModelResult::NoVariable,
@@ -99,7 +117,7 @@ pub unsafe extern "C" fn model_check_real(this: &Model, variable: u32, value: f6
 /// As above.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn model_set_real(this: &mut Model, variable: u32, value: f64) {
-    this.set(variable, value);
+    guarded(this, (), |this| this.set(variable, value));
 }
 
 /// No input is interpolated.
@@ -119,11 +137,12 @@ pub unsafe extern "C" fn model_set_derivative(_: &mut Model, _: u32, _: f64) -> 
 pub unsafe extern "C" fn model_get_integer(
     this: &Model,
     variable: u32,
-    value: &mut i32,
+    value: *mut i32,
 ) -> ModelResult {
     match this.integer(variable) {
         Some(integer) => {
-            *value = integer;
+            // SAFETY: to one value.
+            unsafe { value.write(integer) };
             ModelResult::Done
         }
         None => ModelResult::NoVariable,
@@ -133,7 +152,7 @@ pub unsafe extern "C" fn model_get_integer(
 /// What is allowed for a variable, in words.
 #[unsafe(no_mangle)]
 pub extern "C" fn model_allowed(_: u32) -> *const c_char {
-    c"a finite number".as_ptr()
+    c"a force that is a finite number".as_ptr()
 }
 
 /// The vehicle stands as the case has it.
@@ -149,8 +168,7 @@ pub unsafe extern "C" fn model_start(_: &mut Model) {}
 /// As above.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn model_step(this: &mut Model, steps: u64) -> u64 {
-    catch_unwind(AssertUnwindSafe(|| this.step(steps)))
-        .unwrap_or_else(|_| this.fail("a fault of the program"))
+    guarded(this, 0, |this| this.step(steps))
 }
 
 /// Whether it has ended.
@@ -160,6 +178,15 @@ pub unsafe extern "C" fn model_step(this: &mut Model, steps: u64) -> u64 {
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn model_has_ended(this: &Model) -> bool {
     this.has_ended()
+}
+
+/// Whether it has failed.
+///
+/// # Safety
+/// As above.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn model_has_failed(this: &Model) -> bool {
+    this.has_failed()
 }
 
 /// What happened since it was last asked; null where nothing did.
@@ -185,9 +212,14 @@ pub unsafe extern "C" fn model_saved_bytes(this: &Model) -> usize {
 /// # Safety
 /// As above; `bytes` has as many as [`model_saved_bytes`] says.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn model_save(this: &Model, bytes: *mut u8) {
-    // SAFETY: as many as the caller promises, and nobody else's.
-    this.save(unsafe { std::slice::from_raw_parts_mut(bytes, this.saved_bytes()) });
+pub unsafe extern "C" fn model_save(this: &mut Model, bytes: *mut u8) {
+    let count = this.saved_bytes();
+    // SAFETY: as many as the caller promises, written before they are read, and nobody else's.
+    let bytes = unsafe {
+        bytes.write_bytes(0, count);
+        std::slice::from_raw_parts_mut(bytes, count)
+    };
+    guarded(this, (), |this| this.save(bytes));
 }
 
 /// Goes on from a state; refused, the model stays as it is.
@@ -197,7 +229,8 @@ pub unsafe extern "C" fn model_save(this: &Model, bytes: *mut u8) {
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn model_restore(this: &mut Model, bytes: *const u8) -> ModelResult {
     // SAFETY: as many as the caller promises.
-    this.restore(unsafe { std::slice::from_raw_parts(bytes, this.saved_bytes()) })
+    let bytes = unsafe { std::slice::from_raw_parts(bytes, this.saved_bytes()) };
+    guarded(this, ModelResult::Other, |this| this.restore(bytes))
 }
 
 /// As much of a text as there is room for, and a zero.

@@ -3,8 +3,8 @@
 use std::ffi::{CStr, CString};
 use std::path::Path;
 
-use dashpot_hil::study::vehicle::{Coupled, CoupledCase};
-use dashpot_hil::target::export::fmu::CASE_FILE;
+use dashpot_hil::study::vehicle::{Coupled, CoupledCase, Ending};
+use dashpot_hil::target::export::fmu::{CASE_FILE, case_digest};
 
 use crate::result::ModelResult;
 
@@ -22,14 +22,17 @@ pub struct Model {
 }
 
 impl Model {
-    /// Of the case and the tables in a folder.
+    /// Of the case of this digest and the tables in a folder.
     ///
     /// # Errors
     /// A file that is not there or is none of this version, in words.
-    pub fn new(resources: &Path) -> Result<Self, String> {
+    pub fn new(resources: &Path, digest: &str) -> Result<Self, String> {
         let path = resources.join(CASE_FILE);
         let told = |error: &dyn std::fmt::Display| format!("{}: {error}", path.display());
         let text = std::fs::read(&path).map_err(|error| told(&error))?;
+        if case_digest(&text) != digest {
+            return Err(told(&"not the case that this FMU was exported with"));
+        }
         let case: CoupledCase = serde_json::from_slice(&text).map_err(|error| told(&error))?;
         let vehicle = Coupled::new(&case, resources).map_err(|error| error.to_string())?;
         let saved = vehicle.saved().map_err(|error| error.to_string())?;
@@ -87,8 +90,10 @@ impl Model {
         let had_ended = self.vehicle.ending().is_some();
         match self.vehicle.step(ticks) {
             Ok(taken) => {
+                // That a case is over is no news.
                 if let Some(ending) = self.vehicle.ending()
                     && !had_ended
+                    && *ending != Ending::Completed
                 {
                     self.notice = CString::new(ending.to_string()).ok();
                 }
@@ -102,9 +107,8 @@ impl Model {
         self.saved_bytes
     }
 
-    /// How many bytes follow, those, then zeros. All zeros where there is no room, which is no state.
+    /// How many bytes follow, then those, into zeros. Left as they are where there is no room, which is no state.
     pub fn save(&self, to: &mut [u8]) {
-        to.fill(0);
         let saved = self.vehicle.saved().unwrap_or_default();
         if let Some((count, content)) = to.split_first_chunk_mut()
             && let Some(content) = content.get_mut(..saved.len())
@@ -138,6 +142,10 @@ impl Model {
 
     pub fn has_ended(&self) -> bool {
         self.failure || self.vehicle.ending().is_some()
+    }
+
+    pub fn has_failed(&self) -> bool {
+        self.failure
     }
 
     pub fn notice(&mut self) -> Option<&CStr> {

@@ -131,7 +131,7 @@ static void refuse(importer *of)
     check("rejected", get_integer(of, REJECTED, &bits), 0);
     printf("rejected %d, force finite %d\n", bits, isfinite(force(of)) != 0);
     check("quiet", quiet(of), 0);
-    printf("quiet: %d\n", step(of, 9, 1e-3));
+    printf("quiet: %d\n", step(of, 8, 1e-3));
     check("loud", loud(of, "logStatusDiscard"), 0);
     printf("loud: %d\n", step(of, 9, 1e-3));
     printf("no such category: %d\n", loud(of, "logEvents"));

@@ -61,6 +61,36 @@ fn fmpy_simulates_any_step() {
     }
 }
 
+/// FMPy asks an FMU of FMI 2 for a step that was refused again and again: the second time it is an error, and FMPy ends.
+#[test]
+fn fmpy_ends_when_a_step_is_refused() {
+    let Some(python) = have_packages("FMUs refusing steps by FMPy") else {
+        return;
+    };
+    for fmi in ["2", "3"] {
+        let fmu = Unpacked::new(fmi, &[]);
+        let mut simulate = Command::new(&python);
+        simulate.args([
+            "-m",
+            "fmpy",
+            "--debug-logging",
+            "simulate",
+            "it.fmu",
+            "--output-interval",
+            "0.0025",
+        ]);
+        let output = simulate.current_dir(fmu.folder.path()).output().unwrap();
+        let text = [output.stdout, output.stderr].concat();
+        let text = String::from_utf8_lossy(&text);
+        assert!(!output.status.success(), "FMI {fmi}: {text}");
+        assert!(
+            text.contains("a communication step of 0.0025 s, allowed"),
+            "{text}"
+        );
+        assert_eq!(text.contains("it was refused before"), fmi == "2", "{text}");
+    }
+}
+
 #[test]
 fn fmpy_finds_no_problem_and_the_same_forces() {
     if !have(&[CMAKE, MAKE], "FMUs compiled by FMPy") {

@@ -27,9 +27,9 @@ log it 2 logStatusDiscard: a step from 0.002 s, but the last one ended at 0.001 
 from elsewhere: 2
 log it 2 logStatusDiscard: a communication step of 10000000 s, allowed: a multiple of the internal step of 0.001 s, up to 1e+09 of it
 too many: 2
-log it 2 logStatusDiscard: value reference 4: 0.2, allowed: 0 to 0.1 m
+log it 2 logStatusDiscard: value reference 4: 0.2, allowed: a clearance of 0 to 0.1 m
 clearance: 2
-log it 2 logStatusDiscard: value reference 4: nan, allowed: 0 to 0.1 m
+log it 2 logStatusDiscard: value reference 4: nan, allowed: a clearance of 0 to 0.1 m
 clearance: 2
 time still 0.001 s
 clearance still 0.001000 m

@@ -9,6 +9,7 @@ use std::sync::OnceLock;
 use xtask::python::have_packages;
 use xtask::run::cargo_output;
 
+use crate::common::page::blocks;
 use crate::common::{dashpot, error_of, program};
 use crate::source;
 
@@ -85,17 +86,53 @@ fn the_page_couples_a_vehicle_and_a_damper_to_the_bits_of_the_command() {
     let others = std::env::var_os("PATH").unwrap();
     let path = path.into_iter().chain(std::env::split_paths(&others));
     let path = std::env::join_paths(path).unwrap();
-    for line in lines {
+    let run = |line: &str| {
         let mut shell = Command::new("sh");
         shell
             .args(["-ec", line])
             .current_dir(folder.path())
-            .env("PATH", &path);
-        shell.env("XDG_CACHE_HOME", env!("CARGO_TARGET_TMPDIR"));
+            .env("PATH", &path)
+            .env("XDG_CACHE_HOME", env!("CARGO_TARGET_TMPDIR"));
         let output = shell.output().unwrap();
         let told = String::from_utf8_lossy(&output.stderr);
         assert!(output.status.success(), "{line}: {told}");
+    };
+    // Those of the block of Python have no words of a command.
+    for line in lines.filter(|line| {
+        ["cargo ", "dashpot ", "fmpy ", "python3 "]
+            .iter()
+            .any(|word| line.starts_with(word))
+    }) {
+        run(line);
     }
+    // The motion of the page, and its forces beside those of the command.
+    let blocks = blocks(&page);
+    let block = blocks.iter().find(|block| block.language == "python");
+    let script = format!(
+        "{}\nrows = np.column_stack([time, displacement_m])\n\
+         np.savetxt('motion.csv', rows, '%.17g', ',', header='time_s,displacement_m', comments='')\n\
+         np.savetxt('force_fmpy.csv', force_n, '%.17g', header='force_n', comments='')\n",
+        block.unwrap().content
+    );
+    fs::write(at("motion.py"), script).unwrap();
+    for line in [
+        "python3 motion.py",
+        "dashpot replay --damper in-service --input motion.csv --output force.csv",
+    ] {
+        run(line);
+    }
+    let force = |name: &str| {
+        let columns = columns(&at(name));
+        let (_, bits) = columns
+            .into_iter()
+            .find(|(name, _)| name == "force_n")
+            .unwrap();
+        bits.into_iter()
+            .map(|bits| f64::from_bits(bits) as f32)
+            .collect::<Vec<f32>>()
+    };
+    assert_eq!(force("force_fmpy.csv"), force("force.csv"));
+    assert_eq!(force("force.csv").len(), 3000);
     let coupled = columns(&at("coupled.csv"));
     let history = columns(&at("dashpot-vehicle/history.csv"));
     let of_history = |name: &str| history.iter().find(|(other, _)| other == name);
@@ -121,7 +158,7 @@ fn fmpy_simulates_both_versions_to_the_end_of_the_run() {
         return;
     };
     let folder = tempfile::tempdir().unwrap();
-    let text = "name = \"too fast\"\nvehicle = \"locomotive\"\ntrack = \"curve-r200\"\nspeed_km_h = 200\nduration_s = 5\n";
+    let text = "name = \"too fast\"\nvehicle = \"locomotive\"\ntrack = \"curve-r200\"\nspeed_km_h = 200\nduration_s = 5.0003\n";
     fs::write(folder.path().join("fast.toml"), text).unwrap();
     let mut told = Vec::new();
     for fmi in ["2", "3"] {
@@ -135,6 +172,13 @@ fn fmpy_simulates_both_versions_to_the_end_of_the_run() {
         let text = String::from_utf8_lossy(&output.stderr);
         assert!(output.status.success(), "FMI {fmi}: {text}");
         told.push(String::from_utf8(output.stdout).unwrap());
+    }
+    for line in [
+        "case.json b' ' case.json: not the case that this FMU was exported with\n",
+        ".tables b' ' : damaged, or tables of another version\n",
+        ".tables None : No such file or directory",
+    ] {
+        assert!(told[0].contains(line), "{line} in {}", told[0]);
     }
     assert_eq!(told[0], told[1]);
     // Without these dampers the command says the same of its own.
@@ -176,6 +220,13 @@ fn fmpy_simulates_both_versions_to_the_end_of_the_run() {
 fn what_is_no_vehicle_around_a_damper_is_refused() {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("it.a"), "no library").unwrap();
+    // Names that differ in what no name of a variable has.
+    let vehicle = fs::read_to_string(source("../data/vehicles/locomotive.toml")).unwrap();
+    let vehicle = vehicle.replace("\"front lateral damper\"", "\"Dämpfer\"");
+    let vehicle = vehicle.replace("\"rear lateral damper\"", "\"Dümpfer\"");
+    fs::write(folder.path().join("vehicle.toml"), vehicle).unwrap();
+    let text = "name = \"own\"\nvehicle = \"vehicle.toml\"\ntrack = \"ideal\"\nspeed_km_h = 100\n";
+    fs::write(folder.path().join("own.toml"), text).unwrap();
     // `@` stands for the words of a damper outside that there is.
     let one = "--outside front_lateral_damper_1";
     for (code, words, expected) in [
@@ -213,6 +264,11 @@ fn what_is_no_vehicle_around_a_damper_is_refused() {
             1,
             "--fmi 3 --case straight-180 --outside front_lateral --library it.a",
             "no damper `front lateral`; did you mean `front lateral",
+        ),
+        (
+            1,
+            "--fmi 3 --case own.toml --outside Dämpfer_1 --library it.a",
+            "two signals are called D_mpfer_1_displacement_m, allowed: names that differ in letters A to Z and digits",
         ),
         (
             1,

@@ -3,6 +3,7 @@
     python3 vehicle_judge.py FMU
 """
 
+import pathlib
 import shutil
 import sys
 
@@ -30,11 +31,14 @@ def main():
     )
     rates = np.diff(result[DISPLACEMENT]) / 1e-3
     assert np.array_equal(rates, result[VELOCITY][1:]), "the rate is not that of the last step"
+    coarse = fmpy.simulate_fmu(path, output=["ending"], output_interval=1e-2, early_return_allowed=True)
+    assert coarse["time"][-1] == result["time"][-1], "the end within a longer step"
     assert list(result["ending"][:-1]) == [0] * (len(result) - 1)
     print("rows", len(result), "ending", result["ending"][-1], "distance", repr(result["distance_m"][-1]))
     print("ended at", f"{result['time'][-1]:.3f}", "s")
     print(*messages, sep="\n")
     states(path)
+    refusals(path)
     print("with a force:", run(path, "9e3"))
     print("no number:", run(path, "nan"))
     print("an output:", run(path, "1", DISPLACEMENT))
@@ -78,6 +82,27 @@ def states(path):
     fmu.terminate()
     fmu.freeInstance()
     shutil.rmtree(folder, ignore_errors=True)
+
+
+def refusals(path):
+    """Resources that are not those of the export make no instance; nothing is written there."""
+    for name, change in (("case.json", b" "), (".tables", b" "), (".tables", None)):
+        folder = fmpy.extract(path)
+        resources = pathlib.Path(folder, "resources")
+        (file,) = (file for file in resources.iterdir() if file.name.endswith(name))
+        if change is None:
+            file.unlink()
+        else:
+            file.write_bytes(file.read_bytes() + change)
+        before = sorted(file.name for file in resources.iterdir())
+        messages = []
+        try:
+            fmpy.simulate_fmu(folder, stop_time=0.01, logger=lambda *told: messages.append(told[-1].decode()))
+            sys.exit(f"{name} {change}: an instance")
+        except Exception:  # FMPy has a class for each version
+            print(name, change, messages[0].rsplit("/", 1)[-1].split(".tables")[-1])
+        assert sorted(file.name for file in resources.iterdir()) == before
+        shutil.rmtree(folder)
 
 
 def run(path, value, name=FORCE):

@@ -1,8 +1,7 @@
 //! A vehicle as a part of another simulation: its own dampers' forces given back are its own run; states across a fault; other bytes.
 
-use std::path::Path;
-
 use dashpot_hil::files::case::{Case, CaseOptions};
+use dashpot_hil::study::vehicle::contact::ContactOf;
 use dashpot_hil::study::vehicle::{Coupled, CoupledCase, Ending, Run};
 
 const OUTSIDE: &str = "front lateral damper 1";
@@ -20,13 +19,11 @@ fn case(vehicle: &str, fault: &str) -> Case {
 }
 
 fn coupled(of: &CoupledCase) -> Coupled {
-    Coupled::new(
-        of,
-        Path::new(env!("CARGO_TARGET_TMPDIR"))
-            .join("dashpot")
-            .as_path(),
-    )
-    .unwrap()
+    let case = &of.case;
+    let contact =
+        ContactOf::new(&case.vehicle, case.friction, case.normal_damping_s_per_m).unwrap();
+    let tables = contact.tables_file().unwrap();
+    Coupled::new(of, tables.parent().unwrap()).unwrap()
 }
 
 fn bits(vehicle: &Coupled) -> Vec<u64> {
@@ -135,4 +132,30 @@ fn forces_of_its_own_damper_are_its_own_run() {
     }
     assert!(most > 1e-4, "{most}");
     assert_eq!(error, 0.0);
+}
+
+#[test]
+fn a_vehicle_that_diverges_stays_where_it_was() {
+    let of = CoupledCase::new(&case("locomotive", "lateral"), &[OUTSIDE.into()]).unwrap();
+    let mut vehicle = coupled(&of);
+    rows(&mut vehicle, 0..10);
+    let before = bits(&vehicle);
+    vehicle.set_force_n(0, 1e300);
+    assert_eq!(vehicle.step(5).unwrap(), 0);
+    assert_eq!(vehicle.ending_number(), 4);
+    assert!(
+        vehicle
+            .ending()
+            .unwrap()
+            .to_string()
+            .starts_with("diverged at 0.01")
+    );
+    let force = bits(&vehicle)[0];
+    assert_eq!(f64::from_bits(force), 1e300);
+    assert_eq!(bits(&vehicle)[1..], before[1..]);
+    let saved = vehicle.saved().unwrap();
+    vehicle.reset();
+    assert_eq!(vehicle.ending_number(), 0);
+    vehicle.restore(&saved).unwrap();
+    assert_eq!(vehicle.ending_number(), 4);
 }

@@ -36,7 +36,7 @@ impl Language {
     }
 }
 
-/// Write the built damper as a constant or as bytes for firmware.
+/// Write the built damper for firmware (constant, bytes, plain C) and for other tools (FMU); a vehicle as an FMU.
 #[derive(Debug, Clone, clap::Args)]
 #[command(after_help = "Examples:
   dashpot export --damper reduced-vertical --lang rust --step-us 500 --output vertical.rs

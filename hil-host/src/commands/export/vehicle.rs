@@ -58,8 +58,8 @@ fn library(named: Option<PathBuf>) -> Outcome<PathBuf> {
         return Ok(library);
     }
     Err(Failure::new(format!(
-        "{}: no library of vehicles there; allowed: --library FILE, which `cargo build --release -p dashpot-vehicle-model` makes as \
-         target/release/{LIBRARY}",
+        "{}: no library of vehicles there; allowed: --library FILE, which `cargo build --release --package dashpot-vehicle-model` makes as \
+         target/release/{LIBRARY} in the folder of the project",
         library.display()
     )))
 }

@@ -51,15 +51,16 @@ impl ContactOf {
     /// # Errors
     /// A load that wheel and rail do not carry; a cache folder that cannot be used.
     pub fn tables(&self) -> Result<Arc<Tables>, VehicleStudyError> {
-        self.tables_in(&cache_folder())
+        let tables = Tables::cached(&cache_folder(), self.geometry()?, Grid::default())?;
+        Ok(Arc::new(tables))
     }
 
-    /// As [`Self::tables`], kept in another folder.
+    /// Those in the file of [`Self::tables_file`], which may be in another folder; nothing is computed or written.
     ///
     /// # Errors
-    /// As [`Self::tables`].
+    /// A file that is not there or not these tables.
     pub fn tables_in(&self, folder: &Path) -> Result<Arc<Tables>, VehicleStudyError> {
-        let tables = Tables::cached(folder, self.geometry()?, Grid::default())?;
+        let tables = Tables::kept(folder, self.geometry()?, Grid::default())?;
         Ok(Arc::new(tables))
     }
 

@@ -1,5 +1,6 @@
 //! A vehicle as a part of another simulation: forces of the dampers outside go in, ticks are taken, signals come out.
 
+use std::collections::HashSet;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -28,14 +29,7 @@ impl CoupledCase {
     /// # Errors
     /// A damper that cannot be outside; a track that is refused.
     pub fn new(case: &Case, outside: &[String]) -> Result<Self, VehicleStudyError> {
-        let mut numbers = Vec::new();
-        for name in outside {
-            let number = number_outside(case, name, &numbers).map_err(|source| {
-                let name = name.clone();
-                VehicleStudyError::Outside { name, source }
-            })?;
-            numbers.push(number);
-        }
+        numbers_outside(case, outside)?;
         Ok(Self {
             version: env!("CARGO_PKG_VERSION").to_owned(),
             case: Case {
@@ -45,6 +39,19 @@ impl CoupledCase {
             outside: outside.to_vec(),
         })
     }
+}
+
+/// Numbers of the dampers of these names.
+fn numbers_outside(case: &Case, names: &[String]) -> Result<Vec<usize>, VehicleStudyError> {
+    let mut numbers = Vec::new();
+    for name in names {
+        let number = number_outside(case, name, &numbers).map_err(|source| {
+            let name = name.clone();
+            VehicleStudyError::Outside { name, source }
+        })?;
+        numbers.push(number);
+    }
+    Ok(numbers)
 }
 
 /// A number of a coupled vehicle.
@@ -89,16 +96,20 @@ struct Outside {
 pub struct Coupled {
     start: Run,
     run: Run,
+    /// Before the ticks that are taken at once.
+    before: VehicleState,
     variables: Arc<[CoupledVariable]>,
     outside: Vec<Outside>,
     ending: Option<Ending>,
 }
 
 impl Coupled {
-    /// At the start of its case; tables of the contact are read from `folder`, or computed and left there.
+    /// At the start of its case; tables of the contact are read from `folder`
+    /// ([`tables_file`](contact::ContactOf::tables_file)).
     ///
     /// # Errors
-    /// A case of another version; a vehicle that is refused; a folder that cannot be used.
+    /// A case of another version; a vehicle that is refused; a damper that is not the vehicle's; two signals of one name; tables that are
+    /// not there.
     pub fn new(of: &CoupledCase, folder: &Path) -> Result<Self, VehicleStudyError> {
         if of.version != env!("CARGO_PKG_VERSION") {
             let version = of.version.clone();
@@ -109,21 +120,23 @@ impl Coupled {
             contact::ContactOf::new(&case.vehicle, case.friction, case.normal_damping_s_per_m)?;
         let contact = contact::with(contact.tables_in(folder)?, &contact)?;
         let run = Run::on(case, contact, Arc::new(case.track.build()?))?;
-        Ok(Self::of(run, of))
+        Self::of(run, of)
     }
 
-    fn of(mut run: Run, of: &CoupledCase) -> Self {
+    fn of(mut run: Run, of: &CoupledCase) -> Result<Self, VehicleStudyError> {
         let names: Vec<String> = run.vehicle().damper_names().map(str::to_owned).collect();
-        let mut outside = Vec::new();
-        let number_of = |name: &String| names.iter().position(|other| other == name);
-        for number in of.outside.iter().filter_map(number_of) {
-            run.state_mut().set_outside_force_n(number, Some(0.0));
-            outside.push(Outside {
-                number,
-                force_n: 0.0,
-                last_m: run.state().damper_displacements_m()[number],
-            });
-        }
+        let numbers = numbers_outside(&of.case, &of.outside)?;
+        let outside: Vec<Outside> = numbers
+            .into_iter()
+            .map(|number| {
+                run.state_mut().set_outside_force_n(number, Some(0.0));
+                Outside {
+                    number,
+                    force_n: 0.0,
+                    last_m: run.state().damper_displacements_m()[number],
+                }
+            })
+            .collect();
         let mut variables = Vec::new();
         for (place, damper) in outside.iter().enumerate() {
             let name = slug(&names[damper.number]);
@@ -136,23 +149,35 @@ impl Coupled {
                 role,
             }));
         }
-        let forces = variables.len();
+        let is_outside = |signal: &Signal| {
+            outside
+                .iter()
+                .any(|damper| signal.is_force_of(damper.number))
+        };
         for signal in all_signals(&run, &of.case.vehicle) {
             let name = signal.name().to_owned();
-            let is_there = variables[..forces].iter().any(|other| other.name == name);
             // The simulation around it has the time.
-            if !is_there && name != "time_s" {
+            if name != "time_s" && !is_outside(&signal) {
                 let role = Role::Output(signal);
                 variables.push(CoupledVariable { name, role });
             }
         }
-        Self {
+        let mut names = HashSet::new();
+        if let Some(twice) = variables
+            .iter()
+            .find(|variable| !names.insert(&variable.name))
+        {
+            let name = twice.name.clone();
+            return Err(VehicleStudyError::SameName { name });
+        }
+        Ok(Self {
+            before: run.state().clone(),
             start: run.clone(),
             run,
             variables: variables.into(),
             outside,
             ending: None,
-        }
+        })
     }
 
     /// Its numbers: force and velocity of each damper outside, then every signal of the vehicle but the time.
@@ -163,6 +188,11 @@ impl Coupled {
     /// Step of the case, s.
     pub fn step_s(&self) -> f64 {
         self.run.vehicle().step_s()
+    }
+
+    /// When the case is over, s after its start.
+    pub fn duration_s(&self) -> f64 {
+        self.run.ticks() as f64 * self.step_s()
     }
 
     /// At the start again, without forces outside.
@@ -201,11 +231,13 @@ impl Coupled {
         }
     }
 
-    /// Takes up to `ticks` ticks, fewer where the case ends: how many it took.
+    /// Takes up to `ticks` ticks, fewer where the run ends: how many it took. One that diverges stays where it was before the call.
     ///
     /// # Errors
     /// As [`Run::step`].
     pub fn step(&mut self, ticks: u64) -> Result<u64, VehicleStudyError> {
+        self.before.clone_from(self.run.state());
+        let last_m: Vec<f64> = self.outside.iter().map(|damper| damper.last_m).collect();
         for tick in 0..ticks {
             if self.ending.is_some() {
                 return Ok(tick);
@@ -215,8 +247,16 @@ impl Coupled {
                 damper.last_m = displacements_m[damper.number];
             }
             self.ending = self.run.step()?;
-            if self.ending == Some(Ending::Completed) {
-                return Ok(tick);
+            match self.ending {
+                Some(Ending::Completed) => return Ok(tick),
+                Some(Ending::Diverged { .. }) => {
+                    self.run.state_mut().clone_from(&self.before);
+                    for (damper, last_m) in self.outside.iter_mut().zip(last_m) {
+                        damper.last_m = last_m;
+                    }
+                    return Ok(0);
+                }
+                _ => {}
             }
         }
         Ok(ticks)
@@ -229,7 +269,7 @@ impl Coupled {
     pub fn saved(&self) -> Result<Vec<u8>, postcard::Error> {
         let of_damper = |damper: &Outside| [damper.force_n, damper.last_m];
         let outside: Vec<[f64; 2]> = self.outside.iter().map(of_damper).collect();
-        postcard::to_stdvec(&(self.run.state(), outside, self.ending.is_some()))
+        postcard::to_stdvec(&(self.run.state(), outside, self.ending_number()))
     }
 
     /// Goes on from bytes that a vehicle of the same case has saved.
@@ -237,7 +277,7 @@ impl Coupled {
     /// # Errors
     /// Bytes that are no state of this vehicle; then nothing changes.
     pub fn restore(&mut self, bytes: &[u8]) -> Result<(), postcard::Error> {
-        let (state, outside, has_ended): (VehicleState, Vec<[f64; 2]>, bool) =
+        let (state, outside, ending): (VehicleState, Vec<[f64; 2]>, i32) =
             postcard::from_bytes(bytes)?;
         if !state.has_shape_of(self.run.state()) || outside.len() != self.outside.len() {
             return Err(postcard::Error::DeserializeBadEncoding);
@@ -246,7 +286,12 @@ impl Coupled {
             (damper.force_n, damper.last_m) = (force_n, last_m);
         }
         self.run.restore(&self.start, state);
-        self.ending = has_ended.then(|| self.run.ending().unwrap_or(Ending::Completed));
+        self.ending = match ending {
+            0 => None,
+            1 => Some(Ending::Completed),
+            4 => Some(self.run.diverged()),
+            _ => self.run.ending(),
+        };
         Ok(())
     }
 

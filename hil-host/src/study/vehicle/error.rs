@@ -37,6 +37,14 @@ pub enum VehicleStudyError {
         /// Why.
         source: OutsideError,
     },
+    /// Two bodies or dampers that have one name in signals, where all but letters and digits of ASCII is an underscore.
+    #[error(
+        "two signals are called {name}, allowed: names that differ in letters A to Z and digits"
+    )]
+    SameName {
+        /// The name.
+        name: String,
+    },
     /// A case that another version has written.
     #[error("a case written by Dashpot {version}, allowed: {}", env!("CARGO_PKG_VERSION"))]
     Version {

@@ -232,11 +232,19 @@ impl Run {
         }
     }
 
+    /// The run ends here because displacements grow beyond all bounds.
+    pub(super) fn diverged(&self) -> Ending {
+        Ending::Diverged {
+            time_s: self.time_s(),
+            distance_m: self.state.distance_m(),
+        }
+    }
+
     /// How the state ends the run, if it does.
     pub(super) fn ending(&self) -> Option<Ending> {
         let (time_s, distance_m) = (self.time_s(), self.state.distance_m());
         if self.state.is_diverged() {
-            return Some(Ending::Diverged { time_s, distance_m });
+            return Some(self.diverged());
         }
         let first_wheelset = self.vehicle.names().len() - self.vehicle.wheelsets();
         let worst = self

@@ -130,6 +130,11 @@ impl Signal {
         &self.name
     }
 
+    /// Whether it is the force of the damper of this number.
+    pub fn is_force_of(&self, damper: usize) -> bool {
+        self.source == Source::DamperForce(damper)
+    }
+
     /// Its number in a state at `time_s`.
     pub fn of(&self, state: &VehicleState, time_s: f64) -> f64 {
         match &self.source {

@@ -35,6 +35,9 @@ pub enum ExportError {
     /// A case that cannot be written.
     #[error("the case cannot be written: {0}")]
     Case(String),
+    /// A library of vehicles that cannot be read.
+    #[error("the library of vehicles {0}")]
+    Library(String),
     /// A scalar that the C library does not have.
     #[error("scalar {scalar}: the C library is of single precision, allowed for it: f32")]
     Scalar {

@@ -18,6 +18,12 @@ pub enum CacheError {
     /// The tables cannot be computed.
     #[error(transparent)]
     Tables(#[from] TablesError),
+    /// A file is no such tables.
+    #[error("{}: damaged, or tables of another version", .path.display())]
+    Damaged {
+        /// Path of the file.
+        path: PathBuf,
+    },
     /// A file or the folder of the cache cannot be read or written.
     #[error("{}: {source}", .path.display())]
     File {
@@ -49,13 +55,13 @@ impl Tables {
         geometry: ContactGeometry,
         grid: Grid,
     ) -> Result<Self, CacheError> {
-        let key = key(&geometry, &grid);
         let path = folder.join(Self::file_name(&geometry, &grid));
         let failed = |path: &Path| {
             let path = path.to_owned();
             move |source| CacheError::File { path, source }
         };
         check_grid(&grid)?;
+        let key = key(&geometry, &grid);
         match fs::read(&path) {
             Ok(bytes) => {
                 if let Some(nodes) = nodes(&bytes, &key, &geometry, &grid) {
@@ -75,6 +81,23 @@ impl Tables {
         };
         write().map_err(failed(&path))?;
         Ok(tables)
+    }
+
+    /// The tables that [`Tables::cached`] has kept in `folder`, which stays as it is.
+    ///
+    /// # Errors
+    /// A grid that [`Tables::new`] refuses; a file that is not there, cannot be read, is damaged or of another version.
+    pub fn kept(folder: &Path, geometry: ContactGeometry, grid: Grid) -> Result<Self, CacheError> {
+        check_grid(&grid)?;
+        let path = folder.join(Self::file_name(&geometry, &grid));
+        let bytes = fs::read(&path).map_err(|source| CacheError::File {
+            path: path.clone(),
+            source,
+        })?;
+        match nodes(&bytes, &key(&geometry, &grid), &geometry, &grid) {
+            Some(nodes) => Ok(Self::of_nodes(geometry, grid, nodes)),
+            None => Err(CacheError::Damaged { path }),
+        }
     }
 
     /// What [`Tables::cached`] calls the file of the tables.

@@ -89,6 +89,7 @@ impl Fmu {
             stop_s: nearest_nanosecond((1.0 / step_s).round() * step_s),
             variables: all_variables(dampers),
             has_input_derivatives: true,
+            may_end: false,
             about: about::<T>(step_s, is_loaded),
             resources,
             sources,

@@ -60,7 +60,7 @@ const BESIDE_A_LIBRARY: [&str; 6] = [
     "-Wl,--exclude-libs,ALL",
     "-Wl,--gc-sections",
     "-Wl,--strip-all",
-    "-lgcc_s",
+    "-static-libgcc",
     "-lpthread",
     "-ldl",
 ];

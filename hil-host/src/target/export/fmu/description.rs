@@ -11,11 +11,11 @@ use super::{Fmu, Interface};
 const NOTHING: (&str, &str) = ("dependencies", "");
 
 const CATEGORIES: [(&str, &str); 3] = [
-    ("logStatusWarning", "Input that was held or limited"),
     (
-        "logStatusDiscard",
-        "Calls that were refused; nothing has changed",
+        "logStatusWarning",
+        "Input that was held or limited, or the end of the run",
     ),
+    ("logStatusDiscard", "Calls that were refused"),
     (
         "logStatusError",
         "Calls after which the instance must be reset",
@@ -27,6 +27,8 @@ impl Fmu {
     pub(super) fn description(&self) -> String {
         let mut xml = Xml::new();
         let version = concat!("Dashpot ", env!("CARGO_PKG_VERSION"));
+        // Bodies and dampers of a vehicle are called as their file has it.
+        let naming = if self.may_end { "flat" } else { "structured" };
         let (number, token, state) = match self.interface {
             Interface::Two => ("2.0", "guid", "FMUstate"),
             Interface::Three => ("3.0", "instantiationToken", "FMUState"),
@@ -39,7 +41,7 @@ impl Fmu {
                 (token, &self.token),
                 ("description", &self.title),
                 ("generationTool", version),
-                ("variableNamingConvention", "structured"),
+                ("variableNamingConvention", naming),
             ],
         );
         let step = self.step_s.to_string();
@@ -71,6 +73,9 @@ impl Fmu {
             }
             Interface::Three => {
                 capabilities.push(("fixedInternalStepSize", &step));
+                if self.may_end {
+                    capabilities.push(("mightReturnEarlyFromDoStep", "true"));
+                }
                 xml.empty("CoSimulation", &capabilities);
             }
         }

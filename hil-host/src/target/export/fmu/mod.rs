@@ -20,7 +20,7 @@ use sha2::{Digest, Sha256};
 pub use archive::archive;
 pub use bank::Named;
 pub use binary::{Binary, CompileError, compile};
-pub use vehicle::CASE_FILE;
+pub use vehicle::{CASE_FILE, case_digest};
 
 use super::{ExportError, name};
 use sources::Source;
@@ -57,6 +57,8 @@ pub struct Fmu {
     variables: Vec<Variable>,
     /// Whether derivatives of inputs are taken.
     has_input_derivatives: bool,
+    /// Whether a run may end within a step.
+    may_end: bool,
     /// Paragraphs of its page.
     about: Markup,
     /// Files in the folder of resources.

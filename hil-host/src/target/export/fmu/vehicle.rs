@@ -1,12 +1,15 @@
 //! A vehicle whose dampers outside other FMUs are: the interface in C over a library of Rust.
 
+use std::fs;
 use std::path::PathBuf;
 
 use maud::{Markup, html};
+use sha2::{Digest, Sha256};
 
 use super::sources::of_interface;
 use super::variable::{Kind, Variable};
 use super::{Fmu, Interface, check, token_of};
+use crate::study::tick_grid::nearest_nanosecond;
 use crate::study::vehicle::{Coupled, CoupledCase, CoupledVariable};
 use crate::target::export::ExportError;
 
@@ -27,7 +30,7 @@ impl Fmu {
     /// is that of `dashpot-vehicle-model`, `tables` name and content of the contact's tables.
     ///
     /// # Errors
-    /// The identifier in capitals is no name of a constant of C; a case that cannot be written.
+    /// The identifier in capitals is no name of a constant of C; a case that cannot be written; a library that cannot be read.
     pub fn of_vehicle(
         interface: Interface,
         identifier: &str,
@@ -38,10 +41,15 @@ impl Fmu {
     ) -> Result<Self, ExportError> {
         check(identifier)?;
         let case = serde_json::to_vec(of).map_err(|error| ExportError::Case(error.to_string()))?;
-        let token = token_of(identifier, interface, [case.as_slice()]);
+        let bytes = fs::read(&library)
+            .map_err(|error| ExportError::Library(format!("{}: {error}", library.display())))?;
+        let token = token_of(identifier, interface, [case.as_slice(), bytes.as_slice()]);
         let step_s = coupled.step_s();
         let mut sources = of_interface(interface);
-        sources.push(("constants.c", constants(step_s, &token)));
+        sources.push((
+            "constants.c",
+            constants(step_s, &token, &case_digest(&case)),
+        ));
         let mut variables: Vec<Variable> = coupled.variables().iter().map(variable).collect();
         variables.push(Variable {
             name: "ending".into(),
@@ -59,9 +67,10 @@ impl Fmu {
                 of.outside.join(", ")
             ),
             step_s,
-            stop_s: of.case.duration_s,
+            stop_s: nearest_nanosecond(coupled.duration_s()),
             variables,
             has_input_derivatives: false,
+            may_end: true,
             about: about(of),
             resources: vec![(CASE_FILE.into(), case), tables],
             sources,
@@ -86,10 +95,17 @@ fn variable(of: &CoupledVariable) -> Variable {
     }
 }
 
-fn constants(step_s: f64, token: &str) -> String {
+/// What tells the case of an FMU from others: SHA-256 of [`CASE_FILE`], hexadecimal. The library refuses another.
+pub fn case_digest(content: &[u8]) -> String {
+    let bytes = Sha256::digest(content);
+    bytes.iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
+fn constants(step_s: f64, token: &str, digest: &str) -> String {
     format!(
         "/* What this FMU is. */\n\n#include \"model.h\"\n\n\
-         const double model_step_s = {step_s:e};\nconst char model_token[] = \"{token}\";\n"
+         const double model_step_s = {step_s:e};\nconst char model_token[] = \"{token}\";\n\n\
+         /* Of the case in the resources, for the library. */\nconst char model_case_digest[] = \"{digest}\";\n"
     )
 }
 

@@ -143,6 +143,11 @@ static bool is_time(double time_s)
     return fabs(time_s) <= latest_s();
 }
 
+static void forget_refused_step(component *this)
+{
+    this->refused_at_s = this->refused_step_s = HUGE_VAL;
+}
+
 component_status component_begin(component *this, double start_s, bool stops, double stop_s)
 {
     if (!is_time(start_s) || (stops && !(stop_s >= start_s))) {
@@ -152,6 +157,7 @@ component_status component_begin(component *this, double start_s, bool stops, do
     this->start_s = start_s;
     this->stop_s = stops ? stop_s : HUGE_VAL;
     this->steps = 0;
+    forget_refused_step(this);
     return COMPONENT_OK;
 }
 
@@ -238,6 +244,22 @@ component_status component_get_integer(component *this, uint32_t variable, int32
                                                                          : component_no_variable(this, variable);
 }
 
+/* A step that is not taken. An importer that asks for the same again would ask for ever. */
+static component_status refuse_step(component *this, double at_s, double step_s, const char *format, ...)
+{
+    const bool is_again = this->refused_at_s == at_s && this->refused_step_s == step_s;
+    char message[600];
+    va_list values;
+
+    va_start(values, format);
+    (void)vsnprintf(message, sizeof message, format, values);
+    va_end(values);
+    this->refused_at_s = at_s;
+    this->refused_step_s = step_s;
+    return component_tell(this, is_again ? COMPONENT_ERROR : COMPONENT_DISCARD, "%s%s", message,
+                          is_again ? "; it was refused before" : "");
+}
+
 component_status component_step(component *this, double at_s, double step_s)
 {
     const double now_s = component_time_s(this);
@@ -247,23 +269,26 @@ component_status component_step(component *this, double at_s, double step_s)
     const char *notice;
 
     if (!(fabs(at_s - now_s) <= CLOSE_AT * model_step_s)) {
-        return component_tell(this, COMPONENT_DISCARD, "a step from %.12g s, but the last one ended at %.12g s", at_s, now_s);
+        return refuse_step(this, at_s, step_s, "a step from %.12g s, but the last one ended at %.12g s", at_s, now_s);
     }
     if (!(count >= 1 && count <= MOST_STEPS && fabs(step_s - count * model_step_s) <= close_s)) {
-        return component_tell(this, COMPONENT_DISCARD,
-                              "a communication step of %.12g s, allowed: a multiple of the internal step of %.12g s, up to %.0e of it",
-                              step_s, model_step_s, MOST_STEPS);
+        return refuse_step(this, at_s, step_s,
+                           "a communication step of %.12g s, allowed: a multiple of the internal step of %.12g s, up to %.0e of it",
+                           step_s, model_step_s, MOST_STEPS);
     }
     if (!(now_s + step_s <= this->stop_s + CLOSE_AT * model_step_s)) {
         return component_tell(this, COMPONENT_ERROR, "a step to %.12g s, beyond the stop time of %.12g s", now_s + step_s,
                               this->stop_s);
     }
     if (!(is_time(now_s + step_s) && (double)this->steps + count <= MOST_STEPS_OF_ALL)) {
-        return component_tell(this, COMPONENT_DISCARD, "a step to %.12g s, allowed: times within %.3g s of 0", now_s + step_s,
-                              latest_s());
+        return refuse_step(this, at_s, step_s, "a step to %.12g s, allowed: times within %.3g s of 0", now_s + step_s, latest_s());
     }
+    forget_refused_step(this);
     this->steps += model_step(this->model, (uint64_t)count);
     notice = model_notice(this->model);
+    if (model_has_failed(this->model)) {
+        return component_tell(this, COMPONENT_ERROR, "%s", notice == NULL ? "the model failed" : notice);
+    }
     return notice == NULL ? COMPONENT_OK : component_tell(this, COMPONENT_WARNING, "%s", notice);
 }
 
@@ -352,6 +377,7 @@ component_status component_set_state(component *this, const component_state *sta
         || (double)steps > MOST_STEPS_OF_ALL || model_restore(this->model, from) != MODEL_DONE) {
         return component_tell(this, COMPONENT_DISCARD, "the state is of another model");
     }
+    forget_refused_step(this);
     this->phase = (component_phase)phase;
     this->steps = steps;
     this->start_s = start_s;

@@ -37,7 +37,10 @@ struct component {
     double start_s;
     double stop_s;      /* HUGE_VAL where none is set */
     uint64_t steps;     /* of model_step_s since the start */
+    double refused_at_s; /* the step that was refused last, with nothing in between */
+    double refused_step_s;
     bool logs;
+    bool may_return_early;
     unsigned categories;
     component_log *log;
     void (*logger)(void);  /* of the importer, whatever its type */

@@ -72,9 +72,10 @@ fmi3Instance fmi3InstantiateCoSimulation(fmi3String instanceName, fmi3String ins
                                          fmi3InstanceEnvironment instanceEnvironment, fmi3LogMessageCallback logMessage,
                                          fmi3IntermediateUpdateCallback intermediateUpdate)
 {
-    const component with = imported(instanceName, loggingOn, instanceEnvironment, logMessage);
+    component with = imported(instanceName, loggingOn, instanceEnvironment, logMessage);
 
-    (void)visible, (void)earlyReturnAllowed, (void)requiredIntermediateVariables, (void)intermediateUpdate;
+    with.may_return_early = earlyReturnAllowed;
+    (void)visible, (void)requiredIntermediateVariables, (void)intermediateUpdate;
     if (eventModeUsed || nRequiredIntermediateVariables > 0) {
         log_message(&with, COMPONENT_ERROR, component_categories[COMPONENT_ERROR],
                     "this FMU has neither events nor intermediate variables");
@@ -288,8 +289,9 @@ fmi3Status fmi3DoStep(fmi3Instance instance, fmi3Float64 currentCommunicationPoi
     status = component_step(this, currentCommunicationPoint, communicationStepSize);
     *eventHandlingNeeded = false;
     *terminateSimulation = component_has_ended(this);
-    *earlyReturn = false;
     *lastSuccessfulTime = component_time_s(this);
+    *earlyReturn = *terminateSimulation && this->may_return_early
+                   && *lastSuccessfulTime < currentCommunicationPoint + communicationStepSize - 0.5 * model_step_s;
     return (fmi3Status)status;
 }
 

@@ -237,7 +237,7 @@ model_result model_get_integer(const model *this, uint32_t variable, int32_t *va
 
 const char *model_allowed(uint32_t variable)
 {
-    return variable != 0 && (variable - 1) % VARIABLES == CLEARANCE ? "0 to 0.1 m" : "any number";
+    return variable != 0 && (variable - 1) % VARIABLES == CLEARANCE ? "a clearance of 0 to 0.1 m" : "any number";
 }
 
 void model_start(model *this)
@@ -286,6 +286,12 @@ uint64_t model_step(model *this, uint64_t steps)
 }
 
 bool model_has_ended(const model *this)
+{
+    (void)this;
+    return false;
+}
+
+bool model_has_failed(const model *this)
 {
     (void)this;
     return false;

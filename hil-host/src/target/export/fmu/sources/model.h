@@ -54,8 +54,9 @@ void model_start(model *this);
 /* Steps of model_step_s, the last at the communication point to come, and how many it took: fewer where the model ends on the way. */
 uint64_t model_step(model *this, uint64_t steps);
 
-/* Whether it goes no further; model_notice has said why. */
+/* Whether it goes no further, and whether that is a failure; model_notice says why. */
 bool model_has_ended(const model *this);
+bool model_has_failed(const model *this);
 
 /* What happened since it was last asked and should be told; NULL where nothing did. */
 const char *model_notice(model *this);
