@@ -62,7 +62,11 @@ fn usable<'a, 'py, T: Element, D: numpy::ndarray::Dimension>(
     );
     let Ok(untyped) = array.cast::<PyUntypedArray>() else {
         let found = array.get_type().name()?;
-        return refuse(format!("{name}: {found}, allowed: {allowed}"));
+        let one = match is_written {
+            true => String::new(),
+            false => format!(", as numpy.asarray({name}, numpy.{expected}) makes one"),
+        };
+        return refuse(format!("{name}: {found}, allowed: {allowed}{one}"));
     };
     let masked = py.import("numpy.ma")?.getattr("MaskedArray")?;
     if array.is_instance(&masked)? {

@@ -18,7 +18,8 @@ class Arrays(Test):
 
     def test_what_is_no_array(self):
         for wrong, found in (([0.0], "list"), (0.0, "float"), (None, "NoneType"), (numpy.float32(1), "float32")):
-            self.assert_refused(f"x: {found}, allowed: {SINGLE}", self.built.replay, wrong)
+            self.assert_refused(f"x: {found}, allowed: {SINGLE}, as numpy.asarray(x, numpy.float32) makes one",
+                                self.built.replay, wrong)
 
     def test_another_kind_of_number(self):
         for dtype in ("float64", "int32", "float16", ">f4", "complex64", "bool", "object"):
