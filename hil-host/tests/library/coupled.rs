@@ -136,7 +136,8 @@ fn forces_of_its_own_damper_are_its_own_run() {
 
 #[test]
 fn a_vehicle_that_diverges_stays_where_it_was() {
-    let of = CoupledCase::new(&case("locomotive", "lateral"), &[OUTSIDE.into()]).unwrap();
+    let case = case("locomotive", "rear lateral damper 1");
+    let of = CoupledCase::new(&case, &[OUTSIDE.into()]).unwrap();
     let mut vehicle = coupled(&of);
     rows(&mut vehicle, 0..10);
     let before = bits(&vehicle);
