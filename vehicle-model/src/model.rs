@@ -13,7 +13,7 @@ pub struct Model {
     vehicle: Coupled,
     /// Room for a saved state: twice that of the start, which leaves every count its largest.
     saved_bytes: usize,
-    /// Why it goes no further, where its case does not say.
+    /// Whether it goes no further for a reason that is not of its case.
     failure: bool,
     /// To be told next.
     notice: Option<CString>,
@@ -34,7 +34,10 @@ impl Model {
             return Err(told(&"not the case that this FMU was exported with"));
         }
         let case: CoupledCase = serde_json::from_slice(&text).map_err(|error| told(&error))?;
-        let vehicle = Coupled::new(&case, resources).map_err(|error| error.to_string())?;
+        let contact = case.contact().map_err(|error| error.to_string())?;
+        let tables = contact.tables_in(resources);
+        let vehicle = tables.and_then(|tables| Coupled::new(&case, tables));
+        let vehicle = vehicle.map_err(|error| error.to_string())?;
         let saved = vehicle.saved().map_err(|error| error.to_string())?;
         Ok(Self {
             saved_bytes: size_of::<u64>() + 2 * saved.len(),

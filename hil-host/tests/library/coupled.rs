@@ -1,7 +1,6 @@
 //! A vehicle as a part of another simulation: its own dampers' forces given back are its own run; states across a fault; other bytes.
 
 use dashpot_hil::files::case::{Case, CaseOptions};
-use dashpot_hil::study::vehicle::contact::ContactOf;
 use dashpot_hil::study::vehicle::{Coupled, CoupledCase, Ending, Run};
 
 const OUTSIDE: &str = "front lateral damper 1";
@@ -19,11 +18,8 @@ fn case(vehicle: &str, fault: &str) -> Case {
 }
 
 fn coupled(of: &CoupledCase) -> Coupled {
-    let case = &of.case;
-    let contact =
-        ContactOf::new(&case.vehicle, case.friction, case.normal_damping_s_per_m).unwrap();
-    let tables = contact.tables_file().unwrap();
-    Coupled::new(of, tables.parent().unwrap()).unwrap()
+    let tables = of.contact().unwrap().tables().unwrap();
+    Coupled::new(of, tables).unwrap()
 }
 
 fn bits(vehicle: &Coupled) -> Vec<u64> {

@@ -7,7 +7,6 @@ use super::fmu::{Content, fmu_name, write};
 use crate::commands::failure::{Failure, Outcome};
 use crate::files::case::Case;
 use crate::files::input;
-use crate::study::vehicle::contact::ContactOf;
 use crate::study::vehicle::{Coupled, CoupledCase, VehicleStudyError};
 use crate::target::export::fmu::{Fmu, Interface};
 
@@ -26,15 +25,12 @@ pub(super) fn run(arguments: &ExportArguments, name: &str, interface: Interface)
     let case = Case::load(name)?;
     let refused = |error: VehicleStudyError| Failure::new(format!("{}: {error}", case.name));
     let of = CoupledCase::new(&case, &options.outside).map_err(refused)?;
-    let contact = ContactOf::new(&case.vehicle, case.friction, case.normal_damping_s_per_m);
-    let tables = contact
-        .map_err(VehicleStudyError::from)
-        .and_then(|contact| contact.tables_file())
-        .map_err(refused)?;
-    let folder = tables.parent().unwrap_or(&tables);
-    let coupled = Coupled::new(&of, folder).map_err(refused)?;
-    let name_in_fmu = tables.file_name().unwrap_or_default().to_string_lossy();
-    let content = input::read(&tables)?;
+    let contact = of.contact().map_err(refused)?;
+    let tables = contact.tables().map_err(refused)?;
+    let coupled = Coupled::new(&of, tables).map_err(refused)?;
+    let file = contact.tables_file().map_err(refused)?;
+    let name_in_fmu = file.file_name().unwrap_or_default().to_string_lossy();
+    let content = input::read(&file)?;
     let fmu = Fmu::of_vehicle(
         interface,
         &fmu_name(arguments, name),

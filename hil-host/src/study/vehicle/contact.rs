@@ -55,7 +55,7 @@ impl ContactOf {
         Ok(Arc::new(tables))
     }
 
-    /// Those in the file of [`Self::tables_file`], which may be in another folder; nothing is computed or written.
+    /// Those in a file called as that of [`Self::tables`] is, in another folder; nothing is computed or written.
     ///
     /// # Errors
     /// A file that is not there or not these tables.
@@ -64,12 +64,11 @@ impl ContactOf {
         Ok(Arc::new(tables))
     }
 
-    /// The file in which [`Self::tables`] keeps them, which is there then.
+    /// The file in which [`Self::tables`] keeps them.
     ///
     /// # Errors
-    /// As [`Self::tables`].
+    /// As [`Self::geometry`].
     pub fn tables_file(&self) -> Result<PathBuf, VehicleStudyError> {
-        self.tables()?;
         let name = Tables::file_name(&self.geometry()?, &Grid::default());
         Ok(cache_folder().join(name))
     }

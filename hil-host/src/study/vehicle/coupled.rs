@@ -1,15 +1,16 @@
 //! A vehicle as a part of another simulation: forces of the dampers outside go in, ticks are taken, signals come out.
 
 use std::collections::HashSet;
-use std::path::Path;
 use std::sync::Arc;
 
+use dashpot_rail::contact::Tables;
 use dashpot_rail::vehicle::VehicleState;
 use serde::{Deserialize, Serialize};
 
+use super::contact::{self, ContactOf};
 use super::recorded::all_signals;
 use super::signals::{Signal, slug};
-use super::{Ending, Run, VehicleStudyError, contact, number_outside};
+use super::{Ending, Run, VehicleStudyError, number_outside};
 use crate::files::case::Case;
 
 /// What a coupled vehicle is made of but for the tables of its contact; whole when it is written by serde.
@@ -38,6 +39,20 @@ impl CoupledCase {
             },
             outside: outside.to_vec(),
         })
+    }
+
+    /// What the tables of the contact follow from.
+    ///
+    /// # Errors
+    /// A vehicle that is refused.
+    pub fn contact(&self) -> Result<ContactOf, VehicleStudyError> {
+        let case = &self.case;
+        let damping_s_per_m = case.normal_damping_s_per_m;
+        Ok(ContactOf::new(
+            &case.vehicle,
+            case.friction,
+            damping_s_per_m,
+        )?)
     }
 }
 
@@ -104,26 +119,18 @@ pub struct Coupled {
 }
 
 impl Coupled {
-    /// At the start of its case; tables of the contact are read from `folder`
-    /// ([`tables_file`](contact::ContactOf::tables_file)).
+    /// At the start of its case, with the contact that [`CoupledCase::contact`] says and its tables.
     ///
     /// # Errors
-    /// A case of another version; a vehicle that is refused; a damper that is not the vehicle's; two signals of one name; tables that are
-    /// not there.
-    pub fn new(of: &CoupledCase, folder: &Path) -> Result<Self, VehicleStudyError> {
+    /// A case of another version; a vehicle that is refused; a damper that is not the vehicle's; two signals of one name.
+    pub fn new(of: &CoupledCase, tables: Arc<Tables>) -> Result<Self, VehicleStudyError> {
         if of.version != env!("CARGO_PKG_VERSION") {
             let version = of.version.clone();
             return Err(VehicleStudyError::Version { version });
         }
         let case = &of.case;
-        let contact =
-            contact::ContactOf::new(&case.vehicle, case.friction, case.normal_damping_s_per_m)?;
-        let contact = contact::with(contact.tables_in(folder)?, &contact)?;
-        let run = Run::on(case, contact, Arc::new(case.track.build()?))?;
-        Self::of(run, of)
-    }
-
-    fn of(mut run: Run, of: &CoupledCase) -> Result<Self, VehicleStudyError> {
+        let contact = contact::with(tables, &of.contact()?)?;
+        let mut run = Run::on(case, contact, Arc::new(case.track.build()?))?;
         let names: Vec<String> = run.vehicle().damper_names().map(str::to_owned).collect();
         let numbers = numbers_outside(&of.case, &of.outside)?;
         let outside: Vec<Outside> = numbers

@@ -4,7 +4,6 @@ use dashpot_core::Damper;
 use dashpot_core::link::MOST_DAMPERS;
 
 use super::choice::{Choice, Source};
-use super::parameters;
 use super::report::Target;
 use crate::commands::failure::{Failure, Outcome};
 use crate::commands::line::LineOptions;
@@ -150,9 +149,9 @@ fn desk(case: &Case, dampers: &[usize]) -> Outcome<Box<dyn Link>> {
 
 /// The damper of a number in single precision.
 fn build(case: &Case, damper: usize, step_s: f64) -> Outcome<Damper<f32>> {
-    let all = parameters(case);
-    let (_, parameters) = all
-        .get(damper)
+    let element = case.vehicle.dampers().nth(damper);
+    let parameters = element
+        .and_then(|element| case.damper(&element.name))
         .ok_or_else(|| Failure::new(format!("no damper {damper}")))?;
     Ok(parameters.build(step_s)?)
 }

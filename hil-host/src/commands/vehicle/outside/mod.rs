@@ -5,8 +5,6 @@ mod line;
 mod report;
 
 use choice::{Choice, Source};
-use dashpot_core::DamperParameters;
-use dashpot_rail::vehicle::Law;
 use line::Line;
 pub(super) use report::{OutsideReport, print};
 
@@ -135,17 +133,6 @@ impl OutsideArguments {
         }
         Ok(())
     }
-}
-
-/// Names and parameters of the vehicle's dampers, by their numbers.
-fn parameters(case: &Case) -> Vec<(&str, &DamperParameters)> {
-    let elements = case.vehicle.elements.iter();
-    elements
-        .filter_map(|element| match &element.law {
-            Law::Damper { parameters, .. } => Some((element.name.as_str(), &**parameters)),
-            _ => None,
-        })
-        .collect()
 }
 
 impl Outside {

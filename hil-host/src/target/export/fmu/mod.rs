@@ -100,6 +100,10 @@ fn check(identifier: &str) -> Result<(), ExportError> {
     name::check_c(&identifier.to_ascii_uppercase())
 }
 
+fn hexadecimal(bytes: &[u8]) -> String {
+    bytes.iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
 /// The hash of what an FMU is made of, as a UUID is written.
 fn token_of<'a>(
     identifier: &str,
@@ -113,8 +117,7 @@ fn token_of<'a>(
     for part in parts {
         hash.update(part);
     }
-    let bytes = hash.finalize();
-    let hash: String = bytes.iter().map(|byte| format!("{byte:02x}")).collect();
+    let hash = hexadecimal(&hash.finalize());
     let parts = [
         &hash[..8],
         &hash[8..12],

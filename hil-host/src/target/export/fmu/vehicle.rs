@@ -8,7 +8,7 @@ use sha2::{Digest, Sha256};
 
 use super::sources::of_interface;
 use super::variable::{Kind, Variable};
-use super::{Fmu, Interface, check, token_of};
+use super::{Fmu, Interface, check, hexadecimal, token_of};
 use crate::study::tick_grid::nearest_nanosecond;
 use crate::study::vehicle::{Coupled, CoupledCase, CoupledVariable};
 use crate::target::export::ExportError;
@@ -97,8 +97,7 @@ fn variable(of: &CoupledVariable) -> Variable {
 
 /// What tells the case of an FMU from others: SHA-256 of [`CASE_FILE`], hexadecimal. The library refuses another.
 pub fn case_digest(content: &[u8]) -> String {
-    let bytes = Sha256::digest(content);
-    bytes.iter().map(|byte| format!("{byte:02x}")).collect()
+    hexadecimal(&Sha256::digest(content))
 }
 
 fn constants(step_s: f64, token: &str, digest: &str) -> String {
