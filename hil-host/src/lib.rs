@@ -5,6 +5,7 @@
 pub mod commands;
 pub mod files;
 pub mod realtime;
+pub mod remedy;
 pub mod report;
 pub mod study;
 pub mod target;

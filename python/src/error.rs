@@ -22,6 +22,8 @@ use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::PyType;
 
+use crate::remedy::with_remedy;
+
 /// Why a call has no result.
 #[derive(Debug)]
 pub enum Refusal {
@@ -68,7 +70,7 @@ impl From<PyErr> for Refusal {
 
 impl From<FileError> for Refusal {
     fn from(error: FileError) -> Self {
-        let words = error.to_string();
+        let words = with_remedy(error.to_string(), error.remedy());
         match error {
             FileError::Read { path, source }
             | FileError::Write { path, source }
@@ -157,17 +159,6 @@ impl Refusal {
     pub fn of_case(name: &str, error: VehicleStudyError) -> Self {
         let words = format!("{name}: {error}");
         Self::from(error).worded(words)
-    }
-
-    /// The same in words made of its own.
-    pub fn with(self, words: impl Fn(&str) -> String) -> Self {
-        let own = match &self {
-            Self::Value(words) | Self::Key(words) => words,
-            Self::File(file) => &file.words,
-            Self::Python(_) => return self,
-        };
-        let words = words(own);
-        self.worded(words)
     }
 
     /// The same in other words.

@@ -15,6 +15,7 @@ mod json;
 mod overrides;
 mod pickled;
 mod recording;
+mod remedy;
 mod rig;
 mod state;
 mod sweep;

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use dashpot_core::parameters::STEP_RANGE_S;
 use dashpot_hil::files::recording::{
-    Channel, Channels, DecimalMark, Measurement, Quantity, Recording, TextOptions,
+    Channel, Channels, DecimalMark, Gaps, Measurement, Quantity, Recording, Sample, TextOptions,
 };
 use dashpot_hil::study::StudyError;
 use dashpot_hil::study::tick_grid::{TickGrid, nearest_nanosecond};
@@ -68,13 +68,25 @@ pub fn read<'py>(
     if step_s.is_some() && with_force {
         return refuse("step_s with with_force: allowed: one of them");
     }
-    let columns = py.detach(|| columns(path, &channels, step_s, with_force));
-    let columns = columns.map_err(|refusal| refusal.with(|words| in_arguments(path, words)))?;
+    let (columns, gaps) = py.detach(|| columns(path, &channels, step_s, with_force))?;
+    if let Some(line) = gaps.unended_line {
+        warn_of_unended(py, path, line)?;
+    }
     let arrays = PyDict::new(py);
     for (name, column) in columns {
         arrays.set_item(name, PyArray1::from_vec(py, column))?;
     }
     Ok(arrays)
+}
+
+/// Warns that the file may have been cut inside the last number of its last line.
+fn warn_of_unended(py: Python<'_>, path: &Path, line: u64) -> Outcome<()> {
+    let words = format!(
+        "{}:{line}: the last line has no line end: the file may have been cut inside the last number of that line",
+        path.display()
+    );
+    py.import("warnings")?.call_method1("warn", (words,))?;
+    Ok(())
 }
 
 /// Names of columns and their numbers.
@@ -85,73 +97,40 @@ fn columns(
     channels: &Channels,
     step_s: Option<f64>,
     with_force: bool,
-) -> Outcome<Columns> {
+) -> Outcome<(Columns, Gaps)> {
     if with_force {
-        let samples = Measurement::open(path, channels)?.read_all()?;
+        let mut measurement = Measurement::open(path, channels)?;
+        let samples = measurement.read_all()?;
         let column = |of: fn(&_) -> f64| samples.iter().map(of).collect();
-        return Ok(vec![
+        let columns = vec![
             ("time_s", column(|sample| sample.time_s)),
             ("displacement_m", column(|sample| sample.displacement_m)),
             ("force_n", column(|sample| sample.force_n)),
-        ]);
+        ];
+        return Ok((columns, measurement.gaps()));
     }
     let recording = || Recording::open_with(path, channels);
-    let (times, displacements): (Vec<f64>, Vec<f64>) = match step_s {
+    let ((times, displacements), gaps): ((Vec<f64>, Vec<f64>), Gaps) = match step_s {
         Some(step_s) if !STEP_RANGE_S.contains(&step_s) => {
             return Err(StudyError::Step { step_s }.into());
         }
         Some(step_s) => {
-            let ticks = TickGrid::new(recording()?, step_s)?.read_all()?;
-            let ticks = ticks
-                .iter()
-                .map(|tick| (nearest_nanosecond(tick.time_s), tick.displacement_m));
-            ticks.unzip()
+            let mut grid = TickGrid::new(recording()?, step_s)?;
+            let mut ticks = Vec::new();
+            while let Some(tick) = grid.next_tick()? {
+                ticks.push((nearest_nanosecond(tick.time_s), tick.displacement_m));
+            }
+            (ticks.into_iter().unzip(), grid.recording().gaps())
         }
         None => {
-            let samples = recording()?.read_all()?;
-            samples
-                .iter()
-                .map(|sample| (sample.time_s, sample.displacement_m))
-                .unzip()
+            let mut recording = recording()?;
+            let samples = recording.read_all()?;
+            let pair = |sample: &Sample| (sample.time_s, sample.displacement_m);
+            (samples.iter().map(pair).unzip(), recording.gaps())
         }
     };
-    Ok(vec![("time_s", times), ("displacement_m", displacements)])
-}
-
-/// Options of the command that the library's words name, and the arguments of `read` that they are here.
-const ARGUMENTS: [(&str, &str); 13] = [
-    ("--header yes or --header no", "header=True or header=False"),
-    ("--decimal-mark", "decimal_mark"),
-    ("--skip-invalid", "skip_invalid=True"),
-    ("--group", "group"),
-    ("--time-unit", "time_unit"),
-    ("--time NAME", "time=NAME"),
-    ("--time", "time"),
-    ("--displacement-unit", "displacement_unit"),
-    ("--displacement NAME", "displacement=NAME"),
-    ("--displacement", "displacement"),
-    ("--force-unit", "force_unit"),
-    ("--force NAME", "force=NAME"),
-    ("--force", "force"),
-];
-
-/// What the library says of a file, with Python's arguments in place of the command's options; what the file itself says stays.
-fn in_arguments(path: &Path, words: &str) -> String {
-    let file = path.display().to_string();
-    let (file, reason) = match words.strip_prefix(&file) {
-        Some(reason) => (file.as_str(), reason),
-        None => ("", words),
-    };
-    // Every second part is a name or a cell of the file, in quotes.
-    let parts = reason.split('`').enumerate().map(|(number, part)| {
-        let translated =
-            |part: String, (option, argument): &(&str, &str)| part.replace(option, argument);
-        match number.is_multiple_of(2) {
-            true => ARGUMENTS.iter().fold(part.to_owned(), translated),
-            false => part.to_owned(),
-        }
-    });
-    format!("{file}{}", parts.collect::<Vec<_>>().join("`"))
+    let columns = vec![("time_s", times), ("displacement_m", displacements)];
+    Ok((columns, gaps))
 }
 
 /// A decimal mark by its name or itself.

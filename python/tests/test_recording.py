@@ -3,8 +3,10 @@
 import math
 import os
 import pathlib
+import re
 import shutil
 import tempfile
+import warnings
 
 import dashpot
 import numpy
@@ -59,11 +61,11 @@ class Recordings(Test):
             ("t,x\n0,1\n1,2\n", {}, "time=NAME"),
             ("time_s,x\n0,1\n1,2\n", {}, "displacement=NAME"),
             ("0,1\n1,2\n", {}, "header=True or header=False"),
-            ("0,1\n1,2\n", {"header": False}, "with time, and its unit with time_unit"),
+            ("0,1\n1,2\n", {"header": False}, "choose one of 1 to 2 with time, and its unit with time_unit"),
             ("time_s,x --force\n0,1\n1,2\n", names, "displacement_unit with"),
             ("time_s,displacement_m\n0,1\n1,\n2,3\n", {}, "skip_invalid=True leaves out rows"),
             ("1;2\n1.5;2,5\n", {"time": "1", "displacement": "2", "time_unit": "s", "displacement_unit": "m",
-                                "header": False}, "decimal_mark says so"),
+                                "header": False}, "decimal_mark="),
         ):
             with tempfile.TemporaryDirectory(prefix="--time ") as folder:
                 path = pathlib.Path(folder, "run --force.csv")
@@ -75,6 +77,38 @@ class Recordings(Test):
                 self.assertIn(told, reason)
                 reason = reason.removeprefix(file).replace("`x --force`", "")
                 self.assertNotIn("--", reason)
+
+    def test_names_of_a_file_stay_as_they_are(self):
+        """Options were replaced in the command's texts: after a backtick in a header one was left, and `--force` became `force`."""
+        for text, options, told in (
+            ("time_s,we`g,--force\n0,1,2\n1,2,3\n", {},
+             "column displacement_m is missing; there are `time_s`, `we`g`, `--force`; choose one with displacement=NAME or its number"),
+            ("time_s,--force\n0,1\n1,2\n", {"displacement": "--force"},
+             "the file does not tell the unit of --force; name it: displacement_unit with m, cm, mm, um, in"),
+            ("--time NAME,--force`\n0,1\n1,2\n", {"displacement": "--force`", "displacement_unit": "m"},
+             "column time_s is missing; there are `--time NAME`, `--force``; choose one with time=NAME or its number"),
+            ("time_s,displacement_m,--group\n0,0,1\n1,0,x\n", {"with_force": True, "force": "--group", "force_unit": "N"},
+             "3: column --group: `x` is not a finite number"),
+            ("time_s,displacement_m\n0,0\n1,`--skip-invalid\n", {},
+             "3: column displacement_m: ``--skip-invalid` is not a finite number"),
+        ):
+            with tempfile.TemporaryDirectory() as folder:
+                path = pathlib.Path(folder, "run.csv")
+                path.write_text(text)
+                between = ":" if told.startswith("3: ") else ": "
+                self.assert_refused(f"{path}{between}{told}", dashpot.read, path, **options)
+
+    def test_a_last_line_without_an_end_is_warned_of(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder, "run.csv")
+            path.write_text("time_s,displacement_m,force_n\n0,0,1\n1,0,125")
+            for options in ({}, {"step_s": 1e-2}, {"with_force": True}):
+                with self.assertWarnsRegex(UserWarning, f"^{re.escape(str(path))}:3: the last line has no line end"):
+                    dashpot.read(path, **options)
+            path.write_text("time_s,displacement_m,force_n\n0,0,1\n1,0,1250.5\n")
+            with warnings.catch_warnings():
+                warnings.simplefilter("error")
+                dashpot.read(path)
 
     def test_how_text_is_written_is_given(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -5,7 +5,9 @@ use std::path::PathBuf;
 
 use serde::Serialize;
 
+use super::gap_report::unended;
 use super::recording::ListingArguments;
+use super::remedy::with_remedy;
 use super::{Format, counted, nearest_nanosecond, print_report};
 use crate::commands::failure::Outcome;
 use crate::files::input;
@@ -44,7 +46,11 @@ struct Report {
 /// A file that cannot be used.
 pub fn run(arguments: &ChannelsArguments) -> Outcome<()> {
     let channels = arguments.recording.channels();
-    let overview = overview(&arguments.file, &channels)?;
+    let mut overview = overview(&arguments.file, &channels)?;
+    for time in &mut overview.times {
+        let reason = time.reason.take();
+        time.reason = reason.map(|reason| with_remedy(reason, time.remedy));
+    }
     let report = Report {
         replay: replay_line(arguments, &channels, &overview),
         overview,
@@ -183,8 +189,20 @@ fn print(out: &mut dyn Write, report: &Report, arguments: &ChannelsArguments) ->
         )?;
     }
     writeln!(out)?;
+    for channel in &overview.channels {
+        if let Some(unread) = &channel.unread {
+            let name = match channel.name.as_str() {
+                "" => channel.number.to_string(),
+                name => name.to_owned(),
+            };
+            writeln!(out, "warning: channel {name} is not read: {unread}")?;
+        }
+    }
     for time in &overview.times {
         print_time(out, time)?;
+    }
+    if let Some(line) = overview.unended_line {
+        writeln!(out, "{}", unended(line))?;
     }
     writeln!(out, "\nto replay it: {}", report.replay)
 }

@@ -6,6 +6,7 @@ use dashpot_core::BuildError;
 use dashpot_rail::contact::PairError;
 use dashpot_reference::ReferenceError;
 
+use super::remedy::{option_of, with_remedy};
 use crate::files::FileError;
 use crate::files::case::CaseError;
 use crate::files::damper::{ContentError, DamperError, FORM};
@@ -100,7 +101,7 @@ impl From<FileError> for Failure {
         };
         Self {
             kind,
-            message: error.to_string(),
+            message: with_remedy(error.to_string(), error.remedy()),
         }
     }
 }
@@ -165,11 +166,14 @@ impl From<CaseError> for Failure {
             CaseError::Vehicle(error) => error.into(),
             CaseError::Track(error) => error.into(),
             CaseError::Unknown(_) => Self::wrong_use(error.to_string()),
-            // The options are called as the keys of a file are.
-            CaseError::OutOfBounds { key, .. } => {
-                let option = key.replace('_', "-");
-                Self::wrong_use(format!("--{}", error.to_string().replacen(key, &option, 1)))
-            }
+            CaseError::OutOfBounds {
+                key,
+                value,
+                allowed: [from, to],
+            } => Self::wrong_use(format!(
+                "{} {value}, allowed: {from} to {to}",
+                option_of(key)
+            )),
             _ => Self::new(error.to_string()),
         }
     }
@@ -241,11 +245,11 @@ impl From<PlateError> for Failure {
     fn from(error: PlateError) -> Self {
         match error {
             PlateError::Stack(error) => error.into(),
-            // The options are called as the numbers of an area are.
-            PlateError::Area { key, .. } => {
-                let option = key.replace('_', "-");
-                Self::wrong_use(format!("--{}", error.to_string().replacen(key, &option, 1)))
-            }
+            PlateError::Area {
+                key,
+                given,
+                allowed,
+            } => Self::wrong_use(format!("{}: {given}, allowed: {allowed}", option_of(key))),
             _ => Self::new(error.to_string()),
         }
     }
@@ -284,8 +288,9 @@ impl From<ExportError> for Failure {
                  or f64 with --standalone"
             ),
             ExportError::Include { .. } => format!("--output: {error}"),
-            // The field is called as the option is.
-            name => format!("--{name}"),
+            // It starts with `name`, as the option is called.
+            ExportError::Name { .. } | ExportError::ReservedName { .. } => format!("--{error}"),
+            ExportError::Case(_) | ExportError::Library(_) => return Self::new(error.to_string()),
         })
     }
 }

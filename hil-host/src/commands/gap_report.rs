@@ -1,4 +1,4 @@
-//! Gaps of a recording in a report for people.
+//! Gaps of a recording in a report for people, and what else is doubtful of its rows.
 
 use std::io::{self, Write};
 
@@ -15,6 +15,9 @@ pub(super) fn write_gaps(out: &mut dyn Write, gaps: &Gaps) -> io::Result<()> {
             place(first)
         )?;
     }
+    if let Some(line) = gaps.unended_line {
+        writeln!(out, "{}", unended(line))?;
+    }
     let (Some(longest), Some(median_s)) = (gaps.longest, gaps.median_interval_s) else {
         return Ok(());
     };
@@ -26,6 +29,13 @@ pub(super) fn write_gaps(out: &mut dyn Write, gaps: &Gaps) -> io::Result<()> {
         longest.duration_s,
         longest.start_s,
         place(longest.place)
+    )
+}
+
+/// The warning for a text whose last line has no line end.
+pub(super) fn unended(line: u64) -> String {
+    format!(
+        "warning: line {line}, the last, has no line end: the file may have been cut inside the last number of that line"
     )
 }
 

@@ -24,6 +24,7 @@ pub mod pil;
 pub mod print;
 pub mod progress;
 pub mod recording;
+pub mod remedy;
 pub mod replay;
 pub mod response;
 pub mod rig;

@@ -4,6 +4,7 @@ use dashpot_core::CheckedParameters;
 use dashpot_core::health::{HealthModel, HealthSettings};
 
 use super::failure::{Failure, Outcome};
+use super::remedy::option_of;
 use crate::study::health::Noise;
 
 /// Heading of the options in the help.
@@ -100,8 +101,8 @@ pub fn model(
     parameters.health_model(settings, step_s).map_err(|error| {
         Failure::wrong_use(match error.section {
             "health" => format!(
-                "--{} {}: allowed: {}",
-                error.field.replace('_', "-"),
+                "{} {}: allowed: {}",
+                option_of(error.field),
                 error.value,
                 error.allowed
             ),

@@ -1,4 +1,4 @@
-//! Tables of CSV as Parquet: float64 where every cell is a number or empty, text elsewhere.
+//! Tables of CSV as Parquet: float64 where every cell is a number or empty, text elsewhere; SHA-256 of the numbers in the metadata.
 
 use std::io::{self, Write};
 use std::path::Path;
@@ -13,13 +13,14 @@ use parquet::schema::types::Type;
 
 use super::FileError;
 use super::output::{cannot_write, write_whole};
+use super::recording::sums::{self, Sum};
 
 /// Rows of a row group: some 15 MB of a locomotive's history.
 const ROWS: usize = 16_384;
 
 /// Cells of a column.
 enum Column {
-    Numbers(Vec<Option<f64>>),
+    Numbers(Vec<Option<f64>>, Sum),
     Texts(Vec<ByteArray>),
 }
 
@@ -32,12 +33,12 @@ pub fn write(from: &Path, to: &Path) -> Result<(), FileError> {
     let unwritable = |error: ParquetError| cannot_write(to, io::Error::other(error));
     let are_numbers = numbers(from)?;
     let mut rows = csv::Reader::from_path(from).map_err(unreadable)?;
-    let names = rows.headers().map_err(unreadable)?;
+    let names = rows.headers().map_err(unreadable)?.clone();
     let schema = schema(names.iter().zip(&are_numbers)).map_err(unwritable)?;
     let mut columns: Vec<Column> = are_numbers
         .iter()
         .map(|is_number| match is_number {
-            true => Column::Numbers(Vec::with_capacity(ROWS)),
+            true => Column::Numbers(Vec::with_capacity(ROWS), Sum::default()),
             false => Column::Texts(Vec::new()),
         })
         .collect();
@@ -53,7 +54,7 @@ pub fn write(from: &Path, to: &Path) -> Result<(), FileError> {
                 count += 1;
                 for (column, cell) in columns.iter_mut().zip(&row) {
                     match column {
-                        Column::Numbers(numbers) => numbers.push(cell.parse().ok()),
+                        Column::Numbers(numbers, _) => numbers.push(cell.parse().ok()),
                         Column::Texts(texts) => texts.push(cell.into()),
                     }
                 }
@@ -69,6 +70,14 @@ pub fn write(from: &Path, to: &Path) -> Result<(), FileError> {
                 break;
             }
         }
+        let sums = columns
+            .iter()
+            .zip(&names)
+            .filter_map(|(column, name)| match column {
+                Column::Numbers(_, sum) => Some((name, sum)),
+                Column::Texts(_) => None,
+            });
+        writer.append_key_value_metadata(sums::metadata(sums));
         writer.close().map_err(unwritable)?;
         bytes.take_to(file).map_err(|error| cannot_write(to, error))
     })
@@ -124,7 +133,9 @@ fn add(
             continue;
         };
         match column {
-            Column::Numbers(numbers) => {
+            Column::Numbers(numbers, sum) => {
+                let read: Vec<f64> = numbers.iter().map(|n| n.unwrap_or(f64::NAN)).collect();
+                sum.add(&read);
                 let there: Vec<i16> = numbers.iter().map(|n| i16::from(n.is_some())).collect();
                 let values: Vec<f64> = numbers.drain(..).flatten().collect();
                 let place = place.typed::<DoubleType>();

@@ -4,6 +4,9 @@ use std::error::Error;
 use std::io;
 use std::path::{Path, PathBuf};
 
+use super::recording::RecordingError;
+use crate::remedy::Remedy;
+
 /// Why a file cannot be used: which one, where in it, and what is allowed there.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -132,6 +135,18 @@ impl FileError {
             column: column.into(),
             source: source.into(),
         }
+    }
+
+    /// What the user can do about it, beyond what the text says; each front end has its own words for it.
+    pub fn remedy(&self) -> Option<Remedy> {
+        let source = match self {
+            Self::Read { .. } | Self::Write { .. } | Self::Folder { .. } => return None,
+            Self::Content { source, .. }
+            | Self::Line { source, .. }
+            | Self::Cell { source, .. }
+            | Self::Row { source, .. } => source,
+        };
+        source.downcast_ref::<RecordingError>()?.remedy()
     }
 
     /// Whether the file was a pipe whose reader has left: nothing is wrong with it.

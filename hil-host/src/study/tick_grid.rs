@@ -1,7 +1,9 @@
 //! Recordings on the ticks of a step.
 
 use crate::files::FileError;
-use crate::files::recording::{GAP_IN_MEDIANS, MOST_TICKS, Measurement, Recording, RecordingError};
+use crate::files::recording::{
+    GAP_IN_MEDIANS, MAX_GAP_TICKS, MOST_TICKS, Measurement, Recording, RecordingError,
+};
 
 /// One tick of a motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,6 +24,10 @@ pub struct MeasuredTick {
     /// Force there (N), linear between samples; NaN in a gap.
     pub force_n: f64,
 }
+
+/// Ticks between two rows from which on the row after them is read before any of the ticks is given: the clock of a logger may have jumped
+/// there and back again.
+const LOOK_AHEAD_TICKS: f64 = 1e3;
 
 /// What has rows of `N` values at times.
 trait Rows<const N: usize> {
@@ -81,6 +87,8 @@ struct Grid<R, const N: usize> {
     number: u64,
     before: (f64, [f64; N]),
     after: (f64, [f64; N]),
+    /// The row after them, where it was read already; `Some(None)` at the end.
+    ahead: Option<Option<(f64, [f64; N])>>,
 }
 
 impl<R: Rows<N>, const N: usize> Grid<R, N> {
@@ -95,7 +103,28 @@ impl<R: Rows<N>, const N: usize> Grid<R, N> {
             number: 0,
             before: first,
             after: first,
+            ahead: None,
         })
+    }
+
+    /// The next row, where it is not too far from the first and from the one before, which is at `before_s` (s).
+    fn next_row(&mut self, before_s: f64) -> Result<Option<(f64, [f64; N])>, FileError> {
+        let Some(next) = self.rows.next_row()? else {
+            return Ok(None);
+        };
+        let time_s = next.0;
+        let ticks = (time_s - before_s) / self.step_s;
+        if time_s - self.start_s > MOST_TICKS * self.step_s {
+            return Err(self.rows.in_time(RecordingError::TooLong { time_s }));
+        }
+        if ticks > MAX_GAP_TICKS {
+            return Err(self.rows.in_time(RecordingError::Jump {
+                time_s,
+                before_s,
+                ticks,
+            }));
+        }
+        Ok(Some(next))
     }
 
     /// Time, values, and the interval between the rows around them, 0 at a row.
@@ -105,12 +134,15 @@ impl<R: Rows<N>, const N: usize> Grid<R, N> {
         // A sample meant for a tick may lie a rounding before it.
         let slack_s = rounding_s(time_s, self.step_s);
         while self.after.0 + slack_s < time_s {
-            let Some(next) = self.rows.next_row()? else {
+            let next = match self.ahead.take() {
+                Some(next) => next,
+                None => self.next_row(self.after.0)?,
+            };
+            let Some(next) = next else {
                 return Ok(None);
             };
-            if next.0 - self.start_s > MOST_TICKS * self.step_s {
-                let time_s = next.0;
-                return Err(self.rows.in_time(RecordingError::TooLong { time_s }));
+            if next.0 - self.after.0 > LOOK_AHEAD_TICKS * self.step_s {
+                self.ahead = Some(self.next_row(next.0)?);
             }
             self.before = self.after;
             self.after = next;

@@ -3,6 +3,7 @@
 mod bench_to_firmware;
 mod budget;
 mod c_library_page;
+mod clock_jumps_filled_disks;
 #[path = "../common/mod.rs"]
 mod common;
 mod contact;
@@ -18,6 +19,7 @@ mod interruption;
 mod labview_page;
 mod modes;
 mod modes_coach;
+mod names_of_a_file_were_translated;
 mod replay;
 mod response;
 mod rig;

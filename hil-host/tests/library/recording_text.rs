@@ -167,11 +167,11 @@ fn what_may_be_several_things_is_asked_for() {
     let cases = [
         (
             "time,displacement_m,force_n\n0,0,0\n",
-            "the file does not tell the unit of time; name it: --time-unit with s, ms, us, ns, min",
+            "the file does not tell the unit of time",
         ),
         (
             "time_s,displacement [furlong],force_n\n0,0,0\n",
-            "`furlong`, which the file says is the unit of displacement, is not one of displacement known here: m, cm, mm, um, in;",
+            "`furlong`, which the file says is the unit of displacement, is not one of displacement known here: m, cm, mm, um, in",
         ),
         (
             "time_s;displacement_m;force_n\ns;mm;N\n0;0;0\n",
@@ -179,20 +179,17 @@ fn what_may_be_several_things_is_asked_for() {
         ),
         (
             "time_s,displacement [m],displacement [mm],force_n\n0,0,0,0\n",
-            "`displacement [m]`, `displacement [mm]` may be meant; name one",
+            "`displacement [m]`, `displacement [mm]` may be meant",
         ),
         (
             "time_s,x,force_n\n0,0,0\n",
-            "column displacement_m is missing; there are `time_s`, `x`, `force_n`; choose one with --displacement NAME",
+            "column displacement_m is missing; there are `time_s`, `x`, `force_n`",
         ),
         (
             "0.5,1,2\n0.6,1,2\n",
-            "no header tells which column is the time: choose one of 1 to 3 with --time",
+            "no header says which of the 3 columns is the time",
         ),
-        (
-            "0,1,2\n1,2,3\n",
-            "`0 1 2` may be names of columns or a row; say which: --header yes or",
-        ),
+        ("0,1,2\n1,2,3\n", "`0 1 2` may be names of columns or a row"),
         (
             "time_s;displacement_m;force_n\n0,1;0.2;0\n",
             "run7.csv:2: column displacement_m: `0.2` has a decimal point, the numbers before it have another mark",
@@ -209,7 +206,7 @@ fn what_may_be_several_things_is_asked_for() {
     let same = channels(["", ""], ["2", "m"], ["displacement_m", "N"]);
     let error = error_of("time_s,displacement_m\n0,0\n", &same);
     assert!(
-        error.contains("--displacement and --force: both are column"),
+        error.contains("displacement and force: both are column"),
         "{error}"
     );
 }
@@ -223,7 +220,7 @@ fn what_is_asked_for_holds() {
     asked.text.header = Some(true);
     // Columns without names have numbers from 0 where pandas wrote them.
     let error = error_of("0,1,2\n1,2,3\n", &asked);
-    let expected = "--time: `1` is the name of column #2 and the number of another; write #2 or #1";
+    let expected = "time: `1` is the name of column #2 and the number of another; write #2 or #1";
     assert!(error.contains(expected), "{error}");
     let mut asked = channels(["#1", "s"], ["#2", "m"], ["#3", "N"]);
     asked.text.header = Some(true);
@@ -250,7 +247,7 @@ fn what_is_asked_for_holds() {
 fn rows_that_lack_a_value_are_refused_or_left_out() {
     let text = "time_s,displacement_m,force_n\n0,0,0\n1,,5\n2,nan,5\n3,0,5\n";
     let error = error_of(text, &Channels::default());
-    let expected = "run7.csv:3: column displacement_m: `` is not a finite number; --skip-invalid";
+    let expected = "run7.csv:3: column displacement_m: `` is not a finite number";
     assert!(error.starts_with(expected), "{error}");
     let skipping = Channels {
         skip_invalid: true,

@@ -51,6 +51,11 @@ mdf("transposed.mf4", [(signals(), "Messung")], compression=2)
 raw = Signal(counts, time_s, "mm", "Weg", conversion={"a": 0.125, "b": 0.0})
 single = Signal(force_n.astype(np.float32), time_s, "N", "Kraft")
 mdf("converted.mf4", [(signals(weg=raw, kraft=single), "Messung")], compression=2)
+# Floats of 16 bits have 11 digits of the displacement's eighths, and not the force's 13.
+halves = Signal(displacement_mm.astype("<f2"), time_s, "mm", "Weg")
+turned = Signal(displacement_mm.astype(">f2"), time_s, "mm", "geW")
+big_endian = Signal(force_n.astype(">f4"), time_s, "N", "Kraft")
+mdf("halves.mf4", [([halves, turned, big_endian], "Messung")])
 # The tenth sample of every hundred is marked.
 marked = number % 100 == 10
 wrong = np.where(marked, 4.0e3, displacement_mm)

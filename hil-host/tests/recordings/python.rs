@@ -9,7 +9,8 @@ use xtask::python::have_packages;
 use crate::forms::{compare, compare_invalid, rows};
 use crate::written::replay;
 
-fn run(python: PathBuf, script: &str, arguments: &[&str]) {
+/// Runs a script of this folder.
+pub fn run(python: PathBuf, script: &str, arguments: &[&str]) {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/recordings");
     let output = Command::new(python)
         .arg(folder.join(script))

@@ -33,7 +33,7 @@ fn groups_are_asked_for() {
         (
             "groups.mf4",
             other_group,
-            "--force: channel Kraft is in group 2 (Messung), not in group 1 (langsam)",
+            "force: channel Kraft is in group 2 (Messung), not in group 1 (langsam)",
         ),
         (
             "groups.mf4",
@@ -43,12 +43,12 @@ fn groups_are_asked_for() {
         (
             "groups.mf4",
             two_groups,
-            "--displacement: channel Weg is in group 1 (langsam), not in group 2 (Messung)",
+            "displacement: channel Weg is in group 1 (langsam), not in group 2 (Messung)",
         ),
         (
             "plain.mf4",
             named("Weg", "force"),
-            "column force is missing; there are `time`, `Weg`, `Kraft`; choose one with --force NAME",
+            "column force is missing; there are `time`, `Weg`, `Kraft`",
         ),
         (
             "units.parquet",
@@ -68,6 +68,6 @@ fn groups_are_asked_for() {
     let error = rows(&path, &only_displacement)
         .expect_err("several")
         .to_string();
-    let expected = "channel Weg is in the groups 1 (langsam), 2 (Messung); choose one with --group";
+    let expected = "channel Weg is in the groups 1 (langsam), 2 (Messung)";
     assert!(error.contains(expected), "{error}");
 }

@@ -78,7 +78,7 @@ fn texts_are_no_signal() {
     let error = rows(&samples().join("unsorted.mf4"), &channels).expect_err("texts");
     let error = error.to_string();
     assert!(
-        error.contains("--force: channel Notiz holds"),
+        error.contains("force: channel Notiz holds"),
         "no word of what it holds: {error}"
     );
 }

@@ -7,6 +7,7 @@ use serde::Serialize;
 use super::CalibrateArguments;
 use crate::commands::counted;
 use crate::commands::failure::Outcome;
+use crate::commands::gap_report::unended;
 use crate::files::output;
 use crate::files::recording::Gaps;
 use crate::study::bench_test::{Indices, run_until_periodic};
@@ -54,6 +55,9 @@ pub(super) struct Recording {
     too_short: usize,
     /// Rows that lacked a value.
     rows_left_out: u64,
+    /// The last line of the file, where it has no line end.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    unended_line: Option<u64>,
 }
 
 impl Recording {
@@ -63,6 +67,7 @@ impl Recording {
             tests,
             too_short: recorded.too_short(),
             rows_left_out: gaps.left_out.rows,
+            unended_line: gaps.unended_line,
         }
     }
 
@@ -228,6 +233,9 @@ impl Report {
         for recording in &report.recordings {
             if let Some(left_out) = recording.left_out() {
                 writeln!(out, "note: {}: left out {left_out}", recording.file)?;
+            }
+            if let Some(line) = recording.unended_line {
+                writeln!(out, "{}: {}", recording.file, unended(line))?;
             }
         }
         writeln!(out)?;

@@ -1,10 +1,15 @@
-//! What can be wrong with a recording.
+//! What can be wrong with a recording. The texts name no option or argument: [`RecordingError::remedy`] says what the user can do, and each
+//! front end says it in its own words.
 
 use super::text::{DecimalMark, Separator};
 use super::unit::Quantity;
+use crate::remedy::Remedy;
 
 /// Most ticks that a recording may span: 24 hours at 10 kHz, so that one mistyped time does not fill a disk.
 pub(crate) const MOST_TICKS: f64 = 864e6;
+
+/// Most ticks between two samples, 1000 s at 10 kHz: more is a jump of the clock, which would fill a disk with ticks on a straight line.
+pub(crate) const MAX_GAP_TICKS: f64 = 1e7;
 
 /// Names of channels that a message lists at most.
 const MOST_NAMES: usize = 12;
@@ -54,7 +59,7 @@ pub enum RecordingError {
         found: Vec<String>,
     },
     /// Several channels may be meant.
-    #[error("--{quantity}: {} may be meant; name one", listed(channels))]
+    #[error("{quantity}: {} may be meant", listed(channels))]
     SeveralChannels {
         /// What they measure.
         quantity: Quantity,
@@ -63,7 +68,7 @@ pub enum RecordingError {
     },
     /// A column is called by a number that another one has.
     #[error(
-        "--{quantity}: `{text}` is the name of column #{named} and the number of another; write #{named} or #{text}"
+        "{quantity}: `{text}` is the name of column #{named} and the number of another; write #{named} or #{text}"
     )]
     NameOrNumber {
         /// What it measures.
@@ -74,7 +79,7 @@ pub enum RecordingError {
         named: usize,
     },
     /// The channel holds something else than numbers.
-    #[error("--{quantity}: channel {channel} holds {kind}, not numbers that are read here")]
+    #[error("{quantity}: channel {channel} holds {kind}, not numbers that are read here")]
     NoNumbers {
         /// What it is to measure.
         quantity: Quantity,
@@ -83,8 +88,20 @@ pub enum RecordingError {
         /// What it holds.
         kind: String,
     },
+    /// The channel's numbers are of a width or at a place that is not read.
+    #[error("{quantity}: channel {channel} holds {held}, allowed: {allowed}")]
+    Width {
+        /// What it is to measure.
+        quantity: Quantity,
+        /// The channel.
+        channel: String,
+        /// What it holds.
+        held: String,
+        /// What is read instead.
+        allowed: &'static str,
+    },
     /// One channel is chosen twice.
-    #[error("--{} and --{}: both are column {channel}", quantities[0], quantities[1])]
+    #[error("{} and {}: both are column {channel}", quantities[0], quantities[1])]
     SameChannel {
         /// The channel.
         channel: String,
@@ -93,7 +110,7 @@ pub enum RecordingError {
     },
     /// There is no such group.
     #[error(
-        "--group: no group `{group}`, or several; there are {} (by number or name)",
+        "no group `{group}`, or several; there are {} (by number or name)",
         numbered_list(groups)
     )]
     Group {
@@ -103,7 +120,7 @@ pub enum RecordingError {
         groups: Vec<String>,
     },
     /// Channels of one name are in several groups.
-    #[error("channel {channel} is in the groups {}; choose one with --group", groups.join(", "))]
+    #[error("channel {channel} is in the groups {}", groups.join(", "))]
     SeveralGroups {
         /// The channel.
         channel: String,
@@ -111,7 +128,7 @@ pub enum RecordingError {
         groups: Vec<String>,
     },
     /// The channels have times of their own.
-    #[error("--{quantity}: channel {channel} is in group {}, not in group {}; a recording is of one group, whose channels have the same times", groups[0], groups[1])]
+    #[error("{quantity}: channel {channel} is in group {}, not in group {}; a recording is of one group, whose channels have the same times", groups[0], groups[1])]
     OtherGroup {
         /// What the channel measures.
         quantity: Quantity,
@@ -121,7 +138,7 @@ pub enum RecordingError {
         groups: [String; 2],
     },
     /// The file does not tell the unit.
-    #[error("the file does not tell the unit of {channel}; name it: --{quantity}-unit with {}", quantity.unit_names())]
+    #[error("the file does not tell the unit of {channel}")]
     NoUnit {
         /// What it measures.
         quantity: Quantity,
@@ -129,7 +146,7 @@ pub enum RecordingError {
         channel: String,
     },
     /// The unit is not known.
-    #[error("`{unit}`, which the file says is the unit of {channel}, is not one of {quantity} known here: {}; --{quantity}-unit overrides it", quantity.unit_names())]
+    #[error("`{unit}`, which the file says is the unit of {channel}, is not one of {quantity} known here: {}", quantity.unit_names())]
     UnknownUnit {
         /// What it should measure.
         quantity: Quantity,
@@ -139,7 +156,7 @@ pub enum RecordingError {
         unit: String,
     },
     /// The name tells another unit.
-    #[error("column {channel} has the unit `{unit}`, which is not that of its name; say which holds: --{quantity}-unit with {}", quantity.unit_names())]
+    #[error("column {channel} has the unit `{unit}`, which is not that of its name")]
     TwoUnits {
         /// What it measures.
         quantity: Quantity,
@@ -149,7 +166,7 @@ pub enum RecordingError {
         unit: String,
     },
     /// The first row may be a header.
-    #[error("`{cells}` may be names of columns or a row; say which: --header yes or --header no")]
+    #[error("`{cells}` may be names of columns or a row")]
     HeaderOrRow {
         /// Its cells.
         cells: String,
@@ -182,7 +199,7 @@ pub enum RecordingError {
         cell: String,
     },
     /// A number has another decimal mark than those before it.
-    #[error("`{cell}` has a decimal {}, the numbers before it have another mark or --decimal-mark says so", match mark { DecimalMark::Point => "point", DecimalMark::Comma => "comma" })]
+    #[error("`{cell}` has a decimal {}, the numbers before it have another mark or another one was asked for", match mark { DecimalMark::Point => "point", DecimalMark::Comma => "comma" })]
     Mark {
         /// The cell's text.
         cell: String,
@@ -190,13 +207,13 @@ pub enum RecordingError {
         mark: DecimalMark,
     },
     /// A value is missing, marked invalid or infinite.
-    #[error("`{cell}` is not a finite number; --skip-invalid leaves out rows that lack a value")]
+    #[error("`{cell}` is not a finite number")]
     NotFinite {
         /// The cell's text, or what is said of the sample.
         cell: String,
     },
     /// A sample is marked invalid.
-    #[error("the sample is marked invalid; --skip-invalid leaves out rows that lack a value")]
+    #[error("the sample is marked invalid")]
     Invalid,
     /// The file is damaged, or has what is not read.
     #[error("cannot read the {kind}: {reason}")]
@@ -214,6 +231,17 @@ pub enum RecordingError {
         /// Rows that there are.
         found: u64,
     },
+    /// A column is not the one that Dashpot wrote.
+    #[error(
+        "column {column}: the SHA-256 of its numbers is not the one in the file's metadata: the file was damaged, or another program \
+         changed the column and kept the metadata, whose key {key} must then be removed"
+    )]
+    Sum {
+        /// The column.
+        column: String,
+        /// Key of the metadata with the sums.
+        key: &'static str,
+    },
     /// Time stands still or goes back.
     #[error("time {time_s} s does not grow; the row before has {before_s} s")]
     Time {
@@ -230,6 +258,19 @@ pub enum RecordingError {
         /// Times between which there must be a force (s).
         needed_s: [f64; 2],
     },
+    /// Time jumps farther than a gap that is filled.
+    #[error(
+        "time jumps from {before_s} s to {time_s} s: {ticks:.0} ticks without a sample, allowed: {MAX_GAP_TICKS}; is the clock wrong? Else \
+         split the recording there or take a larger step"
+    )]
+    Jump {
+        /// Time of the row (s).
+        time_s: f64,
+        /// Time of the row before (s).
+        before_s: f64,
+        /// Ticks between them.
+        ticks: f64,
+    },
     /// The recording is too long for the step.
     #[error(
         "{time_s} s is more than {MOST_TICKS} ticks after the first sample; split the recording or take a larger step"
@@ -238,6 +279,41 @@ pub enum RecordingError {
         /// Time of the row (s).
         time_s: f64,
     },
+}
+
+impl RecordingError {
+    /// What the user can do about it, beyond what the text says.
+    pub fn remedy(&self) -> Option<Remedy> {
+        match self {
+            Self::MissingChannel {
+                quantity,
+                numbered: true,
+                found,
+                ..
+            } => Some(Remedy::NumberChannel {
+                quantity: *quantity,
+                count: found.len(),
+            }),
+            Self::MissingChannel { quantity, .. }
+            | Self::SeveralChannels { quantity, .. }
+            | Self::NoNumbers { quantity, .. }
+            | Self::Width { quantity, .. }
+            | Self::SameChannel {
+                quantities: [_, quantity],
+                ..
+            }
+            | Self::OtherGroup { quantity, .. } => Some(Remedy::NameChannel(*quantity)),
+            Self::Group { .. } | Self::SeveralGroups { .. } => Some(Remedy::NameGroup),
+            Self::NoUnit { quantity, .. } | Self::TwoUnits { quantity, .. } => {
+                Some(Remedy::GiveUnit(*quantity))
+            }
+            Self::UnknownUnit { quantity, .. } => Some(Remedy::OverrideUnit(*quantity)),
+            Self::HeaderOrRow { .. } => Some(Remedy::SayWhetherHeader),
+            Self::Mark { .. } => Some(Remedy::GiveDecimalMark),
+            Self::NotFinite { .. } | Self::Invalid => Some(Remedy::SkipInvalid),
+            _ => None,
+        }
+    }
 }
 
 /// A hint for rows with twice the cells.
@@ -254,14 +330,11 @@ fn decimal_comma(cells: u64, expected: u64, separator: Separator) -> String {
 fn missing(quantity: Quantity, name: &str, numbered: bool, found: &[String]) -> String {
     if numbered {
         return format!(
-            "no header tells which column is the {quantity}: choose one of 1 to {} with --{quantity}, and its unit with --{quantity}-unit",
+            "no header says which of the {} columns is the {quantity}",
             found.len()
         );
     }
-    format!(
-        "column {name} is missing; there are {}; choose one with --{quantity} NAME or its number",
-        listed(found)
-    )
+    format!("column {name} is missing; there are {}", listed(found))
 }
 
 /// Names in quotes, those beyond the first few counted.

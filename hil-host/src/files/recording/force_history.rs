@@ -17,6 +17,7 @@ const SAME_S: f64 = 1e-9;
 pub struct ForceHistory {
     /// Times (s) and forces (N).
     samples: Vec<[f64; 2]>,
+    unended_line: Option<u64>,
 }
 
 impl ForceHistory {
@@ -49,7 +50,15 @@ impl ForceHistory {
                 needed_s,
             }));
         }
-        Ok(Self { samples })
+        Ok(Self {
+            samples,
+            unended_line: rows.gaps().unended_line,
+        })
+    }
+
+    /// The last line of a text, where it has no line end and may be cut inside its last number.
+    pub fn unended_line(&self) -> Option<u64> {
+        self.unended_line
     }
 
     /// Force at a time (N); before the first sample the first, after the last the last.

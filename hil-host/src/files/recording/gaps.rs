@@ -44,6 +44,9 @@ pub struct Gaps {
     pub longest: Option<Gap>,
     /// Rows left out because they lacked a value; several of them make a gap.
     pub left_out: LeftOut,
+    /// The last line of a text that was read to its end, where that line has no line end and may be cut inside its last number.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub unended_line: Option<u64>,
 }
 
 impl Intervals {
@@ -81,6 +84,7 @@ impl Intervals {
                 count: 0,
                 longest: None,
                 left_out,
+                unended_line: None,
             };
         }
         let median = self.counts.value_at_quantile(0.5);
@@ -92,6 +96,7 @@ impl Intervals {
             count,
             longest: self.longest.filter(|_| count > 0),
             left_out,
+            unended_line: None,
         }
     }
 }

@@ -18,6 +18,8 @@ mod rows;
 mod samples;
 mod select;
 mod stream;
+#[cfg(feature = "parquet")]
+pub(in crate::files) mod sums;
 mod text;
 mod unit;
 pub mod written;
@@ -27,8 +29,8 @@ use std::path::Path;
 use std::rc::Rc;
 
 pub use channels::{Channel, Channels};
-pub(crate) use error::MOST_TICKS;
 pub use error::RecordingError;
+pub(crate) use error::{MAX_GAP_TICKS, MOST_TICKS};
 pub use force_history::ForceHistory;
 pub use gaps::{GAP_IN_MEDIANS, Gap, Gaps};
 pub use measurement::{MeasuredSample, Measurement};

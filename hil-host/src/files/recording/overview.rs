@@ -11,6 +11,7 @@ use super::rows::{LeftOut, Source};
 use super::select::{Chosen, Found, label, select_in};
 use super::unit::Quantity;
 use crate::files::{FileError, input};
+use crate::remedy::Remedy;
 
 /// Channels of a group read at a time: a group may have thousands.
 const CHANNELS: usize = 32;
@@ -22,6 +23,9 @@ pub struct Overview {
     pub channels: Vec<ChannelOverview>,
     /// Its times: one, or one for each group.
     pub times: Vec<TimeOverview>,
+    /// The last line of a text, where it has no line end and may be cut inside its last number.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub unended_line: Option<u64>,
 }
 
 /// A channel.
@@ -37,6 +41,9 @@ pub struct ChannelOverview {
     pub group: Option<usize>,
     /// What its values are in the file.
     pub kind: String,
+    /// Why they are not read, where they are numbers of another width or at another place than is read.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub unread: Option<String>,
     /// Rows of the file or of its group.
     pub rows: u64,
     /// Rows without a finite number, or marked invalid.
@@ -62,6 +69,9 @@ pub struct TimeOverview {
     pub channel: Option<String>,
     /// Why there is none.
     pub reason: Option<String>,
+    /// What the user can do about it.
+    #[serde(skip)]
+    pub remedy: Option<Remedy>,
     /// First and last time (s).
     pub from_to_s: Option<[f64; 2]>,
     /// Intervals over their sum (Hz).
@@ -107,6 +117,7 @@ pub fn overview(path: &Path, channels: &Channels) -> Result<Overview, FileError>
     let mut overview = Overview {
         channels: found.iter().enumerate().map(channel).collect(),
         times: Vec::new(),
+        unended_line: None,
     };
     for channel in &mut overview.channels {
         channel.group = channel.group.filter(|_| !groups.is_empty());
@@ -119,9 +130,9 @@ pub fn overview(path: &Path, channels: &Channels) -> Result<Overview, FileError>
                 channels.time.name = Some(named.ok_or(error)?);
                 select_in(&found, &groups, Some(group), &channels, [Quantity::Time])
             });
-        let (time, reason) = match time {
+        let (time, error) = match time {
             Ok([chosen]) => (Some(chosen), None),
-            Err(error) => (None, Some(error.to_string())),
+            Err(error) => (None, Some(error)),
         };
         let mut times = time.map(Times::new);
         let all = || (0..found.len()).filter(|&i| found[i].group == group && found[i].is_number);
@@ -132,13 +143,15 @@ pub fn overview(path: &Path, channels: &Channels) -> Result<Overview, FileError>
             CHANNELS
         };
         for indices in all.chunks(most.max(1)) {
-            read(&mut *opened, indices, &mut overview.channels, &mut times)?;
+            let unended = read(&mut *opened, indices, &mut overview.channels, &mut times)?;
+            overview.unended_line = overview.unended_line.or(unended);
         }
         overview.times.push(TimeOverview {
             group: (!groups.is_empty()).then_some(group + 1),
             group_name: groups.get(group).filter(|name| !name.is_empty()).cloned(),
             channel: time.map(|time| label(&found, time.index)),
-            reason,
+            reason: error.as_ref().map(ToString::to_string),
+            remedy: error.and_then(|error| error.remedy()),
             ..times.map_or_else(TimeOverview::default, Times::overview)
         });
     }
@@ -173,19 +186,23 @@ fn channel((index, found): (usize, &Found)) -> ChannelOverview {
         number: index + 1,
         name: found.name.clone(),
         unit: found.unit.clone(),
+        unread: found
+            .unread
+            .as_ref()
+            .map(|unread| format!("{}, allowed: {}", unread.held, unread.allowed)),
         group: Some(found.group + 1),
         rows: found.rows.unwrap_or(0),
         ..ChannelOverview::default()
     }
 }
 
-/// Reads all rows of some channels of one group.
+/// Reads all rows of some channels of one group; the last line, where it has no line end.
 fn read(
     opened: &mut dyn Opened,
     indices: &[usize],
     channels: &mut [ChannelOverview],
     times: &mut Option<Times>,
-) -> Result<(), FileError> {
+) -> Result<Option<u64>, FileError> {
     let mut source = opened.rows(indices, true)?;
     let mut values = vec![0.0; indices.len()];
     let mut rows = 0;
@@ -203,7 +220,7 @@ fn read(
     for index in indices {
         channels[*index].rows = rows;
     }
-    Ok(())
+    Ok(source.unended_line())
 }
 
 impl ChannelOverview {

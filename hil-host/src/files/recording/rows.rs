@@ -32,6 +32,11 @@ pub(super) trait Source {
 
     /// Bytes read so far, for a progress bar.
     fn position(&self) -> u64;
+
+    /// The last line of a text that was read to its end, where that line has no line end and may be cut inside its last number.
+    fn unended_line(&self) -> Option<u64> {
+        None
+    }
 }
 
 /// Rows that a value was missing in and that were left out.
@@ -127,7 +132,10 @@ impl<const N: usize> Rows<N> {
     }
 
     pub(super) fn gaps(&self) -> Gaps {
-        self.intervals.gaps(self.left_out)
+        Gaps {
+            unended_line: self.source.unended_line(),
+            ..self.intervals.gaps(self.left_out)
+        }
     }
 
     pub(super) fn in_text(&self, error: RecordingError) -> FileError {

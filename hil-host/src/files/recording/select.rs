@@ -21,8 +21,19 @@ pub(super) struct Found {
     pub(super) kind: String,
     /// Whether they can be read as numbers.
     pub(super) is_number: bool,
+    /// Why they are not, where they are numbers of another width or at another place than is read.
+    pub(super) unread: Option<Unread>,
     /// Rows, where the file tells before they are read.
     pub(super) rows: Option<u64>,
+}
+
+/// Numbers that are not read.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Unread {
+    /// What they are.
+    pub(super) held: String,
+    /// What is read instead.
+    pub(super) allowed: &'static str,
 }
 
 /// A channel that was chosen.
@@ -92,6 +103,14 @@ pub(super) fn select_in<const N: usize>(
             return Err(RecordingError::SameChannel {
                 channel: label(found, index),
                 quantities: [quantities[other], quantity],
+            });
+        }
+        if let Some(Unread { held, allowed }) = &found[index].unread {
+            return Err(RecordingError::Width {
+                quantity,
+                channel: label(found, index),
+                held: held.clone(),
+                allowed,
             });
         }
         if !found[index].is_number {

@@ -72,7 +72,8 @@ impl OutsideArguments {
                 let needed_s = [case.step_s, last_s];
                 let history =
                     ForceHistory::open_with(path, &channels, needed_s).map_err(|error| {
-                        Failure::new(format!("--outside \"{}\": {error}", choice.damper))
+                        let reason = Failure::from(error);
+                        Failure::new(format!("--outside \"{}\": {reason}", choice.damper))
                     })?;
                 recorded.push((*damper, history));
             }
@@ -183,7 +184,9 @@ impl Outside {
             Some((effect, forces)) => (Some(effect), forces),
             None => (None, Vec::new()),
         };
-        let report = OutsideReport::new(&self.choices, case, targets, effect);
+        let mut report = OutsideReport::new(&self.choices, case, targets, effect);
+        let histories = self.recorded.iter().map(|(_, history)| history);
+        report.add_unended(histories);
         Ok((report, forces))
     }
 }

@@ -5,7 +5,9 @@ use std::io::{self, Write};
 use serde::Serialize;
 
 use super::choice::{Choice, Source};
+use crate::commands::gap_report::unended;
 use crate::files::case::Case;
+use crate::files::recording::ForceHistory;
 use crate::realtime::timing::{optional_span, span};
 use crate::study::vehicle::Effect;
 use crate::target::pil;
@@ -32,6 +34,9 @@ pub(in crate::commands::vehicle) struct OutsideDamper {
     /// The link or file.
     pub(in crate::commands::vehicle) source: String,
     pub(in crate::commands::vehicle) is_recorded: bool,
+    /// The last line of the file, where it has no line end.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(in crate::commands::vehicle) unended_line: Option<u64>,
 }
 
 /// A target that dampers are on.
@@ -55,6 +60,7 @@ impl OutsideReport {
             damper: choice.damper.clone(),
             source: choice.name.clone(),
             is_recorded: matches!(choice.source, Source::File(_)),
+            unended_line: None,
         });
         Self {
             dampers: dampers.collect(),
@@ -65,6 +71,14 @@ impl OutsideReport {
         }
     }
 
+    /// Notes which recorded forces, in the order of their dampers, end with a line that has no line end.
+    pub(super) fn add_unended<'a>(&mut self, histories: impl Iterator<Item = &'a ForceHistory>) {
+        let recorded = self.dampers.iter_mut().filter(|damper| damper.is_recorded);
+        for (damper, history) in recorded.zip(histories) {
+            damper.unended_line = history.unended_line();
+        }
+    }
+
     /// What each is, and the result.
     pub(in crate::commands::vehicle) fn lines(&self) -> Vec<(String, String)> {
         let mut lines = Vec::new();
@@ -72,10 +86,12 @@ impl OutsideReport {
             damper,
             source,
             is_recorded,
+            unended_line,
         } in &self.dampers
         {
             let text = if *is_recorded {
-                format!("recorded force of {source}")
+                let warning = unended_line.map(|line| format!("; {}", unended(line)));
+                format!("recorded force of {source}{}", warning.unwrap_or_default())
             } else {
                 format!(
                     "on {source}: exchanged every {} us, its force {} us late",

@@ -7,6 +7,7 @@ use parquet::file::reader::RowGroupReader;
 use parquet::schema::types::ColumnDescriptor;
 
 use super::schema::is_instant;
+use crate::files::recording::sums::Sum;
 
 /// A chosen column.
 pub(super) struct Column {
@@ -18,11 +19,13 @@ pub(super) struct Column {
     origin: Option<i64>,
     reader: Option<ColumnReader>,
     values: Vec<f64>,
+    /// The column's name, the sum that the file says it has, and that of the numbers read so far.
+    sum: Option<(String, String, Sum)>,
 }
 
 impl Column {
     /// The column of this number from 0, of no row group yet.
-    pub(super) fn new(index: usize, descriptor: &ColumnDescriptor) -> Self {
+    pub(super) fn new(index: usize, descriptor: &ColumnDescriptor, sum: Option<String>) -> Self {
         Self {
             index,
             present: descriptor.max_def_level(),
@@ -30,7 +33,14 @@ impl Column {
             origin: None,
             reader: None,
             values: Vec::new(),
+            sum: sum.map(|sum| (descriptor.path().string(), sum, Sum::default())),
         }
+    }
+
+    /// The column's name where the numbers read are not those that the file's sum is of.
+    pub(super) fn differs_from_sum(&self) -> Option<&str> {
+        let (name, expected, sum) = self.sum.as_ref()?;
+        (*expected != sum.text()).then_some(name)
     }
 
     /// Goes to its start in a row group.
@@ -47,6 +57,14 @@ impl Column {
 
     /// Reads so many values; how many there were.
     pub(super) fn read(&mut self, count: usize) -> Result<usize, ParquetError> {
+        let read = self.read_values(count)?;
+        if let Some((_, _, sum)) = &mut self.sum {
+            sum.add(&self.values);
+        }
+        Ok(read)
+    }
+
+    fn read_values(&mut self, count: usize) -> Result<usize, ParquetError> {
         let present = self.present;
         let values = &mut self.values;
         values.clear();

@@ -1,9 +1,10 @@
-//! Parquet, read a bounded part at a time.
+//! Parquet, read a bounded part at a time; the numbers of files that Dashpot wrote are checked against their sums.
 
 mod column;
 mod rows;
 mod schema;
 
+use std::collections::HashMap;
 use std::fs::File;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -16,6 +17,7 @@ use super::guarded::guarded;
 use super::open::Opened;
 use super::rows::Source;
 use super::select::Found;
+use super::sums::SUMS;
 use super::text::found;
 use crate::files::FileError;
 use column::Column;
@@ -29,6 +31,8 @@ pub(super) struct Parquet {
     path: PathBuf,
     reader: Arc<SerializedFileReader<File>>,
     found: Vec<Found>,
+    /// Sums of the columns by their names; none in files of other programs.
+    sums: HashMap<String, String>,
     bytes: u64,
 }
 
@@ -39,12 +43,20 @@ impl Parquet {
         let reader = read(path, || SerializedFileReader::new(file))?;
         let metadata = reader.metadata().file_metadata();
         let rows = u64::try_from(metadata.num_rows()).unwrap_or(0);
-        let units = metadata
-            .key_value_metadata()
-            .into_iter()
-            .flatten()
-            .find(|pair| pair.key == UNITS)
-            .and_then(|pair| serde_json::from_str(pair.value.as_deref()?).ok());
+        let value_of = |key: &str| {
+            let mut pairs = metadata.key_value_metadata().into_iter().flatten();
+            let pair = pairs.find(|pair| pair.key == key)?;
+            Some(pair.value.as_deref().unwrap_or_default())
+        };
+        let sums = match value_of(SUMS).map(serde_json::from_str) {
+            None => HashMap::new(),
+            Some(Ok(sums)) => sums,
+            Some(Err(error)) => {
+                let reason = format!("its metadata {SUMS}: {error}");
+                return Err(damaged(path, reason));
+            }
+        };
+        let units = value_of(UNITS).and_then(|units| serde_json::from_str(units).ok());
         let units: serde_json::Value = units.unwrap_or_default();
         let columns = metadata.schema_descr().columns();
         let found = columns.iter().map(|column| {
@@ -67,6 +79,7 @@ impl Parquet {
             path: path.to_owned(),
             reader: Arc::new(reader),
             found,
+            sums,
             bytes,
         })
     }
@@ -83,9 +96,11 @@ impl Opened for Parquet {
 
     fn rows(&mut self, indices: &[usize], _: bool) -> Result<Box<dyn Source>, FileError> {
         let schema = self.reader.metadata().file_metadata().schema_descr();
-        let columns = indices
-            .iter()
-            .map(|&index| Column::new(index, &schema.column(index)));
+        let columns = indices.iter().map(|&index| {
+            let column = schema.column(index);
+            let sum = self.sums.get(&column.path().string());
+            Column::new(index, &column, sum.cloned())
+        });
         let rows = self.found.first().and_then(|f| f.rows).unwrap_or(0);
         let reader = Arc::clone(&self.reader);
         let rows = ParquetRows::new(&self.path, reader, columns.collect(), rows, self.bytes);
@@ -100,9 +115,10 @@ fn read<T>(path: &Path, read: impl FnOnce() -> Result<T, ParquetError>) -> Resul
         Some(Err(error)) => error.to_string(),
         None => "its parts contradict each other".into(),
     };
+    Err(damaged(path, reason))
+}
+
+fn damaged(path: &Path, reason: String) -> FileError {
     let kind = "Parquet";
-    Err(FileError::in_file(
-        path,
-        RecordingError::Damaged { kind, reason },
-    ))
+    FileError::in_file(path, RecordingError::Damaged { kind, reason })
 }

@@ -12,6 +12,7 @@ use super::read;
 use crate::files::FileError;
 use crate::files::recording::error::RecordingError;
 use crate::files::recording::rows::{Place, Source};
+use crate::files::recording::sums::SUMS;
 
 /// Rows read at a time.
 const ROWS: usize = 1 << 13;
@@ -59,7 +60,7 @@ impl ParquetRows {
         while self.left == 0 {
             if self.group == self.reader.num_row_groups() {
                 return if self.row == self.rows {
-                    Ok(false)
+                    self.check_sums().map(|()| false)
                 } else {
                     Err(self.cut_off())
                 };
@@ -87,6 +88,20 @@ impl ParquetRows {
         self.left = usize::try_from(group.metadata().num_rows()).unwrap_or(0);
         self.group += 1;
         Ok(())
+    }
+
+    /// Compares the numbers, all read, with the sums in the file's metadata.
+    fn check_sums(&self) -> Result<(), FileError> {
+        match self.columns.iter().find_map(Column::differs_from_sum) {
+            None => Ok(()),
+            Some(column) => Err(FileError::in_file(
+                &self.path,
+                RecordingError::Sum {
+                    column: column.to_owned(),
+                    key: SUMS,
+                },
+            )),
+        }
     }
 
     fn cut_off(&self) -> FileError {

@@ -30,7 +30,23 @@ pub(super) fn is_instant(column: &ColumnDescriptor) -> bool {
 }
 
 pub(super) fn is_number(column: &ColumnDescriptor) -> bool {
+    // Files of old writers have the older kind of type alone. Of a decimal the point is not in the number.
+    let is_odd = ![
+        ConvertedType::NONE,
+        ConvertedType::INT_8,
+        ConvertedType::INT_16,
+        ConvertedType::INT_32,
+        ConvertedType::INT_64,
+        ConvertedType::UINT_8,
+        ConvertedType::UINT_16,
+        ConvertedType::TIME_MILLIS,
+        ConvertedType::TIME_MICROS,
+        ConvertedType::TIMESTAMP_MILLIS,
+        ConvertedType::TIMESTAMP_MICROS,
+    ]
+    .contains(&column.converted_type());
     let is_plain = match column.logical_type_ref() {
+        _ if is_odd => false,
         None | Some(LogicalType::Timestamp(_) | LogicalType::Time(_)) => true,
         // Of 64 bits without sign, half the numbers would be read as negative ones.
         Some(LogicalType::Integer(integer)) => integer.is_signed || integer.bit_width < 32,

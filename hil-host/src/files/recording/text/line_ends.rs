@@ -21,6 +21,11 @@ impl<R: Read> LineEnds<R> {
         }
     }
 
+    /// Whether the source ends `position` bytes into the file, and not with a line end.
+    pub(super) fn ends_unended(&self, position: u64) -> bool {
+        position == self.length && ![b'\n', b'\r'].contains(&self.last)
+    }
+
     /// Whether a reader that ends rows at the first CR or LF has passed the LF of a row, `position` bytes
     /// into the file.
     pub(super) fn has_passed_line_feed(&self, position: u64) -> bool {

@@ -47,6 +47,10 @@ struct Lines {
     /// Lines before the first that the reader sees.
     skipped: u64,
     count: Count,
+    /// Bytes up to the end of the record read last.
+    end: u64,
+    /// Whether there is no record after it, and no line end.
+    is_unended: bool,
 }
 
 impl Text {
@@ -80,6 +84,8 @@ impl Text {
             separator,
             skipped,
             count,
+            end: 0,
+            is_unended: false,
         };
         Self::read_header(lines, *options)
     }
@@ -145,12 +151,21 @@ impl Opened for Text {
 
 impl Lines {
     fn read(&mut self, record: &mut ByteRecord) -> Result<bool, FileError> {
-        self.reader
-            .read_byte_record(record)
-            .map_err(|error| match error.into_kind() {
-                csv::ErrorKind::Io(error) => FileError::read(&self.path, error),
-                other => FileError::in_file(&self.path, RecordingError::Text(format!("{other:?}"))),
-            })
+        let read = self.reader.read_byte_record(record);
+        match read {
+            Ok(true) => self.end = self.reader.position().byte(),
+            Ok(false) => self.is_unended = self.reader.get_ref().ends_unended(self.end),
+            Err(_) => {}
+        }
+        read.map_err(|error| match error.into_kind() {
+            csv::ErrorKind::Io(error) => FileError::read(&self.path, error),
+            other => FileError::in_file(&self.path, RecordingError::Text(format!("{other:?}"))),
+        })
+    }
+
+    /// Line of the record read last, where there is none after it and it has no line end.
+    fn unended_line(&self) -> Option<u64> {
+        self.is_unended.then(|| self.line())
     }
 
     /// Line of the record read last.

@@ -130,4 +130,8 @@ impl Source for TextRows {
     fn position(&self) -> u64 {
         self.lines.count.get()
     }
+
+    fn unended_line(&self) -> Option<u64> {
+        self.lines.unended_line()
+    }
 }

@@ -1,4 +1,4 @@
-//! Rows as Parquet: a column of float64 each, their units in the file's metadata.
+//! Rows as Parquet: a column of float64 each, their units and their SHA-256 in the file's metadata.
 
 use std::io::{self, Write};
 use std::path::Path;
@@ -17,6 +17,7 @@ use crate::files::FileError;
 use crate::files::columns::Bytes;
 use crate::files::output::cannot_write;
 use crate::files::recording::parquet::UNITS;
+use crate::files::recording::sums::{self, Sum};
 
 /// Rows of a row group.
 const ROWS: usize = 1 << 16;
@@ -28,6 +29,7 @@ pub struct Rows<'a> {
     bytes: Bytes,
     writer: SerializedFileWriter<Bytes>,
     columns: Vec<Vec<f64>>,
+    sums: Vec<(&'static str, Sum)>,
 }
 
 impl<'a> Rows<'a> {
@@ -43,6 +45,10 @@ impl<'a> Rows<'a> {
             file,
             bytes,
             writer,
+            sums: columns
+                .iter()
+                .map(|(name, _)| (*name, Sum::default()))
+                .collect(),
             columns: vec![Vec::with_capacity(ROWS); columns.len()],
         })
     }
@@ -66,7 +72,8 @@ impl<'a> Rows<'a> {
 
     fn add(&mut self) -> Result<(), ParquetError> {
         let mut group = self.writer.next_row_group()?;
-        for column in &mut self.columns {
+        for (column, (_, sum)) in self.columns.iter_mut().zip(&mut self.sums) {
+            sum.add(column);
             if let Some(mut place) = group.next_column()? {
                 place
                     .typed::<DoubleType>()
@@ -84,6 +91,8 @@ impl<'a> Rows<'a> {
             self.flush()?;
         }
         let path = self.path;
+        let sums = self.sums.iter().map(|(name, sum)| (*name, sum));
+        self.writer.append_key_value_metadata(sums::metadata(sums));
         self.writer.close().map_err(|error| failed(path, error))?;
         let taken = self.bytes.take_to(self.file);
         taken.map_err(|error| cannot_write(path, error))

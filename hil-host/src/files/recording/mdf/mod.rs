@@ -1,5 +1,7 @@
 //! MDF4, read a bounded part at a time.
 
+mod number;
+
 use std::fs::File;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -13,6 +15,7 @@ use super::open::Opened;
 use super::rows::{Place, Source};
 use super::select::Found;
 use crate::files::FileError;
+use number::{Reading, reading};
 
 /// Rows read at a time.
 const ROWS: usize = 1 << 14;
@@ -28,6 +31,7 @@ pub(super) struct Mdf {
     groups: Vec<String>,
     /// Data group, channel group and place of each channel found.
     places: Vec<[usize; 3]>,
+    readings: Vec<Reading>,
     bytes: u64,
 }
 
@@ -43,6 +47,7 @@ self_cell!(
 struct MdfRows {
     path: PathBuf,
     chunks: Chunks,
+    channels: Vec<(Channel, Reading)>,
     /// Values of each channel; not a number where they are invalid.
     values: Vec<Vec<f64>>,
     /// Which rows are marked invalid, by channel.
@@ -61,6 +66,7 @@ impl Mdf {
         let source = read_seek_source(file).map_err(failed)?;
         let file = Mf4File::from_source(Arc::new(source)).map_err(failed)?;
         let (mut found, mut places, mut groups) = (Vec::new(), Vec::new(), Vec::new());
+        let mut readings = Vec::new();
         for group in file
             .data_groups()
             .iter()
@@ -73,6 +79,8 @@ impl Mdf {
             groups.push(group.acquisition_name.clone());
             for (index, channel) in group.channels.iter().enumerate() {
                 places.push([group.data_group_index, group.index, index]);
+                let reading = reading(channel, group);
+                readings.push(reading.clone().unwrap_or(Reading::Library));
                 found.push(Found {
                     name: channel.name.clone(),
                     whole: channel.name.clone(),
@@ -80,7 +88,8 @@ impl Mdf {
                     group: number,
                     is_master: channel.is_master() && channel.is_time_channel(),
                     kind: kind(channel),
-                    is_number: is_number(channel),
+                    is_number: is_number(channel) && reading.is_ok(),
+                    unread: reading.err().filter(|_| is_number(channel)),
                     rows: Some(group.sample_count),
                 });
             }
@@ -91,6 +100,7 @@ impl Mdf {
             found,
             groups,
             places,
+            readings,
             bytes,
         })
     }
@@ -128,20 +138,25 @@ impl Opened for Mdf {
     fn rows(&mut self, indices: &[usize], _: bool) -> Result<Box<dyn Source>, FileError> {
         let groups = self.file.data_groups();
         let mut rows = 0;
-        let mut channels: Vec<Channel> = Vec::new();
+        let mut channels: Vec<(Channel, Reading)> = Vec::new();
         for index in indices {
             let [data, group, channel] = self.places[*index];
             let group = &groups[data].channel_groups[group];
             rows = self.check_rows(group)?;
-            channels.push(group.channels[channel].clone());
+            channels.push((group.channels[channel].clone(), self.readings[*index]));
         }
+        let asked = channels
+            .iter()
+            .map(|(channel, reading)| reading.asked(channel));
+        let asked: Vec<Channel> = asked.collect();
         let chunks = Chunks::try_new(Arc::clone(&self.file), |file| {
-            file.signals_chunks(&channels, ROWS)
+            file.signals_chunks(&asked, ROWS)
         })
         .map_err(|error| damaged(&self.path, &error))?;
         Ok(Box::new(MdfRows {
             path: self.path.clone(),
             chunks,
+            channels,
             values: vec![Vec::new(); indices.len()],
             invalid: vec![Vec::new(); indices.len()],
             next: 0,
@@ -171,7 +186,8 @@ impl MdfRows {
             return Ok(false);
         };
         for (place, signal) in signals.iter().enumerate() {
-            self.values[place] = signal.values_f64().map_err(failed)?;
+            let (channel, reading) = &self.channels[place];
+            self.values[place] = reading.numbers(signal, channel, self.row).map_err(failed)?;
             self.invalid[place].clear();
             if let Some(valid) = signal.validity() {
                 for (value, valid) in self.values[place].iter_mut().zip(&valid) {
@@ -254,6 +270,8 @@ fn is_number(channel: &Channel) -> bool {
 fn kind(channel: &Channel) -> String {
     if channel.is_array() {
         "array".into()
+    } else if channel.is_float() && channel.value_kind() == channel.raw_value_kind() {
+        format!("f{}", channel.bit_count)
     } else {
         channel.value_kind().name().to_owned()
     }

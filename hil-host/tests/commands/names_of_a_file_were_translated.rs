@@ -1,0 +1,168 @@
+//! The package for Python made its errors by replacing options in the command's texts: a name in a header with a backtick left an option in
+//! them, and a column called `--force` was reported as `force`. What is to be done is data now; here are the command's words for it, and
+//! that what they say works. The package's words are in python/tests/test_recording.py.
+
+use std::path::Path;
+
+use crate::common::{dashpot, error_of};
+
+/// What `replay` says of the text of a recording, with options.
+fn replayed(text: &str, options: &[&str], folder: &Path) -> Result<(), String> {
+    std::fs::write(folder.join("run.csv"), text).unwrap();
+    let arguments = ["replay", "--input", "run.csv", "--output", "force.csv"];
+    let ended = dashpot(&[&arguments[..], options].concat(), folder);
+    match ended.get_output().status.code() {
+        Some(0) => Ok(()),
+        _ => Err(error_of(&ended)),
+    }
+}
+
+/// A text, options, the reason, and options with which it is read.
+type Case = (
+    &'static str,
+    &'static [&'static str],
+    &'static str,
+    &'static [&'static str],
+);
+
+const CASES: [Case; 13] = [
+    (
+        "time_s,we`g,--force\n0,1,2\n1,2,3\n",
+        &[],
+        "run.csv: column displacement_m is missing; there are `time_s`, `we`g`, `--force`; choose one with --displacement NAME or its number\n",
+        &["--displacement", "we`g", "--displacement-unit", "mm"],
+    ),
+    (
+        "time_s,--force\n0,1\n1,2\n",
+        &["--displacement=--force"],
+        "run.csv: the file does not tell the unit of --force; name it: --displacement-unit with m, cm, mm, um, in\n",
+        &["--displacement=--force", "--displacement-unit", "m"],
+    ),
+    (
+        "--time NAME,--force`\n0,1\n1,2\n",
+        &["--displacement", "--force`", "--displacement-unit", "m"],
+        "run.csv: column time_s is missing; there are `--time NAME`, `--force``; choose one with --time NAME or its number\n",
+        &[
+            "--displacement=2",
+            "--displacement-unit=m",
+            "--time=1",
+            "--time-unit=s",
+        ],
+    ),
+    (
+        "0.5,1\n1,2\n",
+        &[],
+        "run.csv: no header says which of the 2 columns is the time; choose one of 1 to 2 with --time, and its unit with --time-unit\n",
+        &[
+            "--time=1",
+            "--time-unit=s",
+            "--displacement=2",
+            "--displacement-unit=m",
+        ],
+    ),
+    (
+        "time_s,displacement [m],displacement [mm]\n0,0,0\n1,0,0\n",
+        &[],
+        "run.csv: displacement: `displacement [m]`, `displacement [mm]` may be meant; choose one with --displacement NAME or its number\n",
+        &["--displacement", "displacement [mm]"],
+    ),
+    (
+        "time_s,displacement [furlong]\n0,0\n1,0\n",
+        &[],
+        "is not one of displacement known here: m, cm, mm, um, in; --displacement-unit overrides it\n",
+        &["--displacement-unit", "m"],
+    ),
+    (
+        "time_s;displacement_m\ns;mm\n0;0\n1;0\n",
+        &[],
+        "run.csv: column displacement_m has the unit `mm`, which is not that of its name; name it: --displacement-unit with m, cm, mm, um, in\n",
+        &["--displacement-unit", "mm"],
+    ),
+    (
+        "0,1\n1,2\n",
+        &[
+            "--time=#1",
+            "--time-unit=s",
+            "--displacement=#2",
+            "--displacement-unit=m",
+        ],
+        "run.csv:1: `0 1` may be names of columns or a row; say which: --header yes or --header no\n",
+        &[
+            "--header=no",
+            "--time=#1",
+            "--time-unit=s",
+            "--displacement=#2",
+            "--displacement-unit=m",
+        ],
+    ),
+    (
+        "time_s;displacement_m\n0,5;0.25\n1,5;0.5\n",
+        &[],
+        "run.csv:2: column displacement_m: `0.25` has a decimal point, the numbers before it have another mark or another one was asked \
+         for; say which holds: --decimal-mark point or comma\n",
+        &[],
+    ),
+    (
+        "time_s,displacement_m\n0,0\n1,\n2,0\n",
+        &[],
+        "run.csv:3: column displacement_m: `` is not a finite number; --skip-invalid leaves out rows that lack a value\n",
+        &["--skip-invalid"],
+    ),
+    (
+        "time_s,displacement_m\n0,0\n1,0\n",
+        &["--time", "displacement_m", "--time-unit", "s"],
+        "run.csv: time and displacement: both are column displacement_m; choose one with --displacement NAME or its number\n",
+        &[
+            "--time",
+            "displacement_m",
+            "--time-unit",
+            "s",
+            "--displacement=1",
+            "--displacement-unit=m",
+        ],
+    ),
+    (
+        "time_s,displacement_m\n0,0\n1,0\n",
+        &["--group", "fast"],
+        "run.csv: no group `fast`, or several; there are none in this file (by number or name); choose one with --group\n",
+        &[],
+    ),
+    (
+        "time_s,2,x\n0,0,0\n1,0,0\n",
+        &["--displacement", "2", "--displacement-unit", "m"],
+        "",
+        &["--displacement", "#3", "--displacement-unit", "m"],
+    ),
+];
+
+#[test]
+fn what_the_command_advises_works() {
+    let folder = tempfile::tempdir().unwrap();
+    for (text, options, expected, advised) in CASES {
+        match replayed(text, options, folder.path()) {
+            Ok(()) => assert_eq!(expected, "", "{text}"),
+            Err(error) => assert!(
+                !expected.is_empty() && error.ends_with(expected),
+                "{error} instead of {expected}"
+            ),
+        }
+        if advised.is_empty() {
+            continue;
+        }
+        // Time that stands still is another matter.
+        match replayed(text, advised, folder.path()) {
+            Ok(()) => {}
+            Err(error) => assert!(error.contains("does not grow"), "{error}"),
+        }
+    }
+}
+
+#[test]
+fn the_list_of_channels_advises_too() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("run.csv"), "t`,--force\n0,1\n1,2\n").unwrap();
+    let ended = dashpot(&["channels", "run.csv"], folder.path()).success();
+    let text = crate::common::text_of(&ended);
+    let expected = "no time: column time_s is missing; there are `t``, `--force`; choose one with --time NAME or its number";
+    assert!(text.contains(expected), "{text}");
+}

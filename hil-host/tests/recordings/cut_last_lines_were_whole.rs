@@ -1,0 +1,98 @@
+//! A text cut inside the last number of its last line (1250.5 to 125) was read without a word.
+
+use std::io::{Cursor, Write};
+use std::path::Path;
+
+use dashpot_hil::files::recording::{Channels, Measurement};
+
+use crate::common::{dashpot, json_of, text_of};
+
+/// The line that is said to have no end.
+fn unended(bytes: &[u8]) -> Option<u64> {
+    let source = Box::new(Cursor::new(bytes.to_vec()));
+    let mut measurement =
+        Measurement::read(Path::new("run.csv"), source, &Channels::default()).unwrap();
+    assert!(!measurement.read_all().unwrap().is_empty());
+    measurement.gaps().unended_line
+}
+
+fn in_utf_16(text: &str) -> Vec<u8> {
+    let units = text.encode_utf16();
+    [0xfffe_u16.swap_bytes()]
+        .into_iter()
+        .chain(units)
+        .flat_map(u16::to_le_bytes)
+        .collect()
+}
+
+fn in_gzip(bytes: &[u8]) -> Vec<u8> {
+    let mut gzip = flate2::write::GzEncoder::new(Vec::new(), flate2::Compression::fast());
+    gzip.write_all(bytes).unwrap();
+    gzip.finish().unwrap()
+}
+
+#[test]
+fn a_last_line_without_an_end_is_named() {
+    let header = "time_s,displacement_m,force_n";
+    let cases = [
+        (format!("{header}\n0,0,1\n1,0,1250.5\n"), None),
+        (format!("{header}\n0,0,1\n1,0,125"), Some(3)),
+        (format!("{header}\r\n0,0,1\r\n1,0,1250.5\r\n"), None),
+        (format!("{header}\r\n0,0,1\r\n1,0,125"), Some(3)),
+        (format!("{header}\r0,0,1\r1,0,1250.5\r"), None),
+        (format!("# logger\n\n{header}\n0,0,1\n1,0,125"), Some(5)),
+        // One row.
+        (format!("{header}\n0,0,125"), Some(2)),
+        (format!("{header}\ns,m,N\n0,0,125"), Some(3)),
+        // What is cut is no row.
+        (format!("{header}\n0,0,1\n1,0,1250.5\n# end"), None),
+        (format!("{header}\n0,0,1\n1,0,1250.5\n\n\n"), None),
+        // A quote that ends, a blank: the number was whole, but there is no sign that the row was.
+        (format!("{header}\n0,0,1\n1,0,\"125\""), Some(3)),
+    ];
+    for (text, expected) in cases {
+        assert_eq!(unended(text.as_bytes()), expected, "{text:?}");
+        assert_eq!(unended(&in_gzip(text.as_bytes())), expected, "{text:?}");
+        let marked = [b"\xef\xbb\xbf", text.as_bytes()].concat();
+        // Comments start a line.
+        if !text.starts_with('#') {
+            assert_eq!(unended(&marked), expected, "{text:?} with a mark");
+            assert_eq!(unended(&in_utf_16(&text)), expected, "{text:?} in UTF-16");
+        }
+    }
+    // A text that is longer than what is looked at first.
+    let rows: String = (0..9000).map(|i| format!("{i},0.5,1250.5\n")).collect();
+    let text = format!("{header}\n{rows}");
+    assert_eq!(unended(text.as_bytes()), None);
+    assert_eq!(unended(&text.as_bytes()[..text.len() - 3]), Some(9001));
+}
+
+#[test]
+fn the_commands_warn() {
+    let folder = tempfile::tempdir().unwrap();
+    let rows: String = (0..200)
+        .map(|i| format!("{},{},1\n", f64::from(i) / 1e3, 1e-3 * f64::from(i % 7)))
+        .collect();
+    let text = format!("time_s,displacement_m,force_n\n{rows}0.2,0.0012,1");
+    std::fs::write(folder.path().join("run.csv"), text).unwrap();
+    let warning = "warning: line 202, the last, has no line end: the file may have been cut inside the last number";
+    for arguments in [
+        &["replay", "--input", "run.csv", "--output", "force.csv"][..],
+        &["verify", "--input", "run.csv"],
+        &["channels", "run.csv"],
+    ] {
+        let text = text_of(&dashpot(arguments, folder.path()).success());
+        assert!(text.contains(warning), "{arguments:?}: {text}");
+        let json = [arguments, &["--format", "json"]].concat();
+        let report = json_of(&dashpot(&json, folder.path()).success());
+        let gaps = match arguments[0] {
+            "channels" => &report,
+            _ => &report["gaps"],
+        };
+        assert_eq!(gaps["unended_line"], 202);
+    }
+    let whole = std::fs::read_to_string(folder.path().join("run.csv")).unwrap() + "\n";
+    std::fs::write(folder.path().join("run.csv"), whole).unwrap();
+    let ended = dashpot(&["channels", "run.csv"], folder.path()).success();
+    assert!(!text_of(&ended).contains("line end"));
+}

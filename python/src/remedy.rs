@@ -1,0 +1,49 @@
+//! What a user of the package can do about an error, in the words of its arguments.
+
+use dashpot_hil::files::recording::Quantity;
+use dashpot_hil::remedy::Remedy;
+
+/// The message of an error with its remedy, where it has one.
+pub fn with_remedy(message: String, remedy: Option<Remedy>) -> String {
+    match remedy {
+        Some(remedy) => format!("{message}; {}", in_arguments(remedy)),
+        None => message,
+    }
+}
+
+fn in_arguments(remedy: Remedy) -> String {
+    match remedy {
+        Remedy::NameChannel(quantity) => {
+            format!("choose one with {}=NAME or its number", channel(quantity))
+        }
+        Remedy::NumberChannel { quantity, count } => format!(
+            "choose one of 1 to {count} with {}, and its unit with {}",
+            channel(quantity),
+            unit(quantity)
+        ),
+        Remedy::GiveUnit(quantity) => {
+            format!("name it: {} with {}", unit(quantity), quantity.unit_names())
+        }
+        Remedy::OverrideUnit(quantity) => format!("{} overrides it", unit(quantity)),
+        Remedy::NameGroup => "choose one with group".into(),
+        Remedy::SayWhetherHeader => "say which: header=True or header=False".into(),
+        Remedy::GiveDecimalMark => "say which holds: decimal_mark=\"point\" or \"comma\"".into(),
+        Remedy::SkipInvalid => "skip_invalid=True leaves out rows that lack a value".into(),
+    }
+}
+
+fn channel(quantity: Quantity) -> &'static str {
+    match quantity {
+        Quantity::Time => "time",
+        Quantity::Displacement => "displacement",
+        Quantity::Force => "force",
+    }
+}
+
+fn unit(quantity: Quantity) -> &'static str {
+    match quantity {
+        Quantity::Time => "time_unit",
+        Quantity::Displacement => "displacement_unit",
+        Quantity::Force => "force_unit",
+    }
+}
