@@ -1,5 +1,6 @@
-//! What a user can do about an error, as data: an error of the library names no option of the command and no argument of Python. Each front
-//! end says the remedy in its own words (`commands::remedy`, `remedy.rs` of the package for Python).
+//! What a user can do about an error, as data: an error of the library names no option of the command and no argument
+//! of Python. Each front end says the remedy in its own words (`commands::remedy`, `remedy.rs` of the package for
+//! Python).
 
 use crate::files::recording::Quantity;
 

@@ -20,7 +20,7 @@ use crate::overrides::path_of_file;
 /// With `step_s` (s) it is read on the ticks of that step, linear between samples, as `dashpot replay` does. `time`, `displacement` and `force`
 /// name the channels, `time_unit`, `displacement_unit` and `force_unit` their units, where the file does not tell; `group` is one of an MDF4 file,
 /// `header` says whether the first row of text has names, `decimal_mark` whether numbers have a `point` or a `comma`. `skip_invalid` leaves out rows
-/// that lack a value.
+/// that lack a value. A text whose last line has no line end, which may be cut inside a number, is read with a `UserWarning`.
 ///
 /// >>> import dashpot, pathlib, tempfile
 /// >>> with tempfile.TemporaryDirectory() as folder:

@@ -25,7 +25,7 @@ fn in_arguments(remedy: Remedy) -> String {
             format!("name it: {} with {}", unit(quantity), quantity.unit_names())
         }
         Remedy::OverrideUnit(quantity) => format!("{} overrides it", unit(quantity)),
-        Remedy::NameGroup => "choose one with group".into(),
+        Remedy::NameGroup => "choose one with group=NAME or its number".into(),
         Remedy::SayWhetherHeader => "say which: header=True or header=False".into(),
         Remedy::GiveDecimalMark => "say which holds: decimal_mark=\"point\" or \"comma\"".into(),
         Remedy::SkipInvalid => "skip_invalid=True leaves out rows that lack a value".into(),

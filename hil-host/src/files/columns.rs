@@ -1,4 +1,5 @@
-//! Tables of CSV as Parquet: float64 where every cell is a number or empty, text elsewhere; SHA-256 of the numbers in the metadata.
+//! Tables of CSV as Parquet: float64 where every cell is a number or empty, text elsewhere; SHA-256 of the numbers in
+//! the metadata.
 
 use std::io::{self, Write};
 use std::path::Path;

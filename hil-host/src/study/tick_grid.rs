@@ -25,8 +25,8 @@ pub struct MeasuredTick {
     pub force_n: f64,
 }
 
-/// Ticks between two rows from which on the row after them is read before any of the ticks is given: the clock of a logger may have jumped
-/// there and back again.
+/// Ticks between two rows from which on the row after them is read before any of the ticks is given: the clock of a
+/// logger may have jumped there and back again.
 const LOOK_AHEAD_TICKS: f64 = 1e3;
 
 /// What has rows of `N` values at times.

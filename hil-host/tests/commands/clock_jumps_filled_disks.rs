@@ -1,4 +1,5 @@
-//! `replay` filled a jump of the logger's clock with up to 864 million ticks on a straight line before it refused the recording.
+//! `replay` filled a jump of the logger's clock with up to 864 million ticks on a straight line before it refused the
+//! recording.
 
 use std::path::Path;
 

@@ -1,6 +1,7 @@
-//! The package for Python made its errors by replacing options in the command's texts: a name in a header with a backtick left an option in
-//! them, and a column called `--force` was reported as `force`. What is to be done is data now; here are the command's words for it, and
-//! that what they say works. The package's words are in python/tests/test_recording.py.
+//! The package for Python made its errors by replacing options in the command's texts: a name in a header with a
+//! backtick left an option in them, and a column called `--force` was reported as `force`. What is to be done is data
+//! now; here are the command's words for it, and that what they say works. The package's words are in
+//! python/tests/test_recording.py.
 
 use std::path::Path;
 
@@ -40,7 +41,7 @@ const CASES: [Case; 13] = [
     ),
     (
         "--time NAME,--force`\n0,1\n1,2\n",
-        &["--displacement", "--force`", "--displacement-unit", "m"],
+        &["--displacement=--force`", "--displacement-unit", "m"],
         "run.csv: column time_s is missing; there are `--time NAME`, `--force``; choose one with --time NAME or its number\n",
         &[
             "--displacement=2",
@@ -52,7 +53,7 @@ const CASES: [Case; 13] = [
     (
         "0.5,1\n1,2\n",
         &[],
-        "run.csv: no header says which of the 2 columns is the time; choose one of 1 to 2 with --time, and its unit with --time-unit\n",
+        "run.csv: no header says which column is the time; choose one of 1 to 2 with --time, and its unit with --time-unit\n",
         &[
             "--time=1",
             "--time-unit=s",

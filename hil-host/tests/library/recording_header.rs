@@ -76,7 +76,7 @@ fn lines_are_counted_as_an_editor_does() {
 /// A separator or a zero byte here and there does not make another kind of file.
 #[test]
 fn a_column_that_is_missing_is_reported_as_such() {
-    assert!(error_of(b"\"\"\n0\n").contains("no header tells which column is the time"));
+    assert!(error_of(b"\"\"\n0\n").contains("no header says which column is the time"));
     for header in ["time_s,force_n", "time_s,x;m,y;m", "time_s,a\0b"] {
         let error = error_of(format!("{header}\n0,0\n").as_bytes());
         let expected = "run7.csv: column displacement_m is missing; there are `time_s`, `";

@@ -187,7 +187,7 @@ fn what_may_be_several_things_is_asked_for() {
         ),
         (
             "0.5,1,2\n0.6,1,2\n",
-            "no header says which of the 3 columns is the time",
+            "no header says which column is the time",
         ),
         ("0,1,2\n1,2,3\n", "`0 1 2` may be names of columns or a row"),
         (

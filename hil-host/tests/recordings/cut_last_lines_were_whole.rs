@@ -45,7 +45,7 @@ fn a_last_line_without_an_end_is_named() {
         (format!("{header}\n0,0,125"), Some(2)),
         (format!("{header}\ns,m,N\n0,0,125"), Some(3)),
         // What is cut is no row.
-        (format!("{header}\n0,0,1\n1,0,1250.5\n# end"), None),
+        (format!("{header}\n0,0,1\n1,0,1250.5\n# end\n"), None),
         (format!("{header}\n0,0,1\n1,0,1250.5\n\n\n"), None),
         // A quote that ends, a blank: the number was whole, but there is no sign that the row was.
         (format!("{header}\n0,0,1\n1,0,\"125\""), Some(3)),

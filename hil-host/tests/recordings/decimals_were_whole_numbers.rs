@@ -1,4 +1,5 @@
-//! Parquet of old writers tells a decimal, a date or a number of 64 bits without sign by the older kind of type alone: 1.23 was read as 123.
+//! Parquet of old writers tells a decimal, a date or a number of 64 bits without sign by the older kind of type alone:
+//! 1.23 was read as 123.
 
 use std::path::Path;
 use std::sync::Arc;

@@ -1,4 +1,5 @@
-//! A changed byte of a Parquet file that Dashpot wrote gave other numbers without a word: nothing in the file said what they were.
+//! A changed byte of a Parquet file that Dashpot wrote gave other numbers without a word: nothing in the file said what
+//! they were.
 
 use std::fs::File;
 use std::io::Cursor;

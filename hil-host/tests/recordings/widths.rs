@@ -1,4 +1,5 @@
-//! Whole numbers of MDF4 of every width from 1 to 64 bits, with and without sign, little- and big-endian, at every bit of a byte, and floats.
+//! Whole numbers of MDF4 of every width from 1 to 64 bits, with and without sign, little- and big-endian, at every bit
+//! of a byte, and floats.
 
 use std::path::Path;
 

@@ -44,7 +44,8 @@ pub struct Gaps {
     pub longest: Option<Gap>,
     /// Rows left out because they lacked a value; several of them make a gap.
     pub left_out: LeftOut,
-    /// The last line of a text that was read to its end, where that line has no line end and may be cut inside its last number.
+    /// The last line of a text that was read to its end, where that line has no line end and may be cut inside its last
+    /// number.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub unended_line: Option<u64>,
 }

@@ -33,7 +33,8 @@ pub(super) trait Source {
     /// Bytes read so far, for a progress bar.
     fn position(&self) -> u64;
 
-    /// The last line of a text that was read to its end, where that line has no line end and may be cut inside its last number.
+    /// The last line of a text that was read to its end, where that line has no line end and may be cut inside its last
+    /// number.
     fn unended_line(&self) -> Option<u64> {
         None
     }

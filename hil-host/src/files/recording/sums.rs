@@ -1,5 +1,5 @@
-//! SHA-256 of the numbers of each column, in the metadata of Parquet files that Dashpot writes: a changed byte of a number is found when
-//! the column is read. Files of other programs have none.
+//! SHA-256 of the numbers of each column, in the metadata of Parquet files that Dashpot writes: a changed byte of a
+//! number is found when the column is read. Files of other programs have none.
 
 use std::collections::BTreeMap;
 

@@ -93,7 +93,7 @@ const ENDINGS: [(&str, &str); 8] = [
 ];
 
 impl Quantity {
-    /// Its name, which is that of the option that chooses its channel.
+    /// Its name.
     pub fn name(self) -> &'static str {
         match self {
             Self::Time => "time",

@@ -69,8 +69,8 @@ impl Reading {
         asked
     }
 
-    /// The numbers of `channel` in a part of the rows, the first of which is row `first`, from 0; `signal` is what the library has read of
-    /// the channel that it was [`Self::asked`] for.
+    /// The numbers of `channel` in a part of the rows, the first of which is row `first`, from 0; `signal` is what the
+    /// library has read of the channel that it was [`Self::asked`] for.
     pub(super) fn numbers(
         self,
         signal: &Signal,

@@ -1,18 +1,19 @@
-//! What can be wrong with a recording. The texts name no option or argument: [`RecordingError::remedy`] says what the user can do, and each
-//! front end says it in its own words.
+//! What can be wrong with a recording. The texts name no option or argument: [`RecordingError::remedy`] says what the
+//! user can do, and each front end says it in its own words.
+
+mod remedy;
+mod words;
 
 use super::text::{DecimalMark, Separator};
 use super::unit::Quantity;
-use crate::remedy::Remedy;
+use words::{decimal_comma, listed, missing, numbered_list};
 
 /// Most ticks that a recording may span: 24 hours at 10 kHz, so that one mistyped time does not fill a disk.
 pub(crate) const MOST_TICKS: f64 = 864e6;
 
-/// Most ticks between two samples, 1000 s at 10 kHz: more is a jump of the clock, which would fill a disk with ticks on a straight line.
+/// Most ticks between two samples, 1000 s at 10 kHz: more is a jump of the clock, which would fill a disk with ticks on
+/// a straight line.
 pub(crate) const MAX_GAP_TICKS: f64 = 1e7;
-
-/// Names of channels that a message lists at most.
-const MOST_NAMES: usize = 12;
 
 /// What is wrong with a recording; the file, and the line and column where there is one, are
 /// in [`FileError`](crate::files::FileError).
@@ -279,87 +280,4 @@ pub enum RecordingError {
         /// Time of the row (s).
         time_s: f64,
     },
-}
-
-impl RecordingError {
-    /// What the user can do about it, beyond what the text says.
-    pub fn remedy(&self) -> Option<Remedy> {
-        match self {
-            Self::MissingChannel {
-                quantity,
-                numbered: true,
-                found,
-                ..
-            } => Some(Remedy::NumberChannel {
-                quantity: *quantity,
-                count: found.len(),
-            }),
-            Self::MissingChannel { quantity, .. }
-            | Self::SeveralChannels { quantity, .. }
-            | Self::NoNumbers { quantity, .. }
-            | Self::Width { quantity, .. }
-            | Self::SameChannel {
-                quantities: [_, quantity],
-                ..
-            }
-            | Self::OtherGroup { quantity, .. } => Some(Remedy::NameChannel(*quantity)),
-            Self::Group { .. } | Self::SeveralGroups { .. } => Some(Remedy::NameGroup),
-            Self::NoUnit { quantity, .. } | Self::TwoUnits { quantity, .. } => {
-                Some(Remedy::GiveUnit(*quantity))
-            }
-            Self::UnknownUnit { quantity, .. } => Some(Remedy::OverrideUnit(*quantity)),
-            Self::HeaderOrRow { .. } => Some(Remedy::SayWhetherHeader),
-            Self::Mark { .. } => Some(Remedy::GiveDecimalMark),
-            Self::NotFinite { .. } | Self::Invalid => Some(Remedy::SkipInvalid),
-            _ => None,
-        }
-    }
-}
-
-/// A hint for rows with twice the cells.
-fn decimal_comma(cells: u64, expected: u64, separator: Separator) -> String {
-    if cells == 2 * expected && separator == Separator::Comma {
-        "; numbers with a decimal comma have twice the cells where commas separate them too: accepted are such numbers in \
-         quotes or behind another separator"
-            .into()
-    } else {
-        format!(" (separated by {})", separator.name())
-    }
-}
-
-fn missing(quantity: Quantity, name: &str, numbered: bool, found: &[String]) -> String {
-    if numbered {
-        return format!(
-            "no header says which of the {} columns is the {quantity}",
-            found.len()
-        );
-    }
-    format!("column {name} is missing; there are {}", listed(found))
-}
-
-/// Names in quotes, those beyond the first few counted.
-fn listed(names: &[String]) -> String {
-    let shown = |name: &String| {
-        let start: String = name.chars().take(40).collect();
-        format!("`{}`", start.escape_debug())
-    };
-    let mut text: Vec<String> = names.iter().take(MOST_NAMES).map(shown).collect();
-    if let Some(more) = names.len().checked_sub(MOST_NAMES).filter(|more| *more > 0) {
-        text.push(format!("{more} more"));
-    }
-    text.join(", ")
-}
-
-fn numbered_list(names: &[String]) -> String {
-    if names.is_empty() {
-        return "none in this file".into();
-    }
-    let numbered = names.iter().take(MOST_NAMES).enumerate();
-    let names: Vec<String> = numbered
-        .map(|(number, name)| match name.as_str() {
-            "" => (number + 1).to_string(),
-            name => format!("{} `{name}`", number + 1),
-        })
-        .collect();
-    names.join(", ")
 }
