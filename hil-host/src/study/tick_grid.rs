@@ -1,5 +1,7 @@
 //! Recordings on the ticks of a step.
 
+use std::collections::VecDeque;
+
 use crate::files::FileError;
 use crate::files::recording::{
     GAP_IN_MEDIANS, MAX_GAP_TICKS, MOST_TICKS, Measurement, Recording, RecordingError,
@@ -25,9 +27,12 @@ pub struct MeasuredTick {
     pub force_n: f64,
 }
 
-/// Ticks between two rows from which on the row after them is read before any of the ticks is given: the clock of a
-/// logger may have jumped there and back again.
+/// After a gap of more ticks, rows that follow are read before any tick of the gap is given: the clock of a logger may
+/// have jumped there and back again.
 const LOOK_AHEAD_TICKS: f64 = 1e3;
+
+/// How many rows are read then: a second of a logger at 1 kHz.
+const LOOK_AHEAD_ROWS: usize = 1000;
 
 /// What has rows of `N` values at times.
 trait Rows<const N: usize> {
@@ -87,8 +92,10 @@ struct Grid<R, const N: usize> {
     number: u64,
     before: (f64, [f64; N]),
     after: (f64, [f64; N]),
-    /// The row after them, where it was read already; `Some(None)` at the end.
-    ahead: Option<Option<(f64, [f64; N])>>,
+    /// Rows after them that were read already.
+    ahead: VecDeque<(f64, [f64; N])>,
+    /// Time of the row read last (s).
+    read_s: f64,
 }
 
 impl<R: Rows<N>, const N: usize> Grid<R, N> {
@@ -103,16 +110,28 @@ impl<R: Rows<N>, const N: usize> Grid<R, N> {
             number: 0,
             before: first,
             after: first,
-            ahead: None,
+            ahead: VecDeque::new(),
+            read_s: first.0,
         })
     }
 
-    /// The next row, where it is not too far from the first and from the one before, which is at `before_s` (s).
-    fn next_row(&mut self, before_s: f64) -> Result<Option<(f64, [f64; N])>, FileError> {
+    /// Reads rows that follow, so that what is wrong with them is an error before a gap is filled.
+    fn look_ahead(&mut self) -> Result<(), FileError> {
+        while self.ahead.len() < LOOK_AHEAD_ROWS {
+            let Some(row) = self.read_row()? else {
+                break;
+            };
+            self.ahead.push_back(row);
+        }
+        Ok(())
+    }
+
+    /// The row after the one read last, where it is not too far from that one and from the first.
+    fn read_row(&mut self) -> Result<Option<(f64, [f64; N])>, FileError> {
         let Some(next) = self.rows.next_row()? else {
             return Ok(None);
         };
-        let time_s = next.0;
+        let (before_s, time_s) = (self.read_s, next.0);
         let ticks = (time_s - before_s) / self.step_s;
         if time_s - self.start_s > MOST_TICKS * self.step_s {
             return Err(self.rows.in_time(RecordingError::TooLong { time_s }));
@@ -124,6 +143,7 @@ impl<R: Rows<N>, const N: usize> Grid<R, N> {
                 ticks,
             }));
         }
+        self.read_s = time_s;
         Ok(Some(next))
     }
 
@@ -134,15 +154,15 @@ impl<R: Rows<N>, const N: usize> Grid<R, N> {
         // A sample meant for a tick may lie a rounding before it.
         let slack_s = rounding_s(time_s, self.step_s);
         while self.after.0 + slack_s < time_s {
-            let next = match self.ahead.take() {
-                Some(next) => next,
-                None => self.next_row(self.after.0)?,
+            let next = match self.ahead.pop_front() {
+                Some(next) => Some(next),
+                None => self.read_row()?,
             };
             let Some(next) = next else {
                 return Ok(None);
             };
             if next.0 - self.after.0 > LOOK_AHEAD_TICKS * self.step_s {
-                self.ahead = Some(self.next_row(next.0)?);
+                self.look_ahead()?;
             }
             self.before = self.after;
             self.after = next;
