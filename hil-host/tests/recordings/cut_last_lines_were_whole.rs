@@ -3,7 +3,7 @@
 use std::io::{Cursor, Write};
 use std::path::Path;
 
-use dashpot_hil::files::recording::{Channels, Measurement};
+use dashpot_hil::files::recording::{Channels, ForceHistory, Measurement};
 
 use crate::common::{dashpot, json_of, text_of};
 
@@ -65,6 +65,18 @@ fn a_last_line_without_an_end_is_named() {
     let text = format!("{header}\n{rows}");
     assert_eq!(unended(text.as_bytes()), None);
     assert_eq!(unended(&text.as_bytes()[..text.len() - 3]), Some(9001));
+}
+
+/// As `vehicle --outside` takes them.
+#[test]
+fn recorded_forces_name_it_too() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("force.csv");
+    for (rows, expected) in [("0,0\n1,125", Some(3)), ("0,0\n1,1250.5\n", None)] {
+        std::fs::write(&path, format!("time_s,force_n\n{rows}")).unwrap();
+        let history = ForceHistory::open(&path, [0.0, 1.0]).unwrap();
+        assert_eq!(history.unended_line(), expected);
+    }
 }
 
 #[test]
