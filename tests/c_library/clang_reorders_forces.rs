@@ -11,7 +11,11 @@ use crate::standalone::{compiler, two_dampers};
 /// Each lets a compiler change sums, quotients or signs of zeros.
 const OPTIONS: [&[&str]; 5] = [
     &["-funsafe-math-optimizations"],
-    &["-fassociative-math", "-fno-signed-zeros", "-fno-trapping-math"],
+    &[
+        "-fassociative-math",
+        "-fno-signed-zeros",
+        "-fno-trapping-math",
+    ],
     &["-freciprocal-math"],
     &["-fno-signed-zeros"],
     &["-fapprox-func", "-ffp-contract=fast"],
@@ -78,7 +82,10 @@ fn without_the_pragmas_the_digest_tells() {
     let without = |text: String| {
         let kept = |line: &&str| !line.contains("float_control") && !line.contains("clang fp");
         let kept: Vec<&str> = text.lines().filter(kept).collect();
-        assert!(kept.len() + 3 <= text.lines().count(), "the pragmas are there");
+        assert!(
+            kept.len() + 3 <= text.lines().count(),
+            "the pragmas are there"
+        );
         kept.join("\n") + "\n"
     };
     for options in &OPTIONS[..2] {

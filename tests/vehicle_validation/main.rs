@@ -34,7 +34,11 @@ fn the_limits_of_service_are_those_of_the_rows() {
 fn rows_are_those_of_new_runs() {
     for name in STUDIES {
         let kept = Kept::load(name);
-        if kept.rows.values().all(|row| row.arithmetic == Arithmetic::here()) {
+        if kept
+            .rows
+            .values()
+            .all(|row| row.arithmetic == Arithmetic::here())
+        {
             assert_eq!(first_difference(&kept), None, "{name}");
             continue;
         }

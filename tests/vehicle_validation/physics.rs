@@ -41,8 +41,7 @@ fn results() -> Vec<String> {
         let single: Damper<f32> = parameters.build(1e-3).expect("a preset");
         let double: Damper<f64> = parameters.build(1e-3).expect("a preset");
         let start = motion[0];
-        let (mut in_single, mut in_double) =
-            (single.at_rest(start as f32), double.at_rest(start));
+        let (mut in_single, mut in_double) = (single.at_rest(start as f32), double.at_rest(start));
         for displacement_m in motion.iter().take(TICKS) {
             let force = single.step(&mut in_single, *displacement_m as f32);
             results.push(bits(f64::from(force)));

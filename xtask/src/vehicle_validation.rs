@@ -16,7 +16,13 @@ pub const SEEDS: u64 = 40;
 /// A study does not run, a file cannot be written, or rows do not repeat.
 pub fn vehicle_validation() -> Outcome {
     let bless = |filter: &[&str]| {
-        let test = ["test", "--package", "dashpot", "--test", "vehicle_validation"];
+        let test = [
+            "test",
+            "--package",
+            "dashpot",
+            "--test",
+            "vehicle_validation",
+        ];
         cargo_with(&[&test[..], filter].concat(), &[("DASHPOT_BLESS", "1")])
     };
     // Rows carry the digest of physics, which must be right before they are written.

@@ -11,7 +11,10 @@ fn garbage_is_named_with_its_line_and_the_way_on() {
     let text = rows(folder.path());
     let one = folder.path().join("one");
     let sweep = ["sweep", "study.toml", "--no-page", "--output", "one"];
-    let lines: Vec<&[u8]> = text.as_bytes().split_inclusive(|byte| *byte == b'\n').collect();
+    let lines: Vec<&[u8]> = text
+        .as_bytes()
+        .split_inclusive(|byte| *byte == b'\n')
+        .collect();
     for garbage in [
         &b"\0\0\0\0\0\0\n"[..],
         b"\xff\xfe\xfd\n",
@@ -30,7 +33,10 @@ fn garbage_is_named_with_its_line_and_the_way_on() {
         fs::write(&partial, &bytes).unwrap();
         let error = error_of(&dashpot(&sweep, folder.path()).code(1));
         let name = String::from_utf8_lossy(garbage);
-        assert!(error.contains("one/rows.csv.partial:6: "), "{name}: {error}");
+        assert!(
+            error.contains("one/rows.csv.partial:6: "),
+            "{name}: {error}"
+        );
         let way_on = "delete line 6 of this file, and the same command runs its case again; or start over with --anew";
         assert!(error.contains(way_on), "{name}: {error}");
         assert_eq!(fs::read(&partial).unwrap(), bytes, "nothing is changed");

@@ -19,7 +19,9 @@ fn rows_of_other_physics_are_refused_on_resume_and_merge() {
     let row = rest.lines().next().unwrap();
     let row = with_its_digest(&altered(row, "physics", header, other));
     let older = format!("{header}\n{row}\n");
-    let expected = format!(":2: column physics: `{other}`, allowed: {here}; the model behaves differently now");
+    let expected = format!(
+        ":2: column physics: `{other}`, allowed: {here}; the model behaves differently now"
+    );
     let one = folder.path().join("one");
     for name in ["rows.csv", "rows.csv.partial"] {
         fs::remove_dir_all(&one).unwrap();
@@ -33,7 +35,14 @@ fn rows_of_other_physics_are_refused_on_resume_and_merge() {
     }
     fs::write(folder.path().join("a.csv"), &text).unwrap();
     fs::write(folder.path().join("b.csv"), &older).unwrap();
-    let merge = ["merge", "study.toml", "a.csv", "b.csv", "--output", "merged"];
+    let merge = [
+        "merge",
+        "study.toml",
+        "a.csv",
+        "b.csv",
+        "--output",
+        "merged",
+    ];
     let error = error_of(&dashpot(&merge, folder.path()).code(1));
     assert!(error.contains(&format!("b.csv{expected}")), "{error}");
     assert!(!folder.path().join("merged").exists());
@@ -51,9 +60,15 @@ fn rows_of_an_earlier_dashpot_name_a_way_on() {
     fs::write(folder.path().join("one/rows.csv"), older.concat()).unwrap();
     let sweep = ["sweep", "study.toml", "--no-page", "--output", "one"];
     let error = error_of(&dashpot(&sweep, folder.path()).code(1));
-    assert!(error.contains("rows.csv:1: not the columns of the study"), "{error}");
+    assert!(
+        error.contains("rows.csv:1: not the columns of the study"),
+        "{error}"
+    );
     assert!(error.contains("start over with --anew"), "{error}");
-    let anew = dashpot(&[&sweep[..], &["--anew", "--format", "json"]].concat(), folder.path());
+    let anew = dashpot(
+        &[&sweep[..], &["--anew", "--format", "json"]].concat(),
+        folder.path(),
+    );
     let report = json_of(&anew.success());
     assert_eq!(report["physics"], physics(Arithmetic::here()));
     assert_eq!(read(folder.path(), "one/rows.csv"), text);

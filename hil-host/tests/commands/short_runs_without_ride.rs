@@ -33,7 +33,10 @@ fn a_study_of_ride_in_short_runs_is_refused_before_anything_runs() {
     // A duration that varies: each value counts.
     let varied = STUDY
         .replace("\"last_lateral_m\"", "\"sperling_vertical\"")
-        .replace("duration_s = 0.5\nvary = [\n", "vary = [\n  { parameter = \"duration_s\", values = [6, 2] },\n")
+        .replace(
+            "duration_s = 0.5\nvary = [\n",
+            "vary = [\n  { parameter = \"duration_s\", values = [6, 2] },\n",
+        )
         .replace("duration_s = 0.5", "duration_s = 5");
     let folder = folder(&varied);
     let error = error_of(&dashpot(&["sweep", "study.toml", "--list"], folder.path()).code(1));
@@ -43,8 +46,21 @@ fn a_study_of_ride_in_short_runs_is_refused_before_anything_runs() {
 #[test]
 fn a_short_run_of_a_vehicle_says_that_it_has_no_ride() {
     let folder = tempfile::tempdir().unwrap();
-    let line = ["vehicle", "--case", "straight-180", "--no-page", "--format", "json", "--output", "out"];
-    let short = dashpot(&[&line[..], &["--duration-s", "0.5"]].concat(), folder.path()).success();
+    let line = [
+        "vehicle",
+        "--case",
+        "straight-180",
+        "--no-page",
+        "--format",
+        "json",
+        "--output",
+        "out",
+    ];
+    let short = dashpot(
+        &[&line[..], &["--duration-s", "0.5"]].concat(),
+        folder.path(),
+    )
+    .success();
     assert_eq!(
         error_of(&short),
         "note: the run takes 0.5 s, and an index of ride needs a whole window of 5 s; the report will have no Sperling's index and no mean \

@@ -15,9 +15,9 @@ use crate::files::columns;
 use crate::files::input::is_standard_stream;
 use crate::files::output::{create_folder, write_bytes};
 use crate::files::study::{STUDIES, StudyParameters};
-use crate::study::sweep::rows::{Rows, RowsError};
 #[cfg(feature = "parquet")]
 use crate::study::sweep::ROW_DIGEST;
+use crate::study::sweep::rows::{Rows, RowsError};
 use crate::study::sweep::{self, Journal, Row, RunError, Shard, Study};
 use crate::study::workers;
 
@@ -277,7 +277,11 @@ impl ResultArguments {
         #[cfg(feature = "parquet")]
         if self.parquet {
             let path = folder.join("rows.parquet");
-            columns::write(&folder.join("rows.csv"), &path, &["study", "physics", ROW_DIGEST])?;
+            columns::write(
+                &folder.join("rows.csv"),
+                &path,
+                &["study", "physics", ROW_DIGEST],
+            )?;
             report.files.push(path);
         }
         if !self.no_page {

@@ -21,9 +21,12 @@ const MOST_SESSIONS: u32 = 10;
 /// Largest factor by which a wait grows. With eight tries a silent target is given up after 47 times the first wait.
 const MAX_BACK_OFF: u32 = 8;
 
+/// No wait grows beyond this: eight times the first wait for the longest frame.
+const MAX_GROWN_WAIT: Duration = Duration::from_secs(12);
+
 /// How long to wait for an answer, and how often to ask.
 ///
-/// A wait without an answer doubles the next one, up to eight times the first: the target may be slow, and every repeated request is one
+/// A wait without an answer doubles the next one, up to eight times the first and 12 s: the target may be slow, and every repeated request is one
 /// more for it to answer. The longer wait stays until answers come sooner again.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RetryLimits {
@@ -172,7 +175,8 @@ impl<L: Link> Client<L> {
             self.faults.repeated_requests += u64::from(again > 0);
             let sent = self.link.now();
             self.link.send(frame)?;
-            match self.wait(wait.saturating_mul(self.back_off))? {
+            let grown = wait.saturating_mul(self.back_off).min(MAX_GROWN_WAIT);
+            match self.wait(grown.max(wait))? {
                 Waited::Answered => {
                     // Which of several tries was answered is unknown, and so is the time it took.
                     if again == 0 {
