@@ -266,8 +266,8 @@ impl Study {
             return Ok(study);
         }
         refuse(format!(
-            "{}: its files or this version are not those that the study was read with; install the same package and the same files on every \
-             machine",
+            "{}: its files or this version are not those that the study was read with; install the same package and \
+             the same files on every machine",
             study.name
         ))
     }

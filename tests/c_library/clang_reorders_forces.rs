@@ -1,5 +1,6 @@
-//! clang compiled the portable C with `-funsafe-math-optimizations` or its part `-fassociative-math` without a word, and the forces changed:
-//! it defines no macro that an `#error` could ask for. The source now turns these options off by pragmas.
+//! clang compiled the portable C with `-funsafe-math-optimizations` or its part `-fassociative-math` without a word,
+//! and the forces changed: it defines no macro that an `#error` could ask for. The source now turns these options off
+//! by pragmas.
 
 use std::process::Command;
 

@@ -1,7 +1,9 @@
-//! The digest of physics that rows of studies carry: the SHA-256 of the forces of every preset and of the indices of a few runs, with every
-//! element of a vehicle, rails that give way, a damper that changes on the way, both laws of a damper and every index.
+//! The digest of physics that rows of studies carry: the SHA-256 of the forces of every preset and of the indices of
+//! a few runs, with every element of a vehicle, rails that give way, a damper that changes on the way, both laws of a
+//! damper and every index.
 //!
-//! `DASHPOT_BLESS=1` writes both digests into `hil-host/src/study/sweep/physics.rs`, and into the kept rows where new runs have their bits.
+//! `DASHPOT_BLESS=1` writes both digests into `hil-host/src/study/sweep/physics.rs`, and into the kept rows where new
+//! runs have their bits.
 
 use std::collections::BTreeSet;
 
@@ -92,8 +94,9 @@ fn the_digest_of_physics_is_that_of_the_model() {
     };
     assert!(
         document::blessing(),
-        "the model behaves differently, and rows of studies must not mix: physics of {arithmetic} arithmetic is {digest}, {SOURCE} has \
-         {}; DASHPOT_BLESS=1 writes it there and into the kept rows where new runs have their bits",
+        "the model behaves differently, and rows of studies must not mix: physics of {arithmetic} arithmetic is \
+         {digest}, {SOURCE} has {}; DASHPOT_BLESS=1 writes it there and into the kept rows where new runs have their \
+         bits",
         physics(*arithmetic)
     );
     let mut source = document::read(SOURCE);

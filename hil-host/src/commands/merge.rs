@@ -19,7 +19,8 @@ use crate::study::workers;
   dashpot merge paper results/rows-*-of-8.csv --output results --check 5
 
 Writes rows.csv and report.html, the same as `dashpot sweep` would have on one machine. What is missing or double is named, and nothing
-is written then; exit code 1. --check runs random cases again before anything is written, and fails where a bit differs.")]
+is written then; exit code 1. --check runs random cases again before anything is written, and fails where a bit
+differs.")]
 pub struct MergeArguments {
     #[command(flatten)]
     study: StudyArguments,

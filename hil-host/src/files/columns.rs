@@ -23,8 +23,8 @@ enum Column {
     Texts(Vec<ByteArray>),
 }
 
-/// Writes the CSV file `from`, cells under a header, as Parquet to `to`; the columns called `texts` are text whatever they look like, for a
-/// hexadecimal digest may be all digits.
+/// Writes the CSV file `from`, cells under a header, as Parquet to `to`; the columns called `texts` are text whatever
+/// they look like, for a hexadecimal digest may be all digits.
 ///
 /// # Errors
 /// A file that cannot be read or written.

@@ -1,4 +1,5 @@
-//! Rows carried the version of the program, which never changed, so rows of different physics went on and merged without a word.
+//! Rows carried the version of the program, which never changed, so rows of different physics went on and merged
+//! without a word.
 
 use std::fs;
 

@@ -24,7 +24,8 @@ fn a_study_of_ride_in_short_runs_is_refused_before_anything_runs() {
             }
             let error = error_of(&dashpot(line, folder.path()).code(1));
             let expected = format!(
-                "study.toml:5: sweep clearance: observed `{index}`: the run takes {duration} s, and an index of ride needs a whole window of 5 s"
+                "study.toml:5: sweep clearance: observed `{index}`: the run takes {duration} s, and an index of ride \
+                 needs a whole window of 5 s"
             );
             assert!(error.contains(&expected), "{error}");
             assert!(!folder.path().join("out").exists());
@@ -63,8 +64,8 @@ fn a_short_run_of_a_vehicle_says_that_it_has_no_ride() {
     .success();
     assert_eq!(
         error_of(&short),
-        "note: the run takes 0.5 s, and an index of ride needs a whole window of 5 s; the report will have no Sperling's index and no mean \
-         comfort; --duration-s makes it longer\n"
+        "note: the run takes 0.5 s, and an index of ride needs a whole window of 5 s; the report will have no \
+         Sperling's index and no mean comfort; --duration-s makes it longer\n"
     );
     assert!(json_of(&short)["indices"]["ride"][0]["sperling_vertical"].is_null());
     let long = dashpot(&[&line[..], &["--duration-s", "5"]].concat(), folder.path()).success();

@@ -1,5 +1,5 @@
-//! A compiler for another processor (`CC=aarch64-linux-gnu-gcc`) gave an FMU whose folder `x86_64-linux` held an Arm library, which nothing
-//! loads, and the export reported success.
+//! A compiler for another processor (`CC=aarch64-linux-gnu-gcc`) gave an FMU whose folder `x86_64-linux` held an Arm
+//! library, which nothing loads, and the export reported success.
 
 use std::fs;
 use std::os::unix::fs::PermissionsExt;
@@ -100,7 +100,8 @@ fn a_library_of_vehicles_for_another_processor_is_refused() {
     let output = export(folder.path(), "", &line);
     let text = String::from_utf8(output.stderr).unwrap();
     assert_eq!(output.status.code(), Some(1), "{text}");
-    let expected = "it.a: the library of vehicles holds object files of another kind (ELF, 64 bit, aarch64, no shared library)";
+    let expected = "it.a: the library of vehicles holds object files of another kind (ELF, 64 bit, aarch64, no \
+                    shared library)";
     assert!(text.contains(expected), "{text}");
     assert!(!folder.path().join("it.fmu").exists());
 }

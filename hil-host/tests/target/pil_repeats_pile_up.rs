@@ -1,5 +1,6 @@
-//! On a slow line or a busy machine `dashpot pil` gave up a target that answered every request: it repeated requests before their answers
-//! could arrive, the target answered each repeat too, and so every request waited for more repeats than the one before.
+//! On a slow line or a busy machine `dashpot pil` gave up a target that answered every request: it repeated requests
+//! before their answers could arrive, the target answered each repeat too, and so every request waited for more
+//! repeats than the one before.
 
 use std::collections::VecDeque;
 use std::net::{Ipv4Addr, TcpListener};
@@ -13,8 +14,8 @@ use dashpot_hil::target::pil::{
 use crate::common::{dashpot, error_of};
 use crate::pil_common::{built, motion};
 
-/// The firmware's device behind a slow line, in a time of its own: it takes one byte in each `byte_time`, as an emulator on a busy machine
-/// does, and its answers are under way for `latency`.
+/// The firmware's device behind a slow line, in a time of its own: it takes one byte in each `byte_time`, as an
+/// emulator on a busy machine does, and its answers are under way for `latency`.
 struct SlowLine {
     device: Box<Device<3, 3>>,
     start: Instant,

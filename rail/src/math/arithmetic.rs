@@ -22,8 +22,9 @@ pub fn fuses_multiplication() -> bool {
     dispatch!(level(), simd => is_fused(simd))
 }
 
-/// Does `work` on this thread with the arithmetic of a processor that rounds products and sums one by one; `None`, and `work` not done,
-/// where the code of this processor cannot, as on Arm. What `work` builds must not be stepped after it.
+/// Does `work` on this thread with the arithmetic of a processor that rounds products and sums one by one; `None`,
+/// and `work` not done, where the code of this processor cannot, as on Arm. What `work` builds must not be stepped
+/// after it.
 ///
 /// ```
 /// let fused = dashpot_rail::without_fused_multiplication(dashpot_rail::fuses_multiplication);

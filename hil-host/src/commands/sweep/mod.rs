@@ -33,8 +33,9 @@ Written into the folder of --output: rows.csv, a row a case with its values, its
 report.html, the page. Of a shard only rows-I-of-N.csv. The rows are the same, bit for bit, on any number of threads and shards. A case
 that derails or leaves the tables has that in its column `ending` and no indices.
 
-An interrupted command keeps its rows in a file .partial; the same command goes on with the cases that are missing. Rows of another study,
-version or physics are refused, and with --anew overwritten. Each row carries a digest of its cells: an altered row is refused.")]
+An interrupted command keeps its rows in a file .partial; the same command goes on with the cases that are missing.
+Rows of another study, version or physics are refused, and with --anew overwritten. Each row carries a digest of its
+cells: an altered row is refused.")]
 pub struct SweepArguments {
     #[command(flatten)]
     study: StudyArguments,

@@ -153,7 +153,8 @@ pub fn run(arguments: &VehicleArguments) -> Outcome<()> {
     }
 }
 
-/// Says before the run, which may take long, that it will have no indices of ride. The report goes to standard output, this beside it.
+/// Says before the run, which may take long, that it will have no indices of ride. The report goes to standard
+/// output, this beside it.
 fn note_missing_ride(case: &Case) {
     let Err(reason) = check_ride(case) else {
         return;

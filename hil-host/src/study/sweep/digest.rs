@@ -1,4 +1,5 @@
-//! Digests: of the cases of a study, so that rows of different studies are not mixed, and of a row, so that an altered one is noticed.
+//! Digests: of the cases of a study, so that rows of different studies are not mixed, and of a row, so that an
+//! altered one is noticed.
 
 use std::fmt::Debug;
 
@@ -9,7 +10,8 @@ use crate::files::input;
 use crate::files::track::IrregularityParameters;
 use crate::files::{FileError, study::StudyFileError};
 
-/// The digest of a row's cells, those before its own: the first 16 hexadecimal digits of the SHA-256 of each cell and its length.
+/// The digest of a row's cells, those before its own: the first 16 hexadecimal digits of the SHA-256 of each cell and
+/// its length.
 ///
 /// ```
 /// use dashpot_hil::study::sweep::digest_of_cells;

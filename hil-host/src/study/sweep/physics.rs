@@ -2,8 +2,9 @@
 
 use super::row::Arithmetic;
 
-/// SHA-256, its first 16 digits, of the results of short runs with fused multiplication and without. A test recomputes and writes them
-/// (`tests/vehicle_validation/physics.rs`): a change of the model changes them, a change of words does not.
+/// SHA-256, its first 16 digits, of the results of short runs with fused multiplication and without. A test
+/// recomputes and writes them (`tests/vehicle_validation/physics.rs`): a change of the model changes them, a change
+/// of words does not.
 const FUSED: &str = "c916e7a2dbf2f30d";
 const SEPARATE: &str = "4da9014a24aa4a7d";
 

@@ -51,8 +51,8 @@ impl Study {
     /// Checks every value of every axis once, the other axes at their first.
     ///
     /// # Errors
-    /// An index that there is not, or that runs of a sweep are too short for; a value or case that is refused, with file and line; too many
-    /// cases.
+    /// An index that there is not, or that runs of a sweep are too short for; a value or case that is refused, with
+    /// file and line; too many cases.
     ///
     /// ```
     /// use dashpot_hil::files::study::StudyParameters;
@@ -278,7 +278,8 @@ fn check(
                 name: study.file.clone(),
                 line: sweep.line,
                 message: format!(
-                    "sweep {}: observed `{}`: {reason}; allowed: a longer duration_s, or this index left out of `observed`",
+                    "sweep {}: observed `{}`: {reason}; allowed: a longer duration_s, or this index left out of \
+                     `observed`",
                     sweep.name, index.name
                 ),
             });

@@ -26,8 +26,8 @@ const MAX_GROWN_WAIT: Duration = Duration::from_secs(12);
 
 /// How long to wait for an answer, and how often to ask.
 ///
-/// A wait without an answer doubles the next one, up to eight times the first and 12 s: the target may be slow, and every repeated request is one
-/// more for it to answer. The longer wait stays until answers come sooner again.
+/// A wait without an answer doubles the next one, up to eight times the first and 12 s: the target may be slow, and
+/// every repeated request is one more for it to answer. The longer wait stays until answers come sooner again.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RetryLimits {
     /// First wait, beside the time the bytes of a request take.
@@ -234,8 +234,8 @@ impl<L: Link> Client<L> {
                 let (header, response) = parse(message).ok_or(LinkError::Unreadable)?;
                 if response == Response::Refused(Refusal::Corrupt) {
                     self.faults.corrupt_requests += 1;
-                    // Answers come in the order of the requests: this one may be to a repeat of an earlier one, part of which the target
-                    // dropped while it was busy.
+                    // Answers come in the order of the requests: this one may be to a repeat of an earlier one, part
+                    // of which the target dropped while it was busy.
                     if self.late_repeats > 0 {
                         self.late_repeats -= 1;
                         continue;

@@ -50,8 +50,8 @@ pub enum CompileError {
     },
     /// The compiler built a library for another platform.
     #[error(
-        "the C compiler {compiler} built {}, needed for {platform}: {needed}; allowed: a compiler for this platform by the variable CC, \
-         or no library with --sources-only",
+        "the C compiler {compiler} built {}, needed for {platform}: {needed}; allowed: a compiler for this platform \
+         by the variable CC, or no library with --sources-only",
         described(.found.as_ref())
     )]
     OtherMachine {
@@ -66,8 +66,8 @@ pub enum CompileError {
     },
     /// The library of vehicles is of another platform.
     #[error(
-        "{}: the library of vehicles holds object files of another kind ({found}), needed for {platform}: {needed}; allowed: --library FILE \
-         with one built for this platform",
+        "{}: the library of vehicles holds object files of another kind ({found}), needed for {platform}: {needed}; \
+         allowed: --library FILE with one built for this platform",
         library.display()
     )]
     OtherLibrary {

@@ -112,7 +112,8 @@ impl Machine {
         }
     }
 
-    /// Whether a linker can put this object file into a library for `platform`. A processor that the tables above lack is not compared.
+    /// Whether a linker can put this object file into a library for `platform`. A processor that the tables above
+    /// lack is not compared.
     pub fn links_into(&self, platform: &Self) -> bool {
         let has_name = |processor| match processor {
             Processor::Known(name) => platform.form.names().iter().any(|known| known.1 == name),
@@ -238,8 +239,8 @@ fn mach_o(bytes: &[u8]) -> Option<Machine> {
     })
 }
 
-/// A Mach-O file of several processors: that of this one, else the first. Big-endian: the magic number, how many there are, and for each
-/// five words, of which the third is the offset.
+/// A Mach-O file of several processors: that of this one, else the first. Big-endian: the magic number, how many
+/// there are, and for each five words, of which the third is the offset.
 fn universal(bytes: &[u8]) -> Option<Machine> {
     let big = |at| word(bytes, at).map(u32::swap_bytes);
     if big(0)? != 0xcafe_babe {

@@ -19,7 +19,7 @@
 #endif
 
 /* clang defines no macro for -funsafe-math-optimizations and its parts (-fassociative-math, -freciprocal-math,
- * -fno-signed-zeros), so no #error can refuse them. Its pragmas turn them off instead; prefix_digest finds what is left. */
+ * -fno-signed-zeros), so no #error can refuse them. Its pragmas turn them off; prefix_digest finds what is left. */
 #if defined(__clang__)
 #pragma STDC FP_CONTRACT OFF
 #if defined(__x86_64__) || defined(__i386__)
