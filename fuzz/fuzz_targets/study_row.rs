@@ -1,10 +1,10 @@
-//! Any text as a row of a study: refused, or one that is written as it was read.
+//! Any text as a row of a study, with the digests it needs: refused, or one that is written as it was read.
 #![no_main]
 
 use std::sync::LazyLock;
 
 use dashpot_hil::files::study::StudyParameters;
-use dashpot_hil::study::sweep::Study;
+use dashpot_hil::study::sweep::{Arithmetic, Study, digest_of_cells, physics};
 use libfuzzer_sys::fuzz_target;
 
 static STUDY: LazyLock<Study> = LazyLock::new(|| {
@@ -13,7 +13,15 @@ static STUDY: LazyLock<Study> = LazyLock::new(|| {
 });
 
 fuzz_target!(|text: &str| {
-    let Ok(row) = STUDY.row(text.split(',')) else {
+    let _ = STUDY.row(text.split(','));
+    let mut cells: Vec<&str> = text.split(',').collect();
+    cells.push(match cells.last() {
+        Some(&"separate") => physics(Arithmetic::Separate),
+        _ => physics(Arithmetic::Fused),
+    });
+    let digest = digest_of_cells(cells.iter().copied());
+    cells.push(&digest);
+    let Ok(row) = STUDY.row(cells.into_iter()) else {
         return;
     };
     let case = STUDY.case(row.case).expect("a case of the study");

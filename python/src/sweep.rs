@@ -1,7 +1,7 @@
 //! Studies: many cases of a vehicle, a row of indices each, by their numbers.
 
 use dashpot_hil::files::study::{StudyParameters, Value};
-use dashpot_hil::study::sweep::{self, Row, Shard};
+use dashpot_hil::study::sweep::{self, Arithmetic, Row, Shard};
 use dashpot_hil::study::workers;
 use numpy::PyArray1;
 use pyo3::exceptions::PyIndexError;
@@ -115,6 +115,12 @@ impl Study {
         }
         Ok(columns)
     }
+}
+
+/// What must be the same where a study is sent to: its cases, the version and the physics.
+fn identity(study: &sweep::Study) -> String {
+    let [fused, separate] = [Arithmetic::Fused, Arithmetic::Separate].map(sweep::physics);
+    [study.digest(), sweep::VERSION, fused, separate].join(" ")
 }
 
 /// How many seeds are asked for.
@@ -256,11 +262,12 @@ impl Study {
     ) -> Outcome<Self> {
         let seeds = seeds_of(seeds)?;
         let study = py.detach(|| Self::read(name, text, seeds))?;
-        if study.study.digest() == digest {
+        if identity(&study.study) == digest {
             return Ok(study);
         }
         refuse(format!(
-            "{}: its files or this version are not those that the study was read with",
+            "{}: its files or this version are not those that the study was read with; install the same package and \
+             the same files on every machine",
             study.name
         ))
     }
@@ -272,7 +279,7 @@ impl Study {
             seeds,
             study,
         } = slf.get();
-        let digest = study.digest().to_owned();
+        let digest = identity(study);
         let arguments = (name.clone(), text.clone(), *seeds, digest);
         pickled(slf.get_type().getattr("_restore")?, arguments)
     }

@@ -10,4 +10,4 @@ pub mod profile;
 pub mod track;
 pub mod vehicle;
 
-pub use math::fuses_multiplication;
+pub use math::{fuses_multiplication, without_fused_multiplication};

@@ -1,5 +1,6 @@
 //! The C library: its header, and the example on the host and on targets; C without a library.
 
+mod clang_reorders_forces;
 mod header;
 mod host;
 mod standalone;

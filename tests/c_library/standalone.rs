@@ -36,7 +36,7 @@ fn compilers() -> Vec<(Tool, &'static [&'static str])> {
 }
 
 /// A compiler whose warnings are errors.
-fn compiler(tool: Tool, options: &[&str]) -> Command {
+pub fn compiler(tool: Tool, options: &[&str]) -> Command {
     let mut command = Command::new(tool.program);
     command.args(options).args(WARNINGS);
     command
@@ -226,7 +226,7 @@ fn no_request_is_undefined() {
 }
 
 /// Writes two dampers, one of either scalar, and a program that tells whether the compiler kept their bits.
-fn two_dampers(folder: &Path) {
+pub fn two_dampers(folder: &Path) {
     let parameters = damper("in-service", &[]);
     let single: Damper<f32> = parameters.build(STEP_S).expect("a preset");
     let double: Damper<f64> = parameters.build(STEP_S).expect("a preset");

@@ -127,8 +127,11 @@ fn study_rows_are_of_a_shipped_study() {
             observed: vec![observed],
         };
         let case = study.case(number).expect("a case");
-        let text = study.record(&case, &row).join(",");
-        assert_eq!(study.row(text.split(',')), Ok(row));
+        let record = study.record(&case, &row);
+        let cells = record.iter().map(String::as_str);
+        assert_eq!(study.row(cells), Ok(row));
+        // The target adds the digests of physics and row, which a changed text has not.
+        let text = record[..record.len() - 2].join(",");
         (format!("row_{number}"), text.into_bytes())
     };
     compare(

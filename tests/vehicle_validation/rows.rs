@@ -2,7 +2,7 @@
 
 use dashpot::document;
 use dashpot_hil::files::study::{StudyParameters, Sweep, Value};
-use dashpot_hil::study::sweep::rows::{self, Rows};
+use dashpot_hil::study::sweep::rows::{self, Rows, RowsError};
 use dashpot_hil::study::sweep::{Estimate, Study};
 use xtask::vehicle_validation::SEEDS;
 
@@ -15,14 +15,22 @@ pub struct Kept {
 impl Kept {
     /// A study that ships, with `data/studies/rows/` of its name.
     pub fn load(name: &str) -> Self {
+        Self::read(name).unwrap_or_else(|error| {
+            panic!("{error}\nthe rows are written by `cargo xtask vehicle-validation`")
+        })
+    }
+
+    /// As [`Self::load`].
+    ///
+    /// # Errors
+    /// Rows that this program refuses.
+    pub fn read(name: &str) -> Result<Self, RowsError> {
         let parameters = StudyParameters::load(name).expect("a shipped study");
         let study = Study::new(parameters.with_seeds(SEEDS)).expect("a shipped study");
         let path = document::in_repository(&format!("data/studies/rows/{name}.csv"));
-        let rows = rows::read_once(&study, path.as_ref()).unwrap_or_else(|error| {
-            panic!("{error}\nthe rows are written by `cargo xtask vehicle-validation`")
-        });
+        let rows = rows::read_once(&study, path.as_ref())?;
         assert_eq!(rows.len() as u64, study.cases(), "every case of {name}");
-        Self { study, rows }
+        Ok(Self { study, rows })
     }
 
     pub fn sweep(&self, name: &str) -> &Sweep {

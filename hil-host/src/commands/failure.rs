@@ -45,6 +45,16 @@ pub enum Kind {
     OutputClosed,
 }
 
+/// The options that help where a target does not answer in time; nothing for other errors.
+pub(super) fn remedy(error: &LinkError) -> &'static str {
+    match error {
+        LinkError::Silent { .. } => {
+            "; allowed: a longer first wait by --timeout-ms, more tries by --tries"
+        }
+        _ => "",
+    }
+}
+
 /// Result of a command or a part of one.
 pub type Outcome<T> = Result<T, Failure>;
 
@@ -303,6 +313,7 @@ impl From<LinkError> for Failure {
             LinkError::Emulator(EmulatorError::NoImage(_)) => {
                 Self::new(format!("{error}, or name one with --link qemu:IMAGE"))
             }
+            LinkError::Silent { .. } => Self::new(format!("{error}{}", remedy(&error))),
             other => Self::new(other.to_string()),
         }
     }
@@ -313,6 +324,9 @@ impl From<SessionError> for Failure {
         match error {
             SessionError::Link(error) => error.into(),
             SessionError::Dampers { .. } => Self::wrong_use(format!("--damper: {error}")),
+            SessionError::After { ref source, .. } => {
+                Self::new(format!("{error}{}", remedy(source)))
+            }
             other => Self::new(other.to_string()),
         }
     }

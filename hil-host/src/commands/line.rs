@@ -18,7 +18,7 @@ pub struct LineArguments {
 /// How a line is used, whichever it is.
 #[derive(Debug, Clone, PartialEq, Eq, clap::Args)]
 pub struct LineOptions {
-    /// Wait for an answer, ms.
+    /// First wait for an answer, ms; each wait without one doubles the next, up to eight times the first and 12 s.
     #[arg(long, default_value_t = TIMEOUT_MS, value_parser = clap::value_parser!(u64).range(1..=60_000), value_name = "MS")]
     timeout_ms: u64,
     /// Tries of a request before the target counts as silent.

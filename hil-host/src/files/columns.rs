@@ -25,14 +25,15 @@ enum Column {
     Texts(Vec<ByteArray>),
 }
 
-/// Writes the CSV file `from`, cells under a header, as Parquet to `to`.
+/// Writes the CSV file `from`, cells under a header, as Parquet to `to`; the columns called `texts` are text whatever
+/// they look like, for a hexadecimal digest may be all digits.
 ///
 /// # Errors
 /// A file that cannot be read or written.
-pub fn write(from: &Path, to: &Path) -> Result<(), FileError> {
+pub fn write(from: &Path, to: &Path, texts: &[&str]) -> Result<(), FileError> {
     let unreadable = |error: csv::Error| FileError::in_file(from, error);
     let unwritable = |error: ParquetError| cannot_write(to, io::Error::other(error));
-    let are_numbers = numbers(from)?;
+    let are_numbers = numbers(from, texts)?;
     let mut rows = csv::Reader::from_path(from).map_err(unreadable)?;
     let names = rows.headers().map_err(unreadable)?.clone();
     let schema = schema(names.iter().zip(&are_numbers)).map_err(unwritable)?;
@@ -85,11 +86,12 @@ pub fn write(from: &Path, to: &Path) -> Result<(), FileError> {
 }
 
 /// Whether every cell of each column is a number or empty, and one at least a number.
-fn numbers(from: &Path) -> Result<Vec<bool>, FileError> {
+fn numbers(from: &Path, texts: &[&str]) -> Result<Vec<bool>, FileError> {
     let unreadable = |error: csv::Error| FileError::in_file(from, error);
     let mut rows = csv::Reader::from_path(from).map_err(unreadable)?;
-    let count = rows.headers().map_err(unreadable)?.len();
-    let (mut are, mut have) = (vec![true; count], vec![false; count]);
+    let names = rows.headers().map_err(unreadable)?;
+    let mut are: Vec<bool> = names.iter().map(|name| !texts.contains(&name)).collect();
+    let mut have = vec![false; are.len()];
     let mut row = csv::StringRecord::new();
     while rows.read_record(&mut row).map_err(unreadable)? {
         for (number, cell) in row.iter().enumerate() {

@@ -1,5 +1,6 @@
 //! `dashpot` from outside, as its users run it.
 
+mod an_altered_row;
 mod bench_to_firmware;
 mod budget;
 mod c_library_page;
@@ -15,6 +16,7 @@ mod export_health;
 mod export_standalone;
 mod firmware_bank;
 mod gaps;
+mod garbage_among_rows;
 mod interruption;
 mod labview_page;
 mod modes;
@@ -25,8 +27,10 @@ mod response;
 mod rig;
 mod rig_report;
 mod rig_sheet;
+mod rows_of_other_physics;
 mod shims;
 mod shims_plates;
+mod short_runs_without_ride;
 mod standard_streams;
 mod step_size;
 mod sweep;

@@ -4,14 +4,15 @@ use std::fs::{self, File};
 use std::path::Path;
 use std::process::{Child, Stdio};
 
+use dashpot_hil::study::sweep::{Arithmetic, digest_of_cells, physics};
 use tempfile::TempDir;
 
 use crate::common::{command, dashpot, error_of, files_in, json_of, text_of};
 
 /// Twelve cases of half a second.
-const STUDY: &str = r#"name = "small"
+pub const STUDY: &str = r#"name = "small"
 seeds = [1, 2]
-observed = ["body_vertical_rms_m_per_s2", "derailment_greatest", "sperling_vertical"]
+observed = ["body_vertical_rms_m_per_s2", "derailment_greatest", "last_lateral_m"]
 
 [[sweep]]
 name = "clearance"
@@ -47,18 +48,32 @@ const ON_ONE_THREAD: [&str; 7] = [
 ];
 
 /// A folder with the study in it.
-fn folder(study: &str) -> TempDir {
+pub fn folder(study: &str) -> TempDir {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("study.toml"), study).unwrap();
     folder
 }
 
-fn read(folder: &Path, name: &str) -> String {
+pub fn read(folder: &Path, name: &str) -> String {
     fs::read_to_string(folder.join(name)).unwrap()
 }
 
+/// The row with another cell in the column of a name.
+pub fn altered(row: &str, column: &str, header: &str, cell: &str) -> String {
+    let at = header.split(',').position(|name| name == column).unwrap();
+    let mut cells: Vec<&str> = row.split(',').collect();
+    cells[at] = cell;
+    cells.join(",")
+}
+
+/// The row with the digest of its cells.
+pub fn with_its_digest(row: &str) -> String {
+    let (cells, _) = row.rsplit_once(',').unwrap();
+    format!("{cells},{}", digest_of_cells(cells.split(',')))
+}
+
 /// The rows of the study in the folder, by one thread.
-fn rows(folder: &Path) -> String {
+pub fn rows(folder: &Path) -> String {
     dashpot(&ON_ONE_THREAD, folder).success();
     read(folder, "one/rows.csv")
 }
@@ -107,10 +122,6 @@ fn rows_are_those_of_the_vehicle_command() {
         "ending",
     ];
     assert_eq!(columns.map(|column| row[column].as_str()), expected);
-    assert_eq!(
-        row["sperling_vertical"], "",
-        "no window of 5 s in half a second"
-    );
     let case = [
         "vehicle",
         "--track",
@@ -202,17 +213,14 @@ fn merge_names_what_is_missing_and_what_is_double() {
     );
     assert!(!folder.path().join("merged").exists(), "nothing is written");
     // Of a processor of the other kind.
-    let arithmetic = rows[0].rsplit(',').next().unwrap();
-    let other = if arithmetic == "fused" {
-        "separate"
-    } else {
-        "fused"
+    let (arithmetic, other) = match Arithmetic::here() {
+        Arithmetic::Fused => (Arithmetic::Fused, Arithmetic::Separate),
+        Arithmetic::Separate => (Arithmetic::Separate, Arithmetic::Fused),
     };
-    fs::write(
-        folder.path().join("c.csv"),
-        whole.replace(arithmetic, other),
-    )
-    .unwrap();
+    let row = altered(rows[0], "arithmetic", header, other.word());
+    let row = altered(&row, "physics", header, physics(other));
+    let text = format!("{header}\n{}\n", with_its_digest(&row));
+    fs::write(folder.path().join("c.csv"), text).unwrap();
     let error =
         error_of(&dashpot(&["merge", "study.toml", "a.csv", "c.csv"], folder.path()).code(1));
     let expected = format!("c.csv: case 0: arithmetic {other}, allowed here: {arithmetic}");
@@ -236,7 +244,7 @@ fn merge_names_what_is_missing_and_what_is_double() {
             row.replacen("completed,", "completed,NaN", 1),
             "column body_vertical_rms_m_per_s2: `NaN",
         ),
-        (row.replacen(",completed", "", 1), "12 columns, allowed: 13"),
+        (row.replacen(",completed", "", 1), "14 columns, allowed: 15"),
     ] {
         fs::write(
             folder.path().join("c.csv"),
@@ -520,7 +528,7 @@ fn what_is_wrong_is_told_before_anything_runs() {
             "study.toml:12: vary: vertical.mount.clearance_m twice",
         ),
         (
-            "observed = [\"body_vertical_rms_m_per_s2\", \"derailment_greatest\", \"sperling_vertical\"]",
+            "observed = [\"body_vertical_rms_m_per_s2\", \"derailment_greatest\", \"last_lateral_m\"]",
             "observed = []",
             "study.toml:3: observed: allowed: one index or more, each once",
         ),

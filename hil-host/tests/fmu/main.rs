@@ -1,5 +1,6 @@
 //! FMUs as importers use them: by a driver in C over the official headers, and by FMPy.
 
+mod another_processors_library;
 #[path = "../common/mod.rs"]
 mod common;
 mod driver;

@@ -15,6 +15,7 @@ mod pil_command;
 mod pil_common;
 mod pil_interruption;
 mod pil_pacing;
+mod pil_repeats_pile_up;
 mod pil_run;
 mod pil_tcp;
 mod vehicle_outside;

@@ -34,7 +34,7 @@ fn the_wait_allows_for_the_time_a_long_frame_takes() {
     let mut client = Client::new(Nobody(Instant::now(), Rc::clone(&waits)), once, 1);
     let image = &[0; Damper::<f32>::IMAGE_BYTES];
     let silent = client.request(&Request::Load { damper: 0, image });
-    assert!(matches!(silent, Err(LinkError::Silent(retry_limits)) if retry_limits == once));
+    assert!(matches!(silent, Err(LinkError::Silent { limits, .. }) if limits == once));
     // At 115200 bit/s a bridge is busy with these bytes for 0.58 s.
     let busy = Duration::from_secs_f64(image.len() as f64 * 10.0 / 115_200.0);
     let [wait] = waits.borrow()[..] else {

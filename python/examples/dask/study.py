@@ -7,7 +7,7 @@ import dashpot
 if __name__ == "__main__":
     study = dashpot.Study.from_toml("""
 name = "clearance"
-observed = ["sperling_vertical", "derailment_greatest"]
+observed = ["body_vertical_rms_m_per_s2", "derailment_greatest"]
 [[sweep]]
 name = "clearance"
 case = "straight-180"

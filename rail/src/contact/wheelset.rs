@@ -81,7 +81,7 @@ impl<L: CreepLaw, S: PatchSource> WheelsetContact<L, S> {
             surface,
             lengths_in_lanes: left_lengths.zip(right_lengths, in_lanes),
             lengths,
-            level: Level::new(),
+            level: crate::math::level(),
             sources: [left, right],
         })
     }

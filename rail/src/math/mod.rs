@@ -7,4 +7,5 @@ pub(crate) mod elliptic;
 pub(crate) mod number;
 pub(crate) mod spline;
 
-pub use arithmetic::fuses_multiplication;
+pub(crate) use arithmetic::level;
+pub use arithmetic::{fuses_multiplication, without_fused_multiplication};

@@ -6,7 +6,7 @@ mod report;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-pub(super) use report::{Report, print};
+pub(super) use report::{Checked, Report, print};
 
 use super::{Format, interruption, print_report, progress};
 use crate::commands::failure::{Failure, Outcome};
@@ -15,7 +15,9 @@ use crate::files::columns;
 use crate::files::input::is_standard_stream;
 use crate::files::output::{create_folder, write_bytes};
 use crate::files::study::{STUDIES, StudyParameters};
-use crate::study::sweep::rows::Rows;
+#[cfg(feature = "parquet")]
+use crate::study::sweep::ROW_DIGEST;
+use crate::study::sweep::rows::{Rows, RowsError};
 use crate::study::sweep::{self, Journal, Row, RunError, Shard, Study};
 use crate::study::workers;
 
@@ -31,8 +33,9 @@ Written into the folder of --output: rows.csv, a row a case with its values, its
 report.html, the page. Of a shard only rows-I-of-N.csv. The rows are the same, bit for bit, on any number of threads and shards. A case
 that derails or leaves the tables has that in its column `ending` and no indices.
 
-An interrupted command keeps its rows in a file .partial; the same command goes on with the cases that are missing. Rows of another study
-or version are refused, and with --anew overwritten.")]
+An interrupted command keeps its rows in a file .partial; the same command goes on with the cases that are missing.
+Rows of another study, version or physics are refused, and with --anew overwritten. Each row carries a digest of its
+cells: an altered row is refused.")]
 pub struct SweepArguments {
     #[command(flatten)]
     study: StudyArguments,
@@ -146,7 +149,7 @@ pub fn run(arguments: &SweepArguments) -> Outcome<()> {
         None => "rows.csv".into(),
     };
     let path = folder.join(name);
-    let mut journal = Journal::open(&study, &path, shard, arguments.anew)?;
+    let mut journal = Journal::open(&study, &path, shard, arguments.anew).map_err(refused)?;
     let known = journal.rows();
     let part: Vec<u64> = study.part(shard).collect();
     let missing: Vec<u64> = part
@@ -216,6 +219,29 @@ fn run_missing(
     done
 }
 
+/// Rows that a study cannot go on with, and the way on.
+fn refused(error: RowsError) -> Failure {
+    let way_on = match &error {
+        RowsError::File(_) => return error.into(),
+        RowsError::Damaged { line, .. } => format!(
+            "delete line {line} of this file, and the same command runs its case again; or start over with --anew"
+        ),
+        RowsError::Foreign(_) => {
+            "start over with --anew, or keep these rows and write elsewhere with --output".into()
+        }
+    };
+    Failure::new(format!("{error}; {way_on}"))
+}
+
+impl From<RowsError> for Failure {
+    fn from(error: RowsError) -> Self {
+        match error {
+            RowsError::File(error) => error.into(),
+            other => Self::new(other.to_string()),
+        }
+    }
+}
+
 impl ResultArguments {
     /// Refuses what this build has not.
     pub(super) fn check(&self) -> Outcome<()> {
@@ -252,7 +278,11 @@ impl ResultArguments {
         #[cfg(feature = "parquet")]
         if self.parquet {
             let path = folder.join("rows.parquet");
-            columns::write(&folder.join("rows.csv"), &path)?;
+            columns::write(
+                &folder.join("rows.csv"),
+                &path,
+                &["study", "physics", ROW_DIGEST],
+            )?;
             report.files.push(path);
         }
         if !self.no_page {

@@ -12,7 +12,7 @@ use crate::commands::failure::Outcome;
 use crate::commands::{counted, print_report};
 use crate::files::output;
 use crate::study::sweep::rows::Rows;
-use crate::study::sweep::{Study, VERSION};
+use crate::study::sweep::{Arithmetic, Study, VERSION, physics};
 
 /// What is told of a study.
 #[derive(Serialize)]
@@ -20,6 +20,8 @@ pub(in crate::commands) struct Report {
     study: String,
     digest: String,
     version: &'static str,
+    /// Digest of the behaviour of the model.
+    pub(super) physics: &'static str,
     /// Rows there are.
     rows: usize,
     /// Cases run now.
@@ -28,7 +30,19 @@ pub(in crate::commands) struct Report {
     took_s: f64,
     /// Cases that did not come to their end, by how they ended.
     not_completed: BTreeMap<String, Vec<u64>>,
+    /// Cases that `merge --check` ran again, with the same bits.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(in crate::commands) checked: Option<Checked>,
     pub(in crate::commands) files: Vec<PathBuf>,
+}
+
+/// Rows that were run again.
+#[derive(Serialize)]
+pub(in crate::commands) struct Checked {
+    /// Numbers of their cases.
+    pub(in crate::commands) cases: Vec<u64>,
+    /// Seed of the choice.
+    pub(in crate::commands) seed: u64,
 }
 
 impl Report {
@@ -50,10 +64,16 @@ impl Report {
             study: study.parameters.name.clone(),
             digest: study.digest().to_owned(),
             version: VERSION,
+            physics: physics(
+                rows.values()
+                    .next()
+                    .map_or_else(Arithmetic::here, |row| row.arithmetic),
+            ),
             rows: rows.len(),
             run_now,
             took_s: took.as_secs_f64(),
             not_completed,
+            checked: None,
             files: Vec::new(),
         }
     }
@@ -86,13 +106,18 @@ pub(in crate::commands) fn print(out: &mut dyn Write, report: &Report) -> io::Re
         study,
         digest,
         version,
+        physics,
         rows,
         run_now,
         took_s,
+        checked,
         files,
         ..
     } = report;
-    writeln!(out, "{study}\nstudy {digest}, version {version}")?;
+    writeln!(
+        out,
+        "{study}\nstudy {digest}, version {version}, physics {physics}"
+    )?;
     let rows = counted(*rows as u64, "case");
     match run_now {
         0 => writeln!(out, "{rows}, none run now")?,
@@ -100,6 +125,15 @@ pub(in crate::commands) fn print(out: &mut dyn Write, report: &Report) -> io::Re
     }
     if let Some(told) = report.not_completed() {
         writeln!(out, "{told}")?;
+    }
+    if let Some(Checked { cases, seed }) = checked {
+        let count = counted(cases.len() as u64, "case");
+        let numbers: Vec<String> = cases.iter().map(u64::to_string).collect();
+        let numbers = numbers.join(", ");
+        writeln!(
+            out,
+            "{count} run again (--check-seed {seed}), the same bits: {numbers}"
+        )?;
     }
     writeln!(out)?;
     for file in files {

@@ -10,6 +10,7 @@ mod page;
 mod report;
 mod spectra;
 
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use history::History;
@@ -25,7 +26,7 @@ use crate::files::columns;
 use crate::files::output::{cannot_write_rows, create_folder, write_bytes, write_whole};
 use crate::realtime::pacing::Pacer;
 use crate::study::vehicle::recorded::all_signals;
-use crate::study::vehicle::{Ending, Indexer, Run, signals};
+use crate::study::vehicle::{Ending, Indexer, NoRide, Run, check_ride, signals};
 
 /// A vehicle on a track: time histories, indices and a page.
 #[derive(Debug, Clone, clap::Args)]
@@ -97,6 +98,7 @@ pub fn run(arguments: &VehicleArguments) -> Outcome<()> {
     if arguments.check {
         return check::run(&case, arguments.format);
     }
+    note_missing_ride(&case);
     let mut outside = arguments.outside.read(&case)?;
     let mut run = Run::new(&case).map_err(|error| options::refused(&case, &error))?;
     if let Some(outside) = &mut outside {
@@ -120,7 +122,7 @@ pub fn run(arguments: &VehicleArguments) -> Outcome<()> {
     #[cfg(feature = "parquet")]
     if arguments.parquet {
         let columns = folder.join("history.parquet");
-        columns::write(&path, &columns)?;
+        columns::write(&path, &columns, &[])?;
         report.files.push(columns);
     }
     let mut spectra = spectra::of_case(&case)?;
@@ -149,6 +151,22 @@ pub fn run(arguments: &VehicleArguments) -> Outcome<()> {
         Ending::Completed => Ok(()),
         ending => Err(Failure::new(ending.to_string())),
     }
+}
+
+/// Says before the run, which may take long, that it will have no indices of ride. The report goes to standard
+/// output, this beside it.
+fn note_missing_ride(case: &Case) {
+    let Err(reason) = check_ride(case) else {
+        return;
+    };
+    let way_on = match reason {
+        NoRide::Short { .. } => "--duration-s makes it longer",
+        NoRide::Step { .. } => "--step-us sets another step",
+    };
+    let note = format!(
+        "note: {reason}; the report will have no Sperling's index and no mean comfort; {way_on}\n"
+    );
+    let _ = io::stderr().lock().write_all(note.as_bytes());
 }
 
 /// Runs to the end, and writes a row for each tick.

@@ -1,4 +1,5 @@
-//! Of what the cases of a study are, so that rows of different studies are not mixed.
+//! Digests: of the cases of a study, so that rows of different studies are not mixed, and of a row, so that an
+//! altered one is noticed.
 
 use std::fmt::Debug;
 
@@ -8,6 +9,24 @@ use crate::files::case::Case;
 use crate::files::input;
 use crate::files::track::IrregularityParameters;
 use crate::files::{FileError, study::StudyFileError};
+
+/// The digest of a row's cells, those before its own: the first 16 hexadecimal digits of the SHA-256 of each cell and
+/// its length.
+///
+/// ```
+/// use dashpot_hil::study::sweep::digest_of_cells;
+/// let digest = digest_of_cells(["0", "0.014"]);
+/// assert_ne!(digest, digest_of_cells(["0", "9.014"]));
+/// assert_ne!(digest, digest_of_cells(["00", ".014"]));
+/// ```
+pub fn digest_of_cells<'a>(cells: impl IntoIterator<Item = &'a str>) -> String {
+    let mut digest = Digest::default();
+    for cell in cells {
+        digest.0.update((cell.len() as u64).to_le_bytes());
+        digest.0.update(cell);
+    }
+    digest.hexadecimal()
+}
 
 /// SHA-256 of what it is given.
 #[derive(Default)]

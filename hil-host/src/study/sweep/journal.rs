@@ -5,7 +5,7 @@ use std::io::{self, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 use super::row::{Arithmetic, Row};
-use super::rows::{self, Rows};
+use super::rows::{self, Rows, RowsError};
 use super::study::{Shard, Study};
 use crate::files::FileError;
 use crate::files::output::cannot_write;
@@ -30,7 +30,7 @@ impl Journal {
         path: &Path,
         shard: Option<Shard>,
         anew: bool,
-    ) -> Result<Self, FileError> {
+    ) -> Result<Self, RowsError> {
         let partial = with_ending(path, "partial");
         let mut file = locked(&partial)?;
         let mut known = Rows::new();
@@ -54,18 +54,18 @@ impl Journal {
             if bytes.trim_ascii().is_empty() {
                 bytes.clear();
             }
-            file.set_len(bytes.len() as u64)
-                .map_err(|error| cannot_write(&partial, error))?;
             if !bytes.is_empty() {
                 let read = rows::parse(study, &partial, &bytes)?;
                 known.extend(rows::once(&partial, read)?);
             }
+            file.set_len(bytes.len() as u64)
+                .map_err(|error| cannot_write(&partial, error))?;
             rows::check_arithmetic(path, known.values(), Arithmetic::here())?;
             let is_other = |case: &&u64| shard.is_some_and(|shard| !shard.has(**case));
             if let (Some(case), Some(shard)) = (known.keys().find(is_other), shard) {
                 let Shard { number, of } = shard;
                 let reason = format!("case {case} is not of shard {number} of {of}");
-                return Err(FileError::in_file(path, reason));
+                return Err(RowsError::Foreign(FileError::in_file(path, reason)));
             }
         }
         let mut journal = Self {

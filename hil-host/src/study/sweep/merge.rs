@@ -4,16 +4,15 @@ use std::collections::BTreeMap;
 use std::fmt;
 use std::path::PathBuf;
 
-use super::rows::{self, Rows};
+use super::rows::{self, Rows, RowsError};
 use super::study::Study;
-use crate::files::FileError;
 
 /// Why shards are not the whole study.
 #[derive(Debug, thiserror::Error)]
 pub enum MergeError {
     /// A file cannot be read or is not of this study.
     #[error(transparent)]
-    File(#[from] FileError),
+    Rows(#[from] RowsError),
     /// Cases are missing or there twice.
     #[error("{0}")]
     Gaps(Gaps),

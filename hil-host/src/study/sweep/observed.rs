@@ -25,6 +25,18 @@ impl Observed {
     pub fn called(name: &str) -> Option<&'static Self> {
         OBSERVED.iter().find(|index| index.name == name)
     }
+
+    /// Whether it is an index of ride, which only whole windows of a run have.
+    pub fn is_of_ride(&self) -> bool {
+        matches!(
+            self.name,
+            "sperling_vertical"
+                | "sperling_lateral"
+                | "sperling_vertical_first"
+                | "sperling_lateral_first"
+                | "mean_comfort"
+        )
+    }
 }
 
 fn greatest(values: impl Iterator<Item = f64>) -> Option<f64> {

@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use super::digest::digest_of_cells;
+use super::physics::physics;
 use super::study::{Study, StudyCase};
 
 /// What was observed of a case.
@@ -42,7 +44,8 @@ impl Arithmetic {
         }
     }
 
-    const fn word(self) -> &'static str {
+    /// As rows have it.
+    pub const fn word(self) -> &'static str {
         match self {
             Self::Fused => "fused",
             Self::Separate => "separate",
@@ -71,7 +74,39 @@ pub enum RowError {
         /// What may be there.
         expected: String,
     },
+    /// It is of another study, another version or another behaviour of the model.
+    #[error("column {column}: `{found}`, allowed: {expected}; {reason}")]
+    Foreign {
+        /// Column.
+        column: String,
+        /// What is there.
+        found: String,
+        /// What this program's rows have there.
+        expected: String,
+        /// Why such rows do not mix.
+        reason: &'static str,
+    },
+    /// Its digest is not that of its cells.
+    #[error(
+        "column {ROW_DIGEST}: `{found}`, but the cells of this row have {computed}: one of them was altered or damaged"
+    )]
+    Altered {
+        /// The digest in the row.
+        found: String,
+        /// The digest of its cells.
+        computed: String,
+    },
 }
+
+impl RowError {
+    /// Whether the row is whole, but of another study, version or behaviour of the model.
+    pub fn is_foreign(&self) -> bool {
+        matches!(self, Self::Foreign { .. })
+    }
+}
+
+/// The column with the digest of a row's other cells.
+pub const ROW_DIGEST: &str = "row_digest";
 
 /// The version that rows are of.
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");
@@ -83,7 +118,8 @@ impl Study {
         columns.extend(self.varied.iter().cloned());
         columns.extend(["seed".to_owned(), "ending".to_owned()]);
         columns.extend(self.observed.iter().map(|index| index.name.to_owned()));
-        columns.extend(["study", "version", "arithmetic"].map(str::to_owned));
+        columns
+            .extend(["study", "version", "arithmetic", "physics", ROW_DIGEST].map(str::to_owned));
         columns
     }
 
@@ -101,8 +137,14 @@ impl Study {
         let number =
             |value: &Option<f64>| value.map_or_else(String::new, |value| format!("{value:?}"));
         record.extend(row.observed.iter().map(number));
-        let of = [self.digest(), VERSION, row.arithmetic.word()];
+        let of = [
+            self.digest(),
+            VERSION,
+            row.arithmetic.word(),
+            physics(row.arithmetic),
+        ];
         record.extend(of.map(str::to_owned));
+        record.push(digest_of_cells(record.iter().map(String::as_str)));
         record
     }
 
@@ -124,19 +166,33 @@ impl Study {
             found: cells[column].to_owned(),
             expected,
         };
-        // Of another study or version nothing else need be told.
-        for (back, expected) in [(3, self.digest()), (2, VERSION)] {
-            let column = columns.len() - back;
-            if cells[column] != expected {
-                return Err(wrong(column, expected.to_owned()));
-            }
-        }
-        let last = columns.len() - 1;
         let arithmetics = [Arithmetic::Fused, Arithmetic::Separate];
+        let of_arithmetic = columns.len() - 3;
         let arithmetic = arithmetics
             .into_iter()
-            .find(|one| one.word() == cells[last]);
-        let arithmetic = arithmetic.ok_or_else(|| wrong(last, "fused or separate".into()))?;
+            .find(|one| one.word() == cells[of_arithmetic]);
+        let arithmetic =
+            arithmetic.ok_or_else(|| wrong(of_arithmetic, "fused or separate".into()))?;
+        // The rest of a row of another study, version or physics is not compared.
+        for (back, expected, reason) in [
+            (5, self.digest(), "rows of different studies do not mix"),
+            (4, VERSION, "rows of different versions do not mix"),
+            (
+                2,
+                physics(arithmetic),
+                "the model behaves differently now, and rows of different physics do not mix",
+            ),
+        ] {
+            let column = columns.len() - back;
+            if cells[column] != expected {
+                return Err(RowError::Foreign {
+                    column: columns[column].clone(),
+                    found: cells[column].to_owned(),
+                    expected: expected.to_owned(),
+                    reason,
+                });
+            }
+        }
         let number = cells[0].parse::<u64>().ok();
         let case = number.and_then(|number| self.case(number));
         let case = case.ok_or_else(|| wrong(0, format!("0 to {}", self.cases() - 1)))?;
@@ -160,9 +216,17 @@ impl Study {
             observed,
         };
         let expected = self.record(&case, &row);
-        match (0..first).find(|column| expected[*column] != cells[*column]) {
-            Some(column) => Err(wrong(column, format!("`{}`", expected[column]))),
-            None => Ok(row),
+        if let Some(column) = (0..first).find(|column| expected[*column] != cells[*column]) {
+            return Err(wrong(column, format!("`{}`", expected[column])));
         }
+        let last = columns.len() - 1;
+        let computed = digest_of_cells(cells[..last].iter().copied());
+        if cells[last] != computed {
+            return Err(RowError::Altered {
+                found: cells[last].to_owned(),
+                computed,
+            });
+        }
+        Ok(row)
     }
 }

@@ -10,6 +10,26 @@ use crate::files::FileError;
 use crate::files::input;
 use crate::files::output::{cannot_write_rows, write_whole};
 
+/// Why a file has no rows of a study.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum RowsError {
+    /// It cannot be read or written.
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// A line is no row: damaged, altered, or of a case that another line has too.
+    #[error("{source}")]
+    Damaged {
+        /// Line, from 1.
+        line: u64,
+        /// What is wrong with it.
+        source: FileError,
+    },
+    /// Its rows are of another study, version, physics or arithmetic, or of an earlier `dashpot` with other columns.
+    #[error("{0}")]
+    Foreign(FileError),
+}
+
 /// Rows by the numbers of their cases.
 pub type Rows = BTreeMap<u64, Row>;
 
@@ -17,7 +37,7 @@ pub type Rows = BTreeMap<u64, Row>;
 ///
 /// # Errors
 /// A file that cannot be read; a header or a row that is not of this study, with line and column.
-pub fn read(study: &Study, path: &Path) -> Result<Vec<(u64, Row)>, FileError> {
+pub fn read(study: &Study, path: &Path) -> Result<Vec<(u64, Row)>, RowsError> {
     parse(study, &input::name(path), &input::read(path)?)
 }
 
@@ -26,7 +46,7 @@ pub(super) fn parse(
     study: &Study,
     path: &Path,
     bytes: &[u8],
-) -> Result<Vec<(u64, Row)>, FileError> {
+) -> Result<Vec<(u64, Row)>, RowsError> {
     let mut reader = csv::ReaderBuilder::new()
         .has_headers(false)
         .flexible(true)
@@ -34,7 +54,14 @@ pub(super) fn parse(
     let mut rows = Vec::new();
     let columns = study.columns();
     for (number, record) in reader.records().enumerate() {
-        let record = record.map_err(|error| FileError::in_file(path, error))?;
+        let record = record.map_err(|error| {
+            let line = error.position().map_or(0, csv::Position::line);
+            let source = match error.kind() {
+                csv::ErrorKind::Utf8 { .. } => FileError::in_line(path, line, "no text in UTF-8"),
+                _ => FileError::in_file(path, error),
+            };
+            RowsError::Damaged { line, source }
+        })?;
         let line = record.position().map_or(0, csv::Position::line);
         if number == 0 {
             if !record.iter().eq(columns.iter()) {
@@ -42,18 +69,23 @@ pub(super) fn parse(
                     "not the columns of the study, which are {}",
                     columns.join(",")
                 );
-                return Err(FileError::in_line(path, line, reason));
+                return Err(RowsError::Foreign(FileError::in_line(path, line, reason)));
             }
             continue;
         }
-        let row = study
-            .row(record.iter())
-            .map_err(|error| FileError::in_line(path, line, error))?;
+        let row = study.row(record.iter()).map_err(|error| {
+            let is_foreign = error.is_foreign();
+            let source = FileError::in_line(path, line, error);
+            match is_foreign {
+                true => RowsError::Foreign(source),
+                false => RowsError::Damaged { line, source },
+            }
+        })?;
         rows.push((line, row));
     }
     if rows.is_empty() && bytes.is_empty() {
         let reason = format!("empty, allowed: rows under {}", columns.join(","));
-        return Err(FileError::in_file(path, reason));
+        return Err(FileError::in_file(path, reason).into());
     }
     Ok(rows)
 }
@@ -62,7 +94,7 @@ pub(super) fn parse(
 ///
 /// # Errors
 /// As [`read`]; a case twice.
-pub fn read_once(study: &Study, path: &Path) -> Result<Rows, FileError> {
+pub fn read_once(study: &Study, path: &Path) -> Result<Rows, RowsError> {
     once(path, read(study, path)?)
 }
 
@@ -71,7 +103,7 @@ pub(super) fn check_arithmetic<'a>(
     path: &Path,
     rows: impl Iterator<Item = &'a Row>,
     expected: Arithmetic,
-) -> Result<(), FileError> {
+) -> Result<(), RowsError> {
     let mut others = rows.filter(|row| row.arithmetic != expected);
     match others.next() {
         Some(other) => {
@@ -79,19 +111,20 @@ pub(super) fn check_arithmetic<'a>(
             let reason = format!(
                 "case {case}: arithmetic {found}, allowed here: {expected}; rows of both kinds of processors do not mix"
             );
-            Err(FileError::in_file(path, reason))
+            Err(RowsError::Foreign(FileError::in_file(path, reason)))
         }
         None => Ok(()),
     }
 }
 
-pub(super) fn once(path: &Path, read: Vec<(u64, Row)>) -> Result<Rows, FileError> {
+pub(super) fn once(path: &Path, read: Vec<(u64, Row)>) -> Result<Rows, RowsError> {
     let mut rows = Rows::new();
     for (line, row) in read {
         let case = row.case;
         if rows.insert(case, row).is_some() {
             let reason = format!("case {case} a second time, allowed: once");
-            return Err(FileError::in_line(path, line, reason));
+            let source = FileError::in_line(path, line, reason);
+            return Err(RowsError::Damaged { line, source });
         }
     }
     Ok(rows)

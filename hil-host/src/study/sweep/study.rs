@@ -5,6 +5,7 @@ use super::observed::Observed;
 use crate::files::case::{Case, CaseError};
 use crate::files::nearest;
 use crate::files::study::{StudyFileError, StudyParameters, Sweep, Value};
+use crate::study::vehicle::check_ride;
 
 /// Most cases of a study.
 const MOST_CASES: u64 = 10_000_000;
@@ -50,7 +51,8 @@ impl Study {
     /// Checks every value of every axis once, the other axes at their first.
     ///
     /// # Errors
-    /// An index that there is not, a value or case that is refused, with file and line; too many cases.
+    /// An index that there is not, or that runs of a sweep are too short for; a value or case that is refused, with
+    /// file and line; too many cases.
     ///
     /// ```
     /// use dashpot_hil::files::study::StudyParameters;
@@ -103,7 +105,8 @@ impl Study {
                     varied.push(axis.parameter.clone());
                 }
             }
-            check(&parameters, sweep, &mut digest)?;
+            let of_ride = observed.iter().find(|index| index.is_of_ride());
+            check(&parameters, sweep, of_ride, &mut digest)?;
             let end = starts[starts.len() - 1].saturating_add(sweep.cases());
             if end > MOST_CASES {
                 let message = format!("more than {MOST_CASES} cases up to sweep {}", sweep.name);
@@ -258,6 +261,7 @@ fn build(file: &str, sweep: &Sweep, values: &[&Value]) -> Result<Case, StudyFile
 fn check(
     study: &StudyParameters,
     sweep: &Sweep,
+    of_ride: Option<&Observed>,
     digest: &mut Digest,
 ) -> Result<(), StudyFileError> {
     digest.add(&sweep.name);
@@ -269,6 +273,17 @@ fn check(
             Some(seed) => seeded(&study.file, sweep, case, *seed)?,
             None => case,
         };
+        if let (Some(index), Err(reason)) = (of_ride, check_ride(&case)) {
+            return Err(StudyFileError::Line {
+                name: study.file.clone(),
+                line: sweep.line,
+                message: format!(
+                    "sweep {}: observed `{}`: {reason}; allowed: a longer duration_s, or this index left out of \
+                     `observed`",
+                    sweep.name, index.name
+                ),
+            });
+        }
         digest.add_case(&case)?;
         Ok(())
     };

@@ -20,8 +20,8 @@ pub use accelerometer::Accelerometer;
 pub use coupled::{Coupled, CoupledCase, CoupledVariable};
 pub use error::VehicleStudyError;
 pub use indices::{
-    BodyIndices, Indexer, Indices, Nadal, RideIndices, Sample, UnbalancedIndices, WINDOW_M,
-    WheelIndices, WheelsetIndices,
+    BodyIndices, Indexer, Indices, Nadal, NoRide, RideIndices, Sample, UnbalancedIndices, WINDOW_M,
+    WheelIndices, WheelsetIndices, check_ride,
 };
 pub use inside::{Beside, DamperEffect, Effect, Forces};
 pub use outside::{OutsideError, number_outside};

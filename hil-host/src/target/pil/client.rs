@@ -1,6 +1,6 @@
 //! The host's end of the link: one request at a time, repeated until it is answered.
 
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use dashpot_core::Damper;
 use dashpot_core::link::{
@@ -18,17 +18,26 @@ const BYTE_TIME: Duration = Duration::from_micros(100);
 /// Session numbers to try: the first may be the open one, by chance or after an earlier run.
 const MOST_SESSIONS: u32 = 10;
 
+/// Largest factor by which a wait grows. With eight tries a silent target is given up after 47 times the first wait.
+const MAX_BACK_OFF: u32 = 8;
+
+/// No wait grows beyond this: eight times the first wait for the longest frame.
+const MAX_GROWN_WAIT: Duration = Duration::from_secs(12);
+
 /// How long to wait for an answer, and how often to ask.
+///
+/// A wait without an answer doubles the next one, up to eight times the first and 12 s: the target may be slow, and
+/// every repeated request is one more for it to answer. The longer wait stays until answers come sooner again.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RetryLimits {
-    /// Wait for each try, beside the time its bytes take.
+    /// First wait, beside the time the bytes of a request take.
     pub timeout: Duration,
     /// Tries of a request, 1 at least.
     pub tries: u32,
 }
 
 impl Default for RetryLimits {
-    /// Eight tries of a fifth of a second.
+    /// Eight tries, the first of a fifth of a second.
     fn default() -> Self {
         Self {
             timeout: Duration::from_millis(200),
@@ -70,6 +79,20 @@ pub struct Client<L> {
     reader: FrameReader<RESPONSE_BYTES>,
     received: Vec<u8>,
     answer: Vec<u8>,
+    /// Factor of the waits, 1 to [`MAX_BACK_OFF`].
+    back_off: u32,
+    /// Repeats of earlier requests whose answers are still under way.
+    late_repeats: u32,
+}
+
+/// What a wait brought.
+enum Waited {
+    /// The answer.
+    Answered,
+    /// The target received the request broken.
+    Broken,
+    /// Nothing.
+    TimedOut,
 }
 
 impl<L: Link> Client<L> {
@@ -87,6 +110,8 @@ impl<L: Link> Client<L> {
             reader: FrameReader::new(),
             received: Vec::new(),
             answer: Vec::new(),
+            back_off: 1,
+            late_repeats: 0,
         }
     }
 
@@ -143,21 +168,47 @@ impl<L: Link> Client<L> {
         if frame.is_empty() {
             return Err(LinkError::TooLong);
         }
+        let wait = self.retry_limits.for_frame(frame.len());
+        let start = self.link.now();
+        let mut broken = 0;
         for again in 0..self.retry_limits.tries.max(1) {
             self.faults.repeated_requests += u64::from(again > 0);
+            let sent = self.link.now();
             self.link.send(frame)?;
-            if self.wait(self.retry_limits.for_frame(frame.len()))? {
-                return match self.response()? {
-                    Response::Refused(Refusal::NoSession | Refusal::OutOfOrder(_)) => {
-                        self.faults.lost_sessions += 1;
-                        Err(LinkError::SessionLost)
+            let grown = wait.saturating_mul(self.back_off).min(MAX_GROWN_WAIT);
+            match self.wait(grown.max(wait))? {
+                Waited::Answered => {
+                    // Which of several tries was answered is unknown, and so is the time it took.
+                    if again == 0 {
+                        let took = self.link.now().saturating_duration_since(sent);
+                        self.calm_down(took, wait);
                     }
-                    Response::Refused(refusal) => Err(LinkError::Refused(refusal)),
-                    _ => Ok(()),
-                };
+                    self.late_repeats = again - broken;
+                    return match self.response()? {
+                        Response::Refused(Refusal::NoSession | Refusal::OutOfOrder(_)) => {
+                            self.faults.lost_sessions += 1;
+                            Err(LinkError::SessionLost)
+                        }
+                        Response::Refused(refusal) => Err(LinkError::Refused(refusal)),
+                        _ => Ok(()),
+                    };
+                }
+                Waited::Broken => broken += 1,
+                Waited::TimedOut => self.back_off = (2 * self.back_off).min(MAX_BACK_OFF),
             }
         }
-        Err(LinkError::Silent(self.retry_limits))
+        self.late_repeats = self.retry_limits.tries.max(1) - broken;
+        Err(LinkError::Silent {
+            limits: self.retry_limits,
+            waited: self.link.now().saturating_duration_since(start),
+        })
+    }
+
+    /// Shortens the waits to twice what the last answer took, at most by half.
+    fn calm_down(&mut self, took: Duration, wait: Duration) {
+        let needed = (1..MAX_BACK_OFF).find(|factor| wait.saturating_mul(*factor) >= 2 * took);
+        let needed = needed.unwrap_or(MAX_BACK_OFF);
+        self.back_off = needed.max(self.back_off / 2).max(1);
     }
 
     /// The last answer.
@@ -166,9 +217,9 @@ impl<L: Link> Client<L> {
         Ok(answer.1)
     }
 
-    /// Waits up to `time` for the answer to the last request; false when it should be sent again.
-    fn wait(&mut self, time: Duration) -> Result<bool, LinkError> {
-        let deadline = Instant::now() + time;
+    /// Waits up to `time` for the answer to the last request.
+    fn wait(&mut self, time: Duration) -> Result<Waited, LinkError> {
+        let deadline = self.link.now() + time;
         loop {
             let received = std::mem::take(&mut self.received);
             for (index, byte) in received.iter().enumerate() {
@@ -183,22 +234,29 @@ impl<L: Link> Client<L> {
                 let (header, response) = parse(message).ok_or(LinkError::Unreadable)?;
                 if response == Response::Refused(Refusal::Corrupt) {
                     self.faults.corrupt_requests += 1;
+                    // Answers come in the order of the requests: this one may be to a repeat of an earlier one, part
+                    // of which the target dropped while it was busy.
+                    if self.late_repeats > 0 {
+                        self.late_repeats -= 1;
+                        continue;
+                    }
                     self.received = received[index + 1..].to_vec();
-                    return Ok(false);
+                    return Ok(Waited::Broken);
                 }
                 if header == self.header {
                     self.answer = message.to_vec();
                     self.received = received[index + 1..].to_vec();
-                    return Ok(true);
+                    return Ok(Waited::Answered);
                 }
+                self.late_repeats = self.late_repeats.saturating_sub(1);
                 self.faults.stale_answers += 1;
             }
-            let left = deadline.saturating_duration_since(Instant::now());
+            let left = deadline.saturating_duration_since(self.link.now());
             let mut buffer = [0; 1024];
             let count = self.link.receive(&mut buffer, left)?;
             if count == 0 {
                 self.faults.timeouts += 1;
-                return Ok(false);
+                return Ok(Waited::TimedOut);
             }
             self.received.extend_from_slice(&buffer[..count]);
         }

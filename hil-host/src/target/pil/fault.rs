@@ -202,9 +202,9 @@ impl<L: Link> Link for FaultyLink<L> {
     }
 
     fn receive(&mut self, buffer: &mut [u8], timeout: Duration) -> Result<usize, LinkError> {
-        let deadline = Instant::now() + timeout;
+        let deadline = self.now() + timeout;
         while self.ready.is_empty() {
-            let left = deadline.saturating_duration_since(Instant::now());
+            let left = deadline.saturating_duration_since(self.now());
             let mut bytes = [0; 1024];
             let count = self.link.receive(&mut bytes, left)?;
             for byte in &bytes[..count] {
@@ -222,6 +222,10 @@ impl<L: Link> Link for FaultyLink<L> {
             }
         }
         Ok(self.hand_over(buffer))
+    }
+
+    fn now(&self) -> Instant {
+        self.link.now()
     }
 
     fn reset_target(&mut self) -> Result<(), LinkError> {

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 use std::str::FromStr;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use super::{DEFAULT_IMAGE, FaultCounts, LinkError, Qemu, Tcp};
 
@@ -19,6 +19,11 @@ pub trait Link {
     /// # Errors
     /// The line is broken.
     fn receive(&mut self, buffer: &mut [u8], timeout: Duration) -> Result<usize, LinkError>;
+
+    /// The time that waits are measured in; a simulated line has a clock of its own.
+    fn now(&self) -> Instant {
+        Instant::now()
+    }
 
     /// Resets the target as a power cycle would.
     ///
@@ -50,6 +55,9 @@ impl<L: Link + ?Sized> Link for Box<L> {
     }
     fn receive(&mut self, buffer: &mut [u8], timeout: Duration) -> Result<usize, LinkError> {
         (**self).receive(buffer, timeout)
+    }
+    fn now(&self) -> Instant {
+        (**self).now()
     }
     fn reset_target(&mut self) -> Result<(), LinkError> {
         (**self).reset_target()

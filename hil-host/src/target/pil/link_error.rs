@@ -1,6 +1,7 @@
 //! Why a request over the link has no result, in plain words.
 
 use std::io;
+use std::time::Duration;
 
 use dashpot_core::link::{Refusal, StepSizeError};
 
@@ -40,11 +41,17 @@ pub enum LinkError {
     TooLong,
     /// No answer to any try.
     #[error(
-        "no answer from the target to {} tries of {} ms",
-        .0.tries,
-        .0.timeout.as_millis()
+        "no answer from the target to {} tries within {:.1} s, the first wait {} ms",
+        limits.tries,
+        waited.as_secs_f64(),
+        limits.timeout.as_millis()
     )]
-    Silent(RetryLimits),
+    Silent {
+        /// Limits of the waits.
+        limits: RetryLimits,
+        /// How long all tries together waited.
+        waited: Duration,
+    },
     /// The target does not know the session: it was reset, or another program said hello.
     #[error("the target was reset, or another program said hello to it")]
     SessionLost,

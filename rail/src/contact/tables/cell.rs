@@ -2,7 +2,7 @@
 
 use std::array::from_fn;
 
-use fearless_simd::{Level, Simd, SimdBase, dispatch, f32x4, f32x8, f64x4};
+use fearless_simd::{Simd, SimdBase, dispatch, f32x4, f32x8, f64x4};
 
 use super::axis::whole;
 use super::node::Node;
@@ -201,7 +201,7 @@ impl PatchReader for Cell<'_> {
     }
 
     fn numbers(&self, zone: usize) -> [f64; NUMBERS] {
-        dispatch!(Level::new(), simd => numbers_of(self.numbers_by(simd, &self.weights, [zone])[0]))
+        dispatch!(crate::math::level(), simd => numbers_of(self.numbers_by(simd, &self.weights, [zone])[0]))
     }
 
     #[inline(always)]
@@ -221,7 +221,7 @@ impl PatchReader for Cell<'_> {
     }
 
     fn slopes(&self, zone: usize) -> [Slopes; 3] {
-        dispatch!(Level::new(), simd => self.slopes_in(simd, zone))
+        dispatch!(crate::math::level(), simd => self.slopes_in(simd, zone))
     }
 }
 

@@ -12,7 +12,7 @@ pub use axis::{Axis, Grid};
 use axis::{AxisReader, in_lanes};
 pub use cache::CacheError;
 use cell::{Cell, Places};
-use fearless_simd::{Level, Simd, dispatch, f64x4};
+use fearless_simd::{Simd, dispatch, f64x4};
 use node::Node;
 pub(super) use patch::{LOAD_FRACTION, NUMBERS};
 pub use patch::{MIN_CURVATURE_PER_M, TabulatedPatch};
@@ -175,7 +175,7 @@ impl sealed::Source for Tables {
     }
 
     fn locate(&self, pose: &WheelPose) -> Cell<'_> {
-        dispatch!(Level::new(), simd => locate(simd, self, pose))
+        dispatch!(crate::math::level(), simd => locate(simd, self, pose))
     }
 
     fn finder([left, right]: [&Self; 2]) -> Finder {

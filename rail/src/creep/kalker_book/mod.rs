@@ -56,7 +56,7 @@ impl KalkerBook {
     pub fn new() -> Self {
         Self {
             pages: pages(),
-            level: Level::new(),
+            level: crate::math::level(),
         }
     }
 

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use dashpot_core::{Damper, DamperParameters};
-use fearless_simd::{Level, dispatch};
+use fearless_simd::dispatch;
 use nalgebra::DMatrix;
 
 use super::across::{Across, DamperElement, StopElement};
@@ -112,7 +112,7 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
         }
         let structure = Structure::new(&pattern);
         let system = structure.blocks(&system);
-        let level = Level::new();
+        let level = crate::math::level();
         if !dispatch!(level, simd => structure.factorise(simd, &mut system.clone())) {
             return Err(VehicleError::StepTooLong { step_s });
         }

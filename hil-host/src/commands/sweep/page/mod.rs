@@ -96,7 +96,8 @@ pub(super) fn write(study: &Study, rows: &Rows, report: &Report) -> Outcome<Stri
         h2 { "Cases" }
         (cases(study))
         (footer(&html! {
-            "Study " (study.digest()) ", version " (VERSION) ". rows.csv has every case with its seed; `ending` tells how it ended."
+            "Study " (study.digest()) ", version " (VERSION) ", physics " (report.physics) ". "
+            "rows.csv has every case with its seed; `ending` tells how it ended."
         }))
     };
     Ok(document(

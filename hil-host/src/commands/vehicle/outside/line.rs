@@ -5,7 +5,7 @@ use dashpot_core::link::MOST_DAMPERS;
 
 use super::choice::{Choice, Source};
 use super::report::Target;
-use crate::commands::failure::{Failure, Outcome};
+use crate::commands::failure::{Failure, Outcome, remedy};
 use crate::commands::line::LineOptions;
 use crate::commands::step_size::StepSize;
 use crate::files::case::Case;
@@ -131,7 +131,7 @@ impl Line {
 
 /// What happened, with the link's name once.
 fn named(name: &str, error: &SessionError) -> String {
-    let text = error.to_string();
+    let text = in_words(error);
     if text.contains(name) {
         text
     } else {
@@ -163,6 +163,16 @@ fn refused(name: &str, error: &SessionError) -> Failure {
         SessionError::Link(LinkError::Emulator(EmulatorError::NoImage(_))) => Failure::new(
             format!("--outside {name}: {error}, or name one with qemu:IMAGE"),
         ),
-        _ => Failure::new(format!("--outside {name}: {error}")),
+        _ => Failure::new(format!("--outside {name}: {}", in_words(error))),
+    }
+}
+
+/// The error, and the options that help where the target does not answer in time.
+fn in_words(error: &SessionError) -> String {
+    match error {
+        SessionError::Link(source) | SessionError::After { source, .. } => {
+            format!("{error}{}", remedy(source))
+        }
+        _ => error.to_string(),
     }
 }

@@ -13,7 +13,7 @@ use dashpot_rail::contact::WheelsetForces;
 use dashpot_rail::vehicle::{Standstill, VehicleState};
 pub use nadal::Nadal;
 use ride::Ride;
-pub use ride::RideIndices;
+pub use ride::{NoRide, RideIndices, check_ride};
 use serde::Serialize;
 use sums::Spread;
 pub use wheel::WheelIndices;

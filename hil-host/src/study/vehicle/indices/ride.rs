@@ -7,10 +7,48 @@ use dashpot_rail::indices::{
 use dashpot_rail::vehicle::VehicleParameters;
 use serde::Serialize;
 
+use crate::files::case::Case;
 use crate::study::vehicle::Accelerometer;
 
 /// Length of the windows, s: Sperling's index depends on it, mean comfort is defined by it.
 pub const WINDOW_S: f64 = 5.0;
+
+/// Why a run of a case has no index of ride.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum NoRide {
+    /// It ends before the first window is full.
+    #[error(
+        "the run takes {duration_s} s, and an index of ride needs a whole window of {WINDOW_S} s"
+    )]
+    Short {
+        /// Duration of the run, s.
+        duration_s: f64,
+    },
+    /// The indices are not defined for its step.
+    #[error("an index of ride at a step of {} us: {source}", 1e6 * step_s)]
+    Step {
+        /// Step of the run, s.
+        step_s: f64,
+        /// Why.
+        source: SpectrumError,
+    },
+}
+
+/// Whether a run of `case` that comes to its end has indices of ride.
+///
+/// # Errors
+/// Why it has none.
+pub fn check_ride(case: &Case) -> Result<(), NoRide> {
+    let Case {
+        step_s, duration_s, ..
+    } = *case;
+    let sperling =
+        Sperling::new(1.0 / step_s, WINDOW_S).map_err(|source| NoRide::Step { step_s, source })?;
+    if (duration_s / step_s).round() < sperling.samples() as f64 {
+        return Err(NoRide::Short { duration_s });
+    }
+    Ok(())
+}
 
 /// Ride at a point.
 #[derive(Debug, Clone, PartialEq, Serialize)]

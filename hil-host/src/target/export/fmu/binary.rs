@@ -2,10 +2,10 @@
 
 use std::env;
 use std::io;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-use super::{Fmu, Interface};
+use super::{Fmu, Interface, Machine};
 
 /// A compiled FMU.
 #[derive(Debug)]
@@ -48,6 +48,38 @@ pub enum CompileError {
         /// The platform.
         platform: String,
     },
+    /// The compiler built a library for another platform.
+    #[error(
+        "the C compiler {compiler} built {}, needed for {platform}: {needed}; allowed: a compiler for this platform \
+         by the variable CC, or no library with --sources-only",
+        described(.found.as_ref())
+    )]
+    OtherMachine {
+        /// Its name.
+        compiler: String,
+        /// What it built; `None` where the file has no header of a library.
+        found: Option<Machine>,
+        /// Folder of the platform.
+        platform: String,
+        /// What that platform loads.
+        needed: Machine,
+    },
+    /// The library of vehicles is of another platform.
+    #[error(
+        "{}: the library of vehicles holds object files of another kind ({found}), needed for {platform}: {needed}; \
+         allowed: --library FILE with one built for this platform",
+        library.display()
+    )]
+    OtherLibrary {
+        /// The library.
+        library: PathBuf,
+        /// What its object files are.
+        found: Machine,
+        /// Folder of the platform.
+        platform: String,
+        /// What that platform loads.
+        needed: Machine,
+    },
     /// No place for what the compiler reads and writes.
     #[error("a temporary folder: {0}")]
     Folder(#[from] io::Error),
@@ -67,12 +99,34 @@ const BESIDE_A_LIBRARY: [&str; 6] = [
 #[cfg(not(target_os = "linux"))]
 const BESIDE_A_LIBRARY: [&str; 0] = [];
 
+/// What a file holds.
+fn described(found: Option<&Machine>) -> String {
+    found.map_or_else(
+        || "no library of a known form".into(),
+        |machine| format!("a file of another kind ({machine})"),
+    )
+}
+
 /// Compiles an FMU for this platform, with the compiler that the variable `CC` names, or `cc`.
 ///
 /// # Errors
-/// There is no compiler, it fails, or the platform has no name.
+/// There is no compiler, it fails, it builds for another platform, or the platform has no name.
 pub fn compile(fmu: &Fmu) -> Result<Binary, CompileError> {
     let platform = platform(fmu.interface)?;
+    let needed = Machine::here();
+    if let Some(library) = &fmu.library {
+        let found = Machine::of_archive(&std::fs::read(library)?);
+        // What is no archive of a known form is left to the linker.
+        if let Some(found) = found.filter(|found| !found.links_into(&needed)) {
+            let library = library.clone();
+            return Err(CompileError::OtherLibrary {
+                library,
+                found,
+                platform,
+                needed,
+            });
+        }
+    }
     let end = env::consts::DLL_EXTENSION;
     let folder = tempfile::tempdir()?;
     for (name, text) in &fmu.sources {
@@ -115,10 +169,20 @@ pub fn compile(fmu: &Fmu) -> Result<Binary, CompileError> {
         let message = format!("{}\n{}", output.status, message.trim());
         return Err(CompileError::Failed { compiler, message });
     }
+    let content = std::fs::read(library)?;
+    let found = Machine::of(&content);
+    if !found.is_some_and(|found| found.loads_on(&needed)) {
+        return Err(CompileError::OtherMachine {
+            compiler,
+            found,
+            platform,
+            needed,
+        });
+    }
     Ok(Binary {
         platform,
         end,
-        content: std::fs::read(library)?,
+        content,
     })
 }
 

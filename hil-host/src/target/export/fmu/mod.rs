@@ -7,6 +7,7 @@ mod archive;
 mod bank;
 mod binary;
 mod description;
+mod machine;
 mod page;
 mod sources;
 mod variable;
@@ -20,6 +21,7 @@ use sha2::{Digest, Sha256};
 pub use archive::archive;
 pub use bank::Named;
 pub use binary::{Binary, CompileError, compile};
+pub use machine::Machine;
 pub use vehicle::{CASE_FILE, case_digest};
 
 use super::{ExportError, name};

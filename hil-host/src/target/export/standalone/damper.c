@@ -4,7 +4,7 @@
 /* The bits of a force are those of the model in Rust only where a compiler computes what is written: every operation
  * rounded once, in its own type, none fused or reordered. Fusing is turned off below; the rest must not be asked for. */
 #if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__) || defined(_M_FP_FAST) \
-    || defined(__ASSOCIATIVE_MATH__) || defined(__RECIPROCAL_MATH__)
+    || defined(__ASSOCIATIVE_MATH__) || defined(__RECIPROCAL_MATH__) || defined(__NO_SIGNED_ZEROS__)
 #error "the forces would not be those of the model: compile without -ffast-math and its parts (/fp:fast)"
 #endif
 #if defined(_MSC_VER) && !defined(__clang__)
@@ -18,8 +18,19 @@
 #error "floating-point numbers must be those of IEEE 754"
 #endif
 
+/* clang defines no macro for -funsafe-math-optimizations and its parts (-fassociative-math, -freciprocal-math,
+ * -fno-signed-zeros), so no #error can refuse them. Its pragmas turn them off; prefix_digest finds what is left. */
 #if defined(__clang__)
 #pragma STDC FP_CONTRACT OFF
+#if defined(__x86_64__) || defined(__i386__)
+#pragma float_control(precise, on, push)
+#endif
+#if __clang_major__ >= 12
+#pragma clang fp reassociate(off)
+#endif
+#if __clang_major__ >= 18 && !defined(__apple_build_version__)
+#pragma clang fp reciprocal(off)
+#endif
 #elif defined(__GNUC__)
 #pragma GCC push_options
 #pragma GCC optimize("fp-contract=off")
@@ -625,4 +636,6 @@ uint32_t prefix_digest(const prefix_damper *damper)
 #undef PREFIX_HASH_FACTOR
 #if defined(__GNUC__) && !defined(__clang__)
 #pragma GCC pop_options
+#elif defined(__clang__) && (defined(__x86_64__) || defined(__i386__))
+#pragma float_control(pop)
 #endif

@@ -1,0 +1,23 @@
+//! The behaviour of the model that this program computes rows with.
+
+use super::row::Arithmetic;
+
+/// SHA-256, its first 16 digits, of the results of short runs with fused multiplication and without. A test
+/// recomputes and writes them (`tests/vehicle_validation/physics.rs`): a change of the model changes them, a change
+/// of words does not.
+const FUSED: &str = "c916e7a2dbf2f30d";
+const SEPARATE: &str = "4da9014a24aa4a7d";
+
+/// What tells rows of different physics apart; rows with the same digest and the same arithmetic have the same bits.
+///
+/// ```
+/// use dashpot_hil::study::sweep::{Arithmetic, physics};
+/// assert_eq!(physics(Arithmetic::here()).len(), 16);
+/// assert_ne!(physics(Arithmetic::Fused), physics(Arithmetic::Separate));
+/// ```
+pub const fn physics(arithmetic: Arithmetic) -> &'static str {
+    match arithmetic {
+        Arithmetic::Fused => FUSED,
+        Arithmetic::Separate => SEPARATE,
+    }
+}
