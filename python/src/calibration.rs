@@ -81,7 +81,11 @@ impl Calibrated {
     /// hardly tell apart, an assumed temperature that decides a number.
     #[getter]
     fn warnings(&self) -> Vec<String> {
-        self.found.warnings.iter().map(calibration_words::warning).collect()
+        self.found
+            .warnings
+            .iter()
+            .map(calibration_words::warning)
+            .collect()
     }
 
     /// Their standard deviations by linear theory, in their units.
@@ -201,8 +205,16 @@ pub fn calibrate(
     }
     request.check(damper.keyed())?;
     let assumed = Assumed {
-        temperature_uncertainty_k: within("temperature_uncertainty_k", temperature_uncertainty_k, [0.0, 1e3])?,
-        density_uncertainty_kg_per_m3: within("density_uncertainty_kg_per_m3", density_uncertainty_kg_per_m3, [0.0, 1e3])?,
+        temperature_uncertainty_k: within(
+            "temperature_uncertainty_k",
+            temperature_uncertainty_k,
+            [0.0, 1e3],
+        )?,
+        density_uncertainty_kg_per_m3: within(
+            "density_uncertainty_kg_per_m3",
+            density_uncertainty_kg_per_m3,
+            [0.0, 1e3],
+        )?,
         most_missed: 0.01 * within("max_misfit_percent", max_misfit_percent, [0.1, 1e4])?,
     };
     let tests: Vec<Recorded> = tests

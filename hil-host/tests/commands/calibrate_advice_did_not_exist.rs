@@ -36,17 +36,29 @@ fn a_skew_beyond_its_bounds_is_found_as_advised() {
     let late = samples.iter().zip(samples.iter().skip(14));
     let rows = late.filter(|(a, b)| (b.time_s - a.time_s - 0.028).abs() < 1e-6);
     let rows = rows.map(|(a, b)| format!("{},{},{}\n", a.time_s, b.displacement_m, a.force_n));
-    let text = format!("time_s,displacement_m,force_n\n{}", rows.collect::<String>());
+    let text = format!(
+        "time_s,displacement_m,force_n\n{}",
+        rows.collect::<String>()
+    );
     std::fs::write(folder.join("run.csv"), text).unwrap();
-    let line = bench::calibrate("in-service", &[&KNOWN[..], &["--vary", TRUTH[0].0, "--format", "json"]].concat());
+    let line = bench::calibrate(
+        "in-service",
+        &[&KNOWN[..], &["--vary", TRUTH[0].0, "--format", "json"]].concat(),
+    );
     let text = error_of(&run(&line, folder).code(1));
-    assert!(text.contains("sensor_skew_s lies outside its bounds: use `--vary sensor_skew_s="), "{text}");
+    assert!(
+        text.contains("sensor_skew_s lies outside its bounds: use `--vary sensor_skew_s="),
+        "{text}"
+    );
     assert_eq!(files_in(folder), ["run.csv"]);
     for advised in advised(&line, &text) {
         let report = json_of(&run(&advised, folder).success());
         let skew = &report["numbers"][1];
         assert_eq!(skew["key"], "sensor_skew_s");
-        assert!((skew["found"].as_f64().unwrap() - 0.03).abs() < 1e-3, "{skew}");
+        assert!(
+            (skew["found"].as_f64().unwrap() - 0.03).abs() < 1e-3,
+            "{skew}"
+        );
     }
 }
 
@@ -59,7 +71,10 @@ fn what_is_not_determined_succeeds_as_advised() {
     let vary = ["--vary", TRUTH[0].0, "--vary", "relief.opening_pressure_pa"];
     let line = bench::calibrate("in-service", &[&known[..], &vary].concat());
     let text = error_of(&run(&line, folder).code(1));
-    assert!(text.contains("relief.opening_pressure_pa: no force of these tests changes"), "{text}");
+    assert!(
+        text.contains("relief.opening_pressure_pa: no force of these tests changes"),
+        "{text}"
+    );
     let advised = advised(&line, &text);
     assert_eq!(advised.len(), 2, "{text}");
     for advised in advised {
@@ -77,11 +92,36 @@ fn wrong_bounds_starts_and_priors_succeed_as_advised() {
     for wrong in [
         &["--vary", "orifice.discharge_coefficient=0:2"][..],
         &["--vary", "orifice.discharge_coefficient=0.6:0.7"],
-        &["--vary", "orifice.discharge_coefficient=0.69:0.75", "--prior", "orifice.discharge_coefficient=0.65:0.1"],
-        &["--vary", "orifice.discharge_coefficient", "--vary", "geometry.rod_diameter_m"],
-        &["--vary", "orifice.discharge_coefficient", "--prior", "mount.clearance_m=0.6e-3:1e-4"],
-        &["--vary", "orifice.discharge_coefficient", "--hold", "mount.clearance_m"],
-        &["--vary", "orifice.discharge_coefficient", "--vary", "displacement_offset_m"],
+        &[
+            "--vary",
+            "orifice.discharge_coefficient=0.69:0.75",
+            "--prior",
+            "orifice.discharge_coefficient=0.65:0.1",
+        ],
+        &[
+            "--vary",
+            "orifice.discharge_coefficient",
+            "--vary",
+            "geometry.rod_diameter_m",
+        ],
+        &[
+            "--vary",
+            "orifice.discharge_coefficient",
+            "--prior",
+            "mount.clearance_m=0.6e-3:1e-4",
+        ],
+        &[
+            "--vary",
+            "orifice.discharge_coefficient",
+            "--hold",
+            "mount.clearance_m",
+        ],
+        &[
+            "--vary",
+            "orifice.discharge_coefficient",
+            "--vary",
+            "displacement_offset_m",
+        ],
     ] {
         let line = bench::calibrate("in-service", &[&KNOWN[..], wrong].concat());
         let text = error_of(&run(&line, folder).code(2));
@@ -106,16 +146,33 @@ fn every_name_of_a_report_is_taken_by_the_options() {
         let [least, greatest] = [0, 1].map(|end| number["bounds"][end].as_f64().unwrap());
         again.extend(["--vary".into(), format!("{key}={least:?}:{greatest:?}")]);
         let deviation = text("greatest") - text("least");
-        again.extend(["--prior".into(), format!("{key}={:?}:{deviation:?}", text("found"))]);
+        again.extend([
+            "--prior".into(),
+            format!("{key}={:?}:{deviation:?}", text("found")),
+        ]);
     }
     let report_again = json_of(&run(&again, folder).success());
-    for (a, b) in report["numbers"].as_array().unwrap().iter().zip(report_again["numbers"].as_array().unwrap()) {
+    for (a, b) in report["numbers"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .zip(report_again["numbers"].as_array().unwrap())
+    {
         let width = a["greatest"].as_f64().unwrap() - a["least"].as_f64().unwrap();
-        assert!((a["found"].as_f64().unwrap() - b["found"].as_f64().unwrap()).abs() < 0.3 * width, "{a}, {b}");
+        assert!(
+            (a["found"].as_f64().unwrap() - b["found"].as_f64().unwrap()).abs() < 0.3 * width,
+            "{a}, {b}"
+        );
     }
     for assumed in report["assumed"].as_array().unwrap() {
         let option = assumed["option"].as_str().unwrap();
         let line = [&line[..], &[option.to_owned(), "0".to_owned()]].concat();
-        assert_eq!(json_of(&run(&line, folder).success())["assumed"].as_array().unwrap().len(), 0);
+        assert_eq!(
+            json_of(&run(&line, folder).success())["assumed"]
+                .as_array()
+                .unwrap()
+                .len(),
+            0
+        );
     }
 }

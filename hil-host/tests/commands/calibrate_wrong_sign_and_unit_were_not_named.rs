@@ -25,7 +25,10 @@ fn is_named(change: impl Fn(MeasuredSample) -> MeasuredSample, more: &[&str], wo
         let found = std::fs::read_to_string(folder.join("found.toml")).unwrap();
         let found = dashpot_hil::files::damper::parse("found", &found, &[]).unwrap();
         let (_, clearance_m, tolerance) = TRUTH[2];
-        assert!(number > 0 || (found.mount.clearance_m - clearance_m).abs() < tolerance, "{advised:?}");
+        assert!(
+            number > 0 || (found.mount.clearance_m - clearance_m).abs() < tolerance,
+            "{advised:?}"
+        );
     }
 }
 

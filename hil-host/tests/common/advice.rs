@@ -11,7 +11,10 @@ const SWITCHES: [&str; 4] = [
 
 /// Each command line that the message `text` advises in place of `line`; there must be one.
 pub fn advised(line: &[String], text: &str) -> Vec<Vec<String>> {
-    let said: Vec<&str> = text.split(", or ").filter(|part| part.contains('`')).collect();
+    let said: Vec<&str> = text
+        .split(", or ")
+        .filter(|part| part.contains('`'))
+        .collect();
     let lines: Vec<_> = said
         .iter()
         .filter_map(|part| changed(line.to_vec(), part))
@@ -22,7 +25,9 @@ pub fn advised(line: &[String], text: &str) -> Vec<Vec<String>> {
 
 /// The command line `line` after the advice `part`.
 fn changed(line: Vec<String>, part: &str) -> Option<Vec<String>> {
-    let used = part.split_once("use `").and_then(|(_, rest)| rest.split_once('`'));
+    let used = part
+        .split_once("use `")
+        .and_then(|(_, rest)| rest.split_once('`'));
     let left = part.split_once("leave out `").map(|(_, rest)| rest);
     if used.is_none() && left.is_none() {
         return None;
@@ -37,7 +42,9 @@ fn changed(line: Vec<String>, part: &str) -> Option<Vec<String>> {
             line.push(option.into());
             continue;
         }
-        let value = words.next().unwrap_or_else(|| panic!("{option} without a value: {part}"));
+        let value = words
+            .next()
+            .unwrap_or_else(|| panic!("{option} without a value: {part}"));
         line = match option {
             "--vary" | "--prior" | "--hold" => without(line, &format!("{option} {}", key(value))),
             "--set" => line,
@@ -54,8 +61,12 @@ fn key(value: &str) -> &str {
 
 /// `line` without `--option`, `--option KEY` or `every [other] --option`.
 fn without(line: Vec<String>, what: &str) -> Vec<String> {
-    let what = what.trim_start_matches("every ").trim_start_matches("other ");
-    let (option, of) = what.split_once(' ').map_or((what, None), |(option, of)| (option, Some(of)));
+    let what = what
+        .trim_start_matches("every ")
+        .trim_start_matches("other ");
+    let (option, of) = what
+        .split_once(' ')
+        .map_or((what, None), |(option, of)| (option, Some(of)));
     let mut kept = Vec::new();
     let mut words = line.into_iter();
     while let Some(word) = words.next() {

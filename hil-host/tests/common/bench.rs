@@ -36,18 +36,25 @@ pub fn write(path: &Path, change: impl Fn(MeasuredSample) -> MeasuredSample) {
 
 /// A calibration of `damper` from `run.csv`, with `more` options, that writes `found.toml`.
 pub fn calibrate(damper: &str, more: &[&str]) -> Vec<String> {
-    let line = ["calibrate", "--damper", damper, "--input", "run.csv", "--output", "found.toml", "--starts", "2"];
-    [&line[..], more].concat().into_iter().map(str::to_owned).collect()
+    let line = [
+        "calibrate",
+        "--damper",
+        damper,
+        "--input",
+        "run.csv",
+        "--output",
+        "found.toml",
+        "--starts",
+        "2",
+    ];
+    [&line[..], more]
+        .concat()
+        .into_iter()
+        .map(str::to_owned)
+        .collect()
 }
 
 /// The options that vary what the recording's damper differs in from `in-service`.
 pub const VARY: [&str; 8] = [
-    "--vary",
-    TRUTH[0].0,
-    "--vary",
-    TRUTH[1].0,
-    "--vary",
-    TRUTH[2].0,
-    "--vary",
-    TRUTH[3].0,
+    "--vary", TRUTH[0].0, "--vary", TRUTH[1].0, "--vary", TRUTH[2].0, "--vary", TRUTH[3].0,
 ];

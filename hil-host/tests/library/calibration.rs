@@ -107,7 +107,11 @@ fn truths<const N: usize>(starts: [f64; N], rng: &mut Rng) -> [f64; N] {
     starts.map(|start| start * (0.6 + rng.f64()))
 }
 
-pub(crate) fn with<const N: usize>(preset: &str, keys: [&str; N], values: [f64; N]) -> CheckedParameters {
+pub(crate) fn with<const N: usize>(
+    preset: &str,
+    keys: [&str; N],
+    values: [f64; N],
+) -> CheckedParameters {
     let set = keys.into_iter().zip(values);
     let overrides: Vec<String> = set.map(|(key, value)| format!("{key}={value:?}")).collect();
     load(preset, &overrides).unwrap()

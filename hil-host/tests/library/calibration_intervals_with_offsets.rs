@@ -42,7 +42,9 @@ fn intervals_of_95_percent_have_the_truth_with_offsets() {
         for test in &loops {
             assert!((test.displacement_offset_m - OFFSETS.1).abs() < 2e-4);
         }
-        let varied = KEYS.iter().map(|key| Varied::new(&damper, key, None, None).unwrap());
+        let varied = KEYS
+            .iter()
+            .map(|key| Varied::new(&damper, key, None, None).unwrap());
         let rig = [Varied::skew(), Varied::force_offset(&loops)];
         let calibration = Calibration {
             damper: damper.clone(),
@@ -54,7 +56,10 @@ fn intervals_of_95_percent_have_the_truth_with_offsets() {
             rig: HeldRig::default(),
             assumed: Assumed::default(),
         };
-        assert_eq!([&calibration.varied[3].key, &calibration.varied[4].key], [SKEW, FORCE_OFFSET]);
+        assert_eq!(
+            [&calibration.varied[3].key, &calibration.varied[4].key],
+            [SKEW, FORCE_OFFSET]
+        );
         let found = calibration.run(&|_| {}).unwrap();
         let truths = TRUTHS.iter().chain(&[3e-3, OFFSETS.0]);
         for ((interval, truth), within) in found.intervals.iter().zip(truths).zip(&mut within) {

@@ -48,6 +48,8 @@ pub enum Finding {
         force_rms_n: f64,
         /// The largest part of that which may be missed.
         most: f64,
+        /// Numbers that ended at a bound that nobody asked for, and their bounds.
+        at_bounds: Vec<(String, [f64; 2])>,
     },
     /// A number ended at a bound that nobody asked for.
     AtBound {
@@ -82,12 +84,18 @@ impl fmt::Display for Finding {
                 noise_n,
                 force_rms_n,
                 most,
-            } => write!(
-                f,
-                "{test}: the model misses {missed_n:.3} N of {force_rms_n:.3} N (rms) where the force has {noise_n:.3} N of noise; \
-                 allowed beyond the noise: {:.0} %",
-                100.0 * most
-            ),
+                at_bounds,
+            } => {
+                write!(
+                    f,
+                    "{test}: the model misses {missed_n:.3} N of {force_rms_n:.3} N (rms) where the force has {noise_n:.3} N of noise; \
+                     allowed beyond the noise: {:.0} %",
+                    100.0 * most
+                )?;
+                at_bounds
+                    .iter()
+                    .try_for_each(|(key, _)| write!(f, "; {key} ended at a bound"))
+            }
             Self::AtBound { key, bound } => {
                 write!(
                     f,
@@ -143,9 +151,21 @@ impl Model<'_> {
                 noise_n: self.loops[worst.test].force_noise_n,
                 force_rms_n: worst.force_rms_n,
                 most,
+                at_bounds: self.at_bounds(places),
             })),
             None => Ok(()),
         }
+    }
+
+    /// Numbers at bounds that neither a damper nor the user sets.
+    fn at_bounds(&self, places: &[f64]) -> Vec<(String, [f64; 2])> {
+        let numbers = self.varied.iter().zip(self.values(places));
+        let at = numbers.filter(|(varied, value)| {
+            let bound = varied.bound_at(*value, super::warning::AT_BOUND);
+            bound.is_some_and(|bound| !bound.is_physical && !bound.is_own)
+        });
+        at.map(|(varied, _)| (varied.key.clone(), varied.bounds))
+            .collect()
     }
 
     /// # Errors

@@ -277,8 +277,8 @@ impl Calibration {
                 CalibrationError::NoFit("numbers that no damper has together".into())
             })?;
         }
-        model.refuse_bounds(&best.places, AT_BOUND_CERTAINLY, |_, _| true)?;
         model.refuse_misfit(&best.places, self.assumed.most_missed)?;
+        model.refuse_bounds(&best.places, AT_BOUND_CERTAINLY, |_, _| true)?;
         let determination = model.determination(&best.places)?;
         let refuse = |is_determined: &dyn Fn(usize) -> bool| {
             // The rig's numbers are not what is asked for.
