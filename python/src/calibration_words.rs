@@ -45,8 +45,9 @@ fn nothing_found(finding: &Finding, what: &str, said: &[String]) -> String {
             "{what}\n  {tried}: the law of this damper lacks something that they have; to have the nearest fit all the same, {}",
             said.join(", or ")
         ),
-        Finding::AtBound { key, .. } => format!(
-            "{what}\n  {tried}; to have the best value within bounds of your own, use vary={{\"{key}\": (least, greatest)}}"
+        Finding::AtBound { .. } => format!(
+            "{what}\n  {tried}; to have the best value within these bounds all the same, {}",
+            said.join(", or ")
         ),
         Finding::Driven { .. } => {
             format!(

@@ -11,7 +11,7 @@ use crate::files::output;
 use crate::files::recording::Gaps;
 use crate::study::bench_test::{Indices, run_until_periodic};
 use crate::study::calibration::{
-    Calibrated, Calibration, HeldRig, IndexTest, Influence, Prior, Recorded, Warning,
+    Calibrated, Calibration, HeldRig, IndexTest, Influence, Prior, RIG, Recorded, Warning,
 };
 
 /// Half of the interval of the middle of a motion, in standard deviations of the noise: 1.96 over the root of two, for it is the mean of two ends, and
@@ -39,6 +39,17 @@ pub(super) struct Number {
     standard_deviation: f64,
     /// Other numbers and the correlation with them.
     correlation: Vec<(String, f64)>,
+}
+
+/// An assumed number is said to move others that it moves by this part of what noise does.
+const PART_OF_NOISE: f64 = 0.2;
+
+impl Number {
+    /// Half of its interval by noise.
+    fn noise(&self) -> f64 {
+        let [least, greatest] = self.bounds;
+        0.5 * (self.greatest_by_noise.unwrap_or(greatest) - self.least_by_noise.unwrap_or(least))
+    }
 }
 
 /// What an assumed number does to those that were found.
@@ -73,20 +84,22 @@ impl AssumedNumber {
         let moved = self.shifts.iter().zip(numbers);
         let moved: Vec<String> = moved
             .filter(|((_, shifts), number)| {
+                let noise = number.noise();
                 shifts
                     .iter()
-                    .any(|shift| shift.abs() > 1e-4 * number.found.abs())
+                    .any(|shift| shift.abs() > PART_OF_NOISE * noise)
             })
-            .map(|((key, [low, high]), number)| match number.found {
-                0.0 => format!("{key} by {} to {}", digits(*low), digits(*high)),
-                found => {
-                    let percent = |shift: &f64| 100.0 * shift / found.abs();
+            .map(|((key, [low, high]), number)| {
+                if number.found == 0.0 || RIG.contains(&key.as_str()) {
+                    format!("{key} by {} to {}", digits(*low), digits(*high))
+                } else {
+                    let percent = |shift: &f64| 100.0 * shift / number.found.abs();
                     format!("{key} by {:+.2} to {:+.2} %", percent(low), percent(high))
                 }
             })
             .collect();
         let moves = if moved.is_empty() {
-            "which moves nothing by more than 0.01 %".into()
+            "which moves no number by a fifth of its noise".into()
         } else {
             format!("which moves {}", moved.join(", "))
         };

@@ -95,11 +95,7 @@ impl Calibration {
         candidates.extend(self.wider(finding));
         if matches!(finding, Finding::Missed { .. } | Finding::AtBound { .. }) {
             candidates.extend(self.with_more_numbers());
-            candidates.extend(
-                PRESETS
-                    .iter()
-                    .filter_map(|(name, _)| self.from_preset(name)),
-            );
+            candidates.extend(self.from_presets());
         }
         candidates
     }
@@ -165,20 +161,25 @@ impl Calibration {
         }
     }
 
-    /// With wider bounds of the number that ended at one.
-    fn wider(&self, finding: &Finding) -> Option<Candidate> {
-        let Finding::AtBound { key, bound } = finding else {
-            return None;
+    /// With wider bounds of a number that ended at one.
+    fn wider(&self, finding: &Finding) -> Vec<Candidate> {
+        let keys: Vec<&String> = match finding {
+            Finding::AtBound { key, .. } => vec![key],
+            Finding::Missed { at_bounds, .. } => at_bounds.iter().map(|(key, _)| key).collect(),
+            _ => Vec::new(),
         };
-        let number = self.varied.iter().position(|varied| varied.key == *key)?;
-        let bounds = self.varied[number].wider(*bound == self.varied[number].bounds[0])?;
-        let mut calibration = self.clone();
-        calibration.varied[number] = self.varied[number].between(bounds);
-        let key = key.clone();
-        Some(Candidate::of(
-            calibration,
-            vec![Remedy::Bounds { key, bounds }],
-        ))
+        let of = |key: &String| {
+            let number = self.varied.iter().position(|varied| varied.key == *key)?;
+            let bounds = self.varied[number].wider()?;
+            let mut calibration = self.clone();
+            calibration.varied[number] = self.varied[number].between(bounds);
+            let key = key.clone();
+            Some(Candidate::of(
+                calibration,
+                vec![Remedy::Bounds { key, bounds }],
+            ))
+        };
+        keys.into_iter().filter_map(of).collect()
     }
 
     /// The usual numbers of `damper` that do not yet vary in `varied`.
@@ -204,6 +205,26 @@ impl Calibration {
             calibration,
             added: keys,
         })
+    }
+
+    /// From each other preset. One reduced damper stands for all where its usual numbers vary, beside the same that never saturates.
+    fn from_presets(&self) -> Vec<Candidate> {
+        let presets = PRESETS
+            .iter()
+            .filter_map(|(name, _)| self.from_preset(name));
+        let mut presets: Vec<Candidate> = presets.collect();
+        let is_reduced =
+            |candidate: &Candidate| candidate.added.iter().any(|key| key == REDUCED[0]);
+        if let Some(first) = presets.iter().position(is_reduced) {
+            let linear = presets[first].without_saturation();
+            let mut kept = 0;
+            presets.retain(|candidate| {
+                kept += usize::from(is_reduced(candidate));
+                !is_reduced(candidate) || kept == 1
+            });
+            presets.extend(linear);
+        }
+        presets
     }
 
     /// From another preset, with the same numbers where it has them and with its usual ones where not.
@@ -253,12 +274,48 @@ impl Candidate {
         }
     }
 
+    /// The same for a reduced damper that never saturates, which is linear.
+    fn without_saturation(&self) -> Option<Self> {
+        let (key, value) = (REDUCED[1], 100.0);
+        let damper = self.calibration.damper.with(&[(key, value)]).ok()?;
+        let mut linear = Self {
+            advice: self.advice.clone(),
+            calibration: self.calibration.clone(),
+            added: self
+                .added
+                .iter()
+                .filter(|added| *added != key)
+                .cloned()
+                .collect(),
+        };
+        linear.calibration.damper = Keyed::new(self.calibration.damper.name(), &damper).ok()?;
+        linear.calibration.varied.retain(|varied| varied.key != key);
+        linear.name_added();
+        linear.advice.push(Remedy::Set {
+            key: key.into(),
+            value,
+        });
+        Some(linear)
+    }
+
+    /// Puts the numbers that are added into the advice.
+    fn name_added(&mut self) {
+        for remedy in &mut self.advice {
+            match remedy {
+                Remedy::VaryAlso(keys) | Remedy::OtherDamper { vary: keys, .. } => {
+                    keys.clone_from(&self.added);
+                }
+                _ => {}
+            }
+        }
+    }
+
     /// How unlikely it is as the cause, the lower the better; `None` where it does not explain the recordings.
     fn rank(&self, is_unwanted: &(dyn Fn() -> bool + Sync)) -> Option<f64> {
         let calibration = &self.calibration;
         calibration.refuse_impossible().ok()?;
         let model: Model<'_> = calibration.model(is_unwanted);
-        let fit = model.fits(1, &|| {}).into_iter().next()?;
+        let fit = model.quick_fit()?;
         let share = model.worst_misfit(&fit.places).ok()??.share;
         if share > calibration.assumed.most_missed {
             return None;
@@ -274,6 +331,7 @@ impl Candidate {
 
     /// The advice if it leads to a result, without numbers that were added in vain.
     fn confirmed(mut self, is_unwanted: &(dyn Fn() -> bool + Sync)) -> Option<Advice> {
+        self.calibration.starts = 1;
         match self.calibration.attempt(&|_| {}, is_unwanted) {
             Ok(_) => return Some(self.advice),
             Err(CalibrationError::Undetermined { numbers }) => {
@@ -292,14 +350,7 @@ impl Candidate {
         if self.added.is_empty() {
             return None;
         }
-        for remedy in &mut self.advice {
-            match remedy {
-                Remedy::VaryAlso(keys) | Remedy::OtherDamper { vary: keys, .. } => {
-                    keys.clone_from(&self.added);
-                }
-                _ => {}
-            }
-        }
+        self.name_added();
         self.calibration.attempt(&|_| {}, is_unwanted).ok()?;
         Some(self.advice)
     }

@@ -264,18 +264,8 @@ impl CalibrationError {
             }
             Self::Implausible { finding, advice } => {
                 let mut advice = advice.clone();
-                if let (
-                    Finding::Missed {
-                        missed_n,
-                        force_rms_n,
-                        ..
-                    },
-                    true,
-                ) = (finding, advice.is_empty())
-                {
-                    // Up to the next ten percent, beyond what is missed now.
-                    let part = (10.0 * missed_n / force_rms_n).floor() / 10.0 + 0.1;
-                    advice.push(vec![Remedy::AllowMisfit(part)]);
+                if advice.is_empty() {
+                    advice.extend(finding.acceptance());
                 }
                 advice
             }

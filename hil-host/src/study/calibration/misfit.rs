@@ -4,6 +4,7 @@ use std::fmt;
 
 use super::loops::LoopTest;
 use super::model::Model;
+use super::remedy::{Advice, Remedy};
 use super::{Calibration, CalibrationError, left};
 
 /// Largest part of the force's root mean square that a model may miss beyond the noise, by default. A quadratic law misses this much of a linear
@@ -57,7 +58,41 @@ pub enum Finding {
         key: String,
         /// The bound.
         bound: f64,
+        /// Both bounds.
+        bounds: [f64; 2],
     },
+}
+
+impl Finding {
+    /// What a user can do who wants the nearest fit all the same; `None` where there is none.
+    pub(super) fn acceptance(&self) -> Option<Advice> {
+        match self {
+            Self::Missed {
+                missed_n,
+                force_rms_n,
+                at_bounds,
+                ..
+            } => {
+                // Up to the next ten percent.
+                let part = (10.0 * missed_n / force_rms_n).floor() / 10.0 + 0.1;
+                let bounds = at_bounds.iter().map(|(key, bounds)| Remedy::Bounds {
+                    key: key.clone(),
+                    bounds: *bounds,
+                });
+                Some(
+                    [Remedy::AllowMisfit(part)]
+                        .into_iter()
+                        .chain(bounds)
+                        .collect(),
+                )
+            }
+            Self::AtBound { key, bounds, .. } => Some(vec![Remedy::Bounds {
+                key: key.clone(),
+                bounds: *bounds,
+            }]),
+            _ => None,
+        }
+    }
 }
 
 impl fmt::Display for Finding {
@@ -96,7 +131,7 @@ impl fmt::Display for Finding {
                     .iter()
                     .try_for_each(|(key, _)| write!(f, "; {key} ended at a bound"))
             }
-            Self::AtBound { key, bound } => {
+            Self::AtBound { key, bound, .. } => {
                 write!(
                     f,
                     "{key} ended at its bound {bound:e}: the best value lies beyond it"
@@ -185,6 +220,7 @@ impl Model<'_> {
                 return Err(CalibrationError::implausible(Finding::AtBound {
                     key: varied.key.clone(),
                     bound: bound.value,
+                    bounds: varied.bounds,
                 }));
             }
         }

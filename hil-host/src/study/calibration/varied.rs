@@ -183,27 +183,22 @@ impl Varied {
         })
     }
 
-    /// Bounds beyond the one it is at, as far as a damper or a rig may have them; `None` where there is nothing beyond.
-    pub(super) fn wider(&self, is_least: bool) -> Option<[f64; 2]> {
-        /// Factor by which bounds go out.
+    /// Bounds ten times as far out, as far as a damper or a rig may have them; `None` where there is nothing beyond.
+    pub(super) fn wider(&self) -> Option<[f64; 2]> {
         const OUT: f64 = 10.0;
         let [least, greatest] = self.bounds;
         let [lowest, highest] = match range(&self.key) {
             Some(range) => [range.least, range.greatest],
             None => [-rig::largest(&self.key), rig::largest(&self.key)],
         };
-        let wider = match (is_least, self.by_ratio) {
-            (true, true) => [(least / OUT).max(lowest), greatest],
-            (false, true) => [least, (greatest * OUT).min(highest)],
-            (true, false) => [(least - OUT * (greatest - least)).max(lowest), greatest],
-            (false, false) => [least, (greatest + OUT * (greatest - least)).min(highest)],
-        };
-        let wider = if self.is_of_rig() {
-            let most = wider[0].abs().max(wider[1].abs());
-            [-most, most]
+        let [least, greatest] = if self.by_ratio {
+            [least / OUT, greatest * OUT]
+        } else if self.is_of_rig() {
+            [least * OUT, greatest * OUT]
         } else {
-            wider
+            [least, greatest + OUT * (greatest - least)]
         };
+        let wider = [least.max(lowest), greatest.min(highest)];
         let is_ordered = wider[0] < wider[1] && (wider[0] > 0.0 || !self.by_ratio);
         (is_ordered && wider != self.bounds).then_some(wider)
     }

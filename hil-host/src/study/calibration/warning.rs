@@ -158,7 +158,9 @@ impl Found<'_> {
                 }
             }
             let [low, high] = influence.chi_square;
-            if low.min(high) < -FITS_BETTER {
+            // A model that lacks something takes any number that makes up for it.
+            let mut tests = self.loops.iter().zip(self.fits);
+            if low.min(high) < -FITS_BETTER && !tests.any(|(test, fit)| fit.misses(test)) {
                 let by = if low < high {
                     -influence.uncertainty
                 } else {
