@@ -151,7 +151,7 @@ impl Change {
                     self.leave_out.push("every other --vary".into());
                 }
                 if given.has_overrides {
-                    self.leave_out.push("every --set".into());
+                    self.leave_out.push("every other --set".into());
                 }
             }
             Remedy::Leave(key) => self.leave_out.push(format!("--vary {key}")),
