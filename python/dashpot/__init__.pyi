@@ -204,6 +204,10 @@ class Calibrated:
     def correlation(self) -> NDArray[np.float64]: ...
     @property
     def loops(self) -> list[dict[str, Any]]: ...
+    @property
+    def assumed(self) -> dict[str, dict[str, Any]]: ...
+    @property
+    def warnings(self) -> list[str]: ...
 
 def calibrate(
     damper: Damper,
@@ -216,6 +220,10 @@ def calibrate(
     skew: bool = True,
     starts: int | None = None,
     step_s: float = 0.00025,
+    hold: dict[str, float | None] | None = None,
+    temperature_uncertainty_k: float = 5.0,
+    density_uncertainty_kg_per_m3: float = 0.0,
+    max_misfit_percent: float = 20.0,
 ) -> Calibrated: ...
 @final
 class Contact:

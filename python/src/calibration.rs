@@ -3,13 +3,14 @@
 use dashpot_core::parameters::STEP_RANGE_S;
 use dashpot_hil::study::StudyError;
 use dashpot_hil::study::calibration::{
-    Calibrated as Found, Calibration, IndexTest, LoopTest, Prior, Recorded, Varied,
+    Assumed, Calibrated as Found, Calibration, IndexTest, LoopTest, Prior, Recorded, Request, SKEW,
 };
 use numpy::{Ix1, PyArray1, PyArray2};
 use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict, PyDict, PyList};
 
 use crate::arrays;
+use crate::calibration_words;
 use crate::damper::Damper;
 use crate::error::{Outcome, Refusal, refuse};
 use crate::interruption::beside;
@@ -45,20 +46,46 @@ impl Calibrated {
         self.damper.clone_ref(py)
     }
 
-    /// The numbers that were varied, by their keys; `sensor_skew_s` is the time (s) by which the force is recorded later than the displacement.
+    /// The numbers that were varied, by their keys. Two belong to the rig, not to the damper: `sensor_skew_s` is the time (s) by which the force
+    /// is recorded later than the displacement, `force_offset_n` what the force sensor shows at no force (N).
     #[getter]
     fn values<'py>(&self, py: Python<'py>) -> Outcome<Bound<'py, PyDict>> {
         self.by_key(py, self.found.values.iter())
     }
 
-    /// Their intervals of 95 %, pairs of the least and the greatest value; `None` in a pair where a bound comes first.
+    /// Their intervals of 95 %, pairs of the least and the greatest value; `None` in a pair where a bound comes first. They include the noise of
+    /// the tests and the uncertainty of the oil's temperature and density.
     #[getter]
     fn intervals<'py>(&self, py: Python<'py>) -> Outcome<Bound<'py, PyDict>> {
-        let profiles = self.found.profiles.iter();
-        self.by_key(
-            py,
-            profiles.map(|profile| (profile.least, profile.greatest)),
-        )
+        let intervals = self.found.intervals.iter();
+        self.by_key(py, intervals.map(|[least, greatest]| (*least, *greatest)))
+    }
+
+    /// What was assumed of the oil and what that does to the numbers, by the key of the assumed one: its `value`, its `uncertainty` (half of an
+    /// interval of 95 %), and `shifts`, pairs of how far each number moves at the lower and at the upper end of that interval.
+    #[getter]
+    fn assumed<'py>(&self, py: Python<'py>) -> Outcome<Bound<'py, PyDict>> {
+        let assumed = PyDict::new(py);
+        for influence in &self.found.influences {
+            let one = PyDict::new(py);
+            one.set_item("value", influence.value)?;
+            one.set_item("uncertainty", influence.uncertainty)?;
+            let shifts = influence.shifts.iter().map(|[low, high]| (*low, *high));
+            one.set_item("shifts", self.by_key(py, shifts)?)?;
+            assumed.set_item(&influence.key, one)?;
+        }
+        Ok(assumed)
+    }
+
+    /// What the numbers alone do not say, in sentences: a model that misses more than noise, a number at its bound, numbers that the tests
+    /// hardly tell apart, an assumed temperature that decides a number.
+    #[getter]
+    fn warnings(&self) -> Vec<String> {
+        self.found
+            .warnings
+            .iter()
+            .map(calibration_words::warning)
+            .collect()
     }
 
     /// Their standard deviations by linear theory, in their units.
@@ -78,7 +105,8 @@ impl Calibrated {
     }
 
     /// Each recorded loop beside the model, at the samples that count: arrays `time_s`, `displacement_m`, `force_n`, `before_n` and
-    /// `after_n`, and the root mean squares of what the model misses, `missed_before_n` and `missed_after_n`.
+    /// `after_n`, the model's as the sensor would show them, the root mean squares of what it misses, `missed_before_n` and `missed_after_n`, and
+    /// `displacement_offset_m`, the middle of the motion, on which no force depends.
     #[getter]
     fn loops<'py>(&self, py: Python<'py>) -> Outcome<Bound<'py, PyList>> {
         let step_s = self.calibration.step_s;
@@ -97,6 +125,7 @@ impl Calibrated {
             one.set_item("force_n", PyArray1::from_slice(py, test.counted_forces_n()))?;
             one.set_item("before_n", PyArray1::from_slice(py, &fit.before_n))?;
             one.set_item("after_n", PyArray1::from_slice(py, &fit.after_n))?;
+            one.set_item("displacement_offset_m", test.displacement_offset_m)?;
             one.set_item("missed_before_n", fit.missed_before_n)?;
             one.set_item("missed_after_n", fit.missed_after_n)?;
             loops.append(one)?;
@@ -123,8 +152,14 @@ impl Calibrated {
 /// (N), or the `indices` of tests, each a dictionary of the columns that `dashpot calibrate --indices` reads.
 ///
 /// `vary` names the numbers, a list of keys, or a dictionary from keys to bounds, pairs or `None` for the plausible ones. `priors` has what is
-/// known of them before, pairs of mean and standard deviation; without `known_priors` only these count. Without `skew` the sensors record at
-/// the same instant. The search begins at `starts` places, 4 where none are given. What the tests do not determine is refused. Ctrl-C ends it.
+/// known of them before, pairs of mean and standard deviation; without `known_priors` only these count. Two numbers of the rig are found from
+/// loops without being named, `sensor_skew_s` and `force_offset_n`: `vary` and `priors` may name them, and `hold`, a dictionary to values or
+/// `None` for zero, keeps them. Without `skew` the sensors record at the same instant. The search begins at `starts` places, 4 where none are
+/// given.
+///
+/// Intervals include what the oil's temperature, known within `temperature_uncertainty_k`, and its density, known within
+/// `density_uncertainty_kg_per_m3`, do to the numbers (half-widths of 95 %). What the tests do not determine is refused, and so is a model that
+/// misses more than `max_misfit_percent` of a test's force beyond its noise. Ctrl-C ends it.
 ///
 /// >>> import dashpot, numpy
 /// >>> made = dashpot.Damper("reduced-vertical", {"mount.clearance_m": 0.0, "reduced.damping_n_s_per_m": 100e3})
@@ -137,7 +172,8 @@ impl Calibrated {
 /// True
 #[pyfunction]
 #[pyo3(signature = (
-    damper, tests=None, vary=None, *, indices=None, priors=None, known_priors=true, skew=true, starts=None, step_s=0.00025
+    damper, tests=None, vary=None, *, indices=None, priors=None, known_priors=true, skew=true, starts=None, step_s=0.00025, hold=None,
+    temperature_uncertainty_k=5.0, density_uncertainty_kg_per_m3=0.0, max_misfit_percent=20.0
 ))]
 #[expect(clippy::too_many_arguments, reason = "what Python names when it calls")]
 pub fn calibrate(
@@ -151,6 +187,10 @@ pub fn calibrate(
     skew: bool,
     starts: Option<Whole>,
     step_s: f64,
+    hold: Option<&Bound<'_, PyDict>>,
+    temperature_uncertainty_k: f64,
+    density_uncertainty_kg_per_m3: f64,
+    max_misfit_percent: f64,
 ) -> Outcome<Calibrated> {
     if !STEP_RANGE_S.contains(&step_s) {
         return Err(StudyError::Step { step_s }.into());
@@ -158,7 +198,25 @@ pub fn calibrate(
     let starts = starts.unwrap_or(Whole::Count(STARTS));
     let starts = starts.within("starts", 1..=1000)? as usize;
     let damper = damper.get();
-    let mut varied = varied(damper, vary, priors, known_priors)?;
+    let mut request = request(vary, priors, hold)?;
+    request.only_own_priors = !known_priors;
+    if !skew {
+        request.hold.push((SKEW.into(), None));
+    }
+    request.check(damper.keyed())?;
+    let assumed = Assumed {
+        temperature_uncertainty_k: within(
+            "temperature_uncertainty_k",
+            temperature_uncertainty_k,
+            [0.0, 1e3],
+        )?,
+        density_uncertainty_kg_per_m3: within(
+            "density_uncertainty_kg_per_m3",
+            density_uncertainty_kg_per_m3,
+            [0.0, 1e3],
+        )?,
+        most_missed: 0.01 * within("max_misfit_percent", max_misfit_percent, [0.1, 1e4])?,
+    };
     let tests: Vec<Recorded> = tests
         .unwrap_or_default()
         .iter()
@@ -166,15 +224,16 @@ pub fn calibrate(
         .map(|(number, test)| recorded(number, test))
         .collect::<Outcome<_>>()?;
     let indices = index_tests(indices)?;
-    // The skew alone is no calibration of a damper.
-    if skew && !tests.is_empty() && !varied.is_empty() {
-        varied.push(Varied::skew());
-    }
     let work = |is_unwanted: &(dyn Fn() -> bool + Sync)| {
         let mut loops = Vec::new();
         for test in &tests {
             loops.extend(LoopTest::of(test, step_s)?);
         }
+        // Without loops there is no skew to hold.
+        if loops.is_empty() && !skew {
+            request.hold.retain(|(key, _)| key != SKEW);
+        }
+        let (varied, rig) = request.varied(damper.keyed(), &loops)?;
         let calibration = Calibration {
             damper: damper.keyed().clone(),
             varied,
@@ -182,6 +241,8 @@ pub fn calibrate(
             indices,
             step_s,
             starts,
+            rig,
+            assumed,
         };
         let found = calibration.run_unless(&|_| {}, is_unwanted)?;
         Ok::<_, Refusal>((calibration, found))
@@ -196,13 +257,20 @@ pub fn calibrate(
     })
 }
 
-/// The numbers to vary.
-fn varied(
-    damper: &Damper,
+/// A number of an argument within its range.
+fn within(name: &str, value: f64, [least, greatest]: [f64; 2]) -> Outcome<f64> {
+    if (least..=greatest).contains(&value) {
+        return Ok(value);
+    }
+    refuse(format!("{name}: {value}, allowed: {least} to {greatest}"))
+}
+
+/// What the arguments ask for.
+fn request(
     vary: Option<&Bound<'_, PyAny>>,
     priors: Option<&Bound<'_, PyDict>>,
-    known_priors: bool,
-) -> Outcome<Vec<Varied>> {
+    hold: Option<&Bound<'_, PyDict>>,
+) -> Outcome<Request> {
     let mut keys: Vec<(String, Option<[f64; 2]>)> = Vec::new();
     match vary.map(|vary| (vary, vary.cast::<PyDict>())) {
         Some((_, Ok(bounded))) => {
@@ -225,29 +293,22 @@ fn varied(
                 "prior {key}: standard deviation {standard_deviation}, allowed: above 0"
             ));
         }
-        if !keys.iter().any(|(varied, _)| *varied == key) {
-            return refuse(format!(
-                "prior {key}: not varied; allowed: a number that is varied"
-            ));
-        }
         let prior = Prior {
             mean,
             standard_deviation,
         };
         given.push((key, prior));
     }
-    let one = |(key, bounds): &(String, Option<[f64; 2]>)| {
-        let prior = given
-            .iter()
-            .find(|(of, _)| of == key)
-            .map(|(_, prior)| *prior);
-        let mut varied = Varied::new(damper.keyed(), key, *bounds, prior)?;
-        if !known_priors {
-            varied.prior = prior;
-        }
-        Ok(varied)
-    };
-    keys.iter().map(one).collect()
+    let mut held: Vec<(String, Option<f64>)> = Vec::new();
+    for (key, value) in hold.into_iter().flatten() {
+        held.push((key.extract()?, value.extract()?));
+    }
+    Ok(Request {
+        vary: keys,
+        priors: given,
+        hold: held,
+        only_own_priors: false,
+    })
 }
 
 /// A recorded loop of three arrays.

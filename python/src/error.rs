@@ -118,7 +118,7 @@ impl From<CalibrationError> for Refusal {
         match error {
             CalibrationError::Damper(error) => error.into(),
             CalibrationError::Study(error) => error.into(),
-            other => Self::Value(other.to_string()),
+            other => Self::Value(crate::calibration_words::message(&other)),
         }
     }
 }

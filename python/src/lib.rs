@@ -7,6 +7,7 @@ mod arrays;
 mod bank;
 mod built;
 mod calibration;
+mod calibration_words;
 mod contact;
 mod damper;
 mod error;

@@ -28,7 +28,7 @@ class Calibration(Test):
 
     def test_made_numbers_are_found_with_their_intervals(self):
         found = dashpot.calibrate(self.start, self.tests, [STIFFNESS, DAMPING], step_s=1e-3)
-        self.assertEqual(list(found.values), [STIFFNESS, DAMPING, "sensor_skew_s"])
+        self.assertEqual(list(found.values), [STIFFNESS, DAMPING, "sensor_skew_s", "force_offset_n"])
         for key in (STIFFNESS, DAMPING):
             self.assertAlmostEqual(found.values[key] / MADE[key], 1, 2)
             self.assertEqual(found.damper[key], found.values[key])
@@ -41,7 +41,10 @@ class Calibration(Test):
             self.assertLess(MADE[key], greatest + width)
             self.assertGreater(found.standard_deviations[key], 0)
         self.assertLess(abs(found.values["sensor_skew_s"]), 1e-4)
-        self.assertEqual(found.correlation.shape, (3, 3))
+        self.assertLess(abs(found.values["force_offset_n"]), 5)
+        # A reduced damper has no oil.
+        self.assertEqual(found.assumed, {})
+        self.assertEqual(found.correlation.shape, (4, 4))
         numpy.testing.assert_allclose(numpy.diag(found.correlation), 1)
         self.assertEqual(len(found.loops), 2)
         for one in found.loops:
@@ -53,9 +56,57 @@ class Calibration(Test):
     def test_bounds_priors_and_skew_are_given(self):
         bounded = {DAMPING: (50e3, 200e3)}
         found = dashpot.calibrate(self.start.replace({STIFFNESS: 7e6}), self.tests, bounded, skew=False, step_s=1e-3,
-                                  priors={DAMPING: (100e3, 5e3)}, known_priors=False, starts=2)
+                                  priors={DAMPING: (100e3, 5e3)}, known_priors=False, starts=2,
+                                  hold={"force_offset_n": None})
         self.assertEqual(list(found.values), [DAMPING])
         self.assertAlmostEqual(found.values[DAMPING] / 100e3, 1, 2)
+
+    def test_offsets_of_the_sensors_are_found(self):
+        # A force offset was refused as "do not determine sensor_skew_s".
+        off = [(time_s, x + 0.3, force_n + 60.0) for time_s, x, force_n in self.tests]
+        found = dashpot.calibrate(self.start, off, [STIFFNESS, DAMPING], step_s=1e-3, starts=1)
+        least, greatest = found.intervals["force_offset_n"]
+        self.assertLess(least, 60)
+        self.assertLess(60, greatest)
+        self.assertAlmostEqual(found.values[DAMPING] / MADE[DAMPING], 1, 2)
+        self.assertAlmostEqual(found.loops[0]["displacement_offset_m"], 0.3, 4)
+        self.assertEqual([one for one in found.warnings if "misses" in one], [])
+        given = dashpot.calibrate(self.start, off, {STIFFNESS: None, DAMPING: None, "force_offset_n": (0.0, 100.0)}, step_s=1e-3,
+                                  starts=1, priors={"sensor_skew_s": (0.0, 1e-3)})
+        self.assertAlmostEqual(given.values["force_offset_n"], 60, 0)
+
+    def test_wrong_signs_and_units_are_named_with_advice_that_works(self):
+        def advised(change, words, advice):
+            with self.assertRaisesRegex(dashpot.DashpotError, words):
+                dashpot.calibrate(self.start, [change(*test) for test in self.tests], [STIFFNESS, DAMPING], step_s=1e-3, starts=1)
+            tests = [advice(*change(*test)) for test in self.tests]
+            found = dashpot.calibrate(self.start, tests, [STIFFNESS, DAMPING], step_s=1e-3, starts=1)
+            self.assertAlmostEqual(found.values[DAMPING] / MADE[DAMPING], 1, 2)
+
+        # This damper is the same in both directions, so either sign may be wrong.
+        advised(lambda t, x, f: (t, x, -f), "^the .* has the opposite sign: pass -.*pass -force|pass -force.*pass -displacement",
+                lambda t, x, f: (t, x, -f))
+        advised(lambda t, x, f: (t, 1e3 * x, f), "^the displacement seems to be in another unit: 1000 times too large: "
+                "pass 1e-3 \\* displacement", lambda t, x, f: (t, 1e-3 * x, f))
+
+    def test_the_oils_temperature_is_in_the_interval(self):
+        made = dashpot.Damper("in-service", {"mount.clearance_m": 0.0})
+        time_s = numpy.arange(4000) * 1e-3
+        x = 1e-2 * numpy.sin(2 * math.pi * time_s)
+        force_n = made.build(1e-3, numpy.float64).replay(x) + numpy.random.default_rng(4).normal(0, 20, len(x))
+        key = "orifice.discharge_coefficient"
+        found = dashpot.calibrate(made, [(time_s, x, force_n)], [key], step_s=1e-3, starts=1)
+        low, high = found.assumed["oil.temperature_c"]["shifts"][key]
+        self.assertEqual(found.assumed["oil.temperature_c"]["value"], 45.0)
+        exact = dashpot.calibrate(made, [(time_s, x, force_n)], [key], step_s=1e-3, starts=1, temperature_uncertainty_k=0)
+        self.assertEqual(exact.assumed, {})
+
+        def width(one):
+            least, greatest = one.intervals[key]
+            return greatest - least
+
+        self.assertGreater(width(found), width(exact))
+        self.assertGreater(width(found), 0.99 * (abs(low) + abs(high)))
 
     def test_indices_alone_determine_a_number(self):
         made = dashpot.Damper("reduced-vertical", MADE)
@@ -84,6 +135,13 @@ class Calibration(Test):
         self.assert_refused(f"{DAMPING}: varied twice", calibrate, self.start, [test], [DAMPING, DAMPING])
         self.assert_refused(f"prior {STIFFNESS}: not varied; allowed: a number that is varied", calibrate, self.start,
                             [test], [DAMPING], priors={STIFFNESS: (1, 1)})
+        self.assert_refused("hold mount.clearance_m: only numbers of the rig are held so (sensor_skew_s, force_offset_n); one of the damper is "
+                            'held unless it is varied; leave "mount.clearance_m" out of hold', calibrate, self.start, [test], [DAMPING],
+                            hold={"mount.clearance_m": None})
+        self.assert_refused("temperature_uncertainty_k: -1, allowed: 0 to 1000", calibrate, self.start, [test], [DAMPING],
+                            temperature_uncertainty_k=-1)
+        self.assert_refused("max_misfit_percent: NaN, allowed: 0.1 to 10000", calibrate, self.start, [test], [DAMPING],
+                            max_misfit_percent=math.nan)
         for starts in (0, -1, 1001, 2**64):
             self.assert_refused(f"starts: {starts}, allowed: 1 to 1000", calibrate, self.start, [test], [DAMPING],
                                 starts=starts)

@@ -6,6 +6,7 @@ use dashpot_core::BuildError;
 use dashpot_rail::contact::PairError;
 use dashpot_reference::ReferenceError;
 
+use super::calibrate::words;
 use super::remedy::{option_of, with_remedy};
 use crate::files::FileError;
 use crate::files::case::CaseError;
@@ -238,16 +239,7 @@ impl From<StudyError> for Failure {
 
 impl From<CalibrationError> for Failure {
     fn from(error: CalibrationError) -> Self {
-        match error {
-            CalibrationError::Damper(error) => error.into(),
-            CalibrationError::Study(error) => error.into(),
-            CalibrationError::NotVaried { .. }
-            | CalibrationError::Bounds { .. }
-            | CalibrationError::Start { .. }
-            | CalibrationError::Prior { .. }
-            | CalibrationError::Twice { .. } => Self::wrong_use(format!("--vary {error}")),
-            _ => Self::new(error.to_string()),
-        }
+        words::failure(error, &words::Given::default())
     }
 }
 

@@ -4,6 +4,12 @@ mod an_altered_row;
 mod bench_to_firmware;
 mod budget;
 mod c_library_page;
+mod calibrate_advice_did_not_exist;
+mod calibrate_force_offset_was_refused;
+mod calibrate_linear_damper_passed_as_in_service;
+mod calibrate_oil_temperature_shifted_in_silence;
+mod calibrate_start_from_another_preset_was_not_named;
+mod calibrate_wrong_sign_and_unit_were_not_named;
 mod clock_jumps_filled_disks;
 #[path = "../common/mod.rs"]
 mod common;

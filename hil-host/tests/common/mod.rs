@@ -3,6 +3,8 @@
 // Each test binary uses a part of these.
 #![allow(dead_code)]
 
+pub mod advice;
+pub mod bench;
 pub mod page;
 
 use std::path::Path;

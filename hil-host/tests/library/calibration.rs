@@ -7,7 +7,8 @@ use dashpot_core::CheckedParameters;
 use dashpot_hil::files::damper::{Keyed, load};
 use dashpot_hil::study::bench_test::Harmonic;
 use dashpot_hil::study::calibration::{
-    Calibrated, Calibration, CalibrationError, IndexTest, LoopTest, Prior, Recorded, SKEW, Varied,
+    Assumed, Calibrated, Calibration, CalibrationError, HeldRig, IndexTest, LoopTest, Prior,
+    Recorded, SKEW, Varied,
 };
 use dashpot_hil::study::health::Noise;
 use dashpot_hil::study::verification::reference_forces;
@@ -29,7 +30,7 @@ const MOTIONS: [(f64, f64); 5] = [
 ];
 
 /// A recording of `damper` on the bench; `noise` is the standard deviation over the rms of each signal.
-fn recorded(
+pub(crate) fn recorded(
     damper: &CheckedParameters,
     (amplitude_m, frequency_hz): (f64, f64),
     noise: f64,
@@ -73,11 +74,13 @@ fn calibration(
         let recorded = recorded(truth, *motion, noise, &mut rng);
         LoopTest::of(&recorded, step_s).unwrap()
     });
-    let loops = loops.collect();
+    let loops: Vec<LoopTest> = loops.collect();
     let varied = keys
         .iter()
         .map(|key| Varied::new(&damper, key, None, None).unwrap());
-    let varied = varied.chain([Varied::skew()]).collect();
+    let varied = varied
+        .chain([Varied::skew(), Varied::force_offset(&loops)])
+        .collect();
     Calibration {
         damper,
         varied,
@@ -85,6 +88,8 @@ fn calibration(
         indices: Vec::new(),
         step_s,
         starts: 2,
+        rig: HeldRig::default(),
+        assumed: Assumed::default(),
     }
 }
 
@@ -102,7 +107,11 @@ fn truths<const N: usize>(starts: [f64; N], rng: &mut Rng) -> [f64; N] {
     starts.map(|start| start * (0.6 + rng.f64()))
 }
 
-fn with<const N: usize>(preset: &str, keys: [&str; N], values: [f64; N]) -> CheckedParameters {
+pub(crate) fn with<const N: usize>(
+    preset: &str,
+    keys: [&str; N],
+    values: [f64; N],
+) -> CheckedParameters {
     let set = keys.into_iter().zip(values);
     let overrides: Vec<String> = set.map(|(key, value)| format!("{key}={value:?}")).collect();
     load(preset, &overrides).unwrap()
@@ -262,6 +271,8 @@ fn the_preset_is_what_calibration_finds_and_keeps_table_5() {
         indices: IndexTest::read(std::path::Path::new(table)).unwrap(),
         step_s: 5e-4,
         starts: 2,
+        rig: HeldRig::default(),
+        assumed: Assumed::default(),
     };
     let found = calibration.run(&|_| {}).unwrap();
     let preset = load("calibrated", &[]).unwrap();
@@ -323,17 +334,21 @@ fn intervals_of_95_percent_have_the_truth() {
             let recorded = recorded(&truth, *motion, 0.02, &mut rng);
             LoopTest::of(&recorded, step_s).unwrap()
         });
-        let loops = loops.collect();
+        let loops: Vec<LoopTest> = loops.collect();
         let varied = keys
             .iter()
             .map(|key| Varied::new(&damper, key, None, None).unwrap());
         let calibration = Calibration {
             damper: damper.clone(),
-            varied: varied.chain([Varied::skew()]).collect(),
+            varied: varied
+                .chain([Varied::skew(), Varied::force_offset(&loops)])
+                .collect(),
             loops,
             indices: Vec::new(),
             step_s,
             starts: 1,
+            rig: HeldRig::default(),
+            assumed: Assumed::default(),
         };
         let found = calibration.run(&|_| {}).unwrap();
         let profiles = found.profiles.iter().zip(truths.iter().chain(&[3e-3]));

@@ -1,6 +1,7 @@
 //! Parts of the host used as a library.
 
 mod calibration;
+mod calibration_intervals_with_offsets;
 mod case_file;
 mod coupled;
 mod damper_response;

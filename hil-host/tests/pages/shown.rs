@@ -89,8 +89,8 @@ pub fn all() -> [(&'static str, &'static str, usize, &'static str); 8] {
         ("study", &STUDY, 9, "time, s"),
         ("sheet", &SHEET, 6, "peak velocity, m/s"),
         ("response", &RESPONSE, 3, "frequency, Hz"),
-        // Two profiles, and for each of four tests two loops and what is missed.
-        ("calibration", &CALIBRATION, 14, "time, s"),
+        // Three profiles, and for each of four tests two loops and what is missed.
+        ("calibration", &CALIBRATION, 15, "time, s"),
         ("health", &HEALTH, 4, "time, s"),
     ]
 }

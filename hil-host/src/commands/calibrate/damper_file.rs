@@ -5,7 +5,7 @@ use dashpot_core::CheckedParameters;
 use super::report::{Report, digits};
 use crate::commands::failure::Outcome;
 use crate::files::damper;
-use crate::study::calibration::SKEW;
+use crate::study::calibration::RIG;
 
 /// The file.
 ///
@@ -40,7 +40,7 @@ pub(super) fn text(report: &Report, found: &CheckedParameters) -> Outcome<String
     lines.push("Found, with the interval of 95 %:".into());
     for number in &report.numbers {
         let end = |end: Option<f64>| end.map_or_else(|| "its bound".into(), digits);
-        let rig = if number.key == SKEW {
+        let rig = if RIG.contains(&number.key.as_str()) {
             " (of the rig, not of the damper)"
         } else {
             ""
@@ -62,6 +62,10 @@ pub(super) fn text(report: &Report, found: &CheckedParameters) -> Outcome<String
             prior.unwrap_or_default()
         ));
     }
+    for influence in &report.influences {
+        lines.push(format!("Assumed: {}", influence.words(&report.numbers)));
+    }
+    lines.extend(report.warnings.iter().map(|warning| warning.words.clone()));
     let head = lines.iter().map(|line| format!("# {line}\n"));
     Ok(head.collect::<String>() + "\n" + &damper::text(found)?)
 }

@@ -5,10 +5,11 @@ mod numbers;
 mod page;
 mod recorded;
 mod report;
+pub mod words;
 
 use std::path::PathBuf;
 
-use numbers::{NamedPrior, Variation};
+use numbers::{Held, NamedPrior, Variation};
 use report::{Recording, Report};
 
 use super::recording::MeasurementArguments;
@@ -18,7 +19,10 @@ use crate::commands::failure::{Failure, Outcome};
 use crate::files::FileError;
 use crate::files::damper::Keyed;
 use crate::files::output::{cannot_write, write_bytes, write_whole_if};
-use crate::study::calibration::{Calibration, IndexTest, LoopTest, Progress, Varied};
+use crate::study::calibration::{
+    Assumed, Calibration, CalibrationError, IndexTest, LoopTest, MOST_MISSED, Progress,
+    TEMPERATURE_UNCERTAINTY_K,
+};
 
 /// Find the numbers of a damper from bench tests: force-displacement loops, or tables of their indices.
 ///
@@ -32,7 +36,10 @@ use crate::study::calibration::{Calibration, IndexTest, LoopTest, Progress, Vari
   dashpot calibrate --damper paper --indices table5.csv --vary orifice.diameter_m --prior orifice.diameter_m=2e-3:1e-4 \\
       --output found.toml
 
-Numbers are found by least squares; each test counts by what its force scatters by. A table of indices is CSV with the columns
+Numbers are found by least squares; each test counts by what its force scatters by. Two numbers of the rig are found with them from recorded
+loops: sensor_skew_s, the time by which the force is recorded later, and force_offset_n, what the force sensor shows at no force. --vary gives
+them bounds, --prior says what is known of them, and --hold keeps them. A wrong sign, a wrong unit and a start from another kind of damper
+are refused with the option that helps. A table of indices is CSV with the columns
 amplitude_m, frequency_hz and any of max_extension_force_n, max_compression_force_n, energy_per_cycle_j (magnitudes; an empty cell was
 not measured), force_at_most_n (what no force exceeds) and scatter_percent (standard deviation; 1 where none is given).")]
 pub struct CalibrateArguments {
@@ -55,9 +62,21 @@ pub struct CalibrateArguments {
     /// Only priors that are given, not those that hold for every damper (discharge coefficients, density and bulk modulus of oil, steel).
     #[arg(long)]
     no_priors: bool,
-    /// Force and displacement are recorded at the same instant; else the skew between them is found too.
+    /// Force and displacement are recorded at the same instant; else the skew between them is found too. The same as --hold sensor_skew_s.
     #[arg(long)]
     no_skew: bool,
+    /// A number of the rig that is not to be found, sensor_skew_s or force_offset_n, and its value, 0 where none is given.
+    #[arg(long, value_name = "KEY[=VALUE]")]
+    hold: Vec<Held>,
+    /// How well you know the temperature of the oil in the tests (K): half of an interval of 95 %. All intervals include it.
+    #[arg(long, value_name = "K", default_value_t = TEMPERATURE_UNCERTAINTY_K, value_parser = uncertainty, allow_negative_numbers = true)]
+    temperature_uncertainty_k: f64,
+    /// How well you know the density of the oil (kg/m3): half of an interval of 95 %. All intervals include it.
+    #[arg(long, value_name = "KG_PER_M3", default_value_t = 0.0, value_parser = uncertainty, allow_negative_numbers = true)]
+    density_uncertainty_kg_per_m3: f64,
+    /// What the model may miss of each test's force beyond its noise, rms of rms (%); a fit that misses more is refused.
+    #[arg(long, value_name = "PERCENT", default_value_t = 100.0 * MOST_MISSED, value_parser = percent, allow_negative_numbers = true)]
+    max_misfit_percent: f64,
     /// Starts of the search.
     #[arg(long, value_name = "N", default_value_t = 4, value_parser = clap::value_parser!(u16).range(1..=1000))]
     starts: u16,
@@ -87,23 +106,24 @@ pub fn run(arguments: &CalibrateArguments) -> Outcome<()> {
     }
     refuse_same_streams(arguments)?;
     let damper = Keyed::new(&arguments.damper.damper, &*arguments.damper.load()?)?;
-    let mut varied = numbers::varied(&damper, arguments)?;
+    let given = arguments.given();
+    let in_words = |error: CalibrationError| words::failure(error, &given);
+    let request = numbers::request(arguments);
+    request.check(&damper).map_err(in_words)?;
     let step_s = arguments.step_us.step_s();
     let bar = progress::bar(0, "reading");
     let (mut recordings, mut loops) = (Vec::new(), Vec::new());
     for path in &arguments.input {
         let (recorded, gaps) = recorded::read(path, &arguments.channels.channels())?;
-        let tests = LoopTest::of(&recorded, step_s)?;
+        let tests = LoopTest::of(&recorded, step_s).map_err(in_words)?;
         recordings.push(Recording::new(&recorded, &gaps, tests.len()));
         loops.extend(tests);
-    }
-    if !loops.is_empty() && !arguments.no_skew {
-        varied.push(Varied::skew());
     }
     let mut indices = Vec::new();
     for path in &arguments.indices {
         indices.extend(IndexTest::read(path)?);
     }
+    let (varied, rig) = request.varied(&damper, &loops).map_err(in_words)?;
     let calibration = Calibration {
         damper,
         varied,
@@ -111,12 +131,19 @@ pub fn run(arguments: &CalibrateArguments) -> Outcome<()> {
         indices,
         step_s,
         starts: usize::from(arguments.starts),
+        rig,
+        assumed: Assumed {
+            temperature_uncertainty_k: arguments.temperature_uncertainty_k,
+            density_uncertainty_kg_per_m3: arguments.density_uncertainty_kg_per_m3,
+            most_missed: 0.01 * arguments.max_misfit_percent,
+        },
     };
     let found = calibration.run(&|progress| {
         let Progress { stage, done, of } = progress;
         bar.set_message(format!("{stage}: {done} of {of}"));
-    })?;
+    });
     bar.finish_and_clear();
+    let found = found.map_err(in_words)?;
     let report = Report::new(arguments, &calibration, recordings, &found)?;
     let file = damper_file::text(&report, &found.damper)?;
     let page = match &arguments.page {
@@ -132,6 +159,35 @@ pub fn run(arguments: &CalibrateArguments) -> Outcome<()> {
         write_bytes(&arguments.output, file.as_bytes())
     })?;
     print_report_beside(&arguments.output, arguments.format, &report, Report::print)
+}
+
+impl CalibrateArguments {
+    /// What the options say of the recording and the damper, for advice.
+    fn given(&self) -> words::Given {
+        let channels = self.channels.channels();
+        words::Given {
+            displacement_unit: channels.displacement.unit,
+            force_unit: channels.force.unit,
+            displacement_is_reversed: channels.displacement.reversed,
+            force_is_reversed: channels.force.reversed,
+            has_overrides: !self.damper.overrides.is_empty(),
+            has_no_skew: self.no_skew,
+        }
+    }
+}
+
+/// An uncertainty, 0 or above.
+fn uncertainty(text: &str) -> Result<f64, String> {
+    let number = text.parse::<f64>().ok();
+    let number = number.filter(|number| (0.0..=1e3).contains(number));
+    number.ok_or_else(|| "allowed: 0 to 1000".into())
+}
+
+/// A part in percent.
+fn percent(text: &str) -> Result<f64, String> {
+    let number = text.parse::<f64>().ok();
+    let number = number.filter(|number| (0.1..=1e4).contains(number));
+    number.ok_or_else(|| "allowed: 0.1 to 10000".into())
 }
 
 /// Refuses standard input twice, and outputs that would overwrite what is read.

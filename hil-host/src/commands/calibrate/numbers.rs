@@ -3,9 +3,7 @@
 use std::str::FromStr;
 
 use super::CalibrateArguments;
-use crate::commands::failure::{Failure, Outcome};
-use crate::files::damper::Keyed;
-use crate::study::calibration::{Prior, Varied};
+use crate::study::calibration::{Prior, Request, SKEW};
 
 /// `KEY` or `KEY=LEAST:GREATEST`.
 #[derive(Debug, Clone, PartialEq)]
@@ -19,6 +17,30 @@ pub(super) struct Variation {
 pub(super) struct NamedPrior {
     key: String,
     prior: Prior,
+}
+
+/// `KEY` or `KEY=VALUE`.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Held {
+    key: String,
+    value: Option<f64>,
+}
+
+impl FromStr for Held {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let Some((key, value)) = text.split_once('=') else {
+            let (key, value) = (text.to_owned(), None);
+            return Ok(Self { key, value });
+        };
+        let number = value.trim().parse::<f64>().ok();
+        let number = number.filter(|number| number.is_finite());
+        Ok(Self {
+            key: key.into(),
+            value: Some(number.ok_or("allowed after `=`: a number")?),
+        })
+    }
 }
 
 impl FromStr for Variation {
@@ -69,38 +91,21 @@ fn pair(text: &str) -> Option<[f64; 2]> {
     Some([first?, second?])
 }
 
-/// The numbers of `damper` that the options vary.
-///
-/// # Errors
-/// A number that there is not or that forces do not tell, bounds that are none, or a prior of a number that is not varied.
-pub(super) fn varied(damper: &Keyed, arguments: &CalibrateArguments) -> Outcome<Vec<Varied>> {
-    let varied = arguments.vary.iter().map(|variation| {
-        let given = arguments
-            .prior
-            .iter()
-            .find(|given| given.key == variation.key);
-        let prior = given.map(|given| given.prior);
-        let mut varied = Varied::new(damper, &variation.key, variation.bounds, prior)?;
-        if arguments.no_priors {
-            varied.prior = prior;
-        }
-        Ok(varied)
-    });
-    let varied: Vec<Varied> = varied.collect::<Outcome<_>>()?;
-    for (number, given) in arguments.prior.iter().enumerate() {
-        let earlier = &arguments.prior[..number];
-        if earlier.iter().any(|earlier| earlier.key == given.key) {
-            return Err(Failure::wrong_use(format!(
-                "--prior {}: given twice",
-                given.key
-            )));
-        }
-        if !varied.iter().any(|varied| varied.key == given.key) {
-            return Err(Failure::wrong_use(format!(
-                "--prior {}: not varied; allowed: a number that --vary names",
-                given.key
-            )));
-        }
+/// What the options ask for.
+pub(super) fn request(arguments: &CalibrateArguments) -> Request {
+    let vary = arguments.vary.iter();
+    let priors = arguments.prior.iter();
+    let hold = arguments.hold.iter();
+    // Without loops there is no skew to hold.
+    let no_skew = arguments.no_skew && !arguments.input.is_empty();
+    let no_skew = no_skew.then(|| (SKEW.to_owned(), None));
+    Request {
+        vary: vary.map(|one| (one.key.clone(), one.bounds)).collect(),
+        priors: priors.map(|one| (one.key.clone(), one.prior)).collect(),
+        hold: hold
+            .map(|one| (one.key.clone(), one.value))
+            .chain(no_skew)
+            .collect(),
+        only_own_priors: arguments.no_priors,
     }
-    Ok(varied)
 }

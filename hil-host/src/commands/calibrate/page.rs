@@ -98,17 +98,9 @@ fn numbers(report: &Report) -> Markup {
 }
 
 fn notes(report: &Report) -> Markup {
-    let misses: Vec<&Loop> = report.loops.iter().filter(|row| row.misses()).collect();
     html! {
-        @for (a, b, correlation) in report.close() {
-            p { (a) " and " (b) " are hardly told apart by these tests: correlation " (format!("{correlation:.3}")) "." }
-        }
-        @for row in misses {
-            p.note {
-                (row.test) ": the model misses " (format!("{:.0}", row.missed_after_n)) " N where the force scatters by "
-                (format!("{:.0}", row.force_noise_n)) " N: it lacks something that this test has."
-            }
-        }
+        @for influence in &report.influences { p { "Assumed: " (influence.words(&report.numbers)) "." } }
+        @for warning in &report.warnings { p.note { (warning.words) "." } }
     }
 }
 
@@ -170,13 +162,14 @@ fn loop_table(rows: &[Loop]) -> Markup {
         div.wide.worded {
             table {
                 tr {
-                    th { "test" } th { "amplitude, mm" } th { "peak velocity, m/s" } th { "peak force, kN" } th { "noise of force, N" }
+                    th { "test" } th { "amplitude, mm" } th { "middle, mm" } th { "peak velocity, m/s" } th { "peak force, kN" } th { "noise of force, N" }
                     th { "missed before, N" } th { "missed after, N" }
                 }
                 @for row in rows {
-                    tr class=[row.misses().then_some("over")] {
+                    tr class=[row.misses.then_some("over")] {
                         td { (row.test) }
                         td { (format!("{:.2}", row.amplitude_m * 1e3)) }
+                        td { (format!("{:.2}", row.displacement_offset_m * 1e3)) }
                         td { (format!("{:.3}", row.peak_velocity_m_per_s)) }
                         td { (format!("{:.2}", row.peak_force_n * 1e-3)) }
                         td { (format!("{:.0}", row.force_noise_n)) }

@@ -4,17 +4,20 @@ use std::io::{self, Write};
 
 use serde::Serialize;
 
-use super::CalibrateArguments;
+use super::{CalibrateArguments, words};
 use crate::commands::counted;
 use crate::commands::failure::Outcome;
 use crate::commands::gap_report::unended;
 use crate::files::output;
 use crate::files::recording::Gaps;
 use crate::study::bench_test::{Indices, run_until_periodic};
-use crate::study::calibration::{CLOSE, Calibrated, Calibration, IndexTest, Prior, Recorded};
+use crate::study::calibration::{
+    Calibrated, Calibration, HeldRig, IndexTest, Influence, Prior, RIG, Recorded, Warning,
+};
 
-/// A model that misses more than so many times what a force scatters by lacks something.
-const MISSES: f64 = 2.0;
+/// Half of the interval of the middle of a motion, in standard deviations of the noise: 1.96 over the root of two, for it is the mean of two ends, and
+/// smoothing makes neither worse than a sample.
+const OFFSET_DEVIATIONS: f64 = 1.386;
 
 /// A number that was found.
 #[derive(Serialize)]
@@ -22,9 +25,13 @@ pub(super) struct Number {
     pub(super) key: String,
     pub(super) before: f64,
     pub(super) found: f64,
-    /// Ends of the interval of 95 %, by the profile of the likelihood; `None` where a bound comes first.
+    /// Ends of the interval of 95 %, by the profile of the likelihood and the uncertainty of the assumed numbers; `None` where a bound comes
+    /// first.
     pub(super) least: Option<f64>,
     pub(super) greatest: Option<f64>,
+    /// The same by the profile alone, the assumed numbers being exact.
+    least_by_noise: Option<f64>,
+    greatest_by_noise: Option<f64>,
     pub(super) bounds: [f64; 2],
     pub(super) prior: Option<Prior>,
     /// Whether the tests tell it, rather than what was known before.
@@ -35,15 +42,81 @@ pub(super) struct Number {
     correlation: Vec<(String, f64)>,
 }
 
+/// An assumed number is said to move others that it moves by this part of what noise does.
+const PART_OF_NOISE: f64 = 0.2;
+
 impl Number {
-    /// Whether it is at one of its bounds, but for rounding.
-    fn at_bound(&self) -> Option<f64> {
+    /// Half of its interval by noise.
+    fn noise(&self) -> f64 {
         let [least, greatest] = self.bounds;
-        let near = 1e-3 * (greatest - least).min(self.found.abs().max(1e-9 * greatest));
-        self.bounds
-            .into_iter()
-            .find(|bound| (self.found - bound).abs() <= near)
+        0.5 * (self.greatest_by_noise.unwrap_or(greatest) - self.least_by_noise.unwrap_or(least))
     }
+}
+
+/// What an assumed number does to those that were found.
+#[derive(Serialize)]
+pub(super) struct AssumedNumber {
+    pub(super) key: String,
+    pub(super) value: f64,
+    /// Half of its interval of 95 %.
+    pub(super) uncertainty: f64,
+    /// The option that sets it.
+    option: &'static str,
+    /// Each found number with how far it moves at the lower and at the upper end of that interval.
+    pub(super) shifts: Vec<(String, [f64; 2])>,
+}
+
+impl AssumedNumber {
+    fn new(influence: &Influence, calibration: &Calibration) -> Self {
+        let shifts = calibration.varied.iter().zip(&influence.shifts);
+        Self {
+            key: influence.key.clone(),
+            value: influence.value,
+            uncertainty: influence.uncertainty,
+            option: words::uncertainty_option(&influence.key),
+            shifts: shifts
+                .map(|(varied, shifts)| (varied.key.clone(), *shifts))
+                .collect(),
+        }
+    }
+
+    /// In words, with what it does to each of `numbers` that it moves.
+    pub(super) fn words(&self, numbers: &[Number]) -> String {
+        let moved = self.shifts.iter().zip(numbers);
+        let moved: Vec<String> = moved
+            .filter(|((_, shifts), number)| {
+                let noise = number.noise();
+                shifts
+                    .iter()
+                    .any(|shift| shift.abs() > PART_OF_NOISE * noise)
+            })
+            .map(|((key, [low, high]), number)| {
+                if number.found == 0.0 || RIG.contains(&key.as_str()) {
+                    format!("{key} by {} to {}", digits(*low), digits(*high))
+                } else {
+                    let percent = |shift: &f64| 100.0 * shift / number.found.abs();
+                    format!("{key} by {:+.2} to {:+.2} %", percent(low), percent(high))
+                }
+            })
+            .collect();
+        let moves = if moved.is_empty() {
+            "which moves no number by a fifth of its noise".into()
+        } else {
+            format!("which moves {}", moved.join(", "))
+        };
+        format!(
+            "{} {} +- {} (95 %, {}), {moves}",
+            self.key, self.value, self.uncertainty, self.option
+        )
+    }
+}
+
+/// A warning and its words.
+#[derive(Serialize)]
+pub(super) struct Warned {
+    #[serde(flatten)]
+    pub(super) warning: Warning,
+    pub(super) words: String,
 }
 
 /// What was read of a file of loops, and what was left out.
@@ -93,17 +166,16 @@ pub(super) struct Loop {
     pub(super) peak_velocity_m_per_s: f64,
     pub(super) peak_force_n: f64,
     pub(super) displacement_noise_m: f64,
+    /// The middle of the motion as recorded, with its interval of 95 %: the offset of the sensor where the rig moves about the damper's middle.
+    pub(super) displacement_offset_m: f64,
+    displacement_offset_least_m: f64,
+    displacement_offset_greatest_m: f64,
     pub(super) force_noise_n: f64,
     pub(super) missed_before_n: f64,
     pub(super) missed_after_n: f64,
     correlation_samples: f64,
-}
-
-impl Loop {
     /// Whether the model lacks something that the test has.
-    pub(super) fn misses(&self) -> bool {
-        self.missed_after_n > MISSES * self.force_noise_n.max(0.01 * self.peak_force_n)
-    }
+    pub(super) misses: bool,
 }
 
 /// Indices of a test before and after.
@@ -124,6 +196,12 @@ pub(super) struct Report {
     recordings: Vec<Recording>,
     pub(super) loops: Vec<Loop>,
     pub(super) indices: Vec<IndexRow>,
+    /// Values of the rig's numbers that were not varied.
+    held: HeldRig,
+    /// What was assumed of the oil, and what that does to the numbers.
+    #[serde(rename = "assumed")]
+    pub(super) influences: Vec<AssumedNumber>,
+    pub(super) warnings: Vec<Warned>,
     starts: usize,
     starts_at_this_minimum: usize,
     pub(super) output: String,
@@ -153,8 +231,10 @@ impl Report {
                 key: varied.key.clone(),
                 before: varied.start,
                 found: found.values[number],
-                least: found.profiles[number].least,
-                greatest: found.profiles[number].greatest,
+                least: found.intervals[number][0],
+                greatest: found.intervals[number][1],
+                least_by_noise: found.profiles[number].least,
+                greatest_by_noise: found.profiles[number].greatest,
                 bounds: varied.bounds,
                 prior: varied.prior,
                 by_tests: found.profiles[number].is_by_tests(varied),
@@ -172,10 +252,16 @@ impl Report {
             peak_velocity_m_per_s: test.peak_velocity_m_per_s,
             peak_force_n: test.peak_force_n,
             displacement_noise_m: test.displacement_noise_m,
+            displacement_offset_m: test.displacement_offset_m,
+            displacement_offset_least_m: test.displacement_offset_m
+                - OFFSET_DEVIATIONS * test.displacement_noise_m,
+            displacement_offset_greatest_m: test.displacement_offset_m
+                + OFFSET_DEVIATIONS * test.displacement_noise_m,
             force_noise_n: test.force_noise_n,
             missed_before_n: fit.missed_before_n,
             missed_after_n: fit.missed_after_n,
             correlation_samples: fit.correlation_samples,
+            misses: fit.misses(test),
         });
         let before = arguments.damper.load()?;
         let indices = calibration.indices.iter().map(|measured| -> Outcome<_> {
@@ -197,6 +283,20 @@ impl Report {
             recordings,
             loops: loops.collect(),
             indices: indices.collect::<Outcome<_>>()?,
+            held: calibration.rig,
+            influences: found
+                .influences
+                .iter()
+                .map(|influence| AssumedNumber::new(influence, calibration))
+                .collect(),
+            warnings: found
+                .warnings
+                .iter()
+                .map(|warning| Warned {
+                    warning: warning.clone(),
+                    words: words::line(warning),
+                })
+                .collect(),
             starts: found.same_minimum[1],
             starts_at_this_minimum: found.same_minimum[0],
             output: output::name(&arguments.output).display().to_string(),
@@ -211,16 +311,6 @@ impl Report {
     pub(super) fn before(&self) -> String {
         let set = self.overrides.iter().map(|set| format!(" --set {set}"));
         [self.damper.clone()].into_iter().chain(set).collect()
-    }
-
-    /// Pairs of numbers that the tests hardly tell apart.
-    pub(super) fn close(&self) -> impl Iterator<Item = (&str, &str, f64)> {
-        self.numbers.iter().flat_map(|number| {
-            let close = number.correlation.iter().filter(|(other, value)| {
-                value.abs() > CLOSE && number.key.as_str() < other.as_str()
-            });
-            close.map(|(other, value)| (number.key.as_str(), other.as_str(), *value))
-        })
     }
 
     /// Prints it for people.
@@ -269,29 +359,11 @@ impl Report {
             )?;
         }
         writeln!(out)?;
-        for number in &report.numbers {
-            if let Some(bound) = number.at_bound() {
-                writeln!(
-                    out,
-                    "note: {} is at its bound {}; --vary {}=LEAST:GREATEST gives others",
-                    number.key,
-                    digits(bound),
-                    number.key
-                )?;
-            }
+        for influence in &report.influences {
+            writeln!(out, "assumed: {}", influence.words(&report.numbers))?;
         }
-        for (a, b, correlation) in report.close() {
-            writeln!(
-                out,
-                "note: {a} and {b} are hardly told apart: correlation {correlation:.3}"
-            )?;
-        }
-        for row in report.loops.iter().filter(|row| row.misses()) {
-            writeln!(
-                out,
-                "warning: {}: the model misses {:.0} N where the force scatters by {:.0} N: it lacks something that this test has",
-                row.test, row.missed_after_n, row.force_noise_n
-            )?;
+        for warning in &report.warnings {
+            writeln!(out, "{}", warning.words)?;
         }
         writeln!(
             out,
@@ -316,9 +388,10 @@ impl Report {
             .max(4);
         writeln!(
             out,
-            "  {:<width$}  {:>13}  {:>13}  {:>10}  {:>9}  {:>13}  {:>12}",
+            "  {:<width$}  {:>13}  {:>10}  {:>13}  {:>10}  {:>9}  {:>13}  {:>12}",
             "test",
             "amplitude, mm",
+            "middle, mm",
             "velocity, m/s",
             "force, kN",
             "noise, N",
@@ -328,9 +401,10 @@ impl Report {
         for row in &self.loops {
             writeln!(
                 out,
-                "  {:<width$}  {:>13.2}  {:>13.3}  {:>10.2}  {:>9.0}  {:>13.0}  {:>12.0}",
+                "  {:<width$}  {:>13.2}  {:>10.2}  {:>13.3}  {:>10.2}  {:>9.0}  {:>13.0}  {:>12.0}",
                 row.test,
                 row.amplitude_m * 1e3,
+                row.displacement_offset_m * 1e3,
                 row.peak_velocity_m_per_s,
                 row.peak_force_n * 1e-3,
                 row.force_noise_n,

@@ -39,6 +39,11 @@ impl Keyed {
         }
     }
 
+    /// The name that stands for the damper in errors.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
     /// The number at `key`, in the key's unit.
     ///
     /// # Errors

@@ -115,6 +115,27 @@ pub struct LoopTest {
     pub peak_velocity_m_per_s: f64,
     /// Largest force, without noise (N).
     pub peak_force_n: f64,
+    /// Half of the way from the least to the greatest force, without noise (N).
+    pub force_half_range_n: f64,
+    /// The middle between the least and the greatest displacement as recorded (m). No force depends on it.
+    pub displacement_offset_m: f64,
+}
+
+/// About its zero a force reaches this share of half its range in both directions, or its median is no guess of that zero.
+const BALANCED: f64 = 0.25;
+
+/// A guess of what the sensor shows at no force, from forces with these ends: a damper pulls and pushes for about as long, so their median; 0
+/// where the forces about it are in one direction. It decides where a test begins to count, and nothing else.
+fn zero_guess_n(forces: &[f64], [least, greatest]: [f64; 2]) -> f64 {
+    let mut sorted = forces.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    let median = sorted[sorted.len() / 2];
+    let enough = BALANCED * 0.5 * (greatest - least);
+    if greatest - median > enough && median - least > enough {
+        median
+    } else {
+        0.0
+    }
 }
 
 impl LoopTest {
@@ -179,8 +200,10 @@ impl LoopTest {
         let (shortest, longest) = span(&x);
         let (compression, extension) = span(&force.values);
         let peak_force_n = extension.max(-compression);
+        let force_half_range_n = 0.5 * (extension - compression);
+        let zero_n = zero_guess_n(&force.values, [compression, extension]);
         let reaches = |sign: f64| {
-            let reached = |force: &f64| sign * force > CONTACT * peak_force_n;
+            let reached = |force: &f64| sign * (force - zero_n) > CONTACT * force_half_range_n;
             force.values.iter().position(reached)
         };
         let (Some(first), Some(second)) = (reaches(1.0), reaches(-1.0)) else {
@@ -195,6 +218,8 @@ impl LoopTest {
             peak_velocity_m_per_s: velocities.fold(0.0, f64::max),
             amplitude_m: 0.5 * (longest - shortest),
             peak_force_n,
+            force_half_range_n,
+            displacement_offset_m: 0.5 * (shortest + longest),
             displacement_noise_m: displacement.noise,
             force_noise_n: force.noise,
             counted: from..to.max(from),
@@ -202,6 +227,46 @@ impl LoopTest {
             positions,
             forces_n,
             name,
+        })
+    }
+
+    /// The same test with its displacements and forces multiplied by these factors.
+    pub(super) fn scaled(&self, [of_x, of_force]: [f64; 2]) -> Self {
+        let times =
+            |values: &[f64], factor: f64| values.iter().map(|value| value * factor).collect();
+        Self {
+            displacements_m: times(&self.displacements_m, of_x),
+            forces_n: times(&self.forces_n, of_force),
+            displacement_noise_m: self.displacement_noise_m * of_x.abs(),
+            force_noise_n: self.force_noise_n * of_force.abs(),
+            amplitude_m: self.amplitude_m * of_x.abs(),
+            peak_velocity_m_per_s: self.peak_velocity_m_per_s * of_x.abs(),
+            peak_force_n: self.peak_force_n * of_force.abs(),
+            force_half_range_n: self.force_half_range_n * of_force.abs(),
+            displacement_offset_m: self.displacement_offset_m * of_x,
+            ..self.clone()
+        }
+    }
+
+    /// Root mean square of the velocity (m/s), at ticks of `step_s` (s).
+    pub(super) fn rms_velocity_m_per_s(&self, step_s: f64) -> f64 {
+        let pairs = self.displacements_m.windows(2);
+        let square: f64 = pairs.map(|pair| (pair[1] - pair[0]).powi(2)).sum();
+        (square / self.displacements_m.len() as f64).sqrt() / step_s
+    }
+
+    /// The work that the recorded force takes from the motion (J), and the sum of the magnitudes of its parts (J). The mean force is left out, for
+    /// an offset of the sensor takes no work on a closed path.
+    pub(super) fn work_j(&self) -> [f64; 2] {
+        let (x, forces) = (self.counted_displacements_m(), self.counted_forces_n());
+        let mean = forces.iter().sum::<f64>() / forces.len().max(1) as f64;
+        let moved = x.windows(2).map(|pair| pair[1] - pair[0]);
+        let parts = forces
+            .windows(2)
+            .zip(moved)
+            .map(|(pair, moved)| (0.5 * (pair[0] + pair[1]) - mean) * moved);
+        parts.fold([0.0, 0.0], |[work, size], part| {
+            [work + part, size + part.abs()]
         })
     }
 

@@ -2,30 +2,47 @@
 //!
 //! The numbers are those of least `sum ((F_model - F)/s)^2 + sum ((p - mean)/sigma)^2` over all samples and priors, found by Levenberg and
 //! Marquardt's method from several starts. The model is the core's step in double precision over the recorded motion, freed of its noise by a
-//! smoothing spline and read earlier by the skew of the sensors. `s` is the scatter of a test about the model, found with the numbers
-//! (iterated maximum likelihood), times the root of the samples of what is left that count once, for neighbours err together.
+//! smoothing spline and read earlier by the skew of the sensors; the offset of the force sensor is added to its force. `s` is the scatter of a
+//! test about the model, found with the numbers (iterated maximum likelihood), times the root of the samples of what is left that count once,
+//! for neighbours err together. What is left, the sign of the work and numbers at bounds show whether the fit is a damper's at all
+//! (`misfit`); where it is not, signs, units and other dampers are tried, and what explains the recordings is the advice (`diagnosis`).
 
 mod determined;
+mod diagnosis;
 mod error;
 mod fit;
 mod indices;
+mod influence;
 mod left;
 mod loops;
+mod misfit;
 mod model;
 mod plausible;
 mod profile;
+mod remedy;
+mod request;
+mod rig;
 mod varied;
+mod warning;
 
 pub use determined::{CLOSE, Determination, Determined};
 pub use error::CalibrationError;
 use fit::Fit;
 pub use indices::IndexTest;
+use influence::widened;
+pub use influence::{DENSITY, Influence, TEMPERATURE, TEMPERATURE_UNCERTAINTY_K};
 use left::missed_n;
 pub use loops::{LoopTest, Recorded};
+pub use misfit::{Finding, MOST_MISSED};
 use model::Model;
 use profile::Better;
 pub use profile::{Profile, RISE_95};
-pub use varied::{Prior, SKEW, Varied};
+pub use remedy::{Advice, Remedy};
+pub use request::Request;
+pub use rig::{DISPLACEMENT_OFFSET, FORCE_OFFSET, HeldRig, RIG, SKEW};
+pub use varied::{Prior, Varied};
+pub use warning::Warning;
+use warning::{AT_BOUND, Found};
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -36,6 +53,9 @@ use crate::study::workers;
 
 /// Rounds in which the scatter of the tests and the numbers are found in turn: the second changes both by a percent.
 const ROUNDS: usize = 3;
+
+/// Share of the way between its bounds within which a number is at one, whatever its interval.
+const AT_BOUND_CERTAINLY: f64 = 1e-3;
 
 /// Least scatter of a test, of its peak force: no sensor is better.
 const LEAST_SCATTER: f64 = 1e-4;
@@ -61,6 +81,31 @@ pub struct Calibration {
     pub step_s: f64,
     /// Starts of the search.
     pub starts: usize,
+    /// The rig's numbers where they are not varied.
+    pub rig: HeldRig,
+    /// What is taken for granted.
+    pub assumed: Assumed,
+}
+
+/// What a calibration takes for granted.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Assumed {
+    /// Half of the interval of 95 % of the oil's temperature (K).
+    pub temperature_uncertainty_k: f64,
+    /// Half of the interval of 95 % of the oil's density (kg/m3).
+    pub density_uncertainty_kg_per_m3: f64,
+    /// Part of the force's root mean square that the model may miss of a test, beyond the noise.
+    pub most_missed: f64,
+}
+
+impl Default for Assumed {
+    fn default() -> Self {
+        Self {
+            temperature_uncertainty_k: TEMPERATURE_UNCERTAINTY_K,
+            density_uncertainty_kg_per_m3: 0.0,
+            most_missed: MOST_MISSED,
+        }
+    }
 }
 
 /// How far a calibration is.
@@ -116,8 +161,14 @@ pub struct Calibrated {
     pub values: Vec<f64>,
     /// What the tests tell of them.
     pub determination: Determination,
-    /// Their intervals.
+    /// Their intervals by the noise of the tests, the assumed numbers being exact.
     pub profiles: Vec<Profile>,
+    /// Their intervals of 95 %, the uncertainty of the assumed numbers included; `None` where a bound comes first.
+    pub intervals: Vec<[Option<f64>; 2]>,
+    /// What the assumed numbers do to them.
+    pub influences: Vec<Influence>,
+    /// What the numbers alone do not say.
+    pub warnings: Vec<Warning>,
     /// Of each loop.
     pub loops: Vec<LoopFit>,
     /// Starts that led to the same minimum, of those that led to one.
@@ -158,16 +209,45 @@ impl Calibration {
         is_unwanted: &(dyn Fn() -> bool + Sync),
     ) -> Result<Calibrated, CalibrationError> {
         self.check()?;
+        match self.attempt(tell, is_unwanted) {
+            Err(CalibrationError::Implausible { finding, .. }) => {
+                let _stage = Stage::new("causes", 1, tell);
+                let advice = self.advice(&finding, is_unwanted);
+                match is_unwanted() {
+                    true => Err(CalibrationError::Unwanted),
+                    false => Err(CalibrationError::Implausible { finding, advice }),
+                }
+            }
+            other => other,
+        }
+    }
+
+    /// The model of the tests, which scatter by the noise of their forces.
+    fn model<'a>(&self, is_unwanted: &'a (dyn Fn() -> bool + Sync)) -> Model<'a> {
         let scatter = |test: &LoopTest| test.force_noise_n.max(LEAST_SCATTER * test.peak_force_n);
-        let mut model = Model {
+        Model {
             damper: self.damper.clone(),
             varied: self.varied.clone(),
+            rig: self.rig,
             loops: self.loops.clone(),
             indices: self.indices.clone(),
             step_s: self.step_s,
             scatter_n: self.loops.iter().map(scatter).collect(),
             is_unwanted,
-        };
+        }
+    }
+
+    /// The numbers, without a search for what else may be wrong where they are no damper's.
+    ///
+    /// # Errors
+    /// As [`run`](Self::run).
+    fn attempt(
+        &self,
+        tell: &(dyn Fn(Progress) + Sync),
+        is_unwanted: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Calibrated, CalibrationError> {
+        self.refuse_impossible()?;
+        let mut model = self.model(is_unwanted);
         let start: Vec<f64> = self.varied.iter().map(|v| v.place(v.start)).collect();
         let searches = Stage::new("searches", self.starts, tell);
         let fits = model.fits(self.starts, &|| searches.one_more());
@@ -197,9 +277,14 @@ impl Calibration {
                 CalibrationError::NoFit("numbers that no damper has together".into())
             })?;
         }
+        model.refuse_misfit(&best.places, self.assumed.most_missed)?;
+        model.refuse_bounds(&best.places, AT_BOUND_CERTAINLY, |_, _| true)?;
         let determination = model.determination(&best.places)?;
         let refuse = |is_determined: &dyn Fn(usize) -> bool| {
-            let refused = all.iter().filter(|number| !is_determined(**number));
+            // The rig's numbers are not what is asked for.
+            let refused = all
+                .iter()
+                .filter(|number| !self.varied[**number].is_of_rig() && !is_determined(**number));
             let numbers: Vec<(String, Determined)> = refused
                 .map(|&number| {
                     let key = self.varied[number].key.clone();
@@ -216,6 +301,9 @@ impl Calibration {
         })?;
         let (best, profiles) = self.profiles(&model, best, &determination, tell)?;
         let values = model.values(&best.places);
+        model.refuse_bounds(&best.places, AT_BOUND, |number, is_least| {
+            profiles[number].is_open(is_least)
+        })?;
         refuse(&|number| profiles[number].is_narrow(&self.varied[number], values[number]))?;
         let before = model.forces_n(&start)?;
         let after = model.forces_n(&best.places)?;
@@ -228,12 +316,35 @@ impl Calibration {
             after_n,
             correlation_samples: left.correlation_samples,
         });
+        let fits: Vec<LoopFit> = loops.collect();
+        let influences = self.influences(&model, &best.places)?;
+        let intervals = profiles.iter().zip(&values).enumerate();
+        let intervals = intervals.map(|(number, (profile, value))| {
+            let shifts = influences
+                .iter()
+                .map(move |influence| influence.shifts[number]);
+            widened(*value, [profile.least, profile.greatest], shifts)
+        });
+        let intervals = intervals.collect();
+        let warnings = Found {
+            varied: &self.varied,
+            values: &values,
+            profiles: &profiles,
+            determination: &determination,
+            influences: &influences,
+            loops: &self.loops,
+            fits: &fits,
+        }
+        .warnings();
         Ok(Calibrated {
             damper: model.damper_at(&best.places)?,
-            loops: loops.collect(),
+            loops: fits,
             values,
             determination,
             profiles,
+            intervals,
+            influences,
+            warnings,
             same_minimum,
         })
     }
@@ -264,9 +375,9 @@ impl Calibration {
                 }
             }
         }
-        Err(CalibrationError::NoFit(
-            "each search for the intervals met a better minimum; give more starts".into(),
-        ))
+        Err(CalibrationError::FewStarts {
+            starts: self.starts,
+        })
     }
 
     fn check(&self) -> Result<(), CalibrationError> {

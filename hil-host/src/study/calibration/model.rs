@@ -6,7 +6,8 @@ use nalgebra::DMatrix;
 use super::CalibrationError;
 use super::indices::IndexTest;
 use super::loops::LoopTest;
-use super::varied::{SKEW, Varied};
+use super::rig::{FORCE_OFFSET, HeldRig, SKEW};
+use super::varied::Varied;
 use crate::files::damper::Keyed;
 use crate::study::bench_test;
 
@@ -17,6 +18,8 @@ const CHANGE: f64 = 0.3;
 pub(super) struct Model<'a> {
     pub(super) damper: Keyed,
     pub(super) varied: Vec<Varied>,
+    /// The rig's numbers where they are not varied.
+    pub(super) rig: HeldRig,
     pub(super) loops: Vec<LoopTest>,
     pub(super) indices: Vec<IndexTest>,
     /// The step of all loops (s): the damper is built once for all of them.
@@ -33,13 +36,26 @@ impl Model<'_> {
     /// # Errors
     /// Numbers that no damper has together.
     pub(super) fn damper_at(&self, places: &[f64]) -> Result<CheckedParameters, CalibrationError> {
+        self.damper_with(places, &[])
+    }
+
+    /// The same with `more` numbers at their keys.
+    ///
+    /// # Errors
+    /// As [`Model::damper_at`].
+    pub(super) fn damper_with(
+        &self,
+        places: &[f64],
+        more: &[(&str, f64)],
+    ) -> Result<CheckedParameters, CalibrationError> {
         let values = self.values(places);
         let numbers: Vec<(&str, f64)> = self
             .varied
             .iter()
             .zip(values)
-            .filter(|(varied, _)| varied.key != SKEW)
+            .filter(|(varied, _)| !varied.is_of_rig())
             .map(|(varied, value)| (varied.key.as_str(), value))
+            .chain(more.iter().copied())
             .collect();
         Ok(self.damper.with(&numbers)?)
     }
@@ -50,29 +66,47 @@ impl Model<'_> {
         values.map(|(varied, place)| varied.at(*place)).collect()
     }
 
-    fn skew_s(&self, places: &[f64]) -> f64 {
-        let values = self.varied.iter().zip(places);
-        let mut skews = values.filter(|(varied, _)| varied.key == SKEW);
-        skews
-            .next()
-            .map_or(0.0, |(varied, place)| varied.at(*place))
+    /// The number at `key` where it is varied, else `held`.
+    fn varied_or(&self, places: &[f64], key: &str, held: f64) -> f64 {
+        let mut values = self.varied.iter().zip(places);
+        let found = values.find(|(varied, _)| varied.key == key);
+        found.map_or(held, |(varied, place)| varied.at(*place))
     }
 
-    /// Forces of the model at the samples that count (N), loop by loop.
+    /// What the force sensor shows at no force (N).
+    pub(super) fn force_offset_n(&self, places: &[f64]) -> f64 {
+        self.varied_or(places, FORCE_OFFSET, self.rig.force_offset_n)
+    }
+
+    /// What the sensor shows of the model's forces at the samples that count (N), loop by loop.
     ///
     /// # Errors
     /// Numbers that no damper has together; forces that are unwanted.
     pub(super) fn forces_n(&self, places: &[f64]) -> Result<Vec<Vec<f64>>, CalibrationError> {
+        self.forces_of(&self.damper_at(places)?, places)
+    }
+
+    /// The same of `damper`.
+    fn forces_of(
+        &self,
+        damper: &CheckedParameters,
+        places: &[f64],
+    ) -> Result<Vec<Vec<f64>>, CalibrationError> {
         if (self.is_unwanted)() {
             return Err(CalibrationError::Unwanted);
         }
-        let damper = self.damper_at(places)?;
         let built = damper.build::<f64>(self.step_s)?;
-        let later = self.skew_s(places) / self.step_s;
+        let later = self.varied_or(places, SKEW, self.rig.skew_s) / self.step_s;
+        let offset_n = self.force_offset_n(places);
         let forces = self.loops.iter().map(|test| {
+            // The force knows motion only, so every motion is about zero, wherever the sensor has its own.
+            let middle = test.displacement_offset_m;
             let x = &test.displacements_m;
-            let mut state = built.at_rest(x[0]);
-            let forces: Vec<f64> = x.iter().map(|x| built.step(&mut state, *x)).collect();
+            let mut state = built.at_rest(x[0] - middle);
+            let forces: Vec<f64> = x
+                .iter()
+                .map(|x| built.step(&mut state, *x - middle) + offset_n)
+                .collect();
             test.at_counted(&forces, later)
         });
         Ok(forces.collect())
@@ -83,17 +117,28 @@ impl Model<'_> {
     /// # Errors
     /// As [`Model::forces_n`]; a damper whose force does not become periodic.
     pub(super) fn deviations(&self, places: &[f64]) -> Result<Vec<f64>, CalibrationError> {
-        let forces = self.forces_n(places)?;
+        self.deviations_of(&self.damper_at(places)?, places)
+    }
+
+    /// The same of `damper`.
+    ///
+    /// # Errors
+    /// As [`Model::deviations`].
+    pub(super) fn deviations_of(
+        &self,
+        damper: &CheckedParameters,
+        places: &[f64],
+    ) -> Result<Vec<f64>, CalibrationError> {
+        let forces = self.forces_of(damper, places)?;
         let mut deviations = Vec::with_capacity(self.count());
         for ((test, scatter), forces) in self.loops.iter().zip(&self.scatter_n).zip(&forces) {
             let measured = test.counted_forces_n().iter();
             deviations.extend(measured.zip(forces).map(|(f, model)| (model - f) / scatter));
         }
         if !self.indices.is_empty() {
-            let damper = self.damper_at(places)?;
             for test in &self.indices {
                 let cycle =
-                    bench_test::run_unless(&damper, test.motion(), self.step_s, self.is_unwanted)?;
+                    bench_test::run_unless(damper, test.motion(), self.step_s, self.is_unwanted)?;
                 deviations.extend(test.deviations(&cycle.indices()));
             }
         }

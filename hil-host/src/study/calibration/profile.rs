@@ -41,6 +41,20 @@ impl Profile {
         width < RISE_95.sqrt() * known
     }
 
+    /// Whether a bound comes before the end of the interval on this side.
+    pub(super) fn is_open(&self, is_least: bool) -> bool {
+        if is_least {
+            self.least.is_none()
+        } else {
+            self.greatest.is_none()
+        }
+    }
+
+    /// Half of the interval's width; `None` where a bound comes first.
+    pub(super) fn half_width(&self) -> Option<f64> {
+        Some(0.5 * (self.greatest? - self.least?))
+    }
+
     /// Whether the interval is as narrow as that of a number whose standard deviation is tolerated, and not only as the bounds are.
     pub(super) fn is_narrow(&self, varied: &Varied, value: f64) -> bool {
         let [least, greatest] = varied.bounds;

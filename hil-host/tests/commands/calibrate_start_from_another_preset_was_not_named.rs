@@ -1,0 +1,40 @@
+//! A calibration that started from another preset than the damper's own ended in "do not determine sensor_skew_s".
+
+use crate::common::advice::advised;
+use crate::common::bench::{self, VARY};
+use crate::common::{dashpot, error_of, files_in};
+
+/// The recording of an `in-service` damper from the start `preset` with `vary` is refused with a start that succeeds.
+fn is_named(preset: &str, vary: &[&str]) {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    bench::write(&folder.join("run.csv"), |sample| sample);
+    let line = bench::calibrate(preset, vary);
+    let run = |line: &[String]| {
+        let line: Vec<&str> = line.iter().map(String::as_str).collect();
+        dashpot(&line, folder)
+    };
+    let text = error_of(&run(&line).code(1));
+    let words = "the start is another kind of damper: `in-service` explains the recordings: use `--damper in-service";
+    assert!(text.contains(words), "{text}");
+    assert_eq!(files_in(folder), ["run.csv"]);
+    for advised in advised(&line, &text) {
+        run(&advised).success();
+    }
+}
+
+#[test]
+fn another_physical_damper_is_named() {
+    is_named("paper", &VARY);
+}
+
+#[test]
+fn a_reduced_damper_is_named_with_the_numbers_to_vary() {
+    let vary = [
+        "--vary",
+        "reduced.damping_n_s_per_m",
+        "--vary",
+        "mount.stiffness_n_per_m",
+    ];
+    is_named("reduced-vertical", &vary);
+}

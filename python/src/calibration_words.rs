@@ -1,0 +1,162 @@
+//! A calibration's errors and warnings in the words of this package: what to do, as arguments of `dashpot.calibrate`.
+
+use dashpot_hil::study::calibration::{
+    Advice, CalibrationError, Finding, Remedy, TEMPERATURE, Warning,
+};
+
+/// The error and what to do about it.
+pub fn message(error: &CalibrationError) -> String {
+    let what = match error {
+        CalibrationError::HeldAndVaried { .. }
+        | CalibrationError::NotOfRig { .. }
+        | CalibrationError::Held { .. } => {
+            format!("hold {error}")
+        }
+        CalibrationError::Prior { .. } => format!("prior {error}"),
+        other => other.to_string(),
+    };
+    let said: Vec<String> = error.advice().iter().map(said).collect();
+    match error {
+        CalibrationError::Implausible { advice, finding } => match advice.first() {
+            Some(first) => {
+                let causes: Vec<String> = first.iter().filter_map(Remedy::cause).collect();
+                format!(
+                    "{}: {}\n  {what}",
+                    causes.join(", and "),
+                    said.join(", or ")
+                )
+            }
+            None => nothing_found(finding, &what, &said),
+        },
+        CalibrationError::Undetermined { .. } => {
+            format!("{what}\n{}, or add a test that decides", said.join(", or "))
+        }
+        CalibrationError::PriorOfHeld { .. } => format!("{what}; allowed: a number that is varied"),
+        _ if said.is_empty() => what,
+        _ => format!("{what}; {}", said.join(", or ")),
+    }
+}
+
+/// Where no cause was found.
+fn nothing_found(finding: &Finding, what: &str, said: &[String]) -> String {
+    let tried = "no sign, unit, bound or preset that was tried explains the recordings";
+    match finding {
+        Finding::Missed { .. } => format!(
+            "{what}\n  {tried}: the law of this damper lacks something that they have; to have the nearest fit all the same, {}",
+            said.join(", or ")
+        ),
+        Finding::AtBound { .. } => format!(
+            "{what}\n  {tried}; to have the best value within these bounds all the same, {}",
+            said.join(", or ")
+        ),
+        Finding::Driven { .. } => {
+            format!(
+                "{what}\n  the force or the displacement has the opposite sign: pass -force or -displacement"
+            )
+        }
+        _ => format!("{what}\n  look at the units of the displacement and of the time"),
+    }
+}
+
+/// What to do, in a sentence without an end.
+fn said(advice: &Advice) -> String {
+    let parts: Vec<String> = advice.iter().map(remedy).collect();
+    parts.join(" and ")
+}
+
+fn remedy(remedy: &Remedy) -> String {
+    let listed = |keys: &[String]| {
+        keys.iter()
+            .map(|key| format!("\"{key}\""))
+            .collect::<Vec<_>>()
+            .join(", ")
+    };
+    match remedy {
+        Remedy::ReverseForce => "pass -force".into(),
+        Remedy::ReverseDisplacement => "pass -displacement".into(),
+        Remedy::ScaleDisplacement(factor) => format!("pass {factor:e} * displacement"),
+        Remedy::ScaleForce(factor) => format!("pass {factor:e} * force"),
+        Remedy::Bounds {
+            key,
+            bounds: [least, greatest],
+        } => {
+            format!("use vary={{\"{key}\": ({least:e}, {greatest:e})}}")
+        }
+        Remedy::VaryAlso(keys) => format!("vary {} too", listed(keys)),
+        Remedy::OtherDamper { name, vary } if vary.is_empty() => {
+            format!("start from dashpot.Damper(\"{name}\")")
+        }
+        Remedy::OtherDamper { name, vary } => {
+            format!(
+                "start from dashpot.Damper(\"{name}\") with vary=[{}]",
+                listed(vary)
+            )
+        }
+        Remedy::Leave(key) => format!("leave \"{key}\" out of vary"),
+        Remedy::Know(key) => format!("use priors={{\"{key}\": (mean, deviation)}}"),
+        Remedy::Forget(key) => format!("leave \"{key}\" out of priors"),
+        Remedy::Hold(key) => format!("use hold={{\"{key}\": value}}"),
+        Remedy::Release(key) => format!("leave \"{key}\" out of hold"),
+        Remedy::Set { key, value } => {
+            format!("start from damper.replace({{\"{key}\": {value:e}}})")
+        }
+        Remedy::Starts(starts) => format!("use starts={starts}"),
+        Remedy::AllowMisfit(part) => format!("use max_misfit_percent={:.0}", 100.0 * part),
+        other => format!("{other:?}"),
+    }
+}
+
+/// A warning in a sentence.
+pub fn warning(warning: &Warning) -> String {
+    match warning {
+        Warning::Missed {
+            test,
+            missed_n,
+            noise_n,
+        } => format!(
+            "{test}: the model misses {missed_n:.0} N where the force scatters by {noise_n:.0} N: it lacks something that this test has, and \
+             no interval includes that"
+        ),
+        Warning::ZeroDiffers { test, mean_n } => format!(
+            "{test}: the zero of the force differs by {:.0} N from that of the other tests: calibrate it apart",
+            -mean_n
+        ),
+        Warning::AtBound {
+            key,
+            bound,
+            is_physical: true,
+        } => format!("{key} is {bound:e}, as far as a damper goes"),
+        Warning::AtBound { key, bound, .. } => format!(
+            "{key} is at the bound {bound:e} that you gave, so the best value lies beyond it; vary={{\"{key}\": (least, greatest)}} gives others"
+        ),
+        Warning::Close { a, b, correlation } => {
+            format!("{a} and {b} are hardly told apart: correlation {correlation:.3}")
+        }
+        Warning::Assumed {
+            key,
+            assumed,
+            value,
+            uncertainty,
+            shift_percent,
+        } => {
+            let argument = if assumed == TEMPERATURE {
+                "temperature_uncertainty_k"
+            } else {
+                "density_uncertainty_kg_per_m3"
+            };
+            format!(
+                "{key} moves by {shift_percent:.2} % when {assumed} is {value} +- {uncertainty}, more than by the noise of the tests; they do \
+                 not tell the two apart. The interval includes it: {argument} sets how well you know it"
+            )
+        }
+        Warning::FitsBetter {
+            assumed,
+            value,
+            better,
+        } => format!(
+            "these recordings fit better at {assumed} {better} than at {value}: look at the thermometer; damper.replace({{\"{assumed}\": \
+             {better:e}}}) takes that value"
+        ),
+        other => format!("{other:?}"),
+    }
+}
