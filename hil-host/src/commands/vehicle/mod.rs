@@ -151,7 +151,10 @@ pub fn run(arguments: &VehicleArguments) -> Outcome<()> {
     write_bytes(&path, (text + "\n").as_bytes())?;
     print_report(arguments.format, &report, report::print)?;
     match &report.ending {
-        Ending::Completed => Ok(report.pacing.map_or(Ok(()), |pacing| pacing.verdict())?),
+        Ending::Completed => Ok(report
+            .pacing
+            .as_ref()
+            .map_or(Ok(()), PacingReport::verdict)?),
         ending => Err(Failure::new(ending.to_string())),
     }
 }

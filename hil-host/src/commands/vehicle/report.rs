@@ -13,9 +13,7 @@ use crate::files::output;
 use crate::realtime::pacing::PacingReport;
 use crate::realtime::timing::span;
 use crate::study::vehicle::drive::Driven;
-use crate::study::vehicle::{
-    Ending, Indices, RideIndices, Warning, WheelIndices, WheelsetIndices,
-};
+use crate::study::vehicle::{Ending, Indices, RideIndices, Warning, WheelIndices, WheelsetIndices};
 
 /// What is told of a run.
 #[derive(Serialize)]

@@ -3,8 +3,8 @@
 use dashpot_reference::deviation::{errors, root_mean_square};
 use serde::Serialize;
 
-use super::indices::{Indexer, Indices, Sample};
 use super::VehicleTick;
+use super::indices::{Indexer, Indices, Sample};
 use super::run::Run;
 use super::signals::{SIDES, load_n};
 use crate::files::case::Case;
