@@ -23,7 +23,7 @@ const MIN_ROLL_RAD: f64 = 12e-3;
 impl Overturned {
     /// Looks at a state whose wheels have left the rails or the tables of the contact. It is overturning if
     ///
-    /// - more than half of the wheels of one side carry no load, while every wheelset that is tilted to the other side stands on it;
+    /// - on more than half of the wheelsets the wheel of one side carries no load while the other wheel carries some;
     /// - a wheelset is tilted to the other side by at least [`MIN_ROLL_RAD`], so that its raised wheel is the one without load: where a
     ///   flange climbs, the raised wheel carries load;
     /// - every other body rolls to the other side too.
