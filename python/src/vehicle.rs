@@ -31,6 +31,7 @@ pub struct VehicleRun {
     ending: Ending,
     history: Py<PyDict>,
     indices: Py<PyAny>,
+    warnings: Vec<String>,
 }
 
 #[pymethods]
@@ -47,7 +48,8 @@ impl VehicleRun {
         self.step_s
     }
 
-    /// How the run ended, in words: `completed`, or when and where it derailed, diverged or left the tables of the contact.
+    /// How the run ended, in words: `completed`, or when and where it derailed, overturned, diverged, left the tables of the contact or went
+    /// beyond the model (a wheel load over 50 times that at standstill).
     #[getter]
     fn ending(&self) -> String {
         self.ending.to_string()
@@ -65,14 +67,27 @@ impl VehicleRun {
         self.history.clone_ref(py)
     }
 
-    /// The indices, as indices.json of the command has them; `None` of a run that derailed, diverged or left the tables.
+    /// What the run computed beyond what the model means, a sentence each with time and place: wheel loads over 10 times that at
+    /// standstill, and wheels without load for more than 50 ms. Empty if there is nothing to warn of.
+    #[getter]
+    fn warnings(&self) -> Vec<String> {
+        self.warnings.clone()
+    }
+
+    /// The indices, as indices.json of the command has them; `None` of a run that derailed, overturned, diverged, left the tables or went
+    /// beyond the model.
     #[getter]
     fn indices(&self, py: Python<'_>) -> Py<PyAny> {
         self.indices.clone_ref(py)
     }
 
     fn __repr__(&self) -> String {
-        format!("<VehicleRun '{}', {}>", self.case, self.ending)
+        let warnings = match self.warnings.len() {
+            0 => String::new(),
+            1 => ", 1 warning".to_owned(),
+            count => format!(", {count} warnings"),
+        };
+        format!("<VehicleRun '{}', {}{warnings}>", self.case, self.ending)
     }
 }
 
@@ -151,6 +166,7 @@ fn run(py: Python<'_>, options: &CaseOptions, signals: Option<&[String]>) -> Out
         ending,
         history: recorded,
         indices,
+        warnings,
     } = recorded;
     let history = PyDict::new(py);
     for (name, column) in recorded {
@@ -162,5 +178,6 @@ fn run(py: Python<'_>, options: &CaseOptions, signals: Option<&[String]>) -> Out
         ending,
         history: history.unbind(),
         indices: json::report(py, &indices)?.unbind(),
+        warnings: warnings.iter().map(ToString::to_string).collect(),
     })
 }

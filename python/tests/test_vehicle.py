@@ -69,9 +69,19 @@ class Vehicles(Test):
     def test_a_run_that_does_not_come_to_its_end_says_so(self):
         run = dashpot.vehicle("curve-r300", speed_km_h=260, duration_s=60)
         self.assertFalse(run.is_completed)
-        self.assertRegex(run.ending, r"(derailed|left the tables|diverged).* s, .* m along the track")
+        self.assertRegex(run.ending, r"(derailed|overturned|left the tables|diverged|beyond the model).* s, .* m along the track")
         self.assertIsNone(run.indices)
         self.assertLess(len(run.history["time_s"]), 60_000)
+
+    def test_results_beyond_the_model_are_warnings(self):
+        run = dashpot.vehicle("curve-r200", signals=["time_s"])
+        self.assertTrue(run.is_completed)
+        lifted = [warning for warning in run.warnings if "without load for" in warning]
+        self.assertTrue(lifted)
+        for warning in lifted:
+            self.assertRegex(warning, r"^wheelset \d, (left|right) wheel: .* from [\d.]+ s on, [-\d.]+ m along the track")
+        self.assertIn(f"completed, {len(run.warnings)} warning", repr(run))
+        self.assertEqual(dashpot.vehicle("curve-r600", duration_s=1.0, signals=["time_s"]).warnings, [])
 
     def test_what_is_refused_has_the_words_of_the_command(self):
         self.assert_refused(refusal("vehicle", "--case", "straight"), dashpot.vehicle, "straight")

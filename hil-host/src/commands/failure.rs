@@ -16,7 +16,7 @@ use crate::files::sheet::SheetFileError;
 use crate::files::study::StudyFileError;
 use crate::files::track::TrackFileError;
 use crate::files::vehicle::{FORM as VEHICLE_FORM, VehicleFileError};
-use crate::realtime::pacing::RealtimeOption;
+use crate::realtime::pacing::{RealtimeOption, TICKS_PER_ALLOWED_MISS};
 use crate::realtime::timing::span;
 use crate::realtime::{RealtimeError, listed, stopped};
 use crate::report::DrawError;
@@ -274,6 +274,9 @@ impl From<RealtimeError> for Failure {
                 "{}, allowed by --stop-above-ns: {}",
                 stopped(&stop),
                 span(stop.limit_ns as f64)
+            )),
+            RealtimeError::TooManyMissed { missed, ticks } => Self::new(format!(
+                "{missed} of {ticks} deadlines missed, allowed with --realtime: one in {TICKS_PER_ALLOWED_MISS}"
             )),
             RealtimeError::MissedDeadlines { missed, ticks } => Self::new(format!(
                 "{missed} of {ticks} deadlines missed, allowed by --fail-on-miss: none"

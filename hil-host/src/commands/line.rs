@@ -38,7 +38,7 @@ impl LineArguments {
     ///
     /// # Errors
     /// As [`LinkChoice::open`].
-    pub fn open(&self) -> Outcome<Box<dyn Link>> {
+    pub fn open(&self) -> Outcome<Box<dyn Link + Send>> {
         Ok(self.options.open(&self.link)?)
     }
 
@@ -63,7 +63,7 @@ impl LineOptions {
     ///
     /// # Errors
     /// As [`LinkChoice::open`].
-    pub fn open(&self, link: &LinkChoice) -> Result<Box<dyn Link>, LinkError> {
+    pub fn open(&self, link: &LinkChoice) -> Result<Box<dyn Link + Send>, LinkError> {
         link.open(self.baud)
     }
 

@@ -1,7 +1,7 @@
 //! Why there is no real time.
 
 use crate::realtime::budget::Stop;
-use crate::realtime::pacing::{RATE_RANGE_HZ, RealtimeOption};
+use crate::realtime::pacing::{RATE_RANGE_HZ, RealtimeOption, TICKS_PER_ALLOWED_MISS};
 use crate::realtime::timing::span;
 
 /// Why ticks cannot be paced, or were not on time.
@@ -36,6 +36,14 @@ pub enum RealtimeError {
     /// A tick took longer than allowed.
     #[error("{}, allowed: {}", stopped(.0), span(.0.limit_ns as f64))]
     Stopped(Stop),
+    /// More deadlines were missed than `--realtime` allows.
+    #[error("{missed} of {ticks} deadlines missed, allowed: one in {TICKS_PER_ALLOWED_MISS}")]
+    TooManyMissed {
+        /// Ticks whose work ended after the next tick was due.
+        missed: u64,
+        /// All ticks.
+        ticks: u64,
+    },
     /// Deadlines were missed.
     #[error("{missed} of {ticks} deadlines missed, allowed: none")]
     MissedDeadlines {

@@ -2,6 +2,7 @@
 
 pub mod budget;
 mod error;
+pub mod handover;
 pub mod pacing;
 pub mod timing;
 

@@ -45,7 +45,7 @@ impl Summary {
 }
 
 /// Steps `damper` over `ticks`, in real ticks where there is a pacer, and hands each tick with its force
-/// (N) to `sink`. Reading and writing happen in the slack of the ticks.
+/// (N) to `sink`. Reading and writing happen within the ticks and are timed with them: the work of a tick is all from its release to the next.
 ///
 /// # Errors
 /// What `ticks` or `sink` return.
@@ -62,11 +62,10 @@ pub fn replay<T: Real, E: From<FileError>>(
     while let Some(tick) = ticks.next_tick()? {
         let displacement = T::from_f64(tick.displacement_m);
         let state = state.get_or_insert_with(|| damper.at_rest(displacement));
-        let timing = pacer.as_mut().map(|pacer| pacer.wait(summary.ticks));
-        let force = damper.step(state, displacement);
-        if let (Some(pacer), Some(timing)) = (pacer.as_mut(), timing) {
-            pacer.finish(timing);
+        if let Some(pacer) = &mut pacer {
+            pacer.release(summary.ticks);
         }
+        let force = damper.step(state, displacement);
         sink(tick, force, ticks)?;
         summary.book(tick.time_s, state.status());
         state.clear_status();
@@ -79,6 +78,9 @@ pub fn replay<T: Real, E: From<FileError>>(
         square += force * force;
         summary.max_extension_force_n = summary.max_extension_force_n.max(force);
         lowest = lowest.min(force);
+    }
+    if let Some(pacer) = pacer {
+        pacer.end();
     }
     summary.force_rms_n = (square / summary.ticks.max(1) as f64).sqrt();
     // A sum, so that no compression is 0 and not -0.

@@ -38,6 +38,56 @@ fn lateness_does_not_add_up_and_an_overrun_misses() {
     assert_eq!(pacer.report().first_work_ns[2], 2_500_000);
 }
 
+/// What a command did after `finish` was in no figure: 11.7 ms of folded envelopes were reported as 60 us.
+#[test]
+fn the_work_of_a_tick_is_all_until_the_next_is_awaited() {
+    let mut pacer = Pacer::with_clock(1e-3, SimulatedClock(Cell::new(700))).unwrap();
+    for tick in 0..6 {
+        pacer.release(tick);
+        // Tick 2 works for 2.5 ms, the others 100 us.
+        let work = if tick == 2 { 2_500_000 } else { 100_000 };
+        pacer.clock().0.set(pacer.clock().now_ns() + work);
+    }
+    assert_eq!(pacer.report().ticks, 5);
+    pacer.end();
+    pacer.end();
+    let report = pacer.report();
+    assert_eq!((report.ticks, report.missed_deadlines), (6, 2));
+    assert_eq!(report.work.figures().worst_ns, 2_500_000.0);
+    assert_eq!(report.work.figures().worst_index, 2);
+    assert_eq!(
+        report.first_work_ns,
+        [100_000, 100_000, 2_500_000, 100_000, 100_000, 100_000]
+    );
+}
+
+#[test]
+fn one_deadline_in_a_thousand_may_be_missed() {
+    for (ticks, missed, is_on_time) in [
+        (10_000, 10, true),
+        (10_000, 11, false),
+        (999, 0, true),
+        (999, 1, false),
+        (1000, 1, true),
+    ] {
+        let mut pacer = Pacer::with_clock(1e-3, SimulatedClock(Cell::new(700))).unwrap();
+        for tick in 0..ticks {
+            pacer.release(tick);
+            // A step of work, begun 5 us late, misses the tick's own deadline and no other.
+            let work = if tick < missed { 1_000_000 } else { 1000 };
+            pacer.clock().0.set(pacer.clock().now_ns() + work);
+        }
+        pacer.end();
+        assert_eq!(pacer.report().missed_deadlines, missed);
+        let verdict = pacer.report().verdict();
+        assert_eq!(verdict.is_ok(), is_on_time, "{missed} of {ticks}");
+        if let Err(error) = verdict {
+            let words = format!("{missed} of {ticks} deadlines missed, allowed: one in 1000");
+            assert_eq!(error.to_string(), words);
+        }
+    }
+}
+
 #[test]
 fn rates_out_of_range_are_refused() {
     for step_s in [99e-6, 1.001e-3, f64::NAN] {

@@ -10,7 +10,7 @@ use crate::target::pil::{Client, Link, LinkError};
 
 /// A target that said hello.
 pub(super) struct Target {
-    client: Client<Box<dyn Link>>,
+    client: Client<Box<dyn Link + Send>>,
     pub(super) greeting: Greeting,
 }
 
@@ -56,7 +56,7 @@ impl Target {
     }
 
     /// Who asks it.
-    pub(super) fn client(&mut self) -> &mut Client<Box<dyn Link>> {
+    pub(super) fn client(&mut self) -> &mut Client<Box<dyn Link + Send>> {
         &mut self.client
     }
 

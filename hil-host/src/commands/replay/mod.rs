@@ -67,7 +67,7 @@ pub struct ReplayArguments {
     /// Floating-point type of the step.
     #[arg(long, value_enum, default_value_t = Scalar::F32)]
     scalar: Scalar,
-    /// Replay in real ticks and report lateness and missed deadlines.
+    /// Replay in real ticks and report lateness and missed deadlines; exit code 1 when more than one deadline in a thousand was missed.
     #[arg(long)]
     realtime: bool,
     #[command(flatten)]
@@ -168,7 +168,8 @@ pub fn run(arguments: &ReplayArguments) -> Outcome<()> {
         arguments.format,
         &report,
         |out, report| print(out, report, arguments, parameters.limits.rate_m_per_s),
-    )
+    )?;
+    pacer.map_or(Ok(()), |pacer| Ok(pacer.report().verdict()?))
 }
 
 fn write<T: Real + Serialize>(
@@ -260,7 +261,7 @@ fn print(
         )?;
     }
     if let Some(realtime) = &report.realtime {
-        realtime.write(out, "step")?;
+        realtime.write(out, "step, reading and writing of a tick")?;
     }
     if let Some(health) = &report.health {
         health.print(out)?;

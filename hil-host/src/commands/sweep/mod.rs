@@ -31,7 +31,8 @@ use crate::study::workers;
 
 Written into the folder of --output: rows.csv, a row a case with its values, its seed, its indices, and what study and version it is of;
 report.html, the page. Of a shard only rows-I-of-N.csv. The rows are the same, bit for bit, on any number of threads and shards. A case
-that derails or leaves the tables has that in its column `ending` and no indices.
+that derails, overturns, leaves the tables or has a wheel load over 50 times that at standstill has that in its column `ending` and no
+indices. Observe `wheel_load_over_static` and `wheel_lift_longest_s` to find rows that need a second look (docs/studies.md).
 
 An interrupted command keeps its rows in a file .partial; the same command goes on with the cases that are missing.
 Rows of another study, version or physics are refused, and with --anew overwritten. Each row carries a digest of its

@@ -95,8 +95,11 @@ impl Report {
 /// Why a case ended, without its place, which is in the row.
 fn reason(ending: &str) -> &str {
     const LEFT: &str = "left the tables of the contact";
-    if ending.contains(LEFT) {
-        return LEFT;
+    const BEYOND: &str = "beyond the model";
+    for reason in [LEFT, BEYOND] {
+        if ending.contains(reason) {
+            return reason;
+        }
     }
     ending.split([':', ' ']).next().unwrap_or_default()
 }

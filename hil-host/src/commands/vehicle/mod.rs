@@ -15,8 +15,8 @@ use std::path::{Path, PathBuf};
 
 use history::History;
 use options::CaseArguments;
-use outside::{Outside, OutsideArguments};
-use report::{Pace, Report};
+use outside::{Lines, Outside, OutsideArguments};
+use report::Report;
 
 use super::{Format, RealtimeArguments, interruption, print_report, progress};
 use crate::commands::failure::{Failure, Outcome};
@@ -24,9 +24,13 @@ use crate::files::case::Case;
 #[cfg(feature = "parquet")]
 use crate::files::columns;
 use crate::files::output::{cannot_write_rows, create_folder, write_bytes, write_whole};
-use crate::realtime::pacing::Pacer;
+use crate::realtime::handover::{Giver, handover};
+use crate::realtime::pacing::{Pacer, PacingReport, RealtimeOptions};
+use crate::study::vehicle::drive::{Driven, drive};
 use crate::study::vehicle::recorded::all_signals;
-use crate::study::vehicle::{Ending, Indexer, NoRide, Run, check_ride, signals};
+use crate::study::vehicle::{
+    Ending, Indexer, NoRide, Run, TickRecord, ValidityWatch, check_ride, signals,
+};
 
 /// A vehicle on a track: time histories, indices and a page.
 #[derive(Debug, Clone, clap::Args)]
@@ -44,8 +48,12 @@ use crate::study::vehicle::{Ending, Indexer, NoRide, Run, check_ride, signals};
 Written into the folder of --output: history.csv, a row a tick, with --parquet history.parquet too; spectra.csv, power spectral densities at
 the ride points and of the leading wheels' Y/Q; indices.json; report.html, a page to send.
 Displacements are from where the vehicle stands, relative to the track, to the right and down positive; Q is down on the rail, Y towards
-the middle of the track. Exit code 1 and the reason when the vehicle derails, diverges, or is interrupted, or a link to a damper outside is
-lost: what was computed is kept.
+the middle of the track. Exit code 1 and the reason when the vehicle derails, overturns or diverges, a wheel load passes 50 times that at
+standstill, the run is interrupted, or a link to a damper outside is lost: what was computed is kept. A wheel load over 10 times that at
+standstill, and a wheel without load for more than 50 ms, are warnings with time and place.
+
+--realtime steps on a thread of its own and writes on another; everything between two ticks is timed. Exit code 1 when more than one
+deadline in a thousand was missed.
 
 A damper outside is given its displacement at the end of a tick; the force that it answers acts at the end of the next, one tick late. The
 same run with all dampers inside is computed after it, and the difference told. A recorded force acts at its time; its file must last as long as
@@ -66,7 +74,7 @@ pub struct VehicleArguments {
     /// Holds the run against the reference solution, and fails where it is out of bounds; takes some hundred times as long.
     #[arg(long, conflicts_with = "realtime")]
     check: bool,
-    /// Runs in real ticks and reports missed deadlines.
+    /// Runs in real ticks and reports missed deadlines; exit code 1 when more than one in a thousand was missed.
     #[arg(long)]
     realtime: bool,
     #[command(flatten)]
@@ -78,13 +86,13 @@ pub struct VehicleArguments {
     format: Format,
 }
 
-/// Ticks between two looks whether the user wants to end.
+/// Ticks between two updates of the progress bar.
 const TICKS_A_LOOK: u64 = 256;
 
 /// Runs the command.
 ///
 /// # Errors
-/// A case that is refused; a folder that cannot be written; a run that does not come to its end; a check that fails.
+/// A case that is refused; a folder that cannot be written; a run that does not come to its end or whose ticks are late; a check that fails.
 pub fn run(arguments: &VehicleArguments) -> Outcome<()> {
     let options = arguments
         .options
@@ -104,15 +112,14 @@ pub fn run(arguments: &VehicleArguments) -> Outcome<()> {
     if let Some(outside) = &mut outside {
         arguments.outside.connect(outside, &case, &mut run)?;
     }
-    let pacer = if arguments.realtime {
-        Some(Pacer::new(case.step_s, &options)?)
-    } else {
-        None
-    };
+    let realtime = arguments.realtime.then_some(options);
+    if let Some(options) = realtime {
+        check_realtime(case.step_s, options)?;
+    }
     let folder = &arguments.output;
     create_folder(folder)?;
     let path = folder.join("history.csv");
-    let (history, mut report) = follow(&case, &mut run, outside.as_mut(), pacer, &path)?;
+    let (history, mut report) = follow(&case, &mut run, outside.as_mut(), realtime, &path)?;
     let mut forces = Vec::new();
     if let Some(outside) = outside {
         let (found, in_both) = outside.finish(&case, &run, &mut report.ending)?;
@@ -148,7 +155,10 @@ pub fn run(arguments: &VehicleArguments) -> Outcome<()> {
     write_bytes(&path, (text + "\n").as_bytes())?;
     print_report(arguments.format, &report, report::print)?;
     match &report.ending {
-        Ending::Completed => Ok(()),
+        Ending::Completed => Ok(report
+            .pacing
+            .as_ref()
+            .map_or(Ok(()), PacingReport::verdict)?),
         ending => Err(Failure::new(ending.to_string())),
     }
 }
@@ -169,66 +179,108 @@ fn note_missing_ride(case: &Case) {
     let _ = io::stderr().lock().write_all(note.as_bytes());
 }
 
-/// Runs to the end, and writes a row for each tick.
+/// Records that a tick may be ahead of the file that is written: 2 s at 1 ms, some 20 MB for a locomotive.
+const RECORDS: usize = 2048;
+
+/// Whether real ticks can be had as asked for: a thread that ends at once becomes real-time.
+///
+/// # Errors
+/// As [`Pacer::new`].
+fn check_realtime(step_s: f64, options: RealtimeOptions) -> Outcome<()> {
+    let tried = std::thread::spawn(move || Pacer::new(step_s, &options).map(drop));
+    match tried.join() {
+        Ok(pacer) => Ok(pacer?),
+        Err(_) => Err(Failure::new("the real-time thread failed")),
+    }
+}
+
+/// Runs to the end on a thread of its own, and writes a row for each tick on this one: a real-time thread has no report to make.
 fn follow(
     case: &Case,
     run: &mut Run,
-    mut outside: Option<&mut Outside>,
-    mut pacer: Option<Pacer>,
+    outside: Option<&mut Outside>,
+    realtime: Option<RealtimeOptions>,
     path: &Path,
 ) -> Outcome<(History, Report)> {
     let all = all_signals(run, &case.vehicle);
     let mut history = History::new(all.clone(), run.ticks(), case.step_s);
     let mut indexer = Indexer::new(case);
+    let mut watch = ValidityWatch::new(case);
+    let (mut exchange, mut beside) = outside.map(Outside::parts).unzip();
     let bar = progress::bar(run.ticks(), "vehicle");
     let _ends_gently = interruption::end_gently();
-    let mut ending = Ending::Completed;
-    let mut work = Pace::default();
+    let (giver, taker) = handover(vec![TickRecord::new(run); RECORDS]);
+    let mut driven = None;
     write_whole::<Failure>(path, |file| {
         let failed = |error: csv::Error| cannot_write_rows(path, error);
         let mut rows = csv::Writer::from_writer(file);
         rows.write_record(all.iter().map(signals::Signal::name))
             .map_err(failed)?;
         let mut row: Vec<f64> = Vec::with_capacity(all.len());
-        let mut ticks = 0;
-        loop {
-            let timing = pacer.as_mut().map(|pacer| pacer.wait(ticks));
-            if let Some(outside) = &outside {
-                outside.before(run);
+        let mut ticks = 0_u64;
+        std::thread::scope(|scope| {
+            let stepping = std::thread::Builder::new()
+                .name("ticks".into())
+                .spawn_scoped(scope, || {
+                    step_through(case, run, exchange.as_deref_mut(), realtime, giver)
+                });
+            let stepping = stepping.map_err(|error| {
+                Failure::new(format!("the thread of the ticks cannot start: {error}"))
+            })?;
+            // Dropped on an error, which ends the other thread.
+            let taker = taker;
+            let mut written = Ok(());
+            while written.is_ok()
+                && taker.take(|record| {
+                    ticks += 1;
+                    let time_s = super::nearest_nanosecond(record.time_s);
+                    row.clear();
+                    row.extend(all.iter().map(|signal| signal.of(record, time_s)));
+                    written = rows.serialize(&row);
+                    history.add(&row);
+                    indexer.add(record);
+                    watch.add(record);
+                    if let Some(beside) = beside.as_deref_mut().and_then(Option::as_mut) {
+                        beside.add(record);
+                    }
+                })
+            {
+                if ticks.is_multiple_of(TICKS_A_LOOK) {
+                    bar.set_position(ticks);
+                }
             }
-            let started = std::time::Instant::now();
-            let mut ended = run.step().map_err(|error| options::refused(case, &error))?;
-            let took = started.elapsed();
-            if let (Some(outside), None) = (&mut outside, &ended) {
-                ended = outside.exchange(run);
-            }
-            if let (Some(pacer), Some(timing)) = (pacer.as_mut(), timing) {
-                pacer.finish(timing);
-            }
-            if ended == Some(Ending::Completed) {
-                break;
-            }
-            ticks += 1;
-            work.add(took);
-            let time_s = super::nearest_nanosecond(run.time_s());
-            row.clear();
-            row.extend(all.iter().map(|signal| signal.of(run.state(), time_s)));
-            rows.serialize(&row).map_err(failed)?;
-            history.add(&row);
-            indexer.add(run.state());
-            let wants_to_end = ticks % TICKS_A_LOOK == 0 && interruption::is_wanted();
-            if ticks % TICKS_A_LOOK == 0 {
-                bar.set_position(ticks);
-            }
-            if let Some(ended) = ended.or_else(|| wants_to_end.then(|| run.interrupted())) {
-                ending = ended;
-                break;
-            }
-        }
+            drop(taker);
+            let joined = stepping.join();
+            written.map_err(failed)?;
+            driven = Some(joined.map_err(|_| Failure::new("the thread of the ticks failed"))??);
+            Ok::<(), Failure>(())
+        })?;
         Ok(rows.flush().map_err(|error| failed(error.into()))?)
     })?;
     bar.finish_and_clear();
-    let pacing = pacer.as_ref().map(Pacer::report);
-    let report = Report::new(case, ending, indexer.indices(), &work, pacing);
+    let (driven, pacing) = driven.ok_or_else(|| Failure::new("nothing was run"))?;
+    let warnings = watch.warnings();
+    let report = Report::new(case, &driven, indexer.indices(), warnings, pacing);
     Ok((history, report))
+}
+
+/// Takes every tick; on the thread that becomes real-time.
+fn step_through(
+    case: &Case,
+    run: &mut Run,
+    exchange: Option<&mut Lines>,
+    realtime: Option<RealtimeOptions>,
+    records: Giver<TickRecord>,
+) -> Outcome<(Driven, Option<PacingReport>)> {
+    let mut pacer = match realtime {
+        Some(options) => Some(Pacer::new(case.step_s, &options)?),
+        None => None,
+    };
+    let pacing = pacer.as_mut();
+    let driven = match exchange {
+        Some(lines) => drive(run, lines, pacing, records, interruption::is_wanted),
+        None => drive(run, &mut (), pacing, records, interruption::is_wanted),
+    };
+    let driven = driven.map_err(|error| options::refused(case, &error))?;
+    Ok((driven, pacer.map(Pacer::into_report)))
 }

@@ -41,6 +41,12 @@ pub(super) fn write(
         @if report.ending != Ending::Completed {
             p { strong { "The run did not come to its end: " (report.ending) "." } }
         }
+        @if !report.warnings.is_empty() {
+            div.note {
+                p { strong { "Results beyond what the model means:" } }
+                @for found in &report.warnings { p { (found.message) "." } }
+            }
+        }
         (headline(report))
         figure {
             div.wide { (drawing::vehicle(&case.vehicle)) }

@@ -2,7 +2,6 @@
 
 use std::io::{self, Write};
 use std::path::PathBuf;
-use std::time::Duration;
 
 use serde::Serialize;
 
@@ -13,7 +12,8 @@ use crate::files::case::Case;
 use crate::files::output;
 use crate::realtime::pacing::PacingReport;
 use crate::realtime::timing::span;
-use crate::study::vehicle::{Ending, Indices, RideIndices, WheelIndices, WheelsetIndices};
+use crate::study::vehicle::drive::Driven;
+use crate::study::vehicle::{Ending, Indices, RideIndices, Warning, WheelIndices, WheelsetIndices};
 
 /// What is told of a run.
 #[derive(Serialize)]
@@ -27,42 +27,45 @@ pub(super) struct Report {
     pub(super) step_s: f64,
     pub(super) ticks: u64,
     pub(super) ending: Ending,
-    /// None of a run that derailed, diverged or left the tables.
+    /// What the run computed beyond what the model means, with time and place.
+    pub(super) warnings: Vec<Found>,
+    /// `None` where [`Ending::has_indices`] is false.
     pub(super) indices: Option<Indices>,
     /// Mean time of a tick's computation, s.
     pub(super) mean_tick_s: f64,
     /// Of a run in real ticks.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) realtime: Option<Paced>,
+    #[serde(skip)]
+    pub(super) pacing: Option<PacingReport>,
     /// Where some are.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) outside: Option<OutsideReport>,
     pub(super) files: Vec<PathBuf>,
 }
 
-/// Time that ticks took.
-#[derive(Default)]
-pub(super) struct Pace {
-    ticks: u64,
-    time: Duration,
-}
-
-impl Pace {
-    pub(super) fn add(&mut self, time: Duration) {
-        self.ticks += 1;
-        self.time += time;
-    }
+/// A warning and its words.
+#[derive(Serialize)]
+pub(super) struct Found {
+    #[serde(flatten)]
+    warning: Warning,
+    pub(super) message: String,
 }
 
 impl Report {
     pub(super) fn new(
         case: &Case,
-        ending: Ending,
+        driven: &Driven,
         indices: Option<Indices>,
-        pace: &Pace,
-        pacing: Option<&PacingReport>,
+        warnings: Vec<Warning>,
+        pacing: Option<PacingReport>,
     ) -> Self {
-        let has_indices = ending.has_indices();
+        let has_indices = driven.ending.has_indices();
+        let found = |warning: Warning| Found {
+            message: warning.to_string(),
+            warning,
+        };
+        let paced = |pacing| Paced::of_report(pacing, driven.waits);
         Self {
             case: case.name.clone(),
             vehicle: case.vehicle.name.clone(),
@@ -71,11 +74,13 @@ impl Report {
             friction: case.friction,
             normal_damping_s_per_m: case.normal_damping_s_per_m,
             step_s: case.step_s,
-            ticks: pace.ticks,
-            ending,
+            ticks: driven.ticks,
+            ending: driven.ending.clone(),
+            warnings: warnings.into_iter().map(found).collect(),
             indices: indices.filter(|_| has_indices),
-            mean_tick_s: pace.time.as_secs_f64() / pace.ticks.max(1) as f64,
-            realtime: pacing.map(Paced::from),
+            mean_tick_s: driven.stepping.as_secs_f64() / driven.ticks.max(1) as f64,
+            realtime: pacing.as_ref().map(paced),
+            pacing,
             outside: None,
             files: Vec::new(),
         }
@@ -97,6 +102,9 @@ pub(super) fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
         counted(report.ticks, "tick"),
         span(1e9 * report.mean_tick_s)
     )?;
+    for found in &report.warnings {
+        writeln!(out, "warning: {}", found.message)?;
+    }
     if let Some(indices) = &report.indices {
         writeln!(out)?;
         writeln!(
@@ -147,7 +155,7 @@ pub(super) fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
         print_limits(out, indices)?;
     }
     if let Some(realtime) = &report.realtime {
-        realtime.write(out, "tick")?;
+        realtime.write(out, "all work of a tick")?;
     }
     if let Some(found) = &report.outside {
         outside::print(out, found)?;

@@ -38,6 +38,8 @@ pub struct Pacer<C: Clock = MonotonicClock> {
     step_ns: f64,
     /// When tick 0 is or would have been due.
     origin_ns: Option<f64>,
+    /// The tick that [`Self::release`] has begun.
+    open: Option<TickTiming>,
     report: PacingReport,
 }
 
@@ -79,6 +81,27 @@ pub struct PacingReport {
     pub first_work_ns: Vec<u64>,
 }
 
+/// Ticks of which one may miss its deadline.
+pub const TICKS_PER_ALLOWED_MISS: u64 = 1000;
+
+impl PacingReport {
+    /// Whether the ticks were on time: at most one in [`TICKS_PER_ALLOWED_MISS`] missed its deadline.
+    ///
+    /// # Errors
+    /// More missed.
+    pub fn verdict(&self) -> Result<(), RealtimeError> {
+        let Self {
+            ticks,
+            missed_deadlines: missed,
+            ..
+        } = *self;
+        if missed.saturating_mul(TICKS_PER_ALLOWED_MISS) > ticks {
+            return Err(RealtimeError::TooManyMissed { missed, ticks });
+        }
+        Ok(())
+    }
+}
+
 impl Pacer<MonotonicClock> {
     /// A pacer of `step_s` (s) on the system's clock, with the thread that calls it made real-time as
     /// `options` ask.
@@ -112,6 +135,7 @@ impl<C: Clock> Pacer<C> {
             clock,
             step_ns: step_s * 1e9,
             origin_ns: None,
+            open: None,
             report: PacingReport {
                 ticks: 0,
                 missed_deadlines: 0,
@@ -125,8 +149,12 @@ impl<C: Clock> Pacer<C> {
 
     /// Sleeps until `tick` is due. The first call sets the time line: its tick is due a step later.
     pub fn wait(&mut self, tick: u64) -> TickTiming {
-        let offset_ns = tick as f64 * self.step_ns;
         let now_ns = self.clock.now_ns();
+        self.wait_from(tick, now_ns)
+    }
+
+    fn wait_from(&mut self, tick: u64, now_ns: u64) -> TickTiming {
+        let offset_ns = tick as f64 * self.step_ns;
         let origin_ns = *self
             .origin_ns
             .get_or_insert(now_ns as f64 + self.step_ns - offset_ns);
@@ -142,9 +170,46 @@ impl<C: Clock> Pacer<C> {
         }
     }
 
+    /// Ends the work of the tick before, and sleeps until `tick` is due: the work of a tick is all that happens from its release to the
+    /// next one, its booking included. In place of [`Self::wait`] and [`Self::finish`], with [`Self::end`] after the last tick.
+    ///
+    /// ```
+    /// use dashpot_hil::realtime::pacing::{Pacer, RealtimeOptions};
+    /// let mut pacer = Pacer::new(1e-3, &RealtimeOptions::default())?;
+    /// for tick in 0..5 {
+    ///     pacer.release(tick);
+    ///     // the work of the tick
+    /// }
+    /// pacer.end();
+    /// assert_eq!(pacer.report().ticks, 5);
+    /// # Ok::<(), dashpot_hil::realtime::RealtimeError>(())
+    /// ```
+    pub fn release(&mut self, tick: u64) {
+        let now_ns = self.clock.now_ns();
+        let before = self.open.take();
+        let timing = self.wait_from(tick, now_ns);
+        self.open = Some(timing);
+        if let Some(before) = before {
+            self.book(before, now_ns);
+        }
+    }
+
+    /// Ends the work of the tick that [`Self::release`] began, if one did.
+    pub fn end(&mut self) {
+        if let Some(open) = self.open.take() {
+            let now_ns = self.clock.now_ns();
+            self.book(open, now_ns);
+        }
+    }
+
     /// Ends the work of a tick and books it.
     pub fn finish(&mut self, timing: TickTiming) -> FinishedTick {
-        let response_ns = self.clock.now_ns().saturating_sub(timing.due_ns);
+        let now_ns = self.clock.now_ns();
+        self.book(timing, now_ns)
+    }
+
+    fn book(&mut self, timing: TickTiming, ended_ns: u64) -> FinishedTick {
+        let response_ns = ended_ns.saturating_sub(timing.due_ns);
         let work_ns = response_ns.saturating_sub(timing.late_ns);
         let report = &mut self.report;
         if report.first_work_ns.len() < FIRST_TICKS {

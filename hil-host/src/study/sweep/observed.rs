@@ -60,7 +60,7 @@ fn wheels(observation: &Observation) -> impl Iterator<Item = &WheelIndices> {
 }
 
 /// All of them.
-pub const OBSERVED: [Observed; 22] = [
+pub const OBSERVED: [Observed; 24] = [
     Observed {
         name: "sperling_vertical",
         meaning: "Sperling's ride index up and down, greatest of the ride points",
@@ -167,6 +167,16 @@ pub const OBSERVED: [Observed; 22] = [
         name: "wheel_load_greatest_n",
         meaning: "wheel load, greatest of all wheels, N",
         of: |run| greatest(wheels(run).map(|wheel| wheel.load_greatest_n)),
+    },
+    Observed {
+        name: "wheel_load_over_static",
+        meaning: "wheel load over that at standstill, greatest of all wheels; over 10 is beyond what the model means",
+        of: |run| run.wheel_load_over_static,
+    },
+    Observed {
+        name: "wheel_lift_longest_s",
+        meaning: "longest time for which a wheel carries no load, s; over 0.05 the vehicle is near derailment",
+        of: |run| Some(run.wheel_lift_longest_s),
     },
     Observed {
         name: "damper_force_greatest_n",

@@ -6,7 +6,7 @@ use super::shared::Shared;
 use super::study::Study;
 use crate::files::case::Case;
 use crate::files::study::{StudyFileError, Sweep};
-use crate::study::vehicle::{Ending, Indexer, Indices, VehicleStudyError};
+use crate::study::vehicle::{Ending, Indexer, Indices, ValidityWatch, VehicleStudyError};
 use crate::study::workers;
 
 /// Last time of a run in which a limit cycle's amplitude is taken, s.
@@ -22,6 +22,10 @@ pub struct Observation {
     pub indices: Indices,
     /// Greatest lateral displacement of a wheelset in the last 3 s, m.
     pub last_lateral_m: f64,
+    /// Greatest load of a wheel over its load at standstill.
+    pub wheel_load_over_static: Option<f64>,
+    /// Longest time for which a wheel carried no load, s.
+    pub wheel_lift_longest_s: f64,
 }
 
 /// Runs a case to its end, or until it is unwanted; no observation of a run that does not come to its end.
@@ -35,6 +39,7 @@ pub fn observe(
 ) -> Result<(Ending, Option<Observation>), VehicleStudyError> {
     let mut run = shared.run(case)?;
     let mut indexer = Indexer::new(case);
+    let mut watch = ValidityWatch::new(case);
     let last = run.ticks().saturating_sub((LAST_S / case.step_s) as u64);
     let bodies = run.vehicle().names().len() - run.vehicle().wheelsets();
     let mut last_lateral_m = 0.0_f64;
@@ -43,6 +48,7 @@ pub fn observe(
             break ending;
         }
         indexer.add(run.state());
+        watch.add(run.state());
         if run.state().ticks() > last {
             let lateral = run.state().coordinates()[bodies..].iter();
             last_lateral_m = lateral.fold(last_lateral_m, |most, q| most.max(q[0].abs()));
@@ -55,6 +61,8 @@ pub fn observe(
     let observation = whole.flatten().map(|indices| Observation {
         indices,
         last_lateral_m,
+        wheel_load_over_static: watch.greatest_load_ratio(),
+        wheel_lift_longest_s: watch.longest_lift_s(),
     });
     Ok((ending, observation))
 }

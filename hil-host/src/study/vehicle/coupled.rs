@@ -302,7 +302,8 @@ impl Coupled {
         Ok(())
     }
 
-    /// How it ended in a number: 0 not yet, 1 the case is over, 2 derailed, 3 outside the tables of the contact, 4 diverged.
+    /// How it ended in a number: 0 not yet, 1 the case is over, 2 derailed, 3 outside the tables of the contact, 4 diverged, 5 beyond the
+    /// model, 6 overturned.
     pub fn ending_number(&self) -> i32 {
         match &self.ending {
             None => 0,
@@ -310,6 +311,8 @@ impl Coupled {
             Some(Ending::Derailed { .. }) => 2,
             Some(Ending::OutsideTables { .. }) => 3,
             Some(Ending::Diverged { .. }) => 4,
+            Some(Ending::BeyondModel { .. }) => 5,
+            Some(Ending::Overturned { .. }) => 6,
         }
     }
 

@@ -1,9 +1,9 @@
 //! How far two runs of a case are apart.
 
-use dashpot_rail::vehicle::VehicleState;
 use dashpot_reference::deviation::{errors, root_mean_square};
 use serde::Serialize;
 
+use super::VehicleTick;
 use super::indices::{Indexer, Indices, Sample};
 use super::run::Run;
 use super::signals::{SIDES, load_n};
@@ -65,10 +65,10 @@ impl Trace {
     }
 
     /// Adds a tick.
-    pub(super) fn add_state(&mut self, state: &VehicleState) {
+    pub(super) fn add_state(&mut self, state: &impl VehicleTick) {
         let sample = Sample {
             acceleration: |body| state.acceleration(body),
-            unbalanced_m_per_s2: -state.track_acceleration(0)[0],
+            unbalanced_m_per_s2: state.unbalanced_m_per_s2(),
             contacts: state.contacts(),
             damper_forces_n: state.damper_forces_n(),
         };

@@ -4,7 +4,7 @@ use dashpot_reference::deviation::{errors, root_mean_square};
 use serde::Serialize;
 
 use super::deviations::{Deviations, Trace, Worst};
-use super::{Run, VehicleStudyError};
+use super::{Run, VehicleStudyError, VehicleTick};
 use crate::files::case::Case;
 
 /// Ticks that are compared at most: some 200 bytes each are kept of both runs.
@@ -65,15 +65,14 @@ impl Beside {
     }
 
     /// Adds a tick.
-    pub fn add(&mut self, run: &Run) {
+    pub fn add(&mut self, tick: &impl VehicleTick) {
         if self.ticks >= MOST_TICKS {
             return;
         }
         self.ticks += 1;
-        let state = run.state();
-        self.trace.add_state(state);
+        self.trace.add_state(tick);
         for (series, damper) in self.outside_n.iter_mut().zip(&self.dampers) {
-            series.push(state.damper_forces_n()[*damper]);
+            series.push(tick.damper_forces_n()[*damper]);
         }
     }
 
@@ -88,7 +87,7 @@ impl Beside {
         let mut run = self.start;
         let mut inside = Self::new(&run, case, self.dampers.clone());
         while inside.ticks < self.ticks && run.step()?.is_none() {
-            inside.add(&run);
+            inside.add(run.state());
         }
         let names: Vec<&str> = run.vehicle().damper_names().collect();
         let pairs = self.dampers.iter().zip(self.outside_n);

@@ -4,16 +4,20 @@ mod accelerometer;
 pub mod contact;
 mod coupled;
 pub mod deviations;
+pub mod drive;
 mod error;
 pub mod hunting;
 mod indices;
 mod inside;
 mod outside;
+mod overturning;
 pub mod recorded;
 mod run;
 pub mod seeds;
 pub mod signals;
 pub mod spectra;
+mod tick;
+pub mod validity;
 pub mod verification;
 
 pub use accelerometer::Accelerometer;
@@ -26,3 +30,5 @@ pub use indices::{
 pub use inside::{Beside, DamperEffect, Effect, Forces};
 pub use outside::{OutsideError, number_outside};
 pub use run::{Ending, Run};
+pub use tick::{TickRecord, VehicleTick};
+pub use validity::{ValidityWatch, Warning};

@@ -3,7 +3,7 @@
 use dashpot_rail::vehicle::VehicleParameters;
 
 use super::signals::{self, Signal};
-use super::{Ending, Indexer, Indices, Run, VehicleStudyError};
+use super::{Ending, Indexer, Indices, Run, ValidityWatch, VehicleStudyError, Warning};
 use crate::files::case::Case;
 use crate::files::nearest;
 use crate::study::tick_grid::nearest_nanosecond;
@@ -18,8 +18,10 @@ pub struct Recorded {
     pub ending: Ending,
     /// Name of each signal and its number after each tick.
     pub history: Vec<(String, Vec<f64>)>,
-    /// None of a run that derailed, diverged or left the tables.
+    /// `None` where [`Ending::has_indices`] is false.
     pub indices: Option<Indices>,
+    /// What the run computed beyond what the model means.
+    pub warnings: Vec<Warning>,
 }
 
 /// Every signal of a run of this vehicle, in the order of a history.
@@ -61,6 +63,7 @@ pub fn record(
         return Err(VehicleStudyError::Memory { ticks, signals });
     }
     let mut indexer = Indexer::new(case);
+    let mut watch = ValidityWatch::new(case);
     let ending = loop {
         let ended = run.step()?;
         if ended == Some(Ending::Completed) {
@@ -71,6 +74,7 @@ pub fn record(
             column.push(signal.of(run.state(), time_s));
         }
         indexer.add(run.state());
+        watch.add(run.state());
         if let Some(ended) = ended {
             break ended;
         }
@@ -82,6 +86,7 @@ pub fn record(
     Ok(Recorded {
         history: names.zip(columns).collect(),
         indices: indexer.indices().filter(|_| ending.has_indices()),
+        warnings: watch.warnings(),
         ending,
     })
 }

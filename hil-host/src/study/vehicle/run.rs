@@ -3,12 +3,16 @@
 use std::fmt;
 use std::sync::Arc;
 
+use dashpot_core::Damper;
 use dashpot_rail::contact::{Status, WheelsetContact};
 use dashpot_rail::creep::KalkerBook;
 use dashpot_rail::track::Track;
 use dashpot_rail::vehicle::{Vehicle, VehicleState};
 
 use super::hunting::push_aside;
+use super::overturning::Overturned;
+use super::signals::SIDES;
+use super::validity::END_LOAD_RATIO;
 use super::{VehicleStudyError, contact};
 use crate::files::case::{Case, Fault};
 
@@ -18,9 +22,17 @@ pub struct Run {
     vehicle: Vehicle<KalkerBook>,
     track: Arc<Track>,
     state: VehicleState,
-    faults: Vec<(usize, Fault)>,
+    faults: Vec<BuiltFault>,
     next_fault: usize,
     ticks: u64,
+}
+
+/// A fault whose damper is built before the run, so that no tick has to build one.
+#[derive(Debug, Clone)]
+struct BuiltFault {
+    time_s: f64,
+    damper: usize,
+    built: Damper<f64>,
 }
 
 /// Why a run ended.
@@ -35,7 +47,7 @@ pub enum Ending {
         wheelset: String,
         /// When, s.
         time_s: f64,
-        /// Where its wheelset was, m.
+        /// Where the middle of the vehicle was, m.
         distance_m: f64,
     },
     /// A wheelset moved beyond what the tables of the contact know.
@@ -44,7 +56,39 @@ pub enum Ending {
         wheelset: String,
         /// When, s.
         time_s: f64,
-        /// Where its wheelset was, m.
+        /// Where the middle of the vehicle was, m.
+        distance_m: f64,
+    },
+    /// The vehicle tipped over to one side: the wheels of the other side have left the rail and its wheelsets are tilted.
+    Overturned {
+        /// The side that it fell to, `left` or `right`.
+        side: &'static str,
+        /// Wheels of the other side without load.
+        unloaded_wheels: usize,
+        /// All wheels of that side.
+        wheels: usize,
+        /// The most tilted wheelset.
+        wheelset: String,
+        /// Its roll, the right side down positive, rad.
+        roll_rad: f64,
+        /// When, s.
+        time_s: f64,
+        /// Where the middle of the vehicle was, m.
+        distance_m: f64,
+    },
+    /// A wheel was loaded far beyond what the contact of this model means.
+    BeyondModel {
+        /// Wheelset.
+        wheelset: String,
+        /// Its wheel, `left` or `right`.
+        side: &'static str,
+        /// Load, N.
+        load_n: f64,
+        /// Load of this wheel at standstill, N.
+        load_static_n: f64,
+        /// When, s.
+        time_s: f64,
+        /// Where the middle of the vehicle was, m.
         distance_m: f64,
     },
     /// Displacements grew beyond all bounds.
@@ -73,7 +117,7 @@ pub enum Ending {
 }
 
 impl Ending {
-    /// Whether there are indices of what was run: not of one that derailed, diverged or left the tables.
+    /// True if the run has indices. A run that derailed, overturned, diverged, left the tables or went beyond the model has none.
     pub fn has_indices(&self) -> bool {
         matches!(
             self,
@@ -101,6 +145,34 @@ impl fmt::Display for Ending {
             } => write!(
                 f,
                 "{wheelset} left the tables of the contact at {time_s:.3} s, {distance_m:.1} m along the track"
+            ),
+            Self::Overturned {
+                side,
+                unloaded_wheels,
+                wheels,
+                wheelset,
+                roll_rad,
+                time_s,
+                distance_m,
+            } => write!(
+                f,
+                "overturned to the {side} at {time_s:.3} s, {distance_m:.1} m along the track: {unloaded_wheels} of {wheels} wheels of the \
+                 other side carry no load, {wheelset} is tilted by {:.0} mrad",
+                1e3 * roll_rad.abs()
+            ),
+            Self::BeyondModel {
+                wheelset,
+                side,
+                load_n,
+                load_static_n,
+                time_s,
+                distance_m,
+            } => write!(
+                f,
+                "beyond the model at {time_s:.3} s, {distance_m:.1} m along the track: {wheelset}, {side} wheel: load {:.0} kN, {:.0} times \
+                 that at standstill; allowed: {END_LOAD_RATIO:.0} times",
+                1e-3 * load_n,
+                load_n / load_static_n
             ),
             Self::Diverged { time_s, distance_m } => write!(
                 f,
@@ -147,13 +219,19 @@ impl Run {
         if case.push_m != 0.0 {
             push_aside(&vehicle, &mut state, &track, case.push_m);
         }
-        let number_of =
-            |fault: &Fault| vehicle.damper_names().position(|name| name == fault.damper);
-        let faults = case
-            .faults
-            .iter()
-            .filter_map(|fault| Some((number_of(fault)?, fault.clone())))
-            .collect();
+        let build = |fault: &Fault| {
+            let damper = vehicle
+                .damper_names()
+                .position(|name| name == fault.damper)?;
+            let built = vehicle.build_damper(damper, &fault.parameters);
+            Some(built.map(|built| BuiltFault {
+                time_s: fault.time_s,
+                damper,
+                built,
+            }))
+        };
+        let faults = case.faults.iter().filter_map(build);
+        let faults = faults.collect::<Result<_, _>>()?;
         Ok(Self {
             ticks: (case.duration_s / case.step_s).round() as u64,
             vehicle,
@@ -196,19 +274,24 @@ impl Run {
         self.state = state;
     }
 
-    /// One tick, with the faults that are due; how the run ended, if it did.
+    /// True when every tick has been taken.
+    pub fn is_over(&self) -> bool {
+        self.state.ticks() >= self.ticks
+    }
+
+    /// One tick, with the faults that are due; how the run ended, if it did. Allocates only when it ends.
     ///
     /// # Errors
-    /// A fault's damper is refused.
+    /// None that is known: the dampers of faults are built by [`Self::new`].
     pub fn step(&mut self) -> Result<Option<Ending>, VehicleStudyError> {
-        if self.state.ticks() >= self.ticks {
+        if self.is_over() {
             return Ok(Some(Ending::Completed));
         }
-        while let Some((damper, fault)) = self.faults.get(self.next_fault) {
+        while let Some(fault) = self.faults.get(self.next_fault) {
             if fault.time_s > self.time_s() + 0.5 * self.vehicle.step_s() {
                 break;
             }
-            self.vehicle.set_damper(*damper, &fault.parameters)?;
+            self.vehicle.replace_damper(fault.damper, &fault.built)?;
             self.next_fault += 1;
         }
         self.vehicle.step(&mut self.state, &self.track);
@@ -246,7 +329,6 @@ impl Run {
         if self.state.is_diverged() {
             return Some(self.diverged());
         }
-        let first_wheelset = self.vehicle.names().len() - self.vehicle.wheelsets();
         let worst = self
             .state
             .contacts()
@@ -254,19 +336,56 @@ impl Run {
             .enumerate()
             .max_by_key(|(_, contact)| contact.status);
         let (number, contact) = worst?;
-        let wheelset = self.vehicle.names()[first_wheelset + number].clone();
-        match contact.status {
-            Status::PastTip => Some(Ending::Derailed {
-                wheelset,
-                time_s,
-                distance_m,
-            }),
-            Status::OutsideTables | Status::NotFinite => Some(Ending::OutsideTables {
-                wheelset,
-                time_s,
-                distance_m,
-            }),
-            _ => None,
+        if contact.status < Status::PastTip {
+            return self.beyond_model();
         }
+        let wheelset = self.wheelset_name(number);
+        if let Some(found) = Overturned::of(&self.state) {
+            return Some(Ending::Overturned {
+                side: SIDES[found.side],
+                unloaded_wheels: found.unloaded_wheels,
+                wheels: self.vehicle.wheelsets(),
+                wheelset: self.wheelset_name(found.wheelset),
+                roll_rad: found.roll_rad,
+                time_s,
+                distance_m,
+            });
+        }
+        if contact.status == Status::PastTip {
+            return Some(Ending::Derailed {
+                wheelset,
+                time_s,
+                distance_m,
+            });
+        }
+        // A load far too high presses a wheel deeper into the rail than the tables go.
+        self.beyond_model().or(Some(Ending::OutsideTables {
+            wheelset,
+            time_s,
+            distance_m,
+        }))
+    }
+
+    /// The run ends here because a wheel's load is beyond the model, if one is.
+    fn beyond_model(&self) -> Option<Ending> {
+        let loads_n = self.state.greatest_wheel_loads_n().iter();
+        let mut wheels = loads_n.zip(self.vehicle.axle_loads_n()).enumerate();
+        wheels.find_map(|(number, (loads_n, axle_load_n))| {
+            let load_static_n = 0.5 * axle_load_n;
+            let side = (0..2).find(|side| loads_n[*side] > END_LOAD_RATIO * load_static_n)?;
+            Some(Ending::BeyondModel {
+                wheelset: self.wheelset_name(number),
+                side: SIDES[side],
+                load_n: loads_n[side],
+                load_static_n,
+                time_s: self.time_s(),
+                distance_m: self.state.distance_m(),
+            })
+        })
+    }
+
+    fn wheelset_name(&self, number: usize) -> String {
+        let first = self.vehicle.names().len() - self.vehicle.wheelsets();
+        self.vehicle.names()[first + number].clone()
     }
 }

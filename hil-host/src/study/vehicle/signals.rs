@@ -2,9 +2,9 @@
 
 use dashpot_rail::contact::{PatchSource, WheelsetForces};
 use dashpot_rail::creep::CreepLaw;
-use dashpot_rail::vehicle::{Vehicle, VehicleParameters, VehicleState};
+use dashpot_rail::vehicle::{Vehicle, VehicleParameters};
 
-use super::Accelerometer;
+use super::{Accelerometer, VehicleTick};
 
 /// A number of a state.
 #[derive(Debug, Clone, PartialEq)]
@@ -135,8 +135,8 @@ impl Signal {
         self.source == Source::DamperForce(damper)
     }
 
-    /// Its number in a state at `time_s`.
-    pub fn of(&self, state: &VehicleState, time_s: f64) -> f64 {
+    /// Its number after a tick that ended at `time_s`.
+    pub fn of(&self, state: &impl VehicleTick, time_s: f64) -> f64 {
         match &self.source {
             Source::Time => time_s,
             Source::Distance => state.distance_m(),

@@ -99,11 +99,11 @@ impl FromStr for LinkChoice {
 }
 
 impl LinkChoice {
-    /// Opens the link; `baud` (bit/s) is for serial devices.
+    /// Opens the link, which a real-time thread may use; `baud` (bit/s) is for serial devices.
     ///
     /// # Errors
     /// Nothing answers at the address, the device cannot be opened, or the emulator does not start.
-    pub fn open(&self, baud: u32) -> Result<Box<dyn Link>, LinkError> {
+    pub fn open(&self, baud: u32) -> Result<Box<dyn Link + Send>, LinkError> {
         match self {
             Self::Tcp(address) => Ok(Box::new(Tcp::connect(address)?)),
             Self::Serial(device) => open_serial(device, baud),
@@ -113,11 +113,11 @@ impl LinkChoice {
 }
 
 #[cfg(feature = "serial")]
-fn open_serial(device: &std::path::Path, baud: u32) -> Result<Box<dyn Link>, LinkError> {
+fn open_serial(device: &std::path::Path, baud: u32) -> Result<Box<dyn Link + Send>, LinkError> {
     Ok(Box::new(super::Serial::open(device, baud)?))
 }
 
 #[cfg(not(feature = "serial"))]
-fn open_serial(_: &std::path::Path, _: u32) -> Result<Box<dyn Link>, LinkError> {
+fn open_serial(_: &std::path::Path, _: u32) -> Result<Box<dyn Link + Send>, LinkError> {
     Err(LinkError::NoSerial)
 }

@@ -16,7 +16,7 @@ mod tangent;
 
 use std::sync::Arc;
 
-use dashpot_core::DamperParameters;
+use dashpot_core::{Damper, DamperParameters};
 use fearless_simd::Level;
 
 use self::across::{DamperElement, StopElement};
@@ -175,6 +175,7 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
                 tick_changes: zeros,
                 target_damper_forces_n: vec![0.0; self.dampers.len()],
                 target_stop_forces_n: vec![0.0; self.stops.len()],
+                greatest_loads_n: vec![[0.0; 2]; self.wheelsets.len()],
             },
         };
         self.begin(&mut state, track);
@@ -224,6 +225,42 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
         self.dampers.iter().map(|element| element.name.as_str())
     }
 
+    /// Load of each wheelset on the rails at standstill, N.
+    pub fn axle_loads_n(&self) -> impl ExactSizeIterator<Item = f64> {
+        self.wheelsets.iter().map(|wheelset| wheelset.axle_load_n)
+    }
+
+    /// The damper that [`set_damper`](Self::set_damper) would build, for [`replace_damper`](Self::replace_damper): building takes far
+    /// longer than a tick and allocates, so that a run in real time builds its dampers before it starts.
+    ///
+    /// # Errors
+    /// As [`set_damper`](Self::set_damper).
+    pub fn build_damper(
+        &self,
+        damper: usize,
+        parameters: &DamperParameters,
+    ) -> Result<Damper<f64>, VehicleError> {
+        let dampers = self.dampers.len();
+        let element = self.dampers.get(damper);
+        let element = element.ok_or(VehicleError::NoSuchDamper { damper, dampers })?;
+        build(&element.name, parameters, self.step_s)
+    }
+
+    /// As [`set_damper`](Self::set_damper), with a damper of [`build_damper`](Self::build_damper); does not allocate.
+    ///
+    /// # Errors
+    /// A number that is no damper's.
+    pub fn replace_damper(&mut self, damper: usize, by: &Damper<f64>) -> Result<(), VehicleError> {
+        let dampers = self.dampers.len();
+        match self.dampers.get_mut(damper) {
+            Some(element) => {
+                element.damper = *by;
+                Ok(())
+            }
+            None => Err(VehicleError::NoSuchDamper { damper, dampers }),
+        }
+    }
+
     /// Another damper in the place of one: a state goes on with it from its next step, its force carries over.
     ///
     /// # Errors
@@ -233,12 +270,7 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
         damper: usize,
         parameters: &DamperParameters,
     ) -> Result<(), VehicleError> {
-        let step_s = self.step_s;
-        let dampers = self.dampers.len();
-        let Some(element) = self.dampers.get_mut(damper) else {
-            return Err(VehicleError::NoSuchDamper { damper, dampers });
-        };
-        element.damper = build(&element.name, parameters, step_s)?;
-        Ok(())
+        let built = self.build_damper(damper, parameters)?;
+        self.replace_damper(damper, &built)
     }
 }

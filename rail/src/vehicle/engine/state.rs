@@ -54,6 +54,8 @@ pub(super) struct Work {
     pub tick_changes: Vec<Vector>,
     pub target_damper_forces_n: Vec<f64>,
     pub target_stop_forces_n: Vec<f64>,
+    /// Of each wheel, left and right, over all steps inside the tick.
+    pub greatest_loads_n: Vec<[f64; 2]>,
 }
 
 impl VehicleState {
@@ -108,6 +110,12 @@ impl VehicleState {
         &self.contacts
     }
 
+    /// Greatest load of the left and the right wheel of each wheelset during the last tick, N. A tick has several steps inside, and an impact
+    /// may be over before the tick ends: [`contacts`](Self::contacts) has the forces at its end only.
+    pub fn greatest_wheel_loads_n(&self) -> &[[f64; 2]] {
+        &self.work.greatest_loads_n
+    }
+
     /// Displacement of each damper, extension positive, m.
     pub fn damper_displacements_m(&self) -> &[f64] {
         &self.damper_displacements_m
@@ -137,7 +145,7 @@ impl VehicleState {
     }
 
     /// The number of bodies, and all lengths.
-    fn shape(&self) -> [usize; 29] {
+    fn shape(&self) -> [usize; 30] {
         let (work, guidance, system) = (&self.work, &self.work.guidance, &self.work.system);
         [
             self.bodies,
@@ -169,6 +177,7 @@ impl VehicleState {
             work.tick_changes.len(),
             work.target_damper_forces_n.len(),
             work.target_stop_forces_n.len(),
+            work.greatest_loads_n.len(),
         ]
     }
 
@@ -231,6 +240,7 @@ clone_by_field!(Work {
     tick_changes,
     target_damper_forces_n,
     target_stop_forces_n,
+    greatest_loads_n,
 });
 clone_by_field!(Guidance {
     pose,

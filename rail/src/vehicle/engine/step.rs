@@ -33,6 +33,7 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
         if state.is_diverged {
             return;
         }
+        state.work.greatest_loads_n.fill([0.0; 2]);
         self.step_dampers(state, track);
         for substep in 1..=self.method.substeps {
             self.substep(simd, state, track, substep);
@@ -284,6 +285,10 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
         }
         let contact = &mut state.contacts[number];
         self.contact.update(&motion, &rails, contact);
+        let greatest_n = &mut state.work.greatest_loads_n[number];
+        for (greatest_n, wheel) in greatest_n.iter_mut().zip(&contact.wheels) {
+            *greatest_n = greatest_n.max(-wheel.force_n[2]);
+        }
         let [_, fy, fz] = contact.force_n;
         let [mx, my, mz] = contact.moment_n_m;
         let turned = guidance.relative[body][2];

@@ -23,7 +23,7 @@ const SAME_STEP: f64 = 1e-6;
 /// A target and the dampers that it has.
 pub(super) struct Line {
     name: String,
-    bank: Bank<Box<dyn Link>>,
+    bank: Bank<Box<dyn Link + Send>>,
     dampers: Vec<usize>,
     /// Steps of the target in a tick of the case.
     steps: u32,
@@ -140,7 +140,7 @@ fn named(name: &str, error: &SessionError) -> String {
 }
 
 /// A target in this process that steps as the case does.
-fn desk(case: &Case, dampers: &[usize]) -> Outcome<Box<dyn Link>> {
+fn desk(case: &Case, dampers: &[usize]) -> Outcome<Box<dyn Link + Send>> {
     let first = dampers.first().copied().unwrap_or_default();
     let damper = build(case, first, case.step_s)?;
     let desk = Desk::new([damper; DESK_PLACES]).map_err(LinkError::from)?;

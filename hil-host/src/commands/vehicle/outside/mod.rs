@@ -13,6 +13,7 @@ use crate::commands::line::LineOptions;
 use crate::commands::recording::ForceHistoryArguments;
 use crate::files::case::Case;
 use crate::files::recording::ForceHistory;
+use crate::study::vehicle::drive::Exchange;
 use crate::study::vehicle::{Beside, Effect, Ending, Forces, Run, number_outside};
 
 /// Which dampers are outside, and how their links are used.
@@ -38,10 +39,16 @@ pub(super) struct Outside {
     choices: Vec<Choice>,
     /// Number of each chosen damper.
     dampers: Vec<usize>,
-    lines: Vec<Line>,
-    recorded: Vec<(usize, ForceHistory)>,
+    lines: Lines,
     /// None where no damper is behind a link.
     beside: Option<Beside>,
+}
+
+/// What gives the forces of the dampers outside, tick by tick.
+#[derive(Default)]
+pub(super) struct Lines {
+    lines: Vec<Line>,
+    recorded: Vec<(usize, ForceHistory)>,
 }
 
 impl OutsideArguments {
@@ -81,8 +88,10 @@ impl OutsideArguments {
         Ok(Some(Outside {
             choices: self.choices.clone(),
             dampers,
-            lines: Vec::new(),
-            recorded,
+            lines: Lines {
+                lines: Vec::new(),
+                recorded,
+            },
             beside: None,
         }))
     }
@@ -123,7 +132,7 @@ impl OutsideArguments {
         }
         for (choice, dampers) in links {
             let line = Line::open(choice, dampers, case, &self.options)?;
-            outside.lines.push(line);
+            outside.lines.lines.push(line);
         }
         if !behind.is_empty() {
             outside.beside = Some(Beside::new(run, case, behind.clone()));
@@ -136,9 +145,9 @@ impl OutsideArguments {
     }
 }
 
-impl Outside {
+impl Exchange for Lines {
     /// Recorded forces at the end of the tick that comes.
-    pub(super) fn before(&self, run: &mut Run) {
+    fn before(&mut self, run: &mut Run) {
         let time_s = run.time_s() + run.vehicle().step_s();
         for (damper, history) in &self.recorded {
             let force_n = history.force_n(time_s);
@@ -148,13 +157,17 @@ impl Outside {
 
     /// Displacements of the tick that was go out, the forces that come back act at the end of the next; how the run ended, where a target
     /// is lost.
-    pub(super) fn exchange(&mut self, run: &mut Run) -> Option<Ending> {
-        if let Some(beside) = &mut self.beside {
-            beside.add(run);
-        }
+    fn after(&mut self, run: &mut Run) -> Option<Ending> {
         let mut lines = self.lines.iter_mut();
         let message = lines.find_map(|line| line.exchange(run).err())?;
         Some(run.outside_lost(message))
+    }
+}
+
+impl Outside {
+    /// What exchanges forces within the ticks, and what keeps the run to compare it after its ticks.
+    pub(super) fn parts(&mut self) -> (&mut Lines, &mut Option<Beside>) {
+        (&mut self.lines, &mut self.beside)
     }
 
     /// What is told, and the forces in both runs; an ending, where a target is lost at last.
@@ -169,7 +182,7 @@ impl Outside {
     ) -> Outcome<(OutsideReport, Vec<Forces>)> {
         let mut targets = Vec::new();
         let is_lost = matches!(ending, Ending::OutsideLost { .. });
-        for line in self.lines.into_iter().filter(|_| !is_lost) {
+        for line in self.lines.lines.into_iter().filter(|_| !is_lost) {
             match line.finish() {
                 Ok(target) => targets.push(target),
                 Err(message) if *ending == Ending::Completed => {

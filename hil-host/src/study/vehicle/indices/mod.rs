@@ -10,7 +10,7 @@ mod wheelset;
 pub use body::{BodyIndices, UnbalancedIndices};
 use body::{BodySums, unbalanced};
 use dashpot_rail::contact::WheelsetForces;
-use dashpot_rail::vehicle::{Standstill, VehicleState};
+use dashpot_rail::vehicle::Standstill;
 pub use nadal::Nadal;
 use ride::Ride;
 pub use ride::{NoRide, RideIndices, check_ride};
@@ -20,6 +20,7 @@ pub use wheel::WheelIndices;
 pub use wheelset::WheelsetIndices;
 use wheelset::WheelsetSums;
 
+use super::VehicleTick;
 use crate::files::case::Case;
 
 /// Distance over which wheel forces are averaged, m.
@@ -64,9 +65,9 @@ pub struct Indexer {
 /// What indices are of in a tick.
 #[derive(Debug, Clone, Copy)]
 pub struct Sample<'a, A: Fn(usize) -> [f64; 5]> {
-    /// Acceleration of each body, in the order of its coordinates, as [`VehicleState::acceleration`] has it, m/s^2 and rad/s^2.
+    /// Acceleration of each body, in the order of its coordinates, as [`VehicleTick::acceleration`] has it, m/s^2 and rad/s^2.
     pub acceleration: A,
-    /// Unbalanced lateral acceleration of the track under the first body, m/s^2: against [`VehicleState::track_acceleration`].
+    /// Unbalanced lateral acceleration of the track under the first body, m/s^2: as [`VehicleTick::unbalanced_m_per_s2`] has it.
     pub unbalanced_m_per_s2: f64,
     /// Forces on wheelsets.
     pub contacts: &'a [WheelsetForces],
@@ -111,11 +112,11 @@ impl Indexer {
         }
     }
 
-    /// Adds the state after a tick.
-    pub fn add(&mut self, state: &VehicleState) {
+    /// Adds the vehicle after a tick.
+    pub fn add(&mut self, state: &impl VehicleTick) {
         self.add_sample(&Sample {
             acceleration: |body| state.acceleration(body),
-            unbalanced_m_per_s2: -state.track_acceleration(0)[0],
+            unbalanced_m_per_s2: state.unbalanced_m_per_s2(),
             contacts: state.contacts(),
             damper_forces_n: state.damper_forces_n(),
         });

@@ -54,7 +54,7 @@ impl Fmu {
         variables.push(Variable {
             name: "ending".into(),
             unit: "",
-            description: "0 on its way, 1 the case is over, 2 derailed, 3 outside the tables of the contact, 4 diverged",
+            description: "0 on its way, 1 the case is over, 2 derailed, 3 outside the tables of the contact, 4 diverged, 5 beyond the model, 6 overturned",
             kind: Kind::Counter,
         });
         Ok(Self {
@@ -117,7 +117,7 @@ fn about(of: &CoupledCase) -> Markup {
         }
         p {
             "A force that is set at t acts at the end of the internal step from t, and stays until another is set. A simulation ends with the \
-             case, or when the vehicle derails: " code { "ending" } " tells why."
+             case, or when the vehicle derails, overturns or goes beyond the model: " code { "ending" } " tells why."
         }
     }
 }

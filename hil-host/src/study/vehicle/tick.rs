@@ -1,0 +1,136 @@
+//! What is reported of a vehicle after a tick: of its state, or of a copy that another thread reads.
+
+use dashpot_rail::contact::WheelsetForces;
+use dashpot_rail::vehicle::VehicleState;
+
+use super::Run;
+
+/// A vehicle after a tick. Bodies come in the order of the parameters, wheelsets after them.
+pub trait VehicleTick {
+    /// Distance of the middle of the vehicle along the track, m.
+    fn distance_m(&self) -> f64;
+    /// As [`VehicleState::coordinates`].
+    fn coordinates(&self) -> &[[f64; 5]];
+    /// As [`VehicleState::acceleration`].
+    fn acceleration(&self, body: usize) -> [f64; 5];
+    /// Unbalanced lateral acceleration of the track under the first body, m/s^2.
+    fn unbalanced_m_per_s2(&self) -> f64;
+    /// As [`VehicleState::contacts`].
+    fn contacts(&self) -> &[WheelsetForces];
+    /// As [`VehicleState::greatest_wheel_loads_n`].
+    fn greatest_wheel_loads_n(&self) -> &[[f64; 2]];
+    /// As [`VehicleState::damper_displacements_m`].
+    fn damper_displacements_m(&self) -> &[f64];
+    /// As [`VehicleState::damper_forces_n`].
+    fn damper_forces_n(&self) -> &[f64];
+}
+
+impl VehicleTick for VehicleState {
+    fn distance_m(&self) -> f64 {
+        self.distance_m()
+    }
+    fn coordinates(&self) -> &[[f64; 5]] {
+        self.coordinates()
+    }
+    fn acceleration(&self, body: usize) -> [f64; 5] {
+        self.acceleration(body)
+    }
+    fn unbalanced_m_per_s2(&self) -> f64 {
+        -self.track_acceleration(0)[0]
+    }
+    fn contacts(&self) -> &[WheelsetForces] {
+        self.contacts()
+    }
+    fn greatest_wheel_loads_n(&self) -> &[[f64; 2]] {
+        self.greatest_wheel_loads_n()
+    }
+    fn damper_displacements_m(&self) -> &[f64] {
+        self.damper_displacements_m()
+    }
+    fn damper_forces_n(&self) -> &[f64] {
+        self.damper_forces_n()
+    }
+}
+
+/// A copy of what is reported of a tick, some 10 kB for a locomotive.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TickRecord {
+    /// Time since the start of the run, s.
+    pub time_s: f64,
+    distance_m: f64,
+    unbalanced_m_per_s2: f64,
+    coordinates: Vec<[f64; 5]>,
+    accelerations: Vec<[f64; 5]>,
+    contacts: Vec<WheelsetForces>,
+    greatest_wheel_loads_n: Vec<[f64; 2]>,
+    damper_displacements_m: Vec<f64>,
+    damper_forces_n: Vec<f64>,
+}
+
+impl TickRecord {
+    /// Of the run as it is.
+    pub fn new(run: &Run) -> Self {
+        let state = run.state();
+        let bodies = state.coordinates().len();
+        Self {
+            time_s: run.time_s(),
+            distance_m: state.distance_m(),
+            unbalanced_m_per_s2: state.unbalanced_m_per_s2(),
+            coordinates: state.coordinates().to_vec(),
+            accelerations: (0..bodies).map(|body| state.acceleration(body)).collect(),
+            contacts: state.contacts().to_vec(),
+            greatest_wheel_loads_n: state.greatest_wheel_loads_n().to_vec(),
+            damper_displacements_m: state.damper_displacements_m().to_vec(),
+            damper_forces_n: state.damper_forces_n().to_vec(),
+        }
+    }
+
+    /// Writes the run as it is over what this record of the same run has; allocates nothing.
+    ///
+    /// # Panics
+    /// The record is one of another vehicle.
+    pub fn copy(&mut self, run: &Run) {
+        let state = run.state();
+        self.time_s = run.time_s();
+        self.distance_m = state.distance_m();
+        self.unbalanced_m_per_s2 = state.unbalanced_m_per_s2();
+        self.coordinates.copy_from_slice(state.coordinates());
+        for (body, acceleration) in self.accelerations.iter_mut().enumerate() {
+            *acceleration = state.acceleration(body);
+        }
+        self.contacts.copy_from_slice(state.contacts());
+        self.greatest_wheel_loads_n
+            .copy_from_slice(state.greatest_wheel_loads_n());
+        self.damper_displacements_m
+            .copy_from_slice(state.damper_displacements_m());
+        self.damper_forces_n
+            .copy_from_slice(state.damper_forces_n());
+    }
+}
+
+impl VehicleTick for TickRecord {
+    fn distance_m(&self) -> f64 {
+        self.distance_m
+    }
+    fn coordinates(&self) -> &[[f64; 5]] {
+        &self.coordinates
+    }
+    fn acceleration(&self, body: usize) -> [f64; 5] {
+        self.accelerations[body]
+    }
+    fn unbalanced_m_per_s2(&self) -> f64 {
+        self.unbalanced_m_per_s2
+    }
+    fn contacts(&self) -> &[WheelsetForces] {
+        &self.contacts
+    }
+    fn greatest_wheel_loads_n(&self) -> &[[f64; 2]] {
+        &self.greatest_wheel_loads_n
+    }
+    fn damper_displacements_m(&self) -> &[f64] {
+        &self.damper_displacements_m
+    }
+    fn damper_forces_n(&self) -> &[f64] {
+        &self.damper_forces_n
+    }
+}
