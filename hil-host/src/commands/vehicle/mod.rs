@@ -176,7 +176,7 @@ fn follow(
         loop {
             let timing = pacer.as_mut().map(|pacer| pacer.wait(ticks));
             if let Some(outside) = &outside {
-                outside.before(run);
+                outside.before(run)?;
             }
             let started = std::time::Instant::now();
             let mut ended = run.step().map_err(|error| options::refused(case, &error))?;
