@@ -22,6 +22,9 @@ const SUSPECT: f64 = 0.02;
 /// then.
 const NEAR_M: f64 = 0.03e-6;
 
+/// Halvings that bring shifts of a kilometre so near; a wider grid has no contact.
+const MAX_HALVINGS: usize = 35;
+
 /// Depth below the first touch at which a wheel carries every load, m.
 const DEEPEST_M: f64 = 3e-3;
 
@@ -108,7 +111,10 @@ fn narrowed(
 ) -> (f64, Change) {
     let [mut before, mut after] = ends.map(Loaded::clone);
     let mut change = before.change_to(&after);
-    while after.lateral_m - before.lateral_m > NEAR_M {
+    for _ in 0..MAX_HALVINGS {
+        if after.lateral_m - before.lateral_m <= NEAR_M {
+            break;
+        }
         let lateral_m = 0.5 * (before.lateral_m + after.lateral_m);
         let patches = geometry.patches_of(wheel, lateral_m, scratch);
         let middle = Loaded::new(lateral_m, patches, load_n);
