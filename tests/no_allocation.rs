@@ -123,7 +123,7 @@ fn a_vehicle_steps_and_goes_back_without_allocation() {
         for _ in 0..300 {
             vehicle.step(&mut state, &track);
         }
-        state.set_outside_force_n(0, Some(1e3));
+        state.set_outside_force_n(0, Some(1e3)).unwrap();
         vehicle.step(&mut state, &track);
     });
     assert_eq!(found, 0);

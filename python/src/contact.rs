@@ -1,7 +1,7 @@
 //! Wheel on rail: the geometry of a pair of profiles, and creep forces.
 
 use dashpot_hil::files::profile;
-use dashpot_hil::study::wheelset_geometry::{Shift, WheelsetGeometry};
+use dashpot_hil::study::wheelset_geometry::{ForceJump, Shift, WheelsetGeometry};
 use dashpot_rail::contact::{Installation, Pair, Steel};
 use dashpot_rail::creep::{CreepLaw, Creepage, KalkerBook, KalkerTable, LoadedContact};
 use dashpot_rail::profile::Body;
@@ -30,6 +30,7 @@ type Column = fn(&Shift) -> f64;
 pub struct Contact {
     conicity: Py<PyDict>,
     shifts: Py<PyDict>,
+    force_jump: Option<ForceJump>,
 }
 
 #[pymethods]
@@ -38,6 +39,31 @@ impl Contact {
     #[getter]
     fn conicity(&self, py: Python<'_>) -> Py<PyDict> {
         self.conicity.clone_ref(py)
+    }
+
+    /// Why contact tables of the pair are refused: a dictionary of where the force of the contact jumps (`lateral_m`, `roll_rad`, `yaw_rad`),
+    /// under which `load_n`, by how much (`jump_n`), and what the stiffness of the contact allows (`allowed_n`). None if they are not refused.
+    ///
+    /// >>> import dashpot
+    /// >>> dashpot.contact().force_jump is None
+    /// True
+    #[getter]
+    fn force_jump<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyDict>>> {
+        let Some(jump) = &self.force_jump else {
+            return Ok(None);
+        };
+        let numbers = PyDict::new(py);
+        for (name, number) in [
+            ("lateral_m", jump.lateral_m),
+            ("roll_rad", jump.roll_rad),
+            ("yaw_rad", jump.yaw_rad),
+            ("load_n", jump.load_n),
+            ("jump_n", jump.jump_n),
+            ("allowed_n", jump.allowed_n),
+        ] {
+            numbers.set_item(name, number)?;
+        }
+        Ok(Some(numbers))
     }
 
     /// The rigid wheelset over its lateral shift (m), to the right positive, in steps of 25 um: arrays of rolling radius difference, roll,
@@ -91,12 +117,13 @@ pub fn contact(
     let of_rail = options(rail_format, rail_mirror, smoothing_m)?;
     let wheel = wheel.map_or_else(|| Ok("s1002".into()), path)?;
     let rail = rail.map_or_else(|| Ok("uic60".into()), path)?;
-    let (pair, geometry) = py.detach(|| {
+    let (pair, geometry, force_jump) = py.detach(|| {
         let (wheel, _) = profile::load(&wheel, Body::Wheel, &of_wheel)?;
         let (rail, _) = profile::load(&rail, Body::Rail, &of_rail)?;
         let pair = Pair::new(wheel, &rail, installation)?;
         let geometry = WheelsetGeometry::of(&pair)?;
-        Ok::<_, Refusal>((pair, geometry))
+        let force_jump = ForceJump::of(&pair);
+        Ok::<_, Refusal>((pair, geometry, force_jump))
     })?;
     let conicities = geometry.conicities(&pair);
     let conicity = PyDict::new(py);
@@ -125,6 +152,7 @@ pub fn contact(
     Ok(Contact {
         conicity: conicity.unbind(),
         shifts: shifts.unbind(),
+        force_jump,
     })
 }
 

@@ -91,7 +91,8 @@ fn a_wheelset_pushed_over_the_rail_meets_nadals_limit() {
     let mut climbed = false;
     for tick in 0..60_000 {
         // To the outer rail, slower than anything moves: 5 kN a second.
-        state.set_outside_force_n(0, Some(5.0 * f64::from(tick)));
+        let force_n = 5.0 * f64::from(tick);
+        state.set_outside_force_n(0, Some(force_n)).unwrap();
         vehicle.step(&mut state, &track);
         assert!(!state.is_diverged());
         greatest = greatest.max(state.contacts()[0].derailment_coefficients()[0]);

@@ -99,7 +99,9 @@ fn a_wheelset_bounces_on_its_rails_as_two_masses_do() {
     let vehicle = Vehicle::on_rails(&parameters, contact(0.0), step_s, Some(support)).unwrap();
     let track = Track::default();
     let mut state = vehicle.at_rest(&track, 0.0, 20.0).unwrap();
-    vehicle.displace(&mut state, &track, 3, [0.0, 20e-6, 0.0, 0.0, 0.0]);
+    vehicle
+        .displace(&mut state, &track, 3, [0.0, 20e-6, 0.0, 0.0, 0.0])
+        .unwrap();
     let bounce: Vec<f64> = (0..3000)
         .map(|_| {
             vehicle.step(&mut state, &track);

@@ -86,7 +86,9 @@ fn bounce(parameters: &VehicleParameters, step_s: f64, seconds: f64) -> Vec<f64>
     let vehicle = Vehicle::new(parameters, contact(0.0), step_s).unwrap();
     let track = Track::default();
     let mut state = vehicle.at_rest(&track, 0.0, 20.0).unwrap();
-    vehicle.displace(&mut state, &track, 0, [0.0, -10e-3, 0.0, 0.0, 0.0]);
+    vehicle
+        .displace(&mut state, &track, 0, [0.0, -10e-3, 0.0, 0.0, 0.0])
+        .unwrap();
     let ticks = (seconds / step_s).round() as usize;
     (0..ticks)
         .map(|_| {

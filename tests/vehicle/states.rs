@@ -70,12 +70,16 @@ fn a_damper_changes_without_a_jump_and_its_force_can_come_from_outside() {
         "{before} {after}"
     );
 
-    state.set_outside_force_n(lateral, Some(1234.0));
+    state.set_outside_force_n(lateral, Some(1234.0)).unwrap();
     vehicle.step(&mut state, &track);
     assert_eq!(state.damper_forces_n()[lateral], 1234.0);
-    state.set_outside_force_n(lateral, Some(f64::NAN));
+    let error = state.set_outside_force_n(lateral, Some(f64::NAN));
+    assert!(error.is_err());
     vehicle.step(&mut state, &track);
-    assert!(state.damper_forces_n()[lateral].is_finite());
+    assert_eq!(state.damper_forces_n()[lateral], 1234.0);
+    state.set_outside_force_n(lateral, None).unwrap();
+    vehicle.step(&mut state, &track);
+    assert_ne!(state.damper_forces_n()[lateral], 1234.0);
     assert!(
         vehicle
             .set_damper(99, &worn)

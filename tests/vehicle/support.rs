@@ -14,21 +14,30 @@ pub type Contact = Arc<WheelsetContact<KalkerBook>>;
 /// S1002 on UIC 60 under the locomotive's wheel load, friction 0.3, with a normal damping.
 pub fn contact(normal_damping_s_per_m: f64) -> Contact {
     static TABLES: OnceLock<Arc<Tables>> = OnceLock::new();
-    let tables = TABLES.get_or_init(|| {
-        let installation = Installation {
-            wheel_radius_m: 0.625,
-            ..Installation::default()
-        };
-        let pair = Pair::standard(installation).unwrap();
-        let geometry = ContactGeometry::new(pair, Steel::default(), 101.3e3).unwrap();
-        Arc::new(Tables::new(geometry, Grid::default()).unwrap())
-    });
-    let friction = Friction {
+    let tables = TABLES.get_or_init(|| Arc::new(Tables::new(geometry(), Grid::default()).unwrap()));
+    let contact = WheelsetContact::new(Arc::clone(tables), KalkerBook::new(), friction()).unwrap();
+    Arc::new(contact.with_normal_damping(normal_damping_s_per_m).unwrap())
+}
+
+/// As [`contact`], from the geometry itself.
+pub fn contact_without_tables() -> WheelsetContact<KalkerBook, ContactGeometry> {
+    WheelsetContact::new(Arc::new(geometry()), KalkerBook::new(), friction()).unwrap()
+}
+
+fn geometry() -> ContactGeometry {
+    let installation = Installation {
+        wheel_radius_m: 0.625,
+        ..Installation::default()
+    };
+    let pair = Pair::standard(installation).unwrap();
+    ContactGeometry::new(pair, Steel::default(), 101.3e3).unwrap()
+}
+
+fn friction() -> Friction {
+    Friction {
         static_coefficient: 0.3,
         ..Friction::default()
-    };
-    let contact = WheelsetContact::new(Arc::clone(tables), KalkerBook::new(), friction).unwrap();
-    Arc::new(contact.with_normal_damping(normal_damping_s_per_m).unwrap())
+    }
 }
 
 pub fn locomotive() -> VehicleParameters {

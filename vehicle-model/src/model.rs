@@ -80,8 +80,10 @@ impl Model {
     }
 
     pub fn set(&mut self, variable: u32, value: f64) {
-        if let Some(place) = Self::place(variable) {
-            self.vehicle.set_force_n(place, value);
+        if let Some(place) = Self::place(variable)
+            && let Err(error) = self.vehicle.set_force_n(place, value)
+        {
+            self.fail(&error.to_string());
         }
     }
 

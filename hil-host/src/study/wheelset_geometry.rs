@@ -1,6 +1,8 @@
 //! The geometry of a wheelset over its lateral shift: contacts of rigid wheels and rails, rolling radii, equivalent conicity.
 
-use dashpot_rail::contact::{Pair, RigidContact};
+use dashpot_rail::contact::{
+    Axis, ContactGeometry, Grid, Jump, MAX_JUMP, Pair, RigidContact, Steel, Tables,
+};
 use dashpot_rail::indices::{RollingRadiusDifference, RollingRadiusError};
 use serde::Serialize;
 
@@ -10,6 +12,60 @@ const LARGEST_SHIFT_M: f64 = 0.012;
 const CELLS: usize = 960;
 /// Amplitudes that equivalent conicity is told of, each half millimetre.
 const AMPLITUDES: u32 = 16;
+
+/// Load of a wheel under which jumps of the force are looked for, N.
+const LOAD_N: f64 = 100e3;
+
+/// A jump of the force of the contact, for which tables of a pair are refused.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct ForceJump {
+    /// Lateral shift of the right wheel over its rail, to the field side, m.
+    pub lateral_m: f64,
+    /// Roll of the wheel, rad.
+    pub roll_rad: f64,
+    /// Yaw of the wheel, rad.
+    pub yaw_rad: f64,
+    /// Load of the wheel there, N.
+    pub load_n: f64,
+    /// Jump of the vertical force, N.
+    pub jump_n: f64,
+    /// What the stiffness of the contact allows, N.
+    pub allowed_n: f64,
+}
+
+impl From<Jump> for ForceJump {
+    fn from(jump: Jump) -> Self {
+        Self {
+            lateral_m: jump.pose.lateral_m,
+            roll_rad: jump.pose.roll_rad,
+            yaw_rad: jump.pose.yaw_rad,
+            load_n: jump.load_n,
+            jump_n: jump.jump_n,
+            allowed_n: jump.allowed_n,
+        }
+    }
+}
+
+impl ForceJump {
+    /// The greatest jump of a pair whose contact tables are refused under a wheel load of 100 kN; `None` if its force does not jump at any
+    /// of the looked-at rolls (0, 6 and 12 mrad to both sides) and yaws (0 and 20 mrad).
+    pub fn of(pair: &Pair) -> Option<Self> {
+        let grid = Grid {
+            roll_rad: Axis {
+                ends: [-12e-3, -12e-3, 12e-3, 12e-3],
+                cells: [0, 4, 0],
+            },
+            yaw_squared_rad2: Axis {
+                ends: [0.0, 0.0, 4e-4, 4e-4],
+                cells: [0, 1, 0],
+            },
+            ..Grid::default()
+        };
+        let geometry = ContactGeometry::new(pair.clone(), Steel::default(), LOAD_N).ok()?;
+        let jump = Tables::greatest_jump(&geometry, &grid).ok()??;
+        (jump.excess() > MAX_JUMP).then(|| jump.into())
+    }
+}
 
 /// Rigid contacts of a wheelset, from left to right.
 pub struct WheelsetGeometry {

@@ -152,3 +152,44 @@ fn a_refused_profile_leaves_no_plots() {
         assert!(!plots.exists());
     }
 }
+
+/// S1002 with waves of 8 mm and 60 um worn into its tread, in two columns.
+fn worn_wheel() -> String {
+    let (_, rows) = include_str!("../../../rail/tests/data/s1002.csv")
+        .split_once("y_mm,z_mm\n")
+        .unwrap();
+    let mut text = String::from("y_mm,z_mm\n");
+    for row in rows.lines() {
+        let (y, z) = row.split_once(',').unwrap();
+        let (y, z): (f64, f64) = (y.parse().unwrap(), z.parse().unwrap());
+        let is_tread = (-20.0..40.0).contains(&y);
+        let wave = if is_tread {
+            0.15 * (std::f64::consts::TAU * y / 10.0).sin()
+        } else {
+            0.0
+        };
+        text += &format!("{y},{}\n", z + wave);
+    }
+    text
+}
+
+/// The geometry of such a pair is reported, but no vehicle can run on it.
+#[test]
+fn a_pair_whose_force_jumps_is_said_with_the_place() {
+    let folder = folder_of(&[("worn.csv", &worn_wheel())]);
+    let command = ["contact", "--no-plots", "--wheel", "worn.csv"];
+    let text = text_of(&dashpot(&command, folder.path()).success());
+    let said = "contact tables of this pair are refused: at a lateral shift of";
+    assert!(text.contains(said), "{text}");
+    let json = [&command[..], &["--format", "json"]].concat();
+    let report = json_of(&dashpot(&json, folder.path()).success());
+    let jump = &report["force_jump"];
+    let number = |name: &str| jump[name].as_f64().unwrap();
+    assert!(number("jump_n") > number("allowed_n") + 0.15 * number("load_n"));
+    let place = format!("shift of {:.6} m", number("lateral_m"));
+    assert!(text.contains(&place), "{place}: {text}");
+
+    let built_in = json_of(&contact(&["--no-plots", "--format", "json"]));
+    assert!(built_in["force_jump"].is_null());
+    assert!(!text_of(&contact(&["--no-plots"])).contains("refused"));
+}

@@ -49,7 +49,8 @@ pub use silhouette::{SilhouettePoint, TurnedWheel, WheelPose};
 pub use source::PatchSource;
 pub use surface::{MAX_NORMAL_DAMPING_S_PER_M, SurfaceError};
 pub use tables::{
-    Axis, CacheError, Grid, MAX_NODES, MIN_CURVATURE_PER_M, Tables, TablesError, TabulatedPatch,
+    Axis, CacheError, Grid, Jump, MAX_JUMP, MAX_NODES, MIN_CURVATURE_PER_M, Tables, TablesError,
+    TabulatedPatch,
 };
 pub use wheel::MAX_PENETRATION_M;
 pub use wheelset::WheelsetContact;

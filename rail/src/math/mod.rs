@@ -3,6 +3,7 @@
 mod arithmetic;
 pub(crate) mod dual;
 pub(crate) mod each;
+pub(crate) mod eigenvalues;
 pub(crate) mod elliptic;
 pub(crate) mod number;
 pub(crate) mod spline;

@@ -96,6 +96,27 @@ pub enum VehicleError {
         /// How many there are.
         dampers: usize,
     },
+    /// There are not so many bodies.
+    #[error("body {body}: the vehicle has {bodies} bodies and wheelsets, counted from 0")]
+    NoBodyOfNumber {
+        /// The number.
+        body: usize,
+        /// How many there are.
+        bodies: usize,
+    },
+    /// A state belongs to another vehicle.
+    #[error(
+        "the state belongs to another vehicle; allowed: a state of a vehicle with the same parameters, step and rails"
+    )]
+    OtherVehicle,
+    /// A force from outside is not finite.
+    #[error("damper {damper}: a force of {force_n} N from outside, allowed: a finite number")]
+    OutsideForce {
+        /// The damper.
+        damper: usize,
+        /// The force, N.
+        force_n: f64,
+    },
     /// The rails do not carry a wheelset.
     #[error(
         "{wheelset}: a load of {load_n} N, allowed: above 0 and what wheel and rail carry within 2 mm"
@@ -106,7 +127,7 @@ pub enum VehicleError {
         /// Its load, N.
         load_n: f64,
     },
-    /// The iteration for the eigenvalues does not end.
+    /// The equations of motion have a number that is not finite, or the iteration for the eigenvalues does not converge.
     #[error("the modes cannot be found: stiffnesses, damping and masses are too far apart")]
     NoModes,
     /// A body is not held against its weight or against moving away.
@@ -157,6 +178,9 @@ impl VehicleError {
             Self::NoWheelset
             | Self::StepTooLong { .. }
             | Self::NoSuchDamper { .. }
+            | Self::NoBodyOfNumber { .. }
+            | Self::OtherVehicle
+            | Self::OutsideForce { .. }
             | Self::NoBody
             | Self::NoModes => None,
         }

@@ -1,11 +1,11 @@
 //! Natural modes of linear equations of motion.
 
-use nalgebra::linalg::{Schur, balancing::balance_parlett_reinsch};
 use nalgebra::{Complex, DMatrix, DVector};
 
 use super::body::{Body, COORDINATES, Coordinate};
 use super::error::VehicleError;
 use super::linear::Linear;
+use crate::math::eigenvalues::eigenvalues;
 
 /// A natural mode.
 #[derive(Debug, Clone, PartialEq)]
@@ -25,16 +25,15 @@ struct Share {
     moves_with_first: bool,
 }
 
-/// What is left of a subdiagonal that counts as nothing, over its neighbours; at the last digit the iteration may not end.
-const CONVERGED: f64 = 1e-14;
-
-/// Iterations for each eigenvalue, of which a few are needed.
-const ITERATIONS_EACH: usize = 100;
-
 /// Share of the greatest from which a body, or a coordinate, is named beside it.
 const NAMED: f64 = 0.25;
 
 impl Mode {
+    /// Real and imaginary part of the eigenvalue, rad/s: the motion is `exp(lambda t)`, the imaginary part is positive.
+    pub fn eigenvalue_rad_per_s(&self) -> [f64; 2] {
+        self.eigenvalue
+    }
+
     /// Magnitude of the eigenvalue over a full turn, Hz: the frequency without damping of an oscillator of one mass.
     pub fn undamped_hz(&self) -> f64 {
         let [real, imaginary] = self.eigenvalue;
@@ -97,6 +96,21 @@ impl Mode {
     }
 }
 
+/// All eigenvalues of the state matrix, rad/s.
+pub(super) fn all(linear: &Linear) -> Result<Vec<[f64; 2]>, VehicleError> {
+    let values = eigenvalues(&linear.first_order()).ok_or(VehicleError::NoModes)?;
+    Ok(values.iter().map(|value| [value.re, value.im]).collect())
+}
+
+/// The rows of the state matrix.
+pub(super) fn rows(linear: &Linear) -> Vec<Vec<f64>> {
+    let matrix = linear.first_order();
+    matrix
+        .row_iter()
+        .map(|row| row.iter().copied().collect())
+        .collect()
+}
+
 /// The oscillating modes by rising frequency.
 pub(super) fn of(linear: &Linear, bodies: &[Body]) -> Result<Vec<Mode>, VehicleError> {
     let matrix = linear.first_order();
@@ -112,26 +126,6 @@ pub(super) fn of(linear: &Linear, bodies: &[Body]) -> Result<Vec<Mode>, VehicleE
         .collect();
     modes.sort_by(|a, b| a.undamped_hz().total_cmp(&b.undamped_hz()));
     Ok(modes)
-}
-
-/// The eigenvalues by the QR algorithm. Without exceptional shifts it may turn in a circle, which another order of the same
-/// coordinates, or the transposed matrix, does not.
-fn eigenvalues(matrix: &DMatrix<f64>) -> Option<DVector<Complex<f64>>> {
-    // Stiffnesses over inertias are large beside the ones of the velocities: balanced first.
-    let mut balanced = matrix.clone();
-    balance_parlett_reinsch(&mut balanced);
-    let size = matrix.nrows();
-    let reversed = DMatrix::from_fn(size, size, |i, j| balanced[(size - 1 - i, size - 1 - j)]);
-    let orders = [
-        balanced.transpose(),
-        reversed.transpose(),
-        reversed,
-        balanced,
-    ];
-    orders.into_iter().find_map(|matrix| {
-        let schur = Schur::try_new(matrix, CONVERGED, ITERATIONS_EACH * size)?;
-        Some(schur.complex_eigenvalues())
-    })
 }
 
 /// The eigenvector of an eigenvalue by inverse iteration, from a start of its own for every `number`, so that equal eigenvalues

@@ -85,9 +85,23 @@ impl Running {
     /// Modes of bodies and wheelsets by rising frequency; overdamped motion is none.
     ///
     /// # Errors
-    /// Numbers so far apart that the eigenvalues are not found.
+    /// Equations with a number that is not finite; an iteration for the eigenvalues that does not converge, which is not known to happen.
     pub fn modes(&self) -> Result<Vec<Mode>, VehicleError> {
         modes::of(&self.linear, &self.bodies)
+    }
+
+    /// All eigenvalues, real and imaginary part, rad/s: also those of motion that does not oscillate. A pair of conjugates is adjacent.
+    ///
+    /// # Errors
+    /// As [`Self::modes`].
+    pub fn eigenvalues_rad_per_s(&self) -> Result<Vec<[f64; 2]>, VehicleError> {
+        modes::all(&self.linear)
+    }
+
+    /// Rows of the state matrix `A` of `x' = A x`. The states are the velocities of all bodies, the displacements of the dashpots in
+    /// series with springs, and the coordinates that a force depends on, m, rad and s.
+    pub fn state_matrix(&self) -> Vec<Vec<f64>> {
+        modes::rows(&self.linear)
     }
 }
 

@@ -7,6 +7,7 @@ mod conicity;
 mod creep;
 mod derivatives;
 mod fastsim;
+mod force_jumped;
 mod geometry;
 mod laws;
 mod normal;

@@ -2,5 +2,6 @@
 
 mod closed_forms;
 mod errors;
+mod modes_turned_in_a_circle;
 mod random;
 mod running;

@@ -14,10 +14,10 @@ use dashpot_rail::vehicle::{
 
 const CONICITY: f64 = 0.05;
 
-type Contact = WheelsetContact<KalkerBook, ContactGeometry>;
+pub type Contact = WheelsetContact<KalkerBook, ContactGeometry>;
 
 /// A cone that ends in the root of an S1002, on UIC 60.
-fn cone() -> Contact {
+pub fn cone() -> Contact {
     let points: Vec<[f64; 2]> = s1002::profile()
         .points()
         .iter()
@@ -50,7 +50,7 @@ fn spring(name: &str, ends: [End; 2], stiffness_n_per_m: [f64; 3]) -> Element {
 }
 
 /// A wheelset that carries a body, which is led along the track, on springs that hold nothing but the load.
-fn free_wheelset() -> VehicleParameters {
+pub fn free_wheelset() -> VehicleParameters {
     let mut elements = Vec::new();
     for y in [-1.0, 1.0] {
         let at = [0.0, y, 0.625];

@@ -7,7 +7,7 @@ use dashpot_rail::profile::measured::Reading;
 use serde::Serialize;
 
 use super::profiles::Readings;
-use crate::study::wheelset_geometry::{Conicity, Shift, WheelsetGeometry};
+use crate::study::wheelset_geometry::{Conicity, ForceJump, Shift, WheelsetGeometry};
 
 /// What was read of a profile file, for programs.
 #[derive(Serialize)]
@@ -48,6 +48,8 @@ pub(super) struct Report {
     conicity_at_3mm: Option<f64>,
     conicity: Vec<Conicity>,
     shifts: Vec<Shift>,
+    /// Why contact tables of the pair are refused; none if they are not.
+    force_jump: Option<ForceJump>,
     plots: Vec<String>,
 }
 
@@ -80,6 +82,7 @@ pub(super) fn report(
             .step_by(40)
             .map(Shift::from)
             .collect(),
+        force_jump: ForceJump::of(pair),
         plots,
     }
 }
@@ -135,6 +138,14 @@ pub(super) fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
             row.contact_angle_right_rad.to_degrees(),
             row.wheel_place_left_m * 1e3,
             row.wheel_place_right_m * 1e3
+        )?;
+    }
+    if let Some(jump) = &report.force_jump {
+        writeln!(
+            out,
+            "\ncontact tables of this pair are refused: at a lateral shift of {:.6} m of the right wheel over its rail (roll {:.4} rad, \
+             yaw {:.4} rad)\nthe force of the contact jumps by {:.0} N under a load of {:.0} N, where its stiffness allows {:.0} N",
+            jump.lateral_m, jump.roll_rad, jump.yaw_rad, jump.jump_n, jump.load_n, jump.allowed_n
         )?;
     }
     if !report.plots.is_empty() {

@@ -136,14 +136,14 @@ impl Coupled {
         let outside: Vec<Outside> = numbers
             .into_iter()
             .map(|number| {
-                run.state_mut().set_outside_force_n(number, Some(0.0));
-                Outside {
+                run.state_mut().set_outside_force_n(number, Some(0.0))?;
+                Ok(Outside {
                     number,
                     force_n: 0.0,
                     last_m: run.state().damper_displacements_m()[number],
-                }
+                })
             })
-            .collect();
+            .collect::<Result<_, VehicleStudyError>>()?;
         let mut variables = Vec::new();
         for (place, damper) in outside.iter().enumerate() {
             let name = slug(&names[damper.number]);
@@ -226,16 +226,20 @@ impl Coupled {
         })
     }
 
-    /// Sets the force of a damper outside, N, by the variable's place, for all ticks that come; none that is no finite number.
-    pub fn set_force_n(&mut self, place: usize, force_n: f64) {
-        if let Some(Role::Force(outside)) = self.variables.get(place).map(|variable| &variable.role)
-            && force_n.is_finite()
-        {
-            let damper = &mut self.outside[*outside];
-            damper.force_n = force_n;
-            let state = self.run.state_mut();
-            state.set_outside_force_n(damper.number, Some(force_n));
-        }
+    /// Sets the force of a damper outside, N, by the variable's place, for all ticks that come.
+    ///
+    /// # Errors
+    /// A variable that is not the force of a damper outside, a force that is not finite; then nothing changes.
+    pub fn set_force_n(&mut self, place: usize, force_n: f64) -> Result<(), VehicleStudyError> {
+        let role = self.variables.get(place).map(|variable| &variable.role);
+        let Some(Role::Force(outside)) = role else {
+            return Err(VehicleStudyError::NotAForce { variable: place });
+        };
+        let damper = &mut self.outside[*outside];
+        let state = self.run.state_mut();
+        state.set_outside_force_n(damper.number, Some(force_n))?;
+        damper.force_n = force_n;
+        Ok(())
     }
 
     /// Takes up to `ticks` ticks, fewer where the run ends: how many it took. One that diverges stays where it was before the call.
@@ -286,13 +290,14 @@ impl Coupled {
     pub fn restore(&mut self, bytes: &[u8]) -> Result<(), postcard::Error> {
         let (state, outside, ending): (VehicleState, Vec<[f64; 2]>, i32) =
             postcard::from_bytes(bytes)?;
-        if !state.has_shape_of(self.run.state()) || outside.len() != self.outside.len() {
+        let refused = |_| postcard::Error::DeserializeBadEncoding;
+        if outside.len() != self.outside.len() {
             return Err(postcard::Error::DeserializeBadEncoding);
         }
+        self.run.restore(&self.start, state).map_err(refused)?;
         for (damper, [force_n, last_m]) in self.outside.iter_mut().zip(outside) {
             (damper.force_n, damper.last_m) = (force_n, last_m);
         }
-        self.run.restore(&self.start, state);
         self.ending = match ending {
             0 => None,
             1 => Some(Ending::Completed),

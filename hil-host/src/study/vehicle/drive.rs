@@ -9,14 +9,19 @@ use crate::realtime::pacing::{Clock, Pacer};
 /// What a tick exchanges with dampers outside the vehicle.
 pub trait Exchange {
     /// Sets forces that act at the end of the tick to come.
-    fn before(&mut self, run: &mut Run);
+    ///
+    /// # Errors
+    /// A force that is not finite.
+    fn before(&mut self, run: &mut Run) -> Result<(), VehicleStudyError>;
     /// Sends what the tick has moved and sets the forces that come back; how the run ended, where a damper is lost.
     fn after(&mut self, run: &mut Run) -> Option<Ending>;
 }
 
 /// All dampers are inside.
 impl Exchange for () {
-    fn before(&mut self, _: &mut Run) {}
+    fn before(&mut self, _: &mut Run) -> Result<(), VehicleStudyError> {
+        Ok(())
+    }
     fn after(&mut self, _: &mut Run) -> Option<Ending> {
         None
     }
@@ -39,7 +44,7 @@ pub struct Driven {
 /// nothing and calls nothing of the system but for what `exchange` and the clocks do, and all of it is within the work that the pacer times.
 ///
 /// # Errors
-/// As [`Run::step`].
+/// As [`Exchange::before`] and [`Run::step`].
 pub fn drive<C: Clock>(
     run: &mut Run,
     exchange: &mut impl Exchange,
@@ -57,7 +62,7 @@ pub fn drive<C: Clock>(
         if let Some(pacer) = &mut pacer {
             pacer.release(driven.ticks);
         }
-        exchange.before(run);
+        exchange.before(run)?;
         let started = Instant::now();
         let stepped = run.step()?;
         driven.stepping += started.elapsed();

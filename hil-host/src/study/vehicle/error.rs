@@ -51,6 +51,12 @@ pub enum VehicleStudyError {
         /// The version.
         version: String,
     },
+    /// A variable of a coupled vehicle that is not the force of a damper outside.
+    #[error("variable {variable}: allowed: the force of a damper outside")]
+    NotAForce {
+        /// The variable's place.
+        variable: usize,
+    },
     /// A signal that the vehicle has not.
     #[error("no signal `{name}`{near}")]
     NoSignal {

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use dashpot_rail::contact::WheelsetContact;
 use dashpot_rail::creep::KalkerBook;
 use dashpot_rail::track::Track;
-use dashpot_rail::vehicle::{Vehicle, VehicleParameters, VehicleState};
+use dashpot_rail::vehicle::{Vehicle, VehicleError, VehicleParameters, VehicleState};
 use serde::Serialize;
 
 use super::VehicleStudyError;
@@ -43,15 +43,19 @@ impl Outcome {
 }
 
 /// Moves all bodies but the first, which is the car body, to the right.
+///
+/// # Errors
+/// A state of another vehicle, more than 10 m.
 pub(super) fn push_aside(
     vehicle: &Vehicle<KalkerBook>,
     state: &mut VehicleState,
     track: &Track,
     by_m: f64,
-) {
+) -> Result<(), VehicleError> {
     for body in 1..vehicle.names().len() {
-        vehicle.displace(state, track, body, [by_m, 0.0, 0.0, 0.0, 0.0]);
+        vehicle.displace(state, track, body, [by_m, 0.0, 0.0, 0.0, 0.0])?;
     }
+    Ok(())
 }
 
 /// A vehicle that is pushed, on straight ideal track.
@@ -82,7 +86,7 @@ impl Hunting {
     pub fn push(&self, speed_m_per_s: f64) -> Result<Outcome, VehicleStudyError> {
         let vehicle = &self.vehicle;
         let mut state = vehicle.at_rest(&self.track, 0.0, speed_m_per_s)?;
-        push_aside(vehicle, &mut state, &self.track, PUSH_M);
+        push_aside(vehicle, &mut state, &self.track, PUSH_M)?;
         let wheelsets = vehicle.names().len() - vehicle.wheelsets();
         let mut amplitudes = [0.0_f64; 2];
         let ticks = |seconds: f64| (seconds / STEP_S) as u64;

@@ -7,7 +7,7 @@ use dashpot_core::Damper;
 use dashpot_rail::contact::{Status, WheelsetContact};
 use dashpot_rail::creep::KalkerBook;
 use dashpot_rail::track::Track;
-use dashpot_rail::vehicle::{Vehicle, VehicleState};
+use dashpot_rail::vehicle::{Vehicle, VehicleError, VehicleState};
 
 use super::hunting::push_aside;
 use super::overturning::Overturned;
@@ -217,7 +217,7 @@ impl Run {
         let vehicle = Vehicle::on_rails(&case.vehicle, contact, case.step_s, case.rails)?;
         let mut state = vehicle.at_rest(&track, case.start_m, case.speed_m_per_s)?;
         if case.push_m != 0.0 {
-            push_aside(&vehicle, &mut state, &track, case.push_m);
+            push_aside(&vehicle, &mut state, &track, case.push_m)?;
         }
         let build = |fault: &Fault| {
             let damper = vehicle
@@ -268,10 +268,17 @@ impl Run {
     }
 
     /// Goes on from a state that this run has had; `start` is the run before its first tick.
-    pub fn restore(&mut self, start: &Self, state: VehicleState) {
+    ///
+    /// # Errors
+    /// A state of another vehicle; then nothing changes.
+    pub fn restore(&mut self, start: &Self, state: VehicleState) -> Result<(), VehicleStudyError> {
+        if !start.vehicle.can_step(&state) {
+            return Err(VehicleError::OtherVehicle.into());
+        }
         // The next tick makes the faults until then again, which leaves a damper that has had one as it is.
         self.clone_from(start);
         self.state = state;
+        Ok(())
     }
 
     /// True when every tick has been taken.

@@ -34,8 +34,8 @@ pub enum CacheError {
     },
 }
 
-/// Begins every file of the cache.
-const MAGIC: &[u8; 16] = b"dashpot tables 1";
+/// Begins every file of the cache. The first version did not refuse pairs whose force jumps.
+const MAGIC: &[u8; 16] = b"dashpot tables 2";
 /// Length of the key and of the checksum that follow it.
 const DIGEST: usize = 32;
 /// Nodes of a file that are computed anew before it is believed: a method that has changed changes them.

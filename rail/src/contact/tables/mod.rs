@@ -3,6 +3,7 @@
 mod axis;
 mod cache;
 mod cell;
+mod jump;
 mod node;
 mod patch;
 
@@ -13,6 +14,7 @@ use axis::{AxisReader, in_lanes};
 pub use cache::CacheError;
 use cell::{Cell, Places};
 use fearless_simd::{Simd, dispatch, f64x4};
+pub use jump::{Jump, MAX_JUMP};
 use node::Node;
 pub(super) use patch::{LOAD_FRACTION, NUMBERS};
 pub use patch::{MIN_CURVATURE_PER_M, TabulatedPatch};
@@ -48,6 +50,21 @@ pub enum TablesError {
         /// Number of nodes.
         nodes: u128,
     },
+    /// The force of the contact jumps between neighbouring poses.
+    #[error(
+        "{wheel} on {rail}: at a lateral shift of {:.6} m of the wheel over its rail (roll {:.4} rad, yaw {:.4} rad) the force jumps \
+         by {:.0} N under a load of {:.0} N, where the stiffness of the contact allows {:.0} N; allowed: profiles whose force jumps \
+         nowhere by more than that and {} % of the load",
+        .jump.pose.lateral_m, .jump.pose.roll_rad, .jump.pose.yaw_rad, .jump.jump_n, .jump.load_n, .jump.allowed_n, 100.0 * MAX_JUMP
+    )]
+    Jump {
+        /// Name of the wheel's profile.
+        wheel: String,
+        /// Name of the rail's profile.
+        rail: String,
+        /// The greatest jump.
+        jump: Jump,
+    },
 }
 
 /// The tables of one pair; they serve the right wheel and, mirrored, the left wheel.
@@ -80,33 +97,33 @@ impl Tables {
     /// Computes every node of `grid`, on as many threads as the machine offers.
     ///
     /// # Errors
-    /// An axis that does not rise or has no cells, or more than [`MAX_NODES`] nodes.
+    /// An axis that does not rise or has no cells, or more than [`MAX_NODES`] nodes; a pair of profiles whose force jumps between
+    /// neighbouring poses ([`Jump`]).
     pub fn new(geometry: ContactGeometry, grid: Grid) -> Result<Self, TablesError> {
         check_grid(&grid)?;
         let mut nodes = vec![Node::default(); grid.nodes()];
-        // A row has one roll and one yaw: its wheel is turned once.
-        let shifts = grid.lateral_m.nodes();
-        let rows = nodes.len() / shifts;
-        let threads = std::thread::available_parallelism().map_or(1, usize::from);
-        let rows_each = rows.div_ceil(threads);
-        std::thread::scope(|scope| {
-            for (part, nodes) in nodes.chunks_mut(rows_each * shifts).enumerate() {
-                let (geometry, grid) = (&geometry, &grid);
-                scope.spawn(move || {
-                    let mut scratch = Vec::new();
-                    for (row, nodes) in nodes.chunks_exact_mut(shifts).enumerate() {
-                        let first = (part * rows_each + row) * shifts;
-                        let turned = pose(geometry, grid, first);
-                        let wheel = geometry.pair().turned(turned.roll_rad, turned.yaw_rad);
-                        for (i, node) in nodes.iter_mut().enumerate() {
-                            let lateral_m = pose(geometry, grid, first + i).lateral_m;
-                            *node = Node::new(geometry.patches_of(&wheel, lateral_m, &mut scratch));
-                        }
-                    }
-                });
-            }
-        });
-        Ok(Self::of_nodes(geometry, grid, nodes))
+        match compute(&geometry, &grid, &mut nodes) {
+            Some(jump) if jump.excess() > MAX_JUMP => Err(TablesError::Jump {
+                wheel: geometry.pair().wheel().name().to_owned(),
+                rail: geometry.pair().rail().name().to_owned(),
+                jump,
+            }),
+            _ => Ok(Self::of_nodes(geometry, grid, nodes)),
+        }
+    }
+
+    /// The greatest jump of the force between neighbouring nodes of `grid`; [`Tables::new`] refuses one whose [`Jump::excess`] is above
+    /// [`MAX_JUMP`]. `None` if the force changes nowhere by more than the stiffness of the contact allows.
+    ///
+    /// # Errors
+    /// A grid that [`Tables::new`] refuses.
+    pub fn greatest_jump(
+        geometry: &ContactGeometry,
+        grid: &Grid,
+    ) -> Result<Option<Jump>, TablesError> {
+        check_grid(grid)?;
+        let mut nodes = vec![Node::default(); grid.nodes()];
+        Ok(compute(geometry, grid, &mut nodes))
     }
 
     /// The tables of nodes that are already computed.
@@ -148,6 +165,45 @@ impl Tables {
         });
         (patches, reader.is_inside())
     }
+}
+
+/// Computes all nodes, and the greatest jump of the force between them.
+fn compute(geometry: &ContactGeometry, grid: &Grid, nodes: &mut [Node]) -> Option<Jump> {
+    // A row has one roll and one yaw: its wheel is turned once.
+    let shifts = grid.lateral_m.nodes();
+    let rows = nodes.len() / shifts;
+    let threads = std::thread::available_parallelism().map_or(1, usize::from);
+    let rows_each = rows.div_ceil(threads);
+    std::thread::scope(|scope| {
+        let parts = nodes.chunks_mut(rows_each * shifts).enumerate();
+        let parts: Vec<_> = parts
+            .map(|(part, nodes)| {
+                scope.spawn(move || {
+                    let (mut scratch, mut patches) = (Vec::new(), Vec::with_capacity(shifts));
+                    let rows = nodes.chunks_exact_mut(shifts).enumerate();
+                    let jumps = rows.filter_map(|(row, nodes)| {
+                        let first = (part * rows_each + row) * shifts;
+                        let turned = pose(geometry, grid, first);
+                        let wheel = geometry.pair().turned(turned.roll_rad, turned.yaw_rad);
+                        patches.clear();
+                        for (i, node) in nodes.iter_mut().enumerate() {
+                            let lateral_m = pose(geometry, grid, first + i).lateral_m;
+                            let here = geometry.patches_of(&wheel, lateral_m, &mut scratch);
+                            *node = Node::new(here);
+                            patches.push((lateral_m, here));
+                        }
+                        Jump::greatest(geometry, &wheel, turned.yaw_rad, &patches, &mut scratch)
+                    });
+                    jumps.reduce(Jump::greater)
+                })
+            })
+            .collect();
+        let jumps = parts.into_iter().filter_map(|part| match part.join() {
+            Ok(jump) => jump,
+            Err(panic) => std::panic::resume_unwind(panic),
+        });
+        jumps.reduce(Jump::greater)
+    })
 }
 
 /// Shift by which a squared yaw moves the contact on the flange, m/rad^2.

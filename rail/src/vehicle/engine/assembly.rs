@@ -9,9 +9,11 @@ use nalgebra::DMatrix;
 use super::across::{Across, DamperElement, StopElement};
 use super::block::N;
 use super::guidance::Stand;
+use super::identity::Identity;
 use super::method::Method;
 use super::rails::{self, RailSupport};
 use super::springs::Springs;
+use super::state::Shape;
 use super::structure::Structure;
 use super::tangent::{ContactPlace, SurfaceConstants};
 use super::{STEP_S, Vehicle, WheelsetConstants};
@@ -140,7 +142,9 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
             });
         }
         let is_held = on_track.stiffness.amax() > 0.0 || on_track.damping.amax() > 0.0;
-        Ok(Self {
+        let mut vehicle = Self {
+            identity: Identity::new(parameters, step_s, support.as_ref()),
+            shape: Shape::default(),
             step_s,
             method,
             surface: SurfaceConstants {
@@ -167,7 +171,9 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
             system,
             dampers,
             stops,
-        })
+        };
+        vehicle.shape = vehicle.unmoved(0.0, 0.0).shape();
+        Ok(vehicle)
     }
 }
 

@@ -8,6 +8,7 @@ use super::state::VehicleState;
 use super::tangent::ContactPlace;
 use crate::contact::PatchSource;
 use crate::creep::CreepLaw;
+use crate::vehicle::error::VehicleError;
 
 /// Energy of a vehicle beyond that of its standing on straight level track at the same speed.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -31,7 +32,11 @@ impl Energy {
 
 impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
     /// Energy of a state on straight level track.
-    pub fn energy(&self, state: &VehicleState) -> Energy {
+    ///
+    /// # Errors
+    /// A state of another vehicle.
+    pub fn energy(&self, state: &VehicleState) -> Result<Energy, VehicleError> {
+        self.check_state(state)?;
         let zeros = vec![Vector::default(); self.inertia.len()];
         let power = |q: &[Vector], v: &[Vector], along: &[Vector]| {
             let mut forces = zeros.clone();
@@ -70,6 +75,6 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
                 .sum::<f64>();
             energy.contact_j -= constants.carried.contact_j;
         }
-        energy
+        Ok(energy)
     }
 }

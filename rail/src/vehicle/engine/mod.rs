@@ -6,6 +6,7 @@ mod block;
 mod dampers;
 mod energy;
 mod guidance;
+mod identity;
 mod method;
 mod rails;
 mod springs;
@@ -25,13 +26,16 @@ use self::block::{N, Vector};
 pub use self::energy::Energy;
 pub use self::guidance::CANT_BASE_M;
 use self::guidance::{Guidance, Stand};
+use self::identity::Identity;
 use self::method::Method;
 pub use self::rails::RailSupport;
 use self::springs::Springs;
-pub use self::state::VehicleState;
-use self::state::Work;
+use self::state::{Shape, Work};
+pub use self::state::{Stop, VehicleState};
+use self::step::DIVERGED;
 use self::structure::{Blocks, Structure};
 use self::tangent::{ContactPlace, SurfaceConstants};
+use super::body::COORDINATES;
 use super::carried::Carried;
 use super::error::VehicleError;
 use crate::contact::{PatchSource, Tables, WheelsetContact, WheelsetForces};
@@ -100,6 +104,9 @@ pub const SPEED_M_PER_S: [f64; 2] = [1.0, 150.0];
 /// ```
 #[derive(Debug, Clone)]
 pub struct Vehicle<L, S: PatchSource = Tables> {
+    identity: Identity,
+    /// Of its states.
+    shape: Shape,
     step_s: f64,
     method: Method,
     contact: Arc<WheelsetContact<L, S>>,
@@ -142,22 +149,32 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
     ) -> Result<VehicleState, VehicleError> {
         VehicleError::check("vehicle", "speed_m_per_s", speed_m_per_s, SPEED_M_PER_S)?;
         VehicleError::check("vehicle", "distance_m", distance_m, [-1e6, 1e6])?;
+        let mut state = self.unmoved(distance_m, speed_m_per_s);
+        let guidance = &mut state.work.guidance;
+        guidance.update(track.layout(), distance_m, speed_m_per_s, &self.stands);
+        state.velocities.clone_from(&guidance.pose_rate);
+        state.pose.clone_from(&guidance.pose);
+        self.begin(&mut state, track);
+        Ok(state)
+    }
+
+    /// A state on straight level track without contact.
+    fn unmoved(&self, distance_m: f64, speed_m_per_s: f64) -> VehicleState {
         let places = self.inertia.len();
         let zeros = vec![[0.0; N]; places];
-        let mut guidance = Guidance::new(places);
-        guidance.update(track.layout(), distance_m, speed_m_per_s, &self.stands);
-        let mut state = VehicleState {
+        VehicleState {
+            identity: self.identity,
             bodies: self.names.len(),
             ticks: 0,
             distance_m,
             speed_m_per_s,
             coordinates: zeros.clone(),
-            velocities: guidance.pose_rate.clone(),
+            velocities: zeros.clone(),
             accelerations: zeros.clone(),
             last_accelerations: zeros.clone(),
             forces: zeros.clone(),
             inertia: self.inertia.clone(),
-            pose: guidance.pose.clone(),
+            pose: zeros.clone(),
             contacts: vec![WheelsetForces::default(); self.wheelsets.len()],
             dampers: self.dampers_at_rest(&zeros),
             damper_displacements_m: vec![0.0; self.dampers.len()],
@@ -165,8 +182,9 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
             outside_forces_n: vec![None; self.dampers.len()],
             stop_forces_n: vec![0.0; self.stops.len()],
             is_diverged: false,
+            met_other_vehicle: false,
             work: Work {
-                guidance,
+                guidance: Guidance::new(places),
                 system: self.system.clone(),
                 residual: zeros.clone(),
                 in_middle: zeros.clone(),
@@ -177,27 +195,50 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
                 target_stop_forces_n: vec![0.0; self.stops.len()],
                 greatest_loads_n: vec![[0.0; 2]; self.wheelsets.len()],
             },
-        };
-        self.begin(&mut state, track);
-        Ok(state)
+        }
+    }
+
+    /// Whether a state belongs to this vehicle: to one with the same bodies, elements, step and rails, whatever its dampers' laws and its
+    /// contact. One that was read may belong to any, or to none.
+    #[inline]
+    pub fn can_step(&self, state: &VehicleState) -> bool {
+        state.identity == self.identity && state.shape() == self.shape
+    }
+
+    fn check_state(&self, state: &VehicleState) -> Result<(), VehicleError> {
+        if self.can_step(state) {
+            Ok(())
+        } else {
+            Err(VehicleError::OtherVehicle)
+        }
     }
 
     /// Moves a body at the start: adds `displacement` to its coordinates, and has the track and the rails act there.
+    ///
+    /// # Errors
+    /// A body that the vehicle does not have, a displacement not within -10 to 10 m or rad, a state of another vehicle; then nothing
+    /// changes.
     pub fn displace(
         &self,
         state: &mut VehicleState,
         track: &Track,
         body: usize,
         displacement: [f64; N],
-    ) {
-        if body < self.names.len() {
-            let coordinates = &mut state.coordinates[body];
-            for (coordinate, by) in coordinates.iter_mut().zip(displacement) {
-                *coordinate += by;
-            }
+    ) -> Result<(), VehicleError> {
+        self.check_state(state)?;
+        let bodies = self.names.len();
+        let Some(name) = self.names.get(body) else {
+            return Err(VehicleError::NoBodyOfNumber { body, bodies });
+        };
+        for (coordinate, by) in COORDINATES.iter().zip(displacement) {
+            VehicleError::check(name, coordinate.word(), by, [-DIVERGED, DIVERGED])?;
+        }
+        for (coordinate, by) in state.coordinates[body].iter_mut().zip(displacement) {
+            *coordinate += by;
         }
         state.dampers = self.dampers_at_rest(&state.coordinates);
         self.begin(state, track);
+        Ok(())
     }
 
     /// Step size, s.

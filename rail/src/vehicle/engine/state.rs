@@ -4,17 +4,24 @@ use dashpot_core::DamperState;
 
 use super::block::{N, Vector};
 use super::guidance::Guidance;
+use super::identity::Identity;
 use super::structure::Blocks;
 use crate::contact::{Status, WheelsetForces};
+use crate::vehicle::error::VehicleError;
+
+/// Number of bodies of a state, and all of its lengths.
+pub(super) type Shape = [usize; 29];
 
 /// The state of a running vehicle: plain data. A clone saves it, [`Clone::clone_from`] restores it without allocation, and a step from
-/// the same state gives the same bits.
+/// the same state gives the same bits. It belongs to the vehicle that made it: another one does not step it ([`Stop::OtherVehicle`]).
 ///
 /// Bodies come in the order of the parameters, wheelsets after them; coordinates in that of
 /// [`COORDINATES`](crate::vehicle::COORDINATES).
 #[derive(Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct VehicleState {
+    /// The vehicle that it belongs to.
+    pub(super) identity: Identity,
     /// Bodies and wheelsets; rails that give way follow them.
     pub(super) bodies: usize,
     pub(super) ticks: u64,
@@ -37,7 +44,19 @@ pub struct VehicleState {
     pub(super) outside_forces_n: Vec<Option<f64>>,
     pub(super) stop_forces_n: Vec<f64>,
     pub(super) is_diverged: bool,
+    /// Another vehicle was asked to step it.
+    pub(super) met_other_vehicle: bool,
     pub(super) work: Work,
+}
+
+/// Why a state is stepped no further.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Stop {
+    /// A number has grown beyond all bounds, or is none.
+    Diverged,
+    /// A vehicle that it does not belong to was asked to step it.
+    OtherVehicle,
 }
 
 /// What a step writes over.
@@ -94,6 +113,9 @@ impl VehicleState {
 
     /// Acceleration of a body in the track's axes, m/s^2 and rad/s^2: forces over inertia, without the centripetal one and the weight's
     /// part along the cant, as an accelerometer on it has them.
+    ///
+    /// # Panics
+    /// As a slice does, if the vehicle has no such body.
     pub fn acceleration(&self, body: usize) -> [f64; N] {
         let guidance = &self.work.guidance.acceleration[body];
         std::array::from_fn(|i| self.forces[body][i] / self.inertia[body][i] - guidance[i])
@@ -101,6 +123,9 @@ impl VehicleState {
 
     /// What [`acceleration`](Self::acceleration) of a body at rest in the track's axes would be, with the opposite sign: the weight's part
     /// along the cant and the centripetal acceleration, m/s^2.
+    ///
+    /// # Panics
+    /// As a slice does, if the vehicle has no such body.
     pub fn track_acceleration(&self, body: usize) -> [f64; N] {
         self.work.guidance.acceleration[body]
     }
@@ -133,19 +158,27 @@ impl VehicleState {
 
     /// Takes the force of a damper from outside from the next tick on, where a number is given, and from its own model again where none
     /// is. A force that is answered to the displacement of this tick comes one tick late.
-    pub fn set_outside_force_n(&mut self, damper: usize, force_n: Option<f64>) {
-        if let Some(outside) = self.outside_forces_n.get_mut(damper) {
-            *outside = force_n.filter(|force| force.is_finite());
+    ///
+    /// # Errors
+    /// A damper that the vehicle does not have, a force that is not finite; then nothing changes.
+    pub fn set_outside_force_n(
+        &mut self,
+        damper: usize,
+        force_n: Option<f64>,
+    ) -> Result<(), VehicleError> {
+        let dampers = self.outside_forces_n.len();
+        let Some(outside) = self.outside_forces_n.get_mut(damper) else {
+            return Err(VehicleError::NoSuchDamper { damper, dampers });
+        };
+        if let Some(force_n) = force_n.filter(|force_n| !force_n.is_finite()) {
+            return Err(VehicleError::OutsideForce { damper, force_n });
         }
+        *outside = force_n;
+        Ok(())
     }
 
-    /// Whether a vehicle that has stepped `other` can step this one: a state that was read may be of another vehicle.
-    pub fn has_shape_of(&self, other: &Self) -> bool {
-        self.shape() == other.shape()
-    }
-
-    /// The number of bodies, and all lengths.
-    fn shape(&self) -> [usize; 30] {
+    /// The number of bodies, and all lengths: one that was read may have any.
+    pub(super) fn shape(&self) -> Shape {
         let (work, guidance, system) = (&self.work, &self.work.guidance, &self.work.system);
         [
             self.bodies,
@@ -187,9 +220,18 @@ impl VehicleState {
         statuses.max().unwrap_or_default()
     }
 
-    /// Whether a number has grown beyond all bounds; the state stays as it was before.
+    /// Why the state is stepped no further, if it is not; it stays so.
+    pub fn stop(&self) -> Option<Stop> {
+        if self.met_other_vehicle {
+            Some(Stop::OtherVehicle)
+        } else {
+            self.is_diverged.then_some(Stop::Diverged)
+        }
+    }
+
+    /// Whether the state is stepped no further; [`stop`](Self::stop) says why.
     pub fn is_diverged(&self) -> bool {
-        self.is_diverged
+        self.stop().is_some()
     }
 }
 
@@ -210,6 +252,7 @@ macro_rules! clone_by_field {
 }
 
 clone_by_field!(VehicleState {
+    identity,
     bodies,
     ticks,
     distance_m,
@@ -228,6 +271,7 @@ clone_by_field!(VehicleState {
     outside_forces_n,
     stop_forces_n,
     is_diverged,
+    met_other_vehicle,
     work,
 });
 clone_by_field!(Work {

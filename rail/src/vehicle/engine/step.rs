@@ -15,7 +15,7 @@ use crate::creep::CreepLaw;
 use crate::track::Track;
 
 /// Displacement or rotation beyond which nothing of a vehicle is left, m or rad.
-const DIVERGED: f64 = 10.0;
+pub(super) const DIVERGED: f64 = 10.0;
 
 /// Acceleration beyond which nothing of it is left, m/s^2 or rad/s^2.
 const DIVERGED_RATE: f64 = 1e6;
@@ -23,14 +23,19 @@ const DIVERGED_RATE: f64 = 1e6;
 impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
     /// One tick along the track.
     ///
-    /// Cannot fail and does not allocate; every tick costs the same but for the number of patches that carry load.
+    /// Cannot fail, whatever is in the state, and does not allocate; every tick costs the same but for the number of patches that carry
+    /// load. A state of another vehicle, and one that has diverged, stays as it is: [`VehicleState::stop`] says so from then on.
     pub fn step(&self, state: &mut VehicleState, track: &Track) {
+        if !self.can_step(state) {
+            state.met_other_vehicle = true;
+            return;
+        }
         dispatch!(self.level, simd => self.tick(simd, state, track));
     }
 
     #[inline(always)]
     fn tick<V: Simd>(&self, simd: V, state: &mut VehicleState, track: &Track) {
-        if state.is_diverged {
+        if state.is_diverged() {
             return;
         }
         state.work.greatest_loads_n.fill([0.0; 2]);
@@ -47,7 +52,7 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
         state
             .stop_forces_n
             .clone_from(&state.work.target_stop_forces_n);
-        state.ticks += 1;
+        state.ticks = state.ticks.saturating_add(1);
     }
 
     /// Contact and track of the first moment.

@@ -99,8 +99,8 @@ impl Line {
             let forces_n = self.bank.step(&self.displacements_m).map_err(named)?;
             if step == self.steps {
                 for (damper, force_n) in self.dampers.iter().zip(forces_n) {
-                    let force_n = Some(f64::from(*force_n));
-                    run.state_mut().set_outside_force_n(*damper, force_n);
+                    super::set_force_n(run, *damper, f64::from(*force_n))
+                        .map_err(|error| format!("{}: {error}", self.name))?;
                 }
             }
         }

@@ -14,7 +14,9 @@ use crate::commands::recording::ForceHistoryArguments;
 use crate::files::case::Case;
 use crate::files::recording::ForceHistory;
 use crate::study::vehicle::drive::Exchange;
-use crate::study::vehicle::{Beside, Effect, Ending, Forces, Run, number_outside};
+use crate::study::vehicle::{
+    Beside, Effect, Ending, Forces, Run, VehicleStudyError, number_outside,
+};
 
 /// Which dampers are outside, and how their links are used.
 #[derive(Debug, Clone, clap::Args)]
@@ -139,20 +141,26 @@ impl OutsideArguments {
         }
         for damper in behind {
             // At rest, until the first displacement is answered.
-            run.state_mut().set_outside_force_n(damper, Some(0.0));
+            set_force_n(run, damper, 0.0)?;
         }
         Ok(())
     }
 }
 
+/// The force of a damper from the next tick on.
+fn set_force_n(run: &mut Run, damper: usize, force_n: f64) -> Result<(), VehicleStudyError> {
+    Ok(run.state_mut().set_outside_force_n(damper, Some(force_n))?)
+}
+
 impl Exchange for Lines {
     /// Recorded forces at the end of the tick that comes.
-    fn before(&mut self, run: &mut Run) {
+    fn before(&mut self, run: &mut Run) -> Result<(), VehicleStudyError> {
         let time_s = run.time_s() + run.vehicle().step_s();
         for (damper, history) in &self.recorded {
             let force_n = history.force_n(time_s);
-            run.state_mut().set_outside_force_n(*damper, Some(force_n));
+            set_force_n(run, *damper, force_n)?;
         }
+        Ok(())
     }
 
     /// Displacements of the tick that was go out, the forces that come back act at the end of the next; how the run ended, where a target

@@ -1,0 +1,276 @@
+//! Eigenvalues of ten thousand random vehicles against LAPACK.
+
+use std::process::Command;
+
+use dashpot_core::DamperParameters;
+use dashpot_core::parameters::Mount;
+use dashpot_rail::vehicle::{
+    Body, Direction, Element, End, Law, Running, Standstill, VehicleParameters, Wheelset,
+};
+use fastrand::Rng;
+
+use crate::support;
+use crate::yaw_dampers_had_no_modes as yaw;
+
+/// State matrix and eigenvalues of a vehicle.
+type Solved = (Vec<Vec<f64>>, Vec<[f64; 2]>);
+
+/// Standing vehicles of two bodies, running wagons, and locomotives with yaw dampers.
+const STANDING: usize = 6_000;
+const WAGONS: usize = 3_800;
+const LOCOMOTIVES: usize = 200;
+
+/// A number spread evenly over powers of ten.
+fn decades(rng: &mut Rng, least: f64, decades: f64) -> f64 {
+    least * 10_f64.powf(decades * rng.f64())
+}
+
+fn between(rng: &mut Rng, least: f64, greatest: f64) -> f64 {
+    least + (greatest - least) * rng.f64()
+}
+
+fn three(rng: &mut Rng, least: f64) -> [f64; 3] {
+    std::array::from_fn(|_| decades(rng, least, 4.0))
+}
+
+fn body(rng: &mut Rng, name: &str, least_kg: f64) -> Body {
+    let mass_kg = decades(rng, least_kg, 2.0);
+    Body {
+        name: name.into(),
+        mass_kg,
+        inertia_kg_m2: [
+            mass_kg * between(rng, 0.3, 3.0),
+            mass_kg * between(rng, 0.5, 30.0),
+            mass_kg * between(rng, 0.5, 30.0),
+        ],
+        x_m: between(rng, -1.0, 1.0),
+        height_m: between(rng, 0.3, 2.5),
+    }
+}
+
+fn spring(name: String, ends: [End; 2], stiffness: [f64; 3], damping: [f64; 3]) -> Element {
+    Element {
+        name,
+        ends,
+        law: Law::SpringDamper {
+            stiffness_n_per_m: stiffness,
+            damping_n_s_per_m: damping,
+        },
+    }
+}
+
+fn damper(rng: &mut Rng, name: String, ends: [End; 2], direction: Direction) -> Element {
+    let mount = Mount::new(decades(rng, 1e5, 5.0));
+    let parameters = DamperParameters::reduced(decades(rng, 1e3, 4.0), 1.0, mount);
+    Element {
+        name,
+        ends,
+        law: Law::Damper {
+            direction,
+            parameters: Box::new(parameters),
+        },
+    }
+}
+
+/// Two bodies on random springs and a damper, at standstill; `None` if they are not held.
+fn standing(rng: &mut Rng) -> Option<Solved> {
+    let mut elements = Vec::new();
+    for number in 0..6 {
+        let at = [
+            between(rng, -8.0, 8.0),
+            between(rng, -2.0, 2.0),
+            between(rng, 0.0, 3.0),
+        ];
+        let ends = match number % 2 {
+            0 => [End::track(at), End::body("lower", at)],
+            _ => [End::body("lower", at), End::body("upper", at)],
+        };
+        let (stiffness, damping) = (three(rng, 1e5), three(rng, 1e2));
+        elements.push(spring(format!("spring {number}"), ends, stiffness, damping));
+    }
+    let at = [1.0, 0.5, 0.7];
+    let ends = [End::body("lower", at), End::body("upper", at)];
+    elements.push(damper(rng, "damper".into(), ends, Direction::Lateral));
+    let vehicle = VehicleParameters {
+        name: "two bodies".into(),
+        bodies: vec![body(rng, "upper", 1e3), body(rng, "lower", 300.0)],
+        wheelsets: vec![],
+        elements,
+        ride_points: vec![],
+    };
+    let standstill = Standstill::new(&vehicle).ok()?;
+    let values = standstill.eigenvalues_rad_per_s().unwrap();
+    Some((standstill.state_matrix(), values))
+}
+
+/// A body on two wheelsets with springs and yaw dampers, at a speed; `None` if the rails do not carry it.
+fn wagon(rng: &mut Rng) -> Option<Solved> {
+    let base_m = between(rng, 1.0, 9.0);
+    let wheelset = |name: &str, x_m: f64, mass_kg: f64| Wheelset {
+        name: name.into(),
+        mass_kg,
+        inertia_kg_m2: [0.5 * mass_kg, 0.06 * mass_kg, 0.5 * mass_kg],
+        x_m,
+        radius_m: 0.625,
+    };
+    let mass_kg = between(rng, 900.0, 3500.0);
+    let wheelsets = vec![
+        wheelset("front", base_m, mass_kg),
+        wheelset("rear", -base_m, mass_kg),
+    ];
+    let (stiffness, damping) = (three(rng, 2e5), three(rng, 1e2));
+    let mut elements = Vec::new();
+    for (on, x) in [("front", base_m), ("rear", -base_m)] {
+        for y in [-1.0, 1.0] {
+            let at = [x, y, 0.625];
+            let ends = [End::body(on, at), End::body("body", at)];
+            elements.push(spring(
+                format!("{on} spring {y}"),
+                ends.clone(),
+                stiffness,
+                damping,
+            ));
+            let name = format!("{on} yaw damper {y}");
+            elements.push(damper(rng, name, ends, Direction::Longitudinal));
+        }
+    }
+    let body_kg = between(rng, 12e3, 60e3);
+    let vehicle = VehicleParameters {
+        name: "wagon".into(),
+        bodies: vec![Body {
+            name: "body".into(),
+            mass_kg: body_kg,
+            inertia_kg_m2: [2.0, 25.0, 25.0].map(|square| square * body_kg),
+            x_m: 0.0,
+            height_m: between(rng, 1.0, 2.0),
+        }],
+        wheelsets,
+        elements,
+        ride_points: vec![],
+    };
+    let speed = between(rng, 1.0, 120.0);
+    let running = Running::new(&vehicle, &support::contact(5.0), speed).ok()?;
+    let values = running.eigenvalues_rad_per_s().unwrap();
+    Some((running.state_matrix(), values))
+}
+
+fn locomotive(rng: &mut Rng) -> Option<Solved> {
+    let damping = decades(rng, 1e5, 2.0);
+    let vehicle = yaw::locomotive(damping, decades(rng, 2e6, 1.5));
+    let speed = between(rng, 5.0, 120.0);
+    let running = Running::new(&vehicle, &support::contact(5.0), speed).unwrap();
+    let values = running.eigenvalues_rad_per_s().unwrap();
+    Some((running.state_matrix(), values))
+}
+
+/// So many vehicles that `make` makes.
+fn some(count: usize, rng: &mut Rng, make: fn(&mut Rng) -> Option<Solved>) -> Vec<Solved> {
+    std::iter::repeat_with(|| make(rng))
+        .flatten()
+        .take(count)
+        .collect()
+}
+
+/// What LAPACK finds of a matrix: eigenvalues with their sensitivities, as `eigenvalues.py` defines them.
+type Found = Vec<([f64; 2], f64)>;
+
+fn by_lapack(python: &std::path::Path, solved: &[Solved]) -> Vec<Found> {
+    let folder = tempfile::tempdir().unwrap();
+    let [matrices, values] = ["matrices", "values"].map(|name| folder.path().join(name));
+    let mut bytes = Vec::new();
+    for (rows, _) in solved {
+        bytes.extend((rows.len() as u64).to_le_bytes());
+        bytes.extend(
+            rows.iter()
+                .flatten()
+                .flat_map(|number| number.to_le_bytes()),
+        );
+    }
+    std::fs::write(&matrices, bytes).unwrap();
+    let script = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/vehicle/eigenvalues.py");
+    let status = Command::new(python)
+        .arg(script)
+        .args([&matrices, &values])
+        .status();
+    assert!(status.unwrap().success());
+    let bytes = std::fs::read(&values).unwrap();
+    let (numbers, rest) = bytes.as_chunks::<8>();
+    assert!(rest.is_empty());
+    let mut numbers = numbers.iter().map(|bytes| f64::from_le_bytes(*bytes));
+    solved
+        .iter()
+        .map(|(rows, _)| {
+            let mut part = || -> Vec<f64> { numbers.by_ref().take(rows.len()).collect() };
+            let (real, imaginary, sensitivity) = (part(), part(), part());
+            let values = real.into_iter().zip(imaginary).map(|(re, im)| [re, im]);
+            values.zip(sensitivity).collect()
+        })
+        .collect()
+}
+
+fn magnitude([re, im]: [f64; 2]) -> f64 {
+    re.hypot(im)
+}
+
+/// Rounding errors in the matrix that two right solutions may differ by.
+const ROUNDINGS: f64 = 50.0;
+
+/// How far the eigenvalues of a vehicle are from LAPACK's.
+struct Distance {
+    /// Greatest distance over the magnitude.
+    relative: f64,
+    /// Greatest distance over what the measure allows: 1e-9 of the magnitude or, where it is greater, what [`ROUNDINGS`] rounding errors
+    /// in the matrix move the eigenvalue by. No method is more exact than that in double precision.
+    of_allowed: f64,
+}
+
+impl Distance {
+    fn new(values: &[[f64; 2]], expected: &Found) -> Self {
+        assert_eq!(values.len(), expected.len());
+        let mut left = expected.clone();
+        let (mut relative, mut of_allowed) = (0.0_f64, 0.0_f64);
+        for value in values {
+            let apart =
+                |other: &([f64; 2], f64)| magnitude([value[0] - other.0[0], value[1] - other.0[1]]);
+            let nearest = (0..left.len())
+                .min_by(|a, b| apart(&left[*a]).total_cmp(&apart(&left[*b])))
+                .unwrap();
+            let other = left.swap_remove(nearest);
+            let size = magnitude(other.0);
+            let rounding = ROUNDINGS * f64::EPSILON * other.1;
+            relative = relative.max(apart(&other) / size.max(f64::MIN_POSITIVE));
+            of_allowed = of_allowed.max(apart(&other) / (1e-9 * size).max(rounding));
+        }
+        Self {
+            relative,
+            of_allowed,
+        }
+    }
+}
+
+#[test]
+fn ten_thousand_random_vehicles_have_lapacks_eigenvalues() {
+    let skipped = "eigenvalues of random vehicles against LAPACK";
+    let Some(python) = xtask::python::have_packages(skipped) else {
+        return;
+    };
+    let mut rng = Rng::with_seed(26);
+    let mut solved = some(STANDING, &mut rng, standing);
+    solved.extend(some(WAGONS, &mut rng, wagon));
+    solved.extend(some(LOCOMOTIVES, &mut rng, locomotive));
+    assert_eq!(solved.len(), 10_000);
+    let found = by_lapack(&python, &solved);
+    let distances: Vec<Distance> = solved
+        .iter()
+        .zip(&found)
+        .map(|((_, values), found)| Distance::new(values, found))
+        .collect();
+    let most = |of: fn(&Distance) -> f64| distances.iter().map(of).fold(0.0, f64::max);
+    let plain = distances.iter().filter(|one| one.relative <= 1e-9).count();
+    let (relative, of_allowed) = (most(|one| one.relative), most(|one| one.of_allowed));
+    println!(
+        "{plain} of 10000 within 1e-9 of each eigenvalue, {relative:.1e} at most, {of_allowed:.2} of what is allowed"
+    );
+    assert!(of_allowed <= 1.0, "{of_allowed}");
+    assert!(plain >= 9_900, "{plain}");
+}
