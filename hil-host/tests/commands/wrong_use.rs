@@ -76,7 +76,7 @@ fn how_a_recording_is_read() {
         wrong_use(&VERIFY, &options, part);
     }
     failed(&REPLAY, &["--time", "x"], "column x is missing");
-    failed(&REPLAY, &["--group", "1"], "--group: no group `1`");
+    failed(&REPLAY, &["--group", "1"], "no group `1`");
 }
 
 #[test]
