@@ -91,7 +91,7 @@ impl Model<'_> {
     pub(super) fn quick_fit(&self) -> Option<Fit> {
         let start = self.varied.iter().map(|varied| varied.place(varied.start));
         let all: Vec<usize> = (0..self.varied.len()).collect();
-        self.fit_within(&start.collect::<Vec<_>>(), &all, (1e-3, 8))
+        self.fit_within(&start.collect::<Vec<_>>(), &all, (1e-3, 2))
     }
 
     /// The least squares to a relative tolerance, in so many evaluations for each number.

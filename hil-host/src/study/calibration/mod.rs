@@ -57,6 +57,9 @@ const ROUNDS: usize = 3;
 /// Share of the way between its bounds within which a number is at one, whatever its interval.
 const AT_BOUND_CERTAINLY: f64 = 1e-3;
 
+/// A model that misses so many times what is allowed does so with any weights of the tests.
+const HOPELESS: f64 = 2.0;
+
 /// Least scatter of a test, of its peak force: no sensor is better.
 const LEAST_SCATTER: f64 = 1e-4;
 
@@ -265,6 +268,11 @@ impl Calibration {
             |fit: &&Fit| fit.chi_square <= first.chi_square * (1.0 + SAME_MINIMUM) + SAME_MINIMUM;
         let same_minimum = [fits.iter().filter(is_same).count(), fits.len()];
         let mut best = first.clone();
+        let most = self.assumed.most_missed;
+        let worst = model.worst_misfit(&best.places)?;
+        if worst.is_some_and(|worst| worst.share > HOPELESS * most) {
+            model.refuse_misfit(&best.places, most)?;
+        }
         let all: Vec<usize> = (0..self.varied.len()).collect();
         let mut left = Vec::new();
         for _ in 0..if self.loops.is_empty() { 0 } else { ROUNDS } {
