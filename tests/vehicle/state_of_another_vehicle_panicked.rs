@@ -124,7 +124,7 @@ fn no_number_in_a_state_makes_the_step_panic() {
             .all(|q| q.is_finite());
         assert!(finite || damaged.is_diverged(), "byte {place}: {pattern}");
     }
-    assert!(read > 1_000 && diverged > 100, "{read} {diverged}");
+    assert!(read > 1_000 && diverged > 30, "{read} {diverged}");
 }
 
 #[test]

@@ -15,8 +15,14 @@ const LOCOMOTIVE: &str = include_str!("locomotive_yaw_dampers.toml");
 /// The locomotive with yaw dampers of this damping and stiffness of the mounts.
 pub fn locomotive(damping_n_s_per_m: f64, stiffness_n_per_m: f64) -> VehicleParameters {
     let text = LOCOMOTIVE
-        .replace("1.32e6", &format!("{damping_n_s_per_m:e}"))
-        .replace("12e6", &format!("{stiffness_n_per_m:e}"));
+        .replace(
+            "damping_n_s_per_m=1.32e6",
+            &format!("damping_n_s_per_m={damping_n_s_per_m:e}"),
+        )
+        .replace(
+            "stiffness_n_per_m=12e6",
+            &format!("stiffness_n_per_m={stiffness_n_per_m:e}"),
+        );
     dashpot_hil::files::vehicle::parse("locomotive_yaw_dampers.toml", &text, &[]).unwrap()
 }
 
@@ -30,7 +36,7 @@ fn the_reported_one_has_modes() {
     let running = Running::new(&locomotive(4.1e6, 12e6), contact(), 50.0).unwrap();
     let modes = running.modes().unwrap();
     assert!(modes.iter().all(|mode| mode.undamped_hz() > 0.0));
-    assert!(modes.iter().any(|mode| mode.words().contains("bogie yaw")));
+    assert!(modes.iter().any(|mode| mode.words() == "body bounce"));
 }
 
 /// 9 dampings, 2 stiffnesses of the mounts, 15 speeds: all 270 have modes.

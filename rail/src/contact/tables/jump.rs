@@ -6,7 +6,7 @@ use crate::contact::tables::patch::TabulatedPatch;
 use crate::contact::zones::ZONES;
 
 /// Loads at which the force is compared, in nominal loads.
-const LOADS: [f64; 3] = [0.5, 1.0, 2.0];
+const LOADS: [f64; 2] = [0.5, 1.0];
 
 /// Shift over which the stiffness of the contact allows a change of the force, m: the distance of neighbouring nodes in the fine part of
 /// the default [`Grid`](super::Grid), which blurs a change over as much.
