@@ -7,6 +7,8 @@ use crate::parameters::{LARGEST_CLEARANCE_M, LARGEST_FORCE_N};
 use crate::scalars::Scalars;
 use crate::state::DamperState;
 use crate::status::Status;
+#[cfg(feature = "builder")]
+use crate::table::Piece;
 use crate::table::{DOUBLINGS, Table};
 
 /// A built damper: constants for one step size, shared by any number of states.
@@ -121,6 +123,17 @@ impl<T: Real> Damper<T> {
         let k = &self.scalars;
         let end = T::from_f64(f64::from(1_u32 << DOUBLINGS));
         end * k.first_knot + k.offset
+    }
+
+    /// Whether every scalar and every number of the table is finite.
+    #[cfg(feature = "builder")]
+    pub(crate) fn is_finite(&self) -> bool {
+        let numbers = self.table.pieces.iter().flat_map(Piece::numbers);
+        let scalars = self.scalars.as_array();
+        scalars
+            .iter()
+            .chain(numbers)
+            .all(|number| number.is_finite())
     }
 
     /// Whether a step of this damper could leave the numbers of a state behind.

@@ -6,9 +6,6 @@ use dashpot_reference::deviation::root_mean_square;
 
 use super::Scalar;
 
-/// Fraction of the force limit: a smaller root mean square of the force counts as this in the promised NRMSE.
-pub const LEAST_RMS_FORCE_RATIO: f64 = 0.01;
-
 /// Largest NRMSE of the fixed step for dampers and motions with a relaxation time of at least so much.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AccuracyLimits {
