@@ -45,7 +45,6 @@ pub fn documented_damper(random: &mut Random) -> CheckedParameters {
 pub fn changed_damper(of: &DamperParameters, random: &mut Random) -> CheckedParameters {
     loop {
         let mut parameters = of.clone();
-        // All numbers a little, or a few.
         change(&mut parameters, &mut |number, range| {
             if random.happens(0.25) {
                 let factor = random.between(-0.6, 0.6).exp();
@@ -106,10 +105,11 @@ fn related(mut parameters: DamperParameters, random: &mut Random) -> Option<Chec
         if oil.viscosity_100c_m2_per_s >= oil.viscosity_40c_m2_per_s {
             oil.viscosity_100c_m2_per_s = 0.5 * oil.viscosity_40c_m2_per_s;
         }
-        if let Some(seal) = &mut hydraulics.seal {
-            if parameters.limits.force_n <= 2.0 * seal.friction_n {
-                seal.friction_n = random.between(0.0, 0.45) * parameters.limits.force_n;
-            }
+        let limit = parameters.limits.force_n;
+        if let Some(seal) = &mut hydraulics.seal
+            && limit <= 2.0 * seal.friction_n
+        {
+            seal.friction_n = random.between(0.0, 0.45) * limit;
         }
     }
     match parameters.check() {

@@ -15,10 +15,10 @@ use crate::random_damper::Random;
 use crate::searched_motion::SearchedMotion;
 
 /// Motions that are climbed from for one damper, and the changes of each.
-const STARTS: usize = 8;
-const CHANGES: usize = 24;
+const STARTS: usize = 4;
+const CHANGES: usize = 12;
 /// Dampers that are changed from one.
-const CHANGED_DAMPERS: usize = 3;
+const CHANGED_DAMPERS: usize = 1;
 
 /// Cases that a search keeps.
 const KEPT: usize = 16;
@@ -146,7 +146,7 @@ fn climb(
                 break;
             }
             *budget -= 1;
-            let searched = if change < 4 {
+            let searched = if change < 5 {
                 SearchedMotion::any(random, top)
             } else {
                 best.changed(random, top)

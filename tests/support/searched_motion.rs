@@ -10,7 +10,7 @@ use crate::random_damper::Random;
 /// Farthest that a motion goes from zero (m), as the class says.
 const FARTHEST_M: f64 = 0.25;
 /// Ticks of a motion, at most.
-const MAX_TICKS: usize = 2500;
+const MAX_TICKS: usize = 1200;
 /// Ticks of a long rest.
 const LONG_REST_TICKS: f64 = 2e4;
 

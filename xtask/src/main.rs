@@ -30,7 +30,7 @@ Commands:
                          when none is named; into target/c-library
   search [--evaluations N] [--seed S]
                          search for the damper and motion that come closest to the accuracy promise of docs/numerics.md;
-                         40000 motions and seed 1 when not given; writes the worst into target/search
+                         4000 motions and seed 1 when not given; writes the worst into target/search
   kalker-book            compute the tables of the recommended creep law anew, from exact theory (some fifteen minutes)
   vehicle-validation     run the studies of docs/vehicle-validation.md anew and write it (some six minutes)
   wheel                  build the package `dashpot` of Python: a wheel in target/wheels, for pip install

@@ -13,7 +13,8 @@ pub struct MotionErrors {
     /// The tick of the largest error.
     pub tick: usize,
     /// Root mean square error over root mean square force, or over [`LEAST_RMS_FORCE_RATIO`] of the force limit where
-    /// that is more (1).
+    /// that is more (1). Of a motion of the fixed set the largest of its parts: whatever repeats and joins parts has no
+    /// larger one.
     pub nrmse: f64,
     /// Largest force of the reference in extension and in compression (N).
     pub reference_peak_n: [f64; 2],
@@ -25,7 +26,8 @@ impl MotionErrors {
     /// Errors of `forces` (N), one a tick, against the reference at the compared ticks.
     pub(super) fn new(motion: &Motion, forces: &[f64], reference: &[f64], limit_n: f64) -> Self {
         let mut found = Self::default();
-        let (mut squares, mut force_squares, mut ticks) = (0.0, 0.0, 0.0);
+        let mut part = Part::default();
+        let mut ends = motion.part_ends.iter().peekable();
         let mut before = 0;
         for (&tick, &expected) in motion.compared.iter().zip(reference) {
             let actual = forces.get(tick).copied().unwrap_or(f64::NAN);
@@ -41,15 +43,36 @@ impl MotionErrors {
             }
             // A tick of a rest stands for those before it that were not compared.
             let weight = (tick - before).max(1) as f64;
-            squares += weight * error * error;
-            force_squares += weight * expected * expected;
-            ticks += weight;
+            part.squares += weight * error * error;
+            part.force_squares += weight * expected * expected;
+            part.ticks += weight;
             before = tick;
+            if ends.next_if(|end| **end <= tick).is_some() {
+                found.add(&part, limit_n);
+                part = Part::default();
+            }
         }
-        let rms = |sum: f64| (sum / f64::max(ticks, 1.0)).sqrt();
-        found.nrmse = rms(squares) / rms(force_squares).max(LEAST_RMS_FORCE_RATIO * limit_n);
+        found.add(&part, limit_n);
         found
     }
+
+    /// The larger NRMSE of what there is and a part.
+    fn add(&mut self, part: &Part, limit_n: f64) {
+        let rms = |sum: f64| (sum / f64::max(part.ticks, 1.0)).sqrt();
+        let least = LEAST_RMS_FORCE_RATIO * limit_n;
+        let nrmse = rms(part.squares) / rms(part.force_squares).max(least);
+        if self.nrmse.total_cmp(&nrmse).is_lt() {
+            self.nrmse = nrmse;
+        }
+    }
+}
+
+/// Sums over the ticks of a part of a motion.
+#[derive(Default)]
+struct Part {
+    squares: f64,
+    force_squares: f64,
+    ticks: f64,
 }
 
 #[cfg(test)]

@@ -61,6 +61,8 @@ pub struct Motion {
     pub displacements_m: Vec<f64>,
     /// Ticks at which forces are compared, rising from 0; between two of them the motion is linear.
     pub(super) compared: Vec<usize>,
+    /// Ticks at which parts end that have an NRMSE each, rising; the motion's is the largest of them.
+    pub(super) part_ends: Vec<usize>,
 }
 
 impl Motion {
@@ -74,6 +76,7 @@ impl Motion {
             kind,
             speed_m_per_s,
             compared: compared(&displacements_m),
+            part_ends: Vec::new(),
             displacements_m,
         }
     }
@@ -109,6 +112,7 @@ pub(super) struct Path {
     step_s: f64,
     x: f64,
     displacements_m: Vec<f64>,
+    part_ends: Vec<usize>,
 }
 
 impl Path {
@@ -117,6 +121,7 @@ impl Path {
             step_s,
             x: 0.0,
             displacements_m: vec![0.0],
+            part_ends: Vec::new(),
         }
     }
 
@@ -133,8 +138,16 @@ impl Path {
         }
     }
 
+    /// Ends a part that might be repeated for as long as one likes: its NRMSE counts by itself.
+    pub(super) fn end_part(&mut self) {
+        self.part_ends.push(self.displacements_m.len() - 1);
+    }
+
     pub(super) fn end(self, kind: Kind, speed_m_per_s: f64) -> Motion {
-        Motion::new(kind, speed_m_per_s, self.displacements_m)
+        Motion {
+            part_ends: self.part_ends,
+            ..Motion::new(kind, speed_m_per_s, self.displacements_m)
+        }
     }
 }
 

@@ -7,7 +7,7 @@ use super::motion::{Kind, Motion, Path};
 use crate::damper::side::Side;
 
 /// Halvings of the top speed.
-const OCTAVES: i32 = 10;
+const OCTAVES: i32 = 11;
 /// Shares of the force between the piston's start and the limit, whose steady speeds are taken too.
 const FORCE_SHARES: [f64; 6] = [0.003, 0.03, 0.15, 0.4, 0.8, 1.0];
 /// Ticks within which a force settles, at most; where it takes longer, the faster motions come as far.
@@ -99,6 +99,7 @@ impl Scale<'_> {
             // Slightly different speeds meet the edges of the clearance elsewhere in their ticks.
             let speed = speed * (1.0 - 0.013 * f64::from(piece));
             path.go(if piece % 2 == 0 { -speed } else { speed }, ticks + 1);
+            path.end_part();
         }
         path.end(Kind::Saw, speed)
     }
@@ -113,7 +114,8 @@ impl Scale<'_> {
             let share = [1.0, 0.6, 0.35, 0.2][piece as usize % 4];
             let ticks = across + (share * settling as f64) as usize + 2;
             path.go(if piece % 2 == 0 { speed } else { -speed }, ticks);
-            path.go(0.0, 3 * settling + 20);
+            path.go(0.0, 20 * settling + 400);
+            path.end_part();
         }
         path.end(Kind::MoveAndStop, speed)
     }
@@ -133,6 +135,7 @@ impl Scale<'_> {
                 if piece % 2 == 0 { speed } else { -speed },
                 ticks + piece as usize % 3,
             );
+            path.end_part();
         }
         Some(path.end(Kind::Crossing, speed))
     }
@@ -141,7 +144,7 @@ impl Scale<'_> {
         let mut numbers = Numbers(seed);
         let mut path = Path::new(self.step_s);
         let far = MAX_PIECE_M.min(self.clearance_m + 40.0 * top * self.step_s);
-        for _ in 0..250 {
+        for piece in 0..250 {
             let speed = top * (numbers.unit() * 1e-3_f64.ln()).exp();
             let ticks = (numbers.unit() * 40_f64.ln()).exp() as usize;
             let ticks = ticks.min(self.ticks(MAX_PIECE_M, speed));
@@ -154,6 +157,9 @@ impl Scale<'_> {
             };
             let rests = numbers.unit() < 0.15;
             path.go(if rests { 0.0 } else { direction * speed }, ticks);
+            if piece % 25 == 24 {
+                path.end_part();
+            }
         }
         path.end(Kind::ChangingSpeed, top)
     }

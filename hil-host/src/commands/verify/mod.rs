@@ -20,8 +20,8 @@ use crate::commands::failure::{Failure, Outcome};
   dashpot verify --damper in-service --input run7.csv --step-us 1000 --step-us 62.5 --format json
 
 Without --input the damper follows some sixty motions that its own clearance, friction, springs and force limit scale:
-saw, move and stop, crossing of the clearance, changing speed, random ride, speed ramp, hold of a minute. Twice each
-printed figure is promised for every motion of the class that docs/numerics.md states.
+saw, move and stop, crossing of the clearance, changing speed, random ride, speed ramp, hold of a minute. Three times
+each printed figure is promised for every motion of the class that docs/numerics.md states.
 
 With --input the NRMSE on ticks is the error of the step: the reference follows the same displacements at the ticks,
 linear between them. The NRMSE on the recording holds what taking ticks from the recording leaves out, too: the
