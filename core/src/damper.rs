@@ -144,3 +144,27 @@ impl<T: Real> Damper<T> {
             && state.force.abs() <= self.force_limit_n()
     }
 }
+
+#[cfg(all(test, feature = "builder"))]
+mod tests {
+    use super::Damper;
+
+    /// What `build` looks at last.
+    #[test]
+    fn a_number_that_is_not_finite_is_seen_wherever_it_is() {
+        let built: Damper<f64> = crate::example::reduced_vertical().build(1e-3).unwrap();
+        assert!(built.is_finite());
+        let words = built.to_words();
+        // The revisions are the two after the scalars.
+        for word in (0..words.len()).filter(|word| !(9..11).contains(word)) {
+            for number in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+                let mut damaged = words;
+                damaged[word] = number.to_bits();
+                assert!(
+                    !Damper::<f64>::from_words(&damaged).is_finite(),
+                    "word {word}"
+                );
+            }
+        }
+    }
+}

@@ -38,8 +38,7 @@ impl CheckedParameters {
     /// host or outside the tick.
     ///
     /// # Errors
-    /// A step outside [`STEP_RANGE_S`]; a table with a number that is not finite, as springs of 1e12 N/m under a force
-    /// limit of 1 N may give in `f32`.
+    /// A step outside [`STEP_RANGE_S`]; a table with a number that is not finite: springs too stiff for the scalar.
     pub fn build<T: Real>(&self, step_s: f64) -> Result<Damper<T>, BuildError> {
         if !STEP_RANGE_S.contains(&step_s) {
             return Err(BuildError {
