@@ -10,6 +10,8 @@ use crate::damper::side::Side;
 const OCTAVES: i32 = 11;
 /// Shares of the force between the piston's start and the limit, whose steady speeds are taken too.
 const FORCE_SHARES: [f64; 6] = [0.003, 0.03, 0.15, 0.4, 0.8, 1.0];
+/// Shares of the ticks in which a force settles, after which a saw turns.
+const SAW_SHARES: [f64; 3] = [1.0, 0.35, 0.12];
 /// Ticks within which a force settles, at most; where it takes longer, the faster motions come as far.
 const MAX_SETTLING_TICKS: usize = 150;
 /// Ticks of a passage through the clearance, at most.
@@ -35,7 +37,7 @@ impl Scale<'_> {
         let speeds = self.speeds();
         let mut motions: Vec<Motion> = Vec::new();
         for (number, &speed) in speeds.iter().enumerate() {
-            motions.push(self.saw(speed));
+            motions.extend(SAW_SHARES.map(|share| self.saw(speed, share)));
             motions.push(self.move_and_stop(speed));
             motions.extend(self.crossing(speed));
             if number % 6 == 0 {
@@ -91,9 +93,11 @@ impl Scale<'_> {
         self.ticks(self.clearance_m, speed).min(MAX_CROSSING_TICKS)
     }
 
-    fn saw(&self, speed: f64) -> Motion {
+    /// Way by way, each of so much of the ticks in which the force settles.
+    fn saw(&self, speed: f64, share: f64) -> Motion {
         let mut path = Path::new(self.step_s);
-        let ticks = self.across(speed) + self.settling(speed);
+        let settling = (share * self.settling(speed) as f64) as usize;
+        let ticks = self.across(speed) + settling.max(3);
         path.go(speed, ticks / 2);
         for piece in 0..6 {
             // Slightly different speeds meet the edges of the clearance elsewhere in their ticks.
