@@ -19,7 +19,7 @@ use crate::commands::failure::{Failure, Outcome};
   dashpot verify --damper paper --input data/excitations/ride_made.csv
   dashpot verify --damper in-service --input run7.csv --step-us 1000 --step-us 62.5 --format json
 
-Without --input the damper follows some sixty motions that its own clearance, friction, springs and force limit scale:
+Without --input the damper follows some hundred motions that its own clearance, friction, springs and force limit scale:
 saw, move and stop, crossing of the clearance, changing speed, random ride, speed ramp, hold of a minute. Three times
 each printed figure is promised for every motion of the class that docs/numerics.md states.
 
