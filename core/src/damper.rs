@@ -7,6 +7,8 @@ use crate::parameters::{LARGEST_CLEARANCE_M, LARGEST_FORCE_N};
 use crate::scalars::Scalars;
 use crate::state::DamperState;
 use crate::status::Status;
+#[cfg(feature = "builder")]
+use crate::table::Piece;
 use crate::table::{DOUBLINGS, Table};
 
 /// A built damper: constants for one step size, shared by any number of states.
@@ -123,11 +125,46 @@ impl<T: Real> Damper<T> {
         end * k.first_knot + k.offset
     }
 
+    /// Whether every scalar and every number of the table is finite.
+    #[cfg(feature = "builder")]
+    pub(crate) fn is_finite(&self) -> bool {
+        let numbers = self.table.pieces.iter().flat_map(Piece::numbers);
+        let scalars = self.scalars.as_array();
+        scalars
+            .iter()
+            .chain(numbers)
+            .all(|number| number.is_finite())
+    }
+
     /// Whether a step of this damper could leave the numbers of a state behind.
     pub(crate) fn could_leave(&self, state: &DamperState<T>) -> bool {
         state.displacement.is_finite()
             && state.potential.is_finite()
             && state.stretch.abs() <= self.largest_reach()
             && state.force.abs() <= self.force_limit_n()
+    }
+}
+
+#[cfg(all(test, feature = "builder"))]
+mod tests {
+    use super::Damper;
+
+    /// What `build` looks at last.
+    #[test]
+    fn a_number_that_is_not_finite_is_seen_wherever_it_is() {
+        let built: Damper<f64> = crate::example::reduced_vertical().build(1e-3).unwrap();
+        assert!(built.is_finite());
+        let words = built.to_words();
+        // The revisions are the two after the scalars.
+        for word in (0..words.len()).filter(|word| !(9..11).contains(word)) {
+            for number in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+                let mut damaged = words;
+                damaged[word] = number.to_bits();
+                assert!(
+                    !Damper::<f64>::from_words(&damaged).is_finite(),
+                    "word {word}"
+                );
+            }
+        }
     }
 }

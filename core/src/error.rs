@@ -1,5 +1,7 @@
 //! Errors of building a damper and of changing it. The step itself has no errors.
 
+use core::fmt;
+
 use crate::parameters::Mount;
 #[cfg(feature = "builder")]
 use crate::parameters::{Numbers, Range};
@@ -13,11 +15,14 @@ use crate::parameters::{Numbers, Range};
 ///     field: "stiffness_n_per_m",
 ///     value: -1.0,
 ///     allowed: "above 0",
+///     bound: None,
 /// };
 /// assert_eq!(error.to_string(), "mount.stiffness_n_per_m = -1 is not allowed: must be above 0");
+/// let error = BuildError { bound: Some(0.5), ..error };
+/// assert!(error.to_string().ends_with("must be above 0; here the bound is 0.5"));
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[error("{section}.{field} = {value} is not allowed: must be {allowed}")]
+#[error("{section}.{field} = {value} is not allowed: must be {allowed}{}", Bound(*bound))]
 pub struct BuildError {
     /// Table of the damper file that holds the field.
     pub section: &'static str,
@@ -27,6 +32,18 @@ pub struct BuildError {
     pub value: f64,
     /// The allowed range, in the field's unit.
     pub allowed: &'static str,
+    /// The bound that other parameters set, in the field's unit; `None` where the allowed range says it all.
+    pub bound: Option<f64>,
+}
+
+/// The bound of a [`BuildError`] in words.
+struct Bound(Option<f64>);
+
+impl fmt::Display for Bound {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0
+            .map_or(Ok(()), |bound| write!(f, "; here the bound is {bound}"))
+    }
 }
 
 /// A clearance that is not 0 to 0.1 m.
@@ -50,6 +67,7 @@ pub(crate) fn require(
             field: range.key,
             value,
             allowed: range.allowed,
+            bound: None,
         })
     }
 }

@@ -9,6 +9,7 @@ pub mod damper;
 pub mod deviation;
 mod error;
 pub mod kalker_book;
+pub mod probing;
 pub mod rolling_contact;
 pub mod vehicle;
 

@@ -2,6 +2,7 @@
 
 mod damaged_table_gave_infinite_force;
 mod elsewhere;
+mod force_limit_beyond_bulk_modulus_gave_nan;
 mod frame_beyond_its_end_panicked;
 mod nan_in_marked_state_stayed;
 mod unwritten_state_was_stepped;

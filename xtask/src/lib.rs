@@ -9,6 +9,7 @@ pub mod processor;
 pub mod python;
 pub mod run;
 pub mod rust_version;
+pub mod search;
 pub mod slurm;
 pub mod target_toolchain;
 pub mod test_run;

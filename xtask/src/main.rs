@@ -6,6 +6,7 @@ use xtask::c_library::{self, Options, Platform};
 use xtask::ci::ci;
 use xtask::run::{Outcome, cargo, cargo_output_to_stderr, repository, version_of};
 use xtask::rust_version::numbers;
+use xtask::search;
 use xtask::test_run::test;
 use xtask::tools::install_missing;
 use xtask::vehicle_validation::vehicle_validation;
@@ -27,6 +28,9 @@ Commands:
                          build the C library into an install tree for each target: cortex-m4f,
                          cortex-m7, cortex-m33, x86-64, aarch64; all that this machine can build
                          when none is named; into target/c-library
+  search [--evaluations N] [--seed S]
+                         search for the damper and motion that come closest to the accuracy promise of docs/numerics.md;
+                         4000 motions and seed 1 when not given; writes the worst into target/search
   kalker-book            compute the tables of the recommended creep law anew, from exact theory (some fifteen minutes)
   vehicle-validation     run the studies of docs/vehicle-validation.md anew and write it (some six minutes)
   wheel                  build the package `dashpot` of Python: a wheel in target/wheels, for pip install
@@ -70,6 +74,13 @@ fn main() -> ExitCode {
         ["bench", "--instructions"] => count_instructions(),
         ["c-library", ref options @ ..] => match Options::parse(options) {
             Ok(options) => c_library(&options),
+            Err(message) => {
+                eprintln!("wrong use: {message}");
+                return ExitCode::from(2);
+            }
+        },
+        ["search", ref options @ ..] => match search::Options::parse(options) {
+            Ok(options) => search::search(options),
             Err(message) => {
                 eprintln!("wrong use: {message}");
                 return ExitCode::from(2);

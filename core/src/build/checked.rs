@@ -68,8 +68,17 @@ impl DamperParameters {
                 check_hydraulics(hydraulics)?;
                 let laws = Laws::new(hydraulics);
                 let limit = self.limits.force_n;
-                let above_friction = limit > 2.0 * laws.friction_n;
-                require("limits", &Limits::RANGES.force_n, limit, above_friction)?;
+                let range = &Limits::RANGES.force_n;
+                let least = 2.0 * laws.friction_n;
+                let most = laws.largest_force_n().unwrap_or(f64::INFINITY);
+                // A bound is named where it is what refuses the limit.
+                let bound = if range.contains(limit) && limit <= least {
+                    Some(least)
+                } else {
+                    (limit > most).then_some(most)
+                };
+                require("limits", range, limit, bound.is_none())
+                    .map_err(|error| BuildError { bound, ..error })?;
                 ElementLaws::Physical(laws)
             }
             Element::Reduced(reduced) => {
@@ -164,6 +173,7 @@ impl Valve {
                 field,
                 value,
                 allowed,
+                bound: None,
             })
         };
         if !(1e-3 * free..0.999 * free).contains(&clamp) {

@@ -14,6 +14,10 @@ const TOLERANCE: f64 = 1e-9;
 /// Fraction by which the table's force exceeds the limit where the element yields, above rounding in `f32`.
 const YIELD_MARGIN: f64 = 1e-5;
 
+/// Least distance of two knots over their reach: through a span much shorter no cubic can be laid in double precision.
+/// Two corners may lie as close, as a relief valve does that opens where vapour ceases.
+const LEAST_SEPARATION: f64 = 1e-9;
+
 /// The last piece is the one beyond the limit.
 type Spans = Vec<Span, { PIECES - 1 }>;
 
@@ -110,12 +114,14 @@ fn end(stage: &Stage<'_>) -> f64 {
     })
 }
 
-/// Whether a knot at `reach` (m) is neither one too many in its bin nor equal to another.
+/// Whether a knot at `reach` (m) is neither one too many in its bin nor as good as equal to another.
 fn fits<T: Real>(knots: impl Iterator<Item = f64>, reach: f64) -> bool {
     let knot = T::from_f64(reach);
     let mut within = 0;
-    for other in knots.map(T::from_f64) {
-        if other == knot {
+    for other in knots {
+        let is_apart = (other - reach).abs() > LEAST_SEPARATION * reach;
+        let other = T::from_f64(other);
+        if other == knot || !is_apart {
             return false;
         }
         within += usize::from(other.bins() == knot.bins());

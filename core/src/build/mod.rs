@@ -17,7 +17,7 @@ use crate::damper::Damper;
 use crate::error::BuildError;
 use crate::hydraulics::HydraulicSide;
 use crate::math::Real;
-use crate::parameters::{DamperParameters, OilColumn, STEP_ALLOWED, STEP_RANGE_S};
+use crate::parameters::{DamperParameters, Mount, OilColumn, STEP_ALLOWED, STEP_RANGE_S};
 use crate::scalars::Scalars;
 use crate::table::{DOUBLINGS, PIECES};
 
@@ -38,7 +38,7 @@ impl CheckedParameters {
     /// host or outside the tick.
     ///
     /// # Errors
-    /// A step outside [`STEP_RANGE_S`].
+    /// A step outside [`STEP_RANGE_S`]; a table with a number that is not finite: springs too stiff for the scalar.
     pub fn build<T: Real>(&self, step_s: f64) -> Result<Damper<T>, BuildError> {
         if !STEP_RANGE_S.contains(&step_s) {
             return Err(BuildError {
@@ -46,10 +46,20 @@ impl CheckedParameters {
                 field: "step_s",
                 value: step_s,
                 allowed: STEP_ALLOWED,
+                bound: None,
             });
         }
         let branches = self.branches();
-        let damper = self.assemble(&branches, step_s);
+        let damper: Damper<T> = self.assemble(&branches, step_s);
+        if !damper.is_finite() {
+            return Err(BuildError {
+                section: "mount",
+                field: Mount::RANGES.stiffness_n_per_m.key,
+                value: self.mount.stiffness_n_per_m,
+                allowed: "low enough for a table of finite numbers; a larger limits.force_n or f64 helps too",
+                bound: None,
+            });
+        }
         #[cfg(feature = "log")]
         log::debug!("built damper {:08x} for {step_s} s", damper.revision());
         Ok(damper)

@@ -77,6 +77,7 @@ impl HealthSettings {
                     field,
                     value,
                     allowed,
+                    bound: None,
                 });
             }
         }
@@ -102,6 +103,7 @@ impl CheckedParameters {
                 field: "step_s",
                 value: step_s,
                 allowed: "1e-5 to 2e-3 s for an estimate of health",
+                bound: None,
             });
         }
         let branches = self.branches();

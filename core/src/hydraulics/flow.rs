@@ -124,7 +124,7 @@ impl Laws {
         if difference <= 0.0 {
             return 0.0;
         }
-        let density = self.oil.density_kg_per_m3(pressure_pa);
+        let density = self.density_kg_per_m3(pressure_pa);
         self.foot
             .flow(pressure_pa, jet_velocity(difference, density))
     }
@@ -144,7 +144,7 @@ impl Laws {
         } else {
             &self.extension
         };
-        let density = self.oil.density_kg_per_m3(upstream_pa);
+        let density = self.density_kg_per_m3(upstream_pa);
         let jet = jet_velocity(difference_pa, density);
         self.paths.flow(difference_pa, density, jet) + valve.flow(difference_pa, jet)
     }

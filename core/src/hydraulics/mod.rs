@@ -1,5 +1,6 @@
 //! Hydraulics: pressure to flow through each path, force to piston velocity of each side.
 
+mod compressed;
 mod flow;
 mod side;
 mod two_chamber;

@@ -135,7 +135,8 @@ parameters! {
     #[derive(Copy)]
     pub struct Limits, LimitsRanges {
         /// Largest force magnitude (N); beyond it the damper yields at constant force.
-        force_n: f64 = 50e3, 1 to 1e7 => "1 to 1e7 N and above twice seal.friction_n";
+        force_n: f64 = 50e3, 1 to 1e7
+            => "1 to 1e7 N, above twice seal.friction_n, at most half of oil.column.bulk_modulus_pa times the area under pressure";
         /// Largest credible rate of the displacement input (m/s); a faster input is followed at
         /// this rate and flagged.
         rate_m_per_s: f64 = 2, 1e-3 to 100 "m/s";

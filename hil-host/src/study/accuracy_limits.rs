@@ -1,15 +1,12 @@
-//! The accuracy that the fixed step promises at 1 kHz and at 10 kHz: docs/numerics.md, "What the accuracy promise
-//! covers".
+//! The accuracy that the shipped dampers keep over the shipped motions at 1 kHz and at 10 kHz: docs/numerics.md, "What
+//! the accuracy promise covers". What is promised for any other damper is in [`super::step_errors`].
 
 use dashpot_core::DamperParameters;
 use dashpot_reference::deviation::root_mean_square;
 
 use super::Scalar;
 
-/// Fraction of the force limit: a smaller root mean square of the force counts as this in the promised NRMSE.
-pub const LEAST_RMS_FORCE_RATIO: f64 = 0.01;
-
-/// Largest NRMSE of the fixed step for dampers and motions with a relaxation time of at least so much.
+/// Largest NRMSE of the fixed step for shipped dampers and motions with a relaxation time of at least so much.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AccuracyLimits {
     /// Least relaxation time (s), see [`relaxation_time_s`].
@@ -22,7 +19,7 @@ pub struct AccuracyLimits {
     pub nrmse_10_khz_f32: f64,
 }
 
-/// The promises, the longest relaxation time first; there is no promise below the last.
+/// The limits, the longest relaxation time first; there is none below the last.
 pub const ACCURACY_LIMITS: [AccuracyLimits; 2] = [
     AccuracyLimits {
         least_relaxation_time_s: 3e-3,
@@ -39,7 +36,7 @@ pub const ACCURACY_LIMITS: [AccuracyLimits; 2] = [
 ];
 
 impl AccuracyLimits {
-    /// The promise for a relaxation time (s), where there is one.
+    /// The limits for a relaxation time (s); `None` where there are none.
     pub fn of(relaxation_time_s: f64) -> Option<&'static Self> {
         ACCURACY_LIMITS
             .iter()

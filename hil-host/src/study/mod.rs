@@ -16,6 +16,7 @@ pub mod response;
 mod scalar;
 pub mod shim_valves;
 mod smoothing;
+pub mod step_errors;
 mod stretches;
 pub mod sweep;
 pub mod swept_sine;

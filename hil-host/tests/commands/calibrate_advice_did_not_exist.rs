@@ -68,7 +68,12 @@ fn what_is_not_determined_succeeds_as_advised() {
     let folder = folder.path();
     bench::write(&folder.join("run.csv"), |sample| sample);
     let known = [&KNOWN[..], &["--set", "relief.opening_pressure_pa=2e7"]].concat();
-    let vary = ["--vary", TRUTH[0].0, "--vary", "relief.opening_pressure_pa=1.5e7:3e7"];
+    let vary = [
+        "--vary",
+        TRUTH[0].0,
+        "--vary",
+        "relief.opening_pressure_pa=1.5e7:3e7",
+    ];
     let line = bench::calibrate("in-service", &[&known[..], &vary].concat());
     let text = error_of(&run(&line, folder).code(1));
     assert!(

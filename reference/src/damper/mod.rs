@@ -111,6 +111,16 @@ impl Reference {
         Ok(forces)
     }
 
+    /// The laws of extension and compression.
+    pub(crate) fn sides(&self) -> &[Side; 2] {
+        &self.sides
+    }
+
+    /// Force at which the damper yields, of the stronger side (N).
+    pub(crate) fn force_limit_n(&self) -> f64 {
+        self.sides[0].yield_force.max(self.sides[1].yield_force)
+    }
+
     /// What the last run counted.
     pub fn statistics(&self) -> Statistics {
         self.statistics

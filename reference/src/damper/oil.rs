@@ -12,6 +12,9 @@ pub(super) fn kelvin(celsius: f64) -> f64 {
     celsius + ZERO_CELSIUS_K
 }
 
+/// Least volume of oil and air over that at atmospheric pressure (1).
+const LEAST_VOLUME: f64 = 0.05;
+
 /// Density and viscosity as functions of gauge pressure at one temperature.
 #[derive(Clone, Debug)]
 pub(super) struct Fluid {
@@ -45,7 +48,8 @@ impl Fluid {
         let mass = (1.0 - air) * self.oil_density + air * self.air_density;
         let volume = (1.0 - air) * (1.0 - pressure / column.bulk_modulus_pa)
             + air * air_volume_ratio(column, pressure);
-        mass / volume
+        // Only trials of a search for a pressure come to the bound: checked parameters keep above it.
+        mass / volume.max(LEAST_VOLUME)
     }
 }
 

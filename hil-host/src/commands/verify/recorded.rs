@@ -1,16 +1,16 @@
-//! `dashpot verify`: the fixed step against the reference solver on a recorded motion.
+//! The fixed step against the reference solver on a recorded motion.
 
 use std::io::{self, Write};
-use std::path::PathBuf;
+use std::path::Path;
 use std::rc::Rc;
 
 use serde::Serialize;
 
-use super::gap_report::write_gaps;
-use super::recording::MotionArguments;
-use super::step_size::{self, StepSize};
-use super::{DamperArguments, Format, counted, print_report, progress};
-use crate::commands::failure::{Failure, Outcome};
+use super::VerifyArguments;
+use crate::commands::failure::Outcome;
+use crate::commands::gap_report::write_gaps;
+use crate::commands::step_size::StepSize;
+use crate::commands::{counted, print_report, progress};
 use crate::files::input;
 use crate::files::recording::{Gaps, Recording};
 use crate::study::Scalar;
@@ -18,34 +18,6 @@ use crate::study::tick_grid::TickGrid;
 use crate::study::verification::{
     Deviation, deviation, fixed_step_forces, reference_forces, reference_forces_on_recording,
 };
-
-/// Accuracy of the fixed step against the adaptive reference solver, per step size.
-#[derive(Debug, Clone, clap::Args)]
-#[command(after_help = "Examples:
-  dashpot verify --damper paper --input data/excitations/ride_made.csv
-  dashpot verify --damper in-service --input run7.csv --step-us 1000 --step-us 62.5 --format json
-
-The NRMSE on ticks is the error of the step: the reference follows the same displacements at the ticks, linear between
-them. The NRMSE on the recording holds what taking ticks from the recording leaves out, too: the reference follows the
-recording's own samples, linear between them, and is compared at the ticks.")]
-pub struct VerifyArguments {
-    #[command(flatten)]
-    damper: DamperArguments,
-    /// Recorded motion: text (CSV), MDF4 or Parquet; `-` for standard input.
-    #[arg(long, value_name = "FILE")]
-    input: PathBuf,
-    #[command(flatten)]
-    recording: MotionArguments,
-    /// Steps, us.
-    #[arg(help = step_size::help("Step to verify", "; may be given several times"), long, default_values = ["1000", "500", "100"], value_name = "US", allow_negative_numbers = true)]
-    step_us: Vec<StepSize>,
-    /// Fail when an NRMSE on ticks is above this.
-    #[arg(long, value_name = "NRMSE", value_parser = positive, allow_negative_numbers = true)]
-    at_most: Option<f64>,
-    /// How results are printed.
-    #[arg(long, value_enum, default_value_t = Format::Text)]
-    format: Format,
-}
 
 #[derive(Serialize)]
 struct Row {
@@ -65,27 +37,24 @@ struct Report {
     gaps: Gaps,
 }
 
-fn positive(text: &str) -> Result<f64, String> {
-    match text.parse() {
-        Ok(number) if number > 0.0 && f64::is_finite(number) => Ok(number),
-        _ => Err("allowed: a number above 0".into()),
-    }
-}
+/// Default steps (us).
+const STEPS_US: [f64; 3] = [1000.0, 500.0, 100.0];
 
-/// Runs the command.
+/// Runs the command on the recording `input`.
 ///
 /// # Errors
 /// A damper or recording that cannot be used, a reference that fails, or an NRMSE above `--at-most`.
-pub fn run(arguments: &VerifyArguments) -> Outcome<()> {
-    arguments.damper.refuse_same_input(&arguments.input)?;
+pub(super) fn run(arguments: &VerifyArguments, input: &Path) -> Outcome<()> {
+    arguments.damper.refuse_same_input(input)?;
     let parameters = arguments.damper.load()?;
-    let mut recording = Recording::open_with(&arguments.input, &arguments.recording.channels())?;
+    let mut recording = Recording::open_with(input, &arguments.recording.channels())?;
     let samples = Rc::new(recording.read_all()?);
-    let path = input::name(&arguments.input);
+    let path = input::name(input);
     let gaps = recording.gaps();
-    let bar = progress::bar(arguments.step_us.len() as u64, "verify");
+    let steps = arguments.steps(&STEPS_US);
+    let bar = progress::bar(steps.len() as u64, "verify");
     let mut rows = Vec::new();
-    for &step in &arguments.step_us {
+    for step in steps {
         let step_s = step.step_s();
         let ticks =
             TickGrid::new(Recording::again(&path, Rc::clone(&samples)), step_s)?.read_all()?;
@@ -118,28 +87,24 @@ pub fn run(arguments: &VerifyArguments) -> Outcome<()> {
         gaps,
     };
     print_report(arguments.format, &report, |out, report| {
-        print(out, report, arguments)
+        print(out, report, &arguments.damper.damper, &path)
     })?;
     let worst = report
         .deviations
         .iter()
         .map(|row| row.deviation.nrmse)
-        .fold(0.0, f64::max);
-    match arguments.at_most {
-        Some(limit) if worst > limit => Err(Failure::new(format!(
-            "NRMSE on ticks {worst:.2e} is above --at-most {limit:.2e}"
-        ))),
-        _ => Ok(()),
-    }
+        .max_by(f64::total_cmp)
+        .unwrap_or(0.0);
+    arguments.judge("NRMSE on ticks", worst)
 }
 
-fn print(out: &mut dyn Write, report: &Report, arguments: &VerifyArguments) -> io::Result<()> {
+fn print(out: &mut dyn Write, report: &Report, damper: &str, path: &Path) -> io::Result<()> {
     writeln!(
         out,
         "damper {} on {}, fixed step against the adaptive reference\n\n  \
          {:>9}  {:<6}  {:>14}  {:>18}  {:>12}  {:>9}  {:>6}",
-        arguments.damper.damper,
-        input::name(&arguments.input).display(),
+        damper,
+        path.display(),
         "step us",
         "scalar",
         "NRMSE on ticks",

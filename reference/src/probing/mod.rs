@@ -1,0 +1,209 @@
+//! What a fixed step errs by with one damper: the largest errors over a fixed set of motions.
+//!
+//! The damper scales the set, so that it meets the damper's own worst: motions pass its clearance, its friction and the
+//! corners of its law at speeds from those of its smallest forces to the top speed. The forces of the fixed step come
+//! from outside: this crate knows parameters, not the step.
+
+mod errors;
+mod motion;
+mod set;
+
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use dashpot_core::DamperParameters;
+
+pub use self::errors::{LEAST_RMS_FORCE_RATIO, MotionErrors};
+pub use self::motion::{Kind, Motion};
+use self::set::Scale;
+use crate::damper::Reference;
+use crate::error::ReferenceError;
+
+/// Top speed of the motions (m/s), unless another is asked for or the damper's input rate is limited to less.
+pub const TOP_SPEED_M_PER_S: f64 = 0.6;
+
+/// What the figures of [`Probing::largest_errors`] are multiplied by to hold for every motion of the class that
+/// docs/numerics.md states: the search for the worst motion (`cargo xtask search`) stays below it.
+pub const PROMISED_FACTOR: f64 = 3.0;
+
+/// Fraction of the force limit below which no error at a tick is promised (1), in double precision and in single.
+pub const LEAST_ERROR_RATIO: [f64; 2] = [1e-6, 1e-5];
+
+/// The forces of a fixed step (N) at each displacement (m), from rest at the first one.
+pub type Stepper<'a> = &'a (dyn Fn(&[f64]) -> Vec<f64> + Sync);
+
+/// One damper at one step size.
+pub struct Probing<'a> {
+    parameters: &'a DamperParameters,
+    step_s: f64,
+    top_m_per_s: f64,
+}
+
+/// A figure, and the motion that had it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Worst {
+    /// The figure.
+    pub value: f64,
+    /// What the motion does.
+    pub kind: Kind,
+    /// Its largest or effective speed (m/s).
+    pub speed_m_per_s: f64,
+}
+
+/// The largest errors of one fixed step over the set.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LargestErrors {
+    /// Largest error at a tick (N).
+    pub largest_n: Worst,
+    /// Largest NRMSE of a motion (1), as [`MotionErrors::nrmse`].
+    pub nrmse: Worst,
+    /// Largest force where the reference has one of the other sign, or none (N).
+    pub wrong_sign_n: Worst,
+}
+
+impl<'a> Probing<'a> {
+    /// A damper with steps of `step_s` (s), moved at [`TOP_SPEED_M_PER_S`] at most.
+    pub fn new(parameters: &'a DamperParameters, step_s: f64) -> Self {
+        let top_m_per_s = TOP_SPEED_M_PER_S.min(highest_speed(parameters));
+        Self {
+            parameters,
+            step_s,
+            top_m_per_s,
+        }
+    }
+
+    /// With another top speed (m/s), which stays below the damper's limit of the input's rate.
+    pub fn with_top_speed(self, speed_m_per_s: f64) -> Self {
+        Self {
+            top_m_per_s: speed_m_per_s.min(highest_speed(self.parameters)),
+            ..self
+        }
+    }
+
+    /// Top speed of the motions (m/s).
+    pub fn top_speed_m_per_s(&self) -> f64 {
+        self.top_m_per_s
+    }
+
+    /// The fixed set of motions.
+    ///
+    /// # Errors
+    /// As [`Reference::new`].
+    pub fn motions(&self) -> Result<Vec<Motion>, ReferenceError> {
+        let reference = Reference::new(self.parameters)?;
+        Ok(Scale {
+            sides: reference.sides(),
+            clearance_m: self.parameters.mount.clearance_m,
+            step_s: self.step_s,
+            top_m_per_s: self.top_m_per_s,
+        }
+        .motions())
+    }
+
+    /// Errors of each stepper on a motion.
+    ///
+    /// # Errors
+    /// What the reference reports.
+    pub fn errors(
+        &self,
+        motion: &Motion,
+        steppers: &[Stepper<'_>],
+    ) -> Result<Vec<MotionErrors>, ReferenceError> {
+        let mut reference = Reference::new(self.parameters)?;
+        let ticks = motion.compared.iter();
+        let (times, displacements): (Vec<f64>, Vec<f64>) = ticks
+            .map(|tick| (*tick as f64 * self.step_s, motion.displacements_m[*tick]))
+            .unzip();
+        let expected = reference.forces(&times, &displacements)?;
+        let limit_n = reference.force_limit_n();
+        let errors = steppers.iter().map(|stepper| {
+            let forces = stepper(&motion.displacements_m);
+            MotionErrors::new(motion, &forces, &expected, limit_n)
+        });
+        Ok(errors.collect())
+    }
+
+    /// The largest errors of each stepper over the fixed set, found by several threads.
+    ///
+    /// # Errors
+    /// What the reference reports, for the first motion that it cannot solve.
+    pub fn largest_errors(
+        &self,
+        steppers: &[Stepper<'_>],
+        threads: usize,
+    ) -> Result<Vec<LargestErrors>, ReferenceError> {
+        let motions = self.motions()?;
+        let next = AtomicUsize::new(0);
+        let found = Mutex::new(Vec::with_capacity(motions.len()));
+        let work = || {
+            while let Some(motion) = motions.get(next.fetch_add(1, Ordering::Relaxed)) {
+                let errors = self.errors(motion, steppers);
+                if errors.is_err() {
+                    next.store(motions.len(), Ordering::Relaxed);
+                }
+                if let Ok(mut found) = found.lock() {
+                    found.push((motion, errors));
+                }
+            }
+        };
+        std::thread::scope(|scope| {
+            for _ in 1..threads {
+                scope.spawn(work);
+            }
+            work();
+        });
+        let mut largest: Vec<Option<LargestErrors>> = vec![None; steppers.len()];
+        let found = found.into_inner().unwrap_or_default();
+        for (motion, errors) in found {
+            for (largest, errors) in largest.iter_mut().zip(errors?) {
+                *largest = Some(LargestErrors::with(*largest, motion, &errors));
+            }
+        }
+        Ok(largest.into_iter().flatten().collect())
+    }
+}
+
+/// Speed (m/s) that a damper follows with room for rounding.
+fn highest_speed(parameters: &DamperParameters) -> f64 {
+    0.999 * parameters.limits.rate_m_per_s
+}
+
+impl LargestErrors {
+    /// What is promised for any motion of the class: the largest error at a tick (N) and the largest NRMSE (1).
+    /// `least_ratio` is that of [`LEAST_ERROR_RATIO`] for the scalar, `force_limit_n` the damper's limit (N).
+    pub fn promised(&self, force_limit_n: f64, least_ratio: f64) -> (f64, f64) {
+        let largest_n = PROMISED_FACTOR * self.largest_n.value;
+        (
+            largest_n.max(least_ratio * force_limit_n),
+            (PROMISED_FACTOR * self.nrmse.value).max(least_ratio),
+        )
+    }
+
+    /// The larger of what there is and the errors of a motion; NaN is the largest of all. Of equal figures that of the
+    /// slower motion, so that the order in which threads end changes nothing.
+    fn with(found: Option<Self>, motion: &Motion, errors: &MotionErrors) -> Self {
+        let worst = |value: f64| Worst {
+            value,
+            kind: motion.kind,
+            speed_m_per_s: motion.speed_m_per_s,
+        };
+        let larger = |a: Worst, value: f64| {
+            let b = worst(value);
+            let order = a.value.total_cmp(&b.value);
+            let order = order.then(b.speed_m_per_s.total_cmp(&a.speed_m_per_s));
+            if order.is_ge() { a } else { b }
+        };
+        match found {
+            None => Self {
+                largest_n: worst(errors.largest_n),
+                nrmse: worst(errors.nrmse),
+                wrong_sign_n: worst(errors.wrong_sign_n),
+            },
+            Some(found) => Self {
+                largest_n: larger(found.largest_n, errors.largest_n),
+                nrmse: larger(found.nrmse, errors.nrmse),
+                wrong_sign_n: larger(found.wrong_sign_n, errors.wrong_sign_n),
+            },
+        }
+    }
+}

@@ -1,0 +1,36 @@
+//! The accuracy promise under a search for its worst case, of bounded length; `cargo xtask search` goes on for as long
+//! as one likes.
+
+use dashpot::search::search;
+
+/// Motions tried: about a minute on two cores.
+const EVALUATIONS: usize = 416;
+
+#[test]
+fn the_promise_survives_a_search_for_its_worst_case() {
+    let found = search(EVALUATIONS, 26, |case| println!("{}", case.line()));
+    assert_eq!(found.evaluations, EVALUATIONS);
+    println!(
+        "{} dampers, {} without a reference",
+        found.dampers,
+        found.unsolved.len()
+    );
+    let worst = found.cases.first().expect("a case");
+    assert!(
+        worst.ratio() <= 1.0,
+        "the promise is broken: {}\nwrite it by `cargo xtask search`",
+        worst.line()
+    );
+    // A search that finds nothing near the promise does not search.
+    assert!(worst.ratio() > 0.15, "{}", worst.line());
+}
+
+#[test]
+fn the_same_seed_finds_the_same() {
+    let lines = |seed| {
+        let cases = search(20, seed, |_| ()).cases;
+        cases.iter().map(|case| case.line()).collect::<Vec<_>>()
+    };
+    assert_eq!(lines(3), lines(3));
+    assert_ne!(lines(3), lines(4));
+}
