@@ -463,6 +463,7 @@ fn the_status_bits_are_all_the_core_has() {
         | DASHPOT_STATUS_INPUT_LIMITED
         | DASHPOT_STATUS_SATURATED
         | DASHPOT_STATUS_DAMPER_SWAPPED
-        | DASHPOT_STATUS_CORRUPTED;
+        | DASHPOT_STATUS_CORRUPTED
+        | DASHPOT_STATUS_RESTARTED;
     assert_eq!(Status::from_bits_truncate(u16::MAX).bits(), all);
 }

@@ -6,6 +6,7 @@ mod changed_image;
 mod contract;
 mod disc;
 mod energy;
+mod flipped_bits;
 mod force_limit;
 mod image;
 mod integrity;
