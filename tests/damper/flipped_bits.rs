@@ -49,9 +49,8 @@ struct Effect {
 /// Displacement (m) at a tick: up to 0.22 m/s.
 fn displacement<T: Real>(tick: u32) -> T {
     let t = STEP_S * f64::from(tick);
-    let wave = |amplitude_m: f64, frequency_hz: f64| {
-        amplitude_m * libm::sin(TAU * frequency_hz * t)
-    };
+    let wave =
+        |amplitude_m: f64, frequency_hz: f64| amplitude_m * libm::sin(TAU * frequency_hz * t);
     T::from_f64(wave(8e-3, 2.3) + wave(1e-3, 17.0))
 }
 
