@@ -139,8 +139,9 @@ impl<T: Real> Damper<T> {
     /// Whether a step of this damper could leave the numbers of a state behind.
     pub(crate) fn could_leave(&self, state: &DamperState<T>) -> bool {
         let k = &self.scalars;
-        // Rounding to the grid of positions may pass the range, by less than a move.
-        state.displacement.abs() <= k.largest_displacement() + k.largest_move()
+        // Rounding to the grid of positions may pass the range, by less than a thousandth of it.
+        let most = T::from_f64(1.001) * k.largest_displacement();
+        state.displacement.abs() <= most
             && state.potential.is_finite()
             && state.stretch.all_within([&k.stretch_bound])
             && state.force.abs() <= self.force_limit_n()

@@ -365,11 +365,13 @@ static bool prefix_is_finite_state(const prefix_state *state)
 }
 
 /* Whether a step of the damper could leave the numbers of a state behind. Rounding to the grid of positions may pass the
- * range of displacement, by less than a move. */
+ * range of displacement, by less than a thousandth of it. */
 static bool prefix_could_leave(const prefix_damper *damper, const prefix_state *state)
 {
-    return prefix_magnitude(state->displacement_m) <= prefix_largest_displacement_m(damper) + prefix_largest_move_m(damper)
-           && prefix_is_finite(state->potential_m2) && prefix_is_within(state->stretch_m, damper->stretch_bound)
+    const prefix_real most = prefix_product((prefix_real)1.001, prefix_largest_displacement_m(damper));
+
+    return prefix_magnitude(state->displacement_m) <= most && prefix_is_finite(state->potential_m2)
+           && prefix_is_within(state->stretch_m, damper->stretch_bound)
            && prefix_magnitude(state->force_n) <= prefix_force_limit_n(damper);
 }
 
@@ -394,7 +396,8 @@ static prefix_real prefix_hold(prefix_state *state)
 }
 
 /* Puts a state at rest at a displacement (m); what it had latched and counted stays. */
-static void prefix_restart(const prefix_damper *damper, prefix_state *state, prefix_real displacement_m, unsigned because)
+static void prefix_restart(const prefix_damper *damper, prefix_state *state, prefix_real displacement_m,
+                           unsigned because)
 {
     const bool marked = (state->status_word & PREFIX_MARK_BITS) == PREFIX_MARK;
     const unsigned status = marked ? prefix_status(state) : 0;
@@ -541,8 +544,8 @@ static uint32_t prefix_hash_real(uint32_t hash, prefix_real value)
  * most sqrt(2) u and 1.12 moves far, which must be in the table. */
 static prefix_bits prefix_stretch_bound(const prefix_damper *damper)
 {
-    const prefix_real most =
-        prefix_subtract_product(prefix_largest_reach_beyond_offset(damper), (prefix_real)1.12, prefix_largest_move_m(damper));
+    const prefix_real end = prefix_largest_reach_beyond_offset(damper);
+    const prefix_real most = prefix_subtract_product(end, (prefix_real)1.12, prefix_largest_move_m(damper));
     const prefix_real in_table = prefix_add_product(damper->offset_m, (prefix_real)0.7, most);
 
     return prefix_bits_of(prefix_smaller(prefix_larger(in_table, 0), PREFIX_LARGEST_BOUND_M)) << 1;
