@@ -39,7 +39,8 @@ pub unsafe extern "C" fn dashpot_state_init(
         // SAFETY: the caller's promise.
         let damper = unsafe { made(damper) }?;
         Memory::of(state).check_apart(Memory::of(damper))?;
-        if !(displacement_m.abs() <= damper.largest_displacement_m()) {
+        let most = damper.largest_displacement_m();
+        if !(-most..=most).contains(&displacement_m) {
             return Err(DashpotError::Range);
         }
         // SAFETY: checked, and the caller's promise; the storage is a DamperState's to the byte.

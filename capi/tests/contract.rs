@@ -413,6 +413,7 @@ fn null_and_misaligned_pointers_are_codes() {
             LENGTH
         );
         assert_eq!(dashpot_state_init(state, damper, f32::NAN), RANGE);
+        assert_eq!(dashpot_state_init(state, damper, 0.51), RANGE);
     }
 }
 
