@@ -87,7 +87,7 @@
 /**
  * Bytes of an image, from which a damper is made.
  */
-#define DASHPOT_IMAGE_SIZE 6720
+#define DASHPOT_IMAGE_SIZE 6728
 
 /**
  * Bytes of a saved state.
@@ -126,7 +126,7 @@
 #define DASHPOT_CHECK_SLICES 769
 
 /**
- * A displacement was NaN or infinite; the last good one was held.
+ * A displacement was not finite, out of range, or too far from the last one to catch up with; the last good one was held.
  */
 #define DASHPOT_STATUS_INPUT_HELD 1
 
@@ -149,6 +149,11 @@
  * Memory was damaged: the state started over at rest, or a check found damage in constants or state.
  */
 #define DASHPOT_STATUS_CORRUPTED 16
+
+/**
+ * A displacement was too far from the last one to catch up with: the damper restarted at rest there, without force.
+ */
+#define DASHPOT_STATUS_RESTARTED 32
 
 /**
  * Flow at the same force, and with it damping, has changed: alarm, latched.
@@ -454,7 +459,7 @@ typedef struct {
      */
     uint16_t status;
     /**
-     * Ticks whose displacement was held or limited, up to 65535.
+     * Ticks whose displacement was held or limited, or at which the damper restarted, up to 65535.
      */
     uint16_t rejected_inputs;
 } dashpot_reading;
@@ -467,8 +472,9 @@ extern "C" {
  * Checks a slice of a damper's constants and a state: call it at every tick, or slower.
  *
  * `DASHPOT_CHECK_SLICES` calls check the constants whole, then it begins again. A flipped bit is found within
- * the round that begins after it. Loading the damper or setting its clearance between calls is no damage.
- * Some 325 instructions at most on a Cortex-M7.
+ * the round that begins after it. To hold a force then, keep that of the tick of each round's first call; the one kept
+ * when the last round ended without an error was made before the damage. Loading the damper or setting its
+ * clearance between calls is no damage. Some 325 instructions at most on a Cortex-M7.
  *
  * @param damper  made by `dashpot_damper_init`
  * @param state   made for it
@@ -592,7 +598,7 @@ dashpot_error dashpot_health_clear_status(dashpot_health *health);
  *
  * @param state           storage, its content does not matter
  * @param damper          made by `dashpot_damper_init`
- * @param displacement_m  displacement (m), finite
+ * @param displacement_m  displacement (m), finite and within the damper's range
  */
 dashpot_error dashpot_state_init(dashpot_state *state,
                                  const dashpot_damper *damper,
@@ -641,9 +647,10 @@ dashpot_error dashpot_state_restore(dashpot_state *state,
 /**
  * Steps one damper: the force at this tick for the displacement of this tick.
  *
- * A displacement that is NaN, infinite or faster than the damper allows is no error: it is held or
- * limited, latched in the status and counted. The force is finite and within the force limit, whatever bits
- * damper and state have. Some 187
+ * A displacement that is NaN, infinite, out of range, or faster than the damper allows is no error: it is held or
+ * limited, latched in the status and counted. After one too far to catch up with the damper restarts at rest there. A
+ * state that no step leaves behind starts over at rest and latches `DASHPOT_STATUS_CORRUPTED`. The force is finite and
+ * within the force limit, whatever bits damper and state have. Some 187
  * instructions on a Cortex-M7.
  *
  * @param damper          made by `dashpot_damper_init`

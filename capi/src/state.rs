@@ -27,7 +27,7 @@ pub(crate) unsafe fn made_state<'a>(
 ///
 /// @param state           storage, its content does not matter
 /// @param damper          made by `dashpot_damper_init`
-/// @param displacement_m  displacement (m), finite
+/// @param displacement_m  displacement (m), finite and within the damper's range
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn dashpot_state_init(
     state: *mut DashpotState,
@@ -39,7 +39,8 @@ pub unsafe extern "C" fn dashpot_state_init(
         // SAFETY: the caller's promise.
         let damper = unsafe { made(damper) }?;
         Memory::of(state).check_apart(Memory::of(damper))?;
-        if !displacement_m.is_finite() {
+        let most = damper.largest_displacement_m();
+        if !(-most..=most).contains(&displacement_m) {
             return Err(DashpotError::Range);
         }
         // SAFETY: checked, and the caller's promise; the storage is a DamperState's to the byte.

@@ -89,11 +89,11 @@ pub struct DashpotReading {
     pub force_n: f32,
     /// `DASHPOT_STATUS_...` bits latched since they were last cleared.
     pub status: u16,
-    /// Ticks whose displacement was held or limited, up to 65535.
+    /// Ticks whose displacement was held or limited, or at which the damper restarted, up to 65535.
     pub rejected_inputs: u16,
 }
 
-/// A displacement was NaN or infinite; the last good one was held.
+/// A displacement was not finite, out of range, or too far from the last one to catch up with; the last good one was held.
 pub const DASHPOT_STATUS_INPUT_HELD: u16 = 1;
 /// A displacement moved faster than the configured rate; it was followed at that rate.
 pub const DASHPOT_STATUS_INPUT_LIMITED: u16 = 2;
@@ -103,6 +103,8 @@ pub const DASHPOT_STATUS_SATURATED: u16 = 4;
 pub const DASHPOT_STATUS_DAMPER_SWAPPED: u16 = 8;
 /// Memory was damaged: the state started over at rest, or a check found damage in constants or state.
 pub const DASHPOT_STATUS_CORRUPTED: u16 = 16;
+/// A displacement was too far from the last one to catch up with: the damper restarted at rest there, without force.
+pub const DASHPOT_STATUS_RESTARTED: u16 = 32;
 
 const _: () = {
     use dashpot_core::Status;
@@ -111,6 +113,7 @@ const _: () = {
     assert!(DASHPOT_STATUS_SATURATED == Status::SATURATED.bits());
     assert!(DASHPOT_STATUS_DAMPER_SWAPPED == Status::DAMPER_SWAPPED.bits());
     assert!(DASHPOT_STATUS_CORRUPTED == Status::CORRUPTED.bits());
+    assert!(DASHPOT_STATUS_RESTARTED == Status::RESTARTED.bits());
 };
 
 /// Storage of the constants of an estimator of health. Opaque; may be copied whole.

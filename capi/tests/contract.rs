@@ -413,6 +413,7 @@ fn null_and_misaligned_pointers_are_codes() {
             LENGTH
         );
         assert_eq!(dashpot_state_init(state, damper, f32::NAN), RANGE);
+        assert_eq!(dashpot_state_init(state, damper, 0.51), RANGE);
     }
 }
 
@@ -463,6 +464,7 @@ fn the_status_bits_are_all_the_core_has() {
         | DASHPOT_STATUS_INPUT_LIMITED
         | DASHPOT_STATUS_SATURATED
         | DASHPOT_STATUS_DAMPER_SWAPPED
-        | DASHPOT_STATUS_CORRUPTED;
+        | DASHPOT_STATUS_CORRUPTED
+        | DASHPOT_STATUS_RESTARTED;
     assert_eq!(Status::from_bits_truncate(u16::MAX).bits(), all);
 }

@@ -9,7 +9,7 @@ use crate::state::DamperState;
 use crate::status::Status;
 #[cfg(feature = "builder")]
 use crate::table::Piece;
-use crate::table::{DOUBLINGS, Table};
+use crate::table::Table;
 
 /// A built damper: constants for one step size, shared by any number of states.
 ///
@@ -38,7 +38,7 @@ pub struct Damper<T> {
     /// CRC-32 of the table as it lies in memory.
     pub(crate) table_check: u32,
     /// In `f32` the table lies 64 bytes on, where each part of it is reached by one instruction.
-    pub(crate) padding: [u32; 4],
+    pub(crate) padding: [u32; 2],
     /// What an implicit stage finds, over its reach beyond the offset.
     pub(crate) table: Table<T>,
 }
@@ -52,21 +52,35 @@ impl<T: Real> Damper<T> {
             revision: revision::of_damper(table_revision, &scalars),
             table_revision,
             table_check: T::table_check(&table),
-            padding: [0; 4],
+            padding: [0; 2],
             table,
         }
     }
 
-    /// A state at rest at `displacement` (m), centred in the clearance, no force. A displacement that is
-    /// not finite counts as 0.
+    /// A state at rest at `displacement` (m), centred in the clearance, no force.
+    ///
+    /// A displacement that is not finite or beyond [`Damper::largest_displacement_m`] is rejected: counted, latched
+    /// as [`Status::INPUT_HELD`], and the state waits at an end of the range, from where the first good displacement
+    /// is too far to catch up with: the damper restarts there without force.
     pub fn at_rest(&self, displacement: T) -> DamperState<T> {
-        let displacement = if displacement.is_finite() {
-            displacement
-        } else {
-            T::ZERO
-        };
-        let numbers = [displacement, T::ZERO, T::ZERO, T::ZERO];
-        DamperState::new(numbers, self.revision, Status::empty(), 0)
+        if self.is_displacement(displacement) {
+            let numbers = [displacement, T::ZERO, T::ZERO, T::ZERO];
+            return DamperState::new(numbers, self.revision, Status::empty(), 0);
+        }
+        let end = self.largest_displacement_m();
+        let end = if displacement < T::ZERO { -end } else { end };
+        let numbers = [end, T::ZERO, T::ZERO, T::ZERO];
+        DamperState::new(numbers, self.revision, Status::INPUT_HELD, 1)
+    }
+
+    /// Largest displacement (m) from zero that a step follows; one beyond it is held, as one that is not finite is.
+    pub fn largest_displacement_m(&self) -> T {
+        self.scalars.largest_displacement()
+    }
+
+    /// Whether a displacement (m) is finite and within the range.
+    pub(crate) fn is_displacement(&self, displacement: T) -> bool {
+        displacement.all_within([&self.scalars.displacement_bound])
     }
 
     /// Step size (s).
@@ -114,15 +128,14 @@ impl<T: Real> Damper<T> {
         let k = &mut self.scalars;
         k.half_clearance = half;
         k.offset = half + k.held;
+        k.stretch_bound = k.stretch_bound_by_others();
         self.revision = revision::of_damper(self.table_revision, k);
         Ok(())
     }
 
     /// Reach (m) at the end of the bins; no stage looks beyond it.
     pub(crate) fn largest_reach(&self) -> T {
-        let k = &self.scalars;
-        let end = T::from_f64(f64::from(1_u32 << DOUBLINGS));
-        end * k.first_knot + k.offset
+        self.scalars.largest_reach_beyond_offset() + self.scalars.offset
     }
 
     /// Whether every scalar and every number of the table is finite.
@@ -138,9 +151,12 @@ impl<T: Real> Damper<T> {
 
     /// Whether a step of this damper could leave the numbers of a state behind.
     pub(crate) fn could_leave(&self, state: &DamperState<T>) -> bool {
-        state.displacement.is_finite()
+        let k = &self.scalars;
+        // Rounding to the grid of positions may pass the range, by less than a thousandth of it.
+        let most = T::from_f64(1.001) * k.largest_displacement();
+        state.displacement.abs() <= most
             && state.potential.is_finite()
-            && state.stretch.abs() <= self.largest_reach()
+            && state.stretch.all_within([&k.stretch_bound])
             && state.force.abs() <= self.force_limit_n()
     }
 }

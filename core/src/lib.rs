@@ -32,6 +32,7 @@ mod status;
 mod step;
 mod table;
 pub mod telemetry;
+mod unusual;
 
 pub use bank::step_bank;
 #[cfg(feature = "builder")]

@@ -4,8 +4,8 @@ use crate::math::Real;
 use crate::status::Status;
 
 /// Upper bits of the status word: they tell a state from memory that was never written.
-const MARK: u16 = 0x3960;
-const MARK_BITS: u16 = 0xffe0;
+const MARK: u16 = 0x3940;
+const MARK_BITS: u16 = 0xffc0;
 
 /// State of one damper: plain data, saved and restored by copying. 24 bytes in `f32`.
 ///
@@ -106,7 +106,7 @@ impl<T: Real> DamperState<T> {
         Status::from_bits_truncate(self.status_word)
     }
 
-    /// Ticks whose displacement was held or limited, up to 65535.
+    /// Ticks whose displacement was held or limited, or at which the damper restarted, up to 65535.
     pub fn rejected_inputs(&self) -> u16 {
         self.rejected_inputs
     }
@@ -115,6 +115,16 @@ impl<T: Real> DamperState<T> {
     #[inline(always)]
     pub(crate) fn numbers(&self) -> [T; 4] {
         [self.displacement, self.stretch, self.potential, self.force]
+    }
+
+    /// Whether every number of the step is finite.
+    pub(crate) fn is_finite(&self) -> bool {
+        self.numbers().iter().all(|number| number.is_finite())
+    }
+
+    /// Counts a displacement that was not taken as it came.
+    pub(crate) fn count_rejected_input(&mut self) {
+        self.rejected_inputs = self.rejected_inputs.saturating_add(1);
     }
 
     /// Sets status bits.

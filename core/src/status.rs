@@ -11,7 +11,8 @@ bitflags::bitflags! {
     /// ```
     #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
     pub struct Status: u16 {
-        /// A displacement was NaN or infinite; the last good one was held.
+        /// A displacement was not finite, beyond the damper's range of displacement, or too far from the last one to
+        /// catch up with; the last good one was held.
         const INPUT_HELD = 1;
         /// A displacement moved faster than the configured rate; it was followed at that rate.
         const INPUT_LIMITED = 1 << 1;
@@ -19,9 +20,12 @@ bitflags::bitflags! {
         const SATURATED = 1 << 2;
         /// Another damper than before stepped this state; the force was carried over.
         const DAMPER_SWAPPED = 1 << 3;
-        /// Memory was damaged: a state that no damper made was met and started over at rest, or a slow check
+        /// Memory was damaged: a state that no step leaves behind was met and started over at rest, or a slow check
         /// ([`integrity`](crate::integrity)) found constants or a state that no build and no step leaves behind.
         const CORRUPTED = 1 << 4;
+        /// A displacement was too far from the last one to catch up with: the damper restarted at rest there, without
+        /// force.
+        const RESTARTED = 1 << 5;
     }
 }
 

@@ -16,6 +16,7 @@ use crate::scalars::Scalars;
 use crate::state::DamperState;
 use crate::status::Status;
 use crate::table::{Piece, Table, cubic, locate};
+use crate::unusual;
 
 /// gamma of both stages: the implicit part of each.
 pub(crate) const GAMMA: f64 = 1.0 - core::f64::consts::FRAC_1_SQRT_2;
@@ -31,27 +32,32 @@ impl<T: Real> Damper<T> {
     /// finite and at most [`Damper::force_limit_n`] in magnitude, whatever bits the damper and the state
     /// have.
     ///
-    /// A state that another damper stepped before is carried over first, its force kept.
+    /// A state that another damper stepped before is carried over first, its force kept. A state that no step leaves
+    /// behind (a number that is not finite, a stretch beyond what the damper can reach, a displacement beyond its
+    /// range) starts over at rest and latches [`Status::CORRUPTED`].
     #[inline]
     pub fn step(&self, state: &mut DamperState<T>, displacement: T) -> T {
         let [force] = step::<T, T, 1>([self], core::array::from_mut(state), [displacement]);
         force
     }
 
-    /// Carries a state over from another damper: displacement and force stay, the stretch becomes
-    /// the one this damper has under that force; without force it stays within the clearance.
+    /// Carries a state over from another damper: displacement and force stay, within the limits of this one, the
+    /// stretch becomes the one this damper has under that force; without force it stays within the clearance.
     ///
     /// [`Damper::step`] does this by itself when it meets a state of another damper; call it between
     /// ticks to keep that tick at its usual cost. Fixed work: 26 stages in `f32`, 55 in `f64`.
     pub fn adopt(&self, state: &mut DamperState<T>) {
         let a = self.scalars.half_clearance;
         let limit = self.force_limit_n();
+        let end = self.largest_displacement_m();
         let force = state.force.max(-limit).min(limit);
         (state.stretch, state.potential) = if force == T::ZERO {
             (state.stretch.max(-a).min(a), T::ZERO)
         } else {
             state_at_force(self, force)
         };
+        state.displacement = state.displacement.max(-end).min(end);
+        state.force = force;
         if state.revision != 0 {
             state.latch(Status::DAMPER_SWAPPED);
         }
@@ -66,8 +72,63 @@ pub(crate) fn step<T: Real, V: Lanes<T, L>, const L: usize>(
     states: &mut [DamperState<T>; L],
     displacements: [T; L],
 ) -> [T; L] {
-    let (travel, rest_rounder) = enter::<T, V, L>(dampers, states, V::new(displacements));
-    let [_, start, potential, _] = V::transpose(states.each_ref().map(DamperState::numbers));
+    let displacement = V::new(displacements);
+    let travel = displacement - V::new(states.each_ref().map(|state| state.displacement));
+    if is_usual(dampers, states, displacement, travel) {
+        advance(dampers, states, travel)
+    } else {
+        unusual_step::<T, V, L>(dampers, states, displacements)
+    }
+}
+
+/// Whether the dampers can step: states that they stepped themselves and could have left, with displacements (m) within
+/// their ranges that moved by credible `travel`s (m). A damaged displacement makes an incredible travel.
+#[inline(always)]
+fn is_usual<T: Real, V: Lanes<T, L>, const L: usize>(
+    dampers: [&Damper<T>; L],
+    states: &[DamperState<T>; L],
+    displacement: V,
+    travel: V,
+) -> bool {
+    let stretch = V::new(states.each_ref().map(|state| state.stretch));
+    let known = dampers
+        .iter()
+        .zip(states)
+        .all(|(damper, state)| damper.revision == state.revision);
+    known
+        && travel.all_within(dampers.map(|damper| &damper.scalars.move_bound))
+        && displacement.all_within(dampers.map(|damper| &damper.scalars.displacement_bound))
+        && stretch.all_within(dampers.map(|damper| &damper.scalars.stretch_bound))
+}
+
+/// A step of which anything is unusual. Apart from the usual one, which calls nothing: it has a step of its own.
+#[cold]
+#[inline(never)]
+fn unusual_step<T: Real, V: Lanes<T, L>, const L: usize>(
+    dampers: [&Damper<T>; L],
+    states: &mut [DamperState<T>; L],
+    displacements: [T; L],
+) -> [T; L] {
+    let mut travels = displacements;
+    for ((damper, state), travel) in dampers.iter().zip(&mut *states).zip(&mut travels) {
+        *travel = unusual::travel(damper, state, *travel);
+    }
+    advance(dampers, states, V::new(travels))
+}
+
+/// Moves the ends of `L` dampers by travels (m); returns the forces (N).
+#[inline(always)]
+fn advance<T: Real, V: Lanes<T, L>, const L: usize>(
+    dampers: [&Damper<T>; L],
+    states: &mut [DamperState<T>; L],
+    travel: V,
+) -> [T; L] {
+    let number = |of: fn(&Scalars<T>) -> T| V::new(dampers.map(|damper| of(&damper.scalars)));
+    let position_rounder = number(|k| k.position_rounder);
+    let rest_rounder = number(|k| k.rest_rounder);
+    let travel = (travel + position_rounder) - position_rounder;
+    let [last, start, potential, _] = V::transpose(states.each_ref().map(DamperState::numbers));
+    let displacements = (last + travel).array();
 
     let stages = Stages::new(dampers);
     let gamma = V::splat(GAMMA);
@@ -96,72 +157,13 @@ pub(crate) fn step<T: Real, V: Lanes<T, L>, const L: usize>(
     let forces = limited.with_sign_of(stretch).array();
     let (stretches, potentials) = (stretch.array(), potential.array());
     for (lane, state) in states.iter_mut().enumerate() {
+        state.displacement = displacements[lane];
         state.stretch = stretches[lane];
         state.potential = potentials[lane];
         state.force = forces[lane];
         state.latch(Status::SATURATED.only_if(yields[lane]));
     }
     forces
-}
-
-/// Takes the displacements (m) in; returns the travels (m) and the numbers that round a rest to zero (m).
-#[inline(always)]
-fn enter<T: Real, V: Lanes<T, L>, const L: usize>(
-    dampers: [&Damper<T>; L],
-    states: &mut [DamperState<T>; L],
-    displacement: V,
-) -> (V, V) {
-    let number = |of: fn(&Scalars<T>) -> T| V::new(dampers.map(|damper| of(&damper.scalars)));
-    let last = |states: &[DamperState<T>; L]| V::new(states.each_ref().map(|s| s.displacement));
-    let mut travel = displacement - last(states);
-    let known = dampers
-        .iter()
-        .zip(&*states)
-        .all(|(damper, state)| damper.revision == state.revision);
-    if !(known && travel.abs().all_at_most(number(|k| k.largest_move))) {
-        let mut travels = displacement.array();
-        for ((damper, state), travel) in dampers.iter().zip(&mut *states).zip(&mut travels) {
-            *travel = limit_input(damper, state, *travel);
-        }
-        travel = V::new(travels);
-    }
-    // Read only now: numbers that live across the call above would be saved on the stack at every step.
-    let position_rounder = number(|k| k.position_rounder);
-    let travel = (travel + position_rounder) - position_rounder;
-    let displacements = (last(states) + travel).array();
-    for (state, displacement) in states.iter_mut().zip(displacements) {
-        state.displacement = displacement;
-    }
-    (travel, number(|k| k.rest_rounder))
-}
-
-/// The travel (m) to a displacement (m): a state that no damper made starts over, one that another damper
-/// stepped is adopted, a travel that is not credible limited; each latched, the last counted.
-#[cold]
-#[inline(never)]
-fn limit_input<T: Real>(damper: &Damper<T>, state: &mut DamperState<T>, displacement: T) -> T {
-    if !state.is_marked() || !state.displacement.is_finite() {
-        *state = damper.at_rest(displacement);
-        state.latch(Status::CORRUPTED);
-    }
-    if state.revision != damper.revision {
-        damper.adopt(state);
-    }
-    let travel = displacement - state.displacement;
-    let largest_move = damper.scalars.largest_move;
-    if travel.abs() <= largest_move {
-        return travel;
-    }
-    state.rejected_inputs = state.rejected_inputs.saturating_add(1);
-    if travel.is_finite() {
-        state.latch(Status::INPUT_LIMITED);
-        let limited = travel.max(-largest_move).min(largest_move);
-        // What the displacement can move by: far out, less than the limit.
-        (state.displacement + limited) - state.displacement
-    } else {
-        state.latch(Status::INPUT_HELD);
-        T::ZERO
-    }
 }
 
 /// The constants of implicit stages.

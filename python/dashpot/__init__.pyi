@@ -47,6 +47,7 @@ class Status(enum.IntFlag):
     SATURATED = 4
     DAMPER_SWAPPED = 8
     CORRUPTED = 16
+    RESTARTED = 32
 
 @final
 class Damper:

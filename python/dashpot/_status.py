@@ -16,7 +16,8 @@ class Status(enum.IntFlag):
     """
 
     INPUT_HELD = 1
-    """A displacement was NaN or infinite; the last good one was held."""
+    """A displacement was not finite, beyond `limits.displacement_m`, or too far from the last one to catch up with; the
+    last good one was held."""
     INPUT_LIMITED = 2
     """A displacement moved faster than the configured rate; it was followed at that rate."""
     SATURATED = 4
@@ -24,7 +25,10 @@ class Status(enum.IntFlag):
     DAMPER_SWAPPED = 8
     """Another damper than before stepped this state; the force was carried over."""
     CORRUPTED = 16
-    """Memory was damaged: a state that no damper made was met and started over at rest."""
+    """Memory was damaged: a state that no step leaves behind was met and started over at rest."""
+    RESTARTED = 32
+    """A displacement was too far from the last one to catch up with: the damper restarted at rest there, without
+    force."""
 
 
 Status.__module__ = "dashpot"

@@ -123,7 +123,7 @@ impl Damper {
     ///
     /// >>> import dashpot
     /// >>> dashpot.Damper("reduced-vertical").keys()[:2]
-    /// ['limits.force_n', 'limits.rate_m_per_s']
+    /// ['limits.displacement_m', 'limits.force_n']
     fn keys(&self) -> Vec<String> {
         self.keyed.keys()
     }
@@ -132,7 +132,7 @@ impl Damper {
     ///
     /// >>> import dashpot
     /// >>> dashpot.Damper("reduced-vertical").values()[:2]
-    /// [50000.0, 2.0]
+    /// [0.5, 50000.0]
     fn values(&self) -> Outcome<Vec<f64>> {
         Ok(self.items()?.into_iter().map(|(_, value)| value).collect())
     }
@@ -140,7 +140,7 @@ impl Damper {
     /// Pairs of the keys and their numbers, in order.
     ///
     /// >>> import dashpot
-    /// >>> dashpot.Damper("reduced-vertical").items()[1]
+    /// >>> dashpot.Damper("reduced-vertical").items()[2]
     /// ('limits.rate_m_per_s', 2.0)
     fn items(&self) -> Outcome<Vec<(String, f64)>> {
         let keys = self.keyed.keys().into_iter();

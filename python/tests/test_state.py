@@ -100,6 +100,14 @@ class States(Test):
                 for x in (0.0, -0.0, float("nan"), float("-inf"), 1e308, -1e308, 5e-324):
                     self.assertLessEqual(abs(built.step(state, x)), built.force_limit_n)
 
+    def test_a_jump_too_far_restarts_at_rest_there(self):
+        built = dashpot.Damper("in-service").build()
+        state = built.at_rest(1.0)
+        self.assertEqual(state.status, dashpot.Status.INPUT_HELD)
+        self.assertEqual(built.step(state, 0.1), 0.0)
+        self.assertEqual(state.status, dashpot.Status.INPUT_HELD | dashpot.Status.RESTARTED)
+        self.assertEqual(state.rejected_inputs, 2)
+
     def test_what_is_no_number_is_refused(self):
         built = dashpot.Damper("paper").build()
         for wrong in ("1", None, [0.0]):

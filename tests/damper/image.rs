@@ -45,7 +45,7 @@ fn the_layout_is_as_documented() {
     assert_eq!(crc_32(b"123456789"), 0xcbf4_3926); // the published check value
     let (image, words) = (image(), single().to_words());
     assert_eq!(image.len(), Damper::<f32>::IMAGE_BYTES);
-    assert_eq!(&image[..8], b"DASH\xff\xfe\x02\x00");
+    assert_eq!(&image[..8], b"DASH\xff\xfe\x03\x00");
     assert_eq!(image[8..12], 4_u32.to_le_bytes());
     assert_eq!(image[12..16], (image.len() as u32).to_le_bytes());
     let end = image.len() - 4;
@@ -115,8 +115,8 @@ fn constants_of_no_build_are_refused_though_signed() {
             let mut changed = image.clone();
             changed[at..at + 4].copy_from_slice(&other.to_le_bytes());
             sign(&mut changed);
-            // 16 bytes of header, eleven words, then pieces of thirteen.
-            let piece = (at / 4).checked_sub(15).map(|word| word as u32 / 13);
+            // 16 bytes of header, thirteen words, then pieces of thirteen.
+            let piece = (at / 4).checked_sub(17).map(|word| word as u32 / 13);
             let finite = f32::from_bits(other).is_finite();
             let expected = match piece {
                 Some(piece) if !finite => ImageError::Piece(piece),
@@ -143,8 +143,11 @@ fn constants_out_of_range_are_refused_though_their_revision_is_right() {
     let words = damper.to_words();
     assert_eq!(words[SCALARS], damper.revision());
     assert_eq!(read(&forged(&[])), Ok(damper));
-    // Step, offset, first knot, half the clearance; words in the order of the scalars.
+    // Step, offset, first knot, half the clearance, bounds of displacement and stretch; words in the order of the
+    // scalars.
+    let bound = |metres: f32| f32::from_bits(metres.to_bits() << 1);
     let mut cases = vec![(3, 0.0_f32), (4, 1e-3), (5, 0.0), (6, 1e-3)];
+    cases.extend([(9, bound(0.71)), (9, bound(9e-4)), (10, bound(0.2))]);
     for scalar in 0..SCALARS {
         cases.extend([f32::NAN, f32::INFINITY, -1.0].map(|value| (scalar, value)));
     }

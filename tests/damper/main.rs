@@ -7,6 +7,7 @@ mod contract;
 mod disc;
 mod energy;
 mod failing_dampers;
+mod flipped_bits;
 mod force_limit;
 mod image;
 mod integrity;

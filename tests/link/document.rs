@@ -184,6 +184,7 @@ fn the_numbers_are_those_of_the_code() {
         (Status::SATURATED, "4 the element yielded"),
         (Status::DAMPER_SWAPPED, "8 another damper"),
         (Status::CORRUPTED, "16 memory of"),
+        (Status::RESTARTED, "32 it was too far"),
     ] {
         assert!(stated.starts_with(&format!("{} ", bit.bits())) && text.contains(stated));
     }

@@ -6,5 +6,6 @@ mod device;
 mod document;
 mod frame;
 mod health;
+mod held_force;
 mod load;
 mod running;

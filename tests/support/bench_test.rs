@@ -2,6 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
+use dashpot_core::parameters::Limits;
 use dashpot_core::{Damper, DamperParameters};
 
 /// A harmonic motion of the seats.
@@ -92,9 +93,17 @@ pub fn settled_cycle(parameters: &DamperParameters, motion: Harmonic, step_s: f6
 /// Force once it has settled at a constant velocity (m/s), by the step in `f64` at 1 kHz.
 pub fn settled_force(parameters: &DamperParameters, velocity_m_per_s: f64) -> f64 {
     const STEP_S: f64 = 1e-3;
+    // From one end of the largest range of displacement to the other, 4 s at most.
+    let mut parameters = parameters.clone();
+    parameters.limits.displacement_m = Limits::RANGES.displacement_m.greatest;
+    let start = -0.99 * parameters.limits.displacement_m * velocity_m_per_s.signum();
+    let move_m = velocity_m_per_s * STEP_S;
+    let ticks = (-2.0 * start / move_m).min(4000.0) as u32;
     let damper: Damper<f64> = parameters.build(STEP_S).expect("a valid damper");
-    let mut state = damper.at_rest(0.0);
-    (1..=4000).fold(0.0, |_, tick| {
-        damper.step(&mut state, velocity_m_per_s * STEP_S * f64::from(tick))
-    })
+    let mut state = damper.at_rest(start);
+    let force = (1..=ticks).fold(0.0, |_, tick| {
+        damper.step(&mut state, start + move_m * f64::from(tick))
+    });
+    assert_eq!(state.rejected_inputs(), 0);
+    force
 }

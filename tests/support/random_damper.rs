@@ -134,6 +134,7 @@ pub fn damper(random: &mut Random) -> DamperParameters {
         limits: Limits {
             force_n: random.decades(5e3, 2e5),
             rate_m_per_s: random.between(2.0, 10.0),
+            ..Limits::default()
         },
     }
 }

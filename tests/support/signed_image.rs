@@ -5,12 +5,16 @@ use dashpot_core::Damper;
 
 /// Bytes before the words.
 const HEADER: usize = 16;
-/// Scalars, in words: the stretch up to which nothing flows is half the clearance and the stretch held.
+/// Scalars, in words: the stretch up to which nothing flows is half the clearance and the stretch held; the bound of
+/// the stretch follows from it, the first knot and the bound of moves.
+const MOVE_BOUND: usize = 0;
 const OFFSET: usize = 4;
+const FIRST_KNOT: usize = 5;
 const HALF_CLEARANCE: usize = 6;
 const HELD: usize = 8;
+const STRETCH_BOUND: usize = 10;
 /// Scalars before the revision.
-pub const SCALARS: usize = 9;
+pub const SCALARS: usize = 11;
 /// Words before the table: scalars, revision, revision of the table.
 pub const TABLE: usize = SCALARS + 2;
 
@@ -41,6 +45,9 @@ pub trait Word: Copy {
     fn bits(bytes: &[u8]) -> u64;
     /// The bytes of the sum of two numbers.
     fn sum(left: &[u8], right: &[u8]) -> Vec<u8>;
+    /// The bytes of the bound of the stretch: 0.7 of what is left of the table without 1.12 moves, and the offset; 0 to
+    /// 1.45 m. Bounds have the bits of their numbers doubled.
+    fn stretch_bound(offset: &[u8], first_knot: &[u8], move_bound: &[u8]) -> Vec<u8>;
 }
 
 macro_rules! word {
@@ -61,6 +68,20 @@ macro_rules! word {
                 let number =
                     |bytes: &[u8]| $float::from_le_bytes(bytes.try_into().expect("a word"));
                 (number(left) + number(right)).to_le_bytes().into()
+            }
+
+            fn stretch_bound(offset: &[u8], first_knot: &[u8], move_bound: &[u8]) -> Vec<u8> {
+                let number =
+                    |bytes: &[u8]| $float::from_le_bytes(bytes.try_into().expect("a word"));
+                let largest_move = $float::from_bits(number(move_bound).to_bits() >> 1);
+                let most = 65_536.0 * number(first_knot) - (1.12 as $float) * largest_move;
+                let stretch = number(offset) + (0.7 as $float) * most;
+                let within = if stretch > 0.0 {
+                    stretch.min(1.45)
+                } else {
+                    0.0
+                };
+                (within.to_bits() << 1).to_le_bytes().into()
             }
         }
     };
@@ -106,10 +127,13 @@ pub fn of_any_bytes<T: Word>(bytes: &[u8]) -> Vec<u8> {
     image
 }
 
-/// As [`revise_and_sign`], after the sum that one scalar is of two others was made right.
+/// As [`revise_and_sign`], after the two scalars that follow from others were made right.
 pub fn sum_and_sign<T: Word>(image: &mut [u8]) {
     let half_clearance = word::<T>(image, HALF_CLEARANCE).to_vec();
     let offset = T::sum(&half_clearance, word::<T>(image, HELD));
     word::<T>(image, OFFSET).copy_from_slice(&offset);
+    let first_knot = word::<T>(image, FIRST_KNOT).to_vec();
+    let bound = T::stretch_bound(&offset, &first_knot, word::<T>(image, MOVE_BOUND));
+    word::<T>(image, STRETCH_BOUND).copy_from_slice(&bound);
     revise_and_sign::<T>(image);
 }

@@ -63,6 +63,7 @@ struct Printed {
     first: f64,
     held: f64,
     limited: f64,
+    jumped: f64,
     swapped: f64,
     stack_bytes: f64,
     damper_bytes: f64,
@@ -90,6 +91,8 @@ pub struct Found {
     pub held: f64,
     /// Input limited to the largest rate.
     pub limited: f64,
+    /// Input too far away to catch up with, under force.
+    pub jumped: f64,
     /// Damper swapped.
     pub swapped: f64,
     /// Of a slice of loading a damper, the most.
@@ -244,6 +247,7 @@ impl Printed {
             first: whole(self.first),
             held: whole(self.held),
             limited: whole(self.limited),
+            jumped: whole(self.jumped),
             swapped: whole(self.swapped),
             load_slice: whole(self.load_slice),
             known: whole(self.known),

@@ -126,6 +126,7 @@ fn step_figures(runs: &[(&str, Found)]) -> Figures {
             add("first_step", most(&runs, &|run| run.first));
             add("held_input", most(&runs, &|run| run.held));
             add("limited_input", most(&runs, &|run| run.limited));
+            add("jumped_input", most(&runs, &|run| run.jumped));
             add("swapped_damper", most(&runs, &|run| run.swapped));
         }
         all.extend(runs);
@@ -187,7 +188,7 @@ fn every_processor_keeps_its_budget_and_has_the_hosts_bits() {
 }
 
 /// Rows of the documents' tables: what, and the figures that it has.
-const ROWS: [(&str, &[&str]); 22] = [
+const ROWS: [(&str, &[&str]); 23] = [
     (
         "instructions of a step: least, mean, most over four excitations",
         &[
@@ -207,6 +208,10 @@ const ROWS: [(&str, &[&str]); 22] = [
     (
         "step whose input is limited to the largest rate",
         &["physical_limited_input_instructions"],
+    ),
+    (
+        "step whose input is too far away, under force",
+        &["physical_jumped_input_instructions"],
     ),
     (
         "step that meets another damper's state",

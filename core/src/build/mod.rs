@@ -18,7 +18,7 @@ use crate::error::BuildError;
 use crate::hydraulics::HydraulicSide;
 use crate::math::Real;
 use crate::parameters::{DamperParameters, Mount, OilColumn, STEP_ALLOWED, STEP_RANGE_S};
-use crate::scalars::Scalars;
+use crate::scalars::{LARGEST_BOUND_M, Scalars};
 use crate::table::{DOUBLINGS, PIECES};
 
 impl DamperParameters {
@@ -123,7 +123,7 @@ impl CheckedParameters {
         let half_clearance = T::from_f64(0.5 * self.mount.clearance_m);
         // Friction holds the piston until the mount, alike on both sides, has this stretch.
         let held = T::from_f64(branches[0].held());
-        let scalars = Scalars {
+        let mut scalars = Scalars {
             step_s: T::from_f64(step_s),
             half_clearance,
             held,
@@ -132,11 +132,14 @@ impl CheckedParameters {
             half_force_limit: T::from_f64(
                 0.5 * branches[0].force_limit.max(branches[1].force_limit),
             ),
-            largest_move: T::from_f64(largest_move),
+            move_bound: T::from_f64(largest_move.min(LARGEST_BOUND_M)).doubled_bits(),
             position_rounder: T::from_f64(1.5 * span),
             // Twice the grid of positions.
             rest_rounder: T::from_f64(2.0 * span * T::EPSILON),
+            displacement_bound: T::from_f64(self.limits.displacement_m).doubled_bits(),
+            stretch_bound: T::ZERO,
         };
+        scalars.stretch_bound = scalars.stretch_bound_by_others();
         Damper::new(scalars, table)
     }
 }

@@ -64,7 +64,7 @@ macro_rules! words {
                     revision: words[SCALARS] as u32,
                     table_revision: words[SCALARS + 1] as u32,
                     table_check,
-                    padding: [0; 4],
+                    padding: [0; 2],
                     table,
                 }
             }
@@ -96,7 +96,7 @@ impl Damper<f32> {
         revision: 0,
         table_revision: 0,
         table_check: 0,
-        padding: [0; 4],
+        padding: [0; 2],
         table: Table::<f32>::ZERO,
     };
 }
@@ -114,13 +114,13 @@ mod tests {
             let damper = Damper::<$float>::from_words(&words);
             let mut expected = words;
             // Revisions have 32 bits.
-            for index in [9, 10] {
+            for index in [11, 12] {
                 expected[index] = $word::from(words[index] as u32);
             }
             assert_eq!(damper.to_words(), expected);
             assert_eq!(damper.step_s().to_bits(), words[3]);
             assert_eq!((0.5 * damper.force_limit_n()).to_bits(), words[7]);
-            assert_eq!(damper.revision(), words[9] as u32);
+            assert_eq!(damper.revision(), words[11] as u32);
             assert_eq!(
                 damper.table.pieces[2 * PIECES - 1].knot.to_bits(),
                 words[WORDS - 1]

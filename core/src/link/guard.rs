@@ -7,17 +7,23 @@ use crate::integrity::Check;
 /// A bit for each damper has room for all of them.
 const _: () = assert!(MOST_DAMPERS <= u16::BITS as usize);
 
-/// Where the check stands, and the dampers found damaged: a bit for each.
+/// Where the check stands, the dampers found damaged: a bit for each, and forces from before any damage.
 #[derive(Clone, Debug)]
-pub(crate) struct Guard {
+pub(crate) struct Guard<const N: usize> {
     check: Check,
     next_constants: u8,
     next_state: u8,
     constants: u16,
     states: u16,
+    /// Force (N) of the damper whose constants are being checked, from when its round began.
+    at_start_n: f32,
+    /// Force (N) of each damper when the last round began that found its constants sound.
+    of_sound_constants_n: [f32; N],
+    /// Force (N) of each damper when its state was last found sound.
+    of_sound_states_n: [f32; N],
 }
 
-impl Guard {
+impl<const N: usize> Guard<N> {
     pub(crate) const fn new() -> Self {
         Self {
             check: Check::START,
@@ -25,21 +31,37 @@ impl Guard {
             next_state: 0,
             constants: 0,
             states: 0,
+            at_start_n: 0.0,
+            of_sound_constants_n: [0.0; N],
+            of_sound_states_n: [0.0; N],
         }
     }
 
     /// Checks the next slice of constants and the next state. How many were found damaged that were not known
     /// to be.
-    pub(crate) fn check<const N: usize>(&mut self, loaded: &mut Loaded<N>) -> u32 {
+    pub(crate) fn check(&mut self, loaded: &mut Loaded<N>) -> u32 {
         let mut found = 0;
         let damper = self.next_constants;
+        if self.check.is_at_start() {
+            self.at_start_n = force_of(loaded, damper);
+        }
         if !loaded.check_constants(damper, &mut self.check) {
             found += u32::from(mark(&mut self.constants, damper));
+        } else if self.check.is_at_start() {
+            keep(&mut self.of_sound_constants_n, damper, self.at_start_n);
         }
         // A state latches what it met of damaged constants too.
         let damper = self.next_state;
-        if !loaded.check_state(damper) && self.constants & bit(damper) == 0 {
-            found += u32::from(mark(&mut self.states, damper));
+        if !loaded.check_state(damper) {
+            if self.constants & bit(damper) == 0 {
+                found += u32::from(mark(&mut self.states, damper));
+            }
+        } else if self.states & bit(damper) == 0 {
+            keep(
+                &mut self.of_sound_states_n,
+                damper,
+                force_of(loaded, damper),
+            );
         }
         let next = |damper: u8| {
             if usize::from(damper) + 1 < N {
@@ -55,8 +77,28 @@ impl Guard {
         found
     }
 
+    /// Writes over the force (N) of each damaged damper the last one from before the damage. A bit may have flipped at
+    /// any time since the round before began, so the force of the tick that found it may be far off.
+    pub(crate) fn replace_damaged(&self, forces_n: &mut [f32; N]) {
+        let sound = self
+            .of_sound_constants_n
+            .iter()
+            .zip(&self.of_sound_states_n);
+        for (damper, (force, (of_constants, of_state))) in (0..).zip(forces_n.iter_mut().zip(sound))
+        {
+            if self.constants & bit(damper) != 0 {
+                *force = *of_constants;
+            } else if self.states & bit(damper) != 0 {
+                *force = *of_state;
+            }
+        }
+    }
+
     /// A damper was loaded. If the old one was damaged, so is what its state came to.
     pub(crate) fn loaded(&mut self, damper: u8) {
+        if damper == self.next_constants {
+            self.check = Check::START;
+        }
         self.states |= self.constants & bit(damper);
         self.constants &= !bit(damper);
     }
@@ -64,6 +106,9 @@ impl Guard {
     /// Every state was made anew.
     pub(crate) fn new_states(&mut self) {
         self.states = 0;
+        self.at_start_n = 0.0;
+        self.of_sound_constants_n = [0.0; N];
+        self.of_sound_states_n = [0.0; N];
     }
 
     /// The first damper whose constants are damaged.
@@ -74,6 +119,18 @@ impl Guard {
     /// The first damper whose constants or state are damaged.
     pub(crate) fn damaged(&self) -> Option<u8> {
         first(self.constants | self.states)
+    }
+}
+
+/// The force (N) of a damper in the last tick.
+fn force_of<const N: usize>(loaded: &Loaded<N>, damper: u8) -> f32 {
+    let force = loaded.forces_n().get(usize::from(damper));
+    force.copied().unwrap_or_default()
+}
+
+fn keep(forces_n: &mut [f32], damper: u8, force_n: f32) {
+    if let Some(kept) = forces_n.get_mut(usize::from(damper)) {
+        *kept = force_n;
     }
 }
 

@@ -98,10 +98,13 @@ impl<const N: usize> Loaded<N> {
 
     /// Every damper at rest, tick 0.
     pub(crate) fn reset(&mut self, displacements_m: &Reals) -> Result<(), Refusal> {
-        if !displacements_m.iter().all(|x| x.is_finite()) {
+        let displacements_m = all(displacements_m)?;
+        let dampers = self.dampers.all();
+        let mut pairs = dampers.iter().zip(&displacements_m);
+        if !pairs.all(|(damper, displacement)| damper.is_displacement(*displacement)) {
             return Err(Refusal::Range);
         }
-        self.rest_at(all(displacements_m)?);
+        self.rest_at(displacements_m);
         Ok(())
     }
 

@@ -25,9 +25,9 @@ impl Default for LossOfLink {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub enum SafeOutput {
-    /// The last good force.
+    /// The last good force: of a damper that was found damaged the last one that a check found sound.
     Hold,
-    /// From the last good force to zero in equal parts.
+    /// From the last good force, as for [`SafeOutput::Hold`], to zero in equal parts.
     RampToZero {
         /// Ticks from the loss to zero.
         ticks: u32,
@@ -43,7 +43,7 @@ pub(crate) struct Watch<const N: usize> {
     silent_ticks: u32,
     /// Ticks of the safe output so far.
     safe_ticks: u32,
-    /// Output of the last tick before the safe output (N).
+    /// Output of the last tick before the safe output (N), or of damaged dampers that from before the damage.
     last_good: [f32; N],
 }
 
@@ -80,6 +80,11 @@ impl<const N: usize> Watch<N> {
 
     pub(crate) fn lost(&self) -> bool {
         self.silent_ticks > self.configuration.after_ticks
+    }
+
+    /// What the safe output holds or starts from (N), to be replaced where a damper is found damaged.
+    pub(crate) fn last_good_mut(&mut self) -> &mut [f32; N] {
+        &mut self.last_good
     }
 
     /// The outputs of a tick whose dampers give `forces` (N), and whether the link was lost in it. Where

@@ -26,7 +26,7 @@ pub struct Clock {
 #[derive(Debug)]
 pub(crate) struct Service<const N: usize, const WATCHED: usize> {
     loaded: Loaded<N>,
-    guard: Guard,
+    guard: Guard<N>,
     watch: Watch<N>,
     running: bool,
     outputs_n: [f32; N],
@@ -101,6 +101,9 @@ impl<const N: usize, const WATCHED: usize> Service<N, WATCHED> {
         self.loaded.step();
         self.clock_ticks = now(self.clock).wrapping_sub(start);
         let found = self.guard.check(&mut self.loaded);
+        if found > 0 {
+            self.guard.replace_damaged(self.watch.last_good_mut());
+        }
         self.counters.corruptions = self.counters.corruptions.saturating_add(found);
         self.recorder
             .record(self.loaded.tick(), self.loaded.states());

@@ -113,8 +113,9 @@ macro_rules! group {
                 }
             }
             #[inline(always)]
-            fn all_at_most(self, other: Self) -> bool {
-                let within = self.zip(other, $vector::simd_le);
+            fn all_within(self, doubled_bits: [&$float; GROUP]) -> bool {
+                let bounds = doubled_bits.map(|bound| $float::from_bits(bound.to_bits() >> 1));
+                let within = self.abs().zip(Self::new(bounds), $vector::simd_le);
                 (within.0 & within.1).all()
             }
             #[inline(always)]

@@ -29,8 +29,8 @@ pub trait Lanes<T, const L: usize>:
     fn max(self, other: Self) -> Self;
     /// The smaller of two numbers that are not zeros of opposite sign; of NaN `other`, which is not NaN.
     fn min(self, other: Self) -> Self;
-    /// Whether every number is at most the other; false for NaN.
-    fn all_at_most(self, other: Self) -> bool;
+    /// Whether every magnitude is at most that whose [`doubled_bits`](crate::math::Scalar) are given; false for NaN.
+    fn all_within(self, doubled_bits: [&T; L]) -> bool;
     /// Whether each number is not below the limit; true for NaN.
     fn reaches(self, limit: Self) -> [bool; L];
     /// 0 where `gate` is positive.
@@ -91,8 +91,11 @@ macro_rules! single_lane {
                 }
             }
             #[inline(always)]
-            fn all_at_most(self, other: Self) -> bool {
-                self <= other
+            fn all_within(self, [doubled_bits]: [&$float; 1]) -> bool {
+                // Without its sign; the bits of NaN are beyond those of every number. Read as bits, the bound is what
+                // one instruction compares with the shifted bits.
+                let bound: &$bits = zerocopy::transmute_ref!(doubled_bits);
+                *bound >= self.to_bits() << 1
             }
             #[inline(always)]
             fn reaches(self, limit: Self) -> [bool; 1] {

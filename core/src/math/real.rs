@@ -62,6 +62,11 @@ pub trait Scalar:
     /// A table without meaning, to be written.
     const ZERO_TABLE: Table<Self>;
 
+    /// The number whose bits are twice those of this one, a magnitude below 1.5: the step compares it with the bits
+    /// of a number without their sign, one instruction where numbers take three.
+    fn doubled_bits(self) -> Self;
+    /// The inverse of [`Scalar::doubled_bits`].
+    fn halved_bits(self) -> Self;
     /// See [`Table::index`].
     fn index(table: &mut Table<Self>);
     /// See [`Table::check`].
@@ -102,6 +107,12 @@ macro_rules! real {
             const MANTISSA_DIGITS: u32 = $float::MANTISSA_DIGITS;
             const ZERO_TABLE: Table<Self> = Table::<$float>::ZERO;
 
+            fn doubled_bits(self) -> Self {
+                Self::from_bits(self.to_bits() << 1)
+            }
+            fn halved_bits(self) -> Self {
+                Self::from_bits(self.to_bits() >> 1)
+            }
             fn index(table: &mut Table<Self>) {
                 table.index();
             }

@@ -140,6 +140,9 @@ parameters! {
         /// Largest credible rate of the displacement input (m/s); a faster input is followed at
         /// this rate and flagged.
         rate_m_per_s: f64 = 2, 1e-3 to 100 "m/s";
+        /// Largest credible displacement from zero (m), either way: half the stroke, and what the zero of the sensor
+        /// lies off its middle. An input beyond it is held and flagged.
+        displacement_m: f64 = 0.5, 1e-3 to 0.7 "m";
     }
 }
 
@@ -148,6 +151,7 @@ impl Default for Limits {
         Self {
             force_n: const { Self::RANGES.force_n.default.unwrap() },
             rate_m_per_s: const { Self::RANGES.rate_m_per_s.default.unwrap() },
+            displacement_m: const { Self::RANGES.displacement_m.default.unwrap() },
         }
     }
 }

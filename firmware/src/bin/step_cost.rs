@@ -292,7 +292,8 @@ fn measure(experiment: &Experiment<'_>, printer: &mut Printer) {
     };
     let first = unusual(&damper, 1.5e-3);
     let held = unusual(&damper, f32::NAN);
-    let limited = unusual(&damper, 1.0);
+    let limited = unusual(&damper, 10e-3);
+    let jumped = unusual(&damper, 0.2);
     let swapped = unusual(&other, 2.5e-3);
     let unused = stack_of(|| _ = timed(nothing as *const (), [0; 5], 0.0));
     let known = timed(known as *const (), [0; 5], 0.0).ticks;
@@ -303,7 +304,7 @@ fn measure(experiment: &Experiment<'_>, printer: &mut Printer) {
         printer,
         "{{\"clock_hz\": {CLOCK_HZ}, \"call\": {call}, \"known\": {known}, \"least\": {}, \"most\": {}, \
          \"sum\": {}, \"digest\": \"{:016x}\", \"first\": {first}, \"held\": {held}, \
-         \"limited\": {limited}, \"swapped\": {swapped}, \"load_slice\": {load_slice}, \"stack_bytes\": {}, \"damper_bytes\": {}, \
+         \"limited\": {limited}, \"jumped\": {jumped}, \"swapped\": {swapped}, \"load_slice\": {load_slice}, \"stack_bytes\": {}, \"damper_bytes\": {}, \
          \"state_bytes\": {}, \"c_damper_init\": {}, \"c_step\": {}, \"c_step_bank\": {}, \
          \"c_set_clearance\": {}, \"c_check_slice\": {}}}",
         cost.least,

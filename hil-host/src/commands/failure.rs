@@ -231,7 +231,8 @@ impl From<StudyError> for Failure {
             }
             StudyError::Step { .. }
             | StudyError::StepsPerCycle { .. }
-            | StudyError::Velocity { .. } => Self::wrong_use(error.to_string()),
+            | StudyError::Velocity { .. }
+            | StudyError::Displacement { .. } => Self::wrong_use(error.to_string()),
             _ => Self::new(error.to_string()),
         }
     }

@@ -17,10 +17,12 @@ pub enum StatusBit {
     DamperSwapped,
     /// [`Status::CORRUPTED`].
     Corrupted,
+    /// [`Status::RESTARTED`].
+    Restarted,
 }
 
 /// Each bit, what the core calls it, and what a person reads.
-const ALL: [(StatusBit, Status, &str); 5] = [
+const ALL: [(StatusBit, Status, &str); 6] = [
     (StatusBit::InputHeld, Status::INPUT_HELD, "input held"),
     (
         StatusBit::InputLimited,
@@ -34,6 +36,7 @@ const ALL: [(StatusBit, Status, &str); 5] = [
         "damper swapped",
     ),
     (StatusBit::Corrupted, Status::CORRUPTED, "corrupted"),
+    (StatusBit::Restarted, Status::RESTARTED, "restarted"),
 ];
 
 /// The bits that are set in a status word.

@@ -132,6 +132,7 @@ pub fn run_unless(
     let period = 1.0 / motion.frequency_hz;
     let step_s = period / ticks as f64;
     let damper = parameters.build::<f64>(step_s)?;
+    check_range(parameters, motion)?;
     let displacements: Vec<f64> = (1..=ticks)
         .map(|tick| motion.amplitude_m * (TAU * tick as f64 / ticks as f64).sin())
         .collect();
@@ -148,7 +149,7 @@ pub fn run_unless(
             peak = peak.max(force.abs());
             change = change.max((*force - before).abs());
         }
-        if state.status().contains(Status::INPUT_LIMITED) {
+        if state.status().intersects(NOT_FOLLOWED) {
             return Err(StudyError::Velocity {
                 velocity_m_per_s: motion.peak_velocity_m_per_s(),
                 limit_m_per_s: parameters.limits.rate_m_per_s,
@@ -169,6 +170,11 @@ pub fn run_unless(
         motion,
     })
 }
+
+/// What a damper latches at a displacement that it does not take as it comes.
+pub(super) const NOT_FOLLOWED: Status = Status::INPUT_LIMITED
+    .union(Status::INPUT_HELD)
+    .union(Status::RESTARTED);
 
 /// Steps of a cycle.
 fn ticks_of(motion: Harmonic, step_s: f64) -> Result<usize, StudyError> {
@@ -204,7 +210,22 @@ pub fn check_steps(
             limit_m_per_s,
         });
     }
+    check_range(parameters, motion)?;
     parameters.build::<f64>(1.0 / motion.frequency_hz / ticks as f64)?;
+    Ok(())
+}
+
+/// Refuses a motion out of the damper's range; one that is too fast too is refused for that.
+fn check_range(parameters: &CheckedParameters, motion: Harmonic) -> Result<(), StudyError> {
+    let amplitude_m = motion.amplitude_m;
+    let limit_m = parameters.limits.displacement_m;
+    let is_slow = motion.peak_velocity_m_per_s() <= parameters.limits.rate_m_per_s;
+    if amplitude_m > limit_m && is_slow {
+        return Err(StudyError::Displacement {
+            amplitude_m,
+            limit_m,
+        });
+    }
     Ok(())
 }
 

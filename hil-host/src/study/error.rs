@@ -55,6 +55,14 @@ pub enum StudyError {
         /// The damper's limit (m/s).
         limit_m_per_s: f64,
     },
+    /// The motion leaves the damper's range of displacement.
+    #[error("the motion reaches {amplitude_m} m, allowed: limits.displacement_m = {limit_m} m")]
+    Displacement {
+        /// Amplitude of the motion (m).
+        amplitude_m: f64,
+        /// The damper's limit (m).
+        limit_m: f64,
+    },
     /// The force does not become periodic.
     #[error(
         "the force does not repeat within {cycles} cycles of {} m at {} Hz",

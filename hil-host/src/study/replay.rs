@@ -20,11 +20,13 @@ pub struct Summary {
     pub max_compression_force_n: f64,
     /// Energy taken from the motion, `integral F dx` by the trapezoidal rule (J).
     pub energy_j: f64,
-    /// Ticks whose displacement was not finite in the step's precision, so that the one before was held.
+    /// Ticks whose displacement was held: not finite in the step's precision, out of range or too far away.
     pub held_inputs: u64,
     /// Ticks whose displacement moved faster than the damper's limit and was followed at that rate.
     pub limited_inputs: u64,
-    /// Time of the first tick held or limited (s).
+    /// Ticks whose displacement was too far away to catch up with, so that the damper restarted at rest there.
+    pub restarts: u64,
+    /// Time of the first tick held, limited or restarted (s).
     pub first_rejected_s: Option<f64>,
     /// Ticks at the saturation force or force limit.
     pub saturated_ticks: u64,
@@ -37,8 +39,10 @@ impl Summary {
         let limited = status.contains(Status::INPUT_LIMITED);
         self.held_inputs += u64::from(held);
         self.limited_inputs += u64::from(limited);
+        let restarted = status.contains(Status::RESTARTED);
+        self.restarts += u64::from(restarted);
         self.saturated_ticks += u64::from(status.contains(Status::SATURATED));
-        if held || limited {
+        if held || limited || restarted {
             self.first_rejected_s.get_or_insert(time_s);
         }
     }
@@ -67,10 +71,13 @@ pub fn replay<T: Real, E: From<FileError>>(
         }
         let force = damper.step(state, displacement);
         sink(tick, force, ticks)?;
-        summary.book(tick.time_s, state.status());
+        let status = state.status();
+        summary.book(tick.time_s, status);
         state.clear_status();
         let (followed, force) = (state.displacement_m().to_f64(), force.to_f64());
-        if let Some((x, f)) = last {
+        // The damper does not move when it restarts elsewhere.
+        let moved = last.filter(|_| !status.contains(Status::RESTARTED));
+        if let Some((x, f)) = moved {
             summary.energy_j += 0.5 * (force + f) * (followed - x);
         }
         last = Some((followed, force));

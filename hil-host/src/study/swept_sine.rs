@@ -8,11 +8,11 @@
 
 use std::f64::consts::{LN_2, TAU};
 
+use dashpot_core::CheckedParameters;
 use dashpot_core::parameters::STEP_RANGE_S;
-use dashpot_core::{CheckedParameters, Status};
 
 use super::StudyError;
-use super::bench_test::Harmonic;
+use super::bench_test::{Harmonic, NOT_FOLLOWED};
 use super::response::Response;
 
 /// Cycles that a value is demodulated over.
@@ -74,6 +74,13 @@ pub fn responses(
     });
     let mut windows: Vec<Window> = windows.collect();
     let most_velocity = amplitude_m * TAU * sweep.end_hz;
+    let limits = &parameters.limits;
+    if amplitude_m > limits.displacement_m && most_velocity <= limits.rate_m_per_s {
+        return Err(StudyError::Displacement {
+            amplitude_m,
+            limit_m: limits.displacement_m,
+        });
+    }
     run(parameters, amplitude_m, &sweep, &mut windows)?
         .then_some(())
         .ok_or(StudyError::Velocity {
@@ -186,5 +193,5 @@ fn run(
             window.weight += weight;
         }
     }
-    Ok(!state.status().contains(Status::INPUT_LIMITED))
+    Ok(!state.status().intersects(NOT_FOLLOWED))
 }

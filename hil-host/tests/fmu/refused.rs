@@ -33,7 +33,7 @@ log it 2 logStatusDiscard: value reference 4: nan, allowed: a clearance of 0 to 
 clearance: 2
 time still 0.001 s
 clearance still 0.001000 m
-log it 1 logStatusWarning: a displacement was NaN or infinite: the last good one was held
+log it 1 logStatusWarning: a displacement was not finite, beyond limits.displacement_m or too far away: the last one was held
 NaN: 1
 NaN again: 0
 ";

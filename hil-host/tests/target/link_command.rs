@@ -36,8 +36,8 @@ fn status_is_reported_by_name_and_cleared() {
     let rig = Rig::new();
     assert_eq!(rig.text(&["status"]).matches("none").count(), 3);
     rig.text(&["run", "--displacement-m", "0"]);
-    // The second damper is asked for 5 m within a tick.
-    rig.text(&["displace", "--displacement-m", "0,5,0"]);
+    // The second damper is asked for 15 mm within a tick.
+    rig.text(&["displace", "--displacement-m", "0,0.015,0"]);
     rig.text(&["stop"]);
     let latched = rig.json(&["status"]);
     let rejected = latched["places"][1]["rejected_inputs"].as_u64().unwrap();

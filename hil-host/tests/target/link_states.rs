@@ -10,7 +10,7 @@ use crate::link_common::Rig;
 fn moved() -> Rig {
     let rig = Rig::new();
     rig.text(&["run", "--displacement-m", "0"]);
-    rig.text(&["displace", "--displacement-m", "0.003,-1.7e-3,5"]);
+    rig.text(&["displace", "--displacement-m", "0.003,-1.7e-3,0.015"]);
     rig.text(&["stop"]);
     rig
 }

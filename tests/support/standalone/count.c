@@ -117,7 +117,7 @@ static void measure(void)
     digest_force();
     print("held", timed(damper_step, &damper, &state, __builtin_nanf("")));
     digest_force();
-    print("limited", timed(damper_step, &damper, &state, 1));
+    print("limited", timed(damper_step, &damper, &state, 10e-3F));
     digest_force();
     if (damper_set_clearance_m(&damper, 2e-3F) == DAMPER_DONE) {
         print("swapped", timed(damper_step, &damper, &state, 2.5e-3F));

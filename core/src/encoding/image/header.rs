@@ -8,7 +8,7 @@ use super::ImageError;
 const MAGIC: [u8; 4] = *b"DASH";
 const BYTE_ORDER: u16 = 0xfeff;
 /// Changes whenever the same words would mean another damper.
-pub(super) const VERSION: u16 = 2;
+pub(super) const VERSION: u16 = 3;
 
 /// What stands before the words.
 #[derive(Clone, Copy, FromBytes, IntoBytes, Immutable, KnownLayout, Unaligned)]

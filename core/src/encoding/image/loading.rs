@@ -5,7 +5,7 @@ use super::header::Header;
 use super::{CHECK_BYTES, ImageError};
 use crate::damper::Damper;
 use crate::encoding::{checksum, revision};
-use crate::parameters::{LARGEST_CLEARANCE_M, LARGEST_FORCE_N};
+use crate::parameters::{LARGEST_CLEARANCE_M, LARGEST_FORCE_N, Limits, Range};
 use crate::scalars::{SCALARS, Scalars};
 use crate::table::{INDEX_SLICES, ROWS};
 
@@ -32,6 +32,9 @@ enum Stage {
     /// CRC-32 of the rows of the table so far.
     Check { row: usize, crc: u32 },
 }
+
+/// Range of the largest displacement.
+const DISPLACEMENTS_M: Range = Limits::RANGES.displacement_m;
 
 /// Bytes of an image in a slice.
 const BYTES_PER_SLICE: usize = 64;
@@ -165,11 +168,14 @@ macro_rules! loading {
                         let revision = revision::of_damper(hash, &scalars);
                         let credible = scalars.as_array().iter().all(|scalar| scalar.is_finite() && *scalar >= 0.0)
                             && scalars.step_s > 0.0
-                            && scalars.largest_move > 0.0
+                            && scalars.move_bound > 0.0
                             && scalars.half_clearance <= (0.5 * LARGEST_CLEARANCE_M) as $float
                             && scalars.half_force_limit <= (0.5 * LARGEST_FORCE_N) as $float
                             && scalars.first_knot > 0.0
-                            && scalars.offset == scalars.half_clearance + scalars.held;
+                            && scalars.offset == scalars.half_clearance + scalars.held
+                            && (DISPLACEMENTS_M.least as $float..=DISPLACEMENTS_M.greatest as $float)
+                                .contains(&scalars.largest_displacement())
+                            && scalars.stretch_bound == scalars.stretch_bound_by_others();
                         if revisions != [revision, hash].map($word::from) {
                             Err(ImageError::Revision)
                         } else if !credible {

@@ -99,6 +99,7 @@ struct Report {
     rejected_inputs: u64,
     held_inputs: u64,
     limited_inputs: u64,
+    restarts: u64,
     first_rejected_s: Option<f64>,
     saturated_ticks: u64,
     input_held: bool,
@@ -151,9 +152,10 @@ pub fn run(arguments: &ReplayArguments) -> Outcome<()> {
         max_extension_force_n: summary.max_extension_force_n,
         max_compression_force_n: summary.max_compression_force_n,
         energy_j: summary.energy_j,
-        rejected_inputs: summary.held_inputs + summary.limited_inputs,
+        rejected_inputs: summary.held_inputs + summary.limited_inputs + summary.restarts,
         held_inputs: summary.held_inputs,
         limited_inputs: summary.limited_inputs,
+        restarts: summary.restarts,
         first_rejected_s: summary.first_rejected_s,
         saturated_ticks: summary.saturated_ticks,
         input_held: summary.held_inputs > 0,
@@ -233,7 +235,8 @@ fn print(
     if report.input_held {
         writeln!(
             out,
-            "warning: input held at {}: not a finite number in single precision",
+            "warning: input held at {}: not finite in single precision, farther from zero than \
+             limits.displacement_m, or jumped too far to catch up with",
             counted(report.held_inputs, "tick")
         )?;
     }
@@ -243,6 +246,13 @@ fn print(
             "warning: input limited at {}: faster than limits.rate_m_per_s = {rate_m_per_s}, followed at \
              that rate",
             counted(report.limited_inputs, "tick")
+        )?;
+    }
+    if report.restarts > 0 {
+        writeln!(
+            out,
+            "warning: the damper restarted at rest at {}: the displacement jumped too far to catch up with",
+            counted(report.restarts, "tick")
         )?;
     }
     if let Some(first_s) = report.first_rejected_s {

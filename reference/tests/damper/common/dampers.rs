@@ -93,6 +93,7 @@ pub fn reduced(damping: f64, saturation: f64, stiffness: f64, clearance: f64) ->
         limits: Limits {
             force_n: 1e6,
             rate_m_per_s: 100.0,
+            ..Limits::default()
         },
     }
 }

@@ -9,11 +9,14 @@ use super::number::hexadecimal;
 use crate::target::export::Word;
 
 /// Scalars of a damper, and two revisions after them, before the pieces.
-const SCALARS: usize = 9;
+const SCALARS: usize = 11;
 const REVISIONS: usize = 2;
 
 /// The scalar that is half the force limit, which C has whole.
 const HALF_FORCE_LIMIT: usize = 7;
+
+/// The scalars that are compared by their bits, which C has as bits: bounds of move, displacement and stretch.
+const BOUNDS: [usize; 3] = [0, 9, 10];
 
 /// Words of a piece: three cubics and its knot.
 const PIECE: usize = 13;
@@ -85,7 +88,12 @@ pub(super) fn definitions<T: Word>(prefix: &str, name: &str, damper: &Damper<T>)
         let _ = writeln!(text, "    {},", row.join(", "));
     }
     let _ = write!(text, "}};\n\nconst {prefix}_damper {name}_as_built = {{\n");
+    let bits = 8 * size_of::<T>();
     for (place, word) in scalars.iter().enumerate() {
+        if BOUNDS.contains(&place) {
+            let _ = writeln!(text, "    UINT{bits}_C({word:#x}),");
+            continue;
+        }
         let mut number = T::from_word(*word);
         if place == HALF_FORCE_LIMIT {
             number = number + number;

@@ -91,10 +91,16 @@
 /* Largest force limit (N) and largest clearance (m) that any damper can have. */
 #define PREFIX_LARGEST_FORCE_N ((prefix_real)1e7)
 #define PREFIX_LARGEST_CLEARANCE_M ((prefix_real)0.1)
+/* No damper's input moves and no damper is stretched farther (m). */
+#define PREFIX_LARGEST_BOUND_M ((prefix_real)1.45)
+/* How far a damper may be behind its input: as far as it follows at its largest rate in this time (s), in which the force
+ * falls to zero when the input is farther away; and the least share of its limit that the force falls by in a step. */
+#define PREFIX_CATCH_UP_S ((prefix_real)0.01)
+#define PREFIX_LEAST_FALL ((prefix_real)1e-4)
 
 /* Upper bits of a state's status word: they tell a state from memory that was never written. */
-#define PREFIX_MARK 0x3960U
-#define PREFIX_MARK_BITS 0xffe0U
+#define PREFIX_MARK 0x3940U
+#define PREFIX_MARK_BITS 0xffc0U
 
 /* Hash of nothing, and its factor: FNV-1a (Fowler, Noll, Vo; 32 bit). */
 #define PREFIX_HASH_START UINT32_C(0x811c9dc5)
@@ -114,8 +120,6 @@ enum {
 };
 
 /* A number and its bits. */
-typedef SCALAR_WORD prefix_bits;
-
 typedef union prefix_word {
     prefix_real real;
     prefix_bits bits;
@@ -183,6 +187,13 @@ PREFIX_INLINE bool prefix_is_finite(prefix_real value)
     const prefix_bits exponent = ((prefix_bits)-1 >> 1) >> PREFIX_FRACTION_BITS << PREFIX_FRACTION_BITS;
 
     return (prefix_bits_of(value) & exponent) != exponent;
+}
+
+/* Whether the magnitude of a number is at most the one whose bits are given doubled; false for NaN, whose bits are
+ * beyond those of every number. */
+PREFIX_INLINE bool prefix_is_within(prefix_real value, prefix_bits bound)
+{
+    return bound >= (prefix_bits)(prefix_bits_of(value) << 1);
 }
 
 /* a b, rounded whatever is done with it. */
@@ -332,102 +343,189 @@ prefix_real prefix_step(const prefix_damper *damper, prefix_state *state, prefix
 {
     const prefix_real travel = displacement_m - state->displacement_m;
 
-    if (state->revision == damper->revision && prefix_magnitude(travel) <= damper->largest_move_m) {
+    if (state->revision == damper->revision && prefix_is_within(travel, damper->move_bound)
+        && prefix_is_within(displacement_m, damper->displacement_bound)
+        && prefix_is_within(state->stretch_m, damper->stretch_bound)) {
         return prefix_move(damper, state, travel);
     }
     return prefix_unusual_step(damper, state, displacement_m);
 }
 
-/* The travel (m) to a displacement (m): a state that no damper made starts over, one that another damper stepped is
- * adopted, a travel that is not credible limited; each latched, the last counted. */
-static prefix_real prefix_limit_input(const prefix_damper *damper, prefix_state *state, prefix_real displacement_m)
+/* Largest credible move of the input in a step (m). */
+static prefix_real prefix_largest_move_m(const prefix_damper *damper)
 {
-    const prefix_real most = damper->largest_move_m;
-    prefix_real travel;
+    return prefix_real_of(damper->move_bound >> 1);
+}
 
-    if ((state->status_word & PREFIX_MARK_BITS) != PREFIX_MARK || !prefix_is_finite(state->displacement_m)) {
-        prefix_at_rest(damper, state, displacement_m);
-        state->status_word = (uint16_t)(state->status_word | PREFIX_CORRUPTED);
+prefix_real prefix_largest_displacement_m(const prefix_damper *damper)
+{
+    return prefix_real_of(damper->displacement_bound >> 1);
+}
+
+/* Reach beyond the offset (m) at the end of the bins; no stage of a sound state looks beyond it. */
+static prefix_real prefix_largest_reach_beyond_offset(const prefix_damper *damper)
+{
+    return (prefix_real)(1U << (PREFIX_BINS >> PREFIX_BIN_FRACTION_BITS)) * damper->first_knot_m;
+}
+
+/* Whether every number of a state is finite. */
+static bool prefix_is_finite_state(const prefix_state *state)
+{
+    return prefix_is_finite(state->displacement_m) && prefix_is_finite(state->stretch_m)
+           && prefix_is_finite(state->potential_m2) && prefix_is_finite(state->force_n);
+}
+
+/* Whether a step of the damper could leave the numbers of a state behind. Rounding to the grid of positions may pass the
+ * range of displacement, by less than a thousandth of it. */
+static bool prefix_could_leave(const prefix_damper *damper, const prefix_state *state)
+{
+    const prefix_real most = prefix_product((prefix_real)1.001, prefix_largest_displacement_m(damper));
+
+    return prefix_magnitude(state->displacement_m) <= most && prefix_is_finite(state->potential_m2)
+           && prefix_is_within(state->stretch_m, damper->stretch_bound)
+           && prefix_magnitude(state->force_n) <= prefix_force_limit_n(damper);
+}
+
+static void prefix_count_rejected_input(prefix_state *state)
+{
+    if (state->rejected_inputs != UINT16_MAX) {
+        state->rejected_inputs = (uint16_t)(state->rejected_inputs + 1);
+    }
+}
+
+static void prefix_latch(prefix_state *state, unsigned status)
+{
+    state->status_word = (uint16_t)(state->status_word | status);
+}
+
+/* The travel (m) of a step whose displacement is held. */
+static prefix_real prefix_hold(prefix_state *state)
+{
+    prefix_count_rejected_input(state);
+    prefix_latch(state, PREFIX_INPUT_HELD);
+    return 0;
+}
+
+/* Puts a state at rest at a displacement (m); what it had latched and counted stays. */
+static void prefix_restart(const prefix_damper *damper, prefix_state *state, prefix_real displacement_m,
+                           unsigned because)
+{
+    const bool marked = (state->status_word & PREFIX_MARK_BITS) == PREFIX_MARK;
+    const unsigned status = marked ? prefix_status(state) : 0;
+    const uint16_t count = marked ? state->rejected_inputs : 0;
+
+    prefix_at_rest(damper, state, displacement_m);
+    state->rejected_inputs = count; /* a displacement that is held is counted where it is held */
+    prefix_latch(state, status | because);
+}
+
+static void prefix_take_force(const prefix_damper *damper, prefix_state *state, prefix_real force);
+
+/* The travel (m) to a displacement (m), after the state was made one that the damper can step. A state that no step
+ * leaves behind starts over at rest; one that another damper stepped is adopted. A displacement that is not finite or out
+ * of range is held; one too fast is followed at the largest rate while it is near enough; one farther away is held while
+ * the force falls to zero, and then the damper restarts at rest there. Each is latched, the last three are counted. */
+static prefix_real prefix_travel(const prefix_damper *damper, prefix_state *state, prefix_real displacement_m)
+{
+    const prefix_real most = prefix_largest_move_m(damper);
+    const bool known = state->revision == damper->revision;
+    prefix_real travel, steps, fall;
+
+    if ((state->status_word & PREFIX_MARK_BITS) != PREFIX_MARK || !prefix_is_finite_state(state)
+        || (known && !prefix_could_leave(damper, state))) {
+        prefix_restart(damper, state, displacement_m, PREFIX_CORRUPTED);
     }
     if (state->revision != damper->revision) {
         prefix_adopt(damper, state);
+    }
+    if (!prefix_is_within(displacement_m, damper->displacement_bound)) {
+        return prefix_hold(state);
     }
     travel = displacement_m - state->displacement_m;
     if (prefix_magnitude(travel) <= most) {
         return travel;
     }
-    if (state->rejected_inputs != UINT16_MAX) {
-        state->rejected_inputs = (uint16_t)(state->rejected_inputs + 1);
+    steps = PREFIX_CATCH_UP_S / damper->step_s;
+    if (prefix_magnitude(travel) <= most * prefix_larger(steps, 2)) {
+        prefix_count_rejected_input(state);
+        prefix_latch(state, PREFIX_INPUT_LIMITED);
+        return prefix_smaller(prefix_larger(travel, -most), most);
     }
-    if (!prefix_is_finite(travel)) {
-        state->status_word = (uint16_t)(state->status_word | PREFIX_INPUT_HELD);
+    fall = prefix_force_limit_n(damper) * prefix_smaller(prefix_larger(1 / steps, PREFIX_LEAST_FALL), 1);
+    if (prefix_magnitude(state->force_n) <= fall) {
+        prefix_restart(damper, state, displacement_m, PREFIX_RESTARTED);
+        prefix_count_rejected_input(state);
         return 0;
     }
-    state->status_word = (uint16_t)(state->status_word | PREFIX_INPUT_LIMITED);
-    travel = prefix_smaller(prefix_larger(travel, -most), most);
-    /* What the displacement can move by: far out, less than the limit. */
-    return (state->displacement_m + travel) - state->displacement_m;
+    prefix_take_force(damper, state, state->force_n < 0 ? state->force_n + fall : state->force_n - fall);
+    return prefix_hold(state);
 }
 
 PREFIX_COLD prefix_real prefix_unusual_step(const prefix_damper *damper, prefix_state *state,
                                             prefix_real displacement_m)
 {
-    return prefix_move(damper, state, prefix_limit_input(damper, state, displacement_m));
+    return prefix_move(damper, state, prefix_travel(damper, state, displacement_m));
 }
 
 void prefix_at_rest(const prefix_damper *damper, prefix_state *state, prefix_real displacement_m)
 {
-    state->displacement_m = prefix_is_finite(displacement_m) ? displacement_m : 0;
+    const bool good = prefix_is_within(displacement_m, damper->displacement_bound);
+    const prefix_real end = prefix_largest_displacement_m(damper);
+
+    state->displacement_m = good ? displacement_m : displacement_m < 0 ? -end : end;
     state->stretch_m = 0;
     state->potential_m2 = 0;
     state->force_n = 0;
     state->revision = damper->revision;
-    state->status_word = PREFIX_MARK;
-    state->rejected_inputs = 0;
+    state->status_word = (uint16_t)(good ? PREFIX_MARK : PREFIX_MARK | PREFIX_INPUT_HELD);
+    state->rejected_inputs = good ? 0 : 1;
 }
 
-/* Reach (m) at the end of the bins; no stage looks beyond it. */
-static prefix_real prefix_largest_reach(const prefix_damper *damper)
+/* Gives a state the stretch and the flow potential at which the damper has a force (N), by bisection of its stages. */
+static void prefix_take_force(const prefix_damper *damper, prefix_state *state, prefix_real force)
 {
-    const prefix_real end = (prefix_real)(1U << (PREFIX_BINS >> PREFIX_BIN_FRACTION_BITS));
+    const prefix_real target = prefix_magnitude(force);
+    prefix_real low = damper->half_clearance_m;
+    prefix_real high = prefix_largest_reach_beyond_offset(damper) + damper->offset_m;
+    int halving;
 
-    return prefix_add_product(damper->offset_m, end, damper->first_knot_m);
+    for (halving = 0; halving < PREFIX_FRACTION_BITS + 3; halving++) {
+        const prefix_real middle = (prefix_real)0.5 * (low + high);
+        const prefix_real reach = force < 0 ? -middle : middle;
+        prefix_stage stage;
+        prefix_real stretch;
+
+        prefix_solve(damper, reach, &stage);
+        stretch = prefix_subtract_product(reach, PREFIX_GAMMA, stage.flow_m);
+        state->stretch_m = stretch;
+        state->potential_m2 = prefix_cubic(stage.piece->potential, stage.z_m);
+        if (prefix_force(damper, stretch, prefix_cubic(stage.piece->stiffness, stage.z_m)) < target) {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
 }
 
-/* Displacement and force stay, the stretch becomes the one the damper has under that force, by bisection of its
- * stages; without force it stays within the clearance. */
+/* Displacement and force stay, within the limits of the damper, the stretch becomes the one the damper has under that
+ * force; without force it stays within the clearance. */
 void prefix_adopt(const prefix_damper *damper, prefix_state *state)
 {
     const prefix_real limit = prefix_force_limit_n(damper);
     const prefix_real force = prefix_smaller(prefix_larger(state->force_n, -limit), limit);
-    const prefix_real target = prefix_magnitude(force);
-    prefix_real low = damper->half_clearance_m;
-    prefix_real high = prefix_largest_reach(damper);
-    int halving;
+    const prefix_real most = damper->half_clearance_m;
+    const prefix_real end = prefix_largest_displacement_m(damper);
 
     if (force == 0) {
-        state->stretch_m = prefix_smaller(prefix_larger(state->stretch_m, -low), low);
+        state->stretch_m = prefix_smaller(prefix_larger(state->stretch_m, -most), most);
         state->potential_m2 = 0;
     } else {
-        for (halving = 0; halving < PREFIX_FRACTION_BITS + 3; halving++) {
-            const prefix_real middle = (prefix_real)0.5 * (low + high);
-            const prefix_real reach = force < 0 ? -middle : middle;
-            prefix_stage stage;
-            prefix_real stretch;
-
-            prefix_solve(damper, reach, &stage);
-            stretch = prefix_subtract_product(reach, PREFIX_GAMMA, stage.flow_m);
-            state->stretch_m = stretch;
-            state->potential_m2 = prefix_cubic(stage.piece->potential, stage.z_m);
-            if (prefix_force(damper, stretch, prefix_cubic(stage.piece->stiffness, stage.z_m)) < target) {
-                low = middle;
-            } else {
-                high = middle;
-            }
-        }
+        prefix_take_force(damper, state, force);
     }
+    state->displacement_m = prefix_smaller(prefix_larger(state->displacement_m, -end), end);
+    state->force_n = force;
     if (state->revision != 0) {
-        state->status_word = (uint16_t)(state->status_word | PREFIX_DAMPER_SWAPPED);
+        prefix_latch(state, PREFIX_DAMPER_SWAPPED);
     }
     state->revision = damper->revision;
 }
@@ -438,15 +536,30 @@ static uint32_t prefix_hash_byte(uint32_t hash, unsigned byte)
 }
 
 /* Hash continued over the bits of a number, zero-extended to 64, from the lowest byte. */
-static uint32_t prefix_hash_real(uint32_t hash, prefix_real value)
+static uint32_t prefix_hash_bits(uint32_t hash, uint64_t bits)
 {
-    const uint64_t bits = prefix_bits_of(value);
     unsigned shift;
 
     for (shift = 0; shift < 64; shift += 8) {
         hash = prefix_hash_byte(hash, (unsigned)(bits >> shift & 0xff));
     }
     return hash;
+}
+
+static uint32_t prefix_hash_real(uint32_t hash, prefix_real value)
+{
+    return prefix_hash_bits(hash, prefix_bits_of(value));
+}
+
+/* The largest stretch that a step leaves behind, its bits doubled. From a stretch u beyond the offset the stages look at
+ * most sqrt(2) u and 1.12 moves far, which must be in the table. */
+static prefix_bits prefix_stretch_bound(const prefix_damper *damper)
+{
+    const prefix_real end = prefix_largest_reach_beyond_offset(damper);
+    const prefix_real most = prefix_subtract_product(end, (prefix_real)1.12, prefix_largest_move_m(damper));
+    const prefix_real in_table = prefix_add_product(damper->offset_m, (prefix_real)0.7, most);
+
+    return prefix_bits_of(prefix_smaller(prefix_larger(in_table, 0), PREFIX_LARGEST_BOUND_M)) << 1;
 }
 
 prefix_result prefix_set_clearance_m(prefix_damper *damper, prefix_real clearance_m)
@@ -458,7 +571,8 @@ prefix_result prefix_set_clearance_m(prefix_damper *damper, prefix_real clearanc
     }
     damper->half_clearance_m = (prefix_real)0.5 * clearance_m;
     damper->offset_m = damper->half_clearance_m + damper->held_m;
-    hash = prefix_hash_real(hash, damper->largest_move_m);
+    damper->stretch_bound = prefix_stretch_bound(damper);
+    hash = prefix_hash_bits(hash, damper->move_bound);
     hash = prefix_hash_real(hash, damper->position_rounder_m);
     hash = prefix_hash_real(hash, damper->rest_rounder_m);
     hash = prefix_hash_real(hash, damper->step_s);
@@ -467,6 +581,8 @@ prefix_result prefix_set_clearance_m(prefix_damper *damper, prefix_real clearanc
     hash = prefix_hash_real(hash, damper->half_clearance_m);
     hash = prefix_hash_real(hash, (prefix_real)0.5 * damper->force_limit_n); /* what the core keeps of it */
     hash = prefix_hash_real(hash, damper->held_m);
+    hash = prefix_hash_bits(hash, damper->displacement_bound);
+    hash = prefix_hash_bits(hash, damper->stretch_bound);
     damper->revision = hash == 0 ? 1 : hash;
     return PREFIX_DONE;
 }
@@ -546,9 +662,7 @@ prefix_result prefix_restore(const prefix_damper *damper, prefix_state *state,
     if (saved.revision != damper->revision) {
         return PREFIX_OTHER_DAMPER;
     }
-    if (!(prefix_is_finite(saved.displacement_m) && prefix_is_finite(saved.potential_m2)
-          && prefix_magnitude(saved.stretch_m) <= prefix_largest_reach(damper)
-          && prefix_magnitude(saved.force_n) <= prefix_force_limit_n(damper))) {
+    if (!prefix_could_leave(damper, &saved)) {
         return PREFIX_IMPOSSIBLE_VALUES;
     }
     /* Member by member: of a whole structure a compiler may make a call of memcpy. */
@@ -564,7 +678,7 @@ prefix_result prefix_restore(const prefix_damper *damper, prefix_state *state,
 
 static void prefix_copy(prefix_damper *to, const prefix_damper *from)
 {
-    to->largest_move_m = from->largest_move_m;
+    to->move_bound = from->move_bound;
     to->position_rounder_m = from->position_rounder_m;
     to->rest_rounder_m = from->rest_rounder_m;
     to->step_s = from->step_s;
@@ -573,6 +687,8 @@ static void prefix_copy(prefix_damper *to, const prefix_damper *from)
     to->half_clearance_m = from->half_clearance_m;
     to->force_limit_n = from->force_limit_n;
     to->held_m = from->held_m;
+    to->displacement_bound = from->displacement_bound;
+    to->stretch_bound = from->stretch_bound;
     to->revision = from->revision;
     to->table_revision = from->table_revision;
     to->pieces = from->pieces;
@@ -588,7 +704,8 @@ uint32_t prefix_digest(const prefix_damper *damper)
     uint8_t bytes[PREFIX_STATE_BYTES];
     uint32_t hash = PREFIX_HASH_START;
     uint32_t random = 1;
-    prefix_real move = damper->largest_move_m;
+    const prefix_real largest_move = prefix_largest_move_m(damper);
+    prefix_real move = largest_move;
     prefix_real displacement = 0;
     unsigned step, byte;
 
@@ -602,7 +719,7 @@ uint32_t prefix_digest(const prefix_damper *damper)
         fraction = (prefix_real)(random >> 9) * (prefix_real)0x1p-22 - 1; /* exact */
         displacement = prefix_add_product(prefix_product((prefix_real)0.875, displacement), move, fraction);
         if (step % 128 == 127) {
-            move = step % 1024 == 1023 ? damper->largest_move_m : (prefix_real)0.5 * move;
+            move = step % 1024 == 1023 ? largest_move : (prefix_real)0.5 * move;
         }
         if (step == 700) {
             displacement = displacement + 1;
@@ -630,6 +747,9 @@ uint32_t prefix_digest(const prefix_damper *damper)
 #undef PREFIX_LARGEST_CORRECTION
 #undef PREFIX_LARGEST_FORCE_N
 #undef PREFIX_LARGEST_CLEARANCE_M
+#undef PREFIX_LARGEST_BOUND_M
+#undef PREFIX_CATCH_UP_S
+#undef PREFIX_LEAST_FALL
 #undef PREFIX_MARK
 #undef PREFIX_MARK_BITS
 #undef PREFIX_HASH_START

@@ -7,16 +7,18 @@
 extern "C" {
 #endif
 
-/* The number of the step. */
+/* The number of the step, and its bits. */
 typedef SCALAR_TYPE prefix_real;
+typedef SCALAR_WORD prefix_bits;
 
 /* Status bits, latched in a state until prefix_clear_status. */
 enum {
-    PREFIX_INPUT_HELD = 1,      /* a displacement was NaN or infinite; the last good one was held */
+    PREFIX_INPUT_HELD = 1,      /* a displacement was not finite, out of range, or too far to catch up with; held */
     PREFIX_INPUT_LIMITED = 2,   /* a displacement moved faster than the largest rate; followed at that rate */
     PREFIX_SATURATED = 4,       /* the element yielded: saturation force or force limit reached */
     PREFIX_DAMPER_SWAPPED = 8,  /* another damper than before stepped the state; the force was carried over */
-    PREFIX_CORRUPTED = 16       /* memory was damaged: what was no state started over at rest */
+    PREFIX_CORRUPTED = 16,      /* memory was damaged: a state that no step leaves behind started over at rest */
+    PREFIX_RESTARTED = 32       /* a displacement was too far to catch up with: restarted at rest there */
 };
 
 /* What a function that can refuse returns. */
@@ -32,7 +34,7 @@ typedef struct prefix_piece prefix_piece;
 
 /* A damper for one step size, shared by any number of states. Its numbers change with the clearance only. */
 typedef struct prefix_damper {
-    prefix_real largest_move_m;      /* largest credible move of the input in a step */
+    prefix_bits move_bound;          /* largest credible move of the input in a step: its bits (m), doubled */
     prefix_real position_rounder_m;  /* adding and subtracting it rounds a travel to the grid of positions */
     prefix_real rest_rounder_m;      /* the same for a stretch far below that grid, to zero */
     prefix_real step_s;
@@ -41,6 +43,8 @@ typedef struct prefix_damper {
     prefix_real half_clearance_m;
     prefix_real force_limit_n;       /* force at which the element yields */
     prefix_real held_m;              /* stretch of the mount under seal friction */
+    prefix_bits displacement_bound;  /* largest displacement from zero: its bits (m), doubled */
+    prefix_bits stretch_bound;       /* largest stretch that a step leaves behind: its bits (m), doubled */
     uint32_t revision;               /* tells dampers apart */
     uint32_t table_revision;
     const prefix_piece *pieces;      /* of extension, then of compression */
@@ -55,7 +59,7 @@ typedef struct prefix_state {
     prefix_real force_n;             /* returned last, positive when it resists extension */
     uint32_t revision;               /* of the damper that stepped last */
     uint16_t status_word;            /* a mark and the status; see prefix_status */
-    uint16_t rejected_inputs;        /* ticks whose displacement was held or limited, up to 65535 */
+    uint16_t rejected_inputs;        /* ticks held, limited or restarted, up to 65535 */
 } prefix_state;
 
 enum { PREFIX_STATE_BYTES = 4 * sizeof(prefix_real) + 8 };
@@ -63,12 +67,14 @@ enum { PREFIX_STATE_BYTES = 4 * sizeof(prefix_real) + 8 };
 /* No function takes a null pointer. Each is reentrant: no global variable, no lock, no heap. */
 
 /* Puts a state at rest at a displacement (m), centred in the clearance, without force. A displacement that is
- * not finite counts as 0. */
+ * not finite or out of range is rejected, latched and counted; the state waits at an end of the range, and the first
+ * good displacement restarts it there without force. */
 void prefix_at_rest(const prefix_damper *damper, prefix_state *state, prefix_real displacement_m);
 
 /* Force (N) at this tick for the displacement (m) of the tick; positive when it resists extension. Call it every
  * `step_s`. Never fails: bad input is held or limited and latched in the status; the force is finite and within
- * the force limit whatever the bits of input and state. One cost, but for bad input and swapped dampers. */
+ * the force limit whatever the bits of input and state. A state that no step leaves behind starts over at rest and says
+ * so. One cost, but for bad input, damaged states and swapped dampers. */
 prefix_real prefix_step(const prefix_damper *damper, prefix_state *state, prefix_real displacement_m);
 
 /* Sets the clearance 2a (m), the whole play, between two steps: states follow at their next step, their force kept.
@@ -83,8 +89,9 @@ void prefix_adopt(const prefix_damper *damper, prefix_state *state);
 unsigned prefix_status(const prefix_state *state);
 void prefix_clear_status(prefix_state *state);
 
-/* Clearance 2a (m), and the force (N) that no step exceeds. */
+/* Clearance 2a (m), the largest displacement (m) from zero that a step follows, and the force (N) that none exceeds. */
 prefix_real prefix_clearance_m(const prefix_damper *damper);
+prefix_real prefix_largest_displacement_m(const prefix_damper *damper);
 prefix_real prefix_force_limit_n(const prefix_damper *damper);
 
 /* A state as bytes, little-endian on any processor and the same in Rust (DamperState::to_bytes). They have no

@@ -13,7 +13,8 @@ const STEPS: u32 = 2048;
 pub(super) fn digest<T: Word>(damper: &Damper<T>) -> u32 {
     let mut damper = *damper;
     let mut state = damper.at_rest(T::ZERO);
-    let largest_move = T::from_word(T::words(&damper).first().copied().unwrap_or_default());
+    // The first word has the bits of the largest move, doubled.
+    let largest_move = T::from_word(T::words(&damper).first().copied().unwrap_or_default() >> 1);
     let number = T::from_f64;
     let (mut hash, mut random) = (0x811c_9dc5_u32, 1_u32);
     let (mut scale, mut displacement) = (largest_move, T::ZERO);

@@ -11,12 +11,12 @@
 const double dampers_largest_clearance_m = 0.1;
 
 enum {
-    SCALARS = 9,
+    SCALARS = 11,
     WORDS_OF_PIECE = 13,
     IMAGE_WORDS = SCALARS + 2 + 2 * DAMPER_PIECES * WORDS_OF_PIECE,
     HEADER_BYTES = 16,
     IMAGE_BYTES = HEADER_BYTES + IMAGE_WORDS * DAMPER_REAL_BYTES + 4,
-    IMAGE_VERSION = 2
+    IMAGE_VERSION = 3
 };
 
 /* A table in memory. */
@@ -77,10 +77,12 @@ static void index_side(table *this, unsigned side)
 static const char *load(damper_damper *damper, table *this, const uint8_t *image, size_t count)
 {
     static const uint8_t magic[] = {'D', 'A', 'S', 'H', 0xff, 0xfe};
+    damper_real bounds[3];
     damper_real *const scalars[SCALARS] = {
-        &damper->largest_move_m, &damper->position_rounder_m, &damper->rest_rounder_m,
-        &damper->step_s,         &damper->offset_m,           &damper->first_knot_m,
-        &damper->half_clearance_m, &damper->force_limit_n, &damper->held_m
+        &bounds[0],                &damper->position_rounder_m, &damper->rest_rounder_m,
+        &damper->step_s,           &damper->offset_m,           &damper->first_knot_m,
+        &damper->half_clearance_m, &damper->force_limit_n,      &damper->held_m,
+        &bounds[1],                &bounds[2]
     };
     uint32_t hash = UINT32_C(0x811c9dc5);
     unsigned number, piece;
@@ -105,6 +107,8 @@ static const char *load(damper_damper *damper, table *this, const uint8_t *image
         }
     }
     damper->force_limit_n = damper->force_limit_n + damper->force_limit_n; /* an image has half of it */
+    damper->move_bound = damper_bits_of(bounds[0]);
+    damper->displacement_bound = damper_bits_of(bounds[1]);
     for (piece = 0; piece < 2 * DAMPER_PIECES; piece++) {
         damper_piece *const to = &this->pieces[piece];
 
@@ -132,7 +136,9 @@ static const char *load(damper_damper *damper, table *this, const uint8_t *image
     if (hash != damper->table_revision
         || damper_set_clearance_m(damper, damper_clearance_m(damper)) != DAMPER_DONE
         || damper->revision != damper_get(image + HEADER_BYTES + SCALARS * DAMPER_REAL_BYTES, 4)
-        || !(damper->largest_move_m > 0 && damper->first_knot_m > 0)
+        || !(damper->move_bound > 0 && damper->first_knot_m > 0)
+        || !(damper_largest_displacement_m(damper) >= (damper_real)1e-3)
+        || !(damper_largest_displacement_m(damper) <= (damper_real)0.7)
         || !(damper->force_limit_n <= (damper_real)1e7)) {
         return "an image whose constants do not go together";
     }

@@ -44,19 +44,25 @@ struct model {
     place places[];
 };
 
-/* A displacement that is not finite counts as 0, and as an input that was held. */
+/* Where no displacement was good yet. */
+static const double nowhere_m = 1e300;
+
+/* Whether a step to a displacement follows it or a part of the way to it. */
+static bool is_good(const damper_damper *damper, double displacement_m)
+{
+    const damper_real displacement = (damper_real)displacement_m;
+    const damper_real most = damper_largest_displacement_m(damper);
+
+    return displacement >= -most && displacement <= most;
+}
+
+/* A displacement that is not good is rejected: the damper starts where the first good one is. */
 static void start(model *this, unsigned number)
 {
     place *at = &this->places[number];
-    const damper_real displacement = (damper_real)at->displacement_m;
 
-    damper_at_rest(&this->dampers[number], &at->state, displacement);
-    if (displacement - displacement == 0) {
-        at->reached_m = at->displacement_m;
-    } else {
-        at->reached_m = 0;
-        (void)damper_step(&this->dampers[number], &at->state, displacement);
-    }
+    damper_at_rest(&this->dampers[number], &at->state, (damper_real)at->displacement_m);
+    at->reached_m = is_good(&this->dampers[number], at->displacement_m) ? at->displacement_m : nowhere_m;
 }
 
 static void forget_derivatives(place *at)
@@ -268,8 +274,8 @@ uint64_t model_step(model *this, uint64_t steps)
         const damper_damper *damper = &this->dampers[number];
         place *at = &this->places[number];
         const double h = (double)steps * model_step_s;
-        const double from = at->reached_m;
         const double to = at->displacement_m + velocity(at, h) * h;
+        const double from = at->reached_m == nowhere_m ? to : at->reached_m;
 
         for (step = 1; step < steps; step++) {
             const double part = (double)step / (double)steps;
@@ -278,7 +284,7 @@ uint64_t model_step(model *this, uint64_t steps)
         }
         (void)damper_step(damper, &at->state, (damper_real)to);
         forget_derivatives(at);
-        if (to - to == 0) {
+        if (is_good(damper, to)) {
             at->reached_m = to;
         }
     }
@@ -304,13 +310,16 @@ const char *model_notice(model *this)
     for (number = 0; number < dampers_count; number++) {
         bits |= damper_status(&this->places[number].state);
     }
-    bits &= (DAMPER_INPUT_HELD | DAMPER_INPUT_LIMITED | DAMPER_CORRUPTED) & ~this->told;
+    bits &= (DAMPER_INPUT_HELD | DAMPER_INPUT_LIMITED | DAMPER_CORRUPTED | DAMPER_RESTARTED) & ~this->told;
     this->told |= bits;
     if (bits & DAMPER_CORRUPTED) {
         return "the memory of a damper was damaged: it started over at rest";
     }
+    if (bits & DAMPER_RESTARTED) {
+        return "a displacement jumped too far to catch up with: the damper restarted at rest there, without force";
+    }
     if (bits & DAMPER_INPUT_HELD) {
-        return "a displacement was NaN or infinite: the last good one was held";
+        return "a displacement was not finite, beyond limits.displacement_m or too far away: the last one was held";
     }
     if (bits & DAMPER_INPUT_LIMITED) {
         return "a displacement moved faster than its damper allows: it was followed at the largest rate";
