@@ -125,7 +125,7 @@ fn intervals_contain_the_truth_or_a_bit_says_that_they_may_not() {
         let after_words = if must_hold {
             format!("{after:.1}")
         } else {
-            "never surely".into()
+            "not assured".into()
         };
         let largest_words = if still_trusted.is_empty() {
             "-".into()

@@ -174,12 +174,6 @@ impl Health {
         self.gathered.begin(model);
     }
 
-    /// Whether no contact was seen for long.
-    #[inline(always)]
-    fn is_idle(&self, model: &HealthModel) -> bool {
-        self.unmeasured > model.most_unmeasured
-    }
-
     /// Moves the position over the block, and makes a measurement of it where both ends were in contact.
     #[inline(always)]
     fn predict(&mut self, model: &HealthModel) {
@@ -255,7 +249,12 @@ impl Health {
             self.forgetting = 1.0;
         }
         let growth = 1.0 + (model.growth - 1.0) * self.forgetting;
-        let lag_growth = 1.0 + (model.lag_growth - 1.0) * self.forgetting;
+        // The lag may be wrong too where nothing fits.
+        let lag_growth = if self.watch.is_on_its_way() {
+            growth
+        } else {
+            1.0 + (model.lag_growth - 1.0) * self.forgetting
+        };
         self.forgetting = 0.0;
         for (place, most) in (1..STATES).zip(model.start_variance) {
             let factor = if place == LAG { lag_growth } else { growth };

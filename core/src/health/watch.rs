@@ -10,6 +10,8 @@ const RATE: f32 = 1.0 / 128.0;
 const MOST: f32 = 9.0;
 /// Mean product of neighbouring innovations over their variance above which the model does not fit.
 const MISFIT: f32 = 0.5;
+/// The same below which it fits again.
+const FITS_AGAIN: f32 = 0.2;
 /// The same above which changes are no alarm yet: the estimate is on its way.
 const ON_ITS_WAY: f32 = 1.5;
 /// The same that is chance.
@@ -89,6 +91,12 @@ impl Watch {
         self.last = prepared.innovation;
     }
 
+    /// Whether the model fits so badly that the estimate is on its way after a change, or none is right.
+    #[inline(always)]
+    pub(crate) fn is_on_its_way(&self) -> bool {
+        self.correlation >= ON_ITS_WAY
+    }
+
     /// Variance inflation factor: above 1 where innovations scatter more than the model says, or repeat.
     #[inline(always)]
     pub(crate) fn scale(&self) -> f32 {
@@ -154,7 +162,12 @@ impl Watch {
         status.set(little, now & u32::from(little.bits()) != 0);
         status.set(HealthStatus::SEVERAL_CHANGED, several);
         status.set(HealthStatus::LATE, is_late);
-        status.set(HealthStatus::MISFIT, self.correlation > MISFIT);
+        let limit = if status.contains(HealthStatus::MISFIT) {
+            FITS_AGAIN
+        } else {
+            MISFIT
+        };
+        status.set(HealthStatus::MISFIT, self.correlation > limit);
         if is_missing {
             status |= HealthStatus::NO_FORCE;
         }
@@ -175,7 +188,7 @@ impl Watch {
         alarm: HealthStatus,
     ) {
         let (change, limit, variance) = (square(*change), square(*limit), *variance);
-        let counted = u32::from(measured && self.correlation < ON_ITS_WAY);
+        let counted = u32::from(measured && !self.is_on_its_way());
         let is_beyond = change > limit && change > square(model.limits.deviations) * variance;
         let blocks = if is_beyond {
             self.beyond[place] + counted
