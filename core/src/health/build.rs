@@ -5,6 +5,7 @@ use super::model::{
 };
 use crate::build::CheckedParameters;
 use crate::error::BuildError;
+use crate::parameters::Element;
 
 /// Time over which samples are gathered to one measurement (s): short beside the motion of a vehicle, and of eight ticks
 /// at 1 kHz, one for each part of the filter's work.
@@ -147,6 +148,11 @@ impl CheckedParameters {
 
         let ticks = libm::round(BLOCK_S / step_s).max(f64::from(FEWEST_TICKS));
         let block_s = ticks * step_s;
+        // A straight law with friction is nearly another straight law, and has none.
+        let friction_sd = match self.element {
+            Element::Physical(_) => (FRICTION_PART * yields).min(MOST_FRICTION_SD_N),
+            Element::Reduced(_) => 0.0,
+        };
         let compliance = self.mount.compliance_m_per_n();
         let force_noise = settings.force_noise_n;
         let position_variance = settings.displacement_noise_m * settings.displacement_noise_m
@@ -188,7 +194,7 @@ impl CheckedParameters {
                 square(1e-3),
                 square(settings.lag_sd_s),
                 square(ZERO_SD_N),
-                square((FRICTION_PART * yields).min(MOST_FRICTION_SD_N)),
+                square(friction_sd),
             ],
             oil_compliance: (branches[0].deflection(0.25 * yields) / (0.25 * yields) - compliance)
                 as f32,
