@@ -14,6 +14,8 @@ use super::watch::Watch;
 const UNKNOWN: f32 = 1.0;
 /// Innovations beyond this many times their standard deviation, squared, are left out.
 const OUTLIER: f32 = 900.0;
+/// How many usual blocks one that is left out makes forget: what has changed is then followed soon.
+const OUTLIER_SURPRISE: f32 = 25.0;
 /// Blocks left out one after the other before the estimate begins anew.
 const MOST_OUTLIERS: u16 = 12;
 /// Share of a block's information, in its forgetting, below which nothing is forgotten.
@@ -268,6 +270,7 @@ impl Health {
     fn leave_out(&mut self, model: &HealthModel) {
         self.stage = stage::FOLLOW;
         self.outliers = self.outliers.saturating_add(1);
+        self.forgetting = OUTLIER_SURPRISE;
         let damaged = !self.filter.state.iter().all(|number| number.is_finite())
             || !self.prepared.variance.is_finite();
         if damaged || self.outliers > MOST_OUTLIERS {
