@@ -135,12 +135,14 @@ class Client:
             assert number == DONE
 
     def health(self, place):
-        """Value and standard deviation of five estimates, then samples that told something, rejected ones and status."""
+        """Value and standard deviation of seven estimates, then the usable samples, the rejected ones and the status."""
         number, fields = self.ask(varint(HEALTH) + varint(place))
         assert number == READING
         names = "flow_factor", "stiffness_n_per_m", "clearance_m", "lag_s", "compliance_m_per_n"
         estimates = {name: (fields.f32(), fields.f32()) for name in names}
-        return estimates, fields.varint(), fields.varint(), fields.varint()
+        samples, rejected, status = fields.varint(), fields.varint(), fields.varint()
+        estimates |= {name: (fields.f32(), fields.f32()) for name in ["force_zero_n", "added_friction_n"]}
+        return estimates, samples, rejected, status
 
 
 def main():

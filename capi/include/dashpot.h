@@ -97,27 +97,27 @@
 /**
  * Bytes of a dashpot_health_model.
  */
-#define DASHPOT_HEALTH_MODEL_SIZE 2196
+#define DASHPOT_HEALTH_MODEL_SIZE 2224
 
 /**
  * Words of a dashpot_health_model.
  */
-#define DASHPOT_HEALTH_MODEL_WORDS 549
+#define DASHPOT_HEALTH_MODEL_WORDS 556
 
 /**
  * Bytes of a dashpot_health.
  */
-#define DASHPOT_HEALTH_SIZE 244
+#define DASHPOT_HEALTH_SIZE 440
 
 /**
  * Words of a dashpot_health.
  */
-#define DASHPOT_HEALTH_WORDS 61
+#define DASHPOT_HEALTH_WORDS 110
 
 /**
  * Bytes of an image, from which a dashpot_health_model is made.
  */
-#define DASHPOT_HEALTH_IMAGE_SIZE 2208
+#define DASHPOT_HEALTH_IMAGE_SIZE 2236
 
 
 /**
@@ -184,6 +184,34 @@
  * The estimate was damaged or contradicted for long, and began anew; latched.
  */
 #define DASHPOT_HEALTH_RESTARTED 32
+
+/**
+ * The damper moved and the force did not follow: a dead or stuck force channel, oil full of air, a clearance wider than
+ * the motion: alarm, latched. Do not trust the estimates.
+ */
+#define DASHPOT_HEALTH_NO_FORCE 64
+
+/**
+ * The zero of the force sensor is off: alarm, latched. The estimates are corrected for it.
+ */
+#define DASHPOT_HEALTH_FORCE_ZERO 128
+
+/**
+ * The channels are further apart in time than is known beforehand: do not trust stiffness and clearance. Not latched.
+ */
+#define DASHPOT_HEALTH_LATE 256
+
+/**
+ * Two or three of flow, stiffness and clearance differ from the baseline, as with a wrong scale of a sensor, a stuck
+ * displacement or a reversed sign: do not trust the estimates. Not latched.
+ */
+#define DASHPOT_HEALTH_SEVERAL_CHANGED 512
+
+/**
+ * What is measured does not follow from the model, or the estimate is still on its way after a change: do not trust
+ * the estimates. Not latched.
+ */
+#define DASHPOT_HEALTH_MISFIT 1024
 
 /**
  * Why a function did nothing; 0 when it did what it says.
@@ -440,6 +468,14 @@ typedef struct {
      * `DASHPOT_HEALTH_...` bits.
      */
     uint16_t status;
+    /**
+     * Zero of the force sensor: force that is measured where there is none (N). The others are corrected for it.
+     */
+    dashpot_estimate force_zero_n;
+    /**
+     * Friction of the seals beyond the nominal one (N). The others are corrected for it.
+     */
+    dashpot_estimate added_friction_n;
 } dashpot_health_reading;
 
 /**
@@ -562,7 +598,7 @@ dashpot_error dashpot_health_set_limits(dashpot_health_model *model,
 dashpot_error dashpot_health_init(dashpot_health *health, const dashpot_health_model *model);
 
 /**
- * Takes the sample of a tick, at most 277 instructions. One that is not finite or not credible is no error: it is left out, latched in the
+ * Takes the sample of a tick, at most 281 instructions. One that is not finite or not credible is no error: it is left out, latched in the
  * status and counted.
  *
  * @param model           made by `dashpot_health_model_init`

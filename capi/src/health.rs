@@ -163,7 +163,7 @@ pub unsafe extern "C" fn dashpot_health_init(
     DashpotError::from(done())
 }
 
-/// Takes the sample of a tick, at most 277 instructions. One that is not finite or not credible is no error: it is left out, latched in the
+/// Takes the sample of a tick, at most 281 instructions. One that is not finite or not credible is no error: it is left out, latched in the
 /// status and counted.
 ///
 /// @param model           made by `dashpot_health_model_init`
@@ -216,6 +216,8 @@ pub unsafe extern "C" fn dashpot_health_read(
             samples: read.samples,
             rejected: read.rejected,
             status: read.status.bits(),
+            force_zero_n: read.force_zero_n.into(),
+            added_friction_n: read.added_friction_n.into(),
         };
         // SAFETY: checked, and the caller's promise.
         unsafe { reading.write(read) };

@@ -195,6 +195,10 @@ pub struct DashpotHealthReading {
     pub rejected: u32,
     /// `DASHPOT_HEALTH_...` bits.
     pub status: u16,
+    /// Zero of the force sensor: force that is measured where there is none (N). The others are corrected for it.
+    pub force_zero_n: DashpotEstimate,
+    /// Friction of the seals beyond the nominal one (N). The others are corrected for it.
+    pub added_friction_n: DashpotEstimate,
 }
 
 /// Flow at the same force, and with it damping, has changed: alarm, latched.
@@ -209,6 +213,19 @@ pub const DASHPOT_HEALTH_LITTLE_EXCITATION: u16 = 8;
 pub const DASHPOT_HEALTH_INPUT_REJECTED: u16 = 16;
 /// The estimate was damaged or contradicted for long, and began anew; latched.
 pub const DASHPOT_HEALTH_RESTARTED: u16 = 32;
+/// The damper moved and the force did not follow: a dead or stuck force channel, oil full of air, a clearance wider than
+/// the motion: alarm, latched. Do not trust the estimates.
+pub const DASHPOT_HEALTH_NO_FORCE: u16 = 64;
+/// The zero of the force sensor is off: alarm, latched. The estimates are corrected for it.
+pub const DASHPOT_HEALTH_FORCE_ZERO: u16 = 128;
+/// The channels are further apart in time than is known beforehand: do not trust stiffness and clearance. Not latched.
+pub const DASHPOT_HEALTH_LATE: u16 = 256;
+/// Two or three of flow, stiffness and clearance differ from the baseline, as with a wrong scale of a sensor, a stuck
+/// displacement or a reversed sign: do not trust the estimates. Not latched.
+pub const DASHPOT_HEALTH_SEVERAL_CHANGED: u16 = 512;
+/// What is measured does not follow from the model, or the estimate is still on its way after a change: do not trust
+/// the estimates. Not latched.
+pub const DASHPOT_HEALTH_MISFIT: u16 = 1024;
 
 const _: () = {
     assert!(DASHPOT_HEALTH_FLOW == HealthStatus::FLOW.bits());
@@ -217,4 +234,9 @@ const _: () = {
     assert!(DASHPOT_HEALTH_LITTLE_EXCITATION == HealthStatus::LITTLE_EXCITATION.bits());
     assert!(DASHPOT_HEALTH_INPUT_REJECTED == HealthStatus::INPUT_REJECTED.bits());
     assert!(DASHPOT_HEALTH_RESTARTED == HealthStatus::RESTARTED.bits());
+    assert!(DASHPOT_HEALTH_NO_FORCE == HealthStatus::NO_FORCE.bits());
+    assert!(DASHPOT_HEALTH_FORCE_ZERO == HealthStatus::FORCE_ZERO.bits());
+    assert!(DASHPOT_HEALTH_LATE == HealthStatus::LATE.bits());
+    assert!(DASHPOT_HEALTH_SEVERAL_CHANGED == HealthStatus::SEVERAL_CHANGED.bits());
+    assert!(DASHPOT_HEALTH_MISFIT == HealthStatus::MISFIT.bits());
 };

@@ -84,6 +84,8 @@ fn estimates_have_the_bits_of_the_core() {
     same(reading.clearance_m, expected.clearance_m);
     same(reading.lag_s, expected.lag_s);
     same(reading.compliance_m_per_n, expected.compliance_m_per_n);
+    same(reading.force_zero_n, expected.force_zero_n);
+    same(reading.added_friction_n, expected.added_friction_n);
     assert_eq!(reading.samples, expected.samples);
     assert_eq!((reading.rejected, expected.rejected), (1, 1));
     assert_eq!(reading.status, expected.status.bits());

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use dashpot::damper;
-use dashpot_core::health::{Health, HealthModel, HealthReading, HealthSettings};
+use dashpot_core::health::{Health, HealthModel, HealthReading, HealthSettings, HealthStatus};
 use dashpot_core::parameters::Element;
 use dashpot_core::{Damper, DamperParameters};
 use dashpot_hil::study::health::Noise;
@@ -13,6 +13,11 @@ use fastrand::Rng;
 pub const STEP_S: f64 = 1e-3;
 /// Every preset.
 pub const PRESETS: [&str; 4] = ["paper", "in-service", "reduced-vertical", "reduced-lateral"];
+
+/// Alarms of wear.
+pub const WEAR: HealthStatus = HealthStatus::FLOW
+    .union(HealthStatus::STIFFNESS)
+    .union(HealthStatus::CLEARANCE);
 
 /// Displacements (m) of the ride of `Excitation::Ride` (98 lines from 0.4 to 20 Hz, v_rms 0.04 m/s) with frequencies
 /// and phases of a seed.

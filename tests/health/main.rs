@@ -6,4 +6,12 @@ mod healthy;
 mod made;
 mod other_data;
 mod robustness;
+mod sensor_faults;
+mod sensors;
 mod vehicle;
+
+mod dead_force_channel_was_called_healthy;
+mod force_offset_broke_intervals;
+mod friction_was_called_flow_and_clearance;
+mod late_force_was_called_stiffness;
+mod little_motion_kept_old_intervals;

@@ -5,9 +5,11 @@ use super::model::{
 };
 use crate::build::CheckedParameters;
 use crate::error::BuildError;
+use crate::parameters::Element;
 
-/// Time over which samples are gathered to one measurement (s): short beside the motion of a vehicle, long beside a tick.
-const BLOCK_S: f64 = 4e-3;
+/// Time over which samples are gathered to one measurement (s): short beside the motion of a vehicle, and of eight ticks
+/// at 1 kHz, one for each part of the filter's work.
+const BLOCK_S: f64 = 8e-3;
 /// Time without contact after which a crossing of the clearance tells nothing more (s).
 const LONGEST_CROSSING_S: f64 = 0.5;
 /// Standard deviations of the force's noise that a force in contact must exceed.
@@ -16,6 +18,19 @@ const CONTACT_DEVIATIONS: f64 = 4.0;
 const UNYIELDING: f64 = 0.98;
 /// Memory of the lag over that of the other parameters: wires do not age.
 const LAG_MEMORY: f64 = 20.0;
+
+/// Standard deviation with which the zero of a force sensor is known beforehand (N).
+const ZERO_SD_N: f64 = 500.0;
+/// Zero of the force that is an alarm, at least (N).
+const LEAST_ZERO_LIMIT_N: f64 = 100.0;
+/// Standard deviation with which the friction of the seals is known beforehand: part of the yield force (1), and at
+/// most (N).
+const FRICTION_PART: f64 = 0.01;
+const MOST_FRICTION_SD_N: f64 = 200.0;
+/// Standard deviations of a block's position that a move must exceed to be one.
+const STILL_DEVIATIONS: f64 = 8.0;
+/// Move beyond the clearance for which the force is missing at once (m): beyond what a clearance grows by at once.
+const MISSING_M: f64 = 2e-3;
 
 /// What is known of sensors and use.
 ///
@@ -135,6 +150,11 @@ impl CheckedParameters {
 
         let ticks = libm::round(BLOCK_S / step_s).max(f64::from(FEWEST_TICKS));
         let block_s = ticks * step_s;
+        // A straight law with friction is nearly another straight law, and has none.
+        let friction_sd = match self.element {
+            Element::Physical(_) => (FRICTION_PART * yields).min(MOST_FRICTION_SD_N),
+            Element::Reduced(_) => 0.0,
+        };
         let compliance = self.mount.compliance_m_per_n();
         let force_noise = settings.force_noise_n;
         let position_variance = settings.displacement_noise_m * settings.displacement_noise_m
@@ -175,7 +195,15 @@ impl CheckedParameters {
                 square(compliance),
                 square(1e-3),
                 square(settings.lag_sd_s),
+                square(ZERO_SD_N),
+                square(friction_sd),
             ],
+            oil_compliance: (branches[0].deflection(0.25 * yields) / (0.25 * yields) - compliance)
+                as f32,
+            block_s: block_s as f32,
+            still_m: (STILL_DEVIATIONS * libm::sqrt(position_variance / ticks)) as f32,
+            missing_m: MISSING_M as f32,
+            zero_limit_n: (CONTACT_DEVIATIONS * force_noise).max(LEAST_ZERO_LIMIT_N) as f32,
             baseline: Baseline {
                 flow_factor: 1.0,
                 compliance_m_per_n: compliance as f32,

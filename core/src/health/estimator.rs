@@ -1,22 +1,27 @@
 //! The estimator: a tick takes a sample of displacement and force; samples are gathered to blocks, and the filter's
 //! work on a block is spread over the ticks of the next one, so that no tick is much dearer than another.
 
-use super::filter::{Filter, Prepared, STATES};
+use super::block::{Block, Gathered};
+use super::filter::{
+    CLEARANCE, COMPLIANCE, FLOW, FRICTION, Filter, LAG, POSITION, Prepared, STATES, ZERO,
+};
+use super::follow::Follow;
 use super::model::{HealthModel, MARK};
 use super::reading::{Estimate, HealthReading, HealthStatus};
+use super::watch::Watch;
 
 /// Variance (m^2) of a position of which nothing is known.
 const UNKNOWN: f32 = 1.0;
 /// Innovations beyond this many times their standard deviation, squared, are left out.
 const OUTLIER: f32 = 900.0;
+/// How many usual blocks one that is left out makes forget: what has changed is then followed soon.
+const OUTLIER_SURPRISE: f32 = 25.0;
 /// Blocks left out one after the other before the estimate begins anew.
-const MOST_OUTLIERS: u16 = 25;
-/// Blocks over which the innovations' variance is averaged, inverted.
-const SCALE_RATE: f32 = 1.0 / 256.0;
+const MOST_OUTLIERS: u16 = 12;
 /// Share of a block's information, in its forgetting, below which nothing is forgotten.
 const LEAST_TOLD: f32 = 0.25;
-/// Part of an alarm's limit within which a parameter must be known, else there is little excitation.
-const KNOWN: f32 = 0.5;
+/// Standard deviations of the force's zero, squared, by which a force must be beyond the contact's threshold.
+const SURE_CONTACT: f32 = 9.0;
 
 /// What changes from tick to tick of one damper under watch; plain data, saved and restored by copying.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -27,15 +32,13 @@ pub struct Health {
     stage: u32,
     block: Block,
     prepared: Prepared,
+    follow: Follow,
     filter: Filter,
-    /// Mean of the squared innovation over its variance.
-    scale: f32,
+    watch: Watch,
     /// Blocks since the last that measured something.
     unmeasured: u32,
     /// How much the next forgetting is of the usual one; 0 where the last block told nothing.
     forgetting: f32,
-    /// Measured blocks in a row with each parameter beyond its limit.
-    beyond: [u32; 3],
     outliers: u16,
     status: HealthStatus,
     samples: u32,
@@ -46,110 +49,29 @@ pub struct Health {
 mod stage {
     pub(super) const DONE: u32 = 0;
     pub(super) const PREDICT: u32 = 1;
-    pub(super) const UPDATE: u32 = 2;
-    pub(super) const WATCH: u32 = 3;
-    pub(super) const WATCH_MEASURED: u32 = 4;
+    pub(super) const PREPARE: u32 = 2;
+    pub(super) const UPDATE_FIRST: u32 = 3;
+    pub(super) const UPDATE_SECOND: u32 = 4;
     pub(super) const LEAVE_OUT: u32 = 5;
-}
-
-/// Sums over the samples of a block so far.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[repr(C)]
-struct Gathered {
-    /// Displacement of the last sample (m).
-    displacement: f32,
-    /// Nominal velocity at the last sample (m/s).
-    velocity: f32,
-    /// Nominal travel since the block before (m).
-    travel: f32,
-    travels: f32,
-    positions: f32,
-    forces: f32,
-    /// Forces times their ticks off the centre (N).
-    moment: f32,
-    slopes: f32,
-    lowest: f32,
-    highest: f32,
-    /// Tick of the next sample off the centre.
-    offset: f32,
-    ticks_left: u32,
-}
-
-/// A block of samples as one measurement.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[repr(C)]
-struct Block {
-    /// Nominal travel of the piston (m).
-    travel: f32,
-    /// Its part up to the block's centre (m).
-    centre: f32,
-    /// Mean displacement less that of the oil column (m).
-    position: f32,
-    /// Mean force (N).
-    force: f32,
-    /// Mean nominal velocity (m/s).
-    velocity: f32,
-    /// Mean rate of the force (N/s).
-    rate: f32,
-    /// Mean slope of the velocity law (m/(s N)).
-    slope: f32,
-    lowest: f32,
-    highest: f32,
-}
-
-impl Gathered {
-    /// Begins a block; last displacement and velocity stay.
-    #[inline(always)]
-    fn begin(&mut self, model: &HealthModel) {
-        self.travel = 0.0;
-        self.travels = 0.0;
-        self.positions = 0.0;
-        self.forces = 0.0;
-        self.moment = 0.0;
-        self.slopes = 0.0;
-        self.lowest = f32::MAX;
-        self.highest = -f32::MAX;
-        self.offset = -model.block_centre;
-        self.ticks_left = model.block_ticks;
-    }
+    pub(super) const FOLLOW: u32 = 6;
+    pub(super) const COMPARE_FIRST: u32 = 7;
+    pub(super) const COMPARE_SECOND: u32 = 8;
+    pub(super) const FORGET: u32 = 9;
 }
 
 impl Health {
     /// No estimate: of zero bits, not marked.
     pub(crate) const EMPTY: Self = Self {
-        gathered: Gathered {
-            displacement: 0.0,
-            velocity: 0.0,
-            travel: 0.0,
-            travels: 0.0,
-            positions: 0.0,
-            forces: 0.0,
-            moment: 0.0,
-            slopes: 0.0,
-            lowest: 0.0,
-            highest: 0.0,
-            offset: 0.0,
-            ticks_left: 0,
-        },
+        gathered: Gathered::EMPTY,
         mark: 0,
         stage: stage::DONE,
-        block: Block {
-            travel: 0.0,
-            centre: 0.0,
-            position: 0.0,
-            force: 0.0,
-            velocity: 0.0,
-            rate: 0.0,
-            slope: 0.0,
-            lowest: 0.0,
-            highest: 0.0,
-        },
+        block: Block::NONE,
         prepared: Prepared::NONE,
+        follow: Follow::NONE,
         filter: Filter::new([0.0; STATES], [0.0; STATES]),
-        scale: 0.0,
+        watch: Watch::EMPTY,
         unmeasured: 0,
         forgetting: 0.0,
-        beyond: [0; 3],
         outliers: 0,
         status: HealthStatus::empty(),
         samples: 0,
@@ -161,9 +83,9 @@ impl Health {
         let mut health = Self {
             mark: MARK,
             filter: Self::start(model),
-            scale: 1.0,
             ..Self::EMPTY
         };
+        health.watch.begin();
         // No sample is near it: the first one is taken without a count.
         health.gathered.displacement = f32::NAN;
         health.gathered.begin(model);
@@ -172,10 +94,10 @@ impl Health {
 
     fn start(model: &HealthModel) -> Filter {
         let [flow, compliance, half, lag] = model.start;
-        let [d1, d2, d3, d4] = model.start_variance;
+        let [d1, d2, d3, d4, d5, d6] = model.start_variance;
         Filter::new(
-            [0.0, flow, compliance, half, lag],
-            [UNKNOWN, d1, d2, d3, d4],
+            [0.0, flow, compliance, half, lag, 0.0, 0.0],
+            [UNKNOWN, d1, d2, d3, d4, d5, d6],
         )
     }
 
@@ -187,46 +109,47 @@ impl Health {
         let credible = (displacement - gathered.displacement).abs() <= model.largest_move_m
             && force.abs() <= model.largest_force_n;
         if credible {
-            let piece = model.piece(force);
-            let magnitude = force.abs();
-            let velocity = (piece.velocity + piece.velocity_slope * magnitude).copysign(force);
-            let oil = (piece.oil + piece.oil_slope * magnitude).copysign(force);
-            gathered.displacement = displacement;
-            gathered.travel += model.half_step_s * (velocity + gathered.velocity);
-            gathered.velocity = velocity;
-            gathered.travels += gathered.travel;
-            gathered.positions += displacement - oil;
-            gathered.forces += force;
-            gathered.moment += gathered.offset * force;
-            gathered.slopes += piece.velocity_slope;
-            gathered.lowest = if force < gathered.lowest {
-                force
-            } else {
-                gathered.lowest
-            };
-            gathered.highest = if force > gathered.highest {
-                force
-            } else {
-                gathered.highest
-            };
-            gathered.offset += 1.0;
+            gathered.add(model, displacement, force);
         } else {
             self.reject(displacement, model);
         }
         self.gathered.ticks_left = self.gathered.ticks_left.wrapping_sub(1);
-        if self.gathered.ticks_left == 0 {
-            self.end_block(model);
-            return;
-        }
         match self.stage {
             stage::PREDICT => self.predict(model),
-            stage::UPDATE => {
-                self.filter.update(&self.prepared);
-                self.stage = stage::WATCH_MEASURED;
+            stage::PREPARE => self.prepare(model),
+            stage::UPDATE_FIRST => {
+                self.filter.update_first(&mut self.prepared);
+                self.watch.correlate(&self.prepared);
+                self.stage = stage::UPDATE_SECOND;
+            }
+            stage::UPDATE_SECOND => {
+                self.filter.update_second(&mut self.prepared);
+                self.stage = stage::FOLLOW;
             }
             stage::LEAVE_OUT => self.leave_out(model),
-            stage::WATCH | stage::WATCH_MEASURED => self.watch(model),
+            stage::FOLLOW => {
+                let [_, flow, _, half, ..] = self.filter.state;
+                let is_idle = self.unmeasured > model.most_unmeasured;
+                self.follow.take(model, &self.block, [flow, half], is_idle);
+                self.stage = stage::COMPARE_FIRST;
+            }
+            stage::COMPARE_FIRST => {
+                let measured = self.unmeasured == 0;
+                self.watch.compare_first(model, &self.filter, measured);
+                self.stage = stage::COMPARE_SECOND;
+            }
+            stage::COMPARE_SECOND => {
+                let (measured, is_missing) = (self.unmeasured == 0, self.follow.is_missing());
+                let watch = &mut self.watch;
+                self.status =
+                    watch.compare_second(model, &self.filter, measured, is_missing, self.status);
+                self.stage = stage::FORGET;
+            }
+            stage::FORGET => self.forget(model),
             _ => {}
+        }
+        if self.gathered.ticks_left == 0 {
+            self.end_block(model);
         }
     }
 
@@ -234,18 +157,9 @@ impl Health {
     #[cold]
     #[inline(never)]
     fn reject(&mut self, displacement: f32, model: &HealthModel) {
-        let gathered = &mut self.gathered;
-        let first = gathered.displacement.is_nan();
-        // Of a block without any sample it is not known how far the piston went.
-        if gathered.ticks_left == 1 && gathered.offset <= -model.block_centre {
-            gathered.velocity = 0.0;
+        let first = self.gathered.displacement.is_nan();
+        if self.gathered.leave_out(model, displacement) {
             self.unmeasured = model.most_unmeasured;
-        }
-        gathered.travel += 2.0 * model.half_step_s * gathered.velocity;
-        gathered.lowest = -f32::MAX;
-        gathered.highest = f32::MAX;
-        if displacement.is_finite() && displacement.abs() <= 1e3 {
-            gathered.displacement = displacement;
         }
         if !first {
             self.status |= HealthStatus::INPUT_REJECTED;
@@ -255,81 +169,97 @@ impl Health {
 
     #[inline(always)]
     fn end_block(&mut self, model: &HealthModel) {
-        let gathered = &self.gathered;
-        self.block = Block {
-            travel: gathered.travel,
-            centre: gathered.travels * model.per_block,
-            position: gathered.positions * model.per_block,
-            force: gathered.forces * model.per_block,
-            velocity: gathered.travel * model.per_block_s,
-            rate: gathered.moment * model.rate_scale_per_s,
-            slope: gathered.slopes * model.per_block,
-            lowest: gathered.lowest,
-            highest: gathered.highest,
-        };
+        self.block = self.gathered.block(model);
         self.stage = stage::PREDICT;
+        self.gathered
+            .correct(self.filter.state[ZERO], self.filter.state[FRICTION]);
         self.gathered.begin(model);
     }
 
-    /// Moves the position over the block and prepares its measurement, where it is one.
+    /// Moves the position over the block, and makes a measurement of it where both ends were in contact.
     #[inline(always)]
     fn predict(&mut self, model: &HealthModel) {
         let block = &self.block;
+        let [_, flow, compliance, .., zero, friction] = self.filter.state;
         let variance = model.force_travel_variance * (block.slope * block.slope)
             + model.law_variance * (block.travel * block.travel);
-        self.filter.travel(block.travel, variance);
-        self.stage = stage::WATCH;
+        let zero_slip = flow * (block.slope * model.block_s);
+        let friction_slip = zero_slip.copysign(block.force);
+        // The block was corrected by what was known when it began.
+        let (zero, friction) = (zero - block.zero, friction - block.friction);
+        self.filter
+            .travel(block.travel, [zero_slip, friction_slip], variance);
+        self.filter.state[POSITION] -= zero_slip * zero + friction_slip * friction;
         self.unmeasured = self.unmeasured.saturating_add(1);
         let yields = block.lowest < -model.yield_force_n || block.highest > model.yield_force_n;
         if yields || self.unmeasured > model.most_unmeasured {
             self.filter.let_go(UNKNOWN);
         }
-        if yields {
-            return;
-        }
-        let sign = if block.lowest > model.contact_force_n {
-            1.0
+        self.stage = stage::FOLLOW;
+        let (sign, beyond) = if block.lowest > model.contact_force_n {
+            (1.0, block.lowest - model.contact_force_n)
         } else if block.highest < -model.contact_force_n {
-            -1.0
+            (-1.0, block.highest + model.contact_force_n)
         } else {
             return;
         };
-        let [_, flow, compliance, _, _] = self.filter.state;
-        let velocity = flow * block.velocity + compliance * block.rate;
-        let h = [block.centre - block.travel, block.force, sign, velocity];
-        let prepared = self
-            .filter
-            .prepare(block.position, h, model.measured_variance);
+        if yields || beyond * beyond < SURE_CONTACT * self.filter.variance(ZERO) {
+            return;
+        }
+        let zero_part = 0.5 * zero_slip - (compliance + model.oil_compliance);
+        let friction_part = 0.5 * friction_slip;
+        self.prepared.measured = block.position - zero_part * zero - friction_part * friction;
+        self.prepared.parts = [
+            block.centre - block.travel,
+            block.force,
+            sign,
+            flow * block.velocity + compliance * block.rate,
+            zero_part,
+            friction_part,
+        ];
+        self.stage = stage::PREPARE;
+    }
+
+    /// Prepares the measurement for the filter.
+    #[inline(always)]
+    fn prepare(&mut self, model: &HealthModel) {
+        self.filter
+            .prepare(&mut self.prepared, model.measured_variance);
+        let prepared = &self.prepared;
         let ratio = prepared.innovation * prepared.innovation / prepared.variance;
-        self.prepared = prepared;
         let is_expected = ratio < OUTLIER; // not so of NaN
         if !is_expected {
             self.stage = stage::LEAVE_OUT;
             return;
         }
-        self.stage = stage::UPDATE;
+        self.stage = stage::UPDATE_FIRST;
         self.outliers = 0;
         self.unmeasured = 0;
         self.samples = self.samples.saturating_add(model.block_ticks);
-        let bounded = if ratio < 9.0 { ratio } else { 9.0 };
-        self.scale += (bounded - self.scale) * SCALE_RATE;
+        let bounded = self.watch.expect(ratio);
         let tells = prepared.told > LEAST_TOLD * (model.growth - 1.0) * prepared.variance;
         let surprise = if bounded > 1.0 { bounded } else { 1.0 };
         self.forgetting = if tells { surprise } else { 0.0 };
     }
 
-    /// Lets the parameters' variances grow, the more the less the last block was expected, up to where they began.
+    /// Lets the parameters' variances grow, the more the less the last block was expected, up to where they began; also
+    /// where the ends have moved for long without contact, for what was known grows old.
     #[inline(always)]
     fn forget(&mut self, model: &HealthModel) {
+        self.stage = stage::DONE;
+        if self.unmeasured > model.most_unmeasured && self.follow.has_moved(model) {
+            self.forgetting = 1.0;
+        }
         let growth = 1.0 + (model.growth - 1.0) * self.forgetting;
-        let lag_growth = 1.0 + (model.lag_growth - 1.0) * self.forgetting;
+        // The lag may be wrong too where nothing fits.
+        let lag_growth = if self.watch.is_on_its_way() {
+            growth
+        } else {
+            1.0 + (model.lag_growth - 1.0) * self.forgetting
+        };
         self.forgetting = 0.0;
         for (place, most) in (1..STATES).zip(model.start_variance) {
-            let factor = if place + 1 < STATES {
-                growth
-            } else {
-                lag_growth
-            };
+            let factor = if place == LAG { lag_growth } else { growth };
             let grown = self.filter.diagonal[place] * factor;
             self.filter.diagonal[place] = if grown < most { grown } else { most };
         }
@@ -338,87 +268,24 @@ impl Health {
     #[cold]
     #[inline(never)]
     fn leave_out(&mut self, model: &HealthModel) {
-        self.stage = stage::WATCH;
+        self.stage = stage::FOLLOW;
         self.outliers = self.outliers.saturating_add(1);
+        self.forgetting = OUTLIER_SURPRISE;
         let damaged = !self.filter.state.iter().all(|number| number.is_finite())
             || !self.prepared.variance.is_finite();
         if damaged || self.outliers > MOST_OUTLIERS {
             self.filter = Self::start(model);
             self.outliers = 0;
-            self.scale = 1.0;
+            self.watch.begin();
             self.status |= HealthStatus::RESTARTED;
         }
     }
 
-    /// Compares the estimate with the baseline.
-    #[inline(always)]
-    fn watch(&mut self, model: &HealthModel) {
-        let measured = u32::from(self.stage == stage::WATCH_MEASURED);
-        self.stage = stage::DONE;
-        let (baseline, limits) = (&model.baseline, &model.limits);
-        let [_, flow, compliance, half, _] = self.filter.state;
-        let scale = self.scale();
-        let deviations = limits.deviations * limits.deviations;
-        let (mut little, mut alarms) = (false, HealthStatus::empty());
-        let [flow_blocks, stiffness_blocks, clearance_blocks] = &mut self.beyond;
-        let mut compare = |bit: HealthStatus,
-                           blocks: &mut u32,
-                           change: f32,
-                           limit: f32,
-                           variance: f32,
-                           sd: f32| {
-            let square = limit * limit;
-            little |= variance > (KNOWN * KNOWN) * square;
-            let differs = change * change > deviations * (variance + sd * sd);
-            *blocks = if change * change > square && differs {
-                *blocks + measured
-            } else {
-                0
-            };
-            if *blocks > model.alarm_blocks {
-                *blocks = model.alarm_blocks;
-                alarms |= bit;
-            }
-        };
-        compare(
-            HealthStatus::FLOW,
-            flow_blocks,
-            flow - baseline.flow_factor,
-            limits.flow_factor,
-            scale * self.filter.variance(1),
-            baseline.flow_factor_sd,
-        );
-        compare(
-            HealthStatus::STIFFNESS,
-            stiffness_blocks,
-            compliance - baseline.compliance_m_per_n,
-            limits.compliance * baseline.compliance_m_per_n,
-            scale * self.filter.variance(2),
-            baseline.compliance_sd_m_per_n,
-        );
-        compare(
-            HealthStatus::CLEARANCE,
-            clearance_blocks,
-            (half + half) - baseline.clearance_m,
-            limits.clearance_m,
-            4.0 * scale * self.filter.variance(3),
-            baseline.clearance_sd_m,
-        );
-        self.status |= alarms;
-        self.status.set(HealthStatus::LITTLE_EXCITATION, little);
-        self.forget(model);
-    }
-
-    /// By what variances are multiplied: more than 1 where the samples scatter more than the model says.
-    #[inline(always)]
-    fn scale(&self) -> f32 {
-        if self.scale > 1.0 { self.scale } else { 1.0 }
-    }
-
     /// What is known now. Square roots and divisions: not for every tick.
     pub fn reading(&self, model: &HealthModel) -> HealthReading {
-        let [_, flow, compliance, half, lag] = self.filter.state;
-        let sd = |row| libm::sqrtf(self.filter.variance(row) * self.scale());
+        let [_, flow, compliance, half, lag, zero, friction] = self.filter.state;
+        let scale = self.watch.scale();
+        let sd = |row| libm::sqrtf(self.filter.variance(row) * scale);
         // A compliance within its noise of none is a stiffness without bound.
         let least = 1e-3 * model.start[1];
         let bounded = if compliance > least {
@@ -429,14 +296,16 @@ impl Health {
         let stiffness = 1.0 / bounded;
         let estimate = |value, sd| Estimate { value, sd };
         HealthReading {
-            flow_factor: estimate(flow, sd(1)),
-            stiffness_n_per_m: estimate(stiffness, sd(2) * stiffness * stiffness),
-            clearance_m: estimate(2.0 * half, 2.0 * sd(3)),
-            lag_s: estimate(lag, sd(4)),
-            compliance_m_per_n: estimate(compliance, sd(2)),
+            flow_factor: estimate(flow, sd(FLOW)),
+            stiffness_n_per_m: estimate(stiffness, sd(COMPLIANCE) * stiffness * stiffness),
+            clearance_m: estimate(2.0 * half, 2.0 * sd(CLEARANCE)),
+            lag_s: estimate(lag, sd(LAG)),
+            compliance_m_per_n: estimate(compliance, sd(COMPLIANCE)),
             samples: self.samples,
             rejected: self.rejected,
             status: self.status,
+            force_zero_n: estimate(zero, sd(ZERO)),
+            added_friction_n: estimate(friction, sd(FRICTION)),
         }
     }
 

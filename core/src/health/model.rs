@@ -6,7 +6,7 @@ use zerocopy::{FromBytes, Immutable, IntoBytes};
 pub(crate) const MARK: u32 = 0x4d48_4144;
 
 /// Fewest ticks of a block: each stage of the filter takes one.
-pub(crate) const FEWEST_TICKS: u32 = 4;
+pub(crate) const FEWEST_TICKS: u32 = 8;
 
 /// Pieces of a side: four to an octave of force, the first from no force.
 pub(crate) const PIECES: usize = 64;
@@ -149,10 +149,21 @@ pub struct HealthModel {
     pub(crate) most_unmeasured: u32,
     /// Measured blocks in a row beyond a limit that make an alarm.
     pub(crate) alarm_blocks: u32,
-    /// What an estimate begins with: flow factor, compliance, half clearance, lag.
+    /// What an estimate begins with: flow factor, compliance, half clearance, lag; zero of the force and added friction
+    /// begin at 0.
     pub(crate) start: [f32; 4],
-    /// The variances it begins with and never exceeds.
-    pub(crate) start_variance: [f32; 4],
+    /// The variances it begins with and never exceeds, those of the force's zero and of friction last.
+    pub(crate) start_variance: [f32; 6],
+    /// Mean compliance of the oil column (m/N).
+    pub(crate) oil_compliance: f32,
+    /// Time of a block (s).
+    pub(crate) block_s: f32,
+    /// Moves that may be noise (m).
+    pub(crate) still_m: f32,
+    /// Move beyond the clearance for which the force is missing, whenever contact was seen last (m).
+    pub(crate) missing_m: f32,
+    /// Zero of the force that is an alarm (N).
+    pub(crate) zero_limit_n: f32,
     pub(crate) baseline: Baseline,
     pub(crate) limits: HealthLimits,
     /// Extension, compression.

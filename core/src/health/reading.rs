@@ -16,6 +16,20 @@ bitflags::bitflags! {
         const INPUT_REJECTED = 1 << 4;
         /// The estimate itself was damaged or contradicted for long, and began anew.
         const RESTARTED = 1 << 5;
+        /// The damper moved and the force did not follow: no force, or one that never changes, where the model has
+        /// force. A dead or stuck force channel, oil full of air, a clearance wider than the motion: alarm.
+        const NO_FORCE = 1 << 6;
+        /// The zero of the force sensor is off: alarm. The estimates are corrected for it.
+        const FORCE_ZERO = 1 << 7;
+        /// The channels are further apart in time than is known beforehand; stiffness and clearance are then wrong. Not
+        /// latched.
+        const LATE = 1 << 8;
+        /// Two or three of flow, stiffness and clearance differ from the baseline: wear seldom does that, a wrong scale
+        /// of a sensor, a stuck displacement or a reversed sign does. Not latched.
+        const SEVERAL_CHANGED = 1 << 9;
+        /// What is measured does not follow from the model whatever its parameters are, or the estimate is still on its
+        /// way after a change. Not latched.
+        const MISFIT = 1 << 10;
     }
 }
 
@@ -66,9 +80,27 @@ pub struct HealthReading {
     pub rejected: u32,
     /// Status.
     pub status: HealthStatus,
+    /// Force that is measured where there is none (N): the zero of the force sensor. The other estimates are corrected
+    /// for it.
+    pub force_zero_n: Estimate,
+    /// Friction of the seals beyond the nominal one (N). The other estimates are corrected for it.
+    pub added_friction_n: Estimate,
+}
+
+impl HealthStatus {
+    /// The bits that say that intervals may not contain the truth now.
+    pub const DOUBTS: Self = Self::NO_FORCE
+        .union(Self::LATE)
+        .union(Self::SEVERAL_CHANGED)
+        .union(Self::MISFIT);
 }
 
 impl HealthReading {
+    /// Whether nothing says that its intervals may not contain the truth.
+    pub fn is_trusted(&self) -> bool {
+        !self.status.intersects(HealthStatus::DOUBTS)
+    }
+
     /// Damping force over the nominal one at the same velocity were the law linear: the inverse of the flow factor.
     pub fn damping_factor(&self) -> Estimate {
         let value = 1.0 / self.flow_factor.value;

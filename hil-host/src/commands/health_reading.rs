@@ -17,6 +17,12 @@ pub struct Told {
     pub samples: u32,
     pub rejected: u32,
     pub status: Vec<String>,
+    pub force_zero_n: Estimate,
+    pub added_friction_n: Estimate,
+    /// Whether nothing says that the intervals may not contain the truth.
+    pub trusted: bool,
+    #[serde(skip)]
+    pub bits: HealthStatus,
 }
 
 impl From<&HealthReading> for Told {
@@ -32,6 +38,10 @@ impl From<&HealthReading> for Told {
             samples: reading.samples,
             rejected: reading.rejected,
             status: names.map(|(name, _)| name.to_lowercase()).collect(),
+            force_zero_n: reading.force_zero_n,
+            added_friction_n: reading.added_friction_n,
+            trusted: reading.is_trusted(),
+            bits: reading.status,
         }
     }
 }
@@ -44,11 +54,6 @@ impl Told {
 
     /// Whether the status has this.
     pub fn has(&self, status: HealthStatus) -> bool {
-        let mut names = status.iter_names();
-        names.any(|(name, _)| {
-            self.status
-                .iter()
-                .any(|told| told.eq_ignore_ascii_case(name))
-        })
+        self.bits.contains(status)
     }
 }

@@ -8,7 +8,9 @@ use super::page::{Figure, document, figure, footer, panel, tiles};
 use super::plot::curves::Curve;
 use super::plot::sheet::Panel;
 use super::plot::style::{AMBER_LINE, BLUE_LINE, PALE};
-use crate::study::health::{ALARMS, History, in_words, stiffness_in_words};
+use crate::study::health::{
+    History, alarm_in_words, doubts_in_words, in_words, stiffness_in_words,
+};
 
 /// Deviations that a band is wide on either side.
 const BAND: f64 = 2.0;
@@ -55,7 +57,7 @@ pub fn page(title: &str, history: &History) -> Result<String, DrawError> {
     Ok(document("Dashpot: health of a damper", &body))
 }
 
-fn shown(history: &History) -> [Shown; 4] {
+fn shown(history: &History) -> [Shown; 6] {
     let (baseline, limits) = (history.model.baseline(), history.model.limits());
     let around = |centre: f32, limit: f32| {
         let (centre, limit) = (f64::from(centre), f64::from(limit));
@@ -96,6 +98,22 @@ fn shown(history: &History) -> [Shown; 4] {
             unit: "ms",
             scale: 1e3,
             of: |reading| reading.lag_s,
+            baseline: None,
+            limits: None,
+        },
+        Shown {
+            label: "zero of the force",
+            unit: "N",
+            scale: 1.0,
+            of: |reading| reading.force_zero_n,
+            baseline: None,
+            limits: None,
+        },
+        Shown {
+            label: "added friction",
+            unit: "N",
+            scale: 1.0,
+            of: |reading| reading.added_friction_n,
             baseline: None,
             limits: None,
         },
@@ -177,23 +195,22 @@ fn headline(history: &History, shown: &[Shown]) -> Markup {
 }
 
 fn alarms(history: &History) -> Markup {
-    let name = |alarm| {
-        ALARMS
-            .iter()
-            .find(|(known, _)| *known == alarm)
-            .map_or("", |(_, name)| name)
-    };
     html! {
         @if history.alarms.is_empty() {
             p { "No alarm." }
         } @else {
             ul {
                 @for (alarm, time_s) in &history.alarms {
-                    li { "Alarm: " (name(*alarm)) " at " (format!("{time_s:.2}")) " s." }
+                    @if let Some(last) = history.last() {
+                        li { "Alarm: " (alarm_in_words(*alarm, last)) ", since " (format!("{time_s:.2}")) " s." }
+                    }
                 }
             }
         }
         @if let Some(last) = history.last() {
+            @for doubt in doubts_in_words(last.status) {
+                p { "At the end: " (doubt) "." }
+            }
             p {
                 (last.samples) " samples told something: both ends in contact, not yielding. " (last.rejected)
                 " were not finite or not credible."

@@ -116,11 +116,69 @@ pub struct History {
 }
 
 /// The alarms and what they are called.
-pub const ALARMS: [(HealthStatus, &str); 3] = [
+pub const ALARMS: [(HealthStatus, &str); 5] = [
     (HealthStatus::FLOW, "flow"),
     (HealthStatus::STIFFNESS, "stiffness"),
     (HealthStatus::CLEARANCE, "clearance"),
+    (HealthStatus::NO_FORCE, "no force"),
+    (HealthStatus::FORCE_ZERO, "force zero"),
 ];
+
+/// The name of an alarm; empty where it is none.
+pub fn alarm_name(alarm: HealthStatus) -> &'static str {
+    let known = ALARMS.iter().find(|(known, _)| *known == alarm);
+    known.map_or("", |(_, name)| name)
+}
+
+/// An alarm as a sentence without its end; `last` is the reading at the end.
+pub fn alarm_in_words(alarm: HealthStatus, last: &HealthReading) -> String {
+    if alarm == HealthStatus::NO_FORCE {
+        return "NO FORCE: the damper moved and the measured force did not follow. The force channel is dead or stuck, \
+                the oil is full of air, or the clearance is wider than the motion"
+            .into();
+    }
+    if alarm == HealthStatus::FORCE_ZERO {
+        return format!(
+            "the zero of the force sensor is off by {} N; the other estimates are corrected for it",
+            whole_in_words(last.force_zero_n)
+        );
+    }
+    format!("{} differs from the baseline", alarm_name(alarm))
+}
+
+/// Why the intervals of a reading may not contain the truth, a sentence each; none where it can be trusted.
+pub fn doubts_in_words(status: HealthStatus) -> Vec<&'static str> {
+    let sentences = [
+        (
+            HealthStatus::NO_FORCE,
+            "do not trust the estimates: the force did not follow the displacement",
+        ),
+        (
+            HealthStatus::LATE,
+            "do not trust stiffness and clearance: force and displacement are further apart in time than is known; \
+             measure the lag and give it as --lag-s",
+        ),
+        (
+            HealthStatus::SEVERAL_CHANGED,
+            "do not trust the estimates: two or more of flow, stiffness and clearance have changed together, as with a \
+             wrong scale or sign of a sensor or a stuck displacement; check the sensors",
+        ),
+        (
+            HealthStatus::MISFIT,
+            "do not trust the estimates: what is measured does not follow from the model of this damper",
+        ),
+    ];
+    let found = sentences.into_iter();
+    found
+        .filter(|(bit, _)| status.contains(*bit))
+        .map(|(_, sentence)| sentence)
+        .collect()
+}
+
+/// An estimate in whole units and its standard deviation: `205 ± 7`.
+pub fn whole_in_words(estimate: Estimate) -> String {
+    format!("{:.0} ± {:.0}", estimate.value, estimate.sd)
+}
 
 /// An estimate, scaled to its unit, and its standard deviation: `1.604 ± 0.012`.
 pub fn in_words(estimate: Estimate, scale: f32) -> String {

@@ -69,6 +69,8 @@ impl<'a> Watch<'a> {
                     reading.stiffness_n_per_m,
                     reading.clearance_m,
                     reading.lag_s,
+                    reading.force_zero_n,
+                    reading.added_friction_n,
                 ];
                 for Estimate { value, sd } in estimates {
                     digest.add(value.to_le_bytes());

@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 use std::path::PathBuf;
 
-use dashpot_core::health::HealthReading;
+use dashpot_core::health::{HealthReading, HealthStatus};
 use dashpot_core::link::MOST_MEASURED;
 use serde::Serialize;
 
@@ -21,7 +21,7 @@ use crate::commands::sensors::{SensorArguments, model};
 use crate::commands::step_size::StepSize;
 use crate::files::recording::{Gaps, Measurement};
 use crate::files::{damper, input};
-use crate::study::health::in_words;
+use crate::study::health::{doubts_in_words, in_words, whole_in_words};
 use crate::study::tick_grid::MeasuredGrid;
 
 /// Tell the health of the real damper that a place stands for; load its model and feed a measurement first.
@@ -224,6 +224,16 @@ fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
                 told.status.join(", ")
             }
         )?;
+        if told.has(HealthStatus::FORCE_ZERO) {
+            writeln!(
+                out,
+                "            the zero of the force sensor is off by {} N; the estimates are corrected for it",
+                whole_in_words(told.force_zero_n)
+            )?;
+        }
+        for doubt in doubts_in_words(told.bits) {
+            writeln!(out, "            {doubt}")?;
+        }
         if told.rejected > 0 {
             writeln!(
                 out,

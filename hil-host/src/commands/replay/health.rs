@@ -15,7 +15,9 @@ use crate::commands::streams;
 use crate::files::input;
 use crate::files::recording::Measurement;
 use crate::report::health::page;
-use crate::study::health::{ALARMS, History, Noise, in_words, watch};
+use crate::study::health::{
+    History, Noise, alarm_in_words, alarm_name, doubts_in_words, in_words, watch, whole_in_words,
+};
 use crate::study::tick_grid::MeasuredGrid;
 
 /// Samples that the noise is found from, where it is not given.
@@ -47,6 +49,8 @@ impl HealthArguments {
 struct Alarm {
     parameter: &'static str,
     time_s: f64,
+    #[serde(skip)]
+    sentence: String,
 }
 
 /// What was found.
@@ -226,13 +230,10 @@ fn history(arguments: &ReplayArguments, model: &HealthModel) -> Outcome<History>
 
 impl HealthReport {
     fn new(last: &HealthReading, history: &History, noise: Noise, page: String) -> Self {
-        let name = |alarm: HealthStatus| {
-            let known = ALARMS.iter().find(|(known, _)| *known == alarm);
-            known.map_or("", |(_, name)| name)
-        };
         let alarms = history.alarms.iter().map(|(alarm, time_s)| Alarm {
-            parameter: name(*alarm),
+            parameter: alarm_name(*alarm),
             time_s: *time_s,
+            sentence: alarm_in_words(*alarm, last),
         });
         Self {
             displacement_noise_m: noise.displacement_m,
@@ -267,18 +268,31 @@ impl HealthReport {
             ),
             ("clearance 2a", in_words(self.told.clearance_m, 1e3), " mm"),
             ("lag of the force", in_words(self.told.lag_s, 1e3), " ms"),
+            (
+                "zero of the force",
+                whole_in_words(self.told.force_zero_n),
+                " N",
+            ),
+            (
+                "added friction",
+                whole_in_words(self.told.added_friction_n),
+                " N",
+            ),
         ] {
             writeln!(out, "{name:<22} {told:>20}{unit}")?;
         }
         for alarm in &self.alarms {
             writeln!(
                 out,
-                "ALARM: {} differs from the baseline, since {:.1} s",
-                alarm.parameter, alarm.time_s
+                "ALARM: {}, since {:.1} s",
+                alarm.sentence, alarm.time_s
             )?;
         }
         if self.alarms.is_empty() {
             writeln!(out, "no alarm")?;
+        }
+        for doubt in doubts_in_words(self.told.bits) {
+            writeln!(out, "warning: {doubt}")?;
         }
         if self.told.has(HealthStatus::LITTLE_EXCITATION) {
             writeln!(
