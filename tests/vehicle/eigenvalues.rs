@@ -213,7 +213,7 @@ fn magnitude([re, im]: [f64; 2]) -> f64 {
 }
 
 /// Rounding errors in the matrix that two right solutions may differ by.
-const ROUNDINGS: f64 = 50.0;
+const ROUNDINGS: f64 = 5.0;
 
 /// How far the eigenvalues of a vehicle are from LAPACK's.
 struct Distance {
@@ -271,5 +271,5 @@ fn ten_thousand_random_vehicles_have_lapacks_eigenvalues() {
     println!("{plain} of 10000 within 1e-9 of each eigenvalue, {relative:.1e} at most");
     println!("{of_allowed:.2} of what is allowed at most");
     assert!(of_allowed <= 1.0, "{of_allowed}");
-    assert!(plain >= 9_900, "{plain}");
+    assert!(plain >= 9_000, "{plain}");
 }
