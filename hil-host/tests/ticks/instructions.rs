@@ -107,7 +107,13 @@ fn no_tick_takes_many_more_instructions_than_the_others() {
     // The last is written when the program ends, and has nothing to count.
     let ticks: Vec<u64> = (0..TICKS).filter(|tick| is_counted(*tick)).collect();
     assert_eq!(counts.len(), ticks.len() + 1, "{error}");
-    let counts = &counts[..ticks.len()];
+    // The first count after a start lacks what Callgrind had counted when it stopped.
+    let (ticks, counts): (Vec<u64>, Vec<u64>) = ticks
+        .into_iter()
+        .zip(counts)
+        .filter(|(tick, _)| WINDOWS.iter().all(|middle| *tick != middle - AROUND + 1))
+        .unzip();
+    assert_eq!(counts.len() as u64, (2 * AROUND - 1) * WINDOWS.len() as u64);
     let mut sorted = counts.to_vec();
     sorted.sort_unstable();
     let median = sorted[sorted.len() / 2];
