@@ -329,12 +329,12 @@ fn the_revision_is_computed_as_the_document_says() {
             assert_ne!(built.revision(), first);
         }
         let image = built.to_image();
-        assert_eq!(image.len(), 6720);
+        assert_eq!(image.len(), 6728);
         let mut revised = image;
-        revised[52..60].fill(0);
+        revised[60..68].fill(0);
         revise_and_sign::<f32>(&mut revised);
         assert_eq!(revised, image);
-        assert_eq!(image[52..56], built.revision().to_le_bytes());
+        assert_eq!(image[60..64], built.revision().to_le_bytes());
     }
 }
 
