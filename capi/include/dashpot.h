@@ -598,7 +598,7 @@ dashpot_error dashpot_health_set_limits(dashpot_health_model *model,
 dashpot_error dashpot_health_init(dashpot_health *health, const dashpot_health_model *model);
 
 /**
- * Takes the sample of a tick, at most 281 instructions. One that is not finite or not credible is no error: it is left out, latched in the
+ * Takes the sample of a tick, at most 285 instructions. One that is not finite or not credible is no error: it is left out, latched in the
  * status and counted.
  *
  * @param model           made by `dashpot_health_model_init`

@@ -8,12 +8,14 @@ use super::reading::HealthStatus;
 const RATE: f32 = 1.0 / 128.0;
 /// Largest square of an innovation over its variance in the averages.
 const MOST: f32 = 9.0;
+/// Largest product of neighbouring innovations over their variance in the averages.
+const MOST_PRODUCT: f32 = 3.0;
 /// Mean product of neighbouring innovations over their variance above which the model does not fit.
 const MISFIT: f32 = 0.5;
 /// The same below which it fits again.
 const FITS_AGAIN: f32 = 0.2;
 /// The same above which changes are no alarm yet: the estimate is on its way.
-const ON_ITS_WAY: f32 = 1.5;
+const ON_ITS_WAY: f32 = 1.0;
 /// The same that is chance.
 const CHANCE: f32 = 0.1;
 /// By how much the rest makes variances greater: errors that repeat do not average out.
@@ -85,8 +87,16 @@ impl Watch {
     #[inline(always)]
     pub(crate) fn correlate(&mut self, prepared: &Prepared) {
         let product = self.last * prepared.innovation / prepared.variance;
-        let product = if product < MOST { product } else { MOST };
-        let product = if product > -MOST { product } else { -MOST };
+        let product = if product < MOST_PRODUCT {
+            product
+        } else {
+            MOST_PRODUCT
+        };
+        let product = if product > -MOST_PRODUCT {
+            product
+        } else {
+            -MOST_PRODUCT
+        };
         self.correlation += (product - self.correlation) * RATE;
         self.last = prepared.innovation;
     }
