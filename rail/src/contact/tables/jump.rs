@@ -13,7 +13,7 @@ const LOADS: [f64; 2] = [0.5, 1.0];
 const ALLOWED_SHIFT_M: f64 = 30e-6;
 
 /// Part of the load by which the force of tables may jump beyond what the stiffness allows. docs/contact.md says how it was chosen.
-pub const MAX_JUMP: f64 = 0.15;
+pub const MAX_JUMP: f64 = 0.3;
 
 /// Smallest change between neighbouring nodes, beyond what the stiffness allows, whose cause is looked for, over the load.
 const SUSPECT: f64 = 0.02;
