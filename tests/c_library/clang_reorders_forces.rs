@@ -53,7 +53,7 @@ fn the_forces_keep_their_bits_whatever_clang_may_reorder() {
     }
     for options in OPTIONS {
         for level in ["-O2", "-O3"] {
-            let code = run(&[&[level], options].concat(), None, |text| text);
+            let code = run(&[&[level][..], options].concat(), None, |text| text);
             assert_eq!(code, 0, "{level} {options:?}");
         }
     }
@@ -67,7 +67,7 @@ fn on_64_bit_arm_too() {
     }
     let target = ["--target=aarch64-linux-gnu", "-static", "-O2"];
     for options in &OPTIONS[..3] {
-        let line = [&target[..], options].concat();
+        let line = [&target[..], *options].concat();
         let code = run(&line, Some(QEMU_AARCH64.program), |text| text);
         assert_eq!(code, 0, "{options:?}");
     }
@@ -90,7 +90,7 @@ fn without_the_pragmas_the_digest_tells() {
         kept.join("\n") + "\n"
     };
     for options in &OPTIONS[..2] {
-        let code = run(&[&["-O2"], *options].concat(), None, without);
+        let code = run(&[&["-O2"][..], *options].concat(), None, without);
         assert_eq!(code, 1, "{options:?}");
     }
 }

@@ -2,13 +2,13 @@
 
 use super::row::Arithmetic;
 
-/// SHA-256, its first 16 digits, of the results of short runs with fused multiplication and without. A test
+/// SHA-256, its first 16 digits, of the results of short runs with fused multiplication and without, on x86-64. A test
 /// recomputes and writes them (`tests/vehicle_validation/physics.rs`): a change of the model changes them, a change
 /// of words does not.
 const FUSED: &str = "c916e7a2dbf2f30d";
 const SEPARATE: &str = "4da9014a24aa4a7d";
 
-/// What tells rows of different physics apart; rows with the same digest and the same arithmetic have the same bits.
+/// What tells rows of different physics apart: the digest of the model's behaviour with an arithmetic.
 ///
 /// ```
 /// use dashpot_hil::study::sweep::{Arithmetic, physics};
