@@ -159,6 +159,8 @@ fn the_longest_messages_fit() {
         clearance_m: bound,
         lag_s: bound,
         compliance_m_per_n: bound,
+        force_zero_n: bound,
+        added_friction_n: bound,
         samples: tick,
         rejected: tick,
         status: HealthStatus::from_bits_retain(u16::MAX),

@@ -10,7 +10,7 @@ use crate::contact::{Status, WheelsetForces};
 use crate::vehicle::error::VehicleError;
 
 /// Number of bodies of a state, and all of its lengths.
-pub(super) type Shape = [usize; 29];
+pub(super) type Shape = [usize; 30];
 
 /// The state of a running vehicle: plain data. A clone saves it, [`Clone::clone_from`] restores it without allocation, and a step from
 /// the same state gives the same bits. It belongs to the vehicle that made it: another one does not step it ([`Stop::OtherVehicle`]).

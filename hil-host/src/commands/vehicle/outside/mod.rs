@@ -206,7 +206,7 @@ impl Outside {
             None => (None, Vec::new()),
         };
         let mut report = OutsideReport::new(&self.choices, case, targets, effect);
-        let histories = self.recorded.iter().map(|(_, history)| history);
+        let histories = self.lines.recorded.iter().map(|(_, history)| history);
         report.add_unended(histories);
         Ok((report, forces))
     }
