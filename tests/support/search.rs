@@ -218,7 +218,7 @@ pub fn search(evaluations: usize, seed: u64, mut on_worse: impl FnMut(&Case) + S
     };
     std::thread::scope(|scope| {
         for _ in 0..std::thread::available_parallelism().map_or(2, usize::from) {
-            scope.spawn(&work);
+            scope.spawn(work);
         }
     });
     let (found, _) = found.into_inner().unwrap_or_default();

@@ -73,13 +73,16 @@ impl<'a> StepErrors<'a> {
         [0, 1].map(|scalar| largest[scalar].promised(limit_n, LEAST_ERROR_RATIO[scalar]))
     }
 
-    fn steppers(&self) -> [Box<dyn Fn(&[f64]) -> Vec<f64> + Sync + '_>; 2] {
+    fn steppers(&self) -> [Stepper<'_>; 2] {
         [
             Box::new(|x| stepped(&self.double, x)),
             Box::new(|x| stepped(&self.single, x)),
         ]
     }
 }
+
+/// From displacements (m) at the ticks to forces (N).
+type Stepper<'a> = Box<dyn Fn(&[f64]) -> Vec<f64> + Sync + 'a>;
 
 /// Forces (N) at each displacement (m), from rest at the first.
 fn stepped<T: Real>(damper: &Damper<T>, displacements_m: &[f64]) -> Vec<f64> {

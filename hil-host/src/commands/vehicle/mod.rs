@@ -206,7 +206,7 @@ fn follow(
     let mut history = History::new(all.clone(), run.ticks(), case.step_s);
     let mut indexer = Indexer::new(case);
     let mut watch = ValidityWatch::new(case);
-    let (mut exchange, mut beside) = outside.map(Outside::parts).unzip();
+    let (exchange, mut beside) = outside.map(Outside::parts).unzip();
     let bar = progress::bar(run.ticks(), "vehicle");
     let _ends_gently = interruption::end_gently();
     let (giver, taker) = handover(vec![TickRecord::new(run); RECORDS]);
@@ -221,9 +221,7 @@ fn follow(
         std::thread::scope(|scope| {
             let stepping = std::thread::Builder::new()
                 .name("ticks".into())
-                .spawn_scoped(scope, || {
-                    step_through(case, run, exchange.as_deref_mut(), realtime, giver)
-                });
+                .spawn_scoped(scope, || step_through(case, run, exchange, realtime, giver));
             let stepping = stepping.map_err(|error| {
                 Failure::new(format!("the thread of the ticks cannot start: {error}"))
             })?;

@@ -95,7 +95,7 @@ impl Calibration {
         candidates.extend(self.wider(finding));
         if matches!(finding, Finding::Missed { .. } | Finding::AtBound { .. }) {
             candidates.extend(self.with_more_numbers());
-            candidates.extend(self.from_presets());
+            candidates.extend(self.started_from_presets());
         }
         candidates
     }
@@ -208,10 +208,10 @@ impl Calibration {
     }
 
     /// From each other preset. One reduced damper stands for all where its usual numbers vary, beside the same that never saturates.
-    fn from_presets(&self) -> Vec<Candidate> {
+    fn started_from_presets(&self) -> Vec<Candidate> {
         let presets = PRESETS
             .iter()
-            .filter_map(|(name, _)| self.from_preset(name));
+            .filter_map(|(name, _)| self.started_from_preset(name));
         let mut presets: Vec<Candidate> = presets.collect();
         let is_reduced =
             |candidate: &Candidate| candidate.added.iter().any(|key| key == REDUCED[0]);
@@ -228,7 +228,7 @@ impl Calibration {
     }
 
     /// From another preset, with the same numbers where it has them and with its usual ones where not.
-    fn from_preset(&self, name: &str) -> Option<Candidate> {
+    fn started_from_preset(&self, name: &str) -> Option<Candidate> {
         let damper = Keyed::new(name, &*load(name, &[]).ok()?).ok()?;
         if damper.name() == self.damper.name() {
             return None;
