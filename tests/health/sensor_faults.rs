@@ -11,7 +11,7 @@ use crate::sensors::{CONTAINED, Run, Wrong};
 
 const SEEDS: u64 = 10;
 /// Time (s) after which each reading must contain the truth or be in doubt.
-const SETTLED_S: f64 = 30.0;
+const SETTLED_S: f64 = 35.0;
 
 /// Faults, and whether what they do to the estimates must be in doubt or contained. The others are those that cannot be
 /// told from wear.

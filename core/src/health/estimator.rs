@@ -294,6 +294,11 @@ impl Health {
             least
         };
         let stiffness = 1.0 / bounded;
+        // No damper drives its piston: a reversed sign does.
+        let mut status = self.status;
+        if flow <= 0.0 {
+            status |= HealthStatus::MISFIT;
+        }
         let estimate = |value, sd| Estimate { value, sd };
         HealthReading {
             flow_factor: estimate(flow, sd(FLOW)),
@@ -303,7 +308,7 @@ impl Health {
             compliance_m_per_n: estimate(compliance, sd(COMPLIANCE)),
             samples: self.samples,
             rejected: self.rejected,
-            status: self.status,
+            status,
             force_zero_n: estimate(zero, sd(ZERO)),
             added_friction_n: estimate(friction, sd(FRICTION)),
         }
