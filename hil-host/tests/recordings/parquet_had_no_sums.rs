@@ -110,7 +110,7 @@ fn tables_have_sums_of_their_numbers() {
     let rows: String = (0..100).map(|i| format!("{i},0.5,{},a\n", 2 * i)).collect();
     let text = format!("time_s,displacement_m,force_n,note\n{rows}100,,200,b\n");
     std::fs::write(&csv, text).unwrap();
-    columns::write(&csv, &path).unwrap();
+    columns::write(&csv, &path, &[]).unwrap();
     let reader = SerializedFileReader::new(File::open(&path).unwrap()).unwrap();
     let metadata = reader.metadata().file_metadata().key_value_metadata();
     let metadata = metadata
