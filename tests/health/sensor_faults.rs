@@ -60,7 +60,7 @@ const FAULTS: [(&str, Wrong, bool); 34] = [
     ("force stuck at 0", Wrong::ForceStuck(0.0), true),
     ("force stuck at 3000 N", Wrong::ForceStuck(3000.0), true),
     ("displacement stuck", Wrong::DisplacementStuck, true),
-    ("force reversed", Wrong::ForceReversed, true),
+    ("force reversed", Wrong::ForceReversed, false),
     ("displacement reversed", Wrong::DisplacementReversed, true),
     ("force dead, noise alone", Wrong::ForceDead, true),
     ("seal friction + 100 N", Wrong::Friction(100.0), true),
