@@ -41,7 +41,7 @@ static float sensor(uint32_t damper, uint32_t at)
         return failed;
     }
     if (damper == 2U && at == 4500U) {
-        return 1.0F;
+        return 0.01F;
     }
     return (at / half) % 2U == 0U ? arc : -arc;
 }

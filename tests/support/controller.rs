@@ -98,7 +98,7 @@ fn sensor(number: u32, tick: u32) -> f32 {
     let arc = (in_arc * (half - in_arc)) as f32 * (0.012 / (half * half) as f32);
     match (number, tick) {
         (1, 2500..2520) => f32::NAN,
-        (2, 4500) => 1.0,
+        (2, 4500) => 0.01,
         _ if (tick / half).is_multiple_of(2) => arc,
         _ => -arc,
     }
