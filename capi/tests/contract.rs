@@ -71,12 +71,13 @@ fn restore(damper: &DashpotDamper, state: &mut DashpotState, saved: &[u8]) -> Da
     unsafe { dashpot_state_restore(state, damper, saved.as_ptr(), saved.len()) }
 }
 
-/// 2 mm at 2 Hz, with values a sensor may give and a jump.
+/// 2 mm at 2 Hz, with values a sensor may give jumps out of range and within it.
 fn displacement(tick: u32) -> f32 {
     match tick {
         200 => f32::NAN,
         300 => f32::NEG_INFINITY,
         400 => 5.0,
+        600 => 0.01,
         // Arcs of 2 mm, by operations that are the same wherever they run.
         _ => {
             let phase = (tick % 500) as f32 / 250.0 - 1.0;

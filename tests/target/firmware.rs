@@ -188,6 +188,8 @@ fn a_tick_with_everything_the_link_takes_keeps_the_budget() {
     let most = number("most_clock_ticks") * instructions_per_clock_tick;
     assert!(most <= BUDGET_1_KHZ, "{most}");
     assert!(most <= BUDGET_10_KHZ, "{most}");
+    let limited = number("limited_clock_ticks") * instructions_per_clock_tick;
+    assert!(most < limited && limited <= BUDGET_1_KHZ, "{limited}");
     assert_eq!(
         number("health_accepted"),
         1001.0,
@@ -206,6 +208,7 @@ fn a_tick_with_everything_the_link_takes_keeps_the_budget() {
     let share = |frequency_hz: f64| 100.0 * most * frequency_hz / 400e6;
     let cost = format!(
         "| {compiler} | |\n|---|---|\n| instructions, mean | {mean:.0} |\n| instructions, most | {most:.0} |\n\
+         | instructions where the input of every damper is limited | {limited:.0} |\n\
          | share at 1 kHz, at 10 kHz | {:.1} %, {:.0} % |\n| bytes in, out | {bytes_in:.0}, {bytes_out:.0} |\n\
          | a slice of loading a model of health, the most | {slice:.0} |\n\
          | a request of 8 measured samples, the most | {measure:.0} |\n\

@@ -67,7 +67,7 @@ impl Health {
         stage: stage::DONE,
         block: Block::NONE,
         prepared: Prepared::NONE,
-        follow: Follow::NONE,
+        follow: Follow::EMPTY,
         filter: Filter::new([0.0; STATES], [0.0; STATES]),
         watch: Watch::EMPTY,
         unmeasured: 0,
@@ -86,6 +86,7 @@ impl Health {
             ..Self::EMPTY
         };
         health.watch.begin();
+        health.follow.begin();
         // No sample is near it: the first one is taken without a count.
         health.gathered.displacement = f32::NAN;
         health.gathered.begin(model);

@@ -33,9 +33,9 @@ pub(crate) struct Follow {
 }
 
 impl Follow {
-    /// Before the first block.
-    pub(crate) const NONE: Self = Self {
-        force: f32::MAX,
+    /// Of zero bits.
+    pub(crate) const EMPTY: Self = Self {
+        force: 0.0,
         travel: 0.0,
         path: 0.0,
         lowest: 0.0,
@@ -43,6 +43,11 @@ impl Follow {
         blocks: 0,
         beyond: 0,
     };
+
+    /// Before the first block: no force is near this one.
+    pub(crate) fn begin(&mut self) {
+        self.force = f32::MAX;
+    }
 
     /// Takes a block in, with the flow factor and half the clearance (m) as they are estimated now.
     #[inline(always)]
