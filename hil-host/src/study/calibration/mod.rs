@@ -216,6 +216,10 @@ impl Calibration {
             Err(CalibrationError::Implausible { finding, .. }) => {
                 let _stage = Stage::new("causes", 1, tell);
                 let advice = self.advice(&finding, is_unwanted);
+                if advice.is_empty() && !is_unwanted() {
+                    // A number in vain is a cause that a user can remove.
+                    self.refuse_unfelt(is_unwanted)?;
+                }
                 match is_unwanted() {
                     true => Err(CalibrationError::Unwanted),
                     false => Err(CalibrationError::Implausible { finding, advice }),
@@ -238,6 +242,47 @@ impl Calibration {
             scatter_n: self.loops.iter().map(scatter).collect(),
             is_unwanted,
         }
+    }
+
+    /// Whether a force of the tests, or a prior, depends on a number.
+    fn is_felt(&self, determination: &Determination, number: usize) -> bool {
+        determination.numbers[number].is_felt || self.varied[number].prior.is_some()
+    }
+
+    /// Refuses numbers that the tests do not determine. Those of the rig are not what is asked for.
+    fn refuse_undetermined(
+        &self,
+        determination: &Determination,
+        is_determined: &dyn Fn(usize) -> bool,
+    ) -> Result<(), CalibrationError> {
+        let all = 0..self.varied.len();
+        let refused =
+            all.filter(|&number| !self.varied[number].is_of_rig() && !is_determined(number));
+        let numbers: Vec<(String, Determined)> = refused
+            .map(|number| {
+                let key = self.varied[number].key.clone();
+                (key, determination.numbers[number].clone())
+            })
+            .collect();
+        match numbers.is_empty() {
+            true => Ok(()),
+            false => Err(CalibrationError::Undetermined { numbers }),
+        }
+    }
+
+    /// Refuses numbers that no force near the best coarse fit depends on.
+    fn refuse_unfelt(
+        &self,
+        is_unwanted: &(dyn Fn() -> bool + Sync),
+    ) -> Result<(), CalibrationError> {
+        let model = self.model(is_unwanted);
+        let Some(fit) = model.quick_fit() else {
+            return Ok(());
+        };
+        let determination = model.determination(&fit.places)?;
+        self.refuse_undetermined(&determination, &|number| {
+            self.is_felt(&determination, number)
+        })
     }
 
     /// The numbers, without a search for what else may be wrong where they are no damper's.
@@ -289,24 +334,9 @@ impl Calibration {
         model.refuse_bounds(&best.places, AT_BOUND_CERTAINLY, |_, _| true)?;
         let determination = model.determination(&best.places)?;
         let refuse = |is_determined: &dyn Fn(usize) -> bool| {
-            // The rig's numbers are not what is asked for.
-            let refused = all
-                .iter()
-                .filter(|number| !self.varied[**number].is_of_rig() && !is_determined(**number));
-            let numbers: Vec<(String, Determined)> = refused
-                .map(|&number| {
-                    let key = self.varied[number].key.clone();
-                    (key, determination.numbers[number].clone())
-                })
-                .collect();
-            match numbers.is_empty() {
-                true => Ok(()),
-                false => Err(CalibrationError::Undetermined { numbers }),
-            }
+            self.refuse_undetermined(&determination, is_determined)
         };
-        refuse(&|number| {
-            determination.numbers[number].is_felt || self.varied[number].prior.is_some()
-        })?;
+        refuse(&|number| self.is_felt(&determination, number))?;
         let (best, profiles) = self.profiles(&model, best, &determination, tell)?;
         let values = model.values(&best.places);
         model.refuse_bounds(&best.places, AT_BOUND, |number, is_least| {
