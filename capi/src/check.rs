@@ -21,7 +21,7 @@ impl From<Corrupted> for DashpotError {
 /// `DASHPOT_CHECK_SLICES` calls check the constants whole, then it begins again. A flipped bit is found within
 /// the round that begins after it. To hold a force then, keep that of the tick of each round's first call; the one kept
 /// when the last round ended without an error was made before the damage. Loading the damper or setting its
-/// clearance between calls is no damage. Some 325 instructions at most on a Cortex-M7.
+/// clearance between calls is no damage. Some 370 instructions at most on a Cortex-M7.
 ///
 /// @param damper  made by `dashpot_damper_init`
 /// @param state   made for it

@@ -163,7 +163,7 @@ pub unsafe extern "C" fn dashpot_health_init(
     DashpotError::from(done())
 }
 
-/// Takes the sample of a tick, at most 285 instructions. One that is not finite or not credible is no error: it is left out, latched in the
+/// Takes the sample of a tick, at most 297 instructions. One that is not finite or not credible is no error: it is left out, latched in the
 /// status and counted.
 ///
 /// @param model           made by `dashpot_health_model_init`

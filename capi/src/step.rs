@@ -24,7 +24,7 @@ fn check_state(damper: &Damper<f32>, state: &DamperState<f32>) -> Result<(), Das
 /// A displacement that is NaN, infinite, out of range, or faster than the damper allows is no error: it is held or
 /// limited, latched in the status and counted. After one too far to catch up with the damper restarts at rest there. A
 /// state that no step leaves behind starts over at rest and latches `DASHPOT_STATUS_CORRUPTED`. The force is finite and
-/// within the force limit, whatever bits damper and state have. Some 187
+/// within the force limit, whatever bits damper and state have. Some 195
 /// instructions on a Cortex-M7.
 ///
 /// @param damper          made by `dashpot_damper_init`
