@@ -67,7 +67,14 @@ fn what_is_not_determined_succeeds_as_advised() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
     bench::write(&folder.join("run.csv"), |sample| sample);
-    let known = [&KNOWN[..], &["--set", "relief.opening_pressure_pa=2e7"]].concat();
+    // The relief valve of the recording opens below 2e7 Pa: what the model misses is not what this test is about.
+    let late = [
+        "--set",
+        "relief.opening_pressure_pa=2e7",
+        "--max-misfit-percent",
+        "50",
+    ];
+    let known = [&KNOWN[..], &late].concat();
     let vary = [
         "--vary",
         TRUTH[0].0,
