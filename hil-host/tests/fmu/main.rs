@@ -95,7 +95,7 @@ impl Unpacked {
 pub fn displacements_m() -> Vec<f64> {
     let mut ride = Excitation::Ride.displacements_m(1e-3);
     ride.truncate(3000);
-    ride[2500] += 3.0;
+    ride[2500] += 0.01;
     ride
 }
 
