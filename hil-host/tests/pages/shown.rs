@@ -91,6 +91,7 @@ pub fn all() -> [(&'static str, &'static str, usize, &'static str); 8] {
         ("response", &RESPONSE, 3, "frequency, Hz"),
         // Three profiles, and for each of four tests two loops and what is missed.
         ("calibration", &CALIBRATION, 15, "time, s"),
-        ("health", &HEALTH, 4, "time, s"),
+        // Flow, stiffness, clearance, lag, zero of the force and friction.
+        ("health", &HEALTH, 6, "time, s"),
     ]
 }
