@@ -3,7 +3,7 @@
 
 use dashpot::search::search;
 
-/// Motions tried, of four dampers: about a minute on two cores.
+/// Motions tried, of four dampers: some minutes of processor time, most of it in the reference.
 const EVALUATIONS: usize = 208;
 
 #[test]
