@@ -8,8 +8,8 @@ use std::sync::Arc;
 use dashpot::damper;
 use dashpot::newton::NewtonDamper;
 use dashpot_core::{Damper, step_bank};
-use dashpot_hil::files::case::{Case, CaseOptions};
-use dashpot_hil::study::excitation::Excitation;
+use dashpot_files::case::{Case, CaseOptions};
+use dashpot_testbench::excitation::Excitation;
 use dashpot_rail::contact::{
     ContactGeometry, Grid, Installation, Motion, Pair, RailDisplacement, Steel, Tables,
     WheelsetContact, WheelsetForces,

@@ -11,7 +11,7 @@ use dashpot::damper;
 use dashpot::look_up::LookUp;
 use dashpot::newton::NewtonDamper;
 use dashpot_core::{Damper, Real, step_bank};
-use dashpot_hil::study::excitation::Excitation;
+use dashpot_testbench::excitation::Excitation;
 use dashpot_reference::damper::Reference;
 
 const STEP_S: f64 = 1e-3;

@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use dashpot_core::step_bank;
-use dashpot_hil::files::case::{Case, CaseOptions};
+use dashpot_files::case::{Case, CaseOptions};
 use dashpot_rail::contact::{
     ContactGeometry, Grid, Installation, Motion, Pair, RailDisplacement, Steel, Tables,
     WheelsetContact, WheelsetForces,

@@ -3,9 +3,9 @@
 use std::io::Write;
 use std::path::Path;
 
-use dashpot_hil::files::damper::{self, PRESETS};
-use dashpot_hil::files::profile;
-use dashpot_hil::files::study::{STUDIES, StudyParameters};
+use dashpot_files::damper::{self, PRESETS};
+use dashpot_files::profile;
+use dashpot_files::study::{STUDIES, StudyParameters};
 use dashpot_rail::profile::Body;
 use dashpot_rail::profile::measured::Options;
 use proptest::prelude::*;

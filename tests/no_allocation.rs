@@ -8,7 +8,7 @@ use std::sync::Arc;
 use dashpot::damper;
 use dashpot_core::telemetry::{Sample, Telemetry};
 use dashpot_core::{Damper, step_bank};
-use dashpot_hil::files::case::Case;
+use dashpot_files::case::Case;
 use dashpot_rail::contact::{
     ContactGeometry, Grid, Installation, Pair, Steel, Tables, WheelsetContact,
 };

@@ -1,7 +1,7 @@
 //! Any text as a case file: refused, or a case whose faults are of its dampers, by rising time within it.
 #![no_main]
 
-use dashpot_hil::files::case::CaseOptions;
+use dashpot_files::case::CaseOptions;
 use dashpot_rail::vehicle::Law;
 use libfuzzer_sys::fuzz_target;
 

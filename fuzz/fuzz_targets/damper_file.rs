@@ -1,7 +1,7 @@
 //! Any text as a damper file: refused, or a damper that builds or names a field.
 #![no_main]
 
-use dashpot_hil::files::damper;
+use dashpot_files::damper;
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|text: &str| {

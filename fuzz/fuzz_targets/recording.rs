@@ -4,7 +4,7 @@
 use std::io::{Cursor, Write};
 use std::path::Path;
 
-use dashpot_hil::files::recording::{Channels, Recording, overview};
+use dashpot_recording::{Channels, Recording, overview};
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|bytes: &[u8]| {

@@ -1,7 +1,7 @@
 //! Any text as a sheet file: refused, or tests that a bench can make and limits that a value can keep.
 #![no_main]
 
-use dashpot_hil::files::sheet::SheetParameters;
+use dashpot_files::sheet::SheetParameters;
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|text: &str| {

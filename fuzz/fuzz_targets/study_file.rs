@@ -1,7 +1,7 @@
 //! Any text as a study file: refused, or sweeps with values, each of which has every point, and figures of its sweeps.
 #![no_main]
 
-use dashpot_hil::files::study::StudyParameters;
+use dashpot_files::study::StudyParameters;
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|text: &str| {

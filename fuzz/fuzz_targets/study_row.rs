@@ -3,8 +3,8 @@
 
 use std::sync::LazyLock;
 
-use dashpot_hil::files::study::StudyParameters;
-use dashpot_hil::study::sweep::{Arithmetic, Study, digest_of_cells, physics};
+use dashpot_files::study::StudyParameters;
+use dashpot_study::sweep::{Arithmetic, Study, digest_of_cells, physics};
 use libfuzzer_sys::fuzz_target;
 
 static STUDY: LazyLock<Study> = LazyLock::new(|| {

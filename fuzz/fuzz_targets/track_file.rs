@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use dashpot_hil::files::track::{self, IrregularityParameters, TrackParameters};
+use dashpot_files::track::{self, IrregularityParameters, TrackParameters};
 use dashpot_rail::track::{Band, Track};
 use libfuzzer_sys::fuzz_target;
 

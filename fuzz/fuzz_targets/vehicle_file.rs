@@ -1,7 +1,7 @@
 //! Any text as a vehicle file: refused, or a vehicle whose modes are found or refused.
 #![no_main]
 
-use dashpot_hil::files::vehicle;
+use dashpot_files::vehicle;
 use dashpot_rail::vehicle::Standstill;
 use libfuzzer_sys::fuzz_target;
 

@@ -10,12 +10,12 @@ use std::path::{Path, PathBuf};
 use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, Criterion, Throughput, criterion_group, criterion_main};
 use dashpot_core::Damper;
-use dashpot_hil::files::FileError;
-use dashpot_hil::files::damper;
-use dashpot_hil::files::recording::Recording;
-use dashpot_hil::files::recording::written::{ColumnName, Form, Written};
-use dashpot_hil::study::replay::replay;
-use dashpot_hil::study::tick_grid::{Tick, TickGrid};
+use dashpot_files::FileError;
+use dashpot_files::damper;
+use dashpot_recording::Recording;
+use dashpot_recording::written::{ColumnName, Form, Written};
+use dashpot_testbench::replay::replay;
+use dashpot_recording::tick_grid::{Tick, TickGrid};
 
 const ROWS: u32 = 100_000;
 const STEP_S: f64 = 1e-3;

@@ -7,13 +7,13 @@ use std::error::Error;
 use std::f64::consts::TAU;
 use std::path::Path;
 
-use dashpot_hil::files::FileError;
-use dashpot_hil::files::damper;
-use dashpot_hil::files::output::write_whole;
-use dashpot_hil::files::recording::written::{ColumnName, Form, Written};
-use dashpot_hil::study::excitation::Excitation;
-use dashpot_hil::study::health::Noise;
-use dashpot_hil::study::verification::reference_forces;
+use dashpot_files::FileError;
+use dashpot_files::damper;
+use dashpot_files::output::write_whole;
+use dashpot_recording::written::{ColumnName, Form, Written};
+use dashpot_testbench::excitation::Excitation;
+use dashpot_testbench::health::Noise;
+use dashpot_testbench::verification::reference_forces;
 
 /// What the damper differs in from the preset `in-service`: a calibration has to find these numbers.
 const TRUTH: [&str; 4] = [

@@ -2,7 +2,7 @@
 //!
 //! `cargo run --package dashpot-hil --example make_ride > data/excitations/ride_made.csv`
 
-use dashpot_hil::study::excitation::Excitation;
+use dashpot_testbench::excitation::Excitation;
 
 /// Grid of the time stamps [s].
 const GRID_S: f64 = 1e-4;
@@ -12,7 +12,7 @@ fn main() {
     print!("\u{feff}");
     for line in [
         "# MADE, not measured: relative displacement of a secondary damper's seats, positive in extension.",
-        "# dashpot_hil::study::excitation::Excitation::Ride, 0.4-20 Hz, 0.04 m/s rms, 5 s, taken at stamps of",
+        "# dashpot_testbench::excitation::Excitation::Ride, 0.4-20 Hz, 0.04 m/s rms, 5 s, taken at stamps of",
         "# 1.6 to 2.4 ms from a fixed sequence, with one gap of 40 ms after 2 s; rounded to 10 nm.",
         "# Made by: cargo run --package dashpot-hil --example make_ride",
         "time_s,displacement_m",

@@ -3,9 +3,3 @@
 #![warn(missing_docs)]
 
 pub mod commands;
-pub mod files;
-pub mod realtime;
-pub mod remedy;
-pub mod report;
-pub mod study;
-pub mod target;

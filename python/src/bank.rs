@@ -1,7 +1,7 @@
 //! Several dampers in one call: the same bits as one after the other, in less time.
 
 use dashpot_core::{Damper as Constants, DamperState};
-use dashpot_hil::study::motion::follow_bank;
+use dashpot_testbench::motion::follow_bank;
 use numpy::{Ix1, Ix2, PyArray2, PyArrayDescr, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyList;

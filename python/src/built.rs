@@ -1,8 +1,8 @@
 //! Constants of a damper for one step, and the motions that go through them.
 
 use dashpot_core::{CheckedParameters, Damper as Constants, DamperState, Real};
-use dashpot_hil::files::damper;
-use dashpot_hil::study::motion::follow;
+use dashpot_files::damper;
+use dashpot_testbench::motion::follow;
 use numpy::{Element, Ix1, PyArray1, PyArrayDescr};
 use pyo3::prelude::*;
 

@@ -1,10 +1,8 @@
 //! From bench tests in memory to the numbers of a damper, with their intervals.
 
 use dashpot_core::parameters::STEP_RANGE_S;
-use dashpot_hil::study::StudyError;
-use dashpot_hil::study::calibration::{
-    Assumed, Calibrated as Found, Calibration, IndexTest, LoopTest, Prior, Recorded, Request, SKEW,
-};
+use dashpot_testbench::TestbenchError;
+use dashpot_calibration::{Assumed, Calibrated as Found, Calibration, IndexTest, LoopTest, Prior, Recorded, Request, SKEW};
 use numpy::{Ix1, PyArray1, PyArray2};
 use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict, PyDict, PyList};
@@ -193,7 +191,7 @@ pub fn calibrate(
     max_misfit_percent: f64,
 ) -> Outcome<Calibrated> {
     if !STEP_RANGE_S.contains(&step_s) {
-        return Err(StudyError::Step { step_s }.into());
+        return Err(TestbenchError::Step { step_s }.into());
     }
     let starts = starts.unwrap_or(Whole::Count(STARTS));
     let starts = starts.within("starts", 1..=1000)? as usize;

@@ -1,8 +1,6 @@
 //! A calibration's errors and warnings in the words of this package: what to do, as arguments of `dashpot.calibrate`.
 
-use dashpot_hil::study::calibration::{
-    Advice, CalibrationError, Finding, Remedy, TEMPERATURE, Warning,
-};
+use dashpot_calibration::{Advice, CalibrationError, Finding, Remedy, TEMPERATURE, Warning};
 
 /// The error and what to do about it.
 pub fn message(error: &CalibrationError) -> String {
@@ -102,7 +100,6 @@ fn remedy(remedy: &Remedy) -> String {
         }
         Remedy::Starts(starts) => format!("use starts={starts}"),
         Remedy::AllowMisfit(part) => format!("use max_misfit_percent={:.0}", 100.0 * part),
-        other => format!("{other:?}"),
     }
 }
 
@@ -157,6 +154,5 @@ pub fn warning(warning: &Warning) -> String {
             "these recordings fit better at {assumed} {better} than at {value}: look at the thermometer; damper.replace({{\"{assumed}\": \
              {better:e}}}) takes that value"
         ),
-        other => format!("{other:?}"),
     }
 }

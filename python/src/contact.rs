@@ -1,7 +1,7 @@
 //! Wheel on rail: the geometry of a pair of profiles, and creep forces.
 
-use dashpot_hil::files::profile;
-use dashpot_hil::study::wheelset_geometry::{ForceJump, Shift, WheelsetGeometry};
+use dashpot_files::profile;
+use dashpot_study::wheelset_geometry::{ForceJump, Shift, WheelsetGeometry};
 use dashpot_rail::contact::{Installation, Pair, Steel};
 use dashpot_rail::creep::{CreepLaw, Creepage, KalkerBook, KalkerTable, LoadedContact};
 use dashpot_rail::profile::Body;

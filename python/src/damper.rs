@@ -2,8 +2,8 @@
 
 use dashpot_core::CheckedParameters;
 use dashpot_core::characteristic::Characteristic;
-use dashpot_hil::files::damper::{self, Keyed};
-use dashpot_hil::study::verification::reference_forces_unless;
+use dashpot_files::damper::{self, Keyed};
+use dashpot_testbench::verification::reference_forces_unless;
 use numpy::{Ix1, PyArray1};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyFloat, PyList};

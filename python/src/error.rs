@@ -4,17 +4,17 @@ use std::fmt::Display;
 use std::path::PathBuf;
 
 use dashpot_core::{BuildError, ClearanceError, SavedStateError};
-use dashpot_hil::files::FileError;
-use dashpot_hil::files::case::CaseError;
-use dashpot_hil::files::damper::DamperError;
-use dashpot_hil::files::profile::NamedProfileError;
-use dashpot_hil::files::study::StudyFileError;
-use dashpot_hil::files::track::TrackFileError;
-use dashpot_hil::files::vehicle::VehicleFileError;
-use dashpot_hil::study::StudyError;
-use dashpot_hil::study::calibration::CalibrationError;
-use dashpot_hil::study::sweep::RunError;
-use dashpot_hil::study::vehicle::VehicleStudyError;
+use dashpot_files::FileError;
+use dashpot_files::case::CaseError;
+use dashpot_files::damper::DamperError;
+use dashpot_files::profile::NamedProfileError;
+use dashpot_files::study::StudyFileError;
+use dashpot_files::track::TrackFileError;
+use dashpot_files::vehicle::VehicleFileError;
+use dashpot_testbench::TestbenchError;
+use dashpot_calibration::CalibrationError;
+use dashpot_study::sweep::RunError;
+use dashpot_vehicle_run::VehicleRunError;
 use dashpot_rail::contact::PairError;
 use dashpot_rail::creep::KalkerError;
 use dashpot_rail::indices::RollingRadiusError;
@@ -70,7 +70,7 @@ impl From<PyErr> for Refusal {
 
 impl From<FileError> for Refusal {
     fn from(error: FileError) -> Self {
-        let words = with_remedy(error.to_string(), error.remedy());
+        let words = with_remedy(error.to_string(), dashpot_recording::remedy(&error));
         match error {
             FileError::Read { path, source }
             | FileError::Write { path, source }
@@ -97,9 +97,9 @@ macro_rules! with_file {
 with_file!(
     DamperError::File,
     NamedProfileError::File,
-    StudyError::Recording,
+    TestbenchError::Recording,
     TrackFileError::File,
-    VehicleStudyError::Track,
+    VehicleRunError::Track,
 );
 
 impl From<CaseError> for Refusal {
@@ -156,7 +156,7 @@ impl From<RunError> for Refusal {
 
 impl Refusal {
     /// What a case of this name is refused for.
-    pub fn of_case(name: &str, error: VehicleStudyError) -> Self {
+    pub fn of_case(name: &str, error: VehicleRunError) -> Self {
         let words = format!("{name}: {error}");
         Self::from(error).worded(words)
     }

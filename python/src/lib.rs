@@ -28,7 +28,7 @@ mod whole;
 mod _dashpot {
     /// Version of the package, and of the rows of a study.
     #[pymodule_export]
-    const VERSION: &str = dashpot_hil::study::sweep::VERSION;
+    const VERSION: &str = dashpot_study::sweep::VERSION;
 
     #[pymodule_export]
     use crate::bank::Bank;

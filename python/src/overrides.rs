@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use dashpot_core::DamperParameters;
-use dashpot_hil::files::vehicle::Replacement;
+use dashpot_files::vehicle::Replacement;
 use pyo3::exceptions::PyOverflowError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict, PyDictMethods, PyFloat, PyInt, PyString};

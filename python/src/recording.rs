@@ -3,11 +3,10 @@
 use std::path::Path;
 
 use dashpot_core::parameters::STEP_RANGE_S;
-use dashpot_hil::files::recording::{
-    Channel, Channels, DecimalMark, Gaps, Measurement, Quantity, Recording, Sample, TextOptions,
-};
-use dashpot_hil::study::StudyError;
-use dashpot_hil::study::tick_grid::{TickGrid, nearest_nanosecond};
+use dashpot_recording::{Channel, Channels, DecimalMark, Gaps, Measurement, Quantity, Recording, Sample, TextOptions};
+use dashpot_testbench::TestbenchError;
+use dashpot_recording::tick_grid::TickGrid;
+use dashpot_files::nearest_nanosecond;
 use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -112,7 +111,7 @@ fn columns(
     let recording = || Recording::open_with(path, channels);
     let ((times, displacements), gaps): ((Vec<f64>, Vec<f64>), Gaps) = match step_s {
         Some(step_s) if !STEP_RANGE_S.contains(&step_s) => {
-            return Err(StudyError::Step { step_s }.into());
+            return Err(TestbenchError::Step { step_s }.into());
         }
         Some(step_s) => {
             let mut grid = TickGrid::new(recording()?, step_s)?;

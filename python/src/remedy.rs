@@ -1,7 +1,7 @@
 //! What a user of the package can do about an error, in the words of its arguments.
 
-use dashpot_hil::files::recording::Quantity;
-use dashpot_hil::remedy::Remedy;
+use dashpot_recording::Quantity;
+use dashpot_recording::Remedy;
 
 /// The message of an error with its remedy, where it has one.
 pub fn with_remedy(message: String, remedy: Option<Remedy>) -> String {

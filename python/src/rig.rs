@@ -1,8 +1,10 @@
 //! The bench test of a damper.
 
 use dashpot_core::CheckedParameters;
-use dashpot_hil::study::bench_index::Index;
-use dashpot_hil::study::bench_test::{self, Harmonic};
+use dashpot_files::sheet::Index;
+use dashpot_files::harmonic::Harmonic;
+use dashpot_testbench::bench_sheet::index_value;
+use dashpot_testbench::bench_test;
 use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -43,7 +45,7 @@ impl Cycle {
 pub fn indices<'py>(py: Python<'py>, cycle: &Cycle) -> Outcome<Bound<'py, PyDict>> {
     let indices = PyDict::new(py);
     for index in Index::ALL {
-        indices.set_item(index.key(), index.of(&cycle.0))?;
+        indices.set_item(index.key(), index_value(&cycle.0, index))?;
     }
     Ok(indices)
 }

@@ -1,8 +1,7 @@
 //! Studies: many cases of a vehicle, a row of indices each, by their numbers.
 
-use dashpot_hil::files::study::{StudyParameters, Value};
-use dashpot_hil::study::sweep::{self, Arithmetic, Row, Shard};
-use dashpot_hil::study::workers;
+use dashpot_files::study::{StudyParameters, Value};
+use dashpot_study::sweep::{self, Arithmetic, Row, Shard};
 use numpy::PyArray1;
 use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
@@ -229,7 +228,7 @@ impl Study {
         };
         let threads = match threads {
             Some(threads) => threads.within("threads", 1..=1024)? as usize,
-            None => workers::threads(),
+            None => dashpot_workers::threads(),
         };
         let rows = py.detach(|| {
             let numbers: Vec<u64> = self.study.part(shard).collect();

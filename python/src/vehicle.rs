@@ -2,10 +2,10 @@
 
 use std::sync::LazyLock;
 
-use dashpot_hil::files::case::{CASES, Case, CaseOptions, CaseParts};
-use dashpot_hil::study::sweep::Shared;
-use dashpot_hil::study::vehicle::Ending;
-use dashpot_hil::study::vehicle::recorded::{Recorded, record};
+use dashpot_files::case::{CASES, Case, CaseOptions, CaseParts};
+use dashpot_study::sweep::Shared;
+use dashpot_vehicle_run::Ending;
+use dashpot_vehicle_run::recorded::{Recorded, record};
 use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;

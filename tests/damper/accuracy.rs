@@ -8,8 +8,8 @@ use dashpot::accuracy::{DAMPERS, Errors, STEPS_S, measure_all};
 use dashpot::tolerance::{FILE, LEAST_USE, SLACK, Tolerance, required, rows, to_text};
 use dashpot::{damper, document};
 use dashpot_core::characteristic::{Characteristic, Corner};
-use dashpot_hil::study::accuracy_limits::{ACCURACY_LIMITS, AccuracyLimits};
-use dashpot_hil::study::excitation::Excitation;
+use dashpot_testbench::accuracy_limits::{ACCURACY_LIMITS, AccuracyLimits};
+use dashpot_testbench::excitation::Excitation;
 
 type Found = HashMap<(&'static str, &'static str), Errors>;
 

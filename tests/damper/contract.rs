@@ -4,7 +4,7 @@ use dashpot::damper;
 use dashpot_core::{
     ClearanceError, Damper, DamperParameters, DamperState, Real, Status, step_bank,
 };
-use dashpot_hil::files::damper;
+use dashpot_files::damper;
 
 const STEP_S: f64 = 1e-3;
 const PRESETS: [&str; 5] = [

@@ -3,11 +3,11 @@
 
 use std::path::Path;
 
-use dashpot_hil::files::damper;
-use dashpot_hil::files::recording::Recording;
-use dashpot_hil::study::accuracy_limits::{AccuracyLimits, relaxation_time_s};
-use dashpot_hil::study::step_errors::{SCALARS, StepErrors};
-use dashpot_hil::study::verification::reference_forces;
+use dashpot_files::damper;
+use dashpot_recording::Recording;
+use dashpot_testbench::accuracy_limits::{AccuracyLimits, relaxation_time_s};
+use dashpot_testbench::step_errors::{SCALARS, StepErrors};
+use dashpot_testbench::verification::reference_forces;
 use dashpot_reference::probing::{Kind, Motion};
 
 const STEP_S: f64 = 1e-3;

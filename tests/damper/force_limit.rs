@@ -2,7 +2,7 @@
 
 use dashpot::damper;
 use dashpot_core::{Damper, Real, Status};
-use dashpot_hil::study::excitation::Excitation;
+use dashpot_testbench::excitation::Excitation;
 
 /// Ticks at the limit, of all that come near it in a direction.
 fn plateau<T: Real>(direction: f64, step_s: f64) {

@@ -2,9 +2,9 @@
 
 use dashpot::accuracy::{displacements_m, stepped};
 use dashpot::damper;
-use dashpot_hil::study::Scalar;
-use dashpot_hil::study::accuracy_limits::ACCURACY_LIMITS;
-use dashpot_hil::study::excitation::Excitation;
+use dashpot_files::Scalar;
+use dashpot_testbench::accuracy_limits::ACCURACY_LIMITS;
+use dashpot_testbench::excitation::Excitation;
 use dashpot_reference::damper::Reference;
 use dashpot_reference::deviation::nrmse;
 

@@ -12,7 +12,7 @@ use dashpot::documented_damper::documented_damper;
 use dashpot::random_damper::Random;
 use dashpot::searched_motion::{Form, SearchedMotion};
 use dashpot_core::characteristic::{Characteristic, Corner};
-use dashpot_hil::study::step_errors::{SCALARS, StepErrors};
+use dashpot_testbench::step_errors::{SCALARS, StepErrors};
 
 /// Dampers tried.
 const NUMBERS: Range<u64> = 0..5;

@@ -2,7 +2,7 @@
 
 use dashpot::damper;
 use dashpot::newton::NewtonDamper;
-use dashpot_hil::study::excitation::Excitation;
+use dashpot_testbench::excitation::Excitation;
 use dashpot_reference::damper::Reference;
 use dashpot_reference::deviation::nrmse;
 

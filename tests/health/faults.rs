@@ -5,7 +5,7 @@ use std::fmt::Write;
 
 use dashpot::document;
 use dashpot_core::health::HealthStatus;
-use dashpot_hil::study::health::Noise;
+use dashpot_testbench::health::Noise;
 
 use crate::made::{Fault, PRESETS, errors, estimate, forces, largest, model, ride, varied};
 

@@ -3,7 +3,7 @@
 use std::thread;
 
 use dashpot_core::health::{Health, HealthStatus};
-use dashpot_hil::study::health::Noise;
+use dashpot_testbench::health::Noise;
 
 use crate::made::{Fault, PRESETS, estimate, forces, model, ride, varied};
 

@@ -2,7 +2,7 @@
 //! long as the run lasted: nothing was measured, and nothing grew old.
 
 use dashpot_core::health::{Health, HealthStatus};
-use dashpot_hil::study::health::Noise;
+use dashpot_testbench::health::Noise;
 
 use crate::made::{forces, model, ride, varied};
 

@@ -6,7 +6,7 @@ use dashpot::damper;
 use dashpot_core::health::{Health, HealthModel, HealthReading, HealthSettings, HealthStatus};
 use dashpot_core::parameters::Element;
 use dashpot_core::{Damper, DamperParameters};
-use dashpot_hil::study::health::Noise;
+use dashpot_testbench::health::Noise;
 use fastrand::Rng;
 
 /// Step of all samples (s).

@@ -1,7 +1,7 @@
 //! Whatever comes in, numbers come out; a copy goes on as the original does.
 
 use dashpot_core::health::{Health, HealthStatus};
-use dashpot_hil::study::health::Noise;
+use dashpot_testbench::health::Noise;
 use fastrand::Rng;
 
 use crate::made::{Fault, PRESETS, errors, estimate, forces, model, ride, varied};

@@ -3,7 +3,7 @@
 use dashpot_core::DamperParameters;
 use dashpot_core::health::{Estimate, Health, HealthReading, HealthStatus};
 use dashpot_core::parameters::Element;
-use dashpot_hil::study::health::Noise;
+use dashpot_testbench::health::Noise;
 
 use crate::made::{STEP_S, forces, model, ride};
 

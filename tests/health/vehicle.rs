@@ -1,10 +1,10 @@
 //! Dampers under a running locomotive: a fault of one is its alarm, and the others have none.
 
 use dashpot_core::health::HealthStatus;
-use dashpot_hil::files::case::{CaseOptions, FaultOptions};
-use dashpot_hil::study::health::Noise;
-use dashpot_hil::study::vehicle::Run;
-use dashpot_hil::study::vehicle::signals::{all, slug};
+use dashpot_files::case::{CaseOptions, FaultOptions};
+use dashpot_testbench::health::Noise;
+use dashpot_vehicle_run::Run;
+use dashpot_vehicle_run::signals::{all, slug};
 
 use crate::made::{estimate, model};
 

@@ -19,7 +19,7 @@ use dashpot_core::link::{
     request_frame,
 };
 use dashpot_core::{Damper, ImageError, Status};
-use dashpot_hil::target::pil::{Desk, Link};
+use dashpot_host_link::{Desk, Link};
 use serde::Serialize;
 use xtask::tools::{PYTHON, have};
 

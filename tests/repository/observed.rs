@@ -1,7 +1,7 @@
 //! The indices that a study can observe, as docs/studies.md lists them.
 
 use dashpot::document;
-use dashpot_hil::study::sweep::OBSERVED;
+use dashpot_study::sweep::OBSERVED;
 
 #[test]
 fn the_indices_of_a_study_are_those_of_its_document() {

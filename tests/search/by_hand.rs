@@ -6,7 +6,7 @@ use std::fmt::Write;
 use std::path::Path;
 
 use dashpot::search::{Case, search};
-use dashpot_hil::files::damper;
+use dashpot_files::damper;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();

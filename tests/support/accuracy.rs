@@ -5,8 +5,8 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use dashpot_core::{DamperParameters, Real};
-use dashpot_hil::study::excitation::Excitation;
-use dashpot_hil::study::verification::{fixed_step_forces, reference_forces};
+use dashpot_testbench::excitation::Excitation;
+use dashpot_testbench::verification::{fixed_step_forces, reference_forces};
 use dashpot_reference::deviation::nrmse;
 
 use crate::damper;

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 use dashpot_core::Damper;
-use dashpot_hil::target::export::{Provenance, c_header, c_source};
+use dashpot_export::{Provenance, c_header, c_source};
 use xtask::c_library::{self, Platform, install};
 
 use crate::damper;

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 use std::time::Duration;
 
-use dashpot_hil::target::pil::{Link, LinkError, Qemu, RetryLimits};
+use dashpot_host_link::{Link, LinkError, Qemu, RetryLimits};
 use xtask::processor::CORTEX_M7;
 use xtask::tools::{ARM_GCC, QEMU, have, have_target};
 

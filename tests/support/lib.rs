@@ -24,7 +24,7 @@ pub mod tolerance;
 
 use dashpot_core::DamperParameters;
 pub use dashpot_experiment::digest;
-use dashpot_hil::files::damper;
+use dashpot_files::damper;
 
 /// A preset of the product with overrides, which must be valid.
 pub fn damper(name: &str, overrides: &[&str]) -> DamperParameters {

@@ -5,8 +5,8 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use dashpot_core::CheckedParameters;
-use dashpot_hil::study::StudyError;
-use dashpot_hil::study::step_errors::StepErrors;
+use dashpot_testbench::TestbenchError;
+use dashpot_testbench::step_errors::StepErrors;
 use dashpot_reference::probing::{LargestErrors, Motion};
 
 use crate::accuracy::STEPS_S;
@@ -96,7 +96,7 @@ struct Promised<'a> {
 }
 
 impl<'a> Promised<'a> {
-    fn new(damper: &'a CheckedParameters, step_s: f64) -> Result<Self, StudyError> {
+    fn new(damper: &'a CheckedParameters, step_s: f64) -> Result<Self, TestbenchError> {
         let errors = StepErrors::new(damper, step_s, None)?;
         let largest = errors.largest(1)?;
         Ok(Self {
@@ -107,7 +107,7 @@ impl<'a> Promised<'a> {
     }
 
     /// How a motion keeps each promise: found and promised, of each scalar the largest error and the NRMSE.
-    fn judge(&self, motion: &Motion) -> Result<[(f64, f64); 4], StudyError> {
+    fn judge(&self, motion: &Motion) -> Result<[(f64, f64); 4], TestbenchError> {
         let [double, single] = self.errors.on(motion)?;
         let [of_double, of_single] = self.errors.promised(&self.largest);
         Ok([
@@ -133,7 +133,7 @@ fn climb(
     step_s: f64,
     random: &mut Random,
     budget: &mut usize,
-) -> Result<Vec<Case>, StudyError> {
+) -> Result<Vec<Case>, TestbenchError> {
     let promised = Promised::new(damper, step_s)?;
     let top = promised.errors.top_speed_m_per_s();
     let mut worst: [Option<Case>; 4] = Default::default();

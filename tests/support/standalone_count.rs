@@ -4,7 +4,7 @@ use std::fmt::Write;
 use std::process::Command;
 
 use dashpot_core::Damper;
-use dashpot_hil::study::excitation::Excitation;
+use dashpot_testbench::excitation::Excitation;
 use xtask::c_library;
 use xtask::processor::Processor;
 use xtask::tools::{ARM_GCC, QEMU};

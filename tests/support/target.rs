@@ -7,7 +7,7 @@ use std::process::{Child, Command, Stdio};
 
 use dashpot_core::{Damper, step_bank};
 use dashpot_experiment::Experiment as Bytes;
-use dashpot_hil::study::excitation::Excitation;
+use dashpot_testbench::excitation::Excitation;
 use object::{Object, ObjectSymbol};
 use serde::Deserialize;
 use tempfile::NamedTempFile;

@@ -3,8 +3,8 @@
 //! Its rows are in `tolerance.csv`. `DASHPOT_BLESS=1` writes them anew at [`SLACK`] times the measured
 //! error; no row, blessed or not, may exceed [`required`].
 
-use dashpot_hil::study::Scalar;
-use dashpot_hil::study::accuracy_limits::ACCURACY_LIMITS;
+use dashpot_files::Scalar;
+use dashpot_testbench::accuracy_limits::ACCURACY_LIMITS;
 
 use crate::accuracy::{DAMPERS, STEPS_S};
 

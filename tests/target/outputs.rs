@@ -5,7 +5,7 @@ use std::path::Path;
 
 use dashpot::in_turn::{InTurn, MOST_ANSWERS, RETRY_LIMITS, images};
 use dashpot_core::link::{LossOfLink, Reals, Request, Response, SafeOutput};
-use dashpot_hil::target::pil::{Client, Qemu};
+use dashpot_host_link::{Client, Qemu};
 
 const DAMPERS: usize = 12;
 

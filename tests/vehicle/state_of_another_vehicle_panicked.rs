@@ -18,7 +18,7 @@ const SUPPORT: RailSupport = RailSupport {
 };
 
 fn vehicle(name: &str, step_s: f64) -> Vehicle<dashpot_rail::creep::KalkerBook> {
-    let parameters = dashpot_hil::files::vehicle::load(name, &[]).unwrap();
+    let parameters = dashpot_files::vehicle::load(name, &[]).unwrap();
     Vehicle::new(&parameters, contact(5.0), step_s).unwrap()
 }
 

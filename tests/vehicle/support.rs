@@ -41,7 +41,7 @@ fn friction() -> Friction {
 }
 
 pub fn locomotive() -> VehicleParameters {
-    dashpot_hil::files::vehicle::load("locomotive", &[]).unwrap()
+    dashpot_files::vehicle::load("locomotive", &[]).unwrap()
 }
 
 /// Of all bodies and wheelsets.

@@ -23,7 +23,7 @@ pub fn locomotive(damping_n_s_per_m: f64, stiffness_n_per_m: f64) -> VehiclePara
             "stiffness_n_per_m=12e6",
             &format!("stiffness_n_per_m={stiffness_n_per_m:e}"),
         );
-    dashpot_hil::files::vehicle::parse("locomotive_yaw_dampers.toml", &text, &[]).unwrap()
+    dashpot_files::vehicle::parse("locomotive_yaw_dampers.toml", &text, &[]).unwrap()
 }
 
 pub fn contact() -> &'static WheelsetContact<KalkerBook, ContactGeometry> {

@@ -1,6 +1,6 @@
 //! What the paper says of an index, and whether ours does so.
 
-use dashpot_hil::study::sweep::Estimate;
+use dashpot_study::sweep::Estimate;
 
 use crate::rows::interval;
 

@@ -8,8 +8,7 @@ mod rows;
 mod trends;
 
 use dashpot::document as kept;
-use dashpot_hil::study::sweep::{Arithmetic, Row, RunError, run};
-use dashpot_hil::study::workers;
+use dashpot_study::sweep::{Arithmetic, Row, RunError, run};
 use rows::Kept;
 
 /// Studies whose rows are kept.
@@ -77,6 +76,6 @@ fn run_some(Kept { study, rows }: &Kept, mut compare: impl FnMut(&Row, &Row)) {
         compare(&row, &rows[&row.case]);
         Ok::<(), RunError>(())
     };
-    run(study, &numbers, workers::threads(), &|| false, take).expect("runs");
+    run(study, &numbers, dashpot_workers::threads(), &|| false, take).expect("runs");
     assert_eq!(found, numbers.len());
 }

@@ -1,6 +1,6 @@
 //! The text of `docs/out-of-service.md`.
 
-use dashpot_hil::files::study::{Sweep, Value};
+use dashpot_files::study::{Sweep, Value};
 
 use xtask::vehicle_validation::SEEDS;
 
@@ -46,7 +46,7 @@ impl<'a> Wear<'a> {
         Self { kept, sweep, new }
     }
 
-    fn change(&self, point: usize, index: &str) -> dashpot_hil::study::sweep::Estimate {
+    fn change(&self, point: usize, index: &str) -> dashpot_study::sweep::Estimate {
         let points = [self.new as u64, point as u64];
         self.kept.change(self.sweep, points, index)
     }

@@ -12,12 +12,10 @@ use std::collections::BTreeSet;
 
 use dashpot::document;
 use dashpot_core::Damper;
-use dashpot_hil::files::damper::{self, PRESETS};
-use dashpot_hil::files::study::StudyParameters;
-use dashpot_hil::study::excitation::Excitation;
-use dashpot_hil::study::sweep::{
-    Arithmetic, OBSERVED, ROW_DIGEST, Shared, Study, digest_of_cells, physics, row,
-};
+use dashpot_files::damper::{self, PRESETS};
+use dashpot_files::study::StudyParameters;
+use dashpot_testbench::excitation::Excitation;
+use dashpot_study::sweep::{Arithmetic, OBSERVED, ROW_DIGEST, Shared, Study, digest_of_cells, physics, row};
 use dashpot_rail::vehicle::Law;
 use dashpot_rail::without_fused_multiplication;
 

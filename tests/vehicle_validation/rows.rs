@@ -1,9 +1,9 @@
 //! Kept rows of a study, and how indices change from one value to another.
 
 use dashpot::document;
-use dashpot_hil::files::study::{StudyParameters, Sweep, Value};
-use dashpot_hil::study::sweep::rows::{self, Rows, RowsError};
-use dashpot_hil::study::sweep::{Estimate, Study};
+use dashpot_files::study::{StudyParameters, Sweep, Value};
+use dashpot_study::sweep::rows::{self, Rows, RowsError};
+use dashpot_study::sweep::{Estimate, Study};
 use xtask::vehicle_validation::SEEDS;
 
 /// A study with its kept rows.

@@ -1,7 +1,7 @@
 //! The rows of `vehicle_trends.csv`, each with ours beside it.
 
 use dashpot::document;
-use dashpot_hil::study::sweep::Estimate;
+use dashpot_study::sweep::Estimate;
 use serde::Deserialize;
 
 use crate::claim::{Claim, Verdict, flat};

@@ -3,8 +3,7 @@
 use std::ffi::{CStr, CString};
 use std::path::Path;
 
-use dashpot_hil::study::vehicle::{Coupled, CoupledCase, Ending};
-use dashpot_hil::target::export::fmu::{CASE_FILE, case_digest};
+use dashpot_vehicle_run::{Coupled, CoupledCase, Ending};
 
 use crate::result::ModelResult;
 
@@ -27,10 +26,10 @@ impl Model {
     /// # Errors
     /// A file that is not there or is none of this version, in words.
     pub fn new(resources: &Path, digest: &str) -> Result<Self, String> {
-        let path = resources.join(CASE_FILE);
+        let path = resources.join(CoupledCase::FILE);
         let told = |error: &dyn std::fmt::Display| format!("{}: {error}", path.display());
         let text = std::fs::read(&path).map_err(|error| told(&error))?;
-        if case_digest(&text) != digest {
+        if CoupledCase::digest(&text) != digest {
             return Err(told(&"not the case that this FMU was exported with"));
         }
         let case: CoupledCase = serde_json::from_slice(&text).map_err(|error| told(&error))?;

@@ -6,8 +6,8 @@ use dashpot_core::CheckedParameters;
 
 use super::failure::{Failure, Outcome};
 use super::streams;
-use crate::files::damper;
-use crate::realtime::pacing::RealtimeOptions;
+use dashpot_files::damper;
+use dashpot_realtime::pacing::RealtimeOptions;
 
 /// How a command prints its results.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, clap::ValueEnum)]

@@ -10,10 +10,8 @@ use super::recording::ListingArguments;
 use super::remedy::with_remedy;
 use super::{Format, counted, nearest_nanosecond, print_report};
 use crate::commands::failure::Outcome;
-use crate::files::input;
-use crate::files::recording::{
-    ChannelOverview, Channels, GAP_IN_MEDIANS, Overview, Quantity, TimeOverview, overview,
-};
+use dashpot_files::input;
+use dashpot_recording::{ChannelOverview, Channels, GAP_IN_MEDIANS, Overview, Quantity, TimeOverview, overview};
 
 /// Channels of a recording: names, units, ranges, how even the times are, and what to type to replay it.
 #[derive(Debug, Clone, clap::Args)]

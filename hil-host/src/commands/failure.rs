@@ -8,25 +8,25 @@ use dashpot_reference::ReferenceError;
 
 use super::calibrate::words;
 use super::remedy::{option_of, with_remedy};
-use crate::files::FileError;
-use crate::files::case::CaseError;
-use crate::files::damper::{ContentError, DamperError, FORM};
-use crate::files::profile::NamedProfileError;
-use crate::files::sheet::SheetFileError;
-use crate::files::study::StudyFileError;
-use crate::files::track::TrackFileError;
-use crate::files::vehicle::{FORM as VEHICLE_FORM, VehicleFileError};
-use crate::realtime::pacing::{RealtimeOption, TICKS_PER_ALLOWED_MISS};
-use crate::realtime::timing::span;
-use crate::realtime::{RealtimeError, listed, stopped};
-use crate::report::DrawError;
-use crate::study::StudyError;
-use crate::study::bench_test::{HIGHEST_FREQUENCY_HZ, LARGEST_AMPLITUDE_M};
-use crate::study::calibration::CalibrationError;
-use crate::study::plate::PlateError;
-use crate::study::vehicle::VehicleStudyError;
-use crate::target::export::ExportError;
-use crate::target::pil::{EmulatorError, LinkError, SessionError};
+use dashpot_files::FileError;
+use dashpot_files::case::CaseError;
+use dashpot_files::damper::{ContentError, DamperError, FORM};
+use dashpot_files::profile::NamedProfileError;
+use dashpot_files::sheet::SheetFileError;
+use dashpot_files::study::StudyFileError;
+use dashpot_files::track::TrackFileError;
+use dashpot_files::vehicle::{FORM as VEHICLE_FORM, VehicleFileError};
+use dashpot_realtime::pacing::{RealtimeOption, TICKS_PER_ALLOWED_MISS};
+use dashpot_realtime::timing::span;
+use dashpot_realtime::{RealtimeError, listed, stopped};
+use dashpot_report::DrawError;
+use dashpot_testbench::TestbenchError;
+use dashpot_files::harmonic::{HarmonicError, HIGHEST_FREQUENCY_HZ, LARGEST_AMPLITUDE_M};
+use dashpot_calibration::CalibrationError;
+use dashpot_testbench::plate::PlateError;
+use dashpot_vehicle_run::VehicleRunError;
+use dashpot_export::ExportError;
+use dashpot_host_link::{EmulatorError, LinkError, SessionError};
 
 /// A failure with a message that names what failed, where, and what is allowed there.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -112,7 +112,7 @@ impl From<FileError> for Failure {
         };
         Self {
             kind,
-            message: with_remedy(error.to_string(), error.remedy()),
+            message: with_remedy(error.to_string(), dashpot_recording::remedy(&error)),
         }
     }
 }
@@ -210,29 +210,29 @@ impl From<SheetFileError> for Failure {
     }
 }
 
-impl From<VehicleStudyError> for Failure {
-    fn from(error: VehicleStudyError) -> Self {
+impl From<VehicleRunError> for Failure {
+    fn from(error: VehicleRunError) -> Self {
         Self::new(error.to_string())
     }
 }
 
-impl From<StudyError> for Failure {
-    fn from(error: StudyError) -> Self {
+impl From<TestbenchError> for Failure {
+    fn from(error: TestbenchError) -> Self {
         match error {
-            StudyError::Recording(error) => error.into(),
-            StudyError::Amplitude(amplitude_m) => Self::wrong_use(format!(
+            TestbenchError::Recording(error) => error.into(),
+            TestbenchError::Motion(HarmonicError::Amplitude(amplitude_m)) => Self::wrong_use(format!(
                 "--amplitude-m: {amplitude_m}, allowed: above 0 and at most {LARGEST_AMPLITUDE_M} m"
             )),
-            StudyError::Frequency(frequency_hz) => Self::wrong_use(format!(
+            TestbenchError::Motion(HarmonicError::Frequency(frequency_hz)) => Self::wrong_use(format!(
                 "--frequency-hz: {frequency_hz}, allowed: above 0 and at most {HIGHEST_FREQUENCY_HZ} Hz"
             )),
-            StudyError::SweepRate { .. } | StudyError::SweepSteps { .. } => {
+            TestbenchError::SweepRate { .. } | TestbenchError::SweepSteps { .. } => {
                 Self::wrong_use(format!("--octaves-per-minute: {error}"))
             }
-            StudyError::Step { .. }
-            | StudyError::StepsPerCycle { .. }
-            | StudyError::Velocity { .. }
-            | StudyError::Displacement { .. } => Self::wrong_use(error.to_string()),
+            TestbenchError::Step { .. }
+            | TestbenchError::StepsPerCycle { .. }
+            | TestbenchError::Velocity { .. }
+            | TestbenchError::Displacement { .. } => Self::wrong_use(error.to_string()),
             _ => Self::new(error.to_string()),
         }
     }
@@ -282,6 +282,7 @@ impl From<RealtimeError> for Failure {
             RealtimeError::MissedDeadlines { missed, ticks } => Self::new(format!(
                 "{missed} of {ticks} deadlines missed, allowed by --fail-on-miss: none"
             )),
+            _ => Self::new(error.to_string()),
         }
     }
 }
@@ -296,7 +297,7 @@ impl From<ExportError> for Failure {
             ExportError::Include { .. } => format!("--output: {error}"),
             // It starts with `name`, as the option is called.
             ExportError::Name { .. } | ExportError::ReservedName { .. } => format!("--{error}"),
-            ExportError::Case(_) | ExportError::Library(_) => return Self::new(error.to_string()),
+            _ => return Self::new(error.to_string()),
         })
     }
 }

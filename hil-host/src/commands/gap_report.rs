@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 
 use super::counted;
-use crate::files::recording::{GAP_IN_MEDIANS, Gaps, Place};
+use dashpot_recording::{GAP_IN_MEDIANS, Gaps, Place};
 
 /// Writes how many gaps the recording has and where the longest is; nothing where there are none; the same of rows that were left out.
 pub(super) fn write_gaps(out: &mut dyn Write, gaps: &Gaps) -> io::Result<()> {

@@ -3,7 +3,7 @@
 use dashpot_core::health::{Estimate, HealthReading, HealthStatus};
 use serde::Serialize;
 
-use crate::study::health::stiffness_in_words;
+use dashpot_testbench::health::stiffness_in_words;
 
 /// An estimate, its status in words.
 #[derive(Debug, Serialize)]

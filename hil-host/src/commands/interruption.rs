@@ -42,9 +42,8 @@ pub fn clean_up() -> Outcome<()> {
     use signal_hook::iterator::Signals;
     use signal_hook::low_level::emulate_default_handler;
 
-    use crate::files::temporary;
-    use crate::target;
-
+    use dashpot_files::temporary;
+    
     /// Cleaning up takes little of it (bytes).
     const STACK: usize = 64 * 1024;
 
@@ -64,7 +63,7 @@ pub fn clean_up() -> Outcome<()> {
                     continue;
                 }
                 let _no_new_files = temporary::delete_all();
-                let _no_new_children = target::end_children();
+                let _no_new_children = dashpot_host_link::end_children();
                 // Ends the process, by the signal.
                 let _ = emulate_default_handler(signal);
             }

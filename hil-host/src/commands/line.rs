@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use crate::commands::failure::Outcome;
-use crate::target::pil::{Link, LinkChoice, LinkError, RetryLimits};
+use dashpot_host_link::{Link, LinkChoice, LinkError, RetryLimits};
 
 /// Which line to a target, and how long to wait for answers.
 #[derive(Debug, Clone, clap::Args)]

@@ -6,10 +6,9 @@ use std::time::Duration;
 use super::sweep::{self, Checked, Report, ResultArguments, StudyArguments};
 use super::{interruption, print_report};
 use crate::commands::failure::{Failure, Outcome};
-use crate::files::output::create_folder;
-use crate::study::sweep::rows::{self, Rows, RowsError};
-use crate::study::sweep::{CheckError, MergeError, Study, check, chosen, merge};
-use crate::study::workers;
+use dashpot_files::output::create_folder;
+use dashpot_study::sweep::rows::{self, Rows, RowsError};
+use dashpot_study::sweep::{CheckError, MergeError, Study, check, chosen, merge};
 
 /// The rows of a study's shards together, checked against its list of cases, and its page.
 #[derive(Debug, Clone, clap::Args)]
@@ -74,7 +73,7 @@ fn check_again(study: &Study, rows: &Rows, count: u32, seed: Option<u64>) -> Out
         study,
         rows,
         &cases,
-        workers::threads(),
+        dashpot_workers::threads(),
         &interruption::is_wanted,
     )
     .map_err(|error| {

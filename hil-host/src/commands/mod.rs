@@ -19,6 +19,7 @@ pub mod line;
 pub mod link;
 pub mod merge;
 pub mod modes;
+mod named_values;
 mod paced;
 pub mod pil;
 pub mod print;

@@ -10,10 +10,10 @@ use serde::Serialize;
 
 use super::{Format, print_report};
 use crate::commands::failure::{Failure, Outcome};
-use crate::files::case::NORMAL_DAMPING_S_PER_M;
-use crate::files::vehicle::{self, VehicleFileError};
-use crate::study::vehicle::contact::ContactOf;
-use crate::study::vehicle::{VehicleStudyError, contact, hunting};
+use dashpot_files::case::NORMAL_DAMPING_S_PER_M;
+use dashpot_files::vehicle::{self, VehicleFileError};
+use dashpot_vehicle_run::contact::ContactOf;
+use dashpot_vehicle_run::{VehicleRunError, contact, hunting};
 
 /// Axle loads and natural modes of a vehicle at standstill or at a speed: frequency, damping, and what moves.
 #[derive(Debug, Clone, clap::Args)]
@@ -152,10 +152,10 @@ pub fn run(arguments: &ModesArguments) -> Outcome<()> {
 
 /// The contact itself, without tables.
 fn contact(name: &str, vehicle: &VehicleParameters, friction: f64) -> Outcome<Contact> {
-    let refused = |error: VehicleStudyError| Failure::new(format!("{name}: {error}"));
+    let refused = |error: VehicleRunError| Failure::new(format!("{name}: {error}"));
     let of = ContactOf::new(vehicle, friction, NORMAL_DAMPING_S_PER_M);
     let geometry = of
-        .map_err(VehicleStudyError::from)
+        .map_err(VehicleRunError::from)
         .and_then(|of| of.geometry());
     let geometry = geometry.map_err(refused)?;
     WheelsetContact::new(
@@ -173,7 +173,7 @@ fn limit_cycle(
     friction: f64,
     critical_km_h: Option<f64>,
 ) -> Outcome<Option<hunting::Outcome>> {
-    let refused = |error: VehicleStudyError| Failure::new(format!("{name}: {error}"));
+    let refused = |error: VehicleRunError| Failure::new(format!("{name}: {error}"));
     let contact = contact::tabulated(vehicle, friction, NORMAL_DAMPING_S_PER_M).map_err(refused)?;
     let greatest = 1.02 * critical_km_h.unwrap_or(GREATEST_KM_H) / 3.6;
     let hunting = hunting::Hunting::new(vehicle, contact).map_err(refused)?;

@@ -5,8 +5,8 @@ use std::io::{self, Write};
 use serde::Serialize;
 
 use super::counted;
-use crate::realtime::pacing::{PacingReport, TICKS_PER_ALLOWED_MISS};
-use crate::realtime::timing::{Figures, optional_span, span};
+use dashpot_realtime::pacing::{PacingReport, TICKS_PER_ALLOWED_MISS};
+use dashpot_realtime::timing::{Figures, optional_span, span};
 
 /// Deadlines, lateness and work of the ticks.
 #[derive(Serialize)]

@@ -7,8 +7,8 @@ use serde::Serialize;
 
 use super::arguments::Format;
 use super::failure::{Failure, Outcome};
-use crate::files::input;
-pub(super) use crate::study::tick_grid::nearest_nanosecond;
+use dashpot_files::input;
+pub(super) use dashpot_files::nearest_nanosecond;
 
 /// `1 tick`, `2 ticks`.
 pub(super) fn counted(count: u64, what: &str) -> String {

@@ -2,9 +2,7 @@
 
 use encoding_rs::Encoding;
 
-use crate::files::recording::{
-    Channel, Channels, DecimalMark, Quantity, Separator, TextOptions, Unit,
-};
+use dashpot_recording::{Channel, Channels, DecimalMark, Quantity, Separator, TextOptions, Unit};
 
 /// Heading of the options in the help.
 const HEADING: &str = "How the recording is read";
@@ -102,10 +100,10 @@ struct FileArguments {
     #[arg(long)]
     skip_invalid: bool,
     /// What separates the cells of text; found where not given.
-    #[arg(long, value_enum)]
+    #[arg(long, value_parser = super::named_values::separator())]
     separator: Option<Separator>,
     /// The mark before the decimals of text; found where not given.
-    #[arg(long, value_enum, value_name = "MARK")]
+    #[arg(long, value_parser = super::named_values::decimal_mark(), value_name = "MARK")]
     decimal_mark: Option<DecimalMark>,
     /// Whether the first row of text has the names of the columns; found where not given.
     #[arg(long, value_name = "yes|no", value_parser = yes_or_no)]

@@ -1,7 +1,7 @@
 //! What a user of the command can do about an error, in the words of its options.
 
-use crate::files::recording::Quantity;
-use crate::remedy::Remedy;
+use dashpot_recording::Quantity;
+use dashpot_recording::Remedy;
 
 /// The message of an error with its remedy, where it has one.
 pub fn with_remedy(message: String, remedy: Option<Remedy>) -> String {

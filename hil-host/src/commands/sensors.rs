@@ -5,7 +5,7 @@ use dashpot_core::health::{HealthModel, HealthSettings};
 
 use super::failure::{Failure, Outcome};
 use super::remedy::option_of;
-use crate::study::health::Noise;
+use dashpot_testbench::health::Noise;
 
 /// Heading of the options in the help.
 const HEADING: &str = "Sensors and memory of the health";

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use super::failure::{Failure, Outcome};
-use crate::files::input::is_standard_stream;
+use dashpot_files::input::is_standard_stream;
 
 /// Refuses `-` for more than one of `inputs`, each an option and the file it names.
 ///

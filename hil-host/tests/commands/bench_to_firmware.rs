@@ -5,7 +5,7 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 use dashpot_core::Damper;
-use dashpot_hil::files::damper;
+use dashpot_files::damper;
 use predicates::str::contains;
 
 use crate::common::{dashpot, error_of, json_of, text_of};

@@ -5,9 +5,9 @@ use std::path::Path;
 
 use assert_cmd::assert::Assert;
 use dashpot_hil::commands::failure::Failure;
-use dashpot_hil::realtime::RealtimeError;
-use dashpot_hil::realtime::budget::{Length, Run, free, paced};
-use dashpot_hil::realtime::pacing::{Clock, Pacer};
+use dashpot_realtime::RealtimeError;
+use dashpot_realtime::budget::{Length, Run, free, paced};
+use dashpot_realtime::pacing::{Clock, Pacer};
 
 use crate::common::{dashpot, error_of, json_of, text_of};
 

@@ -65,8 +65,8 @@ fn it_is_refused_with_a_start_that_explains_it() {
     for advised in advised(&line, &text) {
         run(&advised).success();
         let found = std::fs::read_to_string(folder.join("found.toml")).unwrap();
-        let found = dashpot_hil::files::damper::parse("found", &found, &[]).unwrap();
-        let found = dashpot_hil::files::damper::Keyed::new("found", &found).unwrap();
+        let found = dashpot_files::damper::parse("found", &found, &[]).unwrap();
+        let found = dashpot_files::damper::Keyed::new("found", &found).unwrap();
         let damping = found.number("reduced.damping_n_s_per_m").unwrap();
         assert!((damping / LINEAR.0 - 1.0).abs() < 0.03, "{damping}");
     }

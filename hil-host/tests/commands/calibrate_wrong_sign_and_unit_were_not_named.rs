@@ -1,6 +1,6 @@
 //! A reversed sign of force or displacement, and millimetres taken as metres, ended in "do not determine sensor_skew_s" like everything else.
 
-use dashpot_hil::files::recording::MeasuredSample;
+use dashpot_recording::MeasuredSample;
 
 use crate::common::advice::advised;
 use crate::common::bench::{self, TRUTH, VARY};
@@ -23,7 +23,7 @@ fn is_named(change: impl Fn(MeasuredSample) -> MeasuredSample, more: &[&str], wo
     for (number, advised) in advised(&line, &text).iter().enumerate() {
         run(advised).success();
         let found = std::fs::read_to_string(folder.join("found.toml")).unwrap();
-        let found = dashpot_hil::files::damper::parse("found", &found, &[]).unwrap();
+        let found = dashpot_files::damper::parse("found", &found, &[]).unwrap();
         let (_, clearance_m, tolerance) = TRUTH[2];
         assert!(
             number > 0 || (found.mount.clearance_m - clearance_m).abs() < tolerance,

@@ -3,9 +3,9 @@
 use std::path::Path;
 use std::sync::LazyLock;
 
-use dashpot_hil::study::Scalar;
-use dashpot_hil::study::accuracy_limits::ACCURACY_LIMITS;
-use dashpot_hil::study::excitation::Excitation;
+use dashpot_files::Scalar;
+use dashpot_testbench::accuracy_limits::ACCURACY_LIMITS;
+use dashpot_testbench::excitation::Excitation;
 
 use crate::common::{dashpot, error_of, json_of, text_of};
 

@@ -4,7 +4,7 @@ use std::path::Path;
 use std::process::Command;
 
 use assert_cmd::assert::OutputAssertExt;
-use dashpot_hil::study::excitation::Excitation;
+use dashpot_testbench::excitation::Excitation;
 
 use crate::common::{dashpot, text_of};
 
@@ -51,7 +51,7 @@ fn the_exported_damper_steps_to_the_same_bits() {
         .stdin(std::fs::File::open(&input).unwrap())
         .assert()
         .success();
-    let damper: dashpot_core::Damper<f32> = dashpot_hil::files::damper::load("in-service", &[])
+    let damper: dashpot_core::Damper<f32> = dashpot_files::damper::load("in-service", &[])
         .unwrap()
         .build(1e-3)
         .unwrap();
@@ -88,7 +88,7 @@ fn exported(lang: &str, more: &[&str]) -> Vec<u8> {
 }
 
 fn in_service<T: dashpot_core::Real>() -> dashpot_core::Damper<T> {
-    let parameters = dashpot_hil::files::damper::load("in-service", &[]).unwrap();
+    let parameters = dashpot_files::damper::load("in-service", &[]).unwrap();
     parameters.build(1e-3).unwrap()
 }
 

@@ -3,7 +3,7 @@
 use std::process::Command;
 
 use dashpot_core::health::{HealthModel, HealthSettings};
-use dashpot_hil::files::damper;
+use dashpot_files::damper;
 
 use crate::common::{dashpot, error_of, json_of, text_of};
 

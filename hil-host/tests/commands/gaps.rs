@@ -3,7 +3,7 @@
 use std::io::Cursor;
 use std::path::Path;
 
-use dashpot_hil::files::recording::{Gaps, Place, Recording};
+use dashpot_recording::{Gaps, Place, Recording};
 
 use crate::common::{dashpot, json_of, text_of};
 

@@ -6,8 +6,8 @@ use std::path::Path;
 use std::process::Command;
 
 use dashpot_core::{Damper, Status};
-use dashpot_hil::files::damper;
-use dashpot_hil::study::excitation::Excitation;
+use dashpot_files::damper;
+use dashpot_testbench::excitation::Excitation;
 use libloading::{Library, Symbol};
 use xtask::run::repository;
 use xtask::tools::{CLANG, GCC, have};

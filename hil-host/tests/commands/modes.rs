@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use assert_cmd::assert::Assert;
-use dashpot_hil::files::vehicle;
+use dashpot_files::vehicle;
 use dashpot_rail::vehicle::{Mode, Standstill};
 
 use crate::common::{dashpot, json_of, text_of};

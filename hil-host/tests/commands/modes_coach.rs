@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 use std::path::Path;
 
-use dashpot_hil::files::vehicle;
+use dashpot_files::vehicle;
 use dashpot_rail::vehicle::{Mode, Standstill};
 
 use crate::common::{dashpot, json_of};

@@ -3,9 +3,9 @@
 use std::path::Path;
 
 use assert_cmd::assert::Assert;
-use dashpot_hil::files::case::Case;
-use dashpot_hil::files::damper;
-use dashpot_hil::study::response::{at_amplitude, frequencies};
+use dashpot_files::case::Case;
+use dashpot_files::damper;
+use dashpot_testbench::response::{at_amplitude, frequencies};
 use predicates::prelude::PredicateBooleanExt;
 use predicates::str::{contains, starts_with};
 

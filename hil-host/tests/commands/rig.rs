@@ -4,8 +4,9 @@ use std::f64::consts::{PI, TAU};
 use std::path::Path;
 
 use assert_cmd::assert::Assert;
-use dashpot_hil::files::damper;
-use dashpot_hil::study::bench_test::{Harmonic, run_until_periodic};
+use dashpot_files::damper;
+use dashpot_files::harmonic::Harmonic;
+use dashpot_testbench::bench_test::run_until_periodic;
 use dashpot_reference::damper::Reference;
 
 use crate::common::{dashpot, json_of, text_of};

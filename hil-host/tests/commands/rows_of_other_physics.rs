@@ -3,7 +3,7 @@
 
 use std::fs;
 
-use dashpot_hil::study::sweep::{Arithmetic, physics};
+use dashpot_study::sweep::{Arithmetic, physics};
 
 use crate::common::{dashpot, error_of, json_of};
 use crate::sweep::{STUDY, altered, folder, read, rows, with_its_digest};

@@ -2,7 +2,7 @@
 
 use dashpot_core::Damper;
 use dashpot_hil::commands::step_size::StepSize;
-use dashpot_hil::files::damper;
+use dashpot_files::damper;
 
 use crate::common::{dashpot, json_of};
 

@@ -4,7 +4,7 @@ use std::fs::{self, File};
 use std::path::Path;
 use std::process::{Child, Stdio};
 
-use dashpot_hil::study::sweep::{Arithmetic, digest_of_cells, physics};
+use dashpot_study::sweep::{Arithmetic, digest_of_cells, physics};
 use tempfile::TempDir;
 
 use crate::common::{command, dashpot, error_of, files_in, json_of, text_of};

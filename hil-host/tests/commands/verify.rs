@@ -4,10 +4,10 @@ use std::io::Cursor;
 use std::path::Path;
 
 use assert_cmd::assert::Assert;
-use dashpot_hil::files::damper;
-use dashpot_hil::files::recording::Recording;
-use dashpot_hil::study::tick_grid::TickGrid;
-use dashpot_hil::study::verification::{reference_forces, reference_forces_on_recording};
+use dashpot_files::damper;
+use dashpot_recording::Recording;
+use dashpot_recording::tick_grid::TickGrid;
+use dashpot_testbench::verification::{reference_forces, reference_forces_on_recording};
 use predicates::str::contains;
 
 use crate::common::{dashpot, error_of, json_of, text_of};

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
-use dashpot_hil::files::recording::{Channels, MeasuredSample, Measurement};
+use dashpot_recording::{Channels, MeasuredSample, Measurement};
 
 /// The path of the recording.
 pub fn path() -> String {

@@ -14,8 +14,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use dashpot_core::Damper;
-use dashpot_hil::files::damper;
-use dashpot_hil::study::excitation::Excitation;
+use dashpot_files::damper;
+use dashpot_testbench::excitation::Excitation;
 
 use crate::common::dashpot;
 

@@ -4,14 +4,11 @@
 use std::f64::consts::TAU;
 
 use dashpot_core::CheckedParameters;
-use dashpot_hil::files::damper::{Keyed, load};
-use dashpot_hil::study::bench_test::Harmonic;
-use dashpot_hil::study::calibration::{
-    Assumed, Calibrated, Calibration, CalibrationError, HeldRig, IndexTest, LoopTest, Prior,
-    Recorded, SKEW, Varied,
-};
-use dashpot_hil::study::health::Noise;
-use dashpot_hil::study::verification::reference_forces;
+use dashpot_files::damper::{Keyed, load};
+use dashpot_files::harmonic::Harmonic;
+use dashpot_calibration::{Assumed, Calibrated, Calibration, CalibrationError, HeldRig, IndexTest, LoopTest, Prior, Recorded, SKEW, Varied};
+use dashpot_testbench::health::Noise;
+use dashpot_testbench::verification::reference_forces;
 use fastrand::Rng;
 
 /// Interval of the made recordings (s).

@@ -1,10 +1,8 @@
 //! With a force offset in the recordings the numbers had no interval at all; intervals of 95 % must have the truth as often with offsets of both
 //! sensors as without.
 
-use dashpot_hil::files::damper::{Keyed, load};
-use dashpot_hil::study::calibration::{
-    Assumed, Calibration, FORCE_OFFSET, HeldRig, LoopTest, Recorded, SKEW, Varied,
-};
+use dashpot_files::damper::{Keyed, load};
+use dashpot_calibration::{Assumed, Calibration, FORCE_OFFSET, HeldRig, LoopTest, Recorded, SKEW, Varied};
 use fastrand::Rng;
 
 use crate::calibration::{recorded, with};

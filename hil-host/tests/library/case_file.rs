@@ -3,9 +3,9 @@
 use std::fs;
 
 use dashpot_hil::commands::failure::{Failure, Kind};
-use dashpot_hil::files::case::{CASES, Case, CaseOptions, FaultOptions};
-use dashpot_hil::files::track::{self, IrregularityParameters};
-use dashpot_hil::files::{damper, vehicle};
+use dashpot_files::case::{CASES, Case, CaseOptions, FaultOptions};
+use dashpot_files::track::{self, IrregularityParameters};
+use dashpot_files::{damper, vehicle};
 use dashpot_rail::vehicle::RailSupport;
 
 fn case(text: &str) -> Case {

@@ -1,7 +1,7 @@
 //! A vehicle as a part of another simulation: its own dampers' forces given back are its own run; states across a fault; other bytes.
 
-use dashpot_hil::files::case::{Case, CaseOptions};
-use dashpot_hil::study::vehicle::{Coupled, CoupledCase, Ending, Run};
+use dashpot_files::case::{Case, CaseOptions};
+use dashpot_vehicle_run::{Coupled, CoupledCase, Ending, Run};
 
 const OUTSIDE: &str = "front lateral damper 1";
 

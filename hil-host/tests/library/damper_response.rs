@@ -5,10 +5,11 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use dashpot_core::CheckedParameters;
 use dashpot_core::parameters::{DamperParameters, Element, Mount};
 
-use dashpot_hil::files::damper;
-use dashpot_hil::study::StudyError;
-use dashpot_hil::study::bench_test::{Harmonic, run_until_periodic};
-use dashpot_hil::study::response::{at_amplitude, linearised};
+use dashpot_files::damper;
+use dashpot_testbench::TestbenchError;
+use dashpot_files::harmonic::Harmonic;
+use dashpot_testbench::bench_test::run_until_periodic;
+use dashpot_testbench::response::{at_amplitude, linearised};
 
 const DAMPING: f64 = 120e3;
 
@@ -117,14 +118,14 @@ fn a_motion_out_of_bounds_is_refused() {
     let damper = reduced(DAMPING, 0.03, 8e6, 0.0);
     assert!(matches!(
         at_amplitude(&damper, 0.0, &[1.0]),
-        Err(StudyError::Amplitude(_))
+        Err(TestbenchError::Amplitude(_))
     ));
     assert!(matches!(
         at_amplitude(&damper, 1e-3, &[f64::NAN]),
-        Err(StudyError::Frequency(_))
+        Err(TestbenchError::Frequency(_))
     ));
     assert!(matches!(
         linearised(&damper, &[0.0]),
-        Err(StudyError::Frequency(_) | StudyError::Amplitude(_))
+        Err(TestbenchError::Frequency(_) | TestbenchError::Amplitude(_))
     ));
 }

@@ -2,7 +2,7 @@
 
 use std::cell::Cell;
 
-use dashpot_hil::realtime::pacing::{Clock, Pacer};
+use dashpot_realtime::pacing::{Clock, Pacer};
 
 /// Time moves by sleeping, each sleep 5 us too long, and by hand.
 struct SimulatedClock(Cell<u64>);

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use dashpot_hil::files::profile;
+use dashpot_files::profile;
 use dashpot_rail::profile::measured::Options;
 use dashpot_rail::profile::{Body, s1002};
 

@@ -3,7 +3,7 @@
 use std::io::Cursor;
 use std::path::Path;
 
-use dashpot_hil::files::recording::Recording;
+use dashpot_recording::Recording;
 
 /// What reading all of `bytes` says.
 fn error_of(bytes: &[u8]) -> String {

@@ -3,9 +3,7 @@
 use std::io::{Cursor, Write};
 use std::path::Path;
 
-use dashpot_hil::files::recording::{
-    Channel, Channels, DecimalMark, MeasuredSample, Measurement, Quantity, Recording, Separator,
-};
+use dashpot_recording::{Channel, Channels, DecimalMark, MeasuredSample, Measurement, Quantity, Recording, Separator};
 use flate2::Compression;
 use flate2::write::GzEncoder;
 

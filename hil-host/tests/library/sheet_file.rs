@@ -2,11 +2,11 @@
 
 use std::f64::consts::TAU;
 
-use dashpot_hil::files::damper;
-use dashpot_hil::files::sheet::{SHEETS, SheetFileError, SheetParameters};
-use dashpot_hil::study::bench_index::Index;
-use dashpot_hil::study::bench_sheet;
-use dashpot_hil::study::bench_test::run_until_periodic;
+use dashpot_files::damper;
+use dashpot_files::sheet::{SHEETS, SheetFileError, SheetParameters};
+use dashpot_files::sheet::Index;
+use dashpot_testbench::bench_sheet;
+use dashpot_testbench::bench_test::run_until_periodic;
 
 const TEST: &str = "title = \"sheet\"\n\n[[test]]\nname = \"one\"\namplitude_m = 10e-3\n";
 

@@ -4,10 +4,10 @@ use std::f64::consts::{PI, TAU};
 
 use dashpot_core::CheckedParameters;
 use dashpot_core::parameters::{DamperParameters, Mount};
-use dashpot_hil::files::damper;
-use dashpot_hil::study::StudyError;
-use dashpot_hil::study::response::{Response, at_amplitude, frequencies};
-use dashpot_hil::study::swept_sine::responses;
+use dashpot_files::damper;
+use dashpot_testbench::TestbenchError;
+use dashpot_testbench::response::{Response, at_amplitude, frequencies};
+use dashpot_testbench::swept_sine::responses;
 
 fn reduced(damping: f64, stiffness: f64, clearance_m: f64) -> CheckedParameters {
     let mut mount = Mount::new(stiffness);
@@ -84,13 +84,13 @@ fn a_sweep_that_cannot_be_is_refused() {
     };
     for rate in [0.0, -1.0, f64::NAN, 1.5] {
         let refused = sweep(1e-3, &[0.1, 1.0], rate);
-        assert!(matches!(refused, StudyError::SweepRate { .. }), "{rate}");
+        assert!(matches!(refused, TestbenchError::SweepRate { .. }), "{rate}");
     }
     let long = sweep(1e-3, &[0.1, 1000.0], 1e-3);
-    assert!(matches!(long, StudyError::SweepSteps { .. }), "{long}");
+    assert!(matches!(long, TestbenchError::SweepSteps { .. }), "{long}");
     let large = sweep(2.0, &[1.0], 1.0);
-    assert!(matches!(large, StudyError::Amplitude(_)), "{large}");
+    assert!(matches!(large, TestbenchError::Amplitude(_)), "{large}");
     let fast = sweep(0.1, &[1.0, 50.0], 1.0);
-    assert!(matches!(fast, StudyError::Velocity { .. }), "{fast}");
+    assert!(matches!(fast, TestbenchError::Velocity { .. }), "{fast}");
     assert_eq!(responses(&damper, 1e-3, &[], 1.0).unwrap(), []);
 }

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 use std::time::{Duration, SystemTime};
 
-use dashpot_hil::realtime::timing::{Distribution, Machine};
+use dashpot_realtime::timing::{Distribution, Machine};
 
 fn of(spans_ns: impl IntoIterator<Item = f64>) -> Distribution {
     let mut distribution = Distribution::new();

@@ -4,7 +4,7 @@ use std::fmt::Write;
 use std::fs;
 use std::path::Path;
 
-use dashpot_hil::files::track::{self, IrregularityParameters, TRACKS, TrackParameters};
+use dashpot_files::track::{self, IrregularityParameters, TRACKS, TrackParameters};
 use dashpot_rail::track::measured::{self, Options};
 use dashpot_rail::track::{Band, Defect, Generation, RailDeviation, Rails, Seeds, Spectrum};
 

@@ -3,8 +3,8 @@
 use std::fs;
 
 use dashpot_core::DamperParameters;
-use dashpot_hil::files::damper::{self, PRESETS};
-use dashpot_hil::files::vehicle::{self, Replacement};
+use dashpot_files::damper::{self, PRESETS};
+use dashpot_files::vehicle::{self, Replacement};
 use dashpot_rail::vehicle::{Direction, Law, VehicleParameters};
 
 /// Name, direction and parameters of each damper.

@@ -1,6 +1,6 @@
 //! Vehicle files: errors with file, line and the name of the part.
 
-use dashpot_hil::files::vehicle;
+use dashpot_files::vehicle;
 
 const WAGON: &str = r#"name = "wagon"
 

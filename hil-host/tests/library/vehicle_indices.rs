@@ -3,8 +3,8 @@
 use std::f64::consts::PI;
 use std::fs;
 
-use dashpot_hil::files::case::{Case, CaseOptions};
-use dashpot_hil::study::vehicle::{Indexer, Indices, Run, Sample};
+use dashpot_files::case::{Case, CaseOptions};
+use dashpot_vehicle_run::{Indexer, Indices, Run, Sample};
 use dashpot_rail::contact::WheelsetForces;
 use dashpot_rail::indices::{RideDirection, nadal_limit, prudhomme_limit_n, sperling};
 use tempfile::tempdir;
@@ -203,7 +203,7 @@ fn ride_is_told_at_the_points_of_the_vehicle_file() {
     let plain = coach();
     let body = plain.vehicle.bodies[0].clone();
     let height_m = body.height_m + 0.25;
-    let (_, text) = dashpot_hil::files::vehicle::VEHICLES[1];
+    let (_, text) = dashpot_files::vehicle::VEHICLES[1];
     let points = points
         .replace("BODY", &body.name)
         .replace("HEIGHT", &height_m.to_string());

@@ -6,12 +6,12 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use dashpot_core::Damper;
-use dashpot_hil::files::FileError;
-use dashpot_hil::files::damper;
-use dashpot_hil::files::recording::Recording;
-use dashpot_hil::files::recording::written::{ColumnName, Form, Written};
-use dashpot_hil::study::replay::replay;
-use dashpot_hil::study::tick_grid::TickGrid;
+use dashpot_files::FileError;
+use dashpot_files::damper;
+use dashpot_recording::Recording;
+use dashpot_recording::written::{ColumnName, Form, Written};
+use dashpot_testbench::replay::replay;
+use dashpot_recording::tick_grid::TickGrid;
 
 const STEP_S: f64 = 1e-3;
 

@@ -1,7 +1,7 @@
 //! Channels of MDF4 that have no bytes and count their rows began at 0 again with every part of 16 384 rows: a time so
 //! counted was refused as one that goes back, any other value was wrong without a word.
 
-use dashpot_hil::files::recording::{Channel, Channels, Recording};
+use dashpot_recording::{Channel, Channels, Recording};
 
 use crate::mdf4::{self, Channel as Field};
 

@@ -3,7 +3,7 @@
 use std::io::{Cursor, Write};
 use std::path::Path;
 
-use dashpot_hil::files::recording::{Channels, ForceHistory, Measurement};
+use dashpot_recording::{Channels, ForceHistory, Measurement};
 
 use crate::common::{dashpot, json_of, text_of};
 

@@ -3,7 +3,7 @@
 use std::io::Cursor;
 use std::path::Path;
 
-use dashpot_hil::files::recording::{MeasuredSample, Measurement};
+use dashpot_recording::{MeasuredSample, Measurement};
 
 use crate::forms::{FORMS, Form, samples};
 

@@ -4,7 +4,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use dashpot_hil::files::recording::{Channels, Recording};
+use dashpot_recording::{Channels, Recording};
 use parquet::basic::{ConvertedType, Repetition, Type as Physical};
 use parquet::data_type::{DoubleType, Int32Type, Int64Type};
 use parquet::file::properties::WriterProperties;

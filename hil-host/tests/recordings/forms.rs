@@ -2,9 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-use dashpot_hil::files::FileError;
-use dashpot_hil::files::recording::{Channel, Channels, MeasuredSample, Measurement, Quantity};
-use dashpot_hil::remedy::Remedy;
+use dashpot_files::FileError;
+use dashpot_recording::{Channel, Channels, MeasuredSample, Measurement, Quantity};
+use dashpot_recording::remedy::Remedy;
 
 /// A file, the names of its channels (time, displacement, force; empty for the default) with units that it does not tell.
 pub struct Form {

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use dashpot_hil::files::recording::{Channel, Channels, Quantity, Recording, overview};
+use dashpot_recording::{Channel, Channels, Quantity, Recording, overview};
 
 use crate::common::{dashpot, error_of, text_of};
 use crate::forms::{rows, samples};

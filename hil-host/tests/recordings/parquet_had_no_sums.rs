@@ -5,9 +5,9 @@ use std::fs::File;
 use std::io::Cursor;
 use std::path::Path;
 
-use dashpot_hil::files::columns;
-use dashpot_hil::files::recording::written::{ColumnName, Form, Written};
-use dashpot_hil::files::recording::{Channels, MeasuredSample, Measurement};
+use dashpot_recording::columns;
+use dashpot_recording::written::{ColumnName, Form, Written};
+use dashpot_recording::{Channels, MeasuredSample, Measurement};
 use parquet::file::reader::{FileReader, SerializedFileReader};
 
 use crate::common::{dashpot, error_of, files_in};

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use dashpot_hil::files::recording::Channels;
+use dashpot_recording::Channels;
 use xtask::python::have_packages;
 
 use crate::forms::{compare, compare_invalid, rows};

@@ -1,6 +1,6 @@
 //! What is asked for and is not in the file, or may be several things.
 
-use dashpot_hil::files::recording::{Channel, Channels};
+use dashpot_recording::{Channel, Channels};
 
 use crate::forms::{rows, samples};
 

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use dashpot_hil::files::recording::{Channel, Channels};
+use dashpot_recording::{Channel, Channels};
 
 use crate::common::{dashpot, error_of, json_of};
 use crate::forms::{rows, samples};

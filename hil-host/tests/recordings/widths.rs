@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use dashpot_hil::files::recording::{Channel, Channels, Recording};
+use dashpot_recording::{Channel, Channels, Recording};
 use xtask::python::have_packages;
 
 use crate::mdf4::{self, Channel as Field};

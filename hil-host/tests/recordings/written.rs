@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use dashpot_hil::files::recording::{Channels, MeasuredSample};
+use dashpot_recording::{Channels, MeasuredSample};
 
 use crate::common::{dashpot, error_of, files_in};
 use crate::forms::{rows, samples};

@@ -4,9 +4,9 @@ use std::fmt::Write;
 
 use dashpot_core::Damper;
 use dashpot_core::health::{Estimate, HealthModel, HealthReading, HealthSettings};
-use dashpot_hil::files::damper;
-use dashpot_hil::study::excitation::Excitation;
-use dashpot_hil::study::health::watch;
+use dashpot_files::damper;
+use dashpot_testbench::excitation::Excitation;
+use dashpot_testbench::health::watch;
 use serde_json::{Value, json};
 
 use crate::link_common::Rig;

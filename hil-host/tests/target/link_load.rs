@@ -1,7 +1,7 @@
 //! `dashpot link load`: dampers and images into places.
 
 use dashpot_core::Damper;
-use dashpot_hil::files::damper;
+use dashpot_files::damper;
 use serde_json::json;
 
 use crate::link_common::Rig;

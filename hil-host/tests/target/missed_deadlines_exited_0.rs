@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use dashpot_core::link::Response;
-use dashpot_hil::target::pil::Link;
+use dashpot_host_link::Link;
 
 use crate::common::{dashpot, error_of, json_of};
 use crate::pil_common::{altered, serve_tcp};

@@ -1,7 +1,7 @@
 //! A target's bank a tick at a time.
 
 use dashpot_core::Damper;
-use dashpot_hil::target::pil::{Bank, Client, FaultyLink, Session, SessionError};
+use dashpot_host_link::{Bank, Client, FaultyLink, Session, SessionError};
 
 use crate::pil_common::{RETRY_LIMITS, built, desk, ride};
 

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use dashpot_core::link::{Refusal, Request};
 use dashpot_core::{Damper, ImageError};
-use dashpot_hil::target::pil::{Client, Desk, Link, LinkError, RetryLimits};
+use dashpot_host_link::{Client, Desk, Link, LinkError, RetryLimits};
 
 use crate::pil_common::{RETRY_LIMITS, desk};
 

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use assert_cmd::assert::Assert;
 use dashpot_core::link::Response;
-use dashpot_hil::target::pil::Link;
+use dashpot_host_link::Link;
 use predicates::str::contains;
 
 use crate::common::{dashpot, files_in, json_beside, json_of, text_of};

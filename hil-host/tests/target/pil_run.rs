@@ -6,10 +6,7 @@ use dashpot_core::Status;
 use dashpot_core::link::{
     FrameReader, Header, PROTOCOL, REQUEST_BYTES, Refusal, Request, Response, ResponseFrame,
 };
-use dashpot_hil::target::pil::{
-    Client, Desk, Event, FaultCounts, FaultRates, FaultyLink, Link, LinkError, Pace, Report,
-    Session, SessionError, Tcp,
-};
+use dashpot_host_link::{Client, Desk, Event, FaultCounts, FaultRates, FaultyLink, Link, LinkError, Pace, Report, Session, SessionError, Tcp};
 #[cfg(all(unix, feature = "serial"))]
 use {crate::pil_common::serve, dashpot_hil::target::pil::Serial, std::path::Path};
 

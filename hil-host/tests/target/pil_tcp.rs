@@ -5,7 +5,7 @@ use std::io::Write;
 use std::net::{Ipv4Addr, TcpListener, TcpStream};
 use std::time::Duration;
 
-use dashpot_hil::target::pil::{Link, Tcp};
+use dashpot_host_link::{Link, Tcp};
 use rustix::net::sockopt::{set_tcp_quickack, tcp_quickack};
 
 #[test]

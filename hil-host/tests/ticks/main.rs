@@ -9,11 +9,11 @@ mod instructions;
 
 use std::cell::{Cell, RefCell};
 
-use dashpot_hil::files::case::Case;
-use dashpot_hil::realtime::handover::handover;
-use dashpot_hil::realtime::pacing::{Clock, Pacer};
-use dashpot_hil::study::vehicle::drive::drive;
-use dashpot_hil::study::vehicle::{Ending, Run, TickRecord};
+use dashpot_files::case::Case;
+use dashpot_realtime::handover::handover;
+use dashpot_realtime::pacing::{Clock, Pacer};
+use dashpot_hil::commands::vehicle::drive::drive;
+use dashpot_vehicle_run::{Ending, Run, TickRecord};
 
 /// A clock of its own time, on which a tick takes 100 us. Each sleep lies between two ticks: `between` is called there.
 struct Ticks<F> {
@@ -55,7 +55,7 @@ fn driven(ticks: u64, between: impl FnMut()) {
 }
 
 /// A damper loses its clearance after 200 ticks.
-fn fault(case: &Case) -> dashpot_hil::files::case::Fault {
+fn fault(case: &Case) -> dashpot_files::case::Fault {
     let (element, damper) = case
         .vehicle
         .elements
@@ -65,7 +65,7 @@ fn fault(case: &Case) -> dashpot_hil::files::case::Fault {
         .unwrap();
     let mut parameters = (*case.damper(&damper.name).unwrap()).clone();
     parameters.mount.clearance_m = 4e-3;
-    dashpot_hil::files::case::Fault {
+    dashpot_files::case::Fault {
         time_s: 0.2,
         damper: damper.name.clone(),
         element,

@@ -4,7 +4,7 @@ use std::hint::black_box;
 
 use dashpot_core::{Damper, DamperState, Real};
 
-use crate::study::excitation::Excitation;
+use dashpot_testbench::excitation::Excitation;
 
 /// Dampers on a ride that ends where it began, a decay, then rest; over and over.
 pub(super) struct Bench<T> {

@@ -11,12 +11,13 @@ use bench::Bench;
 use dashpot_core::{Damper, Real};
 use report::{Report, Setting, print};
 
+use super::named_values;
 use super::{DamperArguments, Format, RealtimeArguments, print_report};
 use crate::commands::failure::Outcome;
-use crate::realtime::budget::{Length, free, paced};
-use crate::realtime::pacing::{MonotonicClock, Pacer, RATE_RANGE_HZ, overhead_ns};
-use crate::realtime::timing::Machine;
-use crate::study::Scalar;
+use dashpot_realtime::budget::{Length, free, paced};
+use dashpot_realtime::pacing::{MonotonicClock, Pacer, RATE_RANGE_HZ, overhead_ns};
+use dashpot_realtime::timing::Machine;
+use dashpot_files::Scalar;
 
 /// Time per step on this host: histogram, percentiles, worst case, missed deadlines.
 ///
@@ -35,7 +36,7 @@ pub struct BudgetArguments {
     #[command(flatten)]
     damper: DamperArguments,
     /// Floating-point type.
-    #[arg(long, value_enum, default_value_t = Scalar::F32)]
+    #[arg(long, value_parser = named_values::scalar(), default_value_t = Scalar::F32)]
     scalar: Scalar,
     /// Ticks to run; 1000000 free running, five seconds paced when not given.
     #[arg(long, value_parser = clap::value_parser!(u64).range(1..=10_000_000_000))]

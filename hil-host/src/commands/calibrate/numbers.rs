@@ -3,7 +3,7 @@
 use std::str::FromStr;
 
 use super::CalibrateArguments;
-use crate::study::calibration::{Prior, Request, SKEW};
+use dashpot_calibration::{Prior, Request, SKEW};
 
 /// `KEY` or `KEY=LEAST:GREATEST`.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,8 +1,8 @@
 //! A calibration's errors and warnings in the words of the command: what to do, as options.
 
 use crate::commands::failure::Failure;
-use crate::files::recording::{Quantity, Unit};
-use crate::study::calibration::{Advice, CalibrationError, Finding, Remedy, SKEW, Warning};
+use dashpot_recording::{Quantity, Unit};
+use dashpot_calibration::{Advice, CalibrationError, Finding, Remedy, SKEW, Warning};
 
 /// What the command line says already, so that advice goes with it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -258,7 +258,7 @@ pub(super) fn line(warning: &Warning) -> String {
 
 /// The option with the uncertainty of an assumed number.
 pub(super) fn uncertainty_option(key: &str) -> &'static str {
-    if key == crate::study::calibration::TEMPERATURE {
+    if key == dashpot_calibration::TEMPERATURE {
         "--temperature-uncertainty-k"
     } else {
         "--density-uncertainty-kg-per-m3"

@@ -13,8 +13,8 @@ use report::{print, report};
 
 use super::{Format, print_report};
 use crate::commands::failure::{Failure, Outcome};
-use crate::files::output::write_folder;
-use crate::study::wheelset_geometry::WheelsetGeometry;
+use dashpot_files::output::write_folder;
+use dashpot_study::wheelset_geometry::WheelsetGeometry;
 
 /// Contact geometry of a wheelset on a track: contact points, rolling radius, equivalent conicity.
 #[derive(Debug, Clone, clap::Args)]

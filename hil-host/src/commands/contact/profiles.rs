@@ -8,7 +8,7 @@ use dashpot_rail::profile::{Body, Profile};
 
 use crate::commands::failure::Outcome;
 use crate::commands::streams;
-use crate::files::profile;
+use dashpot_files::profile;
 
 /// Which wheel runs on which rail.
 #[derive(Debug, Clone, clap::Args)]

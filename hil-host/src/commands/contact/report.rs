@@ -7,7 +7,7 @@ use dashpot_rail::profile::measured::Reading;
 use serde::Serialize;
 
 use super::profiles::Readings;
-use crate::study::wheelset_geometry::{Conicity, ForceJump, Shift, WheelsetGeometry};
+use dashpot_study::wheelset_geometry::{Conicity, ForceJump, Shift, WheelsetGeometry};
 
 /// What was read of a profile file, for programs.
 #[derive(Serialize)]

@@ -6,7 +6,7 @@ use std::time::Instant;
 use dashpot_core::{CheckedParameters, Real};
 
 use crate::commands::failure::Outcome;
-use crate::realtime::timing::Distribution;
+use dashpot_realtime::timing::Distribution;
 
 /// Steps timed together: long against the clock's resolution, short against an interruption.
 const BLOCK: usize = 500;

@@ -6,7 +6,7 @@ use dashpot_core::parameters::{DamperParameters, Element, Hydraulics};
 use maud::{Markup, html};
 
 use super::results::Bench;
-use crate::study::{StudyError, shim_valves};
+use dashpot_testbench::{TestbenchError, shim_valves};
 
 /// A number without zeros at its end, to four digits behind the point.
 fn number(value: f64) -> String {
@@ -138,7 +138,7 @@ fn relief_opening(bench: &Bench) -> Option<(f64, [f64; 2])> {
 ///
 /// # Errors
 /// As [`shim_valves::erratum`].
-pub(super) fn erratum(benches: &[Bench]) -> Result<String, StudyError> {
+pub(super) fn erratum(benches: &[Bench]) -> Result<String, TestbenchError> {
     match benches.first().and_then(hydraulics) {
         Some(paper) => shim_valves::erratum(paper),
         None => Ok(String::new()),

@@ -1,10 +1,10 @@
 //! Figures of the page.
 
 use super::results::{Bench, LOOP_AMPLITUDES_M, Ride};
-use crate::report::page::{Figure, panel};
-use crate::report::plot::curves::{Curve, ramp};
-use crate::report::plot::loops;
-use crate::report::plot::style::{BLUE_LINE, PALE, RED_LINE};
+use dashpot_report::page::{Figure, panel};
+use dashpot_report::plot::curves::{Curve, ramp};
+use dashpot_report::plot::loops;
+use dashpot_report::plot::style::{BLUE_LINE, PALE, RED_LINE};
 
 /// The window of the ride shown large (s).
 pub(super) const WINDOW_S: (f64, f64) = (1.0, 2.0);

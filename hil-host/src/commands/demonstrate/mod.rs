@@ -15,7 +15,7 @@ use serde::Serialize;
 
 use super::{Format, print_report_beside, progress};
 use crate::commands::failure::Outcome;
-use crate::files::output::{self, write_bytes};
+use dashpot_files::output::{self, write_bytes};
 
 /// The demonstration: two presets on a made ride, accuracy, cost, and a page that shows them.
 #[derive(Debug, Clone, clap::Args)]

@@ -5,11 +5,12 @@ use maud::{Markup, html};
 use super::results::{Accuracy, Bench, Demonstration, LOOP_FREQUENCY_HZ, Ride, STEPS_S};
 use super::{description, figures};
 use crate::commands::failure::Outcome;
-use crate::report::DrawError;
-use crate::report::page::{built, document, figure, footer, tiles};
-use crate::study::bench_test::Harmonic;
-use crate::study::published::nominal_indices;
-use crate::study::{Scalar, StudyError};
+use dashpot_report::DrawError;
+use dashpot_report::page::{built, document, figure, footer, tiles};
+use dashpot_files::harmonic::Harmonic;
+use dashpot_testbench::published::nominal_indices;
+use dashpot_files::Scalar;
+use dashpot_testbench::TestbenchError;
 
 /// The demonstration as HTML.
 ///
@@ -191,7 +192,7 @@ fn bench_figure(bench: &Bench) -> Result<Markup, DrawError> {
 }
 
 /// Table 5 beside both dampers.
-fn bench_table(benches: &[Bench]) -> Result<Markup, StudyError> {
+fn bench_table(benches: &[Bench]) -> Result<Markup, TestbenchError> {
     let motion = Harmonic::TABLE_5;
     Ok(html! {
         h3 {

@@ -2,9 +2,9 @@
 
 use std::path::Path;
 
-use crate::files::FileError;
-use crate::files::recording::{Recording, Sample};
-use crate::study::tick_grid::TickGrid;
+use dashpot_files::FileError;
+use dashpot_recording::{Recording, Sample};
+use dashpot_recording::tick_grid::TickGrid;
 
 const NAME: &str = "data/excitations/ride_made.csv";
 const RIDE: &[u8] = include_bytes!("../../../../data/excitations/ride_made.csv");

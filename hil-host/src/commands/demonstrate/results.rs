@@ -6,11 +6,12 @@ use serde::Serialize;
 
 use super::cost::median_ns_per_step;
 use crate::commands::failure::Outcome;
-use crate::files::damper;
-use crate::study::Scalar;
-use crate::study::accuracy_limits::{AccuracyLimits, relaxation_time_s};
-use crate::study::bench_test::{self, Cycle, Harmonic, Indices};
-use crate::study::verification::{deviation, fixed_step_forces, reference_forces};
+use dashpot_files::damper;
+use dashpot_files::Scalar;
+use dashpot_testbench::accuracy_limits::{AccuracyLimits, relaxation_time_s};
+use dashpot_files::harmonic::Harmonic;
+use dashpot_testbench::bench_test::{self, Cycle, Indices};
+use dashpot_testbench::verification::{deviation, fixed_step_forces, reference_forces};
 
 /// Presets shown: the published equations as they stand, and the same damper in service.
 const DAMPERS: [&str; 2] = ["paper", "in-service"];

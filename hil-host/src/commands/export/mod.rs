@@ -11,9 +11,10 @@ use std::path::PathBuf;
 
 use super::sensors::SensorArguments;
 use super::step_size::{self, StepSize};
+use super::named_values;
 use super::{DamperArguments, Format};
 use crate::commands::failure::Outcome;
-use crate::study::Scalar;
+use dashpot_files::Scalar;
 
 /// Language of the exported source.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
@@ -75,7 +76,7 @@ pub struct ExportArguments {
     )]
     step_us: StepSize,
     /// Floating-point type.
-    #[arg(long, value_enum, default_value_t = Scalar::F32)]
+    #[arg(long, value_parser = named_values::scalar(), default_value_t = Scalar::F32)]
     scalar: Scalar,
     /// Write step and constants in C99 that need no library, for tool chains without Rust; `--lang c` in either scalar.
     #[arg(long, conflicts_with = "health")]

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::{ExportArguments, Language};
 use crate::commands::failure::{Failure, Outcome};
-use crate::files::input::is_standard_stream;
+use dashpot_files::input::is_standard_stream;
 
 /// Of the constant, which ends in `end` where it is not given; bytes alone have none.
 pub(super) fn name_of(arguments: &ExportArguments, end: &str) -> Outcome<Option<String>> {

@@ -5,10 +5,10 @@ use std::path::PathBuf;
 use super::ExportArguments;
 use super::fmu::{Content, fmu_name, write};
 use crate::commands::failure::{Failure, Outcome};
-use crate::files::case::Case;
-use crate::files::input;
-use crate::study::vehicle::{Coupled, CoupledCase, VehicleStudyError};
-use crate::target::export::fmu::{Fmu, Interface};
+use dashpot_files::case::Case;
+use dashpot_files::input;
+use dashpot_vehicle_run::{Coupled, CoupledCase, VehicleRunError};
+use dashpot_export::fmu::{Fmu, Interface};
 
 /// Name of the library in the folder of a build.
 const LIBRARY: &str = "libdashpot_vehicle_model.a";
@@ -23,7 +23,7 @@ pub(super) fn run(arguments: &ExportArguments, name: &str, interface: Interface)
     }
     let library = library(options.library.clone())?;
     let case = Case::load(name)?;
-    let refused = |error: VehicleStudyError| Failure::new(format!("{}: {error}", case.name));
+    let refused = |error: VehicleRunError| Failure::new(format!("{}: {error}", case.name));
     let of = CoupledCase::new(&case, &options.outside).map_err(refused)?;
     let contact = of.contact().map_err(refused)?;
     let tables = contact.tables().map_err(refused)?;

@@ -8,7 +8,7 @@ use serde::Serialize;
 use super::LinkArguments;
 use super::target::{Greeting, Target, step_in_words};
 use crate::commands::failure::Outcome;
-use crate::files::status_bits::{self, StatusBit};
+use dashpot_files::status_bits::{self, StatusBit};
 
 /// `hello`.
 pub(super) fn hello(link: &LinkArguments) -> Outcome<()> {

@@ -12,9 +12,9 @@ use super::target::{Target, step_in_words};
 use crate::commands::arguments::damper_help;
 use crate::commands::failure::{Failure, Outcome};
 use crate::commands::step_size::StepSize;
-use crate::files::FileError;
-use crate::files::damper;
-use crate::files::input;
+use dashpot_files::FileError;
+use dashpot_files::damper;
+use dashpot_files::input;
 
 /// Put a damper in places of the bank; their states keep the force. A place that has it already is skipped.
 #[derive(Debug, Clone, clap::Args)]

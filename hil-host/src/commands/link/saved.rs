@@ -9,10 +9,10 @@ use super::LinkArguments;
 use super::target::Target;
 use crate::commands::failure::{Failure, Outcome};
 use crate::commands::print::{counted, print_report_beside};
-use crate::files::FileError;
-use crate::files::input;
-use crate::files::output::{self, cannot_write, write_whole};
-use crate::files::states::BankState;
+use dashpot_files::FileError;
+use dashpot_files::input;
+use dashpot_files::output::{self, cannot_write, write_whole};
+use dashpot_files::states::BankState;
 
 /// Write the states of all dampers and the tick to a file.
 #[derive(Debug, Clone, clap::Args)]

@@ -6,7 +6,7 @@ use serde::Serialize;
 use crate::commands::failure::{Failure, Outcome};
 use crate::commands::line::LineArguments;
 use crate::commands::step_size::StepSize;
-use crate::target::pil::{Client, Link, LinkError};
+use dashpot_host_link::{Client, Link, LinkError};
 
 /// A target that said hello.
 pub(super) struct Target {

@@ -11,8 +11,8 @@ use super::places::Places;
 use super::target::Target;
 use crate::commands::failure::{Failure, Outcome};
 use crate::commands::print::{counted, print_report_beside};
-use crate::files::output::{self, cannot_write_rows, write_whole_if};
-use crate::files::status_bits::{self, StatusBit};
+use dashpot_files::output::{self, cannot_write_rows, write_whole_if};
+use dashpot_files::status_bits::{self, StatusBit};
 
 /// Answers that hold all the ticks a target keeps; what comes after those is newer than the question.
 const MOST_ANSWERS: usize = KEPT_TICKS / MOST_SAMPLES;

@@ -13,8 +13,8 @@ use super::telemetry::{PlaceSample, take};
 use crate::commands::arguments::Format;
 use crate::commands::failure::{Failure, Outcome};
 use crate::commands::print::counted;
-use crate::files::input::STANDARD_STREAM;
-use crate::files::output::cannot_write;
+use dashpot_files::input::STANDARD_STREAM;
+use dashpot_files::output::cannot_write;
 
 /// Longest time between questions.
 const LONGEST_PAUSE: Duration = Duration::from_millis(100);

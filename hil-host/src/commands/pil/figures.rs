@@ -3,11 +3,11 @@
 use plotters::style::RGBColor;
 
 use super::history::{Forces, History};
-use crate::report::page::{Figure, panel};
-use crate::report::plot::curves::Curve;
-use crate::report::plot::envelope::Envelope;
-use crate::report::plot::sheet::{Panel, Scale};
-use crate::report::plot::style::{AMBER_LINE, BLUE_LINE, PALE, RED_LINE};
+use dashpot_report::page::{Figure, panel};
+use dashpot_report::plot::curves::Curve;
+use dashpot_report::plot::envelope::Envelope;
+use dashpot_report::plot::sheet::{Panel, Scale};
+use dashpot_report::plot::style::{AMBER_LINE, BLUE_LINE, PALE, RED_LINE};
 
 /// Bars of a histogram at most.
 const MOST_BARS: u64 = 40;

@@ -2,8 +2,8 @@
 
 use hdrhistogram::Histogram;
 
-use crate::report::plot::envelope::Envelope;
-use crate::target::pil::{Event, TickRecord};
+use dashpot_report::plot::envelope::Envelope;
+use dashpot_host_link::{Event, TickRecord};
 
 /// Forces at one place (N).
 #[derive(Default)]

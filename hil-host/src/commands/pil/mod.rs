@@ -20,13 +20,13 @@ use super::recording::MotionArguments;
 use super::step_size::StepSize;
 use super::{Format, RealtimeArguments, print_report_beside, progress, streams};
 use crate::commands::failure::{Failure, Outcome};
-use crate::files::damper;
-use crate::files::input;
-use crate::files::output::{self, cannot_write, write_whole_if};
-use crate::files::recording::Recording;
-use crate::realtime::pacing::Pacer;
-use crate::study::tick_grid::TickGrid;
-use crate::target::pil::{Client, FaultRates, FaultyLink, Link, Pace, Session};
+use dashpot_files::damper;
+use dashpot_files::input;
+use dashpot_files::output::{self, cannot_write, write_whole_if};
+use dashpot_recording::Recording;
+use dashpot_realtime::pacing::Pacer;
+use dashpot_recording::tick_grid::TickGrid;
+use dashpot_host_link::{Client, FaultRates, FaultyLink, Link, Pace, Session};
 
 /// Drive dampers on a target and compare every force with this host's, bit for bit.
 #[derive(Debug, Clone, clap::Args)]

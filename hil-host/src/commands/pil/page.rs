@@ -5,9 +5,9 @@ use maud::{Markup, html};
 use super::figures;
 use super::history::{Forces, History};
 use super::report::Found;
-use crate::realtime::timing::{optional_span, span};
-use crate::report::DrawError;
-use crate::report::page::{document, figure, footer, tiles};
+use dashpot_realtime::timing::{optional_span, span};
+use dashpot_report::DrawError;
+use dashpot_report::page::{document, figure, footer, tiles};
 
 /// The run as HTML.
 ///

@@ -4,9 +4,9 @@ use std::io::Write;
 use std::path::Path;
 
 use crate::commands::print::nearest_nanosecond;
-use crate::files::FileError;
-use crate::files::output::cannot_write_rows;
-use crate::target::pil::{Event, TickRecord};
+use dashpot_files::FileError;
+use dashpot_files::output::cannot_write_rows;
+use dashpot_host_link::{Event, TickRecord};
 
 /// Rows of a run, being written.
 pub(super) struct Rows<'a> {

@@ -12,13 +12,11 @@ use crate::commands::failure::{Failure, Outcome};
 use crate::commands::health_reading::Told;
 use crate::commands::sensors::{SensorArguments, model};
 use crate::commands::streams;
-use crate::files::input;
-use crate::files::recording::Measurement;
-use crate::report::health::page;
-use crate::study::health::{
-    History, Noise, alarm_in_words, alarm_name, doubts_in_words, in_words, watch, whole_in_words,
-};
-use crate::study::tick_grid::MeasuredGrid;
+use dashpot_files::input;
+use dashpot_recording::Measurement;
+use dashpot_report::health::page;
+use dashpot_testbench::health::{History, Noise, alarm_in_words, alarm_name, doubts_in_words, in_words, watch, whole_in_words};
+use dashpot_recording::tick_grid::MeasuredGrid;
 
 /// Samples that the noise is found from, where it is not given.
 const NOISE_SAMPLES: usize = 20_000;

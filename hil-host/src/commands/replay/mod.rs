@@ -12,19 +12,20 @@ use super::gap_report::write_gaps;
 use super::paced::Paced;
 use super::recording::MeasurementArguments;
 use super::step_size::{self, StepSize};
+use super::named_values;
 use super::{
     DamperArguments, Format, RealtimeArguments, counted, nearest_nanosecond, print_report_beside,
     progress, streams,
 };
 use crate::commands::failure::{Failure, Outcome};
-use crate::files::input;
-use crate::files::output::{self, cannot_write, write_whole, write_whole_if};
-use crate::files::recording::written::{ColumnName, Form, Written};
-use crate::files::recording::{Gaps, Recording};
-use crate::realtime::pacing::Pacer;
-use crate::study::Scalar;
-use crate::study::replay::{Summary, replay};
-use crate::study::tick_grid::TickGrid;
+use dashpot_files::input;
+use dashpot_files::output::{self, cannot_write, write_whole, write_whole_if};
+use dashpot_recording::written::{ColumnName, Form, Written};
+use dashpot_recording::{Gaps, Recording};
+use dashpot_realtime::pacing::Pacer;
+use dashpot_files::Scalar;
+use dashpot_testbench::replay::{Summary, replay};
+use dashpot_recording::tick_grid::TickGrid;
 use health::{HealthArguments, HealthReport};
 
 /// Columns that are written.
@@ -65,7 +66,7 @@ pub struct ReplayArguments {
     )]
     step_us: StepSize,
     /// Floating-point type of the step.
-    #[arg(long, value_enum, default_value_t = Scalar::F32)]
+    #[arg(long, value_parser = named_values::scalar(), default_value_t = Scalar::F32)]
     scalar: Scalar,
     /// Replay in real ticks and report lateness and missed deadlines; exit code 1 when more than one deadline in a thousand was missed.
     #[arg(long)]

@@ -6,7 +6,7 @@ use dashpot_core::CheckedParameters;
 
 use super::ResponseArguments;
 use crate::commands::failure::{Failure, Outcome};
-use crate::files::damper::{DamperError, Keyed};
+use dashpot_files::damper::{DamperError, Keyed};
 
 /// `KEY=VALUE,VALUE,...`.
 #[derive(Debug, Clone, PartialEq)]

@@ -5,13 +5,13 @@ use plotters::style::RGBColor;
 
 use super::report::{Kind, Report, Series, told};
 use crate::commands::failure::Outcome;
-use crate::files::study::shown;
-use crate::report::DrawError;
-use crate::report::page::{Figure, document, figure, footer};
-use crate::report::plot::curves::{Curve, ramp};
-use crate::report::plot::response;
-use crate::report::plot::sheet::Scale;
-use crate::report::plot::style::AMBER_LINE;
+use dashpot_files::study::shown;
+use dashpot_report::DrawError;
+use dashpot_report::page::{Figure, document, figure, footer};
+use dashpot_report::plot::curves::{Curve, ramp};
+use dashpot_report::plot::response;
+use dashpot_report::plot::sheet::Scale;
+use dashpot_report::plot::style::AMBER_LINE;
 
 /// Height of a panel (pixels).
 const HEIGHT: u32 = 300;

@@ -7,11 +7,10 @@ use serde::Serialize;
 use super::ResponseArguments;
 use super::family::Member;
 use crate::commands::failure::Outcome;
-use crate::files::output;
-use crate::files::study::shown;
-use crate::study::response::{Response, at_amplitude, linearised};
-use crate::study::swept_sine::{self, WINDOW, WINDOW_CYCLES};
-use crate::study::workers;
+use dashpot_files::output;
+use dashpot_files::study::shown;
+use dashpot_testbench::response::{Response, at_amplitude, linearised};
+use dashpot_testbench::swept_sine::{self, WINDOW, WINDOW_CYCLES};
 
 /// How a response was found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -145,7 +144,7 @@ impl Report {
             .iter()
             .flat_map(|member| amplitudes.iter().map(move |amplitude| (member, *amplitude)))
             .collect();
-        let found = workers::map(&wanted, |(Member { value, damper }, amplitude_m)| {
+        let found = dashpot_workers::map(&wanted, |(Member { value, damper }, amplitude_m)| {
             let Some(amplitude_m) = *amplitude_m else {
                 let responses = linearised(damper, frequencies_hz)?;
                 return Ok(vec![Series::new(Kind::Linearised, *value, responses, &[])]);

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use super::report::Report;
 use crate::commands::failure::Outcome;
-use crate::files::output::{cannot_write, cannot_write_rows};
+use dashpot_files::output::{cannot_write, cannot_write_rows};
 
 /// Writes a row for each value.
 ///

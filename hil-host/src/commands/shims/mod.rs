@@ -13,9 +13,9 @@ use report::{Report, ValveReport, print, valve_report};
 
 use super::{DamperArguments, Format, print_report};
 use crate::commands::failure::{Failure, Outcome};
-use crate::files::damper;
-use crate::files::output::write_folder;
-use crate::study::shim_valves::{VALVE_LOCATIONS, erratum};
+use dashpot_files::damper;
+use dashpot_files::output::write_folder;
+use dashpot_testbench::shim_valves::{VALVE_LOCATIONS, erratum};
 
 /// Shim packs: Cw over radius, equivalent thickness, lift under pressure by theory, as published and as used, flow.
 #[derive(Debug, Clone, clap::Args)]

@@ -6,11 +6,11 @@ use plotters::prelude::SeriesLabelPosition;
 
 use super::report::{ValveReport, radii};
 use crate::commands::failure::Outcome;
-use crate::report::plot::curves::{Curve, ramp};
-use crate::report::plot::sheet::{Layout, Panel, Scale, sheet};
-use crate::report::plot::style::{BLUE_LINE, GREEN_LINE, RED_LINE};
-use crate::study::published::Deflection;
-use crate::study::shim_valves::{VALVE_LOCATIONS, ValveLocation};
+use dashpot_report::plot::curves::{Curve, ramp};
+use dashpot_report::plot::sheet::{Layout, Panel, Scale, sheet};
+use dashpot_report::plot::style::{BLUE_LINE, GREEN_LINE, RED_LINE};
+use dashpot_testbench::published::Deflection;
+use dashpot_testbench::shim_valves::{VALVE_LOCATIONS, ValveLocation};
 
 /// Steps of pressure in a curve.
 const STEPS: u32 = 200;

@@ -9,8 +9,8 @@ use serde::Serialize;
 
 use super::fe::{self, PlateReport};
 use crate::commands::failure::Outcome;
-use crate::study::published::Deflection;
-use crate::study::shim_valves::{ValveLocation, theory_over_published};
+use dashpot_testbench::published::Deflection;
+use dashpot_testbench::shim_valves::{ValveLocation, theory_over_published};
 
 #[derive(Serialize)]
 struct Coefficient {

@@ -11,15 +11,14 @@ pub(super) use report::{Checked, Report, print};
 use super::{Format, interruption, print_report, progress};
 use crate::commands::failure::{Failure, Outcome};
 #[cfg(feature = "parquet")]
-use crate::files::columns;
-use crate::files::input::is_standard_stream;
-use crate::files::output::{create_folder, write_bytes};
-use crate::files::study::{STUDIES, StudyParameters};
+use dashpot_recording::columns;
+use dashpot_files::input::is_standard_stream;
+use dashpot_files::output::{create_folder, write_bytes};
+use dashpot_files::study::{STUDIES, StudyParameters};
 #[cfg(feature = "parquet")]
-use crate::study::sweep::ROW_DIGEST;
-use crate::study::sweep::rows::{Rows, RowsError};
-use crate::study::sweep::{self, Journal, Row, RunError, Shard, Study};
-use crate::study::workers;
+use dashpot_study::sweep::ROW_DIGEST;
+use dashpot_study::sweep::rows::{Rows, RowsError};
+use dashpot_study::sweep::{self, Journal, Row, RunError, Shard, Study};
 
 /// A study: many cases of a vehicle on a track, one row of indices each, and a page.
 #[derive(Debug, Clone, clap::Args)]
@@ -205,7 +204,7 @@ fn run_missing(
     all: usize,
     threads: Option<u16>,
 ) -> Outcome<()> {
-    let threads = threads.map_or_else(workers::threads, usize::from);
+    let threads = threads.map_or_else(dashpot_workers::threads, usize::from);
     let bar = progress::bar(all as u64, "cases");
     bar.set_position((all - missing.len()) as u64);
     bar.reset_eta();
@@ -230,6 +229,7 @@ fn refused(error: RowsError) -> Failure {
         RowsError::Foreign(_) => {
             "start over with --anew, or keep these rows and write elsewhere with --output".into()
         }
+        _ => return Failure::new(error.to_string()),
     };
     Failure::new(format!("{error}; {way_on}"))
 }

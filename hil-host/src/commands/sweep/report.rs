@@ -10,13 +10,13 @@ use serde::Serialize;
 use crate::commands::arguments::Format;
 use crate::commands::failure::Outcome;
 use crate::commands::{counted, print_report};
-use crate::files::output;
-use crate::study::sweep::rows::Rows;
-use crate::study::sweep::{Arithmetic, Study, VERSION, physics};
+use dashpot_files::output;
+use dashpot_study::sweep::rows::Rows;
+use dashpot_study::sweep::{Arithmetic, Study, VERSION, physics};
 
 /// What is told of a study.
 #[derive(Serialize)]
-pub(in crate::commands) struct Report {
+pub(crate) struct Report {
     study: String,
     digest: String,
     version: &'static str,
@@ -32,21 +32,21 @@ pub(in crate::commands) struct Report {
     not_completed: BTreeMap<String, Vec<u64>>,
     /// Cases that `merge --check` ran again, with the same bits.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub(in crate::commands) checked: Option<Checked>,
-    pub(in crate::commands) files: Vec<PathBuf>,
+    pub(crate) checked: Option<Checked>,
+    pub(crate) files: Vec<PathBuf>,
 }
 
 /// Rows that were run again.
 #[derive(Serialize)]
-pub(in crate::commands) struct Checked {
+pub(crate) struct Checked {
     /// Numbers of their cases.
-    pub(in crate::commands) cases: Vec<u64>,
+    pub(crate) cases: Vec<u64>,
     /// Seed of the choice.
-    pub(in crate::commands) seed: u64,
+    pub(crate) seed: u64,
 }
 
 impl Report {
-    pub(in crate::commands) fn new(
+    pub(crate) fn new(
         study: &Study,
         rows: &Rows,
         run_now: usize,
@@ -104,7 +104,7 @@ fn reason(ending: &str) -> &str {
     ending.split([':', ' ']).next().unwrap_or_default()
 }
 
-pub(in crate::commands) fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
+pub(crate) fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
     let Report {
         study,
         digest,

@@ -9,11 +9,12 @@ use crate::commands::arguments::Format;
 use crate::commands::failure::{Failure, Outcome};
 use crate::commands::print::print_report;
 use crate::commands::progress;
-use crate::files::case::Case;
-use crate::study::vehicle::Ending;
-use crate::study::vehicle::deviations::{BOUNDS, Deviations, Trace, Worst};
-use crate::study::vehicle::seeds::{OverSeeds, STANDARD_ERRORS, over_seeds};
-use crate::study::vehicle::verification::{TOLERANCE, reference, stepped};
+use dashpot_files::case::Case;
+use dashpot_vehicle_run::Ending;
+use dashpot_study::verification::VerificationError;
+use dashpot_study::verification::deviations::{BOUNDS, Deviations, Trace, Worst};
+use dashpot_study::verification::seeds::{OverSeeds, STANDARD_ERRORS, over_seeds};
+use dashpot_study::verification::{TOLERANCE, reference, stepped};
 
 #[derive(Serialize)]
 struct Report {
@@ -53,10 +54,13 @@ pub(super) fn run(case: &Case, format: Format) -> Outcome<()> {
             )));
         }
     }
-    let failed = |error| refused(case, &error);
+    let failed = |error: VerificationError| match error {
+        VerificationError::Run(error) => refused(case, &error),
+        other => Failure::new(format!("{}: {other}", case.name)),
+    };
     let bar = progress::bar(0, "step");
     let traced = |every: u64| -> Outcome<Trace> {
-        let (trace, ending) = stepped(case, every).map_err(failed)?;
+        let (trace, ending) = stepped(case, every).map_err(|error| refused(case, &error))?;
         match ending {
             Ending::Completed => Ok(trace),
             ending => Err(Failure::new(format!("--check: {}: {ending}", case.name))),

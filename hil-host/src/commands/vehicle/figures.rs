@@ -3,13 +3,13 @@
 use plotters::style::RGBColor;
 
 use super::history::History;
-use crate::report::page::{Figure, panel};
-use crate::report::plot::curves::{Curve, ramp};
-use crate::report::plot::envelope::thinned;
-use crate::report::plot::sheet::{Panel, Scale};
-use crate::report::plot::style::{BLUE_LINE, PALE, RED_LINE};
-use crate::study::vehicle::Forces;
-use crate::study::vehicle::signals::slug;
+use dashpot_report::page::{Figure, panel};
+use dashpot_report::plot::curves::{Curve, ramp};
+use dashpot_report::plot::envelope::thinned;
+use dashpot_report::plot::sheet::{Panel, Scale};
+use dashpot_report::plot::style::{BLUE_LINE, PALE, RED_LINE};
+use dashpot_study::verification::Forces;
+use dashpot_vehicle_run::signals::slug;
 
 /// All figures over time share their cursor.
 const TIME: &str = "time";

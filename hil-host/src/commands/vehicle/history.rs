@@ -1,7 +1,7 @@
 //! What a run's page shows of its ticks, of bounded size however long the run is.
 
-use crate::report::plot::envelope::{Envelope, time_s};
-use crate::study::vehicle::signals::Signal;
+use dashpot_report::plot::envelope::{Envelope, time_s};
+use dashpot_vehicle_run::signals::Signal;
 
 /// Rows kept at most; of a longer run every second, third, ...
 const MOST: u64 = 12_000;

@@ -2,6 +2,7 @@
 
 mod check;
 mod drawing;
+pub mod drive;
 mod figures;
 mod history;
 mod options;
@@ -13,6 +14,7 @@ mod spectra;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
+use drive::{Driven, drive};
 use history::History;
 use options::CaseArguments;
 use outside::{Lines, Outside, OutsideArguments};
@@ -20,17 +22,14 @@ use report::Report;
 
 use super::{Format, RealtimeArguments, interruption, print_report, progress};
 use crate::commands::failure::{Failure, Outcome};
-use crate::files::case::Case;
+use dashpot_files::case::Case;
 #[cfg(feature = "parquet")]
-use crate::files::columns;
-use crate::files::output::{cannot_write_rows, create_folder, write_bytes, write_whole};
-use crate::realtime::handover::{Giver, handover};
-use crate::realtime::pacing::{Pacer, PacingReport, RealtimeOptions};
-use crate::study::vehicle::drive::{Driven, drive};
-use crate::study::vehicle::recorded::all_signals;
-use crate::study::vehicle::{
-    Ending, Indexer, NoRide, Run, TickRecord, ValidityWatch, check_ride, signals,
-};
+use dashpot_recording::columns;
+use dashpot_files::output::{cannot_write_rows, create_folder, write_bytes, write_whole};
+use dashpot_realtime::handover::{Giver, handover};
+use dashpot_realtime::pacing::{Pacer, PacingReport, RealtimeOptions};
+use dashpot_vehicle_run::recorded::all_signals;
+use dashpot_vehicle_run::{Ending, Indexer, NoRide, Run, TickRecord, ValidityWatch, check_ride, signals};
 
 /// A vehicle on a track: time histories, indices and a page.
 #[derive(Debug, Clone, clap::Args)]

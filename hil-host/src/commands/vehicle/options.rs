@@ -1,10 +1,10 @@
 //! Options that make a case.
 
 use crate::commands::failure::{Failure, Outcome};
-use crate::files::case::{CASES, Case, CaseParts};
-use crate::files::track::TRACKS;
-use crate::files::vehicle::{Replacement, VEHICLES};
-use crate::study::vehicle::VehicleStudyError;
+use dashpot_files::case::{CASES, Case, CaseParts};
+use dashpot_files::track::TRACKS;
+use dashpot_files::vehicle::{Replacement, VEHICLES};
+use dashpot_vehicle_run::VehicleRunError;
 
 /// The case, by its name or by its parts; a part that is given changes that of the case.
 #[derive(Debug, Clone, clap::Args)]
@@ -57,7 +57,7 @@ impl CaseArguments {
     /// The case that the options make.
     ///
     /// # Errors
-    /// Neither a case nor vehicle, track and speed; what [`CaseOptions::case`](crate::files::case::CaseOptions::case) refuses.
+    /// Neither a case nor vehicle, track and speed; what [`CaseOptions::case`](dashpot_files::case::CaseOptions::case) refuses.
     pub(super) fn case(&self) -> Outcome<Case> {
         let parts = CaseParts {
             case: self.case.as_deref(),
@@ -86,6 +86,6 @@ impl CaseArguments {
 }
 
 /// What a case's vehicle or track is refused for.
-pub(super) fn refused(case: &Case, error: &VehicleStudyError) -> Failure {
+pub(super) fn refused(case: &Case, error: &VehicleRunError) -> Failure {
     Failure::new(format!("{}: {error}", case.name))
 }

@@ -5,12 +5,13 @@ use maud::{Markup, html};
 use super::report::{Limits, Report, counted_windows, percent};
 use super::{drawing, figures, spectra};
 use crate::commands::vehicle::history::History;
-use crate::files::case::Case;
-use crate::realtime::timing::span;
-use crate::report::DrawError;
-use crate::report::page::{document, figure, footer, tiles};
-use crate::study::vehicle::spectra::Spectrum;
-use crate::study::vehicle::{Ending, Forces, Indices, RideIndices, Run};
+use dashpot_files::case::Case;
+use dashpot_realtime::timing::span;
+use dashpot_report::DrawError;
+use dashpot_report::page::{document, figure, footer, tiles};
+use dashpot_vehicle_run::spectra::Spectrum;
+use dashpot_vehicle_run::{Ending, Indices, RideIndices, Run};
+use dashpot_study::verification::Forces;
 
 /// Dampers whose loops share a figure.
 const LOOPS: usize = 4;

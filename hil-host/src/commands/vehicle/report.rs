@@ -8,12 +8,12 @@ use serde::Serialize;
 use super::outside::{self, OutsideReport};
 use crate::commands::counted;
 use crate::commands::paced::Paced;
-use crate::files::case::Case;
-use crate::files::output;
-use crate::realtime::pacing::PacingReport;
-use crate::realtime::timing::span;
-use crate::study::vehicle::drive::Driven;
-use crate::study::vehicle::{Ending, Indices, RideIndices, Warning, WheelIndices, WheelsetIndices};
+use dashpot_files::case::Case;
+use dashpot_files::output;
+use dashpot_realtime::pacing::PacingReport;
+use dashpot_realtime::timing::span;
+use crate::commands::vehicle::drive::Driven;
+use dashpot_vehicle_run::{Ending, Indices, RideIndices, Warning, WheelIndices, WheelsetIndices};
 
 /// What is told of a run.
 #[derive(Serialize)]

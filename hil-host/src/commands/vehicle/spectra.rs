@@ -5,14 +5,14 @@ use std::path::Path;
 use maud::{Markup, html};
 
 use crate::commands::failure::{Failure, Outcome};
-use crate::files::FileError;
-use crate::files::case::Case;
-use crate::files::output::{cannot_write_rows, write_whole};
-use crate::report::DrawError;
-use crate::report::page::{Figure, figure, panel};
-use crate::report::plot::curves::{Curve, ramp};
-use crate::report::plot::sheet::{Panel, Scale};
-use crate::study::vehicle::spectra::{SHOWN_HZ, Spectrum, WINDOW_S, signals};
+use dashpot_files::FileError;
+use dashpot_files::case::Case;
+use dashpot_files::output::{cannot_write_rows, write_whole};
+use dashpot_report::DrawError;
+use dashpot_report::page::{Figure, figure, panel};
+use dashpot_report::plot::curves::{Curve, ramp};
+use dashpot_report::plot::sheet::{Panel, Scale};
+use dashpot_vehicle_run::spectra::{SHOWN_HZ, Spectrum, WINDOW_S, signals};
 
 /// Spectra of a case that has not run.
 ///

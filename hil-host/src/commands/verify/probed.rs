@@ -9,8 +9,8 @@ use super::VerifyArguments;
 use crate::commands::failure::{Failure, Outcome};
 use crate::commands::step_size::StepSize;
 use crate::commands::{print_report, progress};
-use crate::study::step_errors::{SCALARS, StepErrors};
-use crate::study::{Scalar, workers};
+use dashpot_testbench::step_errors::{SCALARS, StepErrors};
+use dashpot_files::Scalar;
 
 /// Default steps (us): 1 kHz and 10 kHz.
 const STEPS_US: [f64; 2] = [1000.0, 100.0];
@@ -81,7 +81,7 @@ pub(super) fn run(arguments: &VerifyArguments) -> Outcome<()> {
     };
     for step in steps {
         let errors = StepErrors::new(&parameters, step.step_s(), arguments.top_speed_m_per_s)?;
-        let largest = errors.largest(workers::threads())?;
+        let largest = errors.largest(dashpot_workers::threads())?;
         let promised = errors.promised(&largest);
         report.top_speed_m_per_s = errors.top_speed_m_per_s();
         report.force_limit_n = errors.force_limit_n();

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use dashpot_core::shim::Disc;
-use dashpot_hil::study::plate::{PressureArea, Profile, Resolution, RoundBosses, Stacking};
+use dashpot_testbench::plate::{PressureArea, Profile, Resolution, RoundBosses, Stacking};
 
 use super::{RADII_M, stack, stack_of};
 

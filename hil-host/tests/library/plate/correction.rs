@@ -1,9 +1,6 @@
 //! The correction factor Ce.
 
-use dashpot_hil::study::plate::{
-    Bosses, PlateError, PressureArea, Profile, Resolution, RoundBosses, fitted_boss_radius_m,
-    fitted_decay_width_m, fitted_full_radius_m, fitted_share,
-};
+use dashpot_testbench::plate::{Bosses, PlateError, PressureArea, Profile, Resolution, RoundBosses, fitted_boss_radius_m, fitted_decay_width_m, fitted_full_radius_m, fitted_share};
 
 use super::axisymmetric::edge_by_statics;
 use super::of_the_paper;
@@ -54,7 +51,7 @@ fn the_factor_does_not_depend_on_thickness() {
         boss_radius_m: 5e-3,
         exponent: 2.0,
     });
-    let of = |stack: &dashpot_hil::study::plate::Stack| {
+    let of = |stack: &dashpot_testbench::plate::Stack| {
         stack
             .correction_factor(&area, Resolution::default())
             .unwrap()

@@ -2,7 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use dashpot_hil::study::plate::{Bosses, PressureArea, Profile, Resolution, RoundBosses};
+use dashpot_testbench::plate::{Bosses, PressureArea, Profile, Resolution, RoundBosses};
 use nalgebra::{Matrix4, Vector4};
 
 use super::{RADII_M, stack};

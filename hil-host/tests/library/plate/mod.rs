@@ -6,8 +6,8 @@ mod correction;
 mod harmonics;
 
 use dashpot_core::parameters::{Element, Valve};
-use dashpot_hil::files::damper;
-use dashpot_hil::study::plate::{Stack, Stacking};
+use dashpot_files::damper;
+use dashpot_testbench::plate::{Stack, Stacking};
 
 /// Radii of the paper's discs: those of the piston and those of the foot (m).
 const RADII_M: [(f64, f64); 2] = [(16e-3, 29e-3), (5e-3, 11e-3)];

@@ -7,7 +7,7 @@ use std::process::Command;
 use std::time::Duration;
 
 use assert_cmd::assert::{Assert, OutputAssertExt};
-use dashpot_hil::target::pil::{Desk, Link, LinkError};
+use dashpot_host_link::{Desk, Link, LinkError};
 use serde_json::Value;
 use tempfile::TempDir;
 

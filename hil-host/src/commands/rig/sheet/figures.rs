@@ -2,15 +2,16 @@
 
 use plotters::style::RGBColor;
 
-use crate::files::study::shown;
-use crate::report::page::{Figure, panel};
-use crate::report::plot::curves::{Curve, ramp};
-use crate::report::plot::loops;
-use crate::report::plot::sheet::Panel;
-use crate::report::plot::style::{AMBER_LINE, BLUE_LINE, RED_LINE};
-use crate::study::bench_index::Index;
-use crate::study::bench_sheet::Tested;
-use crate::study::bench_test::{Cycle, Harmonic};
+use dashpot_files::study::shown;
+use dashpot_report::page::{Figure, panel};
+use dashpot_report::plot::curves::{Curve, ramp};
+use dashpot_report::plot::loops;
+use dashpot_report::plot::sheet::Panel;
+use dashpot_report::plot::style::{AMBER_LINE, BLUE_LINE, RED_LINE};
+use dashpot_files::sheet::Index;
+use dashpot_testbench::bench_sheet::{Tested, index_value};
+use dashpot_files::harmonic::Harmonic;
+use dashpot_testbench::bench_test::Cycle;
 
 /// Height of a panel (pixels).
 const HEIGHT: u32 = 300;
@@ -51,7 +52,7 @@ fn thinned(cycle: &Cycle) -> Cycle {
 pub(super) fn over_speed(tested: &[Tested<'_>]) -> Figure {
     let at = |tested: &Tested<'_>, index: Index| {
         let velocity = tested.cycle.motion.peak_velocity_m_per_s();
-        (velocity, index.of(&tested.cycle).unwrap_or(0.0) * 1e-3)
+        (velocity, index_value(&tested.cycle, index).unwrap_or(0.0) * 1e-3)
     };
     let panels = FORCES.map(|(index, name, colour)| {
         let mut points: Vec<(f64, f64)> = tested.iter().map(|tested| at(tested, index)).collect();
@@ -107,7 +108,7 @@ pub(super) fn over_temperature(tested: &[Tested<'_>]) -> Option<Figure> {
         let curves = motions.iter().zip(ramp(motions.len()));
         let curves = curves.flat_map(|((motion, tests), colour)| {
             let points = tests.iter().filter_map(|tested| {
-                let force = index.of(&tested.cycle)?;
+                let force = index_value(&tested.cycle, index)?;
                 Some((tested.temperature_c?, force * 1e-3))
             });
             let points: Vec<(f64, f64)> = points.collect();

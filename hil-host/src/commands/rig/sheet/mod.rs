@@ -11,9 +11,9 @@ use report::Report;
 use super::RigArguments;
 use crate::commands::failure::{Failure, Outcome};
 use crate::commands::{print_report_beside, streams};
-use crate::files::output::write_bytes;
-use crate::files::sheet::SheetParameters;
-use crate::study::bench_sheet;
+use dashpot_files::output::write_bytes;
+use dashpot_files::sheet::SheetParameters;
+use dashpot_testbench::bench_sheet;
 
 /// Goes through the sheet called `name`, prints it and writes its page.
 ///

@@ -5,9 +5,9 @@ use maud::{Markup, html};
 use super::figures;
 use super::report::{Report, TestReport, value_of};
 use crate::commands::failure::Outcome;
-use crate::report::page::{document, figure, footer, tiles};
-use crate::study::bench_index::Index;
-use crate::study::bench_sheet::Tested;
+use dashpot_report::page::{document, figure, footer, tiles};
+use dashpot_files::sheet::Index;
+use dashpot_testbench::bench_sheet::Tested;
 
 /// The page.
 ///

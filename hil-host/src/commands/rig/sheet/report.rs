@@ -7,11 +7,11 @@ use serde::Serialize;
 
 use crate::commands::counted;
 use crate::commands::rig::RigArguments;
-use crate::files::output;
-use crate::files::sheet::{Limit, SheetParameters};
-use crate::files::study::shown;
-use crate::study::bench_index::Index;
-use crate::study::bench_sheet::Tested;
+use dashpot_files::output;
+use dashpot_files::sheet::{Limit, SheetParameters};
+use dashpot_files::study::shown;
+use dashpot_files::sheet::Index;
+use dashpot_testbench::bench_sheet::Tested;
 
 /// A line of the head.
 #[derive(Serialize)]

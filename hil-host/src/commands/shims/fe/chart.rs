@@ -5,12 +5,10 @@ use plotters::prelude::SeriesLabelPosition;
 use super::Solved;
 use super::plots::panel;
 use crate::commands::failure::Outcome;
-use crate::report::plot::curves::{Curve, ramp};
-use crate::report::plot::sheet::Panel;
-use crate::report::plot::style::RED_LINE;
-use crate::study::plate::{
-    Fit, PlateError, PressureArea, Profile, Resolution, Stack, WIDTHS, is_ring, middle_ring,
-};
+use dashpot_report::plot::curves::{Curve, ramp};
+use dashpot_report::plot::sheet::Panel;
+use dashpot_report::plot::style::RED_LINE;
+use dashpot_testbench::plate::{Fit, PlateError, PressureArea, Profile, Resolution, Stack, WIDTHS, is_ring, middle_ring};
 
 /// Points of a curve.
 const POINTS: u32 = 48;

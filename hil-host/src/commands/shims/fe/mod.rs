@@ -15,10 +15,8 @@ pub(super) use plots::draw;
 pub(super) use report::{PlateReport, print};
 
 use crate::commands::failure::{Failure, Outcome};
-use crate::study::plate::{
-    Bending, Fit, PlateError, PressureArea, Resolution, Stack, assumed_area, fits,
-};
-use crate::study::shim_valves::{VALVE_LOCATIONS, ValveLocation};
+use dashpot_testbench::plate::{Bending, Fit, PlateError, PressureArea, Resolution, Stack, assumed_area, fits};
+use dashpot_testbench::shim_valves::{VALVE_LOCATIONS, ValveLocation};
 
 /// A valve's stack, bent.
 pub(super) struct Solved {

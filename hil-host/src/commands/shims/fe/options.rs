@@ -1,8 +1,8 @@
 //! Options of `dashpot shims --fe`.
 
 use crate::commands::failure::{Failure, Outcome};
-use crate::study::plate::{Bosses, PressureArea, Profile, RoundBosses, Stack, Stacking};
-use crate::study::shim_valves::{VALVE_LOCATIONS, ValveLocation};
+use dashpot_testbench::plate::{Bosses, PressureArea, Profile, RoundBosses, Stack, Stacking};
+use dashpot_testbench::shim_valves::{VALVE_LOCATIONS, ValveLocation};
 
 /// Largest pressure and stress that is asked for (Pa).
 const LARGEST_PA: f64 = 1e12;

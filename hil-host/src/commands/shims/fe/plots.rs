@@ -8,17 +8,17 @@ use super::super::plots::capital;
 use super::Solved;
 use super::chart::chart;
 use crate::commands::failure::Outcome;
-use crate::report::plot::curves::Curve;
-use crate::report::plot::map::{DiscMap, maps};
-use crate::report::plot::sheet::{Layout, Panel, Scale, sheet};
-use crate::report::plot::style::{BLUE_LINE, GREEN_LINE, PALE, RED_LINE};
-use crate::study::plate::Bending;
+use dashpot_report::plot::curves::Curve;
+use dashpot_report::plot::map::{DiscMap, maps};
+use dashpot_report::plot::sheet::{Layout, Panel, Scale, sheet};
+use dashpot_report::plot::style::{BLUE_LINE, GREEN_LINE, PALE, RED_LINE};
+use dashpot_testbench::plate::Bending;
 
 /// Parts of a curve.
 const PARTS: u32 = 160;
 
 /// Name and text of each drawing.
-pub(in crate::commands::shims) fn draw(solved: &[Solved]) -> Outcome<Vec<(&'static str, String)>> {
+pub(crate) fn draw(solved: &[Solved]) -> Outcome<Vec<(&'static str, String)>> {
     let row = |panels: Vec<Panel>| sheet(Layout::row(panels.len(), 480, 440), &panels);
     let charts = solved.iter().map(chart).collect::<Outcome<Vec<_>>>()?;
     let charts: Vec<Panel> = charts.into_iter().flatten().collect();

@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use super::{PlateArguments, Solved};
 use crate::commands::failure::Outcome;
-use crate::study::plate::{Fit, LargestStress, PressureArea, Profile, Stacking};
+use dashpot_testbench::plate::{Fit, LargestStress, PressureArea, Profile, Stacking};
 
 /// Largest lift over the thickness at which plate theory is told to hold: it then overstates the lift by 3 %.
 const SMALL_LIFT: f64 = 0.5;
@@ -55,7 +55,7 @@ struct PlateValve {
 
 /// The stacks as plates.
 #[derive(Serialize)]
-pub(in crate::commands::shims) struct PlateReport {
+pub(crate) struct PlateReport {
     allowable_stress_pa: Option<f64>,
     valves: Vec<PlateValve>,
 }
@@ -65,7 +65,7 @@ impl PlateReport {
     ///
     /// # Errors
     /// The published tables in the program are not as they were shipped.
-    pub(in crate::commands::shims) fn new(
+    pub(crate) fn new(
         arguments: &PlateArguments,
         solved: &[Solved],
     ) -> Outcome<Self> {
@@ -132,7 +132,7 @@ fn valve_report(arguments: &PlateArguments, solved: &Solved) -> Outcome<PlateVal
 }
 
 /// The report for people.
-pub(in crate::commands::shims) fn print(
+pub(crate) fn print(
     out: &mut dyn Write,
     report: &PlateReport,
 ) -> io::Result<()> {

@@ -4,14 +4,14 @@ use maud::{Markup, html};
 
 use super::{Drawn, HEIGHT, failed};
 use crate::commands::failure::Outcome;
-use crate::files::study::Sweep;
-use crate::report::page::{Figure, figure, panel};
-use crate::report::plot::curves::Curve;
-use crate::report::plot::envelope::thinned;
-use crate::report::plot::sheet::Panel;
-use crate::report::plot::style::{BLUE_LINE, RED_LINE};
-use crate::study::sweep::record;
-use crate::study::vehicle::signals::slug;
+use dashpot_files::study::Sweep;
+use dashpot_report::page::{Figure, figure, panel};
+use dashpot_report::plot::curves::Curve;
+use dashpot_report::plot::envelope::thinned;
+use dashpot_report::plot::sheet::Panel;
+use dashpot_report::plot::style::{BLUE_LINE, RED_LINE};
+use dashpot_study::sweep::record;
+use dashpot_vehicle_run::signals::slug;
 
 /// Displacement and force of each damper.
 pub(super) fn signals(dampers: &[String]) -> Vec<String> {

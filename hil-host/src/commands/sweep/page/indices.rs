@@ -5,12 +5,12 @@ use plotters::style::RGBColor;
 
 use super::{Drawn, HEIGHT};
 use crate::commands::failure::Outcome;
-use crate::files::study::{Axis, Sweep, Value, shown};
-use crate::report::page::{Figure, figure, panel};
-use crate::report::plot::curves::{Curve, ramp};
-use crate::report::plot::sheet::Panel;
-use crate::report::plot::style::{AMBER_LINE, BLUE_LINE, PALE, RED_LINE};
-use crate::study::sweep::Estimate;
+use dashpot_files::study::{Axis, Sweep, Value, shown};
+use dashpot_report::page::{Figure, figure, panel};
+use dashpot_report::plot::curves::{Curve, ramp};
+use dashpot_report::plot::sheet::Panel;
+use dashpot_report::plot::style::{AMBER_LINE, BLUE_LINE, PALE, RED_LINE};
+use dashpot_study::sweep::Estimate;
 
 /// Colours of indices of one panel.
 const COLOURS: [RGBColor; 4] = [BLUE_LINE, RED_LINE, AMBER_LINE, PALE];

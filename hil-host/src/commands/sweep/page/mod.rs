@@ -10,11 +10,11 @@ use maud::{Markup, html};
 use super::report::Report;
 use crate::commands::failure::{Failure, Outcome};
 use crate::commands::progress;
-use crate::files::nearest;
-use crate::files::study::{Figure, Shown, Sweep};
-use crate::report::page::{document, footer, tiles};
-use crate::study::sweep::rows::Rows;
-use crate::study::sweep::{Observed, RunError, Shared, Study, VERSION};
+use dashpot_files::nearest;
+use dashpot_files::study::{Figure, Shown, Sweep};
+use dashpot_report::page::{document, footer, tiles};
+use dashpot_study::sweep::rows::Rows;
+use dashpot_study::sweep::{Observed, RunError, Shared, Study, VERSION};
 
 /// Height of a panel (pixels).
 const HEIGHT: u32 = 260;
@@ -213,6 +213,6 @@ fn cases(study: &Study) -> Markup {
 }
 
 /// A case of a sweep that is drawn cannot be run.
-fn failed(sweep: &Sweep) -> impl Fn(crate::study::vehicle::VehicleStudyError) -> RunError + '_ {
+fn failed(sweep: &Sweep) -> impl Fn(dashpot_vehicle_run::VehicleRunError) -> RunError + '_ {
     |error| RunError::of_sweep(sweep, error)
 }

@@ -5,13 +5,12 @@ use maud::{Markup, html};
 use super::signal::label;
 use super::{Drawn, HEIGHT};
 use crate::commands::failure::{Failure, Outcome};
-use crate::files::study::{Sweep, Value};
-use crate::report::page::{Figure, figure};
-use crate::report::plot::curves::ramp;
-use crate::report::plot::response;
-use crate::report::plot::sheet::Scale;
-use crate::study::response::{at_amplitude, frequencies};
-use crate::study::workers;
+use dashpot_files::study::{Sweep, Value};
+use dashpot_report::page::{Figure, figure};
+use dashpot_report::plot::curves::ramp;
+use dashpot_report::plot::response;
+use dashpot_report::plot::sheet::Scale;
+use dashpot_testbench::response::{at_amplitude, frequencies};
 
 /// Frequencies, Hz, and how many.
 const BAND_HZ: [f64; 2] = [0.1, 20.0];
@@ -30,7 +29,7 @@ pub(super) fn part(
 ) -> Outcome<Markup> {
     let [least, greatest] = BAND_HZ;
     let frequencies = frequencies(least, greatest, FREQUENCIES);
-    let responses = workers::map(values, |value| -> Outcome<_> {
+    let responses = dashpot_workers::map(values, |value| -> Outcome<_> {
         let case = drawn.study.case_with(sweep, Some(value), None)?;
         let damper = case
             .damper(name)

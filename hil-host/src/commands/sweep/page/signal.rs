@@ -4,14 +4,13 @@ use maud::{Markup, html};
 
 use super::{Drawn, HEIGHT, failed};
 use crate::commands::failure::{Failure, Outcome};
-use crate::files::study::{Sweep, Value, shown};
-use crate::report::page::{Figure, figure, panel};
-use crate::report::plot::curves::{Curve, ramp};
-use crate::report::plot::envelope::thinned;
-use crate::report::plot::sheet::{Panel, Scale};
-use crate::study::sweep::{History, RunError, record};
-use crate::study::vehicle::spectra::{SHOWN_HZ, Spectrum, WINDOW_S};
-use crate::study::workers;
+use dashpot_files::study::{Sweep, Value, shown};
+use dashpot_report::page::{Figure, figure, panel};
+use dashpot_report::plot::curves::{Curve, ramp};
+use dashpot_report::plot::envelope::thinned;
+use dashpot_report::plot::sheet::{Panel, Scale};
+use dashpot_study::sweep::{History, RunError, record};
+use dashpot_vehicle_run::spectra::{SHOWN_HZ, Spectrum, WINDOW_S};
 
 /// Over time at the first seed; the spectrum as the mean of all seeds, the band from the least to the greatest.
 ///
@@ -36,7 +35,7 @@ pub(super) fn part(
     };
     let cases: Vec<(Value, Option<u64>)> = values.iter().flat_map(of_seeds).collect();
     let names = [signal.to_owned()];
-    let histories = workers::map(&cases, |(value, seed)| -> Result<History, RunError> {
+    let histories = dashpot_workers::map(&cases, |(value, seed)| -> Result<History, RunError> {
         let case = drawn.study.case_with(sweep, Some(value), *seed)?;
         record(&case, &names, &drawn.shared).map_err(failed(sweep))
     })?;

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::str::FromStr;
 
-use crate::target::pil::LinkChoice;
+use dashpot_host_link::LinkChoice;
 
 /// A damper of the vehicle and what gives its force, in words `damper=link` or `damper=file`.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -8,11 +8,9 @@ use super::report::Target;
 use crate::commands::failure::{Failure, Outcome, remedy};
 use crate::commands::line::LineOptions;
 use crate::commands::step_size::StepSize;
-use crate::files::case::Case;
-use crate::study::vehicle::Run;
-use crate::target::pil::{
-    Bank, Client, Desk, EmulatorError, Link, LinkError, Session, SessionError,
-};
+use dashpot_files::case::Case;
+use dashpot_vehicle_run::Run;
+use dashpot_host_link::{Bank, Client, Desk, EmulatorError, Link, LinkError, Session, SessionError};
 
 /// Places of a target on the desk: as many as a target may have.
 const DESK_PLACES: usize = MOST_DAMPERS;

@@ -11,12 +11,11 @@ pub(super) use report::{OutsideReport, print};
 use crate::commands::failure::{Failure, Outcome};
 use crate::commands::line::LineOptions;
 use crate::commands::recording::ForceHistoryArguments;
-use crate::files::case::Case;
-use crate::files::recording::ForceHistory;
-use crate::study::vehicle::drive::Exchange;
-use crate::study::vehicle::{
-    Beside, Effect, Ending, Forces, Run, VehicleStudyError, number_outside,
-};
+use dashpot_files::case::Case;
+use dashpot_recording::ForceHistory;
+use crate::commands::vehicle::drive::Exchange;
+use dashpot_study::verification::{Beside, Effect, Forces};
+use dashpot_vehicle_run::{Ending, Run, VehicleRunError, number_outside};
 
 /// Which dampers are outside, and how their links are used.
 #[derive(Debug, Clone, clap::Args)]
@@ -148,13 +147,13 @@ impl OutsideArguments {
 }
 
 /// The force of a damper from the next tick on.
-fn set_force_n(run: &mut Run, damper: usize, force_n: f64) -> Result<(), VehicleStudyError> {
+fn set_force_n(run: &mut Run, damper: usize, force_n: f64) -> Result<(), VehicleRunError> {
     Ok(run.state_mut().set_outside_force_n(damper, Some(force_n))?)
 }
 
 impl Exchange for Lines {
     /// Recorded forces at the end of the tick that comes.
-    fn before(&mut self, run: &mut Run) -> Result<(), VehicleStudyError> {
+    fn before(&mut self, run: &mut Run) -> Result<(), VehicleRunError> {
         let time_s = run.time_s() + run.vehicle().step_s();
         for (damper, history) in &self.recorded {
             let force_n = history.force_n(time_s);

@@ -6,47 +6,46 @@ use serde::Serialize;
 
 use super::choice::{Choice, Source};
 use crate::commands::gap_report::unended;
-use crate::files::case::Case;
-use crate::files::recording::ForceHistory;
-use crate::realtime::timing::{optional_span, span};
-use crate::study::vehicle::Effect;
-use crate::target::pil;
+use dashpot_files::case::Case;
+use dashpot_recording::ForceHistory;
+use dashpot_realtime::timing::{optional_span, span};
+use dashpot_study::verification::Effect;
 
 /// What is told of the dampers outside.
 #[derive(Debug, Clone, Serialize)]
-pub(in crate::commands::vehicle) struct OutsideReport {
-    pub(in crate::commands::vehicle) dampers: Vec<OutsideDamper>,
+pub(crate) struct OutsideReport {
+    pub(crate) dampers: Vec<OutsideDamper>,
     /// Displacements and forces are exchanged so often, s.
-    pub(in crate::commands::vehicle) exchange_step_s: f64,
+    pub(crate) exchange_step_s: f64,
     /// From a displacement to the moment its force has come in, s; a recorded force has none.
-    pub(in crate::commands::vehicle) delay_s: f64,
+    pub(crate) delay_s: f64,
     /// Links that lasted to the end.
-    pub(in crate::commands::vehicle) targets: Vec<Target>,
+    pub(crate) targets: Vec<Target>,
     /// Against the same run with all dampers inside.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub(in crate::commands::vehicle) effect: Option<Effect>,
+    pub(crate) effect: Option<Effect>,
 }
 
 /// A damper outside.
 #[derive(Debug, Clone, Serialize)]
-pub(in crate::commands::vehicle) struct OutsideDamper {
-    pub(in crate::commands::vehicle) damper: String,
+pub(crate) struct OutsideDamper {
+    pub(crate) damper: String,
     /// The link or file.
-    pub(in crate::commands::vehicle) source: String,
-    pub(in crate::commands::vehicle) is_recorded: bool,
+    pub(crate) source: String,
+    pub(crate) is_recorded: bool,
     /// The last line of the file, where it has no line end.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub(in crate::commands::vehicle) unended_line: Option<u64>,
+    pub(crate) unended_line: Option<u64>,
 }
 
 /// A target that dampers are on.
 #[derive(Debug, Clone, Serialize)]
-pub(in crate::commands::vehicle) struct Target {
-    pub(in crate::commands::vehicle) link: String,
+pub(crate) struct Target {
+    pub(crate) link: String,
     /// Its steps in one exchange.
-    pub(in crate::commands::vehicle) steps_a_tick: u32,
+    pub(crate) steps_a_tick: u32,
     #[serde(flatten)]
-    pub(in crate::commands::vehicle) found: pil::Report,
+    pub(crate) found: dashpot_host_link::Report,
 }
 
 impl OutsideReport {
@@ -80,7 +79,7 @@ impl OutsideReport {
     }
 
     /// What each is, and the result.
-    pub(in crate::commands::vehicle) fn lines(&self) -> Vec<(String, String)> {
+    pub(crate) fn lines(&self) -> Vec<(String, String)> {
         let mut lines = Vec::new();
         for OutsideDamper {
             damper,
@@ -114,7 +113,7 @@ impl OutsideReport {
 impl Target {
     /// The exchange over the link in one line.
     fn text(&self) -> String {
-        let pil::Report {
+        let dashpot_host_link::Report {
             round_trip,
             mismatches,
             recoveries,
@@ -188,7 +187,7 @@ fn micro(time_s: f64) -> f64 {
 }
 
 /// The results for people.
-pub(in crate::commands::vehicle) fn print(
+pub(crate) fn print(
     out: &mut dyn Write,
     report: &OutsideReport,
 ) -> io::Result<()> {

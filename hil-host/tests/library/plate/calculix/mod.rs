@@ -6,7 +6,7 @@ mod quarter;
 
 use std::f64::consts::TAU;
 
-use dashpot_hil::study::plate::{Bosses, PressureArea, Profile, Resolution, Stacking};
+use dashpot_testbench::plate::{Bosses, PressureArea, Profile, Resolution, Stacking};
 use deck::Geometry;
 use discs::{Contact, edge_deflections};
 use quarter::quarter;

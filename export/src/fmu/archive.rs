@@ -1,0 +1,56 @@
+//! The file of an FMU: a zip archive.
+
+use std::io::{Cursor, Write};
+
+use zip::result::ZipResult;
+use zip::write::SimpleFileOptions;
+use zip::{CompressionMethod, DateTime, ZipWriter};
+
+use super::{Binary, Fmu, Interface};
+
+/// Where FMI 3.0, 2.5.1.4, has the licence.
+const LICENCE: (&str, &str) = (
+    "documentation/licenses/license.txt",
+    include_str!("../../LICENSE-MIT"),
+);
+
+/// The FMU as bytes, the same for the same content; with a library where there is one.
+///
+/// # Errors
+/// A name of a file that no archive can have.
+pub fn archive(fmu: &Fmu, binary: Option<&Binary>) -> ZipResult<Vec<u8>> {
+    let mut zip = ZipWriter::new(Cursor::new(Vec::new()));
+    let options = SimpleFileOptions::default()
+        .compression_method(CompressionMethod::Deflated)
+        .last_modified_time(DateTime::default());
+    let mut put = |name: &str, content: &[u8], is_program: bool| -> ZipResult<()> {
+        let mode = if is_program { 0o755 } else { 0o644 };
+        zip.start_file(name, options.unix_permissions(mode))?;
+        Ok(zip.write_all(content)?)
+    };
+    put("modelDescription.xml", fmu.description().as_bytes(), false)?;
+    put("documentation/index.html", fmu.page().as_bytes(), false)?;
+    put(LICENCE.0, LICENCE.1.as_bytes(), false)?;
+    if let Some(Binary {
+        platform,
+        end,
+        content,
+    }) = binary
+    {
+        let name = format!("binaries/{platform}/{}.{end}", fmu.identifier);
+        put(&name, content, true)?;
+    }
+    for (name, content) in &fmu.resources {
+        put(&format!("resources/{name}"), content, false)?;
+    }
+    if fmu.library.is_none() {
+        for (name, text) in &fmu.sources {
+            put(&format!("sources/{name}"), text.as_bytes(), false)?;
+        }
+        if fmu.interface == Interface::Three {
+            let build = fmu.build_description();
+            put("sources/buildDescription.xml", build.as_bytes(), false)?;
+        }
+    }
+    Ok(zip.finish()?.into_inner())
+}

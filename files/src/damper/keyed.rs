@@ -1,0 +1,162 @@
+//! The numbers of a damper by their keys.
+
+use dashpot_core::CheckedParameters;
+use dashpot_core::parameters::{self, DamperParameters, Range};
+
+use super::{ContentError, DamperError, DamperFile, from_file};
+use crate::overrides::{explain, nearest};
+
+/// A damper whose numbers are read and set by their keys, `table.key`.
+///
+/// ```
+/// use dashpot_files::damper::{Keyed, load};
+/// let damper = Keyed::new("reduced", &*load("reduced-vertical", &[])?)?;
+/// assert_eq!(damper.number("mount.stiffness_n_per_m")?, 8e6);
+/// let softer = damper.with(&[("mount.stiffness_n_per_m", 4e6)])?;
+/// assert_eq!(softer.mount.stiffness_n_per_m, 4e6);
+/// # Ok::<(), dashpot_files::damper::DamperError>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Keyed {
+    name: String,
+    tree: toml::Table,
+}
+
+impl Keyed {
+    /// The numbers of `damper`; `name` stands for it in errors.
+    ///
+    /// # Errors
+    /// The damper cannot be written as a file.
+    pub fn new(name: &str, damper: &DamperParameters) -> Result<Self, DamperError> {
+        let tree = toml::Table::try_from(DamperFile::of(damper.clone()));
+        let name = name.to_owned();
+        match tree {
+            Ok(tree) => Ok(Self { name, tree }),
+            Err(error) => {
+                let source = ContentError::Tables(error.to_string());
+                Err(DamperError::Overridden { name, source })
+            }
+        }
+    }
+
+    /// The name that stands for the damper in errors.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// The number at `key`, in the key's unit.
+    ///
+    /// # Errors
+    /// This damper has no number there.
+    pub fn number(&self, key: &str) -> Result<f64, DamperError> {
+        let value = find(&self.tree, key).and_then(toml::Value::as_float);
+        value.ok_or_else(|| {
+            let keys = self.keys();
+            let near = nearest(key, keys.iter().map(String::as_str));
+            DamperError::NoNumber {
+                name: self.name.clone(),
+                key: key.into(),
+                near,
+            }
+        })
+    }
+
+    /// The keys of all numbers, in order.
+    pub fn keys(&self) -> Vec<String> {
+        let mut keys = Vec::new();
+        collect(&self.tree, "", &mut keys);
+        keys
+    }
+
+    /// The damper with these numbers at their keys.
+    ///
+    /// # Errors
+    /// A key without a number, or a number that is not allowed there.
+    pub fn with(&self, numbers: &[(&str, f64)]) -> Result<CheckedParameters, DamperError> {
+        let mut tree = self.tree.clone();
+        for (key, number) in numbers {
+            self.number(key)?;
+            if let Some(value) = find_mut(&mut tree, key) {
+                *value = toml::Value::Float(*number);
+            }
+        }
+        let file: Result<DamperFile, _> = tree.try_into();
+        file.map_err(|error| ContentError::Tables(explain(&error)))
+            .and_then(from_file)
+            .map_err(|source| DamperError::Overridden {
+                name: self.name.clone(),
+                source,
+            })
+    }
+}
+
+/// A damper as the text of a damper file.
+///
+/// # Errors
+/// The damper cannot be written.
+///
+/// ```
+/// use dashpot_files::damper::{load, parse, text};
+/// let damper = load("in-service", &[])?;
+/// assert_eq!(*parse("again", &text(&damper)?, &[])?, *damper);
+/// # Ok::<(), dashpot_files::damper::DamperError>(())
+/// ```
+pub fn text(damper: &DamperParameters) -> Result<String, DamperError> {
+    let written = toml::to_string(&DamperFile::of(damper.clone()));
+    let written = written.map_err(|error| DamperError::Overridden {
+        name: "damper".into(),
+        source: ContentError::Tables(error.to_string()),
+    })?;
+    let lines = written.lines().map(|line| with_exponent(line) + "\n");
+    Ok(lines.collect())
+}
+
+/// A line of TOML whose number, where it is very small or large, has an exponent; the same number.
+fn with_exponent(line: &str) -> String {
+    let number = line
+        .split_once(" = ")
+        .and_then(|(key, text)| Some((key, text.parse::<f64>().ok()?)));
+    match number {
+        Some((key, number)) if number != 0.0 && !(1e-2..1e5).contains(&number.abs()) => {
+            format!("{key} = {number:e}")
+        }
+        _ => line.to_owned(),
+    }
+}
+
+/// The range of the number at `key` of a damper file.
+pub fn range(key: &str) -> Option<Range> {
+    let (table, key) = key.rsplit_once('.')?;
+    let table = match table.split_once('.') {
+        Some(("valves", _)) => "valves",
+        _ => table,
+    };
+    parameters::ranges()
+        .find(|(in_table, range)| *in_table == table && range.key == key)
+        .map(|(_, range)| range)
+}
+
+fn find<'a>(tree: &'a toml::Table, key: &str) -> Option<&'a toml::Value> {
+    match key.split_once('.') {
+        Some((table, key)) => find(tree.get(table)?.as_table()?, key),
+        None => tree.get(key),
+    }
+}
+
+fn find_mut<'a>(tree: &'a mut toml::Table, key: &str) -> Option<&'a mut toml::Value> {
+    match key.split_once('.') {
+        Some((table, key)) => find_mut(tree.get_mut(table)?.as_table_mut()?, key),
+        None => tree.get_mut(key),
+    }
+}
+
+fn collect(tree: &toml::Table, before: &str, keys: &mut Vec<String>) {
+    for (key, value) in tree {
+        let key = format!("{before}{key}");
+        match value {
+            toml::Value::Table(table) => collect(table, &format!("{key}."), keys),
+            toml::Value::Float(_) => keys.push(key),
+            _ => {}
+        }
+    }
+}

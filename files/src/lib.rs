@@ -1,0 +1,29 @@
+#![doc = include_str!("../README.md")]
+#![forbid(unsafe_code)]
+#![warn(missing_docs)]
+
+pub mod case;
+pub mod damper;
+mod error;
+pub mod harmonic;
+pub mod input;
+mod lines;
+mod nanosecond;
+pub mod output;
+mod overrides;
+pub mod profile;
+mod scalar;
+pub mod sheet;
+mod shipped;
+pub mod states;
+pub mod status_bits;
+pub mod study;
+pub mod temporary;
+pub mod track;
+pub mod vehicle;
+
+pub use error::FileError;
+pub use nanosecond::nearest_nanosecond;
+pub use overrides::nearest;
+pub use scalar::{Scalar, UnknownScalar};
+pub use shipped::UnknownName;

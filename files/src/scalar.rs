@@ -1,0 +1,62 @@
+//! The scalars that the step runs in, and their names.
+
+use std::fmt;
+use std::str::FromStr;
+
+use dashpot_core::Real;
+use serde::Serialize;
+
+/// A scalar that the step runs in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Scalar {
+    /// Single precision, as on the target.
+    #[default]
+    F32,
+    /// Double precision.
+    F64,
+}
+
+impl Scalar {
+    /// Both scalars.
+    pub const ALL: [Self; 2] = [Self::F32, Self::F64];
+
+    /// That of a type.
+    pub fn of<T: Real>() -> Self {
+        if T::NAME == <f32 as Real>::NAME {
+            Self::F32
+        } else {
+            Self::F64
+        }
+    }
+
+    /// Its name, as in Rust.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::F32 => <f32 as Real>::NAME,
+            Self::F64 => <f64 as Real>::NAME,
+        }
+    }
+}
+
+impl fmt::Display for Scalar {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
+    }
+}
+
+/// A name that no scalar has.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("no scalar `{0}`, allowed: f32, f64")]
+pub struct UnknownScalar(String);
+
+impl FromStr for Scalar {
+    type Err = UnknownScalar;
+
+    fn from_str(name: &str) -> Result<Self, UnknownScalar> {
+        Self::ALL
+            .into_iter()
+            .find(|scalar| scalar.name() == name)
+            .ok_or_else(|| UnknownScalar(name.to_owned()))
+    }
+}

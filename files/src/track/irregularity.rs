@@ -1,0 +1,154 @@
+//! Where the irregularity of a track file is from.
+
+use std::path::{Path, PathBuf};
+
+use dashpot_rail::track::measured::{self, MeasuredTrackError, Options};
+use dashpot_rail::track::{Band, Generation, Irregularity, Seeds, Spectrum};
+use serde::{Deserialize, Serialize};
+
+use crate::overrides::nearest;
+use crate::shipped::named_in;
+use crate::{FileError, input};
+
+/// Where an irregularity is from.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub enum IrregularityParameters {
+    /// There is none.
+    None,
+    /// Computed or read before, as it is.
+    Given(Irregularity),
+    /// A published spectrum.
+    #[serde(skip)]
+    Generated {
+        /// Its name in the file.
+        spectrum: String,
+        /// Its seed in the file.
+        seed: u64,
+        /// What it is generated from.
+        generation: Box<Generation>,
+    },
+    /// A measured file.
+    #[serde(skip)]
+    Measured {
+        /// The file.
+        file: PathBuf,
+        /// How it is used.
+        options: Options,
+    },
+}
+
+/// Either a spectrum or a measured file, with the keys of the one or of the other.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct IrregularityTable {
+    spectrum: Option<String>,
+    seed: Option<u64>,
+    wavelength_m: Option<[f64; 2]>,
+    length_m: Option<f64>,
+    file: Option<String>,
+    shift_m: Option<f64>,
+    ramp_m: Option<f64>,
+    spacing_m: Option<f64>,
+}
+
+/// Names of the spectra.
+const SPECTRA: [&str; 8] = [
+    "fra-1",
+    "fra-2",
+    "fra-3",
+    "fra-4",
+    "fra-5",
+    "fra-6",
+    "german-low",
+    "german-high",
+];
+
+fn spectrum_called(name: &str) -> Result<Spectrum, String> {
+    let class = name
+        .strip_prefix("fra-")
+        .and_then(|class| class.parse().ok());
+    match (name, class) {
+        ("german-low", _) => Ok(Spectrum::german_low()),
+        ("german-high", _) => Ok(Spectrum::german_high()),
+        (_, Some(class)) => Spectrum::fra(class).map_err(|error| error.to_string()),
+        _ => Err(format!(
+            "spectrum `{name}`, allowed: {}{}",
+            SPECTRA.join(", "),
+            nearest(name, SPECTRA.into_iter())
+        )),
+    }
+}
+
+impl IrregularityTable {
+    /// What the table says; files count from `folder`.
+    ///
+    /// # Errors
+    /// What is wrong, in words.
+    pub fn parameters(self, folder: &Path) -> Result<IrregularityParameters, String> {
+        let of_spectrum = [
+            ("seed", self.seed.is_some()),
+            ("wavelength_m", self.wavelength_m.is_some()),
+            ("length_m", self.length_m.is_some()),
+        ];
+        match (self.spectrum, self.file) {
+            (Some(spectrum), None) => {
+                if self.shift_m.is_some() {
+                    return Err("`shift_m` beside `spectrum`, allowed: beside `file`".into());
+                }
+                let missing = |key| {
+                    format!("missing `{key}`: a spectrum has seed, wavelength_m and length_m")
+                };
+                let generation = Generation::of(spectrum_called(&spectrum)?);
+                let seed = self.seed.ok_or_else(|| missing("seed"))?;
+                let [shortest_m, longest_m] =
+                    self.wavelength_m.ok_or_else(|| missing("wavelength_m"))?;
+                let generation = Box::new(Generation {
+                    band: Band {
+                        shortest_m,
+                        longest_m,
+                    },
+                    seeds: Seeds::from(seed),
+                    length_m: self.length_m.ok_or_else(|| missing("length_m"))?,
+                    ramp_m: self.ramp_m.unwrap_or(generation.ramp_m),
+                    spacing_m: self.spacing_m,
+                    ..generation
+                });
+                Ok(IrregularityParameters::Generated {
+                    spectrum,
+                    seed,
+                    generation,
+                })
+            }
+            (None, Some(file)) => {
+                if let Some((key, _)) = of_spectrum.into_iter().find(|(_, given)| *given) {
+                    return Err(format!("`{key}` beside `file`, allowed: beside `spectrum`"));
+                }
+                let options = Options::default();
+                Ok(IrregularityParameters::Measured {
+                    file: named_in(folder, &file).into(),
+                    options: Options {
+                        shift_m: self.shift_m.unwrap_or(options.shift_m),
+                        ramp_m: self.ramp_m.unwrap_or(options.ramp_m),
+                        spacing_m: self.spacing_m,
+                    },
+                })
+            }
+            _ => Err("allowed: either `spectrum` or `file`".into()),
+        }
+    }
+}
+
+/// Reads a measured irregularity.
+pub(super) fn read(file: &Path, options: &Options) -> Result<Irregularity, FileError> {
+    let text = input::read_text(file)?;
+    let read = measured::parse(&text, options).map_err(|error| in_file(file, error))?;
+    Ok(read.0)
+}
+
+fn in_file(file: &Path, error: MeasuredTrackError) -> FileError {
+    match (error.line(), error.column().map(str::to_owned)) {
+        (Some(line), Some(column)) => FileError::in_cell(file, line, column, error),
+        (Some(line), None) => FileError::in_line(file, line, error),
+        (None, _) => FileError::in_file(file, error),
+    }
+}

@@ -1,0 +1,290 @@
+//! The tables of a vehicle file.
+
+use dashpot_core::DamperParameters;
+use dashpot_rail::vehicle::{
+    Body, Direction, Element, End, Law, RidePoint, VehicleParameters, Wheelset,
+};
+use serde::Deserialize;
+
+use super::Replacement;
+use super::error::VehicleFileError;
+use crate::damper;
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct VehicleFile {
+    name: String,
+    #[serde(default)]
+    body: Vec<BodyTable>,
+    #[serde(default)]
+    wheelset: Vec<WheelsetTable>,
+    #[serde(default)]
+    spring_damper: Vec<SpringDamperTable>,
+    #[serde(default)]
+    bush: Vec<BushTable>,
+    #[serde(default)]
+    damper: Vec<DamperTable>,
+    #[serde(default)]
+    bump_stop: Vec<BumpStopTable>,
+    #[serde(default)]
+    anti_roll_bar: Vec<AntiRollBarTable>,
+    #[serde(default)]
+    traction_rod: Vec<TractionRodTable>,
+    #[serde(default)]
+    ride_point: Vec<RidePointTable>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct BodyTable {
+    name: String,
+    mass_kg: f64,
+    roll_inertia_kg_m2: f64,
+    pitch_inertia_kg_m2: f64,
+    yaw_inertia_kg_m2: f64,
+    x_m: f64,
+    height_m: f64,
+}
+
+/// Equal wheelsets, called by the name and a number from 1, at places along the vehicle.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct WheelsetTable {
+    name: String,
+    mass_kg: f64,
+    roll_inertia_kg_m2: f64,
+    spin_inertia_kg_m2: f64,
+    yaw_inertia_kg_m2: f64,
+    radius_m: f64,
+    x_m: Vec<f64>,
+}
+
+/// Equal elements, called by the name and a number from 1, at places `[x, y, height]`.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct SpringDamperTable {
+    name: String,
+    between: [String; 2],
+    at_m: Vec<[f64; 3]>,
+    stiffness_n_per_m: [f64; 3],
+    damping_n_s_per_m: [f64; 3],
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct BushTable {
+    name: String,
+    between: [String; 2],
+    at_m: Vec<[f64; 3]>,
+    stiffness_n_per_m: [f64; 3],
+    damping_n_s_per_m: [f64; 3],
+    stiffness_n_m_per_rad: [f64; 3],
+    damping_n_m_s_per_rad: [f64; 3],
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct BumpStopTable {
+    name: String,
+    between: [String; 2],
+    at_m: Vec<[f64; 3]>,
+    direction: DirectionName,
+    /// `[displacement, force]`, m and N.
+    points_m_n: Vec<[f64; 2]>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct DamperTable {
+    name: String,
+    between: [String; 2],
+    at_m: Vec<[f64; 3]>,
+    direction: DirectionName,
+    /// A preset or a file.
+    damper: String,
+    #[serde(default)]
+    set: Vec<String>,
+}
+
+#[derive(Deserialize, Clone, Copy)]
+#[serde(rename_all = "lowercase")]
+enum DirectionName {
+    Longitudinal,
+    Lateral,
+    Vertical,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct AntiRollBarTable {
+    name: String,
+    between: [String; 2],
+    at_m: [f64; 3],
+    stiffness_n_m_per_rad: f64,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct TractionRodTable {
+    name: String,
+    between: [String; 2],
+    from_m: [f64; 3],
+    to_m: [f64; 3],
+    stiffness_n_per_m: f64,
+    damping_n_s_per_m: f64,
+}
+
+/// Where the ride is told of: a place `[x, y, height]` of a body.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RidePointTable {
+    name: String,
+    body: String,
+    at_m: [f64; 3],
+}
+
+impl From<DirectionName> for Direction {
+    fn from(name: DirectionName) -> Self {
+        match name {
+            DirectionName::Longitudinal => Self::Longitudinal,
+            DirectionName::Lateral => Self::Lateral,
+            DirectionName::Vertical => Self::Vertical,
+        }
+    }
+}
+
+/// What an end on the track is attached to.
+const TRACK: &str = "track";
+
+fn end(on: &str, at_m: [f64; 3]) -> End {
+    if on == TRACK {
+        End::track(at_m)
+    } else {
+        End::body(on, at_m)
+    }
+}
+
+fn elements(name: &str, between: &[String; 2], at_m: &[[f64; 3]], law: &Law) -> Vec<Element> {
+    let [from, to] = between;
+    at_m.iter()
+        .enumerate()
+        .map(|(number, at)| Element {
+            name: format!("{name} {}", number + 1),
+            ends: [end(from, *at), end(to, *at)],
+            law: law.clone(),
+        })
+        .collect()
+}
+
+impl VehicleFile {
+    /// The vehicle; in errors a part is where `located` has it.
+    pub fn vehicle(
+        self,
+        replaced: &[Option<&Replacement>],
+        located: impl Fn(&str) -> String,
+    ) -> Result<VehicleParameters, VehicleFileError> {
+        let bodies = self.body.into_iter().map(|table| Body {
+            name: table.name,
+            mass_kg: table.mass_kg,
+            inertia_kg_m2: [
+                table.roll_inertia_kg_m2,
+                table.pitch_inertia_kg_m2,
+                table.yaw_inertia_kg_m2,
+            ],
+            x_m: table.x_m,
+            height_m: table.height_m,
+        });
+        let mut wheelsets = Vec::new();
+        for table in self.wheelset {
+            for (number, x_m) in table.x_m.into_iter().enumerate() {
+                wheelsets.push(Wheelset {
+                    name: format!("{} {}", table.name, number + 1),
+                    mass_kg: table.mass_kg,
+                    inertia_kg_m2: [
+                        table.roll_inertia_kg_m2,
+                        table.spin_inertia_kg_m2,
+                        table.yaw_inertia_kg_m2,
+                    ],
+                    x_m,
+                    radius_m: table.radius_m,
+                });
+            }
+        }
+        let mut all = Vec::new();
+        for table in &self.spring_damper {
+            let law = Law::SpringDamper {
+                stiffness_n_per_m: table.stiffness_n_per_m,
+                damping_n_s_per_m: table.damping_n_s_per_m,
+            };
+            all.extend(elements(&table.name, &table.between, &table.at_m, &law));
+        }
+        for table in &self.bush {
+            let law = Law::Bush {
+                stiffness_n_per_m: table.stiffness_n_per_m,
+                damping_n_s_per_m: table.damping_n_s_per_m,
+                stiffness_n_m_per_rad: table.stiffness_n_m_per_rad,
+                damping_n_m_s_per_rad: table.damping_n_m_s_per_rad,
+            };
+            all.extend(elements(&table.name, &table.between, &table.at_m, &law));
+        }
+        for table in &self.bump_stop {
+            let law = Law::BumpStop {
+                direction: table.direction.into(),
+                points: table.points_m_n.clone(),
+            };
+            all.extend(elements(&table.name, &table.between, &table.at_m, &law));
+        }
+        for (number, table) in self.damper.iter().enumerate() {
+            let by = replaced.get(number).copied().flatten();
+            // An override may name another damper since.
+            let made = by.filter(|by| by.by == table.damper);
+            let parameters = match made.and_then(|by| by.made.as_deref()) {
+                Some(made) => damper::change(&table.damper, made, &table.set),
+                None => damper::load(&table.damper, &table.set),
+            };
+            let parameters = parameters.map_err(|source| VehicleFileError::Damper {
+                name: located(&table.name),
+                element: table.name.clone(),
+                source: Box::new(source),
+            })?;
+            let law = Law::Damper {
+                direction: table.direction.into(),
+                parameters: Box::new(DamperParameters::clone(&parameters)),
+            };
+            all.extend(elements(&table.name, &table.between, &table.at_m, &law));
+        }
+        for table in self.anti_roll_bar {
+            let [from, to] = &table.between;
+            all.push(Element {
+                name: table.name,
+                ends: [end(from, table.at_m), end(to, table.at_m)],
+                law: Law::AntiRollBar {
+                    stiffness_n_m_per_rad: table.stiffness_n_m_per_rad,
+                },
+            });
+        }
+        for table in self.traction_rod {
+            let [from, to] = &table.between;
+            all.push(Element {
+                name: table.name,
+                ends: [end(from, table.from_m), end(to, table.to_m)],
+                law: Law::TractionRod {
+                    stiffness_n_per_m: table.stiffness_n_per_m,
+                    damping_n_s_per_m: table.damping_n_s_per_m,
+                },
+            });
+        }
+        let ride_points = self.ride_point.into_iter().map(|table| RidePoint {
+            name: table.name,
+            on: table.body,
+            at_m: table.at_m,
+        });
+        Ok(VehicleParameters {
+            name: self.name,
+            bodies: bodies.collect(),
+            wheelsets,
+            elements: all,
+            ride_points: ride_points.collect(),
+        })
+    }
+}

@@ -1,0 +1,42 @@
+#![doc = include_str!("../README.md")]
+#![forbid(unsafe_code)]
+#![warn(missing_docs)]
+
+mod bank;
+mod child;
+mod client;
+mod desk;
+mod emulator_error;
+mod fault;
+mod health;
+mod host_replica;
+mod link;
+mod link_error;
+mod pace;
+mod qemu;
+mod record;
+mod report;
+#[cfg(feature = "serial")]
+mod serial;
+mod session;
+mod session_error;
+mod tcp;
+
+pub use bank::Bank;
+#[cfg(unix)]
+pub use child::end_all as end_children;
+pub use client::{Client, LinkFaults, RetryLimits};
+pub use desk::Desk;
+pub use emulator_error::EmulatorError;
+pub use fault::{FaultCounts, FaultRates, FaultyLink};
+pub use link::{Link, LinkChoice};
+pub use link_error::LinkError;
+pub use pace::Pace;
+pub use qemu::{DEFAULT_IMAGE, Qemu};
+pub use record::{Event, TickRecord};
+pub use report::{Cost, Mismatch, Pacing, Report, Target};
+#[cfg(feature = "serial")]
+pub use serial::Serial;
+pub use session::Session;
+pub use session_error::SessionError;
+pub use tcp::Tcp;

@@ -1,0 +1,183 @@
+//! Tables of CSV as Parquet: float64 where every cell is a number or empty, text elsewhere; SHA-256 of the numbers in
+//! the metadata.
+
+use std::io::{self, Write};
+use std::path::Path;
+use std::sync::{Arc, Mutex};
+
+use parquet::basic::{LogicalType, Repetition, Type as Physical};
+use parquet::data_type::{ByteArray, ByteArrayType, DoubleType};
+use parquet::errors::ParquetError;
+use parquet::file::properties::WriterProperties;
+use parquet::file::writer::SerializedFileWriter;
+use parquet::schema::types::Type;
+
+use dashpot_files::FileError;
+use dashpot_files::output::{cannot_write, write_whole};
+use crate::sums::{self, Sum};
+
+/// Rows of a row group: some 15 MB of a locomotive's history.
+const ROWS: usize = 16_384;
+
+/// Cells of a column.
+enum Column {
+    Numbers(Vec<Option<f64>>, Sum),
+    Texts(Vec<ByteArray>),
+}
+
+/// Writes the CSV file `from`, cells under a header, as Parquet to `to`; the columns called `texts` are text whatever
+/// they look like, for a hexadecimal digest may be all digits.
+///
+/// # Errors
+/// A file that cannot be read or written.
+pub fn write(from: &Path, to: &Path, texts: &[&str]) -> Result<(), FileError> {
+    let unreadable = |error: csv::Error| FileError::in_file(from, error);
+    let unwritable = |error: ParquetError| cannot_write(to, io::Error::other(error));
+    let are_numbers = numbers(from, texts)?;
+    let mut rows = csv::Reader::from_path(from).map_err(unreadable)?;
+    let names = rows.headers().map_err(unreadable)?.clone();
+    let schema = schema(names.iter().zip(&are_numbers)).map_err(unwritable)?;
+    let mut columns: Vec<Column> = are_numbers
+        .iter()
+        .map(|is_number| match is_number {
+            true => Column::Numbers(Vec::with_capacity(ROWS), Sum::default()),
+            false => Column::Texts(Vec::new()),
+        })
+        .collect();
+    write_whole(to, |file| {
+        let bytes = Bytes::default();
+        let properties = Arc::new(WriterProperties::builder().build());
+        let mut writer =
+            SerializedFileWriter::new(bytes.clone(), schema, properties).map_err(unwritable)?;
+        let (mut row, mut count) = (csv::StringRecord::new(), 0);
+        loop {
+            let is_row = rows.read_record(&mut row).map_err(unreadable)?;
+            if is_row {
+                count += 1;
+                for (column, cell) in columns.iter_mut().zip(&row) {
+                    match column {
+                        Column::Numbers(numbers, _) => numbers.push(cell.parse().ok()),
+                        Column::Texts(texts) => texts.push(cell.into()),
+                    }
+                }
+            }
+            if count == ROWS || !is_row {
+                add(&mut writer, &mut columns).map_err(unwritable)?;
+                bytes
+                    .take_to(file)
+                    .map_err(|error| cannot_write(to, error))?;
+                count = 0;
+            }
+            if !is_row {
+                break;
+            }
+        }
+        let sums = columns
+            .iter()
+            .zip(&names)
+            .filter_map(|(column, name)| match column {
+                Column::Numbers(_, sum) => Some((name, sum)),
+                Column::Texts(_) => None,
+            });
+        writer.append_key_value_metadata(sums::metadata(sums));
+        writer.close().map_err(unwritable)?;
+        bytes.take_to(file).map_err(|error| cannot_write(to, error))
+    })
+}
+
+/// Whether every cell of each column is a number or empty, and one at least a number.
+fn numbers(from: &Path, texts: &[&str]) -> Result<Vec<bool>, FileError> {
+    let unreadable = |error: csv::Error| FileError::in_file(from, error);
+    let mut rows = csv::Reader::from_path(from).map_err(unreadable)?;
+    let names = rows.headers().map_err(unreadable)?;
+    let mut are: Vec<bool> = names.iter().map(|name| !texts.contains(&name)).collect();
+    let mut have = vec![false; are.len()];
+    let mut row = csv::StringRecord::new();
+    while rows.read_record(&mut row).map_err(unreadable)? {
+        for (number, cell) in row.iter().enumerate() {
+            let is_number = cell.parse::<f64>().is_ok();
+            are[number] &= is_number || cell.is_empty();
+            have[number] |= is_number;
+        }
+    }
+    Ok(are
+        .iter()
+        .zip(have)
+        .map(|(are, have)| *are && have)
+        .collect())
+}
+
+fn schema<'a>(
+    columns: impl Iterator<Item = (&'a str, &'a bool)>,
+) -> Result<Arc<Type>, ParquetError> {
+    let columns = columns.map(|(name, is_number)| {
+        let column = match is_number {
+            true => Type::primitive_type_builder(name, Physical::DOUBLE)
+                .with_repetition(Repetition::OPTIONAL),
+            false => Type::primitive_type_builder(name, Physical::BYTE_ARRAY)
+                .with_logical_type(Some(LogicalType::String))
+                .with_repetition(Repetition::REQUIRED),
+        };
+        Ok(Arc::new(column.build()?))
+    });
+    let columns = columns.collect::<Result<_, ParquetError>>()?;
+    let group = Type::group_type_builder("table").with_fields(columns);
+    Ok(Arc::new(group.build()?))
+}
+
+/// A row group of what the columns hold, which they no longer do then.
+fn add(
+    writer: &mut SerializedFileWriter<Bytes>,
+    columns: &mut [Column],
+) -> Result<(), ParquetError> {
+    let mut group = writer.next_row_group()?;
+    for column in columns {
+        let Some(mut place) = group.next_column()? else {
+            continue;
+        };
+        match column {
+            Column::Numbers(numbers, sum) => {
+                let read: Vec<f64> = numbers.iter().map(|n| n.unwrap_or(f64::NAN)).collect();
+                sum.add(&read);
+                let there: Vec<i16> = numbers.iter().map(|n| i16::from(n.is_some())).collect();
+                let values: Vec<f64> = numbers.drain(..).flatten().collect();
+                let place = place.typed::<DoubleType>();
+                place.write_batch(&values, Some(&there), None)?;
+            }
+            Column::Texts(texts) => {
+                let place = place.typed::<ByteArrayType>();
+                place.write_batch(texts, None, None)?;
+                texts.clear();
+            }
+        }
+        place.close()?;
+    }
+    group.close()?;
+    Ok(())
+}
+
+/// What the library has written and the file has not got: it takes no writer that is only lent.
+#[derive(Clone, Default)]
+pub(super) struct Bytes(Arc<Mutex<Vec<u8>>>);
+
+impl Bytes {
+    pub(super) fn take_to(&self, file: &mut dyn Write) -> io::Result<()> {
+        match self.0.lock() {
+            Ok(mut bytes) => file.write_all(&std::mem::take(&mut *bytes)),
+            Err(error) => Err(io::Error::other(error.to_string())),
+        }
+    }
+}
+
+impl Write for Bytes {
+    fn write(&mut self, buffer: &[u8]) -> io::Result<usize> {
+        match self.0.lock() {
+            Ok(mut bytes) => bytes.write(buffer),
+            Err(error) => Err(io::Error::other(error.to_string())),
+        }
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+}

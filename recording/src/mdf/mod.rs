@@ -1,0 +1,278 @@
+//! MDF4, read a bounded part at a time.
+
+mod number;
+
+use std::fs::File;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use falcon_mdf::io::range::read_seek_source;
+use falcon_mdf::{Channel, ChannelGroup, Mf4Error, Mf4File, SignalsChunks};
+use self_cell::self_cell;
+
+use super::error::RecordingError;
+use super::open::Opened;
+use super::rows::{Place, Source};
+use super::select::Found;
+use dashpot_files::FileError;
+use number::{Reading, reading};
+
+/// Rows read at a time.
+const ROWS: usize = 1 << 14;
+
+/// Where a block of a channel group has the number of its rows (cg_cycle_count): behind its header, six links and its record's number.
+const CYCLE_COUNT: u64 = 24 + 6 * 8 + 8;
+
+/// An MDF4 file whose channels are known.
+pub(super) struct Mdf {
+    path: PathBuf,
+    file: Arc<Mf4File>,
+    found: Vec<Found>,
+    groups: Vec<String>,
+    /// Data group, channel group and place of each channel found.
+    places: Vec<[usize; 3]>,
+    readings: Vec<Reading>,
+    bytes: u64,
+}
+
+self_cell!(
+    struct Chunks {
+        owner: Arc<Mf4File>,
+        #[not_covariant]
+        dependent: SignalsChunks,
+    }
+);
+
+/// Values of the chosen channels.
+struct MdfRows {
+    path: PathBuf,
+    chunks: Chunks,
+    channels: Vec<(Channel, Reading)>,
+    /// Values of each channel; not a number where they are invalid.
+    values: Vec<Vec<f64>>,
+    /// Which rows are marked invalid, by channel.
+    invalid: Vec<Vec<bool>>,
+    next: usize,
+    row: u64,
+    rows: u64,
+    bytes: u64,
+}
+
+impl Mdf {
+    /// Reads what channels there are.
+    pub(super) fn open(path: &Path, file: File) -> Result<Self, FileError> {
+        let bytes = file.metadata().map_or(0, |data| data.len());
+        let failed = |error: Mf4Error| damaged(path, &error);
+        let source = read_seek_source(file).map_err(failed)?;
+        let file = Mf4File::from_source(Arc::new(source)).map_err(failed)?;
+        let (mut found, mut places, mut groups) = (Vec::new(), Vec::new(), Vec::new());
+        let mut readings = Vec::new();
+        for group in file
+            .data_groups()
+            .iter()
+            .flat_map(|data| &data.channel_groups)
+        {
+            if group.is_vlsd() {
+                continue;
+            }
+            let number = groups.len();
+            groups.push(group.acquisition_name.clone());
+            for (index, channel) in group.channels.iter().enumerate() {
+                places.push([group.data_group_index, group.index, index]);
+                let reading = reading(channel, group);
+                readings.push(reading.clone().unwrap_or(Reading::Library));
+                found.push(Found {
+                    name: channel.name.clone(),
+                    whole: channel.name.clone(),
+                    unit: Some(unit(channel)).filter(|unit| !unit.is_empty()),
+                    group: number,
+                    is_master: channel.is_master() && channel.is_time_channel(),
+                    kind: kind(channel),
+                    is_number: is_number(channel) && reading.is_ok(),
+                    unread: reading.err().filter(|_| is_number(channel)),
+                    rows: Some(group.sample_count),
+                });
+            }
+        }
+        Ok(Self {
+            path: path.to_owned(),
+            file: Arc::new(file),
+            found,
+            groups,
+            places,
+            readings,
+            bytes,
+        })
+    }
+
+    /// The group of channels and how many rows it says it has: the library takes no more than the data can have, and says nothing.
+    fn check_rows(&self, group: &ChannelGroup) -> Result<u64, FileError> {
+        let offset = group.block_offset() + CYCLE_COUNT;
+        let bytes = self.file.read_raw(offset, 8);
+        let bytes = bytes.map_err(|error| damaged(&self.path, &error))?;
+        let declared = bytes
+            .first_chunk::<8>()
+            .map_or(0, |b| u64::from_le_bytes(*b));
+        if declared != group.sample_count {
+            return Err(FileError::in_file(
+                &self.path,
+                RecordingError::CutOff {
+                    declared,
+                    found: group.sample_count,
+                },
+            ));
+        }
+        Ok(declared)
+    }
+}
+
+impl Opened for Mdf {
+    fn found(&self) -> &[Found] {
+        &self.found
+    }
+
+    fn groups(&self) -> &[String] {
+        &self.groups
+    }
+
+    fn rows(&mut self, indices: &[usize], _: bool) -> Result<Box<dyn Source>, FileError> {
+        let groups = self.file.data_groups();
+        let mut rows = 0;
+        let mut channels: Vec<(Channel, Reading)> = Vec::new();
+        for index in indices {
+            let [data, group, channel] = self.places[*index];
+            let group = &groups[data].channel_groups[group];
+            rows = self.check_rows(group)?;
+            channels.push((group.channels[channel].clone(), self.readings[*index]));
+        }
+        let asked = channels
+            .iter()
+            .map(|(channel, reading)| reading.asked(channel));
+        let asked: Vec<Channel> = asked.collect();
+        let chunks = Chunks::try_new(Arc::clone(&self.file), |file| {
+            file.signals_chunks(&asked, ROWS)
+        })
+        .map_err(|error| damaged(&self.path, &error))?;
+        Ok(Box::new(MdfRows {
+            path: self.path.clone(),
+            chunks,
+            channels,
+            values: vec![Vec::new(); indices.len()],
+            invalid: vec![Vec::new(); indices.len()],
+            next: 0,
+            row: 0,
+            rows,
+            bytes: self.bytes,
+        }))
+    }
+}
+
+impl MdfRows {
+    /// Reads the next part of the rows; `false` at the end.
+    fn read(&mut self) -> Result<bool, FileError> {
+        let path = &self.path;
+        let failed = |error: Mf4Error| damaged(path, &error);
+        let chunk = self.chunks.with_dependent_mut(|_, chunks| chunks.next());
+        let Some(signals) = chunk.transpose().map_err(failed)? else {
+            if self.row < self.rows {
+                return Err(FileError::in_file(
+                    &self.path,
+                    RecordingError::CutOff {
+                        declared: self.rows,
+                        found: self.row,
+                    },
+                ));
+            }
+            return Ok(false);
+        };
+        for (place, signal) in signals.iter().enumerate() {
+            let (channel, reading) = &self.channels[place];
+            self.values[place] = reading.numbers(signal, channel, self.row).map_err(failed)?;
+            self.invalid[place].clear();
+            if let Some(valid) = signal.validity() {
+                for (value, valid) in self.values[place].iter_mut().zip(&valid) {
+                    if !valid {
+                        *value = f64::NAN;
+                    }
+                }
+                self.invalid[place] = valid.iter().map(|valid| !valid).collect();
+            }
+        }
+        self.next = 0;
+        Ok(true)
+    }
+}
+
+impl Source for MdfRows {
+    fn next(&mut self, values: &mut [f64]) -> Result<bool, FileError> {
+        while self
+            .values
+            .first()
+            .is_none_or(|first| self.next >= first.len())
+        {
+            if !self.read()? {
+                return Ok(false);
+            }
+        }
+        for (value, column) in values.iter_mut().zip(&self.values) {
+            *value = column.get(self.next).copied().unwrap_or(f64::NAN);
+        }
+        self.next += 1;
+        self.row += 1;
+        Ok(true)
+    }
+
+    fn missing(&self, place: usize) -> RecordingError {
+        let row = self.next.saturating_sub(1);
+        if self.invalid[place].get(row) == Some(&true) {
+            RecordingError::Invalid
+        } else {
+            RecordingError::NotFinite {
+                cell: self.values[place]
+                    .get(row)
+                    .map_or_else(String::new, f64::to_string),
+            }
+        }
+    }
+
+    fn place(&self) -> Place {
+        Place::Row(self.row)
+    }
+
+    fn position(&self) -> u64 {
+        (self.bytes as f64 * (self.row as f64 / self.rows.max(1) as f64)) as u64
+    }
+}
+
+fn damaged(path: &Path, error: &Mf4Error) -> FileError {
+    FileError::in_file(
+        path,
+        RecordingError::Damaged {
+            kind: "MDF4",
+            reason: error.to_string(),
+        },
+    )
+}
+
+/// The unit; a master of time has seconds, whatever it says, by the standard.
+fn unit(channel: &Channel) -> String {
+    if channel.unit.is_empty() && channel.is_master() && channel.is_time_channel() {
+        "s".into()
+    } else {
+        channel.unit.trim_end_matches('\0').trim().to_owned()
+    }
+}
+
+fn is_number(channel: &Channel) -> bool {
+    channel.value_kind().is_numeric() && !channel.is_array() && channel.unreadable().is_none()
+}
+
+fn kind(channel: &Channel) -> String {
+    if channel.is_array() {
+        "array".into()
+    } else if channel.is_float() && channel.value_kind() == channel.raw_value_kind() {
+        format!("f{}", channel.bit_count)
+    } else {
+        channel.value_kind().name().to_owned()
+    }
+}

@@ -1,0 +1,101 @@
+//! Recorded motion with the force that was measured on it.
+
+use std::io::Read;
+use std::path::Path;
+
+use super::channels::Channels;
+use super::open::{Origin, open_rows};
+use super::rows::Rows;
+use super::unit::Quantity;
+use super::{Gaps, RecordingError};
+use dashpot_files::FileError;
+
+/// One row of a measurement.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MeasuredSample {
+    /// Time (s).
+    pub time_s: f64,
+    /// Relative displacement of the seats (m), positive in extension.
+    pub displacement_m: f64,
+    /// Force (N), positive in extension.
+    pub force_n: f64,
+}
+
+impl MeasuredSample {
+    fn of([time_s, displacement_m, force_n]: [f64; 3]) -> Self {
+        Self {
+            time_s,
+            displacement_m,
+            force_n,
+        }
+    }
+}
+
+/// Displacement and force over time, read row by row in bounded memory from the same files as a [`Recording`](super::Recording).
+pub struct Measurement {
+    rows: Rows<3>,
+}
+
+impl Measurement {
+    /// Opens the file at `path`, `-` being standard input.
+    ///
+    /// # Errors
+    /// As [`Recording::open_with`](super::Recording::open_with).
+    pub fn open(path: &Path, channels: &Channels) -> Result<Self, FileError> {
+        Self::of(Origin::Path(path), channels)
+    }
+
+    /// A measurement from `source`, called `path` in errors.
+    ///
+    /// # Errors
+    /// As [`Measurement::open`].
+    pub fn read(
+        path: &Path,
+        source: Box<dyn Read>,
+        channels: &Channels,
+    ) -> Result<Self, FileError> {
+        Self::of(Origin::Stream(path, source), channels)
+    }
+
+    fn of(origin: Origin<'_>, channels: &Channels) -> Result<Self, FileError> {
+        let quantities = [Quantity::Time, Quantity::Displacement, Quantity::Force];
+        let rows = open_rows(origin, channels, quantities)?;
+        Ok(Self { rows })
+    }
+
+    /// The next row; `None` at the end.
+    ///
+    /// # Errors
+    /// As [`Recording::next_sample`](super::Recording::next_sample).
+    pub fn next_sample(&mut self) -> Result<Option<MeasuredSample>, FileError> {
+        Ok(self.rows.next()?.map(MeasuredSample::of))
+    }
+
+    /// All rows left.
+    ///
+    /// # Errors
+    /// As [`Measurement::next_sample`].
+    pub fn read_all(&mut self) -> Result<Vec<MeasuredSample>, FileError> {
+        self.rows.read_all(MeasuredSample::of)
+    }
+
+    /// Bytes read so far, for a progress bar.
+    pub fn position(&self) -> u64 {
+        self.rows.position()
+    }
+
+    /// The gaps among the rows read so far, and rows that were left out.
+    pub fn gaps(&self) -> Gaps {
+        self.rows.gaps()
+    }
+
+    /// `error` in the recording as a whole, placed.
+    pub fn in_text(&self, error: RecordingError) -> FileError {
+        self.rows.in_text(error)
+    }
+
+    /// `error` in the time of the row read last.
+    pub(crate) fn in_time(&self, error: RecordingError) -> FileError {
+        self.rows.in_time(error)
+    }
+}

@@ -1,0 +1,10 @@
+#![doc = include_str!("../README.md")]
+#![forbid(unsafe_code)]
+#![warn(missing_docs)]
+
+mod error;
+pub mod health;
+pub mod page;
+pub mod plot;
+
+pub use error::DrawError;

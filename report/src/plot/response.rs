@@ -1,0 +1,47 @@
+//! Frequency responses: dynamic stiffness, loss angle and damping over frequency.
+
+use plotters::style::RGBColor;
+
+use super::curves::Curve;
+use super::sheet::{Panel, Scale};
+use crate::page::panel;
+use dashpot_testbench::response::Response;
+
+/// Where a scale of decades stops to show damping: a loss angle (degrees) that is all but that of a spring.
+const LEAST_ANGLE_DEG: f64 = 0.1;
+
+/// The panels of dynamic stiffness (MN/m), loss angle (degrees) and damping (kN s/m) without curves yet; stiffness and damping on this
+/// scale.
+pub fn panels(scale: Scale) -> [Panel; 3] {
+    let axes = |y: &str, scale| Panel {
+        x_scale: Scale::Decades,
+        scale,
+        ..panel("frequency, Hz", y, Vec::new())
+    };
+    [
+        axes("dynamic stiffness, MN/m", scale),
+        axes("loss angle, °", Scale::Linear),
+        axes("damping, kN s/m", scale),
+    ]
+}
+
+/// A response as a curve of each panel. Where it has no loss angle, or too little for decades, the curve is parted.
+pub fn of(name: &str, colour: RGBColor, responses: &[Response], scale: Scale) -> [Curve; 3] {
+    let curve = |value: &dyn Fn(&Response) -> Option<f64>| {
+        let points = responses.iter();
+        let points = points.map(|r| (r.frequency_hz, value(r).unwrap_or(f64::NAN)));
+        Curve::new(name, colour, points)
+    };
+    let is_shown = |least_deg: f64| {
+        move |r: &Response| match scale {
+            Scale::Linear => true,
+            Scale::Decades => r.loss_angle_deg().is_some_and(|angle| angle >= least_deg),
+        }
+    };
+    let (has_force, has_loss) = (is_shown(f64::MIN), is_shown(LEAST_ANGLE_DEG));
+    [
+        curve(&|r| has_force(r).then(|| r.stiffness_n_per_m() * 1e-6)),
+        curve(&|r| r.loss_angle_deg()),
+        curve(&|r| has_loss(r).then(|| r.damping_n_s_per_m() * 1e-3)),
+    ]
+}

@@ -1,0 +1,220 @@
+//! Panels of curves in rows on one sheet.
+
+use std::ops::Range;
+
+use plotters::prelude::*;
+
+use super::curves::Curve;
+use super::style::{Area, Digits, FINE, INK, axes, draw, extent, failed, letters, span};
+use crate::DrawError;
+
+/// Margin above and below the curves on a scale of decades, as a ratio.
+const DECADE_MARGIN: f64 = 1.6;
+
+/// How an axis is divided.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Scale {
+    /// Equal lengths are equal differences.
+    Linear,
+    /// Equal lengths are equal ratios, for values above zero.
+    Decades,
+}
+
+/// One set of axes with its curves.
+pub struct Panel {
+    pub title: String,
+    pub x_label: String,
+    pub y_label: String,
+    /// Where the legend stands on a sheet, if there is one; on a page it stands above the curves.
+    pub legend: Option<SeriesLabelPosition>,
+    /// Whether the curves keep off the sides, as loops do, or fill the width.
+    pub sides: bool,
+    /// The horizontal axis.
+    pub x_scale: Scale,
+    /// The vertical axis.
+    pub scale: Scale,
+    /// Whether a linear vertical axis keeps to its values where they are far from zero.
+    pub keeps_to_values: bool,
+    pub curves: Vec<Curve>,
+}
+
+impl Panel {
+    /// What the axes show, horizontal and vertical.
+    pub fn ranges(&self) -> [Range<f64>; 2] {
+        let on = |scale: Scale| move |value: &f64| scale == Scale::Linear || *value > 0.0;
+        let abscissas = self.curves.iter().flat_map(Curve::abscissas);
+        let abscissas = abscissas.filter(on(self.x_scale));
+        let x = match (self.x_scale, self.sides) {
+            (Scale::Linear, true) => extent(abscissas),
+            (Scale::Linear, false) => from_zero(span(abscissas)),
+            (Scale::Decades, true) => widened(span(abscissas)),
+            (Scale::Decades, false) => span(abscissas),
+        };
+        let ordinates = || self.curves.iter().flat_map(Curve::ordinates);
+        let y = match self.scale {
+            Scale::Linear => {
+                let mut y = extent(ordinates());
+                // A curve that starts at zero, but for rounding, keeps zero at the edge.
+                let rounding = 1e-9 * y.end;
+                if !self.keeps_to_values && ordinates().all(|y| y >= -rounding) {
+                    y.start = 0.0;
+                }
+                y
+            }
+            Scale::Decades => widened(span(ordinates().filter(on(self.scale)))),
+        };
+        [shown(x, self.x_scale), shown(y, self.scale)]
+    }
+}
+
+/// How panels lie on a sheet.
+#[derive(Clone, Copy)]
+pub struct Layout {
+    /// Width of the sheet (pixels).
+    pub width: u32,
+    /// Height of a row (pixels).
+    pub row_height: u32,
+    /// Panels side by side.
+    pub columns: usize,
+}
+
+impl Layout {
+    /// So many panels in one row, each `width` by `height` pixels.
+    pub fn row(panels: usize, width: u32, height: u32) -> Self {
+        Self {
+            width: width * panels as u32,
+            row_height: height,
+            columns: panels,
+        }
+    }
+}
+
+/// Draws panels on a sheet.
+///
+/// # Errors
+/// The drawing fails.
+pub fn sheet(layout: Layout, panels: &[Panel]) -> Result<String, DrawError> {
+    let rows = panels.len().div_ceil(layout.columns);
+    draw(layout.width, layout.row_height * rows as u32, |area| {
+        let cells = area.split_evenly((rows, layout.columns));
+        for (cell, panel) in cells.iter().zip(panels) {
+            draw_panel(cell, panel)?;
+        }
+        Ok(())
+    })
+}
+
+/// The curves on axes of the panel's scale, and the legend.
+macro_rules! draw_on {
+    ($area:expr, $panel:expr, $x:expr, $y:expr, $digits:expr) => {{
+        let Panel {
+            title,
+            x_label,
+            y_label,
+            ..
+        } = $panel;
+        let mut chart = axes!($area, title, $x, $y, x_label, y_label, $digits);
+        for curve in &$panel.curves {
+            curve.draw(&mut chart)?;
+        }
+        if let Some(position) = &$panel.legend {
+            chart
+                .configure_series_labels()
+                .position(position.clone())
+                .label_font(letters(14, &INK))
+                .legend_area_size(30 * FINE)
+                .margin(8 * FINE)
+                .background_style(WHITE.mix(0.85))
+                .border_style(INK.mix(0.2).stroke_width(FINE))
+                .draw()
+                .map_err(failed)?;
+        }
+    }};
+}
+
+fn draw_panel(area: &Area<'_>, panel: &Panel) -> Result<(), DrawError> {
+    let [x, y] = panel.ranges();
+    let digits = (digits(&x, panel.x_scale), digits(&y, panel.scale));
+    match (panel.x_scale, panel.scale) {
+        (Scale::Linear, Scale::Linear) => draw_on!(area, panel, x, y, digits),
+        (Scale::Linear, Scale::Decades) => draw_on!(area, panel, x, y.log_scale(), digits),
+        (Scale::Decades, Scale::Linear) => draw_on!(area, panel, x.log_scale(), y, digits),
+        (Scale::Decades, Scale::Decades) => {
+            draw_on!(area, panel, x.log_scale(), y.log_scale(), digits)
+        }
+    }
+    Ok(())
+}
+
+/// The range, or one around it where it has no length or nothing lies in it.
+fn shown(range: Range<f64>, scale: Scale) -> Range<f64> {
+    let is_value = range.start == range.end;
+    match scale {
+        _ if range.start < range.end => range,
+        Scale::Linear if is_value => range.start - 0.5..range.end + 0.5,
+        Scale::Decades if is_value => widened(range),
+        Scale::Linear => 0.0..1.0,
+        Scale::Decades => 1.0..10.0,
+    }
+}
+
+/// A scale of decades with room at its ends.
+fn widened(range: Range<f64>) -> Range<f64> {
+    range.start / DECADE_MARGIN..range.end * DECADE_MARGIN
+}
+
+/// An axis that nearly begins at zero begins there.
+fn from_zero(range: Range<f64>) -> Range<f64> {
+    let nearly = (0.0..0.05 * range.end).contains(&range.start);
+    if nearly { 0.0..range.end } else { range }
+}
+
+/// Digits behind the point that make the labels of an axis differ.
+fn digits(range: &Range<f64>, scale: Scale) -> Digits {
+    if scale == Scale::Decades {
+        return Digits::OfDecade;
+    }
+    let apart = (range.end - range.start).max(1e-12) / 6.0;
+    Digits::Behind((-apart.log10().floor()).clamp(0.0, 6.0) as usize)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::style::INK;
+    use super::*;
+
+    fn ranges(scale: Scale, points: &[(f64, f64)]) -> [Range<f64>; 2] {
+        let panel = Panel {
+            title: String::new(),
+            x_label: String::new(),
+            y_label: String::new(),
+            legend: None,
+            sides: false,
+            x_scale: scale,
+            scale,
+            keeps_to_values: false,
+            curves: vec![Curve::new("", INK, points.iter().copied())],
+        };
+        panel.ranges()
+    }
+
+    #[test]
+    fn decades_show_what_is_above_zero() {
+        let [x, y] = ranges(Scale::Decades, &[(0.0, 3.0), (2.0, -1.0), (50.0, 40.0)]);
+        assert_eq!(x, 2.0..50.0);
+        assert!(y.start > 1.0 && y.start < 3.0 && y.end > 40.0);
+    }
+
+    #[test]
+    fn axes_have_a_length_whatever_lies_on_them() {
+        for scale in [Scale::Linear, Scale::Decades] {
+            for points in [&[][..], &[(7.0, 7.0)], &[(0.0, 0.0)], &[(-1.0, f64::NAN)]] {
+                for range in ranges(scale, points) {
+                    assert!(range.start < range.end, "{points:?}: {range:?}");
+                    assert!(range.start.is_finite() && range.end.is_finite());
+                    assert!(scale == Scale::Linear || range.start > 0.0, "{range:?}");
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,130 @@
+//! Sheet, colours, lettering and axes of every plot.
+
+use std::error::Error;
+use std::ops::Range;
+
+use plotters::coord::Shift;
+use plotters::prelude::*;
+
+use crate::DrawError;
+
+/// The backend rounds to whole units; drawn this much larger, curves stay smooth.
+pub const FINE: u32 = 4;
+const FONT: &str = "sans-serif";
+pub const INK: RGBColor = RGBColor(38, 50, 56);
+pub const BLUE_LINE: RGBColor = RGBColor(21, 101, 192);
+pub const RED_LINE: RGBColor = RGBColor(198, 40, 40);
+pub const GREEN_LINE: RGBColor = RGBColor(46, 125, 50);
+pub const AMBER_LINE: RGBColor = RGBColor(239, 138, 0);
+pub const PALE: RGBColor = RGBColor(160, 168, 176);
+pub const LINE: u32 = 2 * FINE;
+
+/// What a drawing function says when the plotting library fails.
+pub fn failed(error: impl Error + Send + Sync + 'static) -> DrawError {
+    DrawError(Box::new(error))
+}
+
+pub type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
+
+/// Draws on a white sheet of `width` by `height` pixels and gives the SVG's text.
+pub fn draw(
+    width: u32,
+    height: u32,
+    paint: impl FnOnce(&Area<'_>) -> Result<(), DrawError>,
+) -> Result<String, DrawError> {
+    let mut text = String::new();
+    {
+        let area =
+            SVGBackend::with_string(&mut text, (width * FINE, height * FINE)).into_drawing_area();
+        area.fill(&WHITE).map_err(failed)?;
+        paint(&area)?;
+        area.present().map_err(failed)?;
+    }
+    let drawn = format!("width=\"{}\" height=\"{}\"", width * FINE, height * FINE);
+    Ok(text.replacen(&drawn, &format!("width=\"{width}\" height=\"{height}\""), 1))
+}
+
+/// Lettering of `size` pixels.
+pub fn letters(size: u32, colour: &'static RGBColor) -> TextStyle<'static> {
+    TextStyle::from((FONT, size * FINE).into_font()).color(colour)
+}
+
+/// Digits behind the point of the numbers on an axis.
+#[derive(Clone, Copy)]
+pub enum Digits {
+    /// As many for every number.
+    Behind(usize),
+    /// As many as the number's power of ten takes.
+    OfDecade,
+}
+
+impl From<usize> for Digits {
+    fn from(digits: usize) -> Self {
+        Self::Behind(digits)
+    }
+}
+
+/// A number on an axis, zero without a sign.
+pub fn label(value: f64, digits: impl Into<Digits>) -> String {
+    let digits = match digits.into() {
+        Digits::Behind(digits) => digits,
+        Digits::OfDecade => (-value.abs().log10().round()).clamp(0.0, 12.0) as usize,
+    };
+    let text = format!("{value:.digits$}");
+    match text.strip_prefix('-') {
+        Some(zero) if zero.chars().all(|c| c == '0' || c == '.') => zero.to_owned(),
+        _ => text,
+    }
+}
+
+/// One set of axes with the house's lettering; `$digits` are those behind the point, (x, y).
+#[macro_export]
+macro_rules! axes {
+    ($area:expr, $title:expr, $x:expr, $y:expr, $x_label:expr, $y_label:expr, $digits:expr) => {{
+        let title = String::from($title);
+        let mut builder = ChartBuilder::on($area);
+        if !title.is_empty() {
+            builder.caption(&title, $crate::plot::style::letters(20, &$crate::plot::style::INK));
+        }
+        let mut chart = builder
+            .margin(14 * FINE)
+            .x_label_area_size(44 * FINE)
+            .y_label_area_size(60 * FINE)
+            .build_cartesian_2d($x, $y)
+            .map_err(failed)?;
+        chart
+            .configure_mesh()
+            .x_desc($x_label)
+            .y_desc($y_label)
+            .axis_desc_style(letters(15, &INK))
+            .label_style(letters(14, &INK))
+            .light_line_style(WHITE)
+            .bold_line_style(INK.mix(0.12).stroke_width(FINE))
+            .axis_style(INK.mix(0.6).stroke_width(FINE))
+            .set_all_tick_mark_size(5 * FINE)
+            .x_label_formatter(&|x| $crate::plot::style::label(*x, $digits.0))
+            .y_label_formatter(&|y| $crate::plot::style::label(*y, $digits.1))
+            // A label takes some 40 pixels.
+            .x_labels((($area.dim_in_pixel().0 / (40 * FINE)) as usize).min(11))
+            .y_labels(8)
+            .draw()
+            .map_err(failed)?;
+        chart
+    }};
+}
+
+pub use axes;
+
+/// Least and greatest of `values`.
+pub fn span(values: impl Iterator<Item = f64>) -> Range<f64> {
+    values.fold(f64::MAX..f64::MIN, |range, value| {
+        range.start.min(value)..range.end.max(value)
+    })
+}
+
+/// Least and greatest of `values`, widened by a twentieth.
+pub fn extent(values: impl Iterator<Item = f64>) -> Range<f64> {
+    let Range { start, end } = span(values);
+    let margin = 0.05 * (end - start).max(1e-6);
+    start - margin..end + margin
+}

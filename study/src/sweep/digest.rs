@@ -1,0 +1,85 @@
+//! Digests: of the cases of a study, so that rows of different studies are not mixed, and of a row, so that an
+//! altered one is noticed.
+
+use std::fmt::Debug;
+
+use sha2::{Digest as _, Sha256};
+
+use dashpot_files::case::Case;
+use dashpot_files::input;
+use dashpot_files::track::IrregularityParameters;
+use dashpot_files::{FileError, study::StudyFileError};
+
+/// The digest of a row's cells, those before its own: the first 16 hexadecimal digits of the SHA-256 of each cell and
+/// its length.
+///
+/// ```
+/// use dashpot_study::sweep::digest_of_cells;
+/// let digest = digest_of_cells(["0", "0.014"]);
+/// assert_ne!(digest, digest_of_cells(["0", "9.014"]));
+/// assert_ne!(digest, digest_of_cells(["00", ".014"]));
+/// ```
+pub fn digest_of_cells<'a>(cells: impl IntoIterator<Item = &'a str>) -> String {
+    let mut digest = Digest::default();
+    for cell in cells {
+        digest.0.update((cell.len() as u64).to_le_bytes());
+        digest.0.update(cell);
+    }
+    digest.hexadecimal()
+}
+
+/// SHA-256 of what it is given.
+#[derive(Default)]
+pub(super) struct Digest(Sha256);
+
+impl Digest {
+    /// Adds what a value is written as, which for numbers is exact.
+    pub fn add(&mut self, value: &impl Debug) {
+        self.0.update(format!("{value:?}\n"));
+    }
+
+    /// Adds a case: its numbers, its vehicle and its track, whatever their files are called.
+    ///
+    /// # Errors
+    /// A measured irregularity that cannot be read.
+    pub fn add_case(&mut self, case: &Case) -> Result<(), StudyFileError> {
+        let Case {
+            name: _,
+            vehicle,
+            track,
+            speed_m_per_s,
+            duration_s,
+            start_m,
+            friction,
+            normal_damping_s_per_m,
+            step_s,
+            push_m,
+            rails,
+            faults,
+        } = case;
+        self.add(&(vehicle, rails, faults));
+        self.add(&(speed_m_per_s, duration_s, start_m, friction));
+        self.add(&(normal_damping_s_per_m, step_s, push_m));
+        self.add(&(&track.layout, &track.defects));
+        match &track.irregularity {
+            IrregularityParameters::Measured { file, options } => {
+                let bytes =
+                    input::read(file).map_err(|error: FileError| StudyFileError::File(error))?;
+                self.add(options);
+                self.0.update(bytes);
+            }
+            other => self.add(other),
+        }
+        Ok(())
+    }
+
+    /// The first 16 hexadecimal digits.
+    pub fn hexadecimal(self) -> String {
+        let bytes = self.0.finalize();
+        bytes
+            .iter()
+            .take(8)
+            .map(|byte| format!("{byte:02x}"))
+            .collect()
+    }
+}

@@ -1,0 +1,206 @@
+//! Rows of a study that is being run: added one by one, so that an interruption loses none.
+
+use std::fs::{self, File, TryLockError};
+use std::io::{self, Read, Seek, SeekFrom, Write};
+use std::path::{Path, PathBuf};
+
+use super::row::{Arithmetic, Row};
+use super::rows::{self, Rows, RowsError};
+use super::study::{Shard, Study};
+use dashpot_files::FileError;
+use dashpot_files::output::cannot_write;
+
+/// The rows there are, and the file that new ones are added to: that of the rows with `.partial` behind its name.
+#[derive(Debug)]
+pub struct Journal {
+    path: PathBuf,
+    partial: PathBuf,
+    file: File,
+    rows: Rows,
+}
+
+impl Journal {
+    /// The rows of the file at `path` and of an earlier run that was interrupted; none of them when it begins `anew`: the file there is
+    /// keeps its rows as `.old` then.
+    ///
+    /// # Errors
+    /// Files that cannot be read or written, or hold rows of another study or shard; another process that adds rows.
+    pub fn open(
+        study: &Study,
+        path: &Path,
+        shard: Option<Shard>,
+        anew: bool,
+    ) -> Result<Self, RowsError> {
+        let partial = with_ending(path, "partial");
+        let mut file = locked(&partial)?;
+        let mut known = Rows::new();
+        if anew {
+            file.set_len(0)
+                .map_err(|error| cannot_write(&partial, error))?;
+            if path.exists() {
+                let old = with_ending(path, "old");
+                fs::rename(path, &old).map_err(|error| cannot_write(&old, error))?;
+            }
+        } else {
+            if path.exists() {
+                known = rows::read_once(study, path)?;
+            }
+            let mut bytes = Vec::new();
+            file.read_to_end(&mut bytes)
+                .map_err(|error| FileError::read(&partial, error))?;
+            // What follows the last end of a line was being written when the process ended.
+            let whole = bytes.iter().rposition(|byte| *byte == b'\n');
+            bytes.truncate(whole.map_or(0, |last| last + 1));
+            if bytes.trim_ascii().is_empty() {
+                bytes.clear();
+            }
+            if !bytes.is_empty() {
+                let read = rows::parse(study, &partial, &bytes)?;
+                known.extend(rows::once(&partial, read)?);
+            }
+            file.set_len(bytes.len() as u64)
+                .map_err(|error| cannot_write(&partial, error))?;
+            rows::check_arithmetic(path, known.values(), Arithmetic::here())?;
+            let is_other = |case: &&u64| shard.is_some_and(|shard| !shard.has(**case));
+            if let (Some(case), Some(shard)) = (known.keys().find(is_other), shard) {
+                let Shard { number, of } = shard;
+                let reason = format!("case {case} is not of shard {number} of {of}");
+                return Err(RowsError::Foreign(FileError::in_file(path, reason)));
+            }
+        }
+        let mut journal = Self {
+            path: path.to_owned(),
+            partial,
+            file,
+            rows: known,
+        };
+        let end = journal.file.seek(SeekFrom::End(0));
+        if end.map_err(|error| cannot_write(&journal.partial, error))? == 0 {
+            journal.line(study.columns())?;
+        }
+        Ok(journal)
+    }
+
+    /// The rows there are.
+    pub fn rows(&self) -> &Rows {
+        &self.rows
+    }
+
+    /// Adds a row.
+    ///
+    /// # Errors
+    /// The file cannot be written.
+    pub fn add(&mut self, study: &Study, row: Row) -> Result<(), FileError> {
+        let record = rows::record(study, &row);
+        self.line(record.map_err(|error| cannot_write(&self.partial, error))?)?;
+        self.rows.insert(row.case, row);
+        Ok(())
+    }
+
+    /// Writes all rows whole, in the order of the cases, and returns them.
+    ///
+    /// # Errors
+    /// The file cannot be written.
+    pub fn finish(self, study: &Study) -> Result<Rows, FileError> {
+        rows::write(study, &self.rows, &self.path)?;
+        // On the disk before the rows one by one go.
+        File::open(&self.path)
+            .and_then(|file| file.sync_all())
+            .map_err(|error| cannot_write(&self.path, error))?;
+        fs::remove_file(&self.partial).map_err(|error| cannot_write(&self.partial, error))?;
+        Ok(self.rows)
+    }
+
+    /// Takes the rows of cases in rising order away again.
+    ///
+    /// # Errors
+    /// The file cannot be written.
+    pub fn take_away(&mut self, study: &Study, cases: &[u64]) -> Result<(), FileError> {
+        self.rows
+            .retain(|case, _| cases.binary_search(case).is_err());
+        self.file
+            .set_len(0)
+            .and_then(|()| self.file.rewind())
+            .map_err(|error| cannot_write(&self.partial, error))?;
+        self.line(study.columns())?;
+        let rows: Vec<Row> = self.rows.values().cloned().collect();
+        rows.into_iter().try_for_each(|row| self.add(study, row))
+    }
+
+    fn line(&mut self, cells: Vec<String>) -> Result<(), FileError> {
+        let mut writer = csv::Writer::from_writer(Vec::new());
+        let written = writer.write_record(cells).map_err(io::Error::other);
+        let bytes = written.and_then(|()| writer.into_inner().map_err(|error| error.into_error()));
+        let bytes = bytes.and_then(|bytes| self.file.write_all(&bytes));
+        bytes.map_err(|error| cannot_write(&self.partial, error))
+    }
+}
+
+/// The path with more behind its name.
+fn with_ending(path: &Path, ending: &str) -> PathBuf {
+    let mut name = path.as_os_str().to_owned();
+    name.push(".");
+    name.push(ending);
+    PathBuf::from(name)
+}
+
+/// The file at `path`, which no other process adds to while this one has it open.
+fn locked(path: &Path) -> Result<File, FileError> {
+    loop {
+        let file = File::options()
+            .read(true)
+            .write(true)
+            .create(true)
+            .truncate(false)
+            .open(path)
+            .map_err(|error| cannot_write(path, error))?;
+        match file.try_lock() {
+            Ok(()) => {}
+            Err(TryLockError::WouldBlock) => {
+                let other = "another process is adding rows to it";
+                return Err(cannot_write(path, io::Error::other(other)));
+            }
+            Err(TryLockError::Error(error)) => return Err(cannot_write(path, error)),
+        }
+        // A process that has just finished may have removed it between opening and locking, and another made one anew.
+        if is_at(&file, path) {
+            return Ok(file);
+        }
+    }
+}
+
+/// Whether the file at `path` is this one.
+#[cfg(unix)]
+fn is_at(file: &File, path: &Path) -> bool {
+    use std::os::unix::fs::MetadataExt;
+    match (file.metadata(), path.metadata()) {
+        (Ok(this), Ok(there)) => (this.dev(), this.ino()) == (there.dev(), there.ino()),
+        _ => false,
+    }
+}
+
+/// Whether there is a file at `path`: an open one keeps its name.
+#[cfg(not(unix))]
+fn is_at(_: &File, path: &Path) -> bool {
+    path.exists()
+}
+
+#[cfg(all(test, unix))]
+mod tests {
+    use std::fs::{self, File};
+
+    use super::is_at;
+
+    #[test]
+    fn a_file_that_was_removed_is_not_the_one_made_after_it() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("rows.csv.partial");
+        let first = File::create(&path).unwrap();
+        assert!(is_at(&first, &path));
+        fs::remove_file(&path).unwrap();
+        assert!(!is_at(&first, &path));
+        let second = File::create(&path).unwrap();
+        assert!(is_at(&second, &path));
+        assert!(!is_at(&first, &path));
+    }
+}

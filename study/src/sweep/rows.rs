@@ -1,0 +1,155 @@
+//! Files of rows: CSV with a header, read strictly, and written whole in the order of the cases.
+
+use std::collections::BTreeMap;
+use std::io;
+use std::path::Path;
+
+use super::row::{Arithmetic, Row};
+use super::study::Study;
+use dashpot_files::FileError;
+use dashpot_files::input;
+use dashpot_files::output::{cannot_write_rows, write_whole};
+
+/// Why a file has no rows of a study.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum RowsError {
+    /// It cannot be read or written.
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// A line is no row: damaged, altered, or of a case that another line has too.
+    #[error("{source}")]
+    Damaged {
+        /// Line, from 1.
+        line: u64,
+        /// What is wrong with it.
+        source: FileError,
+    },
+    /// Its rows are of another study, version, physics or arithmetic, or of an earlier `dashpot` with other columns.
+    #[error("{0}")]
+    Foreign(FileError),
+}
+
+/// Rows by the numbers of their cases.
+pub type Rows = BTreeMap<u64, Row>;
+
+/// The rows of a study in the file at `path`, each with its line.
+///
+/// # Errors
+/// A file that cannot be read; a header or a row that is not of this study, with line and column.
+pub fn read(study: &Study, path: &Path) -> Result<Vec<(u64, Row)>, RowsError> {
+    parse(study, &input::name(path), &input::read(path)?)
+}
+
+/// The rows in `bytes`, which are those of the file at `path`.
+pub(super) fn parse(
+    study: &Study,
+    path: &Path,
+    bytes: &[u8],
+) -> Result<Vec<(u64, Row)>, RowsError> {
+    let mut reader = csv::ReaderBuilder::new()
+        .has_headers(false)
+        .flexible(true)
+        .from_reader(bytes);
+    let mut rows = Vec::new();
+    let columns = study.columns();
+    for (number, record) in reader.records().enumerate() {
+        let record = record.map_err(|error| {
+            let line = error.position().map_or(0, csv::Position::line);
+            let source = match error.kind() {
+                csv::ErrorKind::Utf8 { .. } => FileError::in_line(path, line, "no text in UTF-8"),
+                _ => FileError::in_file(path, error),
+            };
+            RowsError::Damaged { line, source }
+        })?;
+        let line = record.position().map_or(0, csv::Position::line);
+        if number == 0 {
+            if !record.iter().eq(columns.iter()) {
+                let reason = format!(
+                    "not the columns of the study, which are {}",
+                    columns.join(",")
+                );
+                return Err(RowsError::Foreign(FileError::in_line(path, line, reason)));
+            }
+            continue;
+        }
+        let row = study.row(record.iter()).map_err(|error| {
+            let is_foreign = error.is_foreign();
+            let source = FileError::in_line(path, line, error);
+            match is_foreign {
+                true => RowsError::Foreign(source),
+                false => RowsError::Damaged { line, source },
+            }
+        })?;
+        rows.push((line, row));
+    }
+    if rows.is_empty() && bytes.is_empty() {
+        let reason = format!("empty, allowed: rows under {}", columns.join(","));
+        return Err(FileError::in_file(path, reason).into());
+    }
+    Ok(rows)
+}
+
+/// The rows of [`read`] by their cases.
+///
+/// # Errors
+/// As [`read`]; a case twice.
+pub fn read_once(study: &Study, path: &Path) -> Result<Rows, RowsError> {
+    once(path, read(study, path)?)
+}
+
+/// Refuses rows of a processor that computes otherwise.
+pub(super) fn check_arithmetic<'a>(
+    path: &Path,
+    rows: impl Iterator<Item = &'a Row>,
+    expected: Arithmetic,
+) -> Result<(), RowsError> {
+    let mut others = rows.filter(|row| row.arithmetic != expected);
+    match others.next() {
+        Some(other) => {
+            let (case, found) = (other.case, other.arithmetic);
+            let reason = format!(
+                "case {case}: arithmetic {found}, allowed here: {expected}; rows of both kinds of processors do not mix"
+            );
+            Err(RowsError::Foreign(FileError::in_file(path, reason)))
+        }
+        None => Ok(()),
+    }
+}
+
+pub(super) fn once(path: &Path, read: Vec<(u64, Row)>) -> Result<Rows, RowsError> {
+    let mut rows = Rows::new();
+    for (line, row) in read {
+        let case = row.case;
+        if rows.insert(case, row).is_some() {
+            let reason = format!("case {case} a second time, allowed: once");
+            let source = FileError::in_line(path, line, reason);
+            return Err(RowsError::Damaged { line, source });
+        }
+    }
+    Ok(rows)
+}
+
+/// Writes rows under a header, in the order of the cases.
+///
+/// # Errors
+/// The file cannot be written.
+pub fn write(study: &Study, rows: &Rows, path: &Path) -> Result<(), FileError> {
+    write_whole(path, |file| {
+        let failed = |error: csv::Error| cannot_write_rows(path, error);
+        let mut writer = csv::Writer::from_writer(file);
+        writer.write_record(study.columns()).map_err(failed)?;
+        for row in rows.values() {
+            let record = record(study, row).map_err(|error| failed(error.into()))?;
+            writer.write_record(record).map_err(failed)?;
+        }
+        writer.flush().map_err(|error| failed(error.into()))
+    })
+}
+
+/// The cells of a row.
+pub(super) fn record(study: &Study, row: &Row) -> io::Result<Vec<String>> {
+    let case = study.case(row.case);
+    let case = case.ok_or_else(|| io::Error::other(format!("no case {}", row.case)))?;
+    Ok(study.record(&case, row))
+}

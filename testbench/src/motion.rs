@@ -1,0 +1,154 @@
+//! A motion in memory through a damper, or through each damper of a bank: the same bits as a step a tick.
+
+use dashpot_core::{Damper, DamperState, Real, step_bank};
+
+/// Dampers that step together: those of a vector of the widest processors.
+const TOGETHER: usize = 8;
+
+/// Ticks between two looks whether the forces are still wanted.
+const TICKS_A_LOOK: usize = 1 << 16;
+
+/// Steps `damper` over `displacements` (m) and writes the force (N) of each, until no more is wanted; whether it came to the end.
+///
+/// ```
+/// use dashpot_files::damper;
+/// use dashpot_testbench::motion;
+/// let damper = damper::load("paper", &[])?.build::<f64>(1e-3)?;
+/// let (mut state, mut forces) = (damper.at_rest(0.0), [0.0; 3]);
+/// assert!(motion::follow(&damper, &mut state, &[1e-4, 2e-4, 3e-4], &mut forces, &|| false));
+/// assert_eq!(forces[2], state.force_n());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn follow<T: Real>(
+    damper: &Damper<T>,
+    state: &mut DamperState<T>,
+    displacements: &[T],
+    forces: &mut [T],
+    is_unwanted: &dyn Fn() -> bool,
+) -> bool {
+    let parts = displacements.chunks(TICKS_A_LOOK);
+    for (displacements, forces) in parts.zip(forces.chunks_mut(TICKS_A_LOOK)) {
+        if is_unwanted() {
+            return false;
+        }
+        for (displacement, force) in displacements.iter().zip(forces) {
+            *force = damper.step(state, *displacement);
+        }
+    }
+    true
+}
+
+/// As [`follow`], of a bank: a row a tick, in it a displacement and a force for each damper.
+///
+/// ```
+/// use dashpot_files::damper;
+/// use dashpot_testbench::motion;
+/// let damper = damper::load("paper", &[])?.build::<f64>(1e-3)?;
+/// let (mut states, mut forces) = ([damper.at_rest(0.0); 2], [0.0; 4]);
+/// let ticks = [1e-4, -1e-4, 2e-4, -2e-4];
+/// assert!(motion::follow_bank(&[&damper; 2], &mut states, &ticks, &mut forces, &|| false));
+/// let mut alone = damper.at_rest(0.0);
+/// assert_eq!(damper.step(&mut alone, 1e-4), forces[0]);
+/// assert_eq!(damper.step(&mut alone, 2e-4), forces[2]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn follow_bank<T: Real>(
+    dampers: &[&Damper<T>],
+    states: &mut [DamperState<T>],
+    displacements: &[T],
+    forces: &mut [T],
+    is_unwanted: &dyn Fn() -> bool,
+) -> bool {
+    let count = dampers.len().max(1);
+    let rows = displacements.chunks_exact(count);
+    for (tick, (displacements, forces)) in rows.zip(forces.chunks_exact_mut(count)).enumerate() {
+        if tick.is_multiple_of(TICKS_A_LOOK / TOGETHER) && is_unwanted() {
+            return false;
+        }
+        step_row(dampers, states, displacements, forces);
+    }
+    true
+}
+
+fn step_row<T: Real>(
+    dampers: &[&Damper<T>],
+    states: &mut [DamperState<T>],
+    displacements: &[T],
+    forces: &mut [T],
+) {
+    let (groups, alone) = dampers.as_chunks::<TOGETHER>();
+    let (states, states_alone) = states.as_chunks_mut();
+    let (displacements, displacements_alone) = displacements.as_chunks();
+    let (forces, forces_alone) = forces.as_chunks_mut();
+    let together = groups.iter().zip(states).zip(displacements).zip(forces);
+    for (((dampers, states), displacements), forces) in together {
+        step_bank(dampers, states, displacements, forces);
+    }
+    let alone = alone.iter().zip(states_alone).zip(displacements_alone);
+    for (((damper, state), displacement), force) in alone.zip(forces_alone) {
+        *force = damper.step(state, *displacement);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use dashpot_files::damper;
+
+    #[test]
+    fn a_bank_of_any_size_has_the_bits_of_single_dampers() {
+        let built = ["paper", "in-service", "reduced-lateral"].map(|name| {
+            let damper = damper::load(name, &[]).unwrap();
+            damper.build::<f32>(1e-3).unwrap()
+        });
+        for count in [1, 7, 8, 19] {
+            let dampers: Vec<&Damper<f32>> = built.iter().cycle().take(count).collect();
+            let mut states: Vec<_> = dampers.iter().map(|damper| damper.at_rest(0.0)).collect();
+            let mut alone = states.clone();
+            let x = |tick: usize, place: usize| {
+                5e-3 * (0.01 * tick as f32 * (1.0 + place as f32)).sin()
+            };
+            let cells = (0..500).flat_map(|tick| (0..count).map(move |place| x(tick, place)));
+            let displacements: Vec<f32> = cells.collect();
+            let mut forces = vec![0.0; displacements.len()];
+            assert!(follow_bank(
+                &dampers,
+                &mut states,
+                &displacements,
+                &mut forces,
+                &|| false
+            ));
+            for (place, damper) in dampers.iter().enumerate() {
+                let column: Vec<f32> = (0..500).map(|tick| x(tick, place)).collect();
+                let mut singles = vec![0.0; 500];
+                assert!(follow(
+                    damper,
+                    &mut alone[place],
+                    &column,
+                    &mut singles,
+                    &|| false
+                ));
+                for (tick, force) in singles.iter().enumerate() {
+                    assert_eq!(force.to_bits(), forces[tick * count + place].to_bits());
+                }
+            }
+            assert_eq!(states, alone);
+        }
+    }
+
+    #[test]
+    fn what_is_unwanted_ends() {
+        let damper = damper::load("paper", &[]).unwrap().build(1e-3).unwrap();
+        let (mut state, mut forces) = (damper.at_rest(0.0), [7.0_f32; 2]);
+        assert!(!follow(
+            &damper,
+            &mut state,
+            &[1e-3; 2],
+            &mut forces,
+            &|| true
+        ));
+        let ended = follow_bank(&[&damper], &mut [state], &[1e-3; 2], &mut forces, &|| true);
+        assert!(!ended);
+        assert_eq!(forces, [7.0; 2]);
+    }
+}

@@ -1,0 +1,150 @@
+//! The fixed step against the reference solver.
+
+use dashpot_core::{CheckedParameters, DamperParameters, Real};
+use dashpot_reference::damper::Reference;
+use dashpot_reference::deviation::{errors, largest_magnitude, nrmse, root_mean_square};
+use serde::Serialize;
+
+use super::TestbenchError;
+use dashpot_recording::tick_grid::{Tick, rounding_s};
+use dashpot_recording::Sample;
+
+/// Deviation of one fixed step from the reference on one motion.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Deviation {
+    /// Step (s).
+    pub step_s: f64,
+    /// Root mean square error over root mean square reference force (1).
+    pub nrmse: f64,
+    /// Largest error over the largest reference force (1).
+    pub largest_error_over_peak: f64,
+    /// Largest error (N).
+    pub largest_error_n: f64,
+    /// Root mean square of the reference force (N).
+    pub reference_rms_n: f64,
+    /// Largest magnitude of the reference force (N).
+    pub reference_peak_n: f64,
+}
+
+/// What the fixed step did with a motion.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FixedStep {
+    /// Force at each tick (N).
+    pub forces_n: Vec<f64>,
+    /// Ticks whose displacement was held or limited, up to 65535: there the damper followed another
+    /// motion than the reference.
+    pub rejected_inputs: u16,
+}
+
+/// The fixed step at each displacement (m), the first one being where it starts at rest.
+///
+/// # Errors
+/// Parameters that cannot be built.
+pub fn fixed_step_forces<T: Real>(
+    parameters: &CheckedParameters,
+    step_s: f64,
+    displacements_m: &[f64],
+) -> Result<FixedStep, TestbenchError> {
+    let damper = parameters.build::<T>(step_s)?;
+    let start = displacements_m.first().copied().unwrap_or(0.0);
+    let mut state = damper.at_rest(T::from_f64(start));
+    let forces_n = displacements_m
+        .iter()
+        .map(|&x| damper.step(&mut state, T::from_f64(x)).to_f64())
+        .collect();
+    Ok(FixedStep {
+        forces_n,
+        rejected_inputs: state.rejected_inputs(),
+    })
+}
+
+/// Reference force (N) at each displacement (m), linear between ticks of `step_s` (s).
+///
+/// # Errors
+/// What the reference solver reports.
+pub fn reference_forces(
+    parameters: &DamperParameters,
+    step_s: f64,
+    displacements_m: &[f64],
+) -> Result<Vec<f64>, TestbenchError> {
+    reference_forces_unless(parameters, step_s, displacements_m, &|| false)
+}
+
+/// As [`reference_forces`], until they are unwanted.
+///
+/// # Errors
+/// As [`reference_forces`]; forces that have become unwanted.
+pub fn reference_forces_unless(
+    parameters: &DamperParameters,
+    step_s: f64,
+    displacements_m: &[f64],
+    is_unwanted: &dyn Fn() -> bool,
+) -> Result<Vec<f64>, TestbenchError> {
+    let times: Vec<f64> = (0..displacements_m.len())
+        .map(|tick| tick as f64 * step_s)
+        .collect();
+    let mut reference = Reference::new(parameters)?;
+    Ok(reference.forces_unless(&times, displacements_m, is_unwanted)?)
+}
+
+/// Reference force (N) at each of `ticks` for the motion of the recording itself: linear between its
+/// samples, whichever of them lie between ticks.
+///
+/// `ticks` of `step_s` (s) are of the same recording: a tick at a sample has the sample's displacement.
+///
+/// # Errors
+/// What the reference solver reports.
+pub fn reference_forces_on_recording(
+    parameters: &DamperParameters,
+    step_s: f64,
+    samples: &[Sample],
+    ticks: &[Tick],
+) -> Result<Vec<f64>, TestbenchError> {
+    let Some(start_s) = ticks.first().map(|tick| tick.time_s) else {
+        return Ok(Vec::new());
+    };
+    let (mut times_s, mut displacements_m) = (Vec::new(), Vec::new());
+    let mut indices = Vec::with_capacity(ticks.len());
+    let mut samples = samples.iter().peekable();
+    for tick in ticks {
+        // A sample that only rounding parts from the tick is the tick.
+        let slack_s = rounding_s(tick.time_s, step_s);
+        while let Some(sample) = samples.next_if(|sample| sample.time_s <= tick.time_s + slack_s) {
+            if sample.time_s < tick.time_s - slack_s {
+                times_s.push(sample.time_s - start_s);
+                displacements_m.push(sample.displacement_m);
+            }
+        }
+        indices.push(times_s.len());
+        times_s.push(tick.time_s - start_s);
+        displacements_m.push(tick.displacement_m);
+    }
+    let forces = Reference::new(parameters)?.forces(&times_s, &displacements_m)?;
+    Ok(indices.into_iter().map(|index| forces[index]).collect())
+}
+
+/// Deviation of `forces` from `reference` (N).
+///
+/// # Errors
+/// Different lengths, or a reference force that is zero throughout.
+pub fn deviation(step_s: f64, forces: &[f64], reference: &[f64]) -> Result<Deviation, TestbenchError> {
+    if forces.len() != reference.len() {
+        return Err(TestbenchError::Lengths {
+            forces: forces.len(),
+            references: reference.len(),
+        });
+    }
+    let reference_peak_n = largest_magnitude(reference.iter().copied());
+    if reference_peak_n == 0.0 {
+        return Err(TestbenchError::NoForce);
+    }
+    let largest_error_n = largest_magnitude(errors(forces, reference));
+    Ok(Deviation {
+        step_s,
+        nrmse: nrmse(forces, reference),
+        largest_error_over_peak: largest_error_n / reference_peak_n,
+        largest_error_n,
+        reference_rms_n: root_mean_square(reference.iter().copied()),
+        reference_peak_n,
+    })
+}

@@ -1,0 +1,92 @@
+//! A run with all that is recorded of it in memory.
+
+use dashpot_rail::vehicle::VehicleParameters;
+
+use super::signals::{self, Signal};
+use super::{Ending, Indexer, Indices, Run, ValidityWatch, VehicleRunError, Warning};
+use dashpot_files::case::Case;
+use dashpot_files::nearest;
+use dashpot_files::nearest_nanosecond;
+
+/// Ticks between two looks whether the run is still wanted.
+const TICKS_A_LOOK: u64 = 256;
+
+/// Signals of a run, tick by tick, its ending and its indices.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Recorded {
+    /// How it ended.
+    pub ending: Ending,
+    /// Name of each signal and its number after each tick.
+    pub history: Vec<(String, Vec<f64>)>,
+    /// `None` where [`Ending::has_indices`] is false.
+    pub indices: Option<Indices>,
+    /// What the run computed beyond what the model means.
+    pub warnings: Vec<Warning>,
+}
+
+/// Every signal of a run of this vehicle, in the order of a history.
+pub fn all_signals(run: &Run, vehicle: &VehicleParameters) -> Vec<Signal> {
+    let mut all = signals::all(run.vehicle());
+    all.extend(signals::of_ride(vehicle));
+    all
+}
+
+/// Runs a case that has not begun to its end, or until it is unwanted, and records the signals of these names; all where none are given.
+///
+/// # Errors
+/// A signal that there is not, more than there is memory for, or as [`Run::step`].
+pub fn record(
+    case: &Case,
+    mut run: Run,
+    names: Option<&[String]>,
+    is_unwanted: &dyn Fn() -> bool,
+) -> Result<Recorded, VehicleRunError> {
+    let mut chosen = all_signals(&run, &case.vehicle);
+    if let Some(names) = names {
+        let named = |name: &String| match chosen.iter().find(|signal| signal.name() == name) {
+            Some(signal) => Ok(signal.clone()),
+            None => Err(VehicleRunError::NoSignal {
+                name: name.clone(),
+                near: nearest(name, chosen.iter().map(Signal::name)),
+            }),
+        };
+        chosen = names.iter().map(named).collect::<Result<_, _>>()?;
+    }
+    let ticks = run.ticks();
+    let mut columns: Vec<Vec<f64>> = chosen.iter().map(|_| Vec::new()).collect();
+    let count = usize::try_from(ticks).unwrap_or(usize::MAX);
+    if columns
+        .iter_mut()
+        .any(|column| column.try_reserve_exact(count).is_err())
+    {
+        let signals = chosen.len();
+        return Err(VehicleRunError::Memory { ticks, signals });
+    }
+    let mut indexer = Indexer::new(case);
+    let mut watch = ValidityWatch::new(case);
+    let ending = loop {
+        let ended = run.step()?;
+        if ended == Some(Ending::Completed) {
+            break Ending::Completed;
+        }
+        let time_s = nearest_nanosecond(run.time_s());
+        for (column, signal) in columns.iter_mut().zip(&chosen) {
+            column.push(signal.of(run.state(), time_s));
+        }
+        indexer.add(run.state());
+        watch.add(run.state());
+        if let Some(ended) = ended {
+            break ended;
+        }
+        if run.state().ticks().is_multiple_of(TICKS_A_LOOK) && is_unwanted() {
+            break run.interrupted();
+        }
+    };
+    let names = chosen.iter().map(|signal| signal.name().to_owned());
+    Ok(Recorded {
+        history: names.zip(columns).collect(),
+        indices: indexer.indices().filter(|_| ending.has_indices()),
+        warnings: watch.warnings(),
+        ending,
+    })
+}
