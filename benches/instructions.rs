@@ -9,7 +9,6 @@ use dashpot::damper;
 use dashpot::newton::NewtonDamper;
 use dashpot_core::{Damper, step_bank};
 use dashpot_files::case::{Case, CaseOptions};
-use dashpot_testbench::excitation::Excitation;
 use dashpot_rail::contact::{
     ContactGeometry, Grid, Installation, Motion, Pair, RailDisplacement, Steel, Tables,
     WheelsetContact, WheelsetForces,
@@ -17,6 +16,7 @@ use dashpot_rail::contact::{
 use dashpot_rail::creep::{CreepLaw, Friction, KalkerBook, ShenHedrickElkins};
 use dashpot_rail::track::Track;
 use dashpot_rail::vehicle::{Vehicle, VehicleState};
+use dashpot_testbench::excitation::Excitation;
 use gungraun::prelude::*;
 
 const STEP_S: f64 = 1e-3;

@@ -11,8 +11,8 @@ use dashpot::damper;
 use dashpot::look_up::LookUp;
 use dashpot::newton::NewtonDamper;
 use dashpot_core::{Damper, Real, step_bank};
-use dashpot_testbench::excitation::Excitation;
 use dashpot_reference::damper::Reference;
+use dashpot_testbench::excitation::Excitation;
 
 const STEP_S: f64 = 1e-3;
 const BANK: usize = 16;

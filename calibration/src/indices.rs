@@ -5,8 +5,8 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-use dashpot_files::{FileError, input};
 use dashpot_files::harmonic::Harmonic;
+use dashpot_files::{FileError, input};
 use dashpot_testbench::bench_test::Indices;
 
 /// Scatter of an index, where none is given (%).

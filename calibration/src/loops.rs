@@ -3,8 +3,8 @@
 use std::ops::Range;
 
 use super::CalibrationError;
-use dashpot_testbench::smoothing::smooth;
 use dashpot_recording::stretches::stretches;
+use dashpot_testbench::smoothing::smooth;
 
 /// Samples of a bench test.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -4,7 +4,6 @@ use std::error::Error;
 use std::io;
 use std::path::{Path, PathBuf};
 
-
 /// Why a file cannot be used: which one, where in it, and what is allowed there.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]

@@ -9,8 +9,8 @@ use std::ptr;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use dashpot_core::Damper;
-use dashpot_files::damper;
 use dashpot_export::fmu::{Fmu, Interface, Named, compile};
+use dashpot_files::damper;
 use libloading::{Library, Symbol};
 
 const STEP_S: f64 = 1e-3;

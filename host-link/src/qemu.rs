@@ -7,8 +7,8 @@ use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
 use super::{EmulatorError, Link, LinkError, Tcp};
-use dashpot_files::FileError;
 use crate::child::ChildProcess;
+use dashpot_files::FileError;
 
 /// The firmware as `cargo build --release` in `firmware/` leaves it.
 pub const DEFAULT_IMAGE: &str = "firmware/target/thumbv7em-none-eabihf/release/dashpot-firmware";

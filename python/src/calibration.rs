@@ -1,8 +1,10 @@
 //! From bench tests in memory to the numbers of a damper, with their intervals.
 
+use dashpot_calibration::{
+    Assumed, Calibrated as Found, Calibration, IndexTest, LoopTest, Prior, Recorded, Request, SKEW,
+};
 use dashpot_core::parameters::STEP_RANGE_S;
 use dashpot_testbench::TestbenchError;
-use dashpot_calibration::{Assumed, Calibrated as Found, Calibration, IndexTest, LoopTest, Prior, Recorded, Request, SKEW};
 use numpy::{Ix1, PyArray1, PyArray2};
 use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict, PyDict, PyList};

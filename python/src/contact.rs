@@ -1,11 +1,11 @@
 //! Wheel on rail: the geometry of a pair of profiles, and creep forces.
 
 use dashpot_files::profile;
-use dashpot_study::wheelset_geometry::{ForceJump, Shift, WheelsetGeometry};
 use dashpot_rail::contact::{Installation, Pair, Steel};
 use dashpot_rail::creep::{CreepLaw, Creepage, KalkerBook, KalkerTable, LoadedContact};
 use dashpot_rail::profile::Body;
 use dashpot_rail::profile::measured::{DEFAULT_SMOOTHING_M, Options};
+use dashpot_study::wheelset_geometry::{ForceJump, Shift, WheelsetGeometry};
 use numpy::{Ix2, PyArray1, PyArray2, PyArrayMethods, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;

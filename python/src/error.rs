@@ -3,6 +3,7 @@
 use std::fmt::Display;
 use std::path::PathBuf;
 
+use dashpot_calibration::CalibrationError;
 use dashpot_core::{BuildError, ClearanceError, SavedStateError};
 use dashpot_files::FileError;
 use dashpot_files::case::CaseError;
@@ -11,13 +12,12 @@ use dashpot_files::profile::NamedProfileError;
 use dashpot_files::study::StudyFileError;
 use dashpot_files::track::TrackFileError;
 use dashpot_files::vehicle::VehicleFileError;
-use dashpot_testbench::TestbenchError;
-use dashpot_calibration::CalibrationError;
-use dashpot_study::sweep::RunError;
-use dashpot_vehicle_run::VehicleRunError;
 use dashpot_rail::contact::PairError;
 use dashpot_rail::creep::KalkerError;
 use dashpot_rail::indices::RollingRadiusError;
+use dashpot_study::sweep::RunError;
+use dashpot_testbench::TestbenchError;
+use dashpot_vehicle_run::VehicleRunError;
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::PyType;

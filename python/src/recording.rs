@@ -3,10 +3,12 @@
 use std::path::Path;
 
 use dashpot_core::parameters::STEP_RANGE_S;
-use dashpot_recording::{Channel, Channels, DecimalMark, Gaps, Measurement, Quantity, Recording, Sample, TextOptions};
-use dashpot_testbench::TestbenchError;
-use dashpot_recording::tick_grid::TickGrid;
 use dashpot_files::nearest_nanosecond;
+use dashpot_recording::tick_grid::TickGrid;
+use dashpot_recording::{
+    Channel, Channels, DecimalMark, Gaps, Measurement, Quantity, Recording, Sample, TextOptions,
+};
+use dashpot_testbench::TestbenchError;
 use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;

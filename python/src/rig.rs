@@ -1,8 +1,8 @@
 //! The bench test of a damper.
 
 use dashpot_core::CheckedParameters;
-use dashpot_files::sheet::Index;
 use dashpot_files::harmonic::Harmonic;
+use dashpot_files::sheet::Index;
 use dashpot_testbench::bench_sheet::index_value;
 use dashpot_testbench::bench_test;
 use numpy::PyArray1;

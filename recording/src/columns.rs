@@ -12,9 +12,9 @@ use parquet::file::properties::WriterProperties;
 use parquet::file::writer::SerializedFileWriter;
 use parquet::schema::types::Type;
 
+use crate::sums::{self, Sum};
 use dashpot_files::FileError;
 use dashpot_files::output::{cannot_write, write_whole};
-use crate::sums::{self, Sum};
 
 /// Rows of a row group: some 15 MB of a locomotive's history.
 const ROWS: usize = 16_384;

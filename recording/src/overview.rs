@@ -10,8 +10,8 @@ use super::open::{Opened, Origin, open};
 use super::rows::{LeftOut, Source};
 use super::select::{Chosen, Found, label, select_in};
 use super::unit::Quantity;
-use dashpot_files::{FileError, input};
 use crate::remedy::Remedy;
+use dashpot_files::{FileError, input};
 
 /// Channels of a group read at a time: a group may have thousands.
 const CHANNELS: usize = 32;

@@ -2,8 +2,8 @@
 
 use std::collections::VecDeque;
 
-use dashpot_files::FileError;
 use crate::{GAP_IN_MEDIANS, MAX_GAP_TICKS, MOST_TICKS, Measurement, Recording, RecordingError};
+use dashpot_files::FileError;
 
 /// One tick of a motion.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -8,7 +8,9 @@ use super::page::{Figure, document, figure, footer, panel, tiles};
 use super::plot::curves::Curve;
 use super::plot::sheet::Panel;
 use super::plot::style::{AMBER_LINE, BLUE_LINE, PALE};
-use dashpot_testbench::health::{History, alarm_in_words, doubts_in_words, in_words, stiffness_in_words};
+use dashpot_testbench::health::{
+    History, alarm_in_words, doubts_in_words, in_words, stiffness_in_words,
+};
 
 /// Deviations that a band is wide on either side.
 const BAND: f64 = 2.0;

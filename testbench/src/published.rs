@@ -7,14 +7,11 @@ use super::TestbenchError;
 use super::bench_test::Indices;
 
 /// Table 2: piston extension valve.
-pub(crate) const TABLE_2: &str =
-    include_str!("../data/published/table2_piston_extension.csv");
+pub(crate) const TABLE_2: &str = include_str!("../data/published/table2_piston_extension.csv");
 /// Table 3: piston compression valve.
-pub(crate) const TABLE_3: &str =
-    include_str!("../data/published/table3_piston_compression.csv");
+pub(crate) const TABLE_3: &str = include_str!("../data/published/table3_piston_compression.csv");
 /// Table 4: foot compression valve.
-pub(crate) const TABLE_4: &str =
-    include_str!("../data/published/table4_foot_compression.csv");
+pub(crate) const TABLE_4: &str = include_str!("../data/published/table4_foot_compression.csv");
 const TABLE_5: &str = include_str!("../data/published/table5_nominal_characteristic.csv");
 
 /// A row of Tables 2-4: deflection of a shim pack's edge under pressure.

@@ -3,8 +3,8 @@
 use dashpot_core::{CheckedParameters, Damper, Real};
 use dashpot_reference::probing::{LEAST_ERROR_RATIO, LargestErrors, Motion, MotionErrors, Probing};
 
-use dashpot_files::Scalar;
 use super::TestbenchError;
+use dashpot_files::Scalar;
 
 /// The scalars, in the order in which their errors are found.
 pub const SCALARS: [Scalar; 2] = [Scalar::F64, Scalar::F32];

@@ -13,8 +13,8 @@ use dashpot_core::parameters::STEP_RANGE_S;
 
 use super::TestbenchError;
 use super::bench_test::NOT_FOLLOWED;
-use dashpot_files::harmonic::Harmonic;
 use super::response::Response;
+use dashpot_files::harmonic::Harmonic;
 
 /// Cycles that a value is demodulated over.
 pub const WINDOW_CYCLES: u32 = 2;

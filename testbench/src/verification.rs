@@ -6,8 +6,8 @@ use dashpot_reference::deviation::{errors, largest_magnitude, nrmse, root_mean_s
 use serde::Serialize;
 
 use super::TestbenchError;
-use dashpot_recording::tick_grid::{Tick, rounding_s};
 use dashpot_recording::Sample;
+use dashpot_recording::tick_grid::{Tick, rounding_s};
 
 /// Deviation of one fixed step from the reference on one motion.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -127,7 +127,11 @@ pub fn reference_forces_on_recording(
 ///
 /// # Errors
 /// Different lengths, or a reference force that is zero throughout.
-pub fn deviation(step_s: f64, forces: &[f64], reference: &[f64]) -> Result<Deviation, TestbenchError> {
+pub fn deviation(
+    step_s: f64,
+    forces: &[f64],
+    reference: &[f64],
+) -> Result<Deviation, TestbenchError> {
     if forces.len() != reference.len() {
         return Err(TestbenchError::Lengths {
             forces: forces.len(),

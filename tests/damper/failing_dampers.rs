@@ -5,10 +5,10 @@ use std::path::Path;
 
 use dashpot_files::damper;
 use dashpot_recording::Recording;
+use dashpot_reference::probing::{Kind, Motion};
 use dashpot_testbench::accuracy_limits::{AccuracyLimits, relaxation_time_s};
 use dashpot_testbench::step_errors::{SCALARS, StepErrors};
 use dashpot_testbench::verification::reference_forces;
-use dashpot_reference::probing::{Kind, Motion};
 
 const STEP_S: f64 = 1e-3;
 

@@ -3,10 +3,10 @@
 use dashpot::accuracy::{displacements_m, stepped};
 use dashpot::damper;
 use dashpot_files::Scalar;
-use dashpot_testbench::accuracy_limits::ACCURACY_LIMITS;
-use dashpot_testbench::excitation::Excitation;
 use dashpot_reference::damper::Reference;
 use dashpot_reference::deviation::nrmse;
+use dashpot_testbench::accuracy_limits::ACCURACY_LIMITS;
+use dashpot_testbench::excitation::Excitation;
 
 const STEP_S: f64 = 1e-4;
 

@@ -2,9 +2,9 @@
 
 use dashpot::damper;
 use dashpot::newton::NewtonDamper;
-use dashpot_testbench::excitation::Excitation;
 use dashpot_reference::damper::Reference;
 use dashpot_reference::deviation::nrmse;
+use dashpot_testbench::excitation::Excitation;
 
 /// NRMSE against the reference over one second of random ride at 1 kHz: a plain SDIRK2 has
 /// 3e-4 in double precision over 5 s.

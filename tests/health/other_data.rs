@@ -3,8 +3,8 @@
 use dashpot_core::DamperParameters;
 use dashpot_core::health::{Health, HealthSettings, HealthStatus};
 use dashpot_core::parameters::Mount;
-use dashpot_testbench::health::Noise;
 use dashpot_reference::damper::Reference;
+use dashpot_testbench::health::Noise;
 
 use crate::made::{Fault, PRESETS, STEP_S, errors, estimate, model, ride, varied};
 

@@ -10,17 +10,16 @@ use dashpot::{damper, document};
 use dashpot_core::Damper;
 use dashpot_core::health::HealthSettings;
 use dashpot_core::link::{Header, Reals, Request, request_frame};
-use dashpot_files;
 use dashpot_files::case::{CASES, CaseOptions};
 use dashpot_files::damper::PRESETS;
 use dashpot_files::sheet::{SHEETS, SheetParameters};
 use dashpot_files::study::{STUDIES, StudyParameters};
 use dashpot_files::track::TRACKS;
 use dashpot_files::vehicle::VEHICLES;
-use dashpot_study::sweep::{Arithmetic, Row, Study};
 use dashpot_rail::profile::Body;
 use dashpot_rail::profile::measured::{self, Mirror, Options};
 use dashpot_rail::track;
+use dashpot_study::sweep::{Arithmetic, Row, Study};
 
 /// Name and bytes of a seed.
 type Seed = (String, Vec<u8>);
@@ -63,7 +62,7 @@ fn damper_files_are_the_presets() {
 #[test]
 fn vehicle_files_are_the_shipped_ones_and_one_with_a_ride_point() {
     let ride_points = include_str!("vehicle.toml");
-    let parsed = files::vehicle::parse("vehicle.toml", ride_points, &[]);
+    let parsed = dashpot_files::vehicle::parse("vehicle.toml", ride_points, &[]);
     assert!(parsed.is_ok(), "{:?}", parsed.err());
     let mut seeds = shipped(&VEHICLES);
     seeds.push(("ride-points".into(), ride_points.into()));
@@ -74,7 +73,7 @@ fn vehicle_files_are_the_shipped_ones_and_one_with_a_ride_point() {
 #[test]
 fn track_files_are_the_shipped_ones_and_one_with_all_keys() {
     let every_key = include_str!("track.toml");
-    let parsed = files::track::parse("track.toml", every_key, Path::new(""));
+    let parsed = dashpot_files::track::parse("track.toml", every_key, Path::new(""));
     assert!(parsed.is_ok(), "{:?}", parsed.err());
     let mut seeds = shipped(&TRACKS);
     seeds.push(("every-key".into(), every_key.into()));

@@ -82,7 +82,7 @@ fn every_package_may_be_used_under_our_licences() {
 }
 
 /// What is kept in the tree and was written by others: folder, package, licence.
-const VENDORED: [(&str, &str, &str); 1] = [("hil-host/src/report/page/uplot", "uplot", "MIT")];
+const VENDORED: [(&str, &str, &str); 1] = [("report/src/page/uplot", "uplot", "MIT")];
 
 /// It has its licence beside it, its README names package and licence, and what is made of it carries its notice.
 #[test]

@@ -5,9 +5,9 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use dashpot_core::{DamperParameters, Real};
+use dashpot_reference::deviation::nrmse;
 use dashpot_testbench::excitation::Excitation;
 use dashpot_testbench::verification::{fixed_step_forces, reference_forces};
-use dashpot_reference::deviation::nrmse;
 
 use crate::damper;
 

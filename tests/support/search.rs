@@ -5,9 +5,9 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use dashpot_core::CheckedParameters;
+use dashpot_reference::probing::{LargestErrors, Motion};
 use dashpot_testbench::TestbenchError;
 use dashpot_testbench::step_errors::StepErrors;
-use dashpot_reference::probing::{LargestErrors, Motion};
 
 use crate::accuracy::STEPS_S;
 use crate::documented_damper::{changed_damper, documented_damper};

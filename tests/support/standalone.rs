@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 use dashpot_core::{Damper, DamperState, SavedStateError};
-use dashpot_files::Scalar;
 use dashpot_export::{Provenance, Word, standalone_header, standalone_source};
+use dashpot_files::Scalar;
 
 use crate::controller::succeed;
 use crate::memory::{self, PlainData};

@@ -9,8 +9,10 @@ use dashpot::{damper, document};
 use dashpot_core::Damper;
 use dashpot_core::health::HealthSettings;
 use dashpot_core::link::{Counters, LossOfLink, Reals, Refusal, Request, Response, SafeOutput};
+use dashpot_host_link::{
+    Bank, Client, FaultRates, FaultyLink, LinkError, Pace, Report, Session, SessionError,
+};
 use dashpot_testbench::excitation::Excitation;
-use dashpot_host_link::{Bank, Client, FaultRates, FaultyLink, LinkError, Pace, Report, Session, SessionError};
 use object::{Object, ObjectSection, ObjectSymbol};
 use tempfile::NamedTempFile;
 use xtask::processor::CORTEX_M7;

@@ -5,7 +5,7 @@
 //! Both digests are those of an x86-64 processor with fused multiply-add, with its own arithmetic and without fusing:
 //! other processors round sines and exponentials of the system's library differently, so only there they repeat.
 //!
-//! `DASHPOT_BLESS=1` writes both digests into `hil-host/src/study/sweep/physics.rs`, and into the kept rows where new
+//! `DASHPOT_BLESS=1` writes both digests into `study/src/sweep/physics.rs`, and into the kept rows where new
 //! runs have their bits.
 
 use std::collections::BTreeSet;
@@ -14,16 +14,18 @@ use dashpot::document;
 use dashpot_core::Damper;
 use dashpot_files::damper::{self, PRESETS};
 use dashpot_files::study::StudyParameters;
-use dashpot_testbench::excitation::Excitation;
-use dashpot_study::sweep::{Arithmetic, OBSERVED, ROW_DIGEST, Shared, Study, digest_of_cells, physics, row};
 use dashpot_rail::vehicle::Law;
 use dashpot_rail::without_fused_multiplication;
+use dashpot_study::sweep::{
+    Arithmetic, OBSERVED, ROW_DIGEST, Shared, Study, digest_of_cells, physics, row,
+};
+use dashpot_testbench::excitation::Excitation;
 
 use crate::rows::Kept;
 use crate::{STUDIES, first_difference};
 
 const STUDY: &str = "tests/vehicle_validation/physics/study.toml";
-const SOURCE: &str = "hil-host/src/study/sweep/physics.rs";
+const SOURCE: &str = "study/src/sweep/physics.rs";
 
 /// Ticks of the synthetic ride that every preset is driven with.
 const TICKS: usize = 3000;

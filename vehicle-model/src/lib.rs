@@ -1,4 +1,4 @@
-//! A vehicle whose dampers outside other FMUs are, as the model behind `model.h` (`hil-host/src/target/export/fmu/sources`).
+//! A vehicle whose dampers outside other FMUs are, as the model behind `model.h` (`export/src/fmu/sources`).
 //!
 //! What the C of an FMU promises in every function: a pointer to a model is of `model_new`, and not freed; other pointers are to one value of
 //! their type, or to as many bytes as the length says; no model is used by two threads at once. No panic leaves a function.

@@ -9,9 +9,9 @@ use maud::{Markup, html};
 use super::sources::{Source, fixed, of_interface, with_own_names};
 use super::variable::{Kind, Variable};
 use super::{Fmu, Interface, check, token_of};
-use dashpot_files::nearest_nanosecond;
 use crate::standalone::{constants_of, header_of_step, source_of_step};
 use crate::{ExportError, Word};
+use dashpot_files::nearest_nanosecond;
 
 /// What every bank has.
 const SOURCES: [(&str, &str); 2] = [

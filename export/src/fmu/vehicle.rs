@@ -8,9 +8,9 @@ use maud::{Markup, html};
 use super::sources::of_interface;
 use super::variable::{Kind, Variable};
 use super::{Fmu, Interface, check, token_of};
+use crate::ExportError;
 use dashpot_files::nearest_nanosecond;
 use dashpot_vehicle_run::{Coupled, CoupledCase, CoupledVariable};
-use crate::ExportError;
 
 /// Units by the ends of names, longest first.
 const UNITS: [(&str, &str); 5] = [

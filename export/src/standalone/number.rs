@@ -2,8 +2,8 @@
 
 use std::fmt::Write;
 
-use dashpot_files::Scalar;
 use crate::Word;
+use dashpot_files::Scalar;
 
 /// Bits of a double's fraction.
 const FRACTION_BITS: u32 = f64::MANTISSA_DIGITS - 1;

@@ -96,7 +96,8 @@ impl fmt::Display for Index {
 
 #[cfg(test)]
 mod tests {
-    
+    use super::*;
+
     #[test]
     fn a_key_reads_as_its_index() {
         for index in Index::ALL {

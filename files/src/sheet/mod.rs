@@ -15,10 +15,7 @@ use crate::overrides::explain;
 use crate::shipped::{Found, Shipped};
 
 /// Sheets that ship with the program: name and file.
-pub const SHEETS: [(&str, &str); 1] = [(
-    "example",
-    include_str!("../../data/sheets/example.toml"),
-)];
+pub const SHEETS: [(&str, &str); 1] = [("example", include_str!("../../data/sheets/example.toml"))];
 
 const SHIPPED: Shipped = Shipped {
     what: "sheet",

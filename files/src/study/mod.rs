@@ -30,10 +30,7 @@ pub const STUDIES: [(&str, &str); 7] = [
         "out-of-service",
         include_str!("../../data/studies/out-of-service.toml"),
     ),
-    (
-        "hunting",
-        include_str!("../../data/studies/hunting.toml"),
-    ),
+    ("hunting", include_str!("../../data/studies/hunting.toml")),
     (
         "temperature",
         include_str!("../../data/studies/temperature.toml"),

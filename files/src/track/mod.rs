@@ -23,10 +23,7 @@ use crate::shipped::{Found, Shipped};
 /// Tracks that ship with the program: name and file.
 pub const TRACKS: [(&str, &str); 7] = [
     ("ideal", include_str!("../../data/tracks/ideal.toml")),
-    (
-        "straight",
-        include_str!("../../data/tracks/straight.toml"),
-    ),
+    ("straight", include_str!("../../data/tracks/straight.toml")),
     (
         "straight-short",
         include_str!("../../data/tracks/straight-short.toml"),

@@ -24,10 +24,7 @@ pub const VEHICLES: [(&str, &str); 2] = [
         "locomotive",
         include_str!("../../data/vehicles/locomotive.toml"),
     ),
-    (
-        "coach",
-        include_str!("../../data/vehicles/coach.toml"),
-    ),
+    ("coach", include_str!("../../data/vehicles/coach.toml")),
 ];
 
 const SHIPPED: Shipped = Shipped {

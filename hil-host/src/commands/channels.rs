@@ -11,7 +11,9 @@ use super::remedy::with_remedy;
 use super::{Format, counted, nearest_nanosecond, print_report};
 use crate::commands::failure::Outcome;
 use dashpot_files::input;
-use dashpot_recording::{ChannelOverview, Channels, GAP_IN_MEDIANS, Overview, Quantity, TimeOverview, overview};
+use dashpot_recording::{
+    ChannelOverview, Channels, GAP_IN_MEDIANS, Overview, Quantity, TimeOverview, overview,
+};
 
 /// Channels of a recording: names, units, ranges, how even the times are, and what to type to replay it.
 #[derive(Debug, Clone, clap::Args)]

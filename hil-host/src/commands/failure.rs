@@ -8,25 +8,25 @@ use dashpot_reference::ReferenceError;
 
 use super::calibrate::words;
 use super::remedy::{option_of, with_remedy};
+use dashpot_calibration::CalibrationError;
+use dashpot_export::ExportError;
 use dashpot_files::FileError;
 use dashpot_files::case::CaseError;
 use dashpot_files::damper::{ContentError, DamperError, FORM};
+use dashpot_files::harmonic::{HIGHEST_FREQUENCY_HZ, HarmonicError, LARGEST_AMPLITUDE_M};
 use dashpot_files::profile::NamedProfileError;
 use dashpot_files::sheet::SheetFileError;
 use dashpot_files::study::StudyFileError;
 use dashpot_files::track::TrackFileError;
 use dashpot_files::vehicle::{FORM as VEHICLE_FORM, VehicleFileError};
+use dashpot_host_link::{EmulatorError, LinkError, SessionError};
 use dashpot_realtime::pacing::{RealtimeOption, TICKS_PER_ALLOWED_MISS};
 use dashpot_realtime::timing::span;
 use dashpot_realtime::{RealtimeError, listed, stopped};
 use dashpot_report::DrawError;
 use dashpot_testbench::TestbenchError;
-use dashpot_files::harmonic::{HarmonicError, HIGHEST_FREQUENCY_HZ, LARGEST_AMPLITUDE_M};
-use dashpot_calibration::CalibrationError;
 use dashpot_testbench::plate::PlateError;
 use dashpot_vehicle_run::VehicleRunError;
-use dashpot_export::ExportError;
-use dashpot_host_link::{EmulatorError, LinkError, SessionError};
 
 /// A failure with a message that names what failed, where, and what is allowed there.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -220,12 +220,16 @@ impl From<TestbenchError> for Failure {
     fn from(error: TestbenchError) -> Self {
         match error {
             TestbenchError::Recording(error) => error.into(),
-            TestbenchError::Motion(HarmonicError::Amplitude(amplitude_m)) => Self::wrong_use(format!(
-                "--amplitude-m: {amplitude_m}, allowed: above 0 and at most {LARGEST_AMPLITUDE_M} m"
-            )),
-            TestbenchError::Motion(HarmonicError::Frequency(frequency_hz)) => Self::wrong_use(format!(
-                "--frequency-hz: {frequency_hz}, allowed: above 0 and at most {HIGHEST_FREQUENCY_HZ} Hz"
-            )),
+            TestbenchError::Motion(HarmonicError::Amplitude(amplitude_m)) => {
+                Self::wrong_use(format!(
+                    "--amplitude-m: {amplitude_m}, allowed: above 0 and at most {LARGEST_AMPLITUDE_M} m"
+                ))
+            }
+            TestbenchError::Motion(HarmonicError::Frequency(frequency_hz)) => {
+                Self::wrong_use(format!(
+                    "--frequency-hz: {frequency_hz}, allowed: above 0 and at most {HIGHEST_FREQUENCY_HZ} Hz"
+                ))
+            }
             TestbenchError::SweepRate { .. } | TestbenchError::SweepSteps { .. } => {
                 Self::wrong_use(format!("--octaves-per-minute: {error}"))
             }

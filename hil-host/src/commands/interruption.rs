@@ -43,7 +43,7 @@ pub fn clean_up() -> Outcome<()> {
     use signal_hook::low_level::emulate_default_handler;
 
     use dashpot_files::temporary;
-    
+
     /// Cleaning up takes little of it (bytes).
     const STACK: usize = 64 * 1024;
 

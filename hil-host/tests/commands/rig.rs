@@ -6,8 +6,8 @@ use std::path::Path;
 use assert_cmd::assert::Assert;
 use dashpot_files::damper;
 use dashpot_files::harmonic::Harmonic;
-use dashpot_testbench::bench_test::run_until_periodic;
 use dashpot_reference::damper::Reference;
+use dashpot_testbench::bench_test::run_until_periodic;
 
 use crate::common::{dashpot, json_of, text_of};
 

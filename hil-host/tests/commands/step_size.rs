@@ -1,8 +1,8 @@
 //! `--step-us` takes fractions, in every command that has it.
 
 use dashpot_core::Damper;
-use dashpot_hil::commands::step_size::StepSize;
 use dashpot_files::damper;
+use dashpot_hil::commands::step_size::StepSize;
 
 use crate::common::{dashpot, json_of};
 

@@ -18,7 +18,7 @@ impl Driver {
             .args(["-std=c99", "-Wall", "-Wextra", "-Werror", "-O1", "-g"])
             .arg(format!("-DFMI={fmi}"))
             .arg("-I")
-            .arg(source("src/target/export/fmu/headers"))
+            .arg(source("../export/src/fmu/headers"))
             .arg(source("tests/fmu/driver.c"))
             .args(["-ldl", "-lm", "-o", "driver"])
             .current_dir(folder.path());

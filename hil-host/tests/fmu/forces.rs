@@ -233,7 +233,7 @@ fn the_sources_are_clean() {
                 ])
                 .args(["-fsanitize=undefined", "-o", "library.so"])
                 .arg("-I")
-                .arg(source("src/target/export/fmu/headers"))
+                .arg(source("../export/src/fmu/headers"))
                 .args(&compiled)
                 .current_dir(fmu.path("sources"));
             let output = command.output().unwrap();

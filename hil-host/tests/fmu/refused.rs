@@ -78,7 +78,7 @@ fn a_description_of_another_fmu_makes_no_instance() {
 fn every_function_of_the_interface_is_there() {
     for (fmi, count) in [("2", 34), ("3", 75)] {
         let header = fs::read_to_string(source(&format!(
-            "src/target/export/fmu/headers/fmi{fmi}Functions.h"
+            "../export/src/fmu/headers/fmi{fmi}Functions.h"
         )))
         .unwrap();
         let parts = header
@@ -180,7 +180,7 @@ fn sources_share_no_name() {
             compiler
                 .arg(&object)
                 .arg("-I")
-                .arg(source("src/target/export/fmu/headers"));
+                .arg(source("../export/src/fmu/headers"));
             for file in fs::read_dir(fmu.path("sources")).unwrap() {
                 let path = file.unwrap().path();
                 if path.extension().is_some_and(|end| end == "c") {
@@ -215,5 +215,5 @@ fn the_same_export_has_the_same_bytes() {
 
 #[test]
 fn the_headers_of_the_interface_are_what_their_readme_says() {
-    are_as_their_readme_says(&source("src/target/export/fmu/headers"));
+    are_as_their_readme_says(&source("../export/src/fmu/headers"));
 }

@@ -6,7 +6,7 @@ mod common;
 mod curves;
 mod layout;
 mod loops;
-#[path = "../target/pil_common/mod.rs"]
+#[path = "../link/pil_common/mod.rs"]
 mod pil_common;
 mod policy;
 mod printed;

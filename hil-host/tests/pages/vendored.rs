@@ -7,13 +7,13 @@ use crate::shown::DEMONSTRATION;
 
 #[test]
 fn the_plotting_library_is_what_its_readme_says() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/report/page/uplot");
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../report/src/page/uplot");
     are_as_their_readme_says(&folder);
 }
 
 /// Its licence: "in all copies or substantial portions of the Software".
 #[test]
 fn pages_have_the_librarys_licence() {
-    let licence = include_str!("../../src/report/page/uplot/LICENSE");
+    let licence = include_str!("../../../report/src/page/uplot/LICENSE");
     assert!(DEMONSTRATION.contains(&format!("<!-- uPlot\n{licence}-->")));
 }

@@ -10,9 +10,9 @@ mod instructions;
 use std::cell::{Cell, RefCell};
 
 use dashpot_files::case::Case;
+use dashpot_hil::commands::vehicle::drive::drive;
 use dashpot_realtime::handover::handover;
 use dashpot_realtime::pacing::{Clock, Pacer};
-use dashpot_hil::commands::vehicle::drive::drive;
 use dashpot_vehicle_run::{Ending, Run, TickRecord};
 
 /// A clock of its own time, on which a tick takes 100 us. Each sleep lies between two ticks: `between` is called there.

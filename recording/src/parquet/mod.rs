@@ -19,8 +19,8 @@ use super::rows::Source;
 use super::select::Found;
 use super::sums::SUMS;
 use super::text::found;
-use dashpot_files::FileError;
 use column::Column;
+use dashpot_files::FileError;
 use rows::ParquetRows;
 
 /// Key of the units in the file's metadata: an object of JSON with the unit of each column by its name.

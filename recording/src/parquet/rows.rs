@@ -9,10 +9,10 @@ use parquet::file::reader::{FileReader, SerializedFileReader};
 
 use super::column::Column;
 use super::read;
-use dashpot_files::FileError;
 use crate::error::RecordingError;
 use crate::rows::{Place, Source};
 use crate::sums::SUMS;
+use dashpot_files::FileError;
 
 /// Rows read at a time.
 const ROWS: usize = 1 << 13;

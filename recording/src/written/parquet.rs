@@ -13,11 +13,11 @@ use parquet::file::writer::SerializedFileWriter;
 use parquet::schema::types::Type;
 
 use super::ColumnName;
-use dashpot_files::FileError;
 use crate::columns::Bytes;
-use dashpot_files::output::cannot_write;
 use crate::parquet::UNITS;
 use crate::sums::{self, Sum};
+use dashpot_files::FileError;
+use dashpot_files::output::cannot_write;
 
 /// Rows of a row group.
 const ROWS: usize = 1 << 16;

@@ -13,6 +13,7 @@ use crate::plot::style::failed;
 
 /// Panels that are shown together, side by side on a desk and one below the other on a phone. They share the cursor.
 pub struct Figure {
+    /// Panels, from left to right.
     pub panels: Vec<Panel>,
     /// Height of a panel on a desk (pixels).
     pub height: u32,

@@ -9,8 +9,11 @@ use crate::DrawError;
 /// How a curve is drawn.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Stroke {
+    /// A solid line.
     Line,
+    /// A dashed line.
     Dashes,
+    /// Dots without a line.
     Points,
     /// Short strokes on the horizontal axis.
     Marks,
@@ -24,10 +27,13 @@ pub enum Stroke {
 
 /// One curve: its name in the legend, its colour and its points.
 pub struct Curve {
+    /// Name in the legend; a curve without a name is not listed.
     pub name: String,
+    /// Colour.
     pub colour: RGBColor,
     /// Width of the line in quarters of a pixel.
     pub width: u32,
+    /// How the curve is drawn.
     pub stroke: Stroke,
     /// Abscissa, lowest and highest ordinate; these are the same but for bands and bars.
     pub points: Vec<(f64, f64, f64)>,
@@ -138,10 +144,7 @@ impl Curve {
     ///
     /// # Errors
     /// The drawing fails.
-    pub fn draw<'a, 'b: 'a, X, Y>(
-        &self,
-        chart: &mut Chart<'a, 'b, X, Y>,
-    ) -> Result<(), DrawError>
+    pub fn draw<'a, 'b: 'a, X, Y>(&self, chart: &mut Chart<'a, 'b, X, Y>) -> Result<(), DrawError>
     where
         X: Ranged<ValueType = f64> + 'a,
         Y: Ranged<ValueType = f64> + 'a,

@@ -18,6 +18,7 @@ const SHADES: usize = 6;
 
 /// A value over a disc.
 pub struct DiscMap<'a> {
+    /// Title above the map.
     pub title: String,
     /// Name and unit of the value, on lines of their own.
     pub value_label: [String; 2],

@@ -22,8 +22,11 @@ pub enum Scale {
 
 /// One set of axes with its curves.
 pub struct Panel {
+    /// Title above the axes.
     pub title: String,
+    /// Quantity and unit of the horizontal axis.
     pub x_label: String,
+    /// Quantity and unit of the vertical axis.
     pub y_label: String,
     /// Where the legend stands on a sheet, if there is one; on a page it stands above the curves.
     pub legend: Option<SeriesLabelPosition>,
@@ -35,6 +38,7 @@ pub struct Panel {
     pub scale: Scale,
     /// Whether a linear vertical axis keeps to its values where they are far from zero.
     pub keeps_to_values: bool,
+    /// Curves, the first at the back.
     pub curves: Vec<Curve>,
 }
 

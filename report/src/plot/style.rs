@@ -11,12 +11,19 @@ use crate::DrawError;
 /// The backend rounds to whole units; drawn this much larger, curves stay smooth.
 pub const FINE: u32 = 4;
 const FONT: &str = "sans-serif";
+/// Colour of text and axes.
 pub const INK: RGBColor = RGBColor(38, 50, 56);
+/// Blue of curves.
 pub const BLUE_LINE: RGBColor = RGBColor(21, 101, 192);
+/// Red of curves.
 pub const RED_LINE: RGBColor = RGBColor(198, 40, 40);
+/// Green of curves.
 pub const GREEN_LINE: RGBColor = RGBColor(46, 125, 50);
+/// Amber of curves and limits.
 pub const AMBER_LINE: RGBColor = RGBColor(239, 138, 0);
+/// Grey of curves in the background.
 pub const PALE: RGBColor = RGBColor(160, 168, 176);
+/// Usual width of a line.
 pub const LINE: u32 = 2 * FINE;
 
 /// What a drawing function says when the plotting library fails.
@@ -24,6 +31,7 @@ pub fn failed(error: impl Error + Send + Sync + 'static) -> DrawError {
     DrawError(Box::new(error))
 }
 
+/// The surface that plots are drawn on.
 pub type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 
 /// Draws on a white sheet of `width` by `height` pixels and gives the SVG's text.
@@ -84,7 +92,10 @@ macro_rules! axes {
         let title = String::from($title);
         let mut builder = ChartBuilder::on($area);
         if !title.is_empty() {
-            builder.caption(&title, $crate::plot::style::letters(20, &$crate::plot::style::INK));
+            builder.caption(
+                &title,
+                $crate::plot::style::letters(20, &$crate::plot::style::INK),
+            );
         }
         let mut chart = builder
             .margin(14 * FINE)

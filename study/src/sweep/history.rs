@@ -68,11 +68,7 @@ impl Study {
 ///
 /// # Errors
 /// As [`Shared::run`].
-pub fn record(
-    case: &Case,
-    names: &[String],
-    shared: &Shared,
-) -> Result<History, VehicleRunError> {
+pub fn record(case: &Case, names: &[String], shared: &Shared) -> Result<History, VehicleRunError> {
     let mut run = shared.run(case)?;
     let all = signals::all(run.vehicle());
     let named = |name: &String| all.iter().find(|signal| signal.name() == name);

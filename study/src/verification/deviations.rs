@@ -3,11 +3,11 @@
 use dashpot_reference::deviation::{errors, root_mean_square};
 use serde::Serialize;
 
-use dashpot_vehicle_run::VehicleTick;
-use dashpot_vehicle_run::{Indexer, Indices, Sample};
-use dashpot_vehicle_run::Run;
-use dashpot_vehicle_run::signals::{SIDES, load_n};
 use dashpot_files::case::Case;
+use dashpot_vehicle_run::Run;
+use dashpot_vehicle_run::VehicleTick;
+use dashpot_vehicle_run::signals::{SIDES, load_n};
+use dashpot_vehicle_run::{Indexer, Indices, Sample};
 
 /// Greatest deviations of a step of 1 ms: acceleration of bodies over its root mean square, m of a wheelset to the side, N of a wheel's
 /// load, and of an index over itself.

@@ -4,8 +4,8 @@ use dashpot_reference::deviation::{errors, root_mean_square};
 use serde::Serialize;
 
 use super::deviations::{Deviations, Trace, Worst};
-use dashpot_vehicle_run::{Run, VehicleRunError, VehicleTick};
 use dashpot_files::case::Case;
+use dashpot_vehicle_run::{Run, VehicleRunError, VehicleTick};
 
 /// Ticks that are compared at most: some 200 bytes each are kept of both runs.
 const MOST_TICKS: u64 = 600_000;

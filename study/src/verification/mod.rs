@@ -11,10 +11,10 @@ pub use inside::{Beside, DamperEffect, Effect, Forces};
 use dashpot_reference::vehicle::VehicleReference;
 
 use crate::verification::deviations::Trace;
+use dashpot_files::case::Case;
 use dashpot_vehicle_run::Sample;
 use dashpot_vehicle_run::{Ending, Run};
 use dashpot_vehicle_run::{VehicleRunError, contact};
-use dashpot_files::case::Case;
 
 /// Relative tolerance of the reference.
 pub const TOLERANCE: f64 = 1e-8;

@@ -5,8 +5,8 @@ use serde::Serialize;
 use super::VerificationError;
 use super::deviations::indices;
 use crate::verification::{reference, stepped};
-use dashpot_vehicle_run::Ending;
 use dashpot_files::case::Case;
+use dashpot_vehicle_run::Ending;
 
 /// Seeds.
 pub const SEEDS: u64 = 8;

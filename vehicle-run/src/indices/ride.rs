@@ -7,8 +7,8 @@ use dashpot_rail::indices::{
 use dashpot_rail::vehicle::VehicleParameters;
 use serde::Serialize;
 
-use dashpot_files::case::Case;
 use crate::Accelerometer;
+use dashpot_files::case::Case;
 
 /// Length of the windows, s: Sperling's index depends on it, mean comfort is defined by it.
 pub const WINDOW_S: f64 = 5.0;

@@ -14,10 +14,10 @@ use report::{Report, Setting, print};
 use super::named_values;
 use super::{DamperArguments, Format, RealtimeArguments, print_report};
 use crate::commands::failure::Outcome;
+use dashpot_files::Scalar;
 use dashpot_realtime::budget::{Length, free, paced};
 use dashpot_realtime::pacing::{MonotonicClock, Pacer, RATE_RANGE_HZ, overhead_ns};
 use dashpot_realtime::timing::Machine;
-use dashpot_files::Scalar;
 
 /// Time per step on this host: histogram, percentiles, worst case, missed deadlines.
 ///

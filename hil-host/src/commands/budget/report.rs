@@ -4,10 +4,10 @@ use std::io::{self, Write};
 
 use serde::Serialize;
 
+use dashpot_files::Scalar;
 use dashpot_realtime::budget::{Run, Series, Stop};
 use dashpot_realtime::pacing::RealtimeOptions;
 use dashpot_realtime::timing::{Bin, Figures, Machine, optional_span, span};
-use dashpot_files::Scalar;
 
 /// What was run, and where.
 #[derive(Serialize)]

@@ -4,8 +4,8 @@ use dashpot_core::CheckedParameters;
 
 use super::report::{Report, digits};
 use crate::commands::failure::Outcome;
-use dashpot_files::damper;
 use dashpot_calibration::RIG;
+use dashpot_files::damper;
 
 /// The file.
 ///

@@ -16,10 +16,13 @@ use super::recording::MeasurementArguments;
 use super::step_size::{self, StepSize};
 use super::{DamperArguments, Format, print_report_beside, progress, streams};
 use crate::commands::failure::{Failure, Outcome};
+use dashpot_calibration::{
+    Assumed, Calibration, CalibrationError, IndexTest, LoopTest, MOST_MISSED, Progress,
+    TEMPERATURE_UNCERTAINTY_K,
+};
 use dashpot_files::FileError;
 use dashpot_files::damper::Keyed;
 use dashpot_files::output::{cannot_write, write_bytes, write_whole_if};
-use dashpot_calibration::{Assumed, Calibration, CalibrationError, IndexTest, LoopTest, MOST_MISSED, Progress, TEMPERATURE_UNCERTAINTY_K};
 
 /// Find the numbers of a damper from bench tests: force-displacement loops, or tables of their indices.
 ///

@@ -4,12 +4,12 @@ use maud::{Markup, html};
 
 use super::report::{self, Loop, Number, Report};
 use crate::commands::failure::Outcome;
+use dashpot_calibration::{Calibrated, Calibration, LoopFit, LoopTest, Profile, RISE_95};
 use dashpot_report::DrawError;
 use dashpot_report::page::{Figure, document, figure, footer, panel, tiles};
 use dashpot_report::plot::curves::Curve;
 use dashpot_report::plot::loops;
 use dashpot_report::plot::style::{AMBER_LINE, BLUE_LINE, FINE, PALE, RED_LINE};
-use dashpot_calibration::{Calibrated, Calibration, LoopFit, LoopTest, Profile, RISE_95};
 
 /// Height of a panel (pixels).
 const HEIGHT: u32 = 300;

@@ -2,10 +2,10 @@
 
 use std::path::Path;
 
+use dashpot_calibration::Recorded;
 use dashpot_files::FileError;
 use dashpot_files::input;
 use dashpot_recording::{Channels, Gaps, Measurement};
-use dashpot_calibration::Recorded;
 
 /// The loops recorded in the file at `path`, and its gaps.
 ///

@@ -8,10 +8,12 @@ use super::{CalibrateArguments, words};
 use crate::commands::counted;
 use crate::commands::failure::Outcome;
 use crate::commands::gap_report::unended;
+use dashpot_calibration::{
+    Calibrated, Calibration, HeldRig, IndexTest, Influence, Prior, RIG, Recorded, Warning,
+};
 use dashpot_files::output;
 use dashpot_recording::Gaps;
 use dashpot_testbench::bench_test::{Indices, run_until_periodic};
-use dashpot_calibration::{Calibrated, Calibration, HeldRig, IndexTest, Influence, Prior, RIG, Recorded, Warning};
 
 /// Half of the interval of the middle of a motion, in standard deviations of the noise: 1.96 over the root of two, for it is the mean of two ends, and
 /// smoothing makes neither worse than a sample.

@@ -1,8 +1,8 @@
 //! A calibration's errors and warnings in the words of the command: what to do, as options.
 
 use crate::commands::failure::Failure;
-use dashpot_recording::{Quantity, Unit};
 use dashpot_calibration::{Advice, CalibrationError, Finding, Remedy, SKEW, Warning};
+use dashpot_recording::{Quantity, Unit};
 
 /// What the command line says already, so that advice goes with it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -6,7 +6,9 @@ use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use dashpot_report::DrawError;
-use dashpot_report::plot::style::{BLUE_LINE, FINE, INK, LINE, RED_LINE, axes, draw, extent, failed, letters};
+use dashpot_report::plot::style::{
+    BLUE_LINE, FINE, INK, LINE, RED_LINE, axes, draw, extent, failed, letters,
+};
 
 /// Wheel over rail with lines between the points that touch at each lateral shift in `contacts`.
 ///

@@ -5,12 +5,12 @@ use maud::{Markup, html};
 use super::results::{Accuracy, Bench, Demonstration, LOOP_FREQUENCY_HZ, Ride, STEPS_S};
 use super::{description, figures};
 use crate::commands::failure::Outcome;
+use dashpot_files::Scalar;
+use dashpot_files::harmonic::Harmonic;
 use dashpot_report::DrawError;
 use dashpot_report::page::{built, document, figure, footer, tiles};
-use dashpot_files::harmonic::Harmonic;
-use dashpot_testbench::published::nominal_indices;
-use dashpot_files::Scalar;
 use dashpot_testbench::TestbenchError;
+use dashpot_testbench::published::nominal_indices;
 
 /// The demonstration as HTML.
 ///

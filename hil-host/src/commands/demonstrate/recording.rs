@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use dashpot_files::FileError;
-use dashpot_recording::{Recording, Sample};
 use dashpot_recording::tick_grid::TickGrid;
+use dashpot_recording::{Recording, Sample};
 
 const NAME: &str = "data/excitations/ride_made.csv";
 const RIDE: &[u8] = include_bytes!("../../../../data/excitations/ride_made.csv");

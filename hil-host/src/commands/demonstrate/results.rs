@@ -6,10 +6,10 @@ use serde::Serialize;
 
 use super::cost::median_ns_per_step;
 use crate::commands::failure::Outcome;
-use dashpot_files::damper;
 use dashpot_files::Scalar;
-use dashpot_testbench::accuracy_limits::{AccuracyLimits, relaxation_time_s};
+use dashpot_files::damper;
 use dashpot_files::harmonic::Harmonic;
+use dashpot_testbench::accuracy_limits::{AccuracyLimits, relaxation_time_s};
 use dashpot_testbench::bench_test::{self, Cycle, Indices};
 use dashpot_testbench::verification::{deviation, fixed_step_forces, reference_forces};
 

@@ -8,8 +8,11 @@ use super::written::Exported;
 use super::{ExportArguments, Language};
 use crate::commands::failure::{Failure, Outcome};
 use crate::commands::print_report_beside;
+use dashpot_export::{
+    Provenance, Word, c_header, c_source, rust_source, standalone_header, standalone_source,
+    standalone_table_bytes,
+};
 use dashpot_files::Scalar;
-use dashpot_export::{Provenance, Word, c_header, c_source, rust_source, standalone_header, standalone_source, standalone_table_bytes};
 
 #[derive(Serialize)]
 struct Report {

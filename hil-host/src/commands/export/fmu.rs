@@ -10,11 +10,11 @@ use super::ExportArguments;
 use super::named::constant_name;
 use crate::commands::failure::{Failure, Outcome};
 use crate::commands::print_report_beside;
-use dashpot_files::damper;
-use dashpot_files::output::{self, write_bytes};
-use dashpot_files::Scalar;
 use dashpot_export::Word;
 use dashpot_export::fmu::{Fmu, Interface, Named, archive, compile};
+use dashpot_files::Scalar;
+use dashpot_files::damper;
+use dashpot_files::output::{self, write_bytes};
 
 /// Options of an FMU.
 #[derive(Debug, Clone, clap::Args)]

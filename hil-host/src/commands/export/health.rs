@@ -9,8 +9,8 @@ use super::{ExportArguments, Language};
 use crate::commands::failure::{Failure, Outcome};
 use crate::commands::print_report_beside;
 use crate::commands::sensors::model;
-use dashpot_files::Scalar;
 use dashpot_export::{Provenance, health_c_header, health_c_source, health_rust_source};
+use dashpot_files::Scalar;
 
 #[derive(Serialize)]
 struct Report {

@@ -9,9 +9,9 @@ mod written;
 
 use std::path::PathBuf;
 
+use super::named_values;
 use super::sensors::SensorArguments;
 use super::step_size::{self, StepSize};
-use super::named_values;
 use super::{DamperArguments, Format};
 use crate::commands::failure::Outcome;
 use dashpot_files::Scalar;

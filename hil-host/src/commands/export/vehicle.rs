@@ -5,10 +5,10 @@ use std::path::PathBuf;
 use super::ExportArguments;
 use super::fmu::{Content, fmu_name, write};
 use crate::commands::failure::{Failure, Outcome};
+use dashpot_export::fmu::{Fmu, Interface};
 use dashpot_files::case::Case;
 use dashpot_files::input;
 use dashpot_vehicle_run::{Coupled, CoupledCase, VehicleRunError};
-use dashpot_export::fmu::{Fmu, Interface};
 
 /// Name of the library in the folder of a build.
 const LIBRARY: &str = "libdashpot_vehicle_model.a";

@@ -7,8 +7,8 @@ use serde::Serialize;
 
 use super::{ExportArguments, Language};
 use crate::commands::failure::{Failure, Outcome};
-use dashpot_files::output::{self, is_replaceable, write_bytes, write_together};
 use dashpot_export::ExportError;
+use dashpot_files::output::{self, is_replaceable, write_bytes, write_together};
 
 /// What was written.
 #[derive(Serialize)]

@@ -19,10 +19,10 @@ use crate::commands::progress;
 use crate::commands::recording::MeasurementArguments;
 use crate::commands::sensors::{SensorArguments, model};
 use crate::commands::step_size::StepSize;
-use dashpot_recording::{Gaps, Measurement};
 use dashpot_files::{damper, input};
-use dashpot_testbench::health::{doubts_in_words, in_words, whole_in_words};
 use dashpot_recording::tick_grid::MeasuredGrid;
+use dashpot_recording::{Gaps, Measurement};
+use dashpot_testbench::health::{doubts_in_words, in_words, whole_in_words};
 
 /// Tell the health of the real damper that a place stands for; load its model and feed a measurement first.
 #[derive(Debug, Clone, clap::Args)]

@@ -2,8 +2,8 @@
 
 use hdrhistogram::Histogram;
 
-use dashpot_report::plot::envelope::Envelope;
 use dashpot_host_link::{Event, TickRecord};
+use dashpot_report::plot::envelope::Envelope;
 
 /// Forces at one place (N).
 #[derive(Default)]

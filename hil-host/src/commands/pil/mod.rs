@@ -23,10 +23,10 @@ use crate::commands::failure::{Failure, Outcome};
 use dashpot_files::damper;
 use dashpot_files::input;
 use dashpot_files::output::{self, cannot_write, write_whole_if};
-use dashpot_recording::Recording;
-use dashpot_realtime::pacing::Pacer;
-use dashpot_recording::tick_grid::TickGrid;
 use dashpot_host_link::{Client, FaultRates, FaultyLink, Link, Pace, Session};
+use dashpot_realtime::pacing::Pacer;
+use dashpot_recording::Recording;
+use dashpot_recording::tick_grid::TickGrid;
 
 /// Drive dampers on a target and compare every force with this host's, bit for bit.
 #[derive(Debug, Clone, clap::Args)]

@@ -6,9 +6,9 @@ use serde::Serialize;
 
 use crate::commands::gap_report::write_gaps;
 use crate::commands::print::counted;
-use dashpot_recording::Gaps;
-use dashpot_realtime::timing::{optional_span, span};
 use dashpot_host_link::{FaultCounts, Report};
+use dashpot_realtime::timing::{optional_span, span};
+use dashpot_recording::Gaps;
 
 /// A run and what it was of.
 #[derive(Serialize)]

@@ -14,9 +14,11 @@ use crate::commands::sensors::{SensorArguments, model};
 use crate::commands::streams;
 use dashpot_files::input;
 use dashpot_recording::Measurement;
-use dashpot_report::health::page;
-use dashpot_testbench::health::{History, Noise, alarm_in_words, alarm_name, doubts_in_words, in_words, watch, whole_in_words};
 use dashpot_recording::tick_grid::MeasuredGrid;
+use dashpot_report::health::page;
+use dashpot_testbench::health::{
+    History, Noise, alarm_in_words, alarm_name, doubts_in_words, in_words, watch, whole_in_words,
+};
 
 /// Samples that the noise is found from, where it is not given.
 const NOISE_SAMPLES: usize = 20_000;

@@ -9,23 +9,23 @@ use dashpot_core::{CheckedParameters, Real};
 use serde::Serialize;
 
 use super::gap_report::write_gaps;
+use super::named_values;
 use super::paced::Paced;
 use super::recording::MeasurementArguments;
 use super::step_size::{self, StepSize};
-use super::named_values;
 use super::{
     DamperArguments, Format, RealtimeArguments, counted, nearest_nanosecond, print_report_beside,
     progress, streams,
 };
 use crate::commands::failure::{Failure, Outcome};
+use dashpot_files::Scalar;
 use dashpot_files::input;
 use dashpot_files::output::{self, cannot_write, write_whole, write_whole_if};
+use dashpot_realtime::pacing::Pacer;
+use dashpot_recording::tick_grid::TickGrid;
 use dashpot_recording::written::{ColumnName, Form, Written};
 use dashpot_recording::{Gaps, Recording};
-use dashpot_realtime::pacing::Pacer;
-use dashpot_files::Scalar;
 use dashpot_testbench::replay::{Summary, replay};
-use dashpot_recording::tick_grid::TickGrid;
 use health::{HealthArguments, HealthReport};
 
 /// Columns that are written.

@@ -12,9 +12,9 @@ use report::Report;
 
 use super::{DamperArguments, Format, print_report_beside, progress, streams};
 use crate::commands::failure::{Failure, Outcome};
+use dashpot_files::harmonic::HIGHEST_FREQUENCY_HZ;
 use dashpot_files::input::is_standard_stream;
 use dashpot_files::output::{cannot_write, write_whole_if};
-use dashpot_files::harmonic::HIGHEST_FREQUENCY_HZ;
 use dashpot_testbench::response::frequencies;
 
 /// Dynamic stiffness, loss angle and damping over frequency and amplitude, beside the linearised damper.

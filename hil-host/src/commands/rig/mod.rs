@@ -11,14 +11,16 @@ use serde::Serialize;
 use super::step_size::{self, StepSize};
 use super::{DamperArguments, Format, print_report};
 use crate::commands::failure::Outcome;
+use dashpot_files::harmonic::Harmonic;
 use dashpot_files::output::write_folder;
 use dashpot_report::plot::curves::Curve;
 use dashpot_report::plot::loops;
 use dashpot_report::plot::sheet::{Layout, sheet as drawn_on_a_sheet};
 use dashpot_report::plot::style::{BLUE_LINE, RED_LINE};
-use dashpot_files::harmonic::Harmonic;
 use dashpot_testbench::bench_test::{self, Cycle, Indices};
-use dashpot_testbench::published::{NominalCharacteristic, NominalIndex, nominal_characteristic, nominal_indices};
+use dashpot_testbench::published::{
+    NominalCharacteristic, NominalIndex, nominal_characteristic, nominal_indices,
+};
 
 /// Bench test: a made harmonic motion until the force repeats, indices and loops of one settled cycle.
 #[derive(Debug, Clone, clap::Args)]

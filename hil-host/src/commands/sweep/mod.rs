@@ -10,11 +10,11 @@ pub(super) use report::{Checked, Report, print};
 
 use super::{Format, interruption, print_report, progress};
 use crate::commands::failure::{Failure, Outcome};
-#[cfg(feature = "parquet")]
-use dashpot_recording::columns;
 use dashpot_files::input::is_standard_stream;
 use dashpot_files::output::{create_folder, write_bytes};
 use dashpot_files::study::{STUDIES, StudyParameters};
+#[cfg(feature = "parquet")]
+use dashpot_recording::columns;
 #[cfg(feature = "parquet")]
 use dashpot_study::sweep::ROW_DIGEST;
 use dashpot_study::sweep::rows::{Rows, RowsError};

@@ -46,12 +46,7 @@ pub(crate) struct Checked {
 }
 
 impl Report {
-    pub(crate) fn new(
-        study: &Study,
-        rows: &Rows,
-        run_now: usize,
-        took: Duration,
-    ) -> Self {
+    pub(crate) fn new(study: &Study, rows: &Rows, run_now: usize, took: Duration) -> Self {
         let mut not_completed: BTreeMap<String, Vec<u64>> = BTreeMap::new();
         for row in rows.values() {
             let reason = reason(&row.ending);

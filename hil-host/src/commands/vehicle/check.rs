@@ -10,11 +10,11 @@ use crate::commands::failure::{Failure, Outcome};
 use crate::commands::print::print_report;
 use crate::commands::progress;
 use dashpot_files::case::Case;
-use dashpot_vehicle_run::Ending;
 use dashpot_study::verification::VerificationError;
 use dashpot_study::verification::deviations::{BOUNDS, Deviations, Trace, Worst};
 use dashpot_study::verification::seeds::{OverSeeds, STANDARD_ERRORS, over_seeds};
 use dashpot_study::verification::{TOLERANCE, reference, stepped};
+use dashpot_vehicle_run::Ending;
 
 #[derive(Serialize)]
 struct Report {

@@ -2,9 +2,9 @@
 
 use std::time::{Duration, Instant};
 
-use dashpot_vehicle_run::{Ending, Run, TickRecord, VehicleRunError};
 use dashpot_realtime::handover::Giver;
 use dashpot_realtime::pacing::{Clock, Pacer};
+use dashpot_vehicle_run::{Ending, Run, TickRecord, VehicleRunError};
 
 /// What a tick exchanges with dampers outside the vehicle.
 pub trait Exchange {

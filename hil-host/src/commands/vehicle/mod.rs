@@ -23,13 +23,15 @@ use report::Report;
 use super::{Format, RealtimeArguments, interruption, print_report, progress};
 use crate::commands::failure::{Failure, Outcome};
 use dashpot_files::case::Case;
-#[cfg(feature = "parquet")]
-use dashpot_recording::columns;
 use dashpot_files::output::{cannot_write_rows, create_folder, write_bytes, write_whole};
 use dashpot_realtime::handover::{Giver, handover};
 use dashpot_realtime::pacing::{Pacer, PacingReport, RealtimeOptions};
+#[cfg(feature = "parquet")]
+use dashpot_recording::columns;
 use dashpot_vehicle_run::recorded::all_signals;
-use dashpot_vehicle_run::{Ending, Indexer, NoRide, Run, TickRecord, ValidityWatch, check_ride, signals};
+use dashpot_vehicle_run::{
+    Ending, Indexer, NoRide, Run, TickRecord, ValidityWatch, check_ride, signals,
+};
 
 /// A vehicle on a track: time histories, indices and a page.
 #[derive(Debug, Clone, clap::Args)]

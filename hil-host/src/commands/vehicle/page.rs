@@ -9,9 +9,9 @@ use dashpot_files::case::Case;
 use dashpot_realtime::timing::span;
 use dashpot_report::DrawError;
 use dashpot_report::page::{document, figure, footer, tiles};
+use dashpot_study::verification::Forces;
 use dashpot_vehicle_run::spectra::Spectrum;
 use dashpot_vehicle_run::{Ending, Indices, RideIndices, Run};
-use dashpot_study::verification::Forces;
 
 /// Dampers whose loops share a figure.
 const LOOPS: usize = 4;

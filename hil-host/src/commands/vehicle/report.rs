@@ -8,11 +8,11 @@ use serde::Serialize;
 use super::outside::{self, OutsideReport};
 use crate::commands::counted;
 use crate::commands::paced::Paced;
+use crate::commands::vehicle::drive::Driven;
 use dashpot_files::case::Case;
 use dashpot_files::output;
 use dashpot_realtime::pacing::PacingReport;
 use dashpot_realtime::timing::span;
-use crate::commands::vehicle::drive::Driven;
 use dashpot_vehicle_run::{Ending, Indices, RideIndices, Warning, WheelIndices, WheelsetIndices};
 
 /// What is told of a run.

@@ -9,8 +9,8 @@ use super::VerifyArguments;
 use crate::commands::failure::{Failure, Outcome};
 use crate::commands::step_size::StepSize;
 use crate::commands::{print_report, progress};
-use dashpot_testbench::step_errors::{SCALARS, StepErrors};
 use dashpot_files::Scalar;
+use dashpot_testbench::step_errors::{SCALARS, StepErrors};
 
 /// Default steps (us): 1 kHz and 10 kHz.
 const STEPS_US: [f64; 2] = [1000.0, 100.0];

@@ -11,11 +11,13 @@ use crate::commands::failure::Outcome;
 use crate::commands::gap_report::write_gaps;
 use crate::commands::step_size::StepSize;
 use crate::commands::{counted, print_report, progress};
-use dashpot_files::input;
-use dashpot_recording::{Gaps, Recording};
 use dashpot_files::Scalar;
+use dashpot_files::input;
 use dashpot_recording::tick_grid::TickGrid;
-use dashpot_testbench::verification::{Deviation, deviation, fixed_step_forces, reference_forces, reference_forces_on_recording};
+use dashpot_recording::{Gaps, Recording};
+use dashpot_testbench::verification::{
+    Deviation, deviation, fixed_step_forces, reference_forces, reference_forces_on_recording,
+};
 
 #[derive(Serialize)]
 struct Row {

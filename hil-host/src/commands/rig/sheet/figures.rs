@@ -2,15 +2,15 @@
 
 use plotters::style::RGBColor;
 
+use dashpot_files::harmonic::Harmonic;
+use dashpot_files::sheet::Index;
 use dashpot_files::study::shown;
 use dashpot_report::page::{Figure, panel};
 use dashpot_report::plot::curves::{Curve, ramp};
 use dashpot_report::plot::loops;
 use dashpot_report::plot::sheet::Panel;
 use dashpot_report::plot::style::{AMBER_LINE, BLUE_LINE, RED_LINE};
-use dashpot_files::sheet::Index;
 use dashpot_testbench::bench_sheet::{Tested, index_value};
-use dashpot_files::harmonic::Harmonic;
 use dashpot_testbench::bench_test::Cycle;
 
 /// Height of a panel (pixels).
@@ -52,7 +52,10 @@ fn thinned(cycle: &Cycle) -> Cycle {
 pub(super) fn over_speed(tested: &[Tested<'_>]) -> Figure {
     let at = |tested: &Tested<'_>, index: Index| {
         let velocity = tested.cycle.motion.peak_velocity_m_per_s();
-        (velocity, index_value(&tested.cycle, index).unwrap_or(0.0) * 1e-3)
+        (
+            velocity,
+            index_value(&tested.cycle, index).unwrap_or(0.0) * 1e-3,
+        )
     };
     let panels = FORCES.map(|(index, name, colour)| {
         let mut points: Vec<(f64, f64)> = tested.iter().map(|tested| at(tested, index)).collect();

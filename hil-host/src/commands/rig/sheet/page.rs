@@ -5,8 +5,8 @@ use maud::{Markup, html};
 use super::figures;
 use super::report::{Report, TestReport, value_of};
 use crate::commands::failure::Outcome;
-use dashpot_report::page::{document, figure, footer, tiles};
 use dashpot_files::sheet::Index;
+use dashpot_report::page::{document, figure, footer, tiles};
 use dashpot_testbench::bench_sheet::Tested;
 
 /// The page.

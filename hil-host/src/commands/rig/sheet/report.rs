@@ -8,9 +8,9 @@ use serde::Serialize;
 use crate::commands::counted;
 use crate::commands::rig::RigArguments;
 use dashpot_files::output;
+use dashpot_files::sheet::Index;
 use dashpot_files::sheet::{Limit, SheetParameters};
 use dashpot_files::study::shown;
-use dashpot_files::sheet::Index;
 use dashpot_testbench::bench_sheet::Tested;
 
 /// A line of the head.

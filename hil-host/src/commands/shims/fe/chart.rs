@@ -8,7 +8,9 @@ use crate::commands::failure::Outcome;
 use dashpot_report::plot::curves::{Curve, ramp};
 use dashpot_report::plot::sheet::Panel;
 use dashpot_report::plot::style::RED_LINE;
-use dashpot_testbench::plate::{Fit, PlateError, PressureArea, Profile, Resolution, Stack, WIDTHS, is_ring, middle_ring};
+use dashpot_testbench::plate::{
+    Fit, PlateError, PressureArea, Profile, Resolution, Stack, WIDTHS, is_ring, middle_ring,
+};
 
 /// Points of a curve.
 const POINTS: u32 = 48;

@@ -15,7 +15,9 @@ pub(super) use plots::draw;
 pub(super) use report::{PlateReport, print};
 
 use crate::commands::failure::{Failure, Outcome};
-use dashpot_testbench::plate::{Bending, Fit, PlateError, PressureArea, Resolution, Stack, assumed_area, fits};
+use dashpot_testbench::plate::{
+    Bending, Fit, PlateError, PressureArea, Resolution, Stack, assumed_area, fits,
+};
 use dashpot_testbench::shim_valves::{VALVE_LOCATIONS, ValveLocation};
 
 /// A valve's stack, bent.

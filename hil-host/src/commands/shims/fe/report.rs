@@ -65,10 +65,7 @@ impl PlateReport {
     ///
     /// # Errors
     /// The published tables in the program are not as they were shipped.
-    pub(crate) fn new(
-        arguments: &PlateArguments,
-        solved: &[Solved],
-    ) -> Outcome<Self> {
+    pub(crate) fn new(arguments: &PlateArguments, solved: &[Solved]) -> Outcome<Self> {
         Ok(Self {
             allowable_stress_pa: arguments.allowable_stress_pa,
             valves: (solved.iter())
@@ -132,10 +129,7 @@ fn valve_report(arguments: &PlateArguments, solved: &Solved) -> Outcome<PlateVal
 }
 
 /// The report for people.
-pub(crate) fn print(
-    out: &mut dyn Write,
-    report: &PlateReport,
-) -> io::Result<()> {
+pub(crate) fn print(out: &mut dyn Write, report: &PlateReport) -> io::Result<()> {
     writeln!(
         out,
         "\nshims as thin plates, by the file's shims and not by a compliance it gives"

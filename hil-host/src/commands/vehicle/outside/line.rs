@@ -9,8 +9,10 @@ use crate::commands::failure::{Failure, Outcome, remedy};
 use crate::commands::line::LineOptions;
 use crate::commands::step_size::StepSize;
 use dashpot_files::case::Case;
+use dashpot_host_link::{
+    Bank, Client, Desk, EmulatorError, Link, LinkError, Session, SessionError,
+};
 use dashpot_vehicle_run::Run;
-use dashpot_host_link::{Bank, Client, Desk, EmulatorError, Link, LinkError, Session, SessionError};
 
 /// Places of a target on the desk: as many as a target may have.
 const DESK_PLACES: usize = MOST_DAMPERS;

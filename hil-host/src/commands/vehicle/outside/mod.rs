@@ -11,9 +11,9 @@ pub(super) use report::{OutsideReport, print};
 use crate::commands::failure::{Failure, Outcome};
 use crate::commands::line::LineOptions;
 use crate::commands::recording::ForceHistoryArguments;
+use crate::commands::vehicle::drive::Exchange;
 use dashpot_files::case::Case;
 use dashpot_recording::ForceHistory;
-use crate::commands::vehicle::drive::Exchange;
 use dashpot_study::verification::{Beside, Effect, Forces};
 use dashpot_vehicle_run::{Ending, Run, VehicleRunError, number_outside};
 

@@ -7,8 +7,8 @@ use serde::Serialize;
 use super::choice::{Choice, Source};
 use crate::commands::gap_report::unended;
 use dashpot_files::case::Case;
-use dashpot_recording::ForceHistory;
 use dashpot_realtime::timing::{optional_span, span};
+use dashpot_recording::ForceHistory;
 use dashpot_study::verification::Effect;
 
 /// What is told of the dampers outside.
@@ -187,10 +187,7 @@ fn micro(time_s: f64) -> f64 {
 }
 
 /// The results for people.
-pub(crate) fn print(
-    out: &mut dyn Write,
-    report: &OutsideReport,
-) -> io::Result<()> {
+pub(crate) fn print(out: &mut dyn Write, report: &OutsideReport) -> io::Result<()> {
     writeln!(out, "\ndampers outside")?;
     for (what, text) in report.lines() {
         writeln!(out, "{what:<26} {text}")?;

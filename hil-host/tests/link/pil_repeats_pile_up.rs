@@ -7,7 +7,9 @@ use std::net::{Ipv4Addr, TcpListener};
 use std::time::{Duration, Instant};
 
 use dashpot_core::link::{Clock, Device, Line, Outputs};
-use dashpot_host_link::{Client, Link, LinkError, Pace, Report, RetryLimits, Session, SessionError};
+use dashpot_host_link::{
+    Client, Link, LinkError, Pace, Report, RetryLimits, Session, SessionError,
+};
 
 use crate::common::{dashpot, error_of};
 use crate::pil_common::{built, motion};

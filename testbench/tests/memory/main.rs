@@ -9,9 +9,9 @@ use dashpot_core::Damper;
 use dashpot_files::FileError;
 use dashpot_files::damper;
 use dashpot_recording::Recording;
+use dashpot_recording::tick_grid::TickGrid;
 use dashpot_recording::written::{ColumnName, Form, Written};
 use dashpot_testbench::replay::replay;
-use dashpot_recording::tick_grid::TickGrid;
 
 const STEP_S: f64 = 1e-3;
 

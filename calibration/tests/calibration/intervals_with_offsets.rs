@@ -1,11 +1,13 @@
 //! With a force offset in the recordings the numbers had no interval at all; intervals of 95 % must have the truth as often with offsets of both
 //! sensors as without.
 
+use dashpot_calibration::{
+    Assumed, Calibration, FORCE_OFFSET, HeldRig, LoopTest, Recorded, SKEW, Varied,
+};
 use dashpot_files::damper::{Keyed, load};
-use dashpot_calibration::{Assumed, Calibration, FORCE_OFFSET, HeldRig, LoopTest, Recorded, SKEW, Varied};
 use fastrand::Rng;
 
-use crate::calibration::{recorded, with};
+use crate::fits::{recorded, with};
 
 const KEYS: [&str; 3] = [
     "reduced.damping_n_s_per_m",

@@ -4,9 +4,9 @@ use std::f64::consts::PI;
 use std::fs;
 
 use dashpot_files::case::{Case, CaseOptions};
-use dashpot_vehicle_run::{Indexer, Indices, Run, Sample};
 use dashpot_rail::contact::WheelsetForces;
 use dashpot_rail::indices::{RideDirection, nadal_limit, prudhomme_limit_n, sperling};
+use dashpot_vehicle_run::{Indexer, Indices, Run, Sample};
 use tempfile::tempdir;
 
 const STEP_S: f64 = 1e-3;

@@ -6,9 +6,12 @@ use dashpot_core::Status;
 use dashpot_core::link::{
     FrameReader, Header, PROTOCOL, REQUEST_BYTES, Refusal, Request, Response, ResponseFrame,
 };
-use dashpot_host_link::{Client, Desk, Event, FaultCounts, FaultRates, FaultyLink, Link, LinkError, Pace, Report, Session, SessionError, Tcp};
+use dashpot_host_link::{
+    Client, Desk, Event, FaultCounts, FaultRates, FaultyLink, Link, LinkError, Pace, Report,
+    Session, SessionError, Tcp,
+};
 #[cfg(all(unix, feature = "serial"))]
-use {crate::pil_common::serve, dashpot_hil::target::pil::Serial, std::path::Path};
+use {crate::pil_common::serve, dashpot_host_link::Serial, std::path::Path};
 
 use crate::pil_common::{RETRY_LIMITS, altered, built, desk, motion, serve_tcp};
 

@@ -11,8 +11,8 @@ use std::time::Duration;
 use dashpot_core::Damper;
 use dashpot_core::link::{FrameReader, Header, RESPONSE_BYTES, Response, ResponseFrame};
 use dashpot_files::damper;
-use dashpot_testbench::excitation::Excitation;
 use dashpot_host_link::{Desk, Link, LinkError, RetryLimits, SessionError};
+use dashpot_testbench::excitation::Excitation;
 
 /// The desk's waits are not real; a line's end with an answer, which always comes.
 pub const RETRY_LIMITS: RetryLimits = RetryLimits {

@@ -5,8 +5,8 @@ use std::rc::Rc;
 use std::time::Duration;
 
 use dashpot_core::link::{FrameReader, Header, REQUEST_BYTES, Request};
-use dashpot_realtime::pacing::{Clock, Pacer};
 use dashpot_host_link::{Client, Desk, Event, Link, LinkError, Pace, Report, Session};
+use dashpot_realtime::pacing::{Clock, Pacer};
 
 use crate::pil_common::{RETRY_LIMITS, built, desk, motion};
 

@@ -3,10 +3,13 @@
 
 use std::f64::consts::TAU;
 
+use dashpot_calibration::{
+    Assumed, Calibrated, Calibration, CalibrationError, HeldRig, IndexTest, LoopTest, Prior,
+    Recorded, SKEW, Varied,
+};
 use dashpot_core::CheckedParameters;
 use dashpot_files::damper::{Keyed, load};
 use dashpot_files::harmonic::Harmonic;
-use dashpot_calibration::{Assumed, Calibrated, Calibration, CalibrationError, HeldRig, IndexTest, LoopTest, Prior, Recorded, SKEW, Varied};
 use dashpot_testbench::health::Noise;
 use dashpot_testbench::verification::reference_forces;
 use fastrand::Rng;

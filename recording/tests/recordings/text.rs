@@ -3,7 +3,9 @@
 use std::io::{Cursor, Write};
 use std::path::Path;
 
-use dashpot_recording::{Channel, Channels, DecimalMark, MeasuredSample, Measurement, Quantity, Recording, Separator};
+use dashpot_recording::{
+    Channel, Channels, DecimalMark, MeasuredSample, Measurement, Quantity, Recording, Separator,
+};
 use flate2::Compression;
 use flate2::write::GzEncoder;
 

@@ -3,8 +3,8 @@
 use std::f64::consts::TAU;
 
 use dashpot_files::damper;
-use dashpot_files::sheet::{SHEETS, SheetFileError, SheetParameters};
 use dashpot_files::sheet::Index;
+use dashpot_files::sheet::{SHEETS, SheetFileError, SheetParameters};
 use dashpot_testbench::bench_sheet;
 use dashpot_testbench::bench_test::run_until_periodic;
 

@@ -6,8 +6,9 @@ use dashpot_core::CheckedParameters;
 use dashpot_core::parameters::{DamperParameters, Element, Mount};
 
 use dashpot_files::damper;
-use dashpot_testbench::TestbenchError;
 use dashpot_files::harmonic::Harmonic;
+use dashpot_files::harmonic::HarmonicError;
+use dashpot_testbench::TestbenchError;
 use dashpot_testbench::bench_test::run_until_periodic;
 use dashpot_testbench::response::{at_amplitude, linearised};
 
@@ -118,14 +119,15 @@ fn a_motion_out_of_bounds_is_refused() {
     let damper = reduced(DAMPING, 0.03, 8e6, 0.0);
     assert!(matches!(
         at_amplitude(&damper, 0.0, &[1.0]),
-        Err(TestbenchError::Amplitude(_))
+        Err(TestbenchError::Motion(HarmonicError::Amplitude(_)))
     ));
     assert!(matches!(
         at_amplitude(&damper, 1e-3, &[f64::NAN]),
-        Err(TestbenchError::Frequency(_))
+        Err(TestbenchError::Motion(HarmonicError::Frequency(_)))
     ));
     assert!(matches!(
         linearised(&damper, &[0.0]),
-        Err(TestbenchError::Frequency(_) | TestbenchError::Amplitude(_))
+        Err(TestbenchError::Motion(HarmonicError::Frequency(_))
+            | TestbenchError::Motion(HarmonicError::Amplitude(_)))
     ));
 }

@@ -2,7 +2,9 @@
 
 use dashpot_core::Damper;
 use dashpot_hil::commands::failure::{Failure, Kind};
-use dashpot_host_link::{Client, Desk, FaultRates, FaultyLink, Link, Pace, Report, Session, SessionError};
+use dashpot_host_link::{
+    Client, Desk, FaultRates, FaultyLink, Link, Pace, Report, Session, SessionError,
+};
 
 use crate::pil_common::{RETRY_LIMITS, built, desk, motion, ride};
 

@@ -1,6 +1,9 @@
 //! The correction factor Ce.
 
-use dashpot_testbench::plate::{Bosses, PlateError, PressureArea, Profile, Resolution, RoundBosses, fitted_boss_radius_m, fitted_decay_width_m, fitted_full_radius_m, fitted_share};
+use dashpot_testbench::plate::{
+    Bosses, PlateError, PressureArea, Profile, Resolution, RoundBosses, fitted_boss_radius_m,
+    fitted_decay_width_m, fitted_full_radius_m, fitted_share,
+};
 
 use super::axisymmetric::edge_by_statics;
 use super::of_the_paper;

@@ -1,0 +1,4 @@
+//! Pacing and timing with clocks of the tests.
+
+mod pacing;
+mod timing;

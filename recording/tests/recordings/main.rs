@@ -1,0 +1,4 @@
+//! Recordings as text.
+
+mod header;
+mod text;

@@ -1,0 +1,4 @@
+//! Runs of vehicles: coupling with dampers outside, and indices.
+
+mod coupled;
+mod vehicle_indices;
