@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use dashpot_core::Damper;
 
-use super::{ExportError, Provenance, Word, name};
+use super::{ExportError, Provenance, Word, error, name};
 use dashpot_files::Scalar;
 
 /// C source of `const uint8_t NAME[]`, to compile on its own or to include in one file; C99 and C++11.
@@ -49,7 +49,7 @@ pub fn c_header<T: Word>(
 
 /// A header of a declaration.
 pub(super) fn guarded(constant: &str, declaration: &str) -> String {
-    let guard = format!("{}{constant}_H", name::C_LIBRARY_PREFIX);
+    let guard = format!("{}{constant}_H", error::C_LIBRARY_PREFIX);
     format!("#ifndef {guard}\n#define {guard}\n\n{declaration}\n#endif\n")
 }
 

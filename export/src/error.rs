@@ -1,7 +1,12 @@
 //! Why a damper cannot be exported.
 
-use super::name::{C_LIBRARY_PREFIX, RESERVED_ENDS};
 use dashpot_files::Scalar;
+
+/// What the macros of `dashpot.h` and the guards of exported headers start with.
+pub(super) const C_LIBRARY_PREFIX: &str = "DASHPOT_";
+
+/// How macros of `stdint.h` end.
+pub(super) const RESERVED_ENDS: [&str; 4] = ["_MAX", "_MIN", "_C", "_WIDTH"];
 
 /// Why a damper cannot be exported; each says what is allowed.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]

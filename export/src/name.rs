@@ -1,6 +1,7 @@
 //! Names that a constant may have.
 
 use super::ExportError;
+use super::error::{C_LIBRARY_PREFIX, RESERVED_ENDS};
 
 /// A capital first, then capitals, digits and `_`: no keyword of Rust, C or C++ is written so.
 pub(super) fn check(name: &str) -> Result<(), ExportError> {
@@ -14,12 +15,6 @@ pub(super) fn check(name: &str) -> Result<(), ExportError> {
         Err(ExportError::Name { name: name.into() })
     }
 }
-
-/// What the macros of `dashpot.h` and the guards of exported headers start with.
-pub(super) const C_LIBRARY_PREFIX: &str = "DASHPOT_";
-
-/// How macros of `stdint.h` end.
-pub(super) const RESERVED_ENDS: [&str; 4] = ["_MAX", "_MIN", "_C", "_WIDTH"];
 
 /// As [`check`], and no macro of `dashpot.h` or of the headers an exported C source includes.
 pub(super) fn check_c(name: &str) -> Result<(), ExportError> {

@@ -4,8 +4,10 @@ use std::io;
 use std::path::PathBuf;
 use std::process::ExitStatus;
 
-use super::qemu::EMULATOR;
 use dashpot_files::FileError;
+
+/// Program of the emulator.
+pub(super) const EMULATOR: &str = "qemu-system-arm";
 
 /// Why the emulator did not start, or no longer runs.
 #[derive(Debug, thiserror::Error)]

@@ -5,9 +5,8 @@ use std::str::FromStr;
 use std::time::{Duration, Instant};
 
 use fastrand::Rng;
-use serde::Serialize;
 
-use super::{Link, LinkError};
+use super::{FaultCounts, Link, LinkError};
 
 /// Probability of each fault per frame (1), both ways.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -58,23 +57,6 @@ impl FromStr for FaultRates {
         }
         Ok(rates)
     }
-}
-
-/// Faults made so far.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
-pub struct FaultCounts {
-    /// Frames lost.
-    pub dropped: u64,
-    /// Frames with a wrong bit.
-    pub corrupted: u64,
-    /// Frames late.
-    pub delayed: u64,
-    /// Frames twice.
-    pub duplicated: u64,
-    /// Frames after the one sent after them.
-    pub reordered: u64,
-    /// Resets of the target.
-    pub resets: u64,
 }
 
 /// A link that makes faults, the same ones for the same seed and the same frames.

@@ -1,10 +1,8 @@
-//! A line of bytes to a target, and how a person names one.
+//! A line of bytes to a target.
 
-use std::path::PathBuf;
-use std::str::FromStr;
 use std::time::{Duration, Instant};
 
-use super::{DEFAULT_IMAGE, FaultCounts, LinkError, Qemu, Tcp};
+use super::{FaultCounts, LinkError};
 
 /// A line of bytes to a target and back.
 pub trait Link {
@@ -71,53 +69,4 @@ impl<L: Link + ?Sized> Link for Box<L> {
     fn faults_made(&self) -> FaultCounts {
         (**self).faults_made()
     }
-}
-
-/// A link by name: `tcp:HOST:PORT`, `serial:DEVICE`, `qemu` or `qemu:IMAGE`.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum LinkChoice {
-    /// A serial line behind a TCP port.
-    Tcp(String),
-    /// A serial device.
-    Serial(PathBuf),
-    /// An emulator of our own with this image.
-    Qemu(PathBuf),
-}
-
-impl FromStr for LinkChoice {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        match text.split_once(':') {
-            Some(("tcp", address)) if address.contains(':') => Ok(Self::Tcp(address.into())),
-            Some(("serial", device)) if !device.is_empty() => Ok(Self::Serial(device.into())),
-            Some(("qemu", image)) if !image.is_empty() => Ok(Self::Qemu(image.into())),
-            None if text == "qemu" => Ok(Self::Qemu(DEFAULT_IMAGE.into())),
-            _ => Err("allowed: tcp:HOST:PORT, serial:DEVICE, qemu, qemu:IMAGE".into()),
-        }
-    }
-}
-
-impl LinkChoice {
-    /// Opens the link, which a real-time thread may use; `baud` (bit/s) is for serial devices.
-    ///
-    /// # Errors
-    /// Nothing answers at the address, the device cannot be opened, or the emulator does not start.
-    pub fn open(&self, baud: u32) -> Result<Box<dyn Link + Send>, LinkError> {
-        match self {
-            Self::Tcp(address) => Ok(Box::new(Tcp::connect(address)?)),
-            Self::Serial(device) => open_serial(device, baud),
-            Self::Qemu(image) => Ok(Box::new(Qemu::start(image)?)),
-        }
-    }
-}
-
-#[cfg(feature = "serial")]
-fn open_serial(device: &std::path::Path, baud: u32) -> Result<Box<dyn Link + Send>, LinkError> {
-    Ok(Box::new(super::Serial::open(device, baud)?))
-}
-
-#[cfg(not(feature = "serial"))]
-fn open_serial(_: &std::path::Path, _: u32) -> Result<Box<dyn Link + Send>, LinkError> {
-    Err(LinkError::NoSerial)
 }

@@ -6,13 +6,14 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
+use super::emulator_error::EMULATOR;
 use super::{EmulatorError, Link, LinkError, Tcp};
 use crate::child::ChildProcess;
 use dashpot_files::FileError;
 
 /// The firmware as `cargo build --release` in `firmware/` leaves it.
 pub const DEFAULT_IMAGE: &str = "firmware/target/thumbv7em-none-eabihf/release/dashpot-firmware";
-pub(super) const EMULATOR: &str = "qemu-system-arm";
+
 /// A busy machine starts it late; one that ends is noticed at once.
 const START_TIMEOUT: Duration = Duration::from_secs(60);
 /// With `-icount shift=0` an instruction takes a nanosecond of the target's time.

@@ -1,7 +1,8 @@
 //! Why there is no real time.
 
-use crate::budget::Stop;
-use crate::pacing::{RATE_RANGE_HZ, RealtimeOption, TICKS_PER_ALLOWED_MISS};
+use crate::limits::{RATE_RANGE_HZ, TICKS_PER_ALLOWED_MISS};
+use crate::options::RealtimeOption;
+use crate::stop::Stop;
 use crate::timing::span;
 
 /// Why ticks cannot be paced, or were not on time.

@@ -5,7 +5,10 @@
 pub mod budget;
 mod error;
 pub mod handover;
+pub mod limits;
+pub mod options;
 pub mod pacing;
+pub mod stop;
 pub mod timing;
 
 pub use error::RealtimeError;

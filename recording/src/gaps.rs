@@ -3,7 +3,7 @@
 use hdrhistogram::Histogram;
 use serde::Serialize;
 
-use super::rows::{LeftOut, Place};
+use super::place::{LeftOut, Place};
 
 /// An interval of more than this many median intervals is a gap. A logger whose stamps jitter by half an
 /// interval or that loses one or two samples makes no gap.

@@ -14,9 +14,11 @@ mod guarded;
 mod mdf;
 mod measurement;
 mod open;
+mod opened;
 mod overview;
 #[cfg(feature = "parquet")]
 mod parquet;
+mod place;
 mod remedy;
 mod rows;
 mod samples;
@@ -42,9 +44,9 @@ pub use gaps::{GAP_IN_MEDIANS, Gap, Gaps};
 pub use measurement::{MeasuredSample, Measurement};
 use open::{Origin, open_rows};
 pub use overview::{ChannelOverview, Overview, TimeOverview, overview};
+pub use place::{LeftOut, Place};
 pub use remedy::{Remedy, remedy};
 use rows::Rows;
-pub use rows::{LeftOut, Place};
 pub use text::{DecimalMark, Separator, TextOptions};
 pub use unit::{Quantity, Unit};
 

@@ -9,27 +9,15 @@ use super::RecordingError;
 use super::channels::Channels;
 #[cfg(feature = "mdf")]
 use super::mdf::Mdf;
+use super::opened::Opened;
 #[cfg(feature = "parquet")]
 use super::parquet::Parquet;
-use super::rows::{Rows, Source};
-use super::select::{Found, label, select};
+use super::rows::Rows;
+use super::select::{label, select};
 use super::stream::{Kind, Stream};
 use super::text::Text;
 use super::unit::Quantity;
 use dashpot_files::{FileError, input};
-
-/// A file whose channels are known.
-pub(super) trait Opened {
-    /// The channels.
-    fn found(&self) -> &[Found];
-
-    /// Names of the groups that they are in; none where the file has no groups.
-    fn groups(&self) -> &[String];
-
-    /// Rows of the channels of these indices, which are of one group; text has its rows once. What is no number is an error
-    /// unless `lenient`, where it counts as missing.
-    fn rows(&mut self, indices: &[usize], lenient: bool) -> Result<Box<dyn Source>, FileError>;
-}
 
 /// Where a recording comes from.
 pub(super) enum Origin<'a> {

@@ -6,8 +6,10 @@ use serde::Serialize;
 
 use super::channels::Channels;
 use super::gaps::{Gaps, Intervals};
-use super::open::{Opened, Origin, open};
-use super::rows::{LeftOut, Source};
+use super::open::{Origin, open};
+use super::opened::Opened;
+use super::place::LeftOut;
+use super::rows::Source;
 use super::select::{Chosen, Found, label, select_in};
 use super::unit::Quantity;
 use crate::remedy::Remedy;

@@ -6,18 +6,9 @@ use std::path::{Path, PathBuf};
 
 use super::error::RecordingError;
 use super::gaps::{Gaps, Intervals};
+use super::place::{LeftOut, Place};
 use super::select::Chosen;
 use dashpot_files::FileError;
-
-/// Where a row is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Place {
-    /// Line of a text, from 1.
-    Line(u64),
-    /// Row of another file, from 1: a sample of each channel.
-    Row(u64),
-}
 
 /// What gives rows: the numbers of the chosen channels in the units of the file, not finite where there are none.
 pub(super) trait Source {
@@ -38,15 +29,6 @@ pub(super) trait Source {
     fn unended_line(&self) -> Option<u64> {
         None
     }
-}
-
-/// Rows that a value was missing in and that were left out.
-#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]
-pub struct LeftOut {
-    /// How many.
-    pub rows: u64,
-    /// The first.
-    pub first: Option<Place>,
 }
 
 /// Rows of `N` channels, the first of which is the time, which grows.

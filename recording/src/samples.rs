@@ -3,7 +3,8 @@
 use std::rc::Rc;
 
 use super::error::RecordingError;
-use super::rows::{Place, Source};
+use super::place::Place;
+use super::rows::Source;
 use super::{Sample, unit};
 use dashpot_files::FileError;
 

@@ -3,8 +3,6 @@
 use dashpot_rail::contact::WheelsetForces;
 use dashpot_rail::vehicle::VehicleState;
 
-use super::Run;
-
 /// A vehicle after a tick. Bodies come in the order of the parameters, wheelsets after them.
 pub trait VehicleTick {
     /// Distance of the middle of the vehicle along the track, m.
@@ -68,12 +66,11 @@ pub struct TickRecord {
 }
 
 impl TickRecord {
-    /// Of the run as it is.
-    pub fn new(run: &Run) -> Self {
-        let state = run.state();
+    /// Copies a state at a time since the start of its run (s).
+    pub fn new(time_s: f64, state: &VehicleState) -> Self {
         let bodies = state.coordinates().len();
         Self {
-            time_s: run.time_s(),
+            time_s,
             distance_m: state.distance_m(),
             unbalanced_m_per_s2: state.unbalanced_m_per_s2(),
             coordinates: state.coordinates().to_vec(),
@@ -85,13 +82,12 @@ impl TickRecord {
         }
     }
 
-    /// Writes the run as it is over what this record of the same run has; allocates nothing.
+    /// Overwrites the record with a later state of the same run; allocates nothing.
     ///
     /// # Panics
-    /// The record is one of another vehicle.
-    pub fn copy(&mut self, run: &Run) {
-        let state = run.state();
-        self.time_s = run.time_s();
+    /// The record belongs to another vehicle.
+    pub fn copy(&mut self, time_s: f64, state: &VehicleState) {
+        self.time_s = time_s;
         self.distance_m = state.distance_m();
         self.unbalanced_m_per_s2 = state.unbalanced_m_per_s2();
         self.coordinates.copy_from_slice(state.coordinates());

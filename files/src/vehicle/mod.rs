@@ -3,6 +3,7 @@
 mod change;
 mod dampers;
 mod error;
+mod replace;
 mod replacement;
 mod tables;
 
@@ -113,7 +114,7 @@ fn parse_in(
     let _: VehicleFile = toml::from_str(text).map_err(in_text)?;
     let mut tree: toml::Table = toml::from_str(text).map_err(in_text)?;
     dampers::name_files_from(folder, &mut tree);
-    let replaced = replacement::apply(&mut tree, replacements)?;
+    let replaced = replace::apply(&mut tree, replacements)?;
     let (of_dampers, of_parts): (Vec<_>, Vec<_>) = overrides
         .iter()
         .partition(|assignment| change::of_dampers(assignment).is_some());

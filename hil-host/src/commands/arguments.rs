@@ -7,7 +7,7 @@ use dashpot_core::CheckedParameters;
 use super::failure::{Failure, Outcome};
 use super::streams;
 use dashpot_files::damper;
-use dashpot_realtime::pacing::RealtimeOptions;
+use dashpot_realtime::options::RealtimeOptions;
 
 /// How a command prints its results.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, clap::ValueEnum)]

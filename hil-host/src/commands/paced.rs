@@ -5,7 +5,8 @@ use std::io::{self, Write};
 use serde::Serialize;
 
 use super::counted;
-use dashpot_realtime::pacing::{PacingReport, TICKS_PER_ALLOWED_MISS};
+use dashpot_realtime::limits::TICKS_PER_ALLOWED_MISS;
+use dashpot_realtime::pacing::PacingReport;
 use dashpot_realtime::timing::{Figures, optional_span, span};
 
 /// Deadlines, lateness and work of the ticks.

@@ -39,7 +39,10 @@ fn driven(ticks: u64, between: impl FnMut()) {
     case.duration_s = ticks as f64 * case.step_s;
     case.faults = vec![fault(&case)];
     let mut run = Run::new(&case).unwrap();
-    let (giver, taker) = handover(vec![TickRecord::new(&run); ticks as usize]);
+    let (giver, taker) = handover(vec![
+        TickRecord::new(run.time_s(), run.state());
+        ticks as usize
+    ]);
     let clock = Ticks {
         now_ns: Cell::new(0),
         between: RefCell::new(between),

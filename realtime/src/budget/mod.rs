@@ -5,9 +5,9 @@ mod paced;
 
 pub use free::free;
 pub use paced::paced;
-use serde::Serialize;
 
 use crate::RealtimeError;
+use crate::stop::Stop;
 use crate::timing::Distribution;
 
 /// How long a run lasts.
@@ -17,19 +17,6 @@ pub enum Length {
     Ticks(u64),
     /// So many nanoseconds of the clock.
     Nanoseconds(u64),
-}
-
-/// A tick whose work took longer than allowed and which ended the run.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Stop {
-    /// The tick, from 0.
-    pub tick: u64,
-    /// Its time along the motion (s): tick times step.
-    pub time_s: f64,
-    /// Its work (ns).
-    pub work_ns: f64,
-    /// The limit it broke (ns).
-    pub limit_ns: u64,
 }
 
 /// Time spans of one kind.

@@ -1,18 +1,14 @@
 //! Real ticks at a fixed rate: absolute deadlines, so lateness does not add up.
 
+mod apply;
 mod clock;
-mod realtime;
-
-use std::ops::RangeInclusive;
 
 pub use clock::{Clock, MonotonicClock, overhead_ns};
-pub use realtime::{RealtimeOption, RealtimeOptions};
 
 use crate::RealtimeError;
+use crate::limits::{RATE_RANGE_HZ, TICKS_PER_ALLOWED_MISS};
+use crate::options::RealtimeOptions;
 use crate::timing::Distribution;
-
-/// Rates that ticks can be paced at (Hz).
-pub const RATE_RANGE_HZ: RangeInclusive<u32> = 1000..=10_000;
 
 /// Ticks listed one by one after the start.
 pub const FIRST_TICKS: usize = 8;
@@ -23,7 +19,8 @@ pub const FIRST_TICKS: usize = 8;
 /// up. A tick misses its deadline when its work ends after the next tick is due.
 ///
 /// ```
-/// use dashpot_realtime::pacing::{Pacer, RealtimeOptions};
+/// use dashpot_realtime::pacing::Pacer;
+/// use dashpot_realtime::options::RealtimeOptions;
 /// let mut pacer = Pacer::new(1e-3, &RealtimeOptions::default())?;
 /// for tick in 0..5 {
 ///     let timing = pacer.wait(tick);
@@ -80,9 +77,6 @@ pub struct PacingReport {
     /// Work of the first ticks, caches cold (ns).
     pub first_work_ns: Vec<u64>,
 }
-
-/// Ticks of which one may miss its deadline.
-pub const TICKS_PER_ALLOWED_MISS: u64 = 1000;
 
 impl PacingReport {
     /// Whether the ticks were on time: at most one in [`TICKS_PER_ALLOWED_MISS`] missed its deadline.
@@ -174,7 +168,8 @@ impl<C: Clock> Pacer<C> {
     /// next one, its booking included. In place of [`Self::wait`] and [`Self::finish`], with [`Self::end`] after the last tick.
     ///
     /// ```
-    /// use dashpot_realtime::pacing::{Pacer, RealtimeOptions};
+    /// use dashpot_realtime::pacing::Pacer;
+    /// use dashpot_realtime::options::RealtimeOptions;
     /// let mut pacer = Pacer::new(1e-3, &RealtimeOptions::default())?;
     /// for tick in 0..5 {
     ///     pacer.release(tick);

@@ -11,8 +11,9 @@ use falcon_mdf::{Channel, ChannelGroup, Mf4Error, Mf4File, SignalsChunks};
 use self_cell::self_cell;
 
 use super::error::RecordingError;
-use super::open::Opened;
-use super::rows::{Place, Source};
+use super::opened::Opened;
+use super::place::Place;
+use super::rows::Source;
 use super::select::Found;
 use dashpot_files::FileError;
 use number::{Reading, reading};

@@ -14,7 +14,7 @@ use parquet::file::reader::{FileReader, SerializedFileReader};
 
 use super::error::RecordingError;
 use super::guarded::guarded;
-use super::open::Opened;
+use super::opened::Opened;
 use super::rows::Source;
 use super::select::Found;
 use super::sums::SUMS;

@@ -10,7 +10,8 @@ use parquet::file::reader::{FileReader, SerializedFileReader};
 use super::column::Column;
 use super::read;
 use crate::error::RecordingError;
-use crate::rows::{Place, Source};
+use crate::place::Place;
+use crate::rows::Source;
 use crate::sums::SUMS;
 use dashpot_files::FileError;
 

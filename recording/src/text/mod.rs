@@ -20,7 +20,7 @@ pub use options::{DecimalMark, Separator, TextOptions};
 use rows::TextRows;
 
 use super::error::RecordingError;
-use super::open::Opened;
+use super::opened::Opened;
 use super::rows::Source;
 use super::select::Found;
 use super::stream::{Count, Stream};

@@ -3,7 +3,8 @@
 use csv::ByteRecord;
 
 use super::super::error::RecordingError;
-use super::super::rows::{Place, Source};
+use super::super::place::Place;
+use super::super::rows::Source;
 use super::number::{NotNumber, Numbers};
 use super::options::Separator;
 use super::{Lines, Text, decode};

@@ -2,7 +2,8 @@
 
 use fastrand::Rng;
 
-use super::row::{Arithmetic, Row};
+use super::arithmetic::Arithmetic;
+use super::row::Row;
 use super::rows::Rows;
 use super::run::{RunError, run};
 use super::study::Study;

@@ -4,7 +4,8 @@ use std::fs::{self, File, TryLockError};
 use std::io::{self, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
-use super::row::{Arithmetic, Row};
+use super::arithmetic::Arithmetic;
+use super::row::Row;
 use super::rows::{self, Rows, RowsError};
 use super::study::{Shard, Study};
 use dashpot_files::FileError;

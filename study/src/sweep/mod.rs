@@ -1,10 +1,12 @@
 //! Studies: many cases of a vehicle on a track, one row of indices each, the same bits in any order and on any number of threads.
 
+mod arithmetic;
 mod check;
 mod digest;
 mod history;
 mod journal;
 mod merge;
+mod observation;
 mod observed;
 mod physics;
 mod row;
@@ -14,15 +16,17 @@ mod shared;
 mod study;
 mod summary;
 
+pub use arithmetic::Arithmetic;
 pub use check::{CheckError, check, chosen};
 pub use digest::digest_of_cells;
 pub use history::{History, record};
 pub use journal::Journal;
 pub use merge::{Gaps, MergeError, merge};
+pub use observation::Observation;
 pub use observed::{OBSERVED, Observed};
 pub use physics::physics;
-pub use row::{Arithmetic, ROW_DIGEST, Row, RowError, VERSION};
-pub use run::{Observation, RunError, observe, row, run, run_with};
+pub use row::{ROW_DIGEST, Row, RowError, VERSION};
+pub use run::{RunError, observe, row, run, run_with};
 pub use shared::Shared;
 pub use study::{Shard, Study, StudyCase};
 pub use summary::Estimate;

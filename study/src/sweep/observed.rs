@@ -1,6 +1,6 @@
 //! Indices that a study can observe, by name.
 
-use super::run::Observation;
+use super::observation::Observation;
 use dashpot_vehicle_run::{RideIndices, WheelIndices, WheelsetIndices};
 
 /// An index of a row.

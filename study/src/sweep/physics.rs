@@ -1,6 +1,6 @@
 //! The behaviour of the model that this program computes rows with.
 
-use super::row::Arithmetic;
+use super::arithmetic::Arithmetic;
 
 /// SHA-256, its first 16 digits, of the results of short runs with fused multiplication and without, on x86-64. A test
 /// recomputes and writes them (`tests/vehicle_validation/physics.rs`): a change of the model changes them, a change

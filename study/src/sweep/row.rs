@@ -1,7 +1,6 @@
 //! A row of a study: what a case is, and what was observed of it.
 
-use std::fmt;
-
+use super::arithmetic::Arithmetic;
 use super::digest::digest_of_cells;
 use super::physics::physics;
 use super::study::{Study, StudyCase};
@@ -17,40 +16,6 @@ pub struct Row {
     pub arithmetic: Arithmetic,
     /// The observed indices; none of a run that did not come to its end, or was too short.
     pub observed: Vec<Option<f64>>,
-}
-
-/// How a processor multiplies and adds.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Arithmetic {
-    /// With one rounding.
-    Fused,
-    /// With a rounding each.
-    Separate,
-}
-
-impl fmt::Display for Arithmetic {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.word())
-    }
-}
-
-impl Arithmetic {
-    /// Of this processor.
-    pub fn here() -> Self {
-        if dashpot_rail::fuses_multiplication() {
-            Self::Fused
-        } else {
-            Self::Separate
-        }
-    }
-
-    /// As rows have it.
-    pub const fn word(self) -> &'static str {
-        match self {
-            Self::Fused => "fused",
-            Self::Separate => "separate",
-        }
-    }
 }
 
 /// Why a record is no row of a study.

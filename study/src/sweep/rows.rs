@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 use std::io;
 use std::path::Path;
 
-use super::row::{Arithmetic, Row};
+use super::arithmetic::Arithmetic;
+use super::row::Row;
 use super::study::Study;
 use dashpot_files::FileError;
 use dashpot_files::input;

@@ -1,31 +1,20 @@
 //! The cases of a study, run.
 
+use super::arithmetic::Arithmetic;
+use super::observation::Observation;
 use super::observed::Observed;
-use super::row::{Arithmetic, Row};
+use super::row::Row;
 use super::shared::Shared;
 use super::study::Study;
 use dashpot_files::case::Case;
 use dashpot_files::study::{StudyFileError, Sweep};
-use dashpot_vehicle_run::{Ending, Indexer, Indices, ValidityWatch, VehicleRunError};
+use dashpot_vehicle_run::{Ending, Indexer, ValidityWatch, VehicleRunError};
 
 /// Last time of a run in which a limit cycle's amplitude is taken, s.
 const LAST_S: f64 = 3.0;
 
 /// Ticks between two looks whether the run is still wanted.
 const TICKS_A_LOOK: u64 = 1024;
-
-/// What indices are taken of.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Observation {
-    /// Indices of the run.
-    pub indices: Indices,
-    /// Greatest lateral displacement of a wheelset in the last 3 s, m.
-    pub last_lateral_m: f64,
-    /// Greatest load of a wheel over its load at standstill.
-    pub wheel_load_over_static: Option<f64>,
-    /// Longest time for which a wheel carried no load, s.
-    pub wheel_lift_longest_s: f64,
-}
 
 /// Runs a case to its end, or until it is unwanted; no observation of a run that does not come to its end.
 ///

@@ -16,7 +16,8 @@ use super::{DamperArguments, Format, RealtimeArguments, print_report};
 use crate::commands::failure::Outcome;
 use dashpot_files::Scalar;
 use dashpot_realtime::budget::{Length, free, paced};
-use dashpot_realtime::pacing::{MonotonicClock, Pacer, RATE_RANGE_HZ, overhead_ns};
+use dashpot_realtime::limits::RATE_RANGE_HZ;
+use dashpot_realtime::pacing::{MonotonicClock, Pacer, overhead_ns};
 use dashpot_realtime::timing::Machine;
 
 /// Time per step on this host: histogram, percentiles, worst case, missed deadlines.

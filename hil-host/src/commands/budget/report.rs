@@ -5,8 +5,9 @@ use std::io::{self, Write};
 use serde::Serialize;
 
 use dashpot_files::Scalar;
-use dashpot_realtime::budget::{Run, Series, Stop};
-use dashpot_realtime::pacing::RealtimeOptions;
+use dashpot_realtime::budget::{Run, Series};
+use dashpot_realtime::options::RealtimeOptions;
+use dashpot_realtime::stop::Stop;
 use dashpot_realtime::timing::{Bin, Figures, Machine, optional_span, span};
 
 /// What was run, and where.

@@ -69,7 +69,9 @@ pub fn drive<C: Clock>(
         driven.ticks += 1;
         let ended = stepped.or_else(|| exchange.after(run));
         // A thread that ended has met an error, which it reports.
-        let is_read = records.give(|record| record.copy(run)).is_ok();
+        let is_read = records
+            .give(|record| record.copy(run.time_s(), run.state()))
+            .is_ok();
         if let Some(ending) = ended {
             driven.ending = ending;
             break;

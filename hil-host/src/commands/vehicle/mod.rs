@@ -25,7 +25,8 @@ use crate::commands::failure::{Failure, Outcome};
 use dashpot_files::case::Case;
 use dashpot_files::output::{cannot_write_rows, create_folder, write_bytes, write_whole};
 use dashpot_realtime::handover::{Giver, handover};
-use dashpot_realtime::pacing::{Pacer, PacingReport, RealtimeOptions};
+use dashpot_realtime::options::RealtimeOptions;
+use dashpot_realtime::pacing::{Pacer, PacingReport};
 #[cfg(feature = "parquet")]
 use dashpot_recording::columns;
 use dashpot_vehicle_run::recorded::all_signals;
@@ -210,7 +211,7 @@ fn follow(
     let (exchange, mut beside) = outside.map(Outside::parts).unzip();
     let bar = progress::bar(run.ticks(), "vehicle");
     let _ends_gently = interruption::end_gently();
-    let (giver, taker) = handover(vec![TickRecord::new(run); RECORDS]);
+    let (giver, taker) = handover(vec![TickRecord::new(run.time_s(), run.state()); RECORDS]);
     let mut driven = None;
     write_whole::<Failure>(path, |file| {
         let failed = |error: csv::Error| cannot_write_rows(path, error);
