@@ -39,10 +39,10 @@ pub fn cannot_write_rows(path: &Path, error: csv::Error) -> FileError {
 ///
 /// # Errors
 /// As [`write_whole`].
-pub fn write_whole_if<E: From<FileError>>(
+pub fn write_whole_if<T, E: From<FileError>>(
     path: Option<&Path>,
-    write: impl FnOnce(Option<(&Path, &mut dyn Write)>) -> Result<(), E>,
-) -> Result<(), E> {
+    write: impl FnOnce(Option<(&Path, &mut dyn Write)>) -> Result<T, E>,
+) -> Result<T, E> {
     match path {
         Some(path) => write_whole(path, |file| write(Some((path, file)))),
         None => write(None),
@@ -50,15 +50,15 @@ pub fn write_whole_if<E: From<FileError>>(
 }
 
 /// Writes `path` through `write`; the file appears under its name only when `write` succeeded,
-/// and a file already there stays untouched otherwise. A link is followed; standard output (`-`), a
+/// and a file already there stays untouched otherwise. Returns what `write` returns. A link is followed; standard output (`-`), a
 /// device or a pipe, which cannot be replaced, is written to as it stands.
 ///
 /// # Errors
 /// What `write` returns, or the folder cannot be written.
-pub fn write_whole<E: From<FileError>>(
+pub fn write_whole<T, E: From<FileError>>(
     path: &Path,
-    write: impl FnOnce(&mut dyn Write) -> Result<(), E>,
-) -> Result<(), E> {
+    write: impl FnOnce(&mut dyn Write) -> Result<T, E>,
+) -> Result<T, E> {
     if is_standard_stream(path) {
         return write_through(path, io::stdout().lock(), write);
     }
@@ -67,7 +67,9 @@ pub fn write_whole<E: From<FileError>>(
         let file = file.map_err(|error| cannot_write(path, error))?;
         return write_through(path, file, write);
     }
-    Ok(Written::new(path, write)?.rename()?)
+    let (written, result) = Written::new(path, write)?;
+    written.rename()?;
+    Ok(result)
 }
 
 /// Whether `path` names a file that is or may be there, not standard output, a device or a pipe.
@@ -83,10 +85,10 @@ struct Written<'a> {
 }
 
 impl<'a> Written<'a> {
-    fn new<E: From<FileError>>(
+    fn new<T, E: From<FileError>>(
         path: &'a Path,
-        write: impl FnOnce(&mut dyn Write) -> Result<(), E>,
-    ) -> Result<Self, E> {
+        write: impl FnOnce(&mut dyn Write) -> Result<T, E>,
+    ) -> Result<(Self, T), E> {
         let failed = |error: io::Error| cannot_write(path, error);
         let old = std::fs::metadata(path).ok();
         let target = std::fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
@@ -100,17 +102,18 @@ impl<'a> Written<'a> {
         }
         let temporary = Temporary::new(folder).map_err(failed)?;
         let file = temporary.file().map_err(failed)?;
-        write_through(path, file, write)?;
+        let result = write_through(path, file, write)?;
         match old {
             Some(old) => file.set_permissions(old.permissions()),
             None => make_readable(file),
         }
         .map_err(failed)?;
-        Ok(Self {
+        let written = Self {
             path,
             target,
             temporary,
-        })
+        };
+        Ok((written, result))
     }
 
     fn rename(self) -> Result<(), FileError> {
@@ -120,15 +123,15 @@ impl<'a> Written<'a> {
     }
 }
 
-fn write_through<E: From<FileError>>(
+fn write_through<T, E: From<FileError>>(
     path: &Path,
     writer: impl Write,
-    write: impl FnOnce(&mut dyn Write) -> Result<(), E>,
-) -> Result<(), E> {
+    write: impl FnOnce(&mut dyn Write) -> Result<T, E>,
+) -> Result<T, E> {
     let mut writer = BufWriter::new(writer);
-    write(&mut writer)?;
-    let flushed = writer.flush();
-    Ok(flushed.map_err(|error| cannot_write(path, error))?)
+    let result = write(&mut writer)?;
+    writer.flush().map_err(|error| cannot_write(path, error))?;
+    Ok(result)
 }
 
 /// Writes `bytes` to `path`, whole or not at all.
@@ -148,7 +151,8 @@ pub fn write_together(files: &[(&Path, &[u8])]) -> Result<(), FileError> {
         .iter()
         .map(|&(path, bytes)| {
             if is_replaceable(path) {
-                Written::new(path, |file| write_all(file, path, bytes))
+                let (written, ()) = Written::new(path, |file| write_all(file, path, bytes))?;
+                Ok(written)
             } else {
                 Err(cannot_write(path, io::Error::other("it is not a file")))
             }

@@ -86,7 +86,7 @@ fn recorded(start_s: f64, x: &[f64], changes: &[&str], seed: u64) -> Result<Rows
 }
 
 fn write(path: &Path, rows: &Rows) -> Result<(), Box<dyn Error>> {
-    write_whole::<FileError>(path, |file| {
+    write_whole::<_, FileError>(path, |file| {
         let mut written = Written::new(path, file, Form::Mdf4, &COLUMNS)?;
         for row in rows {
             written.row(row, row)?;

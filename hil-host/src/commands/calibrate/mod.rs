@@ -150,7 +150,7 @@ pub fn run(arguments: &CalibrateArguments) -> Outcome<()> {
         Some(_) => page::write(&report, &calibration, &found)?,
         None => String::new(),
     };
-    write_whole_if::<FileError>(arguments.page.as_deref(), |to_page| {
+    write_whole_if::<_, FileError>(arguments.page.as_deref(), |to_page| {
         if let Some((path, to_page)) = to_page {
             to_page
                 .write_all(page.as_bytes())

@@ -55,7 +55,7 @@ pub(super) fn save(save: &SaveArguments, link: &LinkArguments) -> Outcome<()> {
         tick: 0,
         dampers: 0,
     };
-    write_whole::<Failure>(path, |file| {
+    write_whole::<_, Failure>(path, |file| {
         let bank = Target::open(&link.line)?.ask(&Request::Save, |response| match response {
             Response::Saved { tick, states } => BankState::from_bytes(tick, states),
             _ => None,

@@ -139,7 +139,7 @@ pub(super) fn run(telemetry: &TelemetryArguments, link: &LinkArguments) -> Outco
         output: path.map(|path| output::name(path).display().to_string()),
     };
     // The file is opened first: samples taken from a target cannot be taken again.
-    write_whole_if::<Failure>(path, |file| {
+    write_whole_if::<_, Failure>(path, |file| {
         let mut rows = file.map(|(path, file)| (path, csv::Writer::from_writer(file)));
         if let Some((path, rows)) = &mut rows {
             rows.write_record(["place", "tick", "displacement_m", "force_n", "status"])

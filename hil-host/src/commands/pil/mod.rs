@@ -110,23 +110,17 @@ pub fn run(arguments: &PilArguments) -> Outcome<()> {
         .map(load)
         .collect::<Result<_, _>>()?;
     let recording = Recording::open_with(&arguments.input, &arguments.recording.channels())?;
-    let mut found = None;
     // Both files are opened before the run, so that a file that cannot be written costs no run.
-    write_whole_if::<Failure>(arguments.page.as_deref(), |page| {
-        let mut history = None;
-        write_whole_if::<Failure>(arguments.output.as_deref(), |file| {
-            let (run, run_history) = drive(arguments, &parameters, recording, file)?;
-            found = Some(run);
-            history = Some(run_history);
-            Ok(())
+    let found = write_whole_if::<_, Failure>(arguments.page.as_deref(), |page| {
+        let (found, history) = write_whole_if(arguments.output.as_deref(), |file| {
+            drive(arguments, &parameters, recording, file)
         })?;
-        if let (Some((path, page)), Some(found), Some(history)) = (page, &found, &history) {
-            page.write_all(page::write(found, history)?.as_bytes())
+        if let Some((path, page)) = page {
+            page.write_all(page::write(&found, &history)?.as_bytes())
                 .map_err(|error| cannot_write(path, error))?;
         }
-        Ok(())
+        Ok(found)
     })?;
-    let found = found.ok_or_else(|| Failure::new("nothing was run"))?;
     let data = arguments
         .files()
         .find(|path| input::is_standard_stream(path));

@@ -132,20 +132,17 @@ pub fn run(arguments: &ReplayArguments) -> Outcome<()> {
     } else {
         None
     };
-    let mut written = None;
     let page = health.as_ref().map(health::Watched::page);
-    write_whole_if::<Failure>(page.map(|(path, _)| path), |to_page| {
+    let (summary, gaps) = write_whole_if(page.map(|(path, _)| path), |to_page| {
         if let (Some((path, to_page)), Some((_, text))) = (to_page, page) {
             let written = to_page.write_all(text.as_bytes());
             written.map_err(|error| cannot_write(path, error))?;
         }
-        written = Some(match arguments.scalar {
-            Scalar::F32 => write::<f32>(&parameters, arguments, pacer.as_mut())?,
-            Scalar::F64 => write::<f64>(&parameters, arguments, pacer.as_mut())?,
-        });
-        Ok(())
+        match arguments.scalar {
+            Scalar::F32 => write::<f32>(&parameters, arguments, pacer.as_mut()),
+            Scalar::F64 => write::<f64>(&parameters, arguments, pacer.as_mut()),
+        }
     })?;
-    let (summary, gaps) = written.ok_or_else(|| Failure::new("nothing was replayed"))?;
     let report = Report {
         ticks: summary.ticks,
         step_s: arguments.step_us.step_s(),
@@ -187,12 +184,11 @@ fn write<T: Real + Serialize>(
         Recording::open_with(&arguments.input, &arguments.recording.channels())?,
         step_s,
     )?;
-    let mut summary = None;
     let form = Form::of(&arguments.output).map_err(Failure::wrong_use)?;
-    write_whole::<Failure>(&arguments.output, |file| {
+    let summary = write_whole::<_, Failure>(&arguments.output, |file| {
         let mut rows = Written::new(&arguments.output, file, form, &COLUMNS)?;
         let mut number = 0_u32;
-        summary = Some(replay(&damper, &mut ticks, pacer, |tick, force, ticks| {
+        let summary = replay(&damper, &mut ticks, pacer, |tick, force, ticks| {
             number = number.wrapping_add(1);
             if number.is_multiple_of(65_536) {
                 bar.set_position(ticks.recording().position());
@@ -202,11 +198,11 @@ fn write<T: Real + Serialize>(
                 &[time_s, tick.displacement_m, force.to_f64()],
                 (time_s, tick.displacement_m, force),
             )
-        })?);
-        Ok(rows.finish()?)
+        })?;
+        rows.finish()?;
+        Ok(summary)
     })?;
     bar.finish_and_clear();
-    let summary = summary.ok_or_else(|| Failure::new("nothing was replayed"))?;
     Ok((summary, ticks.recording().gaps()))
 }
 

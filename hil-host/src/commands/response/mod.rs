@@ -90,26 +90,23 @@ pub fn run(arguments: &ResponseArguments) -> Outcome<()> {
     arguments.check_files()?;
     let dampers = family::dampers(arguments)?;
     let frequencies_hz = arguments.frequencies_hz()?;
-    let mut found = None;
     // Both files are opened before the run, so that a file that cannot be written costs no run.
-    write_whole_if::<Failure>(arguments.page.as_deref(), |page| {
-        write_whole_if::<Failure>(arguments.output.as_deref(), |file| {
+    let report = write_whole_if::<_, Failure>(arguments.page.as_deref(), |page| {
+        let report = write_whole_if::<_, Failure>(arguments.output.as_deref(), |file| {
             let bar = progress::bar(0, "responses");
             let report = Report::new(arguments, &dampers, &frequencies_hz)?;
             bar.finish_and_clear();
             if let Some((path, file)) = file {
                 rows::write(path, file, &report)?;
             }
-            found = Some(report);
-            Ok(())
+            Ok(report)
         })?;
-        if let (Some((path, page)), Some(report)) = (page, &found) {
-            page.write_all(page::write(report)?.as_bytes())
+        if let Some((path, page)) = page {
+            page.write_all(page::write(&report)?.as_bytes())
                 .map_err(|error| cannot_write(path, error))?;
         }
-        Ok(())
+        Ok(report)
     })?;
-    let report = found.ok_or_else(|| Failure::new("nothing was run"))?;
     let data = arguments.files().find(|path| is_standard_stream(path));
     print_report_beside(
         data.unwrap_or(Path::new("")),

@@ -212,15 +212,14 @@ fn follow(
     let bar = progress::bar(run.ticks(), "vehicle");
     let _ends_gently = interruption::end_gently();
     let (giver, taker) = handover(vec![TickRecord::new(run.time_s(), run.state()); RECORDS]);
-    let mut driven = None;
-    write_whole::<Failure>(path, |file| {
+    let (driven, pacing) = write_whole::<_, Failure>(path, |file| {
         let failed = |error: csv::Error| cannot_write_rows(path, error);
         let mut rows = csv::Writer::from_writer(file);
         rows.write_record(all.iter().map(signals::Signal::name))
             .map_err(failed)?;
         let mut row: Vec<f64> = Vec::with_capacity(all.len());
         let mut ticks = 0_u64;
-        std::thread::scope(|scope| {
+        let driven = std::thread::scope(|scope| {
             let stepping = std::thread::Builder::new()
                 .name("ticks".into())
                 .spawn_scoped(scope, || step_through(case, run, exchange, realtime, giver));
@@ -252,13 +251,12 @@ fn follow(
             drop(taker);
             let joined = stepping.join();
             written.map_err(failed)?;
-            driven = Some(joined.map_err(|_| Failure::new("the thread of the ticks failed"))??);
-            Ok::<(), Failure>(())
+            joined.map_err(|_| Failure::new("the thread of the ticks failed"))?
         })?;
-        Ok(rows.flush().map_err(|error| failed(error.into()))?)
+        rows.flush().map_err(|error| failed(error.into()))?;
+        Ok(driven)
     })?;
     bar.finish_and_clear();
-    let (driven, pacing) = driven.ok_or_else(|| Failure::new("nothing was run"))?;
     let warnings = watch.warnings();
     let report = Report::new(case, &driven, indexer.indices(), warnings, pacing);
     Ok((history, report))

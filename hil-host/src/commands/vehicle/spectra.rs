@@ -53,7 +53,7 @@ pub(super) fn add_history(spectra: &mut [Spectrum], from: &Path) -> Outcome<()> 
 /// A file that cannot be written.
 pub(super) fn write(spectra: &[Spectrum], to: &Path) -> Outcome<()> {
     let densities: Vec<_> = spectra.iter().map(Spectrum::density).collect();
-    write_whole::<Failure>(to, |file| {
+    write_whole::<_, Failure>(to, |file| {
         let failed = |error: csv::Error| cannot_write_rows(to, error);
         let mut rows = csv::Writer::from_writer(file);
         let names = spectra.iter().map(Spectrum::name);
