@@ -1,4 +1,4 @@
-//! The C functions, called as C does: the core's bits, and a code for every wrong call.
+//! The C functions, called as from C: they have the bits of the core, and each wrong call returns a code.
 
 mod common;
 
@@ -14,16 +14,16 @@ const IMAGE: usize = DASHPOT_IMAGE_SIZE;
 const SAVED: usize = DASHPOT_SAVED_STATE_SIZE;
 const DONE: DashpotError = DashpotError::None;
 
-/// One tick, or one bit, of so many is tried under Miri, which is slow.
+/// Under Miri, which is slow, the tests use one tick or one bit of this many.
 const EVERY: usize = if cfg!(miri) { 50 } else { 1 };
 
-/// A damper made from the image of `core`, in storage of arbitrary content.
+/// Initialises a damper from the image of `core`, in storage with arbitrary content.
 fn made(core: &Damper<f32>) -> DashpotDamper {
     let mut damper = DashpotDamper {
         opaque: [0xdead_beef; DASHPOT_DAMPER_WORDS],
     };
     let image = core.to_image();
-    // SAFETY: all three are what they are said to be.
+    // SAFETY: the arguments are as the function requires.
     let done = unsafe { dashpot_damper_init(&mut damper, image.as_ptr(), image.len()) };
     assert_eq!(done, DONE);
     damper
@@ -71,7 +71,7 @@ fn restore(damper: &DashpotDamper, state: &mut DashpotState, saved: &[u8]) -> Da
     unsafe { dashpot_state_restore(state, damper, saved.as_ptr(), saved.len()) }
 }
 
-/// 2 mm at 2 Hz, with values a sensor may give jumps out of range and within it.
+/// 2 mm at 2 Hz, with faulty values of a sensor and jumps within and beyond the range.
 fn displacement(tick: u32) -> f32 {
     match tick {
         200 => f32::NAN,
@@ -313,7 +313,7 @@ fn a_wrong_saved_state_changes_nothing() {
         restore(&other, &mut state, &saved),
         DashpotError::WrongDamper
     );
-    // A state that no step leaves, its CRC-32 right.
+    // An impossible state with a correct CRC-32.
     let mut forged = state;
     forged.opaque[3] = f32::NAN.to_bits();
     assert_eq!(
@@ -323,7 +323,7 @@ fn a_wrong_saved_state_changes_nothing() {
     assert_eq!(state.opaque, before);
 }
 
-/// Every pointer of every function, null and misaligned in turn, the others right.
+/// Each pointer of each function is null and then misaligned, with the others valid.
 #[test]
 fn null_and_misaligned_pointers_are_codes() {
     let core = core_damper(120e3);
@@ -442,7 +442,7 @@ fn storage_without_a_damper_is_refused() {
 
 #[test]
 fn every_code_has_its_own_text_and_no_other_number_crashes() {
-    const UNKNOWN: &str = "no code of this library";
+    const UNKNOWN: &str = "unknown code";
     // SAFETY: the text is static and ends in a zero.
     let found = |code| unsafe { CStr::from_ptr(dashpot_error_text(code)) };
     let text = |code| found(code).to_str().unwrap();

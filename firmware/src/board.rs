@@ -98,10 +98,7 @@ pub fn start_clock() -> Clock {
     write(TIMER_RELOAD, u32::MAX);
     write(TIMER_VALUE, u32::MAX);
     write(TIMER_CONTROL, 1);
-    Clock {
-        now: clock_now,
-        hz: CLOCK_HZ,
-    }
+    Clock::new(clock_now, CLOCK_HZ)
 }
 
 /// Clock ticks since the start, wrapping, [`CLOCK_HZ`] a second. The processor's own cycle counter

@@ -17,7 +17,7 @@ static DAMPER: Damper<f32> = {
 
 fuzz_target!(|bytes: &[u8]| {
     let mut reader = FrameReader::<REQUEST_BYTES>::new();
-    let clock = Clock { now: || 0, hz: 1 };
+    let clock = Clock::new(|| 0, 1);
     let mut device = Box::new(Device::<2, 2>::new());
     device.start(&[&DAMPER; 2], clock).expect("one step");
     for byte in bytes.iter().chain(&[0]).chain(&signed(bytes)) {

@@ -93,7 +93,6 @@ fn corners(name: &str) -> Vec<(String, f64)> {
         .expect("a row of the table");
     let law = Characteristic::new(&damper(preset, overrides).check().expect("a valid damper"));
     law.corners()
-        .iter()
         .map(|(corner, force)| {
             let what = match corner {
                 Corner::PistonValveOpens => "P",

@@ -13,7 +13,7 @@ use core::fmt::Write;
 use cortex_m_rt::entry;
 use dashpot_core::health::HealthModel;
 use dashpot_core::link::{
-    Device, Frame, Header, Line, MEASURED_BYTES, MOST_MEASURED, PROTOCOL, Reals, Request,
+    Device, Frame, Header, Line, MAX_MEASURED, MEASURED_BYTES, PROTOCOL, Reals, Request,
 };
 use dashpot_firmware::bank::{BANK, DAMPERS};
 use dashpot_firmware::board::{self, CLOCK_HZ, Port, Uart};
@@ -23,7 +23,7 @@ use dashpot_firmware::safe_state;
 use static_cell::ConstStaticCell;
 
 const REQUESTS: usize = 1000;
-/// Of measured samples, [`MOST_MEASURED`] each.
+/// Of measured samples, [`MAX_MEASURED`] each.
 const MEASUREMENTS: u32 = 500;
 /// Force over displacement of the samples measured (N/m): large enough to be in contact most of the time.
 const STIFFNESS_N_PER_M: f32 = 4e5;
@@ -196,10 +196,10 @@ fn measure_health(
     frame.write(&(header(sequence), load));
     cost.slice = ask(device, outputs, frame.bytes()).slice;
     for number in 0..MEASUREMENTS {
-        let mut samples = [0; MEASURED_BYTES * MOST_MEASURED];
+        let mut samples = [0; MEASURED_BYTES * MAX_MEASURED];
         let (rows, _) = samples.as_chunks_mut::<4>();
         for (place, row) in rows.iter_mut().enumerate() {
-            let tick = number * MOST_MEASURED as u32 + place as u32 / 2;
+            let tick = number * MAX_MEASURED as u32 + place as u32 / 2;
             let displacement_m = triangle(tick);
             let is_force = place % 2 == 1;
             let force_n = STIFFNESS_N_PER_M * displacement_m;

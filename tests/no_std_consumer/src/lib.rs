@@ -87,12 +87,12 @@ pub extern "C" fn checked_telemetry(
     state: &DamperState<f32>,
     tick: u32,
 ) -> f32 {
-    telemetry.record(Sample {
+    telemetry.record(Sample::new(
         tick,
-        displacement_m: state.displacement_m(),
-        force_n: state.force_n(),
-        status: state.status(),
-    });
+        state.displacement_m(),
+        state.force_n(),
+        state.status(),
+    ));
     let oldest = telemetry.take().unwrap_or_default();
     oldest.force_n + telemetry.approximate_rms_force_n()
 }
