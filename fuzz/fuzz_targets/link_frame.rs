@@ -1,6 +1,6 @@
-//! Any bytes on the link: refused or answered, and the next frame after a zero is read.
+//! Receives any bytes on the link. They are refused or answered, and the next frame after a zero is read.
 //!
-//! Changed frames never have the right CRC-32, so the same bytes come a second time with it made right.
+//! Mutated frames never have a correct CRC-32, so the same bytes are sent again with a corrected CRC-32.
 #![no_main]
 
 use dashpot::signed_image::crc_32;
@@ -8,7 +8,7 @@ use dashpot_core::Damper;
 use dashpot_core::link::{Clock, Device, FrameReader, REQUEST_BYTES, ResponseFrame};
 use libfuzzer_sys::fuzz_target;
 
-/// Of zeros but for its step, that of the seed's model of health.
+/// A damper of zeros except its step, which is that of the health model among the seeds.
 static DAMPER: Damper<f32> = {
     let mut words = [0; Damper::<f32>::WORDS];
     words[3] = 1e-3_f32.to_bits();
@@ -39,7 +39,7 @@ fuzz_target!(|bytes: &[u8]| {
     assert!(read.eq([true]));
 });
 
-/// The frames between zeros, each with the CRC-32 of its message.
+/// Returns the frames between zeros, each with the CRC-32 of its message.
 fn signed(bytes: &[u8]) -> Vec<u8> {
     let mut stream = Vec::new();
     for frame in bytes.split(|byte| *byte == 0) {
