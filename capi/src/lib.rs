@@ -3,9 +3,9 @@
 //! Each function first checks all its arguments, then does its work or nothing. The library is for targets, so it has
 //! single precision only. On a desktop use dashpot-core.
 //!
-//! The caller's promise for every function: a pointer that is neither null nor misaligned points to storage of its type,
-//! or to as many bytes or elements as the length or count says. During the call nothing else changes that storage, or
-//! uses storage that the call changes.
+//! The caller's promise for every function: a pointer that is neither null nor misaligned points to storage of its
+//! type, or to as many bytes or elements as the length or count says. During the call nothing else changes that
+//! storage, or uses storage that the call changes.
 #![no_std]
 #![warn(missing_docs)]
 #![allow(clippy::missing_safety_doc)] // the promise above and the header are the safety documentation

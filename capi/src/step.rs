@@ -20,10 +20,10 @@ fn check_state(damper: &Damper<f32>, state: &DamperState<f32>) -> Result<(), Das
 
 /// Steps one damper: computes the force at this tick for the displacement of this tick.
 ///
-/// A displacement that is NaN, infinite, out of range or too fast is not an error: it is held or limited, latched in the
-/// status and counted. If it is too far away to catch up with, the damper restarts there at rest. An impossible state
-/// restarts at rest and latches `DASHPOT_STATUS_CORRUPTED`. The force is finite and within the force limit, even if damper
-/// or state are damaged. Some 195 instructions on a Cortex-M7.
+/// A displacement that is NaN, infinite, out of range or too fast is not an error: it is held or limited, latched in
+/// the status and counted. If it is too far away to catch up with, the damper restarts there at rest. An impossible
+/// state restarts at rest and latches `DASHPOT_STATUS_CORRUPTED`. The force is finite and within the force limit, even
+/// if damper or state are damaged. Some 195 instructions on a Cortex-M7.
 ///
 /// @param damper          initialised by `dashpot_damper_init`
 /// @param state           from `dashpot_state_init` or `dashpot_state_restore`, changed
@@ -95,8 +95,8 @@ pub unsafe extern "C" fn dashpot_step_bank(
             check_state(damper, unsafe { shared(states.add(index).cast()) }?)?;
         }
         for index in 0..count {
-            // SAFETY: within the caller's arrays, checked, and the caller's promise. Each displacement is read before its
-            // force is written, so displacements and forces can be the same array.
+            // SAFETY: within the caller's arrays, checked, and the caller's promise. Each displacement is read before
+            // its force is written, so displacements and forces can be the same array.
             unsafe {
                 let damper = made(*dampers.add(index))?;
                 let state: &mut DamperState<f32> = exclusive(states.add(index).cast())?;

@@ -214,8 +214,8 @@ pub const DASHPOT_HEALTH_LITTLE_EXCITATION: u16 = 8;
 pub const DASHPOT_HEALTH_INPUT_REJECTED: u16 = 16;
 /// Latched: the estimate was damaged or contradicted the samples for long, and restarted.
 pub const DASHPOT_HEALTH_RESTARTED: u16 = 32;
-/// Alarm, latched: the damper moved, but the force is zero or does not change. Possible causes are a dead or stuck force
-/// channel, oil full of air, or a clearance wider than the motion. Do not trust the estimates.
+/// Alarm, latched: the damper moved, but the force is zero or does not change. Possible causes are a dead or stuck
+/// force channel, oil full of air, or a clearance wider than the motion. Do not trust the estimates.
 pub const DASHPOT_HEALTH_NO_FORCE: u16 = 64;
 /// Alarm, latched: the force sensor has a zero offset. The estimates are corrected for it.
 pub const DASHPOT_HEALTH_FORCE_ZERO: u16 = 128;

@@ -1,5 +1,5 @@
-//! Checks that the committed header equals the one cbindgen generates from the sources, with the version and sizes of this
-//! library.
+//! Checks that the committed header equals the one cbindgen generates from the sources, with the version and sizes of
+//! this library.
 //!
 //! `DASHPOT_BLESS=1 cargo test --manifest-path capi/Cargo.toml --test header` writes the header.
 

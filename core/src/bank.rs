@@ -1,7 +1,7 @@
 //! Several dampers in one call: the same bits as single steps, in less time.
 //!
-//! In one step each operation waits for the result of the previous one. Steps of different dampers are independent, so a
-//! bank steps eight dampers together on processors with vector instructions.
+//! In one step each operation waits for the result of the previous one. Steps of different dampers are independent, so
+//! a bank steps eight dampers together on processors with vector instructions.
 
 use crate::damper::Damper;
 use crate::math::Real;

@@ -48,8 +48,8 @@ impl Characteristic {
         }
     }
 
-    /// Returns the force (N) at a constant velocity (m/s). Both are positive in extension. The force is 0 at rest and never
-    /// exceeds the yield force.
+    /// Returns the force (N) at a constant velocity (m/s). Both are positive in extension. The force is 0 at rest and
+    /// never exceeds the yield force.
     pub fn force_n(&self, velocity_m_per_s: f64) -> f64 {
         if velocity_m_per_s == 0.0 {
             return 0.0;

@@ -59,9 +59,9 @@ impl<T: Real> Damper<T> {
 
     /// Returns a state at rest at `displacement` (m), centred in the clearance, without force.
     ///
-    /// A displacement that is not finite or beyond [`Damper::largest_displacement_m`] is rejected, counted and latched as
-    /// [`Status::INPUT_HELD`]. The state then starts at an end of the range. From there the first good displacement is too
-    /// far to catch up with, so the damper restarts at it without force.
+    /// A displacement that is not finite or beyond [`Damper::largest_displacement_m`] is rejected, counted and latched
+    /// as [`Status::INPUT_HELD`]. The state then starts at an end of the range. From there the first good displacement
+    /// is too far to catch up with, so the damper restarts at it without force.
     pub fn at_rest(&self, displacement: T) -> DamperState<T> {
         if self.is_displacement(displacement) {
             let numbers = [displacement, T::ZERO, T::ZERO, T::ZERO];
@@ -99,7 +99,8 @@ impl<T: Real> Damper<T> {
         self.scalars.half_clearance + self.scalars.half_clearance
     }
 
-    /// Force at which the element yields (N). No step returns more. At most [`MAX_FORCE_N`], even with damaged constants.
+    /// Force at which the element yields (N). No step returns more. At most [`MAX_FORCE_N`], even with damaged
+    /// constants.
     pub fn force_limit_n(&self) -> T {
         let limit = self.scalars.half_force_limit + self.scalars.half_force_limit;
         let max = T::from_f64(MAX_FORCE_N);
@@ -110,8 +111,8 @@ impl<T: Real> Damper<T> {
         }
     }
 
-    /// For each bin of the reach, the index of the piece at its lower border in extension and in compression. The pieces of
-    /// compression follow those of extension.
+    /// For each bin of the reach, the index of the piece at its lower border in extension and in compression. The
+    /// pieces of compression follow those of extension.
     ///
     /// A step in another language needs these bins and [`Damper::to_words`].
     pub fn bins(&self) -> &[[u8; 2]] {

@@ -36,8 +36,8 @@ impl Oil {
 
     /// Kinematic viscosity at the working temperature (m^2/s).
     ///
-    /// Walther's law (ASTM D341) through the two given points: `log10(log10(nu + 0.7)) = A - B log10(T)`, nu in mm^2/s and
-    /// T in K.
+    /// Walther's law (ASTM D341) through the two given points: `log10(log10(nu + 0.7)) = A - B log10(T)`, nu in mm^2/s
+    /// and T in K.
     pub fn kinematic_viscosity_m2_per_s(&self) -> f64 {
         let ordinate = |viscosity: f64| log10(log10(viscosity * 1e6 + 0.7));
         let abscissa = |celsius: f64| log10(celsius + ZERO_CELSIUS_K);

@@ -14,8 +14,8 @@ pub(crate) const MAX_BOUND_M: f64 = 1.45;
 pub struct Scalars<T> {
     /// Largest credible move of the input in a step (m), stored with doubled bits.
     pub(crate) move_bound: T,
-    /// Number (m) whose addition and subtraction rounds a travel to the grid of positions. Sums of such travels are exact,
-    /// so a piston at rest in its clearance does not drift.
+    /// Number (m) whose addition and subtraction rounds a travel to the grid of positions. Sums of such travels are
+    /// exact, so a piston at rest in its clearance does not drift.
     pub(crate) position_rounder: T,
     /// Number (m) whose addition and subtraction rounds a stretch far below the grid to zero.
     pub(crate) rest_rounder: T,

@@ -71,7 +71,8 @@ impl<T: Real> DamperState<T> {
 
     /// True for a state, false for uninitialised memory (with any usual fill pattern).
     ///
-    /// For programs whose states come from elsewhere than [`Damper::at_rest`](crate::Damper::at_rest), for example in C.
+    /// For programs whose states come from elsewhere than [`Damper::at_rest`](crate::Damper::at_rest), for example in
+    /// C.
     ///
     /// ```
     /// assert!(dashpot_core::DamperState::<f32>::default().is_marked());

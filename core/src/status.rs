@@ -11,8 +11,8 @@ bitflags::bitflags! {
     /// ```
     #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
     pub struct Status: u16 {
-        /// A displacement was not finite, outside the damper's range, or too far from the previous one to catch up with.
-        /// The last good displacement was held.
+        /// A displacement was not finite, outside the damper's range, or too far from the previous one to catch up
+        /// with. The last good displacement was held.
         const INPUT_HELD = 1;
         /// The displacement changed faster than the configured rate and was followed at that rate.
         const INPUT_LIMITED = 1 << 1;

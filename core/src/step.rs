@@ -4,9 +4,9 @@
 //! the single equation `du/dt = dx/dt - f(u)`, where `f = v_h(F(u))` is zero in the clearance and increases beyond it.
 //!
 //! A step has two implicit stages (Alexander's SDIRK2, gamma = 1 - 1/sqrt 2: second order, L-stable, last stage at the
-//! tick). It then corrects the flow by the difference between its exact mean along the straight path of the step and the
-//! quadrature of the stages. The correction vanishes for linear f, so the stages determine stability and order. If f has
-//! a root (orifice) or a corner (clearance edge) inside the step, the correction removes the leading error. See
+//! tick). It then corrects the flow by the difference between its exact mean along the straight path of the step and
+//! the quadrature of the stages. The correction vanishes for linear f, so the stages determine stability and order. If
+//! f has a root (orifice) or a corner (clearance edge) inside the step, the correction removes the leading error. See
 //! docs/numerics.md.
 
 use crate::damper::Damper;
@@ -30,12 +30,12 @@ impl<T: Real> Damper<T> {
     /// The displacement is positive in extension, the force when it resists extension. The displacement is interpolated
     /// linearly since the last tick, which adds no delay.
     ///
-    /// The step never fails: bad input is held or limited, and the status of the state latches it. The force is finite and
-    /// at most [`Damper::force_limit_n`] in magnitude, even if the damper or the state is damaged.
+    /// The step never fails: bad input is held or limited, and the status of the state latches it. The force is finite
+    /// and at most [`Damper::force_limit_n`] in magnitude, even if the damper or the state is damaged.
     ///
-    /// A state that another damper stepped before is adopted first and keeps its force. An impossible state (a number that
-    /// is not finite, a stretch beyond the reach of the damper, a displacement outside its range) restarts at rest and
-    /// latches [`Status::CORRUPTED`].
+    /// A state that another damper stepped before is adopted first and keeps its force. An impossible state (a number
+    /// that is not finite, a stretch beyond the reach of the damper, a displacement outside its range) restarts at rest
+    /// and latches [`Status::CORRUPTED`].
     #[inline]
     pub fn step(&self, state: &mut DamperState<T>, displacement: T) -> T {
         let [force] = step::<T, T, 1>([self], core::array::from_mut(state), [displacement]);
@@ -44,11 +44,11 @@ impl<T: Real> Damper<T> {
 
     /// Takes over a state of another damper.
     ///
-    /// Displacement and force remain, within the limits of this damper. The stretch becomes that of this damper under the
-    /// same force; without force it remains, within the clearance.
+    /// Displacement and force remain, within the limits of this damper. The stretch becomes that of this damper under
+    /// the same force; without force it remains, within the clearance.
     ///
-    /// [`Damper::step`] calls this when needed. Call it between ticks so that the next tick has its usual cost. The work is
-    /// fixed: 26 stages in `f32`, 55 in `f64`.
+    /// [`Damper::step`] calls this when needed. Call it between ticks so that the next tick has its usual cost. The
+    /// work is fixed: 26 stages in `f32`, 55 in `f64`.
     pub fn adopt(&self, state: &mut DamperState<T>) {
         let a = self.scalars.half_clearance;
         let limit = self.force_limit_n();
@@ -84,8 +84,8 @@ pub(crate) fn step<T: Real, V: Lanes<T, L>, const L: usize>(
     }
 }
 
-/// True if all dampers can take the usual step: each stepped its state last, the state is possible, and displacement and
-/// travel (m) are within their bounds. A damaged displacement in the state gives a travel out of bounds.
+/// True if all dampers can take the usual step: each stepped its state last, the state is possible, and displacement
+/// and travel (m) are within their bounds. A damaged displacement in the state gives a travel out of bounds.
 #[inline(always)]
 fn is_usual<T: Real, V: Lanes<T, L>, const L: usize>(
     dampers: [&Damper<T>; L],

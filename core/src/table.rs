@@ -1,9 +1,9 @@
 //! Piecewise cubics in the reach of a stage, found and evaluated in constant time.
 //!
-//! The knots are at the corners of the law, with more between them where the law is curved, so they are not equally spaced.
-//! Bins find the piece of a reach. The exponent and the leading bits of the fraction of the reach select a bin, with 128
-//! bins for each doubling. A bin contains the index of the piece at its lower border. At most [`KNOTS_PER_BIN`] knots lie
-//! within a bin, so this number of comparisons finds the piece.
+//! The knots are at the corners of the law, with more between them where the law is curved, so they are not equally
+//! spaced. Bins find the piece of a reach. The exponent and the leading bits of the fraction of the reach select a bin,
+//! with 128 bins for each doubling. A bin contains the index of the piece at its lower border. At most
+//! [`KNOTS_PER_BIN`] knots lie within a bin, so this number of comparisons finds the piece.
 
 use crate::encoding::checksum;
 use crate::math::Lanes;

@@ -6,8 +6,8 @@ use crate::state::DamperState;
 use crate::status::Status;
 use crate::step::state_at_force;
 
-/// Time in which the damper can catch up with its input at its largest rate (s). If the input is farther away, the force
-/// falls from its limit to zero in the same time.
+/// Time in which the damper can catch up with its input at its largest rate (s). If the input is farther away, the
+/// force falls from its limit to zero in the same time.
 const CATCH_UP_S: f64 = 0.01;
 
 /// Smallest decrease of the force in a step as a fraction of the force limit (1): that of the shortest step.

@@ -27,7 +27,8 @@ pub struct Returned {
 
 /// Calls the function at an address.
 ///
-/// The count always includes the same two additional instructions. Measure a function of one instruction to subtract them.
+/// The count always includes the same two additional instructions. Measure a function of one instruction to subtract
+/// them.
 ///
 /// # Safety
 /// `function` must take arguments of these types with valid addresses, and return.

@@ -1,7 +1,7 @@
 //! A bank of dampers behind a serial link.
 //!
-//! One loop owns the device. It runs the ticks that SysTick counted, then does one thing for the link. Nothing blocks, so
-//! the longest request bounds the delay of a tick; overruns are counted.
+//! One loop owns the device. It runs the ticks that SysTick counted, then does one thing for the link. Nothing blocks,
+//! so the longest request bounds the delay of a tick; overruns are counted.
 #![no_std]
 #![no_main]
 

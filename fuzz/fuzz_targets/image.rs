@@ -1,5 +1,5 @@
-//! Reads any bytes as the image of a damper or as a saved state. They are refused, or the force of the damper is within its
-//! limit.
+//! Reads any bytes as the image of a damper or as a saved state. They are refused, or the force of the damper is within
+//! its limit.
 //!
 //! Random bytes never have a correct CRC-32 and correct revisions, so the target corrects them. Most images with finite
 //! numbers are then dampers.

@@ -1,5 +1,5 @@
-//! Reads any text as a track file. It is refused, or the track is finite everywhere. Irregularity is generated if that is
-//! quick.
+//! Reads any text as a track file. It is refused, or the track is finite everywhere. Irregularity is generated if that
+//! is quick.
 #![no_main]
 
 use std::path::Path;

@@ -5,8 +5,8 @@ use std::sync::{Mutex, PoisonError};
 use dashpot_core::Damper;
 use dashpot_core::parameters::{DamperParameters, Mount};
 
-/// Returns a reduced damper with a clearance for a step of 1 ms. It is built once for each damping, because a build takes
-/// seconds under Miri.
+/// Returns a reduced damper with a clearance for a step of 1 ms. It is built once for each damping, because a build
+/// takes seconds under Miri.
 pub fn core_damper(damping_n_s_per_m: f64) -> Damper<f32> {
     static BUILT: Mutex<Vec<(f64, Damper<f32>)>> = Mutex::new(Vec::new());
     let mut built = BUILT.lock().unwrap_or_else(PoisonError::into_inner);

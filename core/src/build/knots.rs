@@ -14,8 +14,8 @@ const TOLERANCE: f64 = 1e-9;
 /// Relative excess of the table's force over the limit at the yield point (1), larger than rounding in `f32`.
 const YIELD_MARGIN: f64 = 1e-5;
 
-/// Smallest distance of two knots relative to their reach (1). Double precision cannot resolve a cubic over a much shorter
-/// span. Two corners can be closer, for example if the relief valve opens as the vapour disappears.
+/// Smallest distance of two knots relative to their reach (1). Double precision cannot resolve a cubic over a much
+/// shorter span. Two corners can be closer, for example if the relief valve opens as the vapour disappears.
 const MIN_SEPARATION: f64 = 1e-9;
 
 /// One span for each piece except the last, which is beyond the limit.

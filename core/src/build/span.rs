@@ -128,8 +128,8 @@ impl Span {
         self.cubic_of(knot, NODES.map(|node| quantity(&self.samples[node])))
     }
 
-    /// Returns the cubic of the flow potential times the step (m^2) and its value at the end; `start` is its value at the
-    /// start.
+    /// Returns the cubic of the flow potential times the step (m^2) and its value at the end; `start` is its value at
+    /// the start.
     pub(super) fn potential(&self, stage: &Stage<'_>, knot: f64, start: f64) -> ([f64; 4], f64) {
         let mut values = [start; NODES.len()];
         for third in 1..values.len() {

@@ -95,8 +95,8 @@ macro_rules! saved_state {
             /// Restores the state of [`DamperState::save`], identical in every bit.
             ///
             /// # Errors
-            /// The bytes are damaged or not a saved state, the state belongs to another damper, or a number cannot result
-            /// from a step of this damper.
+            /// The bytes are damaged or not a saved state, the state belongs to another damper, or a number cannot
+            /// result from a step of this damper.
             ///
             /// ```
             /// # #[cfg(feature = "builder")] {

@@ -11,8 +11,8 @@ macro_rules! state_bytes {
             /// Number of bytes of a state.
             pub const BYTES: usize = $bytes;
 
-            /// Returns this state as plain little-endian bytes: displacement, stretch, flow potential, force, then revision
-            /// (4 bytes), status bits (2) and rejected inputs (2).
+            /// Returns this state as plain little-endian bytes: displacement, stretch, flow potential, force, then
+            /// revision (4 bytes), status bits (2) and rejected inputs (2).
             pub fn to_bytes(&self) -> [u8; $bytes] {
                 let reals = [self.displacement, self.stretch, self.potential, self.force];
                 let reals = reals.into_iter().flat_map($float::to_le_bytes);

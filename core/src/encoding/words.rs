@@ -21,8 +21,8 @@ macro_rules! words {
             /// Returns the damper of these words, also at compile time. Does not need the `builder` feature.
             ///
             /// Order: scalars, revision, revision of the table, pieces. Each piece has four coefficients each of flow,
-            /// potential and stiffness, then its knot. Words that are not from [`Self::to_words`] of this version are safe,
-            /// but give meaningless forces.
+            /// potential and stiffness, then its knot. Words that are not from [`Self::to_words`] of this version are
+            /// safe, but give meaningless forces.
             ///
             /// ```
             /// use dashpot_core::Damper;

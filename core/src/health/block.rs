@@ -149,8 +149,8 @@ impl Gathered {
         self.offset += 1.0;
     }
 
-    /// Leaves out a sample, so that its block gives no measurement. True if the block has no sample at all: then the travel
-    /// of the piston is unknown.
+    /// Leaves out a sample, so that its block gives no measurement. True if the block has no sample at all: then the
+    /// travel of the piston is unknown.
     pub(crate) fn leave_out(&mut self, model: &HealthModel, displacement: f32) -> bool {
         let is_blind = self.ticks_left == 1 && self.offset <= -model.block_centre;
         if is_blind {

@@ -123,8 +123,8 @@ impl HealthSettings {
 }
 
 impl CheckedParameters {
-    /// Builds the constants for [`Health`](crate::health::Health) of a damper with these parameters, sampled at each step
-    /// (s).
+    /// Builds the constants for [`Health`](crate::health::Health) of a damper with these parameters, sampled at each
+    /// step (s).
     ///
     /// # Errors
     /// A setting out of its range, or a step outside 1e-5 to 2e-3 s.
@@ -237,8 +237,8 @@ impl CheckedParameters {
 
 /// Fits a line to a law over a piece and returns its value at zero force and its slope.
 ///
-/// The slope is that between both ends. The mean over the piece equals that of the law (Simpson's rule), so errors of the
-/// summed travel cancel.
+/// The slope is that between both ends. The mean over the piece equals that of the law (Simpson's rule), so errors of
+/// the summed travel cancel.
 fn line(law: &dyn Fn(f64) -> f64, from: f64, to: f64) -> (f32, f32) {
     let (first, last) = (law(from), law(to));
     let middle = law(0.5 * (from + to));

@@ -246,8 +246,8 @@ impl Health {
         self.forgetting = if is_informative { surprise } else { 0.0 };
     }
 
-    /// Increases the variances of the parameters up to their initial values, more after an unexpected block. Also does so
-    /// after a long motion without contact, because the estimates become outdated.
+    /// Increases the variances of the parameters up to their initial values, more after an unexpected block. Also does
+    /// so after a long motion without contact, because the estimates become outdated.
     #[inline(always)]
     fn forget(&mut self, model: &HealthModel) {
         self.stage = stage::DONE;

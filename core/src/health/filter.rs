@@ -1,11 +1,11 @@
 //! Kalman filter of seven states. The covariance is stored as `U D U'`, where U has a unit diagonal.
 //!
-//! The update is Bierman's: it multiplies the diagonal by factors between 0 and 1, so the diagonal never becomes negative
-//! in any precision. The position is the first state, so the travel of the piston changes only its row of U, with a few
-//! sums, and noise changes only D. An update is done in two parts, one in each of two ticks.
+//! The update is Bierman's: it multiplies the diagonal by factors between 0 and 1, so the diagonal never becomes
+//! negative in any precision. The position is the first state, so the travel of the piston changes only its row of U,
+//! with a few sums, and noise changes only D. An update is done in two parts, one in each of two ticks.
 
-/// Number of states: position of the piston (m), flow factor (1), compliance (m/N), half clearance (m), lag (s), force zero
-/// (N), added friction (N).
+/// Number of states: position of the piston (m), flow factor (1), compliance (m/N), half clearance (m), lag (s), force
+/// zero (N), added friction (N).
 pub(crate) const STATES: usize = 7;
 /// Number of entries of U above its diagonal.
 const UPPER: usize = STATES * (STATES - 1) / 2;
@@ -88,8 +88,8 @@ impl Filter {
         }
     }
 
-    /// Moves the position by the flow factor times a nominal travel (m) with an additional variance (m^2). `slips` is the
-    /// loss of travel for each newton of force zero and of added friction (m/N).
+    /// Moves the position by the flow factor times a nominal travel (m) with an additional variance (m^2). `slips` is
+    /// the loss of travel for each newton of force zero and of added friction (m/N).
     #[inline(always)]
     pub(crate) fn travel(&mut self, travel: f32, slips: [f32; 2], variance: f32) {
         self.state[0] += travel * self.state[1];

@@ -1,8 +1,8 @@
 //! Checks that the force follows the displacement.
 //!
-//! While the force is constant within its noise, it determines the travel of the piston, and the ends can move further only
-//! by the clearance. If they move more than that, the force is missing: the force channel is dead or stuck, the oil is
-//! gone, or the clearance is much larger than estimated.
+//! While the force is constant within its noise, it determines the travel of the piston, and the ends can move further
+//! only by the clearance. If they move more than that, the force is missing: the force channel is dead or stuck, the
+//! oil is gone, or the clearance is much larger than estimated.
 
 use super::block::Block;
 use super::model::HealthModel;

@@ -12,8 +12,8 @@
 //! A Kalman filter has seven states: displacement of the piston `x_r`, flow factor `phi`, compliance of the mount
 //! `kappa = 1/Ke`, half the clearance `a`, lag of the force behind the displacement `tau`, zero of the force and added
 //! friction. It measures while both ends are in contact and forgets `x_r` when the element yields. The covariance is
-//! stored as `U D U'` (Bierman, *Factorization Methods for Discrete Sequential Estimation*, 1977), so it stays positive in
-//! single precision.
+//! stored as `U D U'` (Bierman, *Factorization Methods for Discrete Sequential Estimation*, 1977), so it stays positive
+//! in single precision.
 //!
 //! [`HealthModel`] contains the constants and [`Health`] the state. See docs/health.md.
 

@@ -23,11 +23,11 @@ bitflags::bitflags! {
         const FORCE_ZERO = 1 << 7;
         /// The lag between the channels is larger than assumed, so stiffness and clearance are wrong. Not latched.
         const LATE = 1 << 8;
-        /// Two or three of flow, stiffness and clearance differ from the baseline. A wrong scale, a stuck displacement or
-        /// a reversed sign of a sensor is a likelier cause than wear. Not latched.
+        /// Two or three of flow, stiffness and clearance differ from the baseline. A wrong scale, a stuck displacement
+        /// or a reversed sign of a sensor is a likelier cause than wear. Not latched.
         const SEVERAL_CHANGED = 1 << 9;
-        /// The model cannot explain the samples with any parameters, or the estimate is still converging after a change.
-        /// Not latched.
+        /// The model cannot explain the samples with any parameters, or the estimate is still converging after a
+        /// change. Not latched.
         const MISFIT = 1 << 10;
     }
 }

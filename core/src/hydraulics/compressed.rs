@@ -5,8 +5,8 @@ use crate::build::root::bracketed_root;
 
 /// Largest pressure over the bulk modulus (1).
 ///
-/// The volume falls linearly with the pressure and would be zero at the bulk modulus. At half of the modulus the oil has
-/// half its volume, far beyond any real damper.
+/// The volume falls linearly with the pressure and would be zero at the bulk modulus. At half of the modulus the oil
+/// has half its volume, far beyond any real damper.
 const MAX_PRESSURE_RATIO: f64 = 0.5;
 
 /// Pressure over the bulk modulus above which the density is constant (1). Root searches exceed the largest pressure.

@@ -132,8 +132,8 @@ impl<const N: usize, const WATCHED: usize> Device<N, WATCHED> {
 
     /// Runs one pass of the firmware's loop. Never blocks.
     ///
-    /// Runs the `due` ticks that the timer counted since the last pass. Then it does one thing for the link: sends bytes,
-    /// loads a slice of an image, or reads bytes. It drives the outputs whenever they may have changed.
+    /// Runs the `due` ticks that the timer counted since the last pass. Then it does one thing for the link: sends
+    /// bytes, loads a slice of an image, or reads bytes. It drives the outputs whenever they may have changed.
     pub fn poll(&mut self, due: u32, line: &mut impl Line, outputs: &mut impl Outputs<N>) {
         if due > 0 {
             self.tick(due);

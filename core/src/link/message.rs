@@ -9,8 +9,8 @@ use super::refusal::Refusal;
 use super::safe_output::LossOfLink;
 use crate::health::HealthReading;
 
-/// Version of the messages. It changes whenever the bytes of a message change. New messages are added at the end without
-/// a new version: a device that does not know one answers [`Refusal::Unreadable`].
+/// Version of the messages. It changes whenever the bytes of a message change. New messages are added at the end
+/// without a new version: a device that does not know one answers [`Refusal::Unreadable`].
 pub const PROTOCOL: u16 = 3;
 /// Largest number of dampers of a device.
 pub const MAX_DAMPERS: usize = 16;

@@ -73,8 +73,8 @@ pub enum Refusal {
         "memory of damper {0} was damaged; the outputs stay safe until it is loaded again and run"
     )]
     Corrupted(u8),
-    /// The damper is not watched: load a health model first. A device has no models after a reset, and may have room for
-    /// fewer models than dampers.
+    /// The damper is not watched: load a health model first. A device has no models after a reset, and may have room
+    /// for fewer models than dampers.
     #[error(
         "the target does not watch this damper; load a health model for a damper that it can watch"
     )]

@@ -87,8 +87,8 @@ impl<const N: usize> Watch<N> {
         &mut self.last_good
     }
 
-    /// Returns the outputs of a tick with these forces (N), and true if this tick lost the link. Damaged memory also causes
-    /// safe outputs.
+    /// Returns the outputs of a tick with these forces (N), and true if this tick lost the link. Damaged memory also
+    /// causes safe outputs.
     pub(crate) fn output(&mut self, forces: &[f32; N], damaged: bool) -> ([f32; N], bool) {
         let was_lost = self.lost();
         self.silent_ticks = self.silent_ticks.saturating_add(1);

@@ -4,8 +4,8 @@ use micromath::F32Ext;
 
 /// Returns the square root of `value` within 6.1 %; 0 for 0 and below.
 ///
-/// micromath halves the exponent in the bits of the number. This is exact at even powers of 2. The largest error, 6.07 %,
-/// is half-way between two of them.
+/// micromath halves the exponent in the bits of the number. This is exact at even powers of 2. The largest error, 6.07
+/// %, is half-way between two of them.
 pub(crate) fn sqrt(value: f32) -> f32 {
     if value > 0.0 {
         F32Ext::sqrt(value)

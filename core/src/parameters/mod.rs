@@ -1,7 +1,7 @@
 //! Parameters of a damper in SI units, from a damper file or from code.
 //!
-//! Signals of the element: `x` is the relative displacement of the two seats (m), positive in extension; `F` is the force
-//! (N), positive when it resists extension.
+//! Signals of the element: `x` is the relative displacement of the two seats (m), positive in extension; `F` is the
+//! force (N), positive when it resists extension.
 //!
 //! Each structure is made by `new` with the parameters it requires; setters change the others, also in a `const`:
 //!
@@ -200,8 +200,8 @@ impl Default for Limits {
     }
 }
 
-/// Iterates over all parameters: the table of a damper file that holds each, and its range. The table `valves` is listed
-/// once for the three valves.
+/// Iterates over all parameters: the table of a damper file that holds each, and its range. The table `valves` is
+/// listed once for the three valves.
 ///
 /// ```
 /// let mut all = dashpot_core::parameters::ranges();

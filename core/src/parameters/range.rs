@@ -93,7 +93,7 @@ macro_rules! parameters {
         #[non_exhaustive]
         pub struct $ranges {
             $(
-                #[doc = concat!("Range of [`", stringify!($name), "::", stringify!($field), "`](field@", stringify!($name), "::", stringify!($field), ").")]
+                #[doc = concat!("Range of `", stringify!($name), "::", stringify!($field), "`.")]
                 pub $field: $crate::parameters::Range,
             )+
         }
@@ -121,7 +121,7 @@ macro_rules! parameters {
             };
 
             $($(
-                #[doc = concat!("Sets [`", stringify!($field), "`](field@Self::", stringify!($field), "); the default is ", $default, ".")]
+                #[doc = concat!("Sets `", stringify!($field), "`; the default is ", $default, ".")]
                 #[must_use]
                 pub const fn $field(mut self, $field: $type) -> Self {
                     self.$field = $field;

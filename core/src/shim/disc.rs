@@ -64,8 +64,8 @@ impl Disc {
         } = valve;
         let q = clamp_radius_m / free_radius_m;
         let (nu, ln) = (poisson_ratio, log(q));
-        // Rows: w(q) = 0, w'(q) = 0, shear(1) = 0, moment(1) = 0. Columns: ln q, q^2, q^2 ln q, 1. The right-hand side is
-        // the load q^4/64.
+        // Rows: w(q) = 0, w'(q) = 0, shear(1) = 0, moment(1) = 0. Columns: ln q, q^2, q^2 ln q, 1. The right-hand side
+        // is the load q^4/64.
         #[rustfmt::skip]
         let conditions = Matrix4::new(
             ln,       q * q,           q * q * ln,          1.0,

@@ -1,5 +1,5 @@
-//! Dampers of the image: one in-service damper, one reduced vertical damper and one reduced lateral damper for each end of
-//! two bogies.
+//! Dampers of the image: one in-service damper, one reduced vertical damper and one reduced lateral damper for each end
+//! of two bogies.
 
 mod in_service;
 mod reduced_lateral;

@@ -1,5 +1,5 @@
-//! Counts the instructions of a tick of the health estimator over samples that the host puts into memory, and digests its
-//! results.
+//! Counts the instructions of a tick of the health estimator over samples that the host puts into memory, and digests
+//! its results.
 //!
 //! The host loads a [`Watch`] at [`__sheap`] before the start and reads one JSON object from the link's UART. The image
 //! `step-cost` describes the counts.

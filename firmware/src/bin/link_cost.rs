@@ -1,10 +1,11 @@
-//! Measures one tick of the bank including the link: a step request is received byte by byte from the register of a UART,
-//! carried out and answered byte by byte, and the outputs are sent.
+//! Measures one tick of the bank including the link: a step request is received byte by byte from the register of a
+//! UART, carried out and answered byte by byte, and the outputs are sent.
 //!
-//! Answers go to the spare UART. The image prints one JSON object on the UART of the link: clock ticks of [`CLOCK_HZ`] for
-//! all requests, largest clock ticks of one request, bytes in and out. For health these are the longest slice of loading a
-//! model that the host put at [`__sheap`], the longest request with measured samples, and a reading. It also prints the
-//! sizes of devices of 1, 4, 12 and 16 dampers. Under QEMU's `-icount shift=0` a clock tick is 40 instructions.
+//! Answers go to the spare UART. The image prints one JSON object on the UART of the link: clock ticks of [`CLOCK_HZ`]
+//! for all requests, largest clock ticks of one request, bytes in and out. For health these are the longest slice of
+//! loading a model that the host put at [`__sheap`], the longest request with measured samples, and a reading. It also
+//! prints the sizes of devices of 1, 4, 12 and 16 dampers. Under QEMU's `-icount shift=0` a clock tick is 40
+//! instructions.
 #![no_std]
 #![no_main]
 

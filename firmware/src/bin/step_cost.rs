@@ -1,9 +1,9 @@
-//! Counts the instructions of the step of one damper or a bank of twelve over a motion that the host puts into memory, and
-//! digests the forces. Then it counts the instructions of unusual steps and of the functions of the C library.
+//! Counts the instructions of the step of one damper or a bank of twelve over a motion that the host puts into memory,
+//! and digests the forces. Then it counts the instructions of unusual steps and of the functions of the C library.
 //!
-//! The host loads an [`Experiment`] at [`__sheap`] before the start and reads one JSON object from the link's UART. Counts
-//! are in clock ticks and include the call: `call` is the count of a function of one instruction, its return. Under QEMU's
-//! `-icount shift=10` an instruction takes 1024 ns.
+//! The host loads an [`Experiment`] at [`__sheap`] before the start and reads one JSON object from the link's UART.
+//! Counts are in clock ticks and include the call: `call` is the count of a function of one instruction, its return.
+//! Under QEMU's `-icount shift=10` an instruction takes 1024 ns.
 #![no_std]
 #![no_main]
 

@@ -44,8 +44,8 @@ const ROWS_PER_SLICE: usize = 8;
 macro_rules! loading {
     ($float:ident, $word:ident) => {
         impl Damper<$float> {
-            /// Replaces this damper by that of an image, without a copy on the stack. The next step adopts states of the old
-            /// damper.
+            /// Replaces this damper by that of an image, without a copy on the stack. The next step adopts states of
+            /// the old damper.
             ///
             /// # Errors
             /// The first error in the image; the damper is unchanged.
@@ -55,10 +55,11 @@ macro_rules! loading {
                 Ok(())
             }
 
-            /// Loads the next slice of an image, of at most a few thousand operations, so that ticks can run between slices.
+            /// Loads the next slice of an image, of at most a few thousand operations, so that ticks can run between
+            /// slices.
             ///
-            /// Call it with the same image and damper until it returns true. Do not step the damper until then, or after an
-            /// error.
+            /// Call it with the same image and damper until it returns true. Do not step the damper until then, or
+            /// after an error.
             ///
             /// # Errors
             /// The first error in the image.
