@@ -102,8 +102,8 @@ fn corners(name: &str) -> Vec<(String, f64)> {
                 Corner::Yields => "Y",
                 other => panic!("{other:?} has no letter"),
             };
-            let side = if *force < 0.0 { "c" } else { "e" };
-            (format!("{what}{side}"), *force)
+            let side = if force < 0.0 { "c" } else { "e" };
+            (format!("{what}{side}"), force)
         })
         .collect()
 }
