@@ -1,5 +1,6 @@
 //! Lists of bounded length in messages.
 
+use core::fmt;
 use core::ops::Deref;
 
 use heapless::Vec;
@@ -15,12 +16,12 @@ use super::message::{MAX_DAMPERS, MAX_SAMPLES, Sample};
 /// let displacements_m: Reals = [1e-3, -2e-3].into_iter().collect();
 /// assert_eq!(displacements_m[..], [1e-3, -2e-3]);
 /// ```
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, PartialEq, Serialize, Deserialize)]
 #[serde(bound(serialize = "T: Serialize", deserialize = "T: Deserialize<'de>"))]
 pub struct PerDamper<T>(Vec<T, MAX_DAMPERS>);
 
 /// Samples of one damper, oldest first: a slice of at most [`MAX_SAMPLES`] samples.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct Samples(Vec<Sample, MAX_SAMPLES>);
 
 /// One number for each damper.
@@ -30,6 +31,18 @@ impl<T> PerDamper<T> {
     /// An empty list.
     pub const fn new() -> Self {
         Self(Vec::new())
+    }
+}
+
+impl<T: fmt::Debug> fmt::Debug for PerDamper<T> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.fmt(f)
+    }
+}
+
+impl fmt::Debug for Samples {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.fmt(f)
     }
 }
 
