@@ -1,4 +1,4 @@
-//! Links with the board's memory map and the start-up code of cortex-m-rt.
+//! Links with the memory map of the board and the start-up code of cortex-m-rt.
 
 fn main() {
     let here = std::env::var("CARGO_MANIFEST_DIR").expect("cargo sets it");
@@ -10,7 +10,7 @@ fn main() {
     } else {
         ("..", "0x20400000")
     };
-    // The images that measure hold dampers or long frames on their stack, and what the host loads behind their data.
+    // The measuring images have dampers or long frames on their stack, and data from the host behind their own data.
     for image in ["step-cost", "health-cost", "link-cost"] {
         println!("cargo::rustc-link-arg-bin={image}=--defsym=_stack_start={end_of_memory}");
     }

@@ -87,12 +87,7 @@ fn banks_and_telemetry_allocate_nothing() {
         for tick in 0..10_000 {
             let x = displacement(tick);
             step_bank(&[&damper; 17], &mut states, &[x; 17], &mut forces);
-            telemetry.record(Sample {
-                tick,
-                displacement_m: x,
-                force_n: forces[16],
-                status: states[16].status(),
-            });
+            telemetry.record(Sample::new(tick, x, forces[16], states[16].status()));
         }
         black_box(telemetry.approximate_rms_force_n());
         black_box(telemetry.take());

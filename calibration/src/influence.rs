@@ -79,7 +79,7 @@ impl Calibration {
         let of = |(key, value, uncertainty): (&str, f64, f64)| {
             let [low, high] = [-uncertainty, uncertainty].map(|by| {
                 let [least, greatest] =
-                    range(key).map_or([value; 2], |range| [range.least, range.greatest]);
+                    range(key).map_or([value; 2], |range| [range.min, range.max]);
                 step.to(key, (value + by).clamp(least, greatest))
             });
             let (low, high) = (low?, high?);

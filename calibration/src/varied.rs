@@ -173,8 +173,7 @@ impl Varied {
         let bound = self.bounds[usize::from(!at_least)];
         // What turns a part of the damper off, such as no clearance or no preload, is no end of what is plausible.
         let is_physical = !self.by_ratio
-            && range(&self.key)
-                .is_some_and(|range| bound == range.least || bound == range.greatest);
+            && range(&self.key).is_some_and(|range| bound == range.min || bound == range.max);
         Some(Bound {
             value: bound,
             is_least: at_least,
@@ -188,7 +187,7 @@ impl Varied {
         const OUT: f64 = 10.0;
         let [least, greatest] = self.bounds;
         let [lowest, highest] = match range(&self.key) {
-            Some(range) => [range.least, range.greatest],
+            Some(range) => [range.min, range.max],
             None => [-rig::largest(&self.key), rig::largest(&self.key)],
         };
         let [least, greatest] = if self.by_ratio {

@@ -1,7 +1,7 @@
-/* Four dampers of a bogie at 1 kHz: two made from IN_SERVICE, two from REDUCED_VERTICAL.
+/* Four dampers of a bogie at 1 kHz: two from IN_SERVICE, two from REDUCED_VERTICAL.
  *
- * In the run a sensor fails for a while, another jumps, a clearance is worn on line, and the states
- * are saved, lost and restored. All of it happens in the tick; reports are printed afterwards.
+ * During the run one sensor fails for a while, another jumps, a clearance increases, and the states
+ * are saved, lost and restored. All of this happens in ticks; reports are printed afterwards.
  */
 #include "controller.h"
 
@@ -27,7 +27,7 @@ static dashpot_error fault;
 static uint32_t force_digest = 2166136261U;
 static dashpot_reading readings[REPORTS][DAMPERS];
 
-/* Displacement (m): arcs of a parabola, up to 3 mm, each damper with its own period. */
+/* Displacement (m): parabolic arcs of up to 3 mm, with a different period for each damper. */
 static float sensor(uint32_t damper, uint32_t at)
 {
     const uint32_t half = 200U + 35U * damper;
@@ -46,7 +46,7 @@ static float sensor(uint32_t damper, uint32_t at)
     return (at / half) % 2U == 0U ? arc : -arc;
 }
 
-/* The actuators of a rig; here a digest of all they were told (FNV-1a of the bits). */
+/* In place of the actuators of a rig: a digest of all forces (FNV-1a of the bits). */
 static void command(const float forces_n[DAMPERS])
 {
     for (size_t i = 0; i < DAMPERS; i++) {
@@ -58,7 +58,7 @@ static void command(const float forces_n[DAMPERS])
     }
 }
 
-/* As over a restart: the states go to storage that keeps them, are lost and come back. */
+/* Simulates a restart: the states are saved, lost and restored. */
 static dashpot_error save_lose_restore(void)
 {
     static uint8_t kept[DAMPERS][DASHPOT_SAVED_STATE_SIZE];
@@ -80,7 +80,7 @@ static dashpot_error save_lose_restore(void)
     return DASHPOT_ERROR_NONE;
 }
 
-/* Takes the readings of all dampers and clears what they latched. */
+/* Reads all dampers and clears their status bits. */
 static dashpot_error note(dashpot_reading noted[DAMPERS])
 {
     for (size_t i = 0; i < DAMPERS; i++) {
@@ -95,7 +95,7 @@ static dashpot_error note(dashpot_reading noted[DAMPERS])
     return DASHPOT_ERROR_NONE;
 }
 
-/* A slice a tick of the two dampers' constants, each with a state of its own: what was damaged in memory. */
+/* Checks memory for damage: at each tick a slice of one damper's constants and one state. */
 static dashpot_error check_memory(void)
 {
     static dashpot_check checks[2];
@@ -110,7 +110,7 @@ static dashpot_error control(float forces_n[DAMPERS])
     dashpot_error error = DASHPOT_ERROR_NONE;
 
     if (tick == 6000U) {
-        error = dashpot_damper_set_clearance(&reduced, 2.5e-3F); /* worn, while it runs */
+        error = dashpot_damper_set_clearance(&reduced, 2.5e-3F); /* wear during the run */
     } else if (tick == 7000U) {
         error = save_lose_restore();
     }
@@ -176,7 +176,7 @@ bool controller_start(void)
     if (error != DASHPOT_ERROR_NONE) {
         return fail("reduced damper", error);
     }
-    /* An image damaged on its way is refused, and the damper in use stays. */
+    /* A damaged image is refused and leaves the damper unchanged. */
     memcpy(damaged, IN_SERVICE, sizeof damaged);
     damaged[1234] ^= 0x10U;
     error = dashpot_damper_init(&in_service, damaged, sizeof damaged);
@@ -198,7 +198,7 @@ bool controller_start(void)
     return true;
 }
 
-/* Hexadecimal, without the C library's printf, which a small target may not have. */
+/* Prints hexadecimal digits without printf, which a small target may not have. */
 static void print_number(const char *name, uint32_t number)
 {
     char digits[9];

@@ -1,22 +1,22 @@
-/* What a platform calls: start once, then one tick a millisecond until finished, then report. */
+/* Interface for a platform: call start once, then one tick per millisecond until finished, then report. */
 #ifndef CONTROLLER_H
 #define CONTROLLER_H
 
 #include <stdbool.h>
 
-/* Ready to tick? If not, the reason has been printed. */
+/* Prepares the run. On false it has printed the reason. */
 bool controller_start(void);
 
-/* One tick: reads the sensors, steps the dampers, commands the forces. For an interrupt. */
+/* Runs one tick: reads the sensors, steps the dampers and commands the forces. Call it in an interrupt. */
 void controller_tick(void);
 
-/* Has the run come to its end, or to a fault? */
+/* True after the end of the run or a fault. */
 bool controller_finished(void);
 
-/* Prints what happened; true when the run ended without a fault. */
+/* Prints a report. True if the run ended without a fault. */
 bool controller_report(void);
 
-/* Given by the platform. */
+/* Provided by the platform. */
 void platform_print(const char *text);
 
 #endif

@@ -1,4 +1,4 @@
-//! The slow check of constants and a state in memory.
+//! Slow check of constants and a state in memory.
 
 use dashpot_core::integrity::{Check, Corrupted, SLICES};
 
@@ -16,16 +16,16 @@ impl From<Corrupted> for DashpotError {
     }
 }
 
-/// Checks a slice of a damper's constants and a state: call it at every tick, or slower.
+/// Checks a slice of a damper's constants and a state. Call it at every tick or more rarely.
 ///
-/// `DASHPOT_CHECK_SLICES` calls check the constants whole, then it begins again. A flipped bit is found within
-/// the round that begins after it. To hold a force then, keep that of the tick of each round's first call; the one kept
-/// when the last round ended without an error was made before the damage. Loading the damper or setting its
-/// clearance between calls is no damage. Some 370 instructions at most on a Cortex-M7.
+/// `DASHPOT_CHECK_SLICES` calls are one round, which checks all constants. A flipped bit is found in the next round.
+/// To hold a force from before the damage, store the force at the first call of each round, and use the one stored in
+/// the last round that ended without an error. Between calls the damper may be loaded and its clearance set. Some 370
+/// instructions at most on a Cortex-M7.
 ///
-/// @param damper  made by `dashpot_damper_init`
-/// @param state   made for it
-/// @param check   how far the check of this damper has come; zeros before the first call, changed
+/// @param damper  initialised by `dashpot_damper_init`
+/// @param state   a state of this damper
+/// @param check   progress of the check of this damper: zeros before the first call; changed
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn dashpot_check_slice(
     damper: *const DashpotDamper,

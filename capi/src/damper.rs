@@ -6,10 +6,10 @@ use crate::error::DashpotError;
 use crate::pointer::{Memory, bytes, check, exclusive, shared};
 use crate::types::{DashpotDamper, DashpotDamperInfo};
 
-/// A damper that was made from an image.
+/// Returns an initialised damper.
 ///
 /// # Safety
-/// The caller's promise is kept.
+/// The caller's promise must hold.
 pub(crate) unsafe fn made<'a>(
     damper: *const DashpotDamper,
 ) -> Result<&'a Damper<f32>, DashpotError> {
@@ -22,14 +22,13 @@ pub(crate) unsafe fn made<'a>(
     }
 }
 
-/// Makes a damper from an image: the bytes that `dashpot export --lang c` or `--lang bin` wrote.
+/// Initialises a damper from an image, the bytes from `dashpot export --lang c` or `--lang bin`.
 ///
-/// The image is checked whole first and not needed afterwards. A state that this damper stepped before
-/// is carried over at its next step, its force kept. Not for a tick: some 376 000 instructions on a
-/// Cortex-M7.
+/// The whole image is checked first and is not needed afterwards. The next step adopts states of the old damper and
+/// keeps their force. Do not call it within a tick: it takes some 376 000 instructions on a Cortex-M7.
 ///
-/// @param damper  storage, its content does not matter
-/// @param image   the bytes, at any alignment, not in the storage of the damper
+/// @param damper  storage with any content; written
+/// @param image   the bytes, at any alignment, outside the storage of the damper
 /// @param length  number of bytes, `DASHPOT_IMAGE_SIZE`
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn dashpot_damper_init(
@@ -54,9 +53,9 @@ pub unsafe extern "C" fn dashpot_damper_init(
     DashpotError::from(done())
 }
 
-/// Reads what a damper was built for: compare `step_s` with your tick.
+/// Reads the properties of a damper. Compare `step_s` with your tick.
 ///
-/// @param damper  made by `dashpot_damper_init`
+/// @param damper  initialised by `dashpot_damper_init`
 /// @param info    written
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn dashpot_damper_describe(
@@ -81,12 +80,13 @@ pub unsafe extern "C" fn dashpot_damper_describe(
     DashpotError::from(done())
 }
 
-/// Sets the clearance of a damper that is in use: its states are carried over at their next step, the
-/// force kept. On a Cortex-M7 some 302 instructions, and in the next step of each state some 1690
-/// instructions instead of the usual ones.
+/// Sets the clearance of a damper in use. The next step of each state adopts it and keeps its force.
 ///
-/// @param damper       made by `dashpot_damper_init`; no step may run on it meanwhile
-/// @param clearance_m  clearance 2a, the whole play (m), 0 to 0.1
+/// On a Cortex-M7 this takes some 302 instructions, and the next step of each state some 1690 instructions instead of
+/// the usual number.
+///
+/// @param damper       initialised by `dashpot_damper_init`; no step may use it during the call
+/// @param clearance_m  clearance 2a, the total play (m), 0 to 0.1
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn dashpot_damper_set_clearance(
     damper: *mut DashpotDamper,
@@ -98,7 +98,7 @@ pub unsafe extern "C" fn dashpot_damper_set_clearance(
         // SAFETY: the caller's promise; the storage is a Damper's to the byte.
         let damper: &mut Damper<f32> = unsafe { exclusive(damper.cast()) }?;
         let set = damper.set_clearance_m(clearance_m);
-        set.map_err(|ClearanceError| DashpotError::Range)
+        set.map_err(|_: ClearanceError| DashpotError::Range)
     };
     DashpotError::from(done())
 }

@@ -1,56 +1,56 @@
-//! Codes that the functions return, and their text.
+//! Codes that the functions return, with their texts.
 
 use core::ffi::{CStr, c_char};
 
 use dashpot_core::{ImageError, SavedStateError};
 
-/// Why a function did nothing; 0 when it did what it says.
+/// Result of a function: 0 on success, else the reason why it did nothing.
 #[repr(i32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DashpotError {
-    /// Done.
+    /// Success.
     None = 0,
     /// A pointer is null.
     NullPointer = 1,
-    /// A pointer is not aligned as its type asks.
+    /// A pointer does not have the alignment of its type.
     Misaligned = 2,
-    /// The storage holds no damper: call `dashpot_damper_init` first.
+    /// The storage contains no damper: call `dashpot_damper_init` first.
     NoDamper = 3,
-    /// A length or count is not what is asked for, or an image is of a library with another table.
+    /// A length or count is wrong, or an image is from a library with another table.
     Length = 4,
-    /// The bytes do not start as an image or a saved state does.
+    /// The bytes do not start like an image or a saved state.
     Magic = 5,
-    /// The bytes say that their numbers are not little-endian.
+    /// The byte-order mark is not little-endian.
     ByteOrder = 6,
-    /// The bytes are of another version of their format.
+    /// The bytes have another version of the format.
     Version = 7,
-    /// The bytes are of another scalar than single precision.
+    /// The bytes are not in single precision.
     Scalar = 8,
     /// The CRC-32 does not match: the bytes are damaged.
     Checksum = 9,
-    /// Constants or a state with values that no build and no step leaves behind.
+    /// A constant or a number of a state is impossible.
     Values = 10,
-    /// The saved state is of another damper, or of this one before its clearance changed.
+    /// The saved state belongs to another damper, or to this one before its clearance changed.
     WrongDamper = 11,
-    /// A number is not in the range allowed.
+    /// A number is outside its allowed range.
     Range = 12,
-    /// The storage holds no state: call `dashpot_state_init` or `dashpot_state_restore` first.
+    /// The storage contains no state: call `dashpot_state_init` or `dashpot_state_restore` first.
     NoState = 13,
-    /// Constants or a state were damaged in memory: take your safe output, then make both anew.
+    /// Constants or a state were damaged in memory: use your safe output, then initialise both again.
     Corrupted = 14,
-    /// What the call changes shares memory with something else that it was given.
+    /// An argument that the call changes shares memory with another argument.
     Overlap = 15,
-    /// The header is of another version than the library, or gives its storage another size.
+    /// Header and library have different versions or different storage sizes.
     Header = 16,
-    /// The revision of an image is not that of its constants: no build made them.
+    /// The revision of an image does not match its constants, so they are not from a build.
     Revision = 17,
-    /// The storage holds no model or estimate of health: call `dashpot_health_model_init`, then `dashpot_health_init`.
+    /// The storage contains no health model or estimate: call `dashpot_health_model_init`, then `dashpot_health_init`.
     NoHealth = 18,
 }
 
 /// cbindgen:ignore
 impl DashpotError {
-    /// Every code, in the order of their numbers.
+    /// All codes in the order of their numbers.
     pub const ALL: [Self; 19] = [
         Self::None,
         Self::NullPointer,
@@ -75,25 +75,25 @@ impl DashpotError {
 
     const fn text(self) -> &'static CStr {
         match self {
-            Self::None => c"done",
+            Self::None => c"success",
             Self::NullPointer => c"a pointer is null",
-            Self::Misaligned => c"a pointer is not aligned as its type asks",
-            Self::NoDamper => c"the storage holds no damper: call dashpot_damper_init first",
-            Self::Length => c"a length or count is not the one asked for",
+            Self::Misaligned => c"a pointer does not have the alignment of its type",
+            Self::NoDamper => c"the storage contains no damper: call dashpot_damper_init first",
+            Self::Length => c"a length or count is wrong",
             Self::Magic => c"the bytes are not an image or a saved state",
             Self::ByteOrder => c"the bytes are not little-endian",
-            Self::Version => c"the bytes are of another version of their format",
-            Self::Scalar => c"the bytes are not of single precision",
+            Self::Version => c"the bytes have another version of the format",
+            Self::Scalar => c"the bytes are not in single precision",
             Self::Checksum => c"the CRC-32 does not match: the bytes are damaged",
-            Self::Values => c"values that no build and no step leaves behind",
-            Self::WrongDamper => c"the saved state is of another damper",
-            Self::Range => c"a number is not in the range allowed",
-            Self::NoState => c"the storage holds no state: call dashpot_state_init first",
+            Self::Values => c"a constant or a number of a state is impossible",
+            Self::WrongDamper => c"the saved state belongs to another damper",
+            Self::Range => c"a number is outside its allowed range",
+            Self::NoState => c"the storage contains no state: call dashpot_state_init first",
             Self::Corrupted => c"constants or a state were damaged in memory",
-            Self::Overlap => c"what the call changes overlaps something else it was given",
-            Self::Header => c"dashpot.h is of another version than the library",
-            Self::Revision => c"the revision of the image is not that of its constants",
-            Self::NoHealth => c"the storage holds no model or estimate of health",
+            Self::Overlap => c"an argument that the call changes overlaps another argument",
+            Self::Header => c"dashpot.h and the library have different versions",
+            Self::Revision => c"the revision of the image does not match its constants",
+            Self::NoHealth => c"the storage contains no health model or estimate",
         }
     }
 }
@@ -127,20 +127,18 @@ impl From<SavedStateError> for DashpotError {
     }
 }
 
-/// Code of what a function's body came to.
+/// Converts the result of a function's body to its code.
 impl From<Result<(), DashpotError>> for DashpotError {
     fn from(done: Result<(), DashpotError>) -> Self {
         done.err().unwrap_or(Self::None)
     }
 }
 
-/// English text of a code, in static storage; of any other number too. Never null.
+/// Returns the English text of a code, in static storage. Also accepts unknown numbers. Never null.
 #[unsafe(no_mangle)]
 pub extern "C" fn dashpot_error_text(code: i32) -> *const c_char {
     let found = DashpotError::ALL
         .iter()
         .find(|error| **error as i32 == code);
-    found
-        .map_or(c"no code of this library", |error| error.text())
-        .as_ptr()
+    found.map_or(c"unknown code", |error| error.text()).as_ptr()
 }

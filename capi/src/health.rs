@@ -1,4 +1,4 @@
-//! Functions of the estimator of health.
+//! Functions of the health estimator.
 
 use dashpot_core::health::{
     Baseline, Estimate, Health, HealthImageError, HealthLimits, HealthModel,
@@ -29,10 +29,10 @@ impl From<Estimate> for DashpotEstimate {
     }
 }
 
-/// A model that was made from an image.
+/// Returns an initialised model.
 ///
 /// # Safety
-/// The caller's promise is kept.
+/// The caller's promise must hold.
 unsafe fn made_model<'a>(
     model: *const DashpotHealthModel,
 ) -> Result<&'a HealthModel, DashpotError> {
@@ -45,10 +45,10 @@ unsafe fn made_model<'a>(
     }
 }
 
-/// An estimate that was begun, to read.
+/// Returns an initialised estimate for reading.
 ///
 /// # Safety
-/// The caller's promise is kept.
+/// The caller's promise must hold.
 unsafe fn made_health<'a>(health: *const DashpotHealth) -> Result<&'a Health, DashpotError> {
     // SAFETY: the caller's promise; the storage is a Health's to the byte and any bytes are one.
     let health: &Health = unsafe { shared(health.cast()) }?;
@@ -59,11 +59,13 @@ unsafe fn made_health<'a>(health: *const DashpotHealth) -> Result<&'a Health, Da
     }
 }
 
-/// Makes the constants of an estimator from an image, the bytes that `dashpot export --health --lang c` writes and
-/// `HealthModel::to_image` of dashpot-core makes. Not for a tick; on the stack it takes as many bytes again.
+/// Initialises the constants of an estimator from an image, the bytes from `dashpot export --health --lang c` or
+/// `HealthModel::to_image` of dashpot-core.
 ///
-/// @param model   storage, its content does not matter
-/// @param image   the bytes, at any alignment, not in the storage of the model
+/// Do not call it within a tick. It needs the size of the model on the stack.
+///
+/// @param model   storage with any content; written
+/// @param image   the bytes, at any alignment, outside the storage of the model
 /// @param length  number of bytes, `DASHPOT_HEALTH_IMAGE_SIZE`
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn dashpot_health_model_init(
@@ -84,10 +86,10 @@ pub unsafe extern "C" fn dashpot_health_model_init(
     DashpotError::from(done())
 }
 
-/// Sets what estimates are compared with from now on: what `dashpot_health_read` told of the healthy damper.
+/// Sets the baseline of the alarms: the results of `dashpot_health_read` for the healthy damper.
 ///
-/// @param model     made by `dashpot_health_model_init`; no tick may run on it meanwhile
-/// @param baseline  finite numbers, flow factor and compliance positive, standard deviations not negative
+/// @param model     initialised by `dashpot_health_model_init`; no tick may use it during the call
+/// @param baseline  finite numbers; flow factor and compliance are positive, standard deviations not negative
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn dashpot_health_set_baseline(
     model: *mut DashpotHealthModel,
@@ -101,23 +103,25 @@ pub unsafe extern "C" fn dashpot_health_set_baseline(
         Memory::of(model).check_apart(Memory::of(baseline))?;
         // SAFETY: the caller's promise; the storage is a HealthModel's to the byte.
         let model: &mut HealthModel = unsafe { exclusive(model.cast()) }?;
-        let set = model.set_baseline(Baseline {
-            flow_factor: given.flow_factor.value,
-            compliance_m_per_n: given.compliance_m_per_n.value,
-            clearance_m: given.clearance_m.value,
-            flow_factor_sd: given.flow_factor.sd,
-            compliance_sd_m_per_n: given.compliance_m_per_n.sd,
-            clearance_sd_m: given.clearance_m.sd,
-        });
-        set.map_err(|_| DashpotError::Range)
+        let mut baseline = Baseline::new(
+            given.flow_factor.value,
+            given.compliance_m_per_n.value,
+            given.clearance_m.value,
+        );
+        baseline.flow_factor_sd = given.flow_factor.sd;
+        baseline.compliance_sd_m_per_n = given.compliance_m_per_n.sd;
+        baseline.clearance_sd_m = given.clearance_m.sd;
+        model
+            .set_baseline(baseline)
+            .map_err(|_| DashpotError::Range)
     };
     DashpotError::from(done())
 }
 
-/// Sets how far estimates may lie from the baseline from now on. Alarms that were latched stay.
+/// Sets the alarm limits. Latched alarms remain.
 ///
-/// @param model   made by `dashpot_health_model_init`; no tick may run on it meanwhile
-/// @param limits  any numbers; one of infinity or NaN never alarms
+/// @param model   initialised by `dashpot_health_model_init`; no tick may use it during the call
+/// @param limits  any numbers; an infinite or NaN limit disables its alarm
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn dashpot_health_set_limits(
     model: *mut DashpotHealthModel,
@@ -131,21 +135,21 @@ pub unsafe extern "C" fn dashpot_health_set_limits(
         Memory::of(model).check_apart(Memory::of(limits))?;
         // SAFETY: the caller's promise; the storage is a HealthModel's to the byte.
         let model: &mut HealthModel = unsafe { exclusive(model.cast()) }?;
-        model.set_limits(HealthLimits {
-            flow_factor: given.flow_factor,
-            compliance: given.compliance,
-            clearance_m: given.clearance_m,
-            deviations: given.deviations,
-        });
+        let mut limits = HealthLimits::default();
+        limits.flow_factor = given.flow_factor;
+        limits.compliance = given.compliance;
+        limits.clearance_m = given.clearance_m;
+        limits.deviations = given.deviations;
+        model.set_limits(limits);
         Ok(())
     };
     DashpotError::from(done())
 }
 
-/// Begins an estimate.
+/// Initialises an estimate.
 ///
-/// @param health  storage, its content does not matter
-/// @param model   made by `dashpot_health_model_init`
+/// @param health  storage with any content; written
+/// @param model   initialised by `dashpot_health_model_init`
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn dashpot_health_init(
     health: *mut DashpotHealth,
@@ -163,11 +167,11 @@ pub unsafe extern "C" fn dashpot_health_init(
     DashpotError::from(done())
 }
 
-/// Takes the sample of a tick, at most 297 instructions. One that is not finite or not credible is no error: it is left out, latched in the
-/// status and counted.
+/// Takes the sample of a tick in at most 297 instructions. A sample that is not finite or not credible is not an error:
+/// it is left out, latched in the status and counted.
 ///
-/// @param model           made by `dashpot_health_model_init`
-/// @param health          made by `dashpot_health_init`, changed
+/// @param model           initialised by `dashpot_health_model_init`
+/// @param health          initialised by `dashpot_health_init`, changed
 /// @param displacement_m  measured displacement (m), positive in extension
 /// @param force_n         measured force (N), positive when it resists extension
 #[unsafe(no_mangle)]
@@ -189,10 +193,11 @@ pub unsafe extern "C" fn dashpot_health_tick(
     DashpotError::from(done())
 }
 
-/// Reads the estimates with their standard deviations. Square roots and divisions: not for every tick.
+/// Reads the estimates with their standard deviations. It needs square roots and divisions, so do not call it in every
+/// tick.
 ///
-/// @param model    made by `dashpot_health_model_init`
-/// @param health   made by `dashpot_health_init`
+/// @param model    initialised by `dashpot_health_model_init`
+/// @param health   initialised by `dashpot_health_init`
 /// @param reading  written
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn dashpot_health_read(
@@ -226,9 +231,9 @@ pub unsafe extern "C" fn dashpot_health_read(
     DashpotError::from(done())
 }
 
-/// Clears the status bits and the count of rejected samples; an alarm whose cause stays comes back.
+/// Clears the status bits and the count of rejected samples. Alarms return if their cause remains.
 ///
-/// @param health  made by `dashpot_health_init`, changed
+/// @param health  initialised by `dashpot_health_init`, changed
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn dashpot_health_clear_status(health: *mut DashpotHealth) -> DashpotError {
     let done = || {

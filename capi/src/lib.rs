@@ -1,15 +1,14 @@
-//! C library of the Dashpot damper; `include/dashpot.h` is generated from the sources here.
+//! C library of the Dashpot damper. `include/dashpot.h` is generated from these sources.
 //!
-//! Each function checks all it was given, then does its work, or nothing. `pointer` checks what C hands in,
-//! `saved` is a state as bytes. Single precision only: that is what the library is for; on a desk use
-//! dashpot-core.
+//! Each function first checks all its arguments, then does its work or nothing. The library is for targets, so it has
+//! single precision only. On a desktop use dashpot-core.
 //!
-//! What a caller promises in every function: a pointer that is neither null nor misaligned points to
-//! storage of its type, or to as many bytes or elements as the length or count says; nobody else
-//! changes that storage during the call, or uses it where the call changes it.
+//! The caller's promise for every function: a pointer that is neither null nor misaligned points to storage of its
+//! type, or to as many bytes or elements as the length or count says. During the call nothing else changes that
+//! storage, or uses storage that the call changes.
 #![no_std]
 #![warn(missing_docs)]
-#![allow(clippy::missing_safety_doc)] // stated once, above, and in the header
+#![allow(clippy::missing_safety_doc)] // the promise above and the header are the safety documentation
 
 mod check;
 mod damper;

@@ -1,10 +1,10 @@
-//! What C hands in: checked for null, alignment and overlap, then a reference.
+//! Checks pointers from C for null, alignment and overlap, and converts them to references.
 
 use core::slice;
 
 use crate::error::DashpotError;
 
-/// Neither null nor misaligned.
+/// Checks that a pointer is neither null nor misaligned.
 pub(crate) fn check<T>(pointer: *const T) -> Result<(), DashpotError> {
     if pointer.is_null() {
         Err(DashpotError::NullPointer)
@@ -15,30 +15,30 @@ pub(crate) fn check<T>(pointer: *const T) -> Result<(), DashpotError> {
     }
 }
 
-/// What the pointer points to, to read.
+/// Returns a reference for reading.
 ///
 /// # Safety
-/// Not null and aligned, it points to a `T` that nothing changes during `'a`.
+/// A pointer that is not null and aligned must point to a `T` that nothing changes during `'a`.
 pub(crate) unsafe fn shared<'a, T>(pointer: *const T) -> Result<&'a T, DashpotError> {
     check(pointer)?;
     // SAFETY: checked, and the caller's promise.
     Ok(unsafe { &*pointer })
 }
 
-/// What the pointer points to, to change.
+/// Returns a reference for writing.
 ///
 /// # Safety
-/// Not null and aligned, it points to a `T` that nothing else uses during `'a`.
+/// A pointer that is not null and aligned must point to a `T` that nothing else uses during `'a`.
 pub(crate) unsafe fn exclusive<'a, T>(pointer: *mut T) -> Result<&'a mut T, DashpotError> {
     check(pointer)?;
     // SAFETY: checked, and the caller's promise.
     Ok(unsafe { &mut *pointer })
 }
 
-/// Bytes to read.
+/// Returns bytes for reading.
 ///
 /// # Safety
-/// Not null, it points to `length` bytes that nothing changes during `'a`.
+/// A pointer that is not null must point to `length` bytes that nothing changes during `'a`.
 pub(crate) unsafe fn bytes<'a>(
     pointer: *const u8,
     length: usize,
@@ -49,7 +49,7 @@ pub(crate) unsafe fn bytes<'a>(
     Ok(unsafe { slice::from_raw_parts(pointer, length) })
 }
 
-/// No array of more can exist.
+/// Checks that an array of `count` elements can exist.
 pub(crate) fn check_count<T>(count: usize) -> Result<(), DashpotError> {
     if count <= isize::MAX as usize / size_of::<T>() {
         Ok(())
@@ -58,7 +58,7 @@ pub(crate) fn check_count<T>(count: usize) -> Result<(), DashpotError> {
     }
 }
 
-/// Memory that one call was given.
+/// Memory of an argument.
 #[derive(Clone, Copy)]
 pub(crate) struct Memory {
     address: usize,
@@ -66,12 +66,12 @@ pub(crate) struct Memory {
 }
 
 impl Memory {
-    /// That of one `T`.
+    /// Memory of one `T`.
     pub(crate) fn of<T>(pointer: *const T) -> Self {
         Self::array(pointer, 1)
     }
 
-    /// That of `count` of them, as [`check_count`] allows.
+    /// Memory of `count` elements, which [`check_count`] allows.
     pub(crate) fn array<T>(first: *const T, count: usize) -> Self {
         Self {
             address: first.addr(),
@@ -79,17 +79,17 @@ impl Memory {
         }
     }
 
-    /// That of bytes.
+    /// Memory of bytes.
     pub(crate) fn of_bytes(bytes: &[u8]) -> Self {
         Self::array(bytes.as_ptr(), bytes.len())
     }
 
-    /// No byte belongs to both.
+    /// Checks that no byte belongs to both.
     pub(crate) fn check_apart(self, other: Self) -> Result<(), DashpotError> {
-        // From the last byte of `other` before `self` on: one comparison for both sides.
+        // The offset of the last byte of `other` relative to `self`: one comparison covers both sides.
         let ahead = other.address.wrapping_sub(self.address);
-        let place = ahead.wrapping_add(other.bytes).wrapping_sub(1);
-        if place < (self.bytes + other.bytes).saturating_sub(1) {
+        let last = ahead.wrapping_add(other.bytes).wrapping_sub(1);
+        if last < (self.bytes + other.bytes).saturating_sub(1) {
             Err(DashpotError::Overlap)
         } else {
             Ok(())

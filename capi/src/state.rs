@@ -1,4 +1,4 @@
-//! Functions on a state.
+//! Functions for a state.
 
 use dashpot_core::DamperState;
 
@@ -7,10 +7,10 @@ use crate::error::DashpotError;
 use crate::pointer::{Memory, bytes, check, exclusive, shared};
 use crate::types::{DASHPOT_SAVED_STATE_SIZE, DashpotDamper, DashpotReading, DashpotState};
 
-/// A state that was made, to read.
+/// Returns an initialised state for reading.
 ///
 /// # Safety
-/// The caller's promise is kept.
+/// The caller's promise must hold.
 pub(crate) unsafe fn made_state<'a>(
     state: *const DashpotState,
 ) -> Result<&'a DamperState<f32>, DashpotError> {
@@ -23,10 +23,10 @@ pub(crate) unsafe fn made_state<'a>(
     }
 }
 
-/// Makes a state at rest, centred in the clearance, without force or status.
+/// Initialises a state at rest, centred in the clearance, without force and status bits.
 ///
-/// @param state           storage, its content does not matter
-/// @param damper          made by `dashpot_damper_init`
+/// @param state           storage with any content; written
+/// @param damper          initialised by `dashpot_damper_init`
 /// @param displacement_m  displacement (m), finite and within the damper's range
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn dashpot_state_init(
@@ -39,8 +39,8 @@ pub unsafe extern "C" fn dashpot_state_init(
         // SAFETY: the caller's promise.
         let damper = unsafe { made(damper) }?;
         Memory::of(state).check_apart(Memory::of(damper))?;
-        let most = damper.largest_displacement_m();
-        if !(-most..=most).contains(&displacement_m) {
+        let max = damper.largest_displacement_m();
+        if !(-max..=max).contains(&displacement_m) {
             return Err(DashpotError::Range);
         }
         // SAFETY: checked, and the caller's promise; the storage is a DamperState's to the byte.
@@ -56,7 +56,7 @@ pub unsafe extern "C" fn dashpot_state_init(
 
 /// Reads displacement, force, status bits and the count of rejected inputs.
 ///
-/// @param state    made by `dashpot_state_init` or `dashpot_state_restore`
+/// @param state    from `dashpot_state_init` or `dashpot_state_restore`
 /// @param reading  written
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn dashpot_state_read(
@@ -83,7 +83,7 @@ pub unsafe extern "C" fn dashpot_state_read(
 
 /// Clears the status bits and the count of rejected inputs.
 ///
-/// @param state  made by `dashpot_state_init` or `dashpot_state_restore`, changed
+/// @param state  from `dashpot_state_init` or `dashpot_state_restore`, changed
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn dashpot_state_clear_status(state: *mut DashpotState) -> DashpotError {
     let done = || {
@@ -97,12 +97,12 @@ pub unsafe extern "C" fn dashpot_state_clear_status(state: *mut DashpotState) ->
     DashpotError::from(done())
 }
 
-/// Saves a state as bytes, for a file or a link, the same that `DamperState::save` of dashpot-core makes; to keep it in
-/// memory, copy the structure.
+/// Saves a state as bytes for a file or a link, as `DamperState::save` of dashpot-core does. To keep it in memory, copy
+/// the structure.
 ///
-/// @param state   made by `dashpot_state_init` or `dashpot_state_restore`
+/// @param state   from `dashpot_state_init` or `dashpot_state_restore`
 /// @param saved   written, at any alignment
-/// @param length  bytes at `saved`, `DASHPOT_SAVED_STATE_SIZE`
+/// @param length  number of bytes, `DASHPOT_SAVED_STATE_SIZE`
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn dashpot_state_save(
     state: *const DashpotState,
@@ -128,11 +128,11 @@ pub unsafe extern "C" fn dashpot_state_save(
     DashpotError::from(done())
 }
 
-/// Restores a saved state: its next steps have the bits they would have had.
+/// Restores a saved state. Its next steps are identical to those without saving.
 ///
-/// @param state   storage, its content does not matter
-/// @param damper  the one that stepped the state last
-/// @param saved   what `dashpot_state_save` wrote, at any alignment
+/// @param state   storage with any content; written
+/// @param damper  the damper that stepped the state last
+/// @param saved   bytes from `dashpot_state_save`, at any alignment
 /// @param length  number of bytes, `DASHPOT_SAVED_STATE_SIZE`
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn dashpot_state_restore(

@@ -1,4 +1,4 @@
-//! The step, of one damper and of several.
+//! The step of one damper and of several.
 
 use core::ptr;
 
@@ -9,8 +9,7 @@ use crate::error::DashpotError;
 use crate::pointer::{Memory, check, check_count, exclusive, shared};
 use crate::types::{DashpotDamper, DashpotState};
 
-/// Refuses memory that was never made a state. One that this damper stepped last has its revision, which is
-/// mark enough.
+/// Refuses uninitialised memory. A state that this damper stepped last is recognised by its revision.
 fn check_state(damper: &Damper<f32>, state: &DamperState<f32>) -> Result<(), DashpotError> {
     if state.revision() == damper.revision() || state.is_marked() {
         Ok(())
@@ -19,16 +18,15 @@ fn check_state(damper: &Damper<f32>, state: &DamperState<f32>) -> Result<(), Das
     }
 }
 
-/// Steps one damper: the force at this tick for the displacement of this tick.
+/// Steps one damper: computes the force at this tick for the displacement of this tick.
 ///
-/// A displacement that is NaN, infinite, out of range, or faster than the damper allows is no error: it is held or
-/// limited, latched in the status and counted. After one too far to catch up with the damper restarts at rest there. A
-/// state that no step leaves behind starts over at rest and latches `DASHPOT_STATUS_CORRUPTED`. The force is finite and
-/// within the force limit, whatever bits damper and state have. Some 195
-/// instructions on a Cortex-M7.
+/// A displacement that is NaN, infinite, out of range or too fast is not an error: it is held or limited, latched in
+/// the status and counted. If it is too far away to catch up with, the damper restarts there at rest. An impossible
+/// state restarts at rest and latches `DASHPOT_STATUS_CORRUPTED`. The force is finite and within the force limit, even
+/// if damper or state are damaged. Some 195 instructions on a Cortex-M7.
 ///
-/// @param damper          made by `dashpot_damper_init`
-/// @param state           made by `dashpot_state_init` or `dashpot_state_restore`, changed
+/// @param damper          initialised by `dashpot_damper_init`
+/// @param state           from `dashpot_state_init` or `dashpot_state_restore`, changed
 /// @param displacement_m  displacement (m), positive in extension
 /// @param force_n         written: force (N), positive when it resists extension
 #[unsafe(no_mangle)]
@@ -57,13 +55,13 @@ pub unsafe extern "C" fn dashpot_step(
     DashpotError::from(done())
 }
 
-/// Steps several dampers: the same bits as `dashpot_step` for each, or an error and no step at all.
+/// Steps several dampers with the same bits as `dashpot_step`. After an error, no damper has stepped.
 ///
-/// @param dampers          `count` pointers to dampers; one damper may serve several states
+/// @param dampers          `count` pointers to dampers; one damper can serve several states
 /// @param states           `count` states, changed
 /// @param displacements_m  `count` displacements (m)
-/// @param forces_n         written: `count` forces (N); may be the array of displacements, from its start
-/// @param count            number of dampers, may be 0
+/// @param forces_n         written: `count` forces (N); can be the array of displacements itself
+/// @param count            number of dampers, can be 0
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn dashpot_step_bank(
     dampers: *const *const DashpotDamper,
@@ -93,12 +91,12 @@ pub unsafe extern "C" fn dashpot_step_bank(
             let damper = unsafe { made(*dampers.add(index)) }?;
             moving.check_apart(Memory::of(damper))?;
             forces.check_apart(Memory::of(damper))?;
-            // SAFETY: as above; the reference ends here.
+            // SAFETY: within the caller's array; the caller's promise; the reference ends here.
             check_state(damper, unsafe { shared(states.add(index).cast()) }?)?;
         }
         for index in 0..count {
-            // SAFETY: within the caller's arrays, checked, and the caller's promise. Each element is
-            // read before its force is written, so displacements and forces may be one array.
+            // SAFETY: within the caller's arrays, checked, and the caller's promise. Each displacement is read before
+            // its force is written, so displacements and forces can be the same array.
             unsafe {
                 let damper = made(*dampers.add(index))?;
                 let state: &mut DamperState<f32> = exclusive(states.add(index).cast())?;

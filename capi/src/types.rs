@@ -1,61 +1,61 @@
-//! What C declares: storage of known size, and the structures that are read.
+//! Types of the C interface: storage of known size, and structures of results.
 
 use dashpot_core::health::{Health, HealthModel, HealthStatus};
 use dashpot_core::integrity::Check;
 use dashpot_core::{Damper, DamperState};
 
-/// Bytes of a damper.
+/// Size of a damper (bytes).
 pub const DASHPOT_DAMPER_SIZE: usize = size_of::<Damper<f32>>();
-/// Words of a damper.
+/// Size of a damper (words).
 pub const DASHPOT_DAMPER_WORDS: usize = DASHPOT_DAMPER_SIZE / size_of::<u32>();
-/// Bytes of a state.
+/// Size of a state (bytes).
 pub const DASHPOT_STATE_SIZE: usize = size_of::<DamperState<f32>>();
-/// Words of a state.
+/// Size of a state (words).
 pub const DASHPOT_STATE_WORDS: usize = DASHPOT_STATE_SIZE / size_of::<u32>();
-/// Bytes of an image, from which a damper is made.
+/// Size of the image of a damper (bytes).
 pub const DASHPOT_IMAGE_SIZE: usize = Damper::<f32>::IMAGE_BYTES;
-/// Bytes of a saved state.
+/// Size of a saved state (bytes).
 pub const DASHPOT_SAVED_STATE_SIZE: usize = DamperState::<f32>::SAVED_BYTES;
 
-/// Bytes of the constants of an estimator of health.
+/// Size of a health model (bytes).
 pub const DASHPOT_HEALTH_MODEL_SIZE: usize = size_of::<HealthModel>();
-/// Words of them.
+/// Size of a health model (words).
 pub const DASHPOT_HEALTH_MODEL_WORDS: usize = DASHPOT_HEALTH_MODEL_SIZE / size_of::<u32>();
-/// Bytes of an estimate of health.
+/// Size of a health estimate (bytes).
 pub const DASHPOT_HEALTH_SIZE: usize = size_of::<Health>();
-/// Words of it.
+/// Size of a health estimate (words).
 pub const DASHPOT_HEALTH_WORDS: usize = DASHPOT_HEALTH_SIZE / size_of::<u32>();
-/// Bytes of an image, from which the constants of an estimator of health are made.
+/// Size of the image of a health model (bytes).
 pub const DASHPOT_HEALTH_IMAGE_SIZE: usize = HealthModel::IMAGE_BYTES;
 
-/// Storage of a built damper: constants for one step size. Opaque; may be copied whole.
+/// Storage of a damper: constants for one step size. Opaque; copy it only as a whole.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct DashpotDamper {
-    /// Not for use.
+    /// Private.
     pub opaque: [u32; DASHPOT_DAMPER_WORDS],
 }
 
-/// Storage of what changes from tick to tick. Opaque; may be copied whole.
+/// Storage of a state, which changes from tick to tick. Opaque; copy it only as a whole.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct DashpotState {
-    /// Not for use.
+    /// Private.
     pub opaque: [u32; DASHPOT_STATE_WORDS],
 }
 
-/// How far the check of a damper has come: zeros before the first call.
+/// Progress of the check of a damper: zeros before the first call.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct DashpotCheck {
-    /// Not for use.
+    /// Private.
     pub opaque: [u32; 3],
 }
 
-/// Calls of `dashpot_check_slice` that check a damper whole.
+/// Number of calls of `dashpot_check_slice` that check a whole damper.
 pub const DASHPOT_CHECK_SLICES: u32 = 769;
 
-// The storage C declares is the core's own, to the byte.
+// The storage in C has the layout of the types of the core.
 const _: () = {
     assert!(size_of::<DashpotDamper>() == size_of::<Damper<f32>>());
     assert!(align_of::<DashpotDamper>() == align_of::<Damper<f32>>());
@@ -65,45 +65,45 @@ const _: () = {
     assert!(align_of::<DashpotCheck>() == align_of::<Check>());
 };
 
-/// What a damper was built for.
+/// Properties of a damper.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DashpotDamperInfo {
-    /// Step (s): call `dashpot_step` once in each.
+    /// Step (s): the period for calls of `dashpot_step`.
     pub step_s: f32,
-    /// Clearance 2a, the whole play (m).
+    /// Clearance 2a: the total play (m).
     pub clearance_m: f32,
     /// Largest force magnitude that a step returns (N).
     pub force_limit_n: f32,
-    /// Number that tells built dampers apart, never 0.
+    /// Identifier of the constants, never 0: different dampers have different revisions.
     pub revision: u32,
 }
 
-/// What a state holds for others to read.
+/// Readable part of a state.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DashpotReading {
-    /// Displacement used last (m).
+    /// Last displacement used (m), positive in extension.
     pub displacement_m: f32,
-    /// Force returned last (N).
+    /// Last force returned (N), positive when it resists extension.
     pub force_n: f32,
-    /// `DASHPOT_STATUS_...` bits latched since they were last cleared.
+    /// Latched `DASHPOT_STATUS_...` bits.
     pub status: u16,
-    /// Ticks whose displacement was held or limited, or at which the damper restarted, up to 65535.
+    /// Number of ticks at which the displacement was held or limited or the damper restarted, up to 65535.
     pub rejected_inputs: u16,
 }
 
-/// A displacement was not finite, out of range, or too far from the last one to catch up with; the last good one was held.
+/// A displacement was not finite, out of range, or too far away to catch up with. The last good one was held.
 pub const DASHPOT_STATUS_INPUT_HELD: u16 = 1;
-/// A displacement moved faster than the configured rate; it was followed at that rate.
+/// The displacement changed faster than the configured rate and was followed at that rate.
 pub const DASHPOT_STATUS_INPUT_LIMITED: u16 = 2;
-/// The element yielded: saturation force or configured force limit reached.
+/// The element yielded: it reached the saturation force or the configured force limit.
 pub const DASHPOT_STATUS_SATURATED: u16 = 4;
-/// Another damper than before stepped this state; the force was carried over.
+/// A different damper stepped this state; the force was carried over.
 pub const DASHPOT_STATUS_DAMPER_SWAPPED: u16 = 8;
-/// Memory was damaged: the state started over at rest, or a check found damage in constants or state.
+/// Memory was damaged: the state restarted at rest, or a check found damage in constants or state.
 pub const DASHPOT_STATUS_CORRUPTED: u16 = 16;
-/// A displacement was too far from the last one to catch up with: the damper restarted at rest there, without force.
+/// A displacement was too far away to catch up with. The damper restarted there at rest and without force.
 pub const DASHPOT_STATUS_RESTARTED: u16 = 32;
 
 const _: () = {
@@ -116,19 +116,19 @@ const _: () = {
     assert!(DASHPOT_STATUS_RESTARTED == Status::RESTARTED.bits());
 };
 
-/// Storage of the constants of an estimator of health. Opaque; may be copied whole.
+/// Storage of a health model: constants of the estimator. Opaque; copy it only as a whole.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct DashpotHealthModel {
-    /// Not for use.
+    /// Private.
     pub opaque: [u32; DASHPOT_HEALTH_MODEL_WORDS],
 }
 
-/// Storage of an estimate of health, what changes from tick to tick. Opaque; may be copied whole.
+/// Storage of a health estimate, which changes from tick to tick. Opaque; copy it only as a whole.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct DashpotHealth {
-    /// Not for use.
+    /// Private.
     pub opaque: [u32; DASHPOT_HEALTH_WORDS],
 }
 
@@ -139,17 +139,17 @@ const _: () = {
     assert!(align_of::<DashpotHealth>() == align_of::<Health>());
 };
 
-/// A number and the standard deviation with which it is known.
+/// A value and its standard deviation.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DashpotEstimate {
-    /// The number.
+    /// Estimated value.
     pub value: f32,
-    /// Its standard deviation.
+    /// Standard deviation of the value.
     pub sd: f32,
 }
 
-/// What a damper was when it was healthy.
+/// Healthy state of a damper with its uncertainty.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DashpotHealthBaseline {
@@ -161,70 +161,71 @@ pub struct DashpotHealthBaseline {
     pub clearance_m: DashpotEstimate,
 }
 
-/// How far an estimate may lie from the baseline before an alarm; a limit of infinity or NaN never alarms.
+/// Alarm limits: allowed differences of an estimate from the baseline. An infinite or NaN limit disables its alarm.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DashpotHealthLimits {
-    /// Change of the flow factor either way (1); 0.15 in a model as it was built.
+    /// Change of the flow factor in either direction (1); 0.15 in a new model.
     pub flow_factor: f32,
-    /// Change of the compliance either way, over that of the baseline (1); 0.43, which is a stiffness 30 % lower.
+    /// Change of the compliance in either direction, relative to the baseline (1); 0.43 (30 % less stiffness) in a new
+    /// model.
     pub compliance: f32,
-    /// Change of the clearance either way (m); 0.5e-3.
+    /// Change of the clearance in either direction (m); 0.5e-3 in a new model.
     pub clearance_m: f32,
-    /// Standard deviations, of estimate and baseline together, by which it must differ too (1); 5.
+    /// Smallest significant difference, in combined standard deviations of estimate and baseline (1); 5 in a new model.
     pub deviations: f32,
 }
 
-/// What is known of a damper now.
+/// Present estimates of a damper.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DashpotHealthReading {
-    /// Flow over nominal flow at the same force (1); its inverse is the damping factor.
+    /// Flow over nominal flow at the same force (1). Its inverse is the damping factor.
     pub flow_factor: DashpotEstimate,
     /// Effective stiffness of the mount (N/m).
     pub stiffness_n_per_m: DashpotEstimate,
-    /// Clearance 2a, the whole play (m).
+    /// Clearance 2a: the total play (m).
     pub clearance_m: DashpotEstimate,
     /// Lag of the measured force behind the measured displacement (s).
     pub lag_s: DashpotEstimate,
-    /// Compliance of the mount, one over its stiffness (m/N), which is what is estimated.
+    /// Compliance of the mount, one over its stiffness (m/N), the quantity that the filter estimates.
     pub compliance_m_per_n: DashpotEstimate,
-    /// Samples that told something: in contact, not yielding.
+    /// Number of usable samples: in contact, not yielding.
     pub samples: u32,
-    /// Samples that were not finite or not credible.
+    /// Number of samples that were not finite or not credible.
     pub rejected: u32,
     /// `DASHPOT_HEALTH_...` bits.
     pub status: u16,
-    /// Zero of the force sensor: force that is measured where there is none (N). The others are corrected for it.
+    /// Zero offset of the force sensor (N). The other estimates are corrected for it.
     pub force_zero_n: DashpotEstimate,
-    /// Friction of the seals beyond the nominal one (N). The others are corrected for it.
+    /// Friction of the seals beyond the nominal one (N). The other estimates are corrected for it.
     pub added_friction_n: DashpotEstimate,
 }
 
-/// Flow at the same force, and with it damping, has changed: alarm, latched.
+/// Alarm, latched: the flow at the same force, and thus the damping, has changed.
 pub const DASHPOT_HEALTH_FLOW: u16 = 1;
-/// The stiffness of the mount has changed: alarm, latched.
+/// Alarm, latched: the stiffness of the mount has changed.
 pub const DASHPOT_HEALTH_STIFFNESS: u16 = 2;
-/// The clearance has changed: alarm, latched.
+/// Alarm, latched: the clearance has changed.
 pub const DASHPOT_HEALTH_CLEARANCE: u16 = 4;
-/// Not enough is known now for an alarm: too little motion in contact. Not latched.
+/// There is too little motion in contact for an alarm. Not latched.
 pub const DASHPOT_HEALTH_LITTLE_EXCITATION: u16 = 8;
-/// A sample was not finite or not credible and was left out; latched.
+/// Latched: a sample was not finite or not credible and was left out.
 pub const DASHPOT_HEALTH_INPUT_REJECTED: u16 = 16;
-/// The estimate was damaged or contradicted for long, and began anew; latched.
+/// Latched: the estimate was damaged or contradicted the samples for long, and restarted.
 pub const DASHPOT_HEALTH_RESTARTED: u16 = 32;
-/// The damper moved and the force did not follow: a dead or stuck force channel, oil full of air, a clearance wider than
-/// the motion: alarm, latched. Do not trust the estimates.
+/// Alarm, latched: the damper moved, but the force is zero or does not change. Possible causes are a dead or stuck
+/// force channel, oil full of air, or a clearance wider than the motion. Do not trust the estimates.
 pub const DASHPOT_HEALTH_NO_FORCE: u16 = 64;
-/// The zero of the force sensor is off: alarm, latched. The estimates are corrected for it.
+/// Alarm, latched: the force sensor has a zero offset. The estimates are corrected for it.
 pub const DASHPOT_HEALTH_FORCE_ZERO: u16 = 128;
-/// The channels are further apart in time than is known beforehand: do not trust stiffness and clearance. Not latched.
+/// The lag between the channels is larger than assumed: do not trust stiffness and clearance. Not latched.
 pub const DASHPOT_HEALTH_LATE: u16 = 256;
-/// Two or three of flow, stiffness and clearance differ from the baseline, as with a wrong scale of a sensor, a stuck
-/// displacement or a reversed sign: do not trust the estimates. Not latched.
+/// Two or three of flow, stiffness and clearance differ from the baseline. A wrong scale, a stuck displacement or a
+/// reversed sign of a sensor is a likely cause: do not trust the estimates. Not latched.
 pub const DASHPOT_HEALTH_SEVERAL_CHANGED: u16 = 512;
-/// What is measured does not follow from the model, or the estimate is still on its way after a change: do not trust
-/// the estimates. Not latched.
+/// The model cannot explain the samples, or the estimate is still converging after a change: do not trust the
+/// estimates. Not latched.
 pub const DASHPOT_HEALTH_MISFIT: u16 = 1024;
 
 const _: () = {

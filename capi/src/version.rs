@@ -1,4 +1,4 @@
-//! The version, and whether the header that a program was compiled with is this library's.
+//! Version of the library, and a check of the header that a program was compiled with.
 
 use crate::error::DashpotError;
 use crate::types::{DASHPOT_DAMPER_SIZE, DASHPOT_STATE_SIZE};
@@ -10,19 +10,18 @@ const PATCH: u32 = number(env!("CARGO_PKG_VERSION_PATCH"));
 const fn number(digits: &str) -> u32 {
     match u32::from_str_radix(digits, 10) {
         Ok(number) => number,
-        Err(_) => panic!("cargo gives a number"),
+        Err(_) => panic!("cargo sets a number"),
     }
 }
 
-/// Version of the library: 10000 major + 100 minor + patch, as `DASHPOT_VERSION` is the header's.
+/// Returns the version of the library: 10000 major + 100 minor + patch. `DASHPOT_VERSION` is that of the header.
 #[unsafe(no_mangle)]
 pub extern "C" fn dashpot_version() -> u32 {
     10_000 * MAJOR + 100 * MINOR + PATCH
 }
 
-/// Checks that program and library agree. Call it once at the start, as `DASHPOT_CHECK_HEADER()`.
-///
-/// They agree when major and minor version are the same, and the sizes.
+/// Checks that the program and the library are compatible: equal major and minor version, equal sizes. Call it once at
+/// the start through `DASHPOT_CHECK_HEADER()`.
 ///
 /// @param version      `DASHPOT_VERSION`
 /// @param damper_size  `sizeof(dashpot_damper)`

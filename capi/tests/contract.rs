@@ -1,4 +1,4 @@
-//! The C functions, called as C does: the core's bits, and a code for every wrong call.
+//! The C functions, called as from C: they have the bits of the core, and each wrong call returns a code.
 
 mod common;
 
@@ -14,16 +14,16 @@ const IMAGE: usize = DASHPOT_IMAGE_SIZE;
 const SAVED: usize = DASHPOT_SAVED_STATE_SIZE;
 const DONE: DashpotError = DashpotError::None;
 
-/// One tick, or one bit, of so many is tried under Miri, which is slow.
+/// Under Miri, which is slow, the tests use one tick or one bit of this many.
 const EVERY: usize = if cfg!(miri) { 50 } else { 1 };
 
-/// A damper made from the image of `core`, in storage of arbitrary content.
+/// Initialises a damper from the image of `core`, in storage with arbitrary content.
 fn made(core: &Damper<f32>) -> DashpotDamper {
     let mut damper = DashpotDamper {
         opaque: [0xdead_beef; DASHPOT_DAMPER_WORDS],
     };
     let image = core.to_image();
-    // SAFETY: all three are what they are said to be.
+    // SAFETY: the arguments are as the function requires.
     let done = unsafe { dashpot_damper_init(&mut damper, image.as_ptr(), image.len()) };
     assert_eq!(done, DONE);
     damper
@@ -71,14 +71,14 @@ fn restore(damper: &DashpotDamper, state: &mut DashpotState, saved: &[u8]) -> Da
     unsafe { dashpot_state_restore(state, damper, saved.as_ptr(), saved.len()) }
 }
 
-/// 2 mm at 2 Hz, with values a sensor may give jumps out of range and within it.
+/// 2 mm at 2 Hz, with faulty values of a sensor and jumps within and beyond the range.
 fn displacement(tick: u32) -> f32 {
     match tick {
         200 => f32::NAN,
         300 => f32::NEG_INFINITY,
         400 => 5.0,
         600 => 0.01,
-        // Arcs of 2 mm, by operations that are the same wherever they run.
+        // Arcs of 2 mm, from operations with the same bits on every machine.
         _ => {
             let phase = (tick % 500) as f32 / 250.0 - 1.0;
             8e-3 * phase * (1.0 - phase.abs())
@@ -114,7 +114,7 @@ fn steps_have_the_bits_of_the_core() {
 }
 
 #[test]
-fn a_bank_has_the_bits_of_its_dampers_and_may_work_in_place() {
+fn a_bank_has_the_bits_of_its_dampers_also_in_place() {
     let cores = [core_damper(120e3), core_damper(80e3)];
     let made = cores.map(|core| made(&core));
     let dampers: [*const DashpotDamper; 5] =
@@ -128,7 +128,7 @@ fn a_bank_has_the_bits_of_its_dampers_and_may_work_in_place() {
             std::array::from_fn(|i| cores[i % 2].step(&mut expected[i], displacements[i]));
         let mut exchanged = displacements;
         let place = exchanged.as_mut_ptr();
-        // SAFETY: five of each; displacements and forces may be one array.
+        // SAFETY: five of each; displacements and forces can be the same array.
         let done =
             unsafe { dashpot_step_bank(dampers.as_ptr(), states.as_mut_ptr(), place, place, 5) };
         assert_eq!(done, DONE);
@@ -147,7 +147,7 @@ fn a_bank_has_the_bits_of_its_dampers_and_may_work_in_place() {
     ] {
         let mut dampers = dampers;
         dampers[4] = last;
-        // SAFETY: five of each; the wrong pointer is not followed.
+        // SAFETY: five of each; the wrong pointer is not dereferenced.
         let refused = unsafe {
             dashpot_step_bank(
                 dampers.as_ptr(),
@@ -185,7 +185,7 @@ fn a_saved_state_is_the_same_in_c_and_in_rust() {
 }
 
 #[test]
-fn the_clearance_changes_live_as_in_the_core() {
+fn a_live_change_of_the_clearance_has_the_bits_of_the_core() {
     let mut core = core_damper(120e3);
     let mut damper = made(&core);
     let (mut state, mut expected) = (at_rest(&damper, 0.0), core.at_rest(0.0));
@@ -227,7 +227,7 @@ fn the_clearance_changes_live_as_in_the_core() {
 }
 
 #[test]
-fn a_wrong_image_leaves_the_damper_as_it_was() {
+fn a_wrong_image_leaves_the_damper_unchanged() {
     let core = core_damper(120e3);
     let mut damper = made(&core);
     let before = damper.opaque;
@@ -257,14 +257,14 @@ fn a_wrong_image_leaves_the_damper_as_it_was() {
             assert_eq!(init(&image, IMAGE), code, "byte {at} bit {bit}");
         }
     }
-    // At an odd address.
+    // Reads the image at an odd address.
     let mut shifted = vec![0];
     shifted.extend(good);
     assert_eq!(init(&shifted[1..], IMAGE), DONE);
 }
 
 #[test]
-fn a_restored_state_goes_on_to_the_bit() {
+fn a_restored_state_steps_identically() {
     let damper = made(&core_damper(120e3));
     let mut state = at_rest(&damper, 0.0);
     for tick in (0..600).step_by(EVERY) {
@@ -313,7 +313,7 @@ fn a_wrong_saved_state_changes_nothing() {
         restore(&other, &mut state, &saved),
         DashpotError::WrongDamper
     );
-    // A state that no step leaves, its CRC-32 right.
+    // An impossible state with a correct CRC-32.
     let mut forged = state;
     forged.opaque[3] = f32::NAN.to_bits();
     assert_eq!(
@@ -323,7 +323,7 @@ fn a_wrong_saved_state_changes_nothing() {
     assert_eq!(state.opaque, before);
 }
 
-/// Every pointer of every function, null and misaligned in turn, the others right.
+/// Each pointer of each function is null and then misaligned, with the others valid.
 #[test]
 fn null_and_misaligned_pointers_are_codes() {
     let core = core_damper(120e3);
@@ -353,7 +353,7 @@ fn null_and_misaligned_pointers_are_codes() {
     macro_rules! wrong_pointers {
         ($($call:ident($($before:expr),*; $pointer:expr; $($after:expr),*);)*) => {
             $(
-                // SAFETY: what is neither null nor misaligned is right, the rest is not followed.
+                // SAFETY: other pointers are valid; null and misaligned ones are not dereferenced.
                 let (null, odd, right) = unsafe {(
                     $call($($before,)* none($pointer), $($after),*),
                     $call($($before,)* $pointer.wrapping_byte_add(1), $($after),*),
@@ -363,7 +363,7 @@ fn null_and_misaligned_pointers_are_codes() {
             )*
         };
     }
-    /// The null pointer of the type of `_like`.
+    /// Returns a null pointer of the type of `_like`.
     fn none<P: Null>(_like: P) -> P {
         P::NULL
     }
@@ -398,10 +398,10 @@ fn null_and_misaligned_pointers_are_codes() {
         dashpot_state_restore(; state; damper, from, SAVED);
         dashpot_state_restore(state; damper.cast_const(); from, SAVED);
     }
-    // Bytes have no alignment.
+    // Bytes need no alignment.
     const LENGTH: DashpotError = DashpotError::Length;
     const RANGE: DashpotError = DashpotError::Range;
-    // SAFETY: what is not null is right; a length that cannot be is not followed.
+    // SAFETY: pointers that are not null are valid; an impossible length is not used.
     unsafe {
         assert_eq!(dashpot_state_save(state, null_mut(), SAVED), NULL);
         assert_eq!(dashpot_state_save(state, to, SAVED - 1), LENGTH);
@@ -442,8 +442,8 @@ fn storage_without_a_damper_is_refused() {
 
 #[test]
 fn every_code_has_its_own_text_and_no_other_number_crashes() {
-    const UNKNOWN: &str = "no code of this library";
-    // SAFETY: the text is static and ends in a zero.
+    const UNKNOWN: &str = "unknown code";
+    // SAFETY: the text is static and ends with a zero.
     let found = |code| unsafe { CStr::from_ptr(dashpot_error_text(code)) };
     let text = |code| found(code).to_str().unwrap();
     let mut texts: Vec<&str> = Vec::new();

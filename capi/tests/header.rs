@@ -1,17 +1,18 @@
-//! The header checked in is the one cbindgen makes of the sources, with the version and sizes of this library.
+//! Checks that the committed header equals the one cbindgen generates from the sources, with the version and sizes of
+//! this library.
 //!
-//! `DASHPOT_BLESS=1 cargo test --manifest-path capi/Cargo.toml --test header` writes it.
+//! `DASHPOT_BLESS=1 cargo test --manifest-path capi/Cargo.toml --test header` writes the header.
 
 use std::fmt::{Display, Write};
 use std::path::Path;
 
-/// What cbindgen cannot know: the version is cargo's, the sizes are the compiler's.
+/// Definitions that cbindgen cannot generate: the version from cargo and the sizes from the compiler.
 fn version_and_sizes() -> String {
     let mut text = String::new();
-    let mut define = |holds: &str, name: &str, value: &dyn Display| {
+    let mut define = |comment: &str, name: &str, value: &dyn Display| {
         write!(
             text,
-            "\n/**\n * {holds}\n */\n#define DASHPOT_{name} {value}\n"
+            "\n/**\n * {comment}\n */\n#define DASHPOT_{name} {value}\n"
         )
         .unwrap();
     };
@@ -21,8 +22,8 @@ fn version_and_sizes() -> String {
         ("PATCH", env!("CARGO_PKG_VERSION_PATCH")),
     ] {
         let part = name.to_lowercase();
-        let holds = format!("Version of this header, {part} number.");
-        define(&holds, &format!("VERSION_{name}"), &value);
+        let comment = format!("Version of this header, {part} number.");
+        define(&comment, &format!("VERSION_{name}"), &value);
     }
     define(
         "Version of this header as one number: 10000 major + 100 minor + patch.",
@@ -30,15 +31,15 @@ fn version_and_sizes() -> String {
         &"\\\n    (10000 * DASHPOT_VERSION_MAJOR + 100 * DASHPOT_VERSION_MINOR + DASHPOT_VERSION_PATCH)",
     );
     define(
-        "Whether the library linked is of this header: DASHPOT_ERROR_NONE or DASHPOT_ERROR_HEADER.",
+        "Checks the linked library against this header: DASHPOT_ERROR_NONE or DASHPOT_ERROR_HEADER.",
         "CHECK_HEADER()",
         &"\\\n    dashpot_check_header(DASHPOT_VERSION, sizeof(dashpot_damper), sizeof(dashpot_state))",
     );
-    for (name, value, holds) in [
+    for (name, value, comment) in [
         (
             "DAMPER_SIZE",
             dashpot::DASHPOT_DAMPER_SIZE,
-            "Bytes of a dashpot_damper.",
+            "Size of a dashpot_damper (bytes).",
         ),
         (
             "DAMPER_ALIGN",
@@ -48,12 +49,12 @@ fn version_and_sizes() -> String {
         (
             "DAMPER_WORDS",
             dashpot::DASHPOT_DAMPER_WORDS,
-            "Words of a dashpot_damper.",
+            "Size of a dashpot_damper (words).",
         ),
         (
             "STATE_SIZE",
             dashpot::DASHPOT_STATE_SIZE,
-            "Bytes of a dashpot_state.",
+            "Size of a dashpot_state (bytes).",
         ),
         (
             "STATE_ALIGN",
@@ -63,45 +64,45 @@ fn version_and_sizes() -> String {
         (
             "STATE_WORDS",
             dashpot::DASHPOT_STATE_WORDS,
-            "Words of a dashpot_state.",
+            "Size of a dashpot_state (words).",
         ),
         (
             "IMAGE_SIZE",
             dashpot::DASHPOT_IMAGE_SIZE,
-            "Bytes of an image, from which a damper is made.",
+            "Size of the image of a damper (bytes).",
         ),
         (
             "SAVED_STATE_SIZE",
             dashpot::DASHPOT_SAVED_STATE_SIZE,
-            "Bytes of a saved state.",
+            "Size of a saved state (bytes).",
         ),
         (
             "HEALTH_MODEL_SIZE",
             dashpot::DASHPOT_HEALTH_MODEL_SIZE,
-            "Bytes of a dashpot_health_model.",
+            "Size of a dashpot_health_model (bytes).",
         ),
         (
             "HEALTH_MODEL_WORDS",
             dashpot::DASHPOT_HEALTH_MODEL_WORDS,
-            "Words of a dashpot_health_model.",
+            "Size of a dashpot_health_model (words).",
         ),
         (
             "HEALTH_SIZE",
             dashpot::DASHPOT_HEALTH_SIZE,
-            "Bytes of a dashpot_health.",
+            "Size of a dashpot_health (bytes).",
         ),
         (
             "HEALTH_WORDS",
             dashpot::DASHPOT_HEALTH_WORDS,
-            "Words of a dashpot_health.",
+            "Size of a dashpot_health (words).",
         ),
         (
             "HEALTH_IMAGE_SIZE",
             dashpot::DASHPOT_HEALTH_IMAGE_SIZE,
-            "Bytes of an image, from which a dashpot_health_model is made.",
+            "Size of the image of a dashpot_health_model (bytes).",
         ),
     ] {
-        define(holds, name, &value);
+        define(comment, name, &value);
     }
     text
 }
@@ -124,7 +125,7 @@ fn the_header_is_that_of_the_sources() {
         std::fs::write(&file, &generated).unwrap();
     }
     let checked_in = std::fs::read_to_string(&file).unwrap_or_default();
-    // An equality of whole texts would print both.
+    // `assert_eq!` would print both whole texts.
     let differs = checked_in
         .lines()
         .zip(generated.lines())
@@ -133,6 +134,7 @@ fn the_header_is_that_of_the_sources() {
         checked_in == generated,
         "{} differs from the sources at line {}: DASHPOT_BLESS=1 cargo test --manifest-path capi/Cargo.toml --test header",
         file.display(),
-        differs.map_or("of its end".to_owned(), |line| (line + 1).to_string())
+        differs.map_or("of the shorter end".to_owned(), |line| (line + 1)
+            .to_string())
     );
 }

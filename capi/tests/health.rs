@@ -1,4 +1,4 @@
-//! The estimator of health, called as C does: the core's bits, and a code for every wrong call.
+//! The health estimator, called as from C: it has the bits of the core, and each wrong call returns a code.
 
 use std::mem::MaybeUninit;
 use std::ptr::{null, null_mut};
@@ -61,7 +61,7 @@ fn estimates_have_the_bits_of_the_core() {
     let mut expected = Health::new(&core);
     let mut state = damper.at_rest(0.0);
     for tick in 0..5000 {
-        // Arcs of 2 mm and of 0.5 mm, by operations that are the same wherever they run.
+        // Arcs of 2 mm and 0.5 mm, from operations with the same bits on every machine.
         let arc = |period: i32| {
             let phase = (tick % period) as f32 / (0.5 * period as f32) - 1.0;
             phase * (1.0 - phase.abs())
@@ -118,7 +118,7 @@ fn estimates_have_the_bits_of_the_core() {
     assert_eq!(read(&model, &health).rejected, 0);
 }
 
-/// A damper with another clearance: an alarm by the model's own limits, none by wider ones.
+/// A damper with another clearance causes an alarm with the default limits, but not with wider limits.
 #[test]
 fn limits_decide_what_is_an_alarm() {
     let (damper, core) = core_model();
@@ -146,7 +146,7 @@ fn limits_decide_what_is_an_alarm() {
         clearance_m: 2e-3,
         deviations: limits.deviations,
     };
-    // SAFETY: references are valid pointers, and what is wrong is what the function checks.
+    // SAFETY: references are valid pointers; the function checks the wrong arguments.
     unsafe {
         assert_eq!(dashpot_health_set_limits(&mut model, &wide), DONE);
         assert_eq!(alarms(&model), 0);
@@ -188,7 +188,7 @@ fn wrong_calls_are_codes() {
     };
     let mut storage = model;
     let mut reading = MaybeUninit::uninit();
-    // SAFETY: what is wrong here is what the functions check.
+    // SAFETY: the functions check the wrong arguments.
     unsafe {
         let mut init =
             |bytes: &[u8], length| dashpot_health_model_init(&mut storage, bytes.as_ptr(), length);

@@ -1,4 +1,4 @@
-//! Memory that was never made a state, and memory that was damaged.
+//! Uninitialised memory and damaged memory.
 
 mod common;
 
@@ -28,7 +28,7 @@ fn made() -> (DashpotDamper, DashpotState) {
 }
 
 #[test]
-fn memory_that_was_never_made_a_state_is_refused_and_stays() {
+fn uninitialised_memory_is_refused_and_unchanged() {
     let (damper, _) = made();
     for word in [0, 0xffff_ffff, 0xa5a5_a5a5, 0xdead_beef, 0xcdcd_cdcd] {
         let mut state = DashpotState {
@@ -69,7 +69,7 @@ fn a_flipped_bit_is_found_and_the_force_stays_within_its_limit() {
     damper.opaque[2000] ^= 1 << 30;
     let calls = (1..).find(|_| slice(&damper, &state) != DONE);
     assert!(calls.is_some_and(|calls| calls <= DASHPOT_CHECK_SLICES));
-    // Miri is slow: a word of every part.
+    // Miri is slow, so it tries one word of each part.
     let every = if cfg!(miri) { 397 } else { 1 };
     for word in (0..DASHPOT_DAMPER_WORDS).step_by(every) {
         let (mut damper, mut state) = (damper, state);
@@ -84,7 +84,7 @@ fn a_flipped_bit_is_found_and_the_force_stays_within_its_limit() {
             );
         }
     }
-    // A stretch that no step leaves behind.
+    // An impossible stretch.
     state.opaque[1] = f32::NAN.to_bits();
     assert_eq!(slice(&damper, &state), DashpotError::Corrupted);
 }

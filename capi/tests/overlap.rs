@@ -1,4 +1,4 @@
-//! Memory that a call changes and that it was also given for something else: refused, nothing written.
+//! Memory that a call changes and that overlaps another argument: the call is refused and writes nothing.
 
 mod common;
 
@@ -13,20 +13,20 @@ const DONE: DashpotError = DashpotError::None;
 const IMAGE: usize = DASHPOT_IMAGE_SIZE;
 const SAVED: usize = DASHPOT_SAVED_STATE_SIZE;
 
-/// Made once, for under Miri it takes seconds.
+/// Returns an image that is built only once, because it takes seconds under Miri.
 fn image() -> &'static [u8; IMAGE] {
     static MADE: LazyLock<[u8; IMAGE]> = LazyLock::new(|| core_damper(120e3).to_image());
     &MADE
 }
 
-/// Words that hold several things at once, and what they were before a call.
+/// Words for several objects, with a copy from before a call.
 struct Arena {
     words: Vec<u32>,
     before: Vec<u32>,
 }
 
 impl Arena {
-    /// A damper at the start, a state at rest right after it, free words behind.
+    /// A damper at the start, followed by a state at rest and free words.
     fn new() -> Self {
         let mut words = vec![0; 4 * DASHPOT_DAMPER_WORDS];
         let image = image();
@@ -41,7 +41,7 @@ impl Arena {
         Self { words, before }
     }
 
-    /// What lies at a byte.
+    /// Returns a pointer to a byte.
     fn at<T>(&mut self, byte: usize) -> *mut T {
         assert!(byte + size_of::<T>() <= 4 * self.words.len());
         self.words.as_mut_ptr().wrapping_byte_add(byte).cast()
@@ -57,9 +57,9 @@ const STATE_AT: usize = DASHPOT_DAMPER_SIZE;
 const FREE_AT: usize = STATE_AT + DASHPOT_STATE_SIZE;
 
 #[test]
-fn an_image_in_the_storage_is_refused_and_beside_it_is_taken() {
+fn an_image_is_refused_inside_the_storage_and_accepted_next_to_it() {
     let mut arena = Arena::new();
-    // The storage lies in the middle: the image reaches into it from before, lies inside, reaches out.
+    // The image overlaps the start of the storage, lies inside it, or overlaps its end.
     let storage_at = DASHPOT_DAMPER_SIZE;
     let overlapping = [
         storage_at - IMAGE + 1,
@@ -75,11 +75,11 @@ fn an_image_in_the_storage_is_refused_and_beside_it_is_taken() {
     {
         arena.words.fill(7);
         let place: *mut u8 = arena.at(image_at);
-        // SAFETY: within the arena, which is large enough for every place above.
+        // SAFETY: within the arena, which is large enough for every offset above.
         unsafe { place.copy_from(image().as_ptr(), IMAGE) };
         arena.before.clone_from(&arena.words);
         let storage = arena.at(storage_at);
-        // SAFETY: as above.
+        // SAFETY: within the arena.
         let code = unsafe { dashpot_damper_init(storage, arena.at(image_at), IMAGE) };
         assert_eq!(
             code, expected,
@@ -156,7 +156,7 @@ fn a_bank_refuses_overlap_but_for_forces_in_place() {
     unsafe { state.add(1).write(state.read()) };
     let dampers = [damper.cast_const(); 2];
     let outside_at = STATE_AT + 2 * DASHPOT_STATE_SIZE;
-    // An array of pointers among the states and forces, where it is aligned.
+    // An aligned array of pointers between the states and forces.
     let pointers_at = (outside_at + 64).next_multiple_of(align_of::<*const DashpotDamper>());
     // SAFETY: within the arena; a pointer's bytes, read back as a pointer.
     unsafe {

@@ -1,4 +1,4 @@
-//! Header and library: one version, one size, or a code.
+//! Different versions or sizes of header and library return a code.
 
 use dashpot::{
     DASHPOT_DAMPER_SIZE, DASHPOT_STATE_SIZE, DashpotError, dashpot_check_header, dashpot_version,
@@ -12,7 +12,7 @@ fn a_header_of_another_version_or_size_is_refused() {
         dashpot_check_header(here, damper, state),
         DashpotError::None
     );
-    // Another patch is the same interface.
+    // Another patch version has the same interface.
     let patched = here / 100 * 100 + (here + 1) % 100;
     assert_eq!(
         dashpot_check_header(patched, damper, state),

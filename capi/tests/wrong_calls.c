@@ -1,4 +1,4 @@
-/* Calls that are refused: the program fails where one is not, or where it has changed anything. */
+/* Makes wrong calls. The program fails if a call is not refused or changes anything. */
 #include <stdint.h>
 #include <stdio.h>
 #include <string.h>

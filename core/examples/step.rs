@@ -1,14 +1,11 @@
-//! One damper, a step a tick: `cargo run -p dashpot-core --example step`.
+//! Steps one damper once per tick: `cargo run -p dashpot-core --example step`.
 
 use dashpot_core::parameters::{DamperParameters, Mount};
 use dashpot_core::{BuildError, Damper};
 
 fn main() -> Result<(), BuildError> {
-    // The reduced in-service damper: 120 kN s/m up to 0.03 m/s, 8 MN/m in series, clearance 2a of 1 mm.
-    let mount = Mount {
-        clearance_m: 1e-3,
-        ..Mount::new(8e6)
-    };
+    // A reduced damper: 120 kN s/m up to 0.03 m/s, 8 MN/m in series, clearance 2a of 1 mm.
+    let mount = Mount::new(8e6).clearance_m(1e-3);
     let parameters = DamperParameters::reduced(120e3, 0.03, mount);
     let damper: Damper<f32> = parameters.build(1e-3)?;
 

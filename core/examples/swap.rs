@@ -1,4 +1,5 @@
-//! A fault injected while the rig runs: another damper takes the state over, the force stays continuous:
+//! Injects a fault into a running rig: another damper takes over the state, and the force stays continuous.
+//!
 //! `cargo run -p dashpot-core --example swap`.
 
 use std::error::Error;
@@ -11,7 +12,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         DamperParameters::reduced(120e3, 0.03, Mount::new(8e6)).build(1e-3)?;
     let worn: Damper<f32> = DamperParameters::reduced(40e3, 0.1, Mount::new(8e6)).build(1e-3)?;
 
-    // As a host sends it and a firmware loads it: bytes, checked, in slices between ticks.
+    // A host sends the image and the firmware loads it, checked and in slices between ticks.
     let image = worn.to_image();
     let mut loaded = healthy;
     let mut loading = Loading::START;
@@ -33,7 +34,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     }
     println!("at the end: {last_n:.1} N");
 
-    // Kept in a file, given back to the bit.
+    // A saved state is restored exactly.
     let saved = state.save();
     assert_eq!(loaded.restore(&saved)?, state);
     Ok(())

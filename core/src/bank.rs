@@ -1,7 +1,7 @@
-//! Several dampers in one call: the same bits as one step each, in less time.
+//! Several dampers in one call: the same bits as single steps, in less time.
 //!
-//! A step is a chain of operations that wait for one another; the chains of different dampers do not.
-//! Where there are vector instructions, a bank takes eight dampers through the step together.
+//! In one step each operation waits for the result of the previous one. Steps of different dampers are independent, so
+//! a bank steps eight dampers together on processors with vector instructions.
 
 use crate::damper::Damper;
 use crate::math::Real;
@@ -11,8 +11,8 @@ use crate::step::step;
 
 /// Steps `N` dampers: `forces[i] = dampers[i].step(&mut states[i], displacements[i])`, bit for bit.
 ///
-/// Displacements (m) and forces (N) have the signs of [`Damper::step`]; like it this cannot fail. One
-/// damper may serve several states.
+/// Displacements (m) and forces (N) have the signs of [`Damper::step`]. This cannot fail. One damper can serve several
+/// states.
 ///
 /// ```
 /// # #[cfg(feature = "builder")] {

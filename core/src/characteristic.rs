@@ -1,23 +1,22 @@
 //! Static laws of a damper, for curves and checks outside the step.
 
-use heapless::Vec;
-
 use crate::build::root::bracketed_root;
 use crate::build::{CheckedParameters, ElementLaws};
-use crate::hydraulics::{HydraulicSide, jet_velocity};
+use crate::hydraulics::{Corners, HydraulicSide, jet_velocity};
 
 /// One of the three shim-pack valves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum ShimPackValve {
-    /// In the piston, working in extension.
+    /// Piston valve that works in extension.
     PistonExtension,
-    /// In the piston, working in compression.
+    /// Piston valve that works in compression.
     PistonCompression,
-    /// In the foot, working in compression against the reservoir.
+    /// Foot valve that works in compression against the reservoir.
     FootCompression,
 }
 
-/// Where the law of a damper has a corner: the slope of velocity over force changes at once.
+/// A corner of a damper's law, where the slope of velocity over force jumps.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Corner {
@@ -25,22 +24,23 @@ pub enum Corner {
     PistonValveOpens,
     /// The relief valve opens.
     ReliefOpens,
-    /// The foot valve opens, against its preload or the reservoir.
+    /// The foot valve opens against its preload or the reservoir pressure.
     FootValveOpens,
-    /// The rod side reaches the vapour pressure, or leaves it, in compression.
+    /// In compression, the pressure of the rod side reaches or leaves the vapour pressure.
     Vapour,
-    /// The element yields: saturation velocity or force limit.
+    /// The element yields at the saturation velocity or the force limit.
     Yields,
 }
 
 /// Laws of a damper at constant velocity: springs at rest, clearance taken up.
+#[derive(Clone, Debug)]
 pub struct Characteristic {
     laws: ElementLaws,
     force_limit_n: f64,
 }
 
 impl Characteristic {
-    /// The static laws of a damper.
+    /// Returns the static laws of a damper.
     pub fn new(parameters: &CheckedParameters) -> Self {
         Self {
             laws: parameters.laws.clone(),
@@ -48,8 +48,8 @@ impl Characteristic {
         }
     }
 
-    /// Force (N) at a constant velocity (m/s), both positive in extension; 0 at rest. At most the force
-    /// at which the damper yields.
+    /// Returns the force (N) at a constant velocity (m/s). Both are positive in extension. The force is 0 at rest and
+    /// never exceeds the yield force.
     pub fn force_n(&self, velocity_m_per_s: f64) -> f64 {
         if velocity_m_per_s == 0.0 {
             return 0.0;
@@ -77,8 +77,9 @@ impl Characteristic {
         }
     }
 
-    /// The corners of the law and the forces (N) at which they lie, extension positive, compression
-    /// negative; in order of kind, not of force. Seal friction and clearance are not among them.
+    /// Iterates over the corners of the law and their forces (N), positive in extension and negative in compression.
+    ///
+    /// The order is that of the kinds, not of the forces. Seal friction and clearance are not included.
     ///
     /// ```
     /// use dashpot_core::characteristic::{Characteristic, Corner};
@@ -86,30 +87,33 @@ impl Characteristic {
     ///
     /// let parameters = DamperParameters::reduced(120e3, 0.03, Mount::new(8e6));
     /// let characteristic = Characteristic::new(&parameters.check()?);
-    /// assert_eq!(characteristic.corners()[..], [(Corner::Yields, 3600.0), (Corner::Yields, -3600.0)]);
+    /// assert!(characteristic.corners().eq([(Corner::Yields, 3600.0), (Corner::Yields, -3600.0)]));
     /// # Ok::<(), dashpot_core::BuildError>(())
     /// ```
-    pub fn corners(&self) -> Vec<(Corner, f64), 18> {
-        let mut corners = Vec::new();
-        for (compression, sign) in [(false, 1.0), (true, -1.0)] {
-            let (opens, yields) = match &self.laws {
-                ElementLaws::Physical(laws) => {
-                    let side = HydraulicSide { laws, compression };
-                    (side.corners(self.force_limit_n), self.force_limit_n)
-                }
-                ElementLaws::Reduced(reduced) => {
-                    let yields = reduced.damping_n_s_per_m * reduced.saturation_velocity_m_per_s;
-                    (Vec::new(), yields.min(self.force_limit_n))
-                }
-            };
-            let all = opens.into_iter().chain([(Corner::Yields, yields)]);
-            corners.extend(all.map(|(corner, force)| (corner, sign * force)));
-        }
-        corners
+    pub fn corners(&self) -> impl Iterator<Item = (Corner, f64)> {
+        [(false, 1.0), (true, -1.0)]
+            .into_iter()
+            .flat_map(|(compression, sign)| {
+                let (opens, yields) = match &self.laws {
+                    ElementLaws::Physical(laws) => {
+                        let side = HydraulicSide { laws, compression };
+                        (side.corners(self.force_limit_n), self.force_limit_n)
+                    }
+                    ElementLaws::Reduced(reduced) => {
+                        let yields =
+                            reduced.damping_n_s_per_m * reduced.saturation_velocity_m_per_s;
+                        (Corners::new(), yields.min(self.force_limit_n))
+                    }
+                };
+                let all = opens.into_iter().chain([(Corner::Yields, yields)]);
+                all.map(move |(corner, force)| (corner, sign * force))
+            })
     }
 
-    /// Flow (m^3/s) through a shim-pack valve under its pressure (Pa), the foot valve against the
-    /// reservoir: `Q = Cd 2 pi r_w k_w (P - P_0)+ sqrt(2 (P - P_b)+/rho)`. `None` for a reduced damper.
+    /// Returns the flow (m^3/s) through a shim-pack valve under a gauge pressure (Pa); the foot valve works against the
+    /// reservoir pressure `P_b`: `Q = Cd 2 pi r_w k_w (P - P_0)+ sqrt(2 (P - P_b)+/rho)`.
+    ///
+    /// `None` for a reduced damper.
     ///
     /// ```
     /// use dashpot_core::characteristic::{Characteristic, ShimPackValve};

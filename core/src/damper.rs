@@ -3,7 +3,7 @@
 use crate::encoding::revision;
 use crate::error::ClearanceError;
 use crate::math::Real;
-use crate::parameters::{LARGEST_CLEARANCE_M, LARGEST_FORCE_N};
+use crate::parameters::{MAX_CLEARANCE_M, MAX_FORCE_N};
 use crate::scalars::Scalars;
 use crate::state::DamperState;
 use crate::status::Status;
@@ -35,11 +35,11 @@ pub struct Damper<T> {
     pub(crate) scalars: Scalars<T>,
     pub(crate) revision: u32,
     pub(crate) table_revision: u32,
-    /// CRC-32 of the table as it lies in memory.
+    /// CRC-32 of the table in memory.
     pub(crate) table_check: u32,
-    /// In `f32` the table lies 64 bytes on, where each part of it is reached by one instruction.
+    /// Puts the `f32` table at an offset of 64 bytes, from which one instruction reaches each part of it.
     pub(crate) padding: [u32; 2],
-    /// What an implicit stage finds, over its reach beyond the offset.
+    /// Results of an implicit stage over its reach beyond the offset.
     pub(crate) table: Table<T>,
 }
 
@@ -57,11 +57,11 @@ impl<T: Real> Damper<T> {
         }
     }
 
-    /// A state at rest at `displacement` (m), centred in the clearance, no force.
+    /// Returns a state at rest at `displacement` (m), centred in the clearance, without force.
     ///
-    /// A displacement that is not finite or beyond [`Damper::largest_displacement_m`] is rejected: counted, latched
-    /// as [`Status::INPUT_HELD`], and the state waits at an end of the range, from where the first good displacement
-    /// is too far to catch up with: the damper restarts there without force.
+    /// A displacement that is not finite or beyond [`Damper::largest_displacement_m`] is rejected, counted and latched
+    /// as [`Status::INPUT_HELD`]. The state then starts at an end of the range. From there the first good displacement
+    /// is too far to catch up with, so the damper restarts at it without force.
     pub fn at_rest(&self, displacement: T) -> DamperState<T> {
         if self.is_displacement(displacement) {
             let numbers = [displacement, T::ZERO, T::ZERO, T::ZERO];
@@ -73,12 +73,13 @@ impl<T: Real> Damper<T> {
         DamperState::new(numbers, self.revision, Status::INPUT_HELD, 1)
     }
 
-    /// Largest displacement (m) from zero that a step follows; one beyond it is held, as one that is not finite is.
+    /// Largest displacement from zero that a step follows (m). A displacement beyond it is held, like one that is not
+    /// finite.
     pub fn largest_displacement_m(&self) -> T {
-        self.scalars.largest_displacement()
+        self.scalars.max_displacement()
     }
 
-    /// Whether a displacement (m) is finite and within the range.
+    /// True if a displacement (m) is finite and within the range.
     pub(crate) fn is_displacement(&self, displacement: T) -> bool {
         displacement.all_within([&self.scalars.displacement_bound])
     }
@@ -88,57 +89,59 @@ impl<T: Real> Damper<T> {
         self.scalars.step_s
     }
 
-    /// Number that tells built dampers apart, never 0.
+    /// Identifier of these constants, never 0: dampers with different constants have different revisions.
     pub fn revision(&self) -> u32 {
         self.revision
     }
 
-    /// Clearance 2a, the whole play (m).
+    /// Clearance 2a: the total play (m).
     pub fn clearance_m(&self) -> T {
         self.scalars.half_clearance + self.scalars.half_clearance
     }
 
-    /// Force at which the element yields (N); no step returns more. At most
-    /// [`LARGEST_FORCE_N`], of damaged constants too.
+    /// Force at which the element yields (N). No step returns more. At most [`MAX_FORCE_N`], even with damaged
+    /// constants.
     pub fn force_limit_n(&self) -> T {
         let limit = self.scalars.half_force_limit + self.scalars.half_force_limit;
-        let most = T::from_f64(LARGEST_FORCE_N);
-        if limit <= most {
+        let max = T::from_f64(MAX_FORCE_N);
+        if limit <= max {
             limit.max(T::ZERO)
         } else {
-            most
+            max
         }
     }
 
-    /// For each bin of the reach the piece at its lower border, in extension and in compression, each side's pieces in
-    /// one count: what a step in another language looks up beside [`Damper::to_words`].
+    /// For each bin of the reach, the index of the piece at its lower border in extension and in compression. The
+    /// pieces of compression follow those of extension.
+    ///
+    /// A step in another language needs these bins and [`Damper::to_words`].
     pub fn bins(&self) -> &[[u8; 2]] {
         &self.table.bins
     }
 
-    /// Sets the clearance 2a (m): a live change for firmware, a few dozen operations, no table touched.
+    /// Sets the clearance 2a (m) while the damper runs: a few dozen operations; the table does not change.
     ///
     /// # Errors
-    /// A clearance that is not 0 to [`LARGEST_CLEARANCE_M`]; the damper stays as it is.
+    /// A clearance outside 0 to [`MAX_CLEARANCE_M`]; the damper is unchanged.
     pub fn set_clearance_m(&mut self, clearance_m: T) -> Result<(), ClearanceError> {
-        if !(T::ZERO..=T::from_f64(LARGEST_CLEARANCE_M)).contains(&clearance_m) {
+        if !(T::ZERO..=T::from_f64(MAX_CLEARANCE_M)).contains(&clearance_m) {
             return Err(ClearanceError);
         }
         let half = T::from_f64(0.5) * clearance_m;
         let k = &mut self.scalars;
         k.half_clearance = half;
         k.offset = half + k.held;
-        k.stretch_bound = k.stretch_bound_by_others();
+        k.stretch_bound = k.computed_stretch_bound();
         self.revision = revision::of_damper(self.table_revision, k);
         Ok(())
     }
 
-    /// Reach (m) at the end of the bins; no stage looks beyond it.
-    pub(crate) fn largest_reach(&self) -> T {
-        self.scalars.largest_reach_beyond_offset() + self.scalars.offset
+    /// Reach (m) at the end of the bins. No stage exceeds it.
+    pub(crate) fn max_reach(&self) -> T {
+        self.scalars.max_reach_beyond_offset() + self.scalars.offset
     }
 
-    /// Whether every scalar and every number of the table is finite.
+    /// True if every scalar and every number of the table is finite.
     #[cfg(feature = "builder")]
     pub(crate) fn is_finite(&self) -> bool {
         let numbers = self.table.pieces.iter().flat_map(Piece::numbers);
@@ -149,12 +152,12 @@ impl<T: Real> Damper<T> {
             .all(|number| number.is_finite())
     }
 
-    /// Whether a step of this damper could leave the numbers of a state behind.
+    /// True if the numbers of a state could result from a step of this damper.
     pub(crate) fn could_leave(&self, state: &DamperState<T>) -> bool {
         let k = &self.scalars;
-        // Rounding to the grid of positions may pass the range, by less than a thousandth of it.
-        let most = T::from_f64(1.001) * k.largest_displacement();
-        state.displacement.abs() <= most
+        // Rounding to the grid of positions may exceed the range by less than a thousandth of it.
+        let max = T::from_f64(1.001) * k.max_displacement();
+        state.displacement.abs() <= max
             && state.potential.is_finite()
             && state.stretch.all_within([&k.stretch_bound])
             && state.force.abs() <= self.force_limit_n()
@@ -166,9 +169,9 @@ mod tests {
     use super::Damper;
     use crate::scalars::SCALARS;
 
-    /// What `build` looks at last.
+    /// `build` ends with this check.
     #[test]
-    fn a_number_that_is_not_finite_is_seen_wherever_it_is() {
+    fn finds_a_non_finite_number_in_any_word() {
         let built: Damper<f64> = crate::example::reduced_vertical().build(1e-3).unwrap();
         assert!(built.is_finite());
         let words = built.to_words();

@@ -1,4 +1,4 @@
-//! Errors of building a damper and of changing it. The step itself has no errors.
+//! Errors of building and changing a damper. The step itself cannot fail.
 
 use core::fmt;
 
@@ -6,37 +6,58 @@ use crate::parameters::Mount;
 #[cfg(feature = "builder")]
 use crate::parameters::{Numbers, Range};
 
-/// A parameter that cannot be built, with the field's name and what is allowed.
+/// An invalid parameter: the name of the field, its value and the allowed range.
 ///
 /// ```
 /// use dashpot_core::BuildError;
-/// let error = BuildError {
-///     section: "mount",
-///     field: "stiffness_n_per_m",
-///     value: -1.0,
-///     allowed: "above 0",
-///     bound: None,
-/// };
+///
+/// let error = BuildError::new("mount", "stiffness_n_per_m", -1.0, "above 0");
 /// assert_eq!(error.to_string(), "mount.stiffness_n_per_m = -1 is not allowed: must be above 0");
-/// let error = BuildError { bound: Some(0.5), ..error };
+/// let error = error.bound(0.5);
 /// assert!(error.to_string().ends_with("must be above 0; here the bound is 0.5"));
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 #[error("{section}.{field} = {value} is not allowed: must be {allowed}{}", Bound(*bound))]
 pub struct BuildError {
-    /// Table of the damper file that holds the field.
+    /// Table of the damper file that contains the field.
     pub section: &'static str,
-    /// Name of the field as a damper file spells it.
+    /// Name of the field in a damper file.
     pub field: &'static str,
-    /// The value found there, in the field's unit.
+    /// The invalid value, in the field's unit.
     pub value: f64,
     /// The allowed range, in the field's unit.
     pub allowed: &'static str,
-    /// The bound that other parameters set, in the field's unit; `None` where the allowed range says it all.
+    /// The violated bound, in the field's unit, if other parameters determine it.
     pub bound: Option<f64>,
 }
 
-/// The bound of a [`BuildError`] in words.
+impl BuildError {
+    /// A field of a table whose value is outside the allowed range.
+    pub const fn new(
+        section: &'static str,
+        field: &'static str,
+        value: f64,
+        allowed: &'static str,
+    ) -> Self {
+        Self {
+            section,
+            field,
+            value,
+            allowed,
+            bound: None,
+        }
+    }
+
+    /// Sets the bound that other parameters determine.
+    #[must_use]
+    pub const fn bound(mut self, bound: f64) -> Self {
+        self.bound = Some(bound);
+        self
+    }
+}
+
+/// Formats the bound of a [`BuildError`].
 struct Bound(Option<f64>);
 
 impl fmt::Display for Bound {
@@ -46,12 +67,16 @@ impl fmt::Display for Bound {
     }
 }
 
-/// A clearance that is not 0 to 0.1 m.
+/// A clearance outside 0 to 0.1 m.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("mount.clearance_m must be {}", Mount::RANGES.clearance_m.allowed)]
+#[non_exhaustive]
 pub struct ClearanceError;
 
-/// `Ok` when a value is in its range and keeps its relation to others, else the error that names the field.
+/// Checks a value against its range and the result of its relation to other parameters.
+///
+/// # Errors
+/// The field, if the value is out of range or `keeps_relation` is false.
 #[cfg(feature = "builder")]
 pub(crate) fn require(
     section: &'static str,
@@ -62,17 +87,11 @@ pub(crate) fn require(
     if range.contains(value) && keeps_relation {
         Ok(())
     } else {
-        Err(BuildError {
-            section,
-            field: range.key,
-            value,
-            allowed: range.allowed,
-            bound: None,
-        })
+        Err(BuildError::new(section, range.key, value, range.allowed))
     }
 }
 
-/// As [`require`], of every number of a field.
+/// Checks every number of a field against its range.
 #[cfg(feature = "builder")]
 pub(crate) fn require_range(
     section: &'static str,

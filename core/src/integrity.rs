@@ -1,5 +1,5 @@
-//! A slow check of a damper in memory: a slice at every call, in constant time, so that a bit flipped in
-//! constants is found while they are in use.
+//! A slow check that finds bits flipped in a damper's constants while they are in use. Each call checks one slice in
+//! constant time.
 
 use crate::damper::Damper;
 use crate::encoding::revision;
@@ -7,12 +7,13 @@ use crate::math::Real;
 use crate::state::DamperState;
 use crate::table::ROWS;
 
-/// Constants or a state that no build and no step leaves behind: memory was damaged.
+/// Damaged memory: constants that no build produces, or a state that no step produces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("constants or a state were damaged in memory")]
+#[non_exhaustive]
 pub struct Corrupted;
 
-/// How far the check of a damper has come.
+/// Progress of the check of a damper.
 ///
 /// ```
 /// # #[cfg(feature = "builder")] {
@@ -32,37 +33,36 @@ pub struct Corrupted;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[repr(C)]
 pub struct Check {
-    /// Rows of the table that `crc` covers; the scalars come after the last.
+    /// Number of rows of the table that `crc` covers. The scalars come after the last row.
     row: u32,
     crc: u32,
-    /// Checksum the round began with: a damper that was loaded meanwhile begins a new round.
+    /// Checksum of the table at the start of the round. Loading another damper starts a new round.
     expected: u32,
 }
 
-/// Calls of [`Check::slice`] that check a damper whole.
+/// Number of calls of [`Check::slice`] that check a whole damper.
 pub const SLICES: u32 = ROWS as u32 + 1;
 
 impl Check {
-    /// Before the first slice.
+    /// The check before the first slice.
     pub const START: Self = Self {
         row: 0,
         crc: 0,
         expected: 0,
     };
 
-    /// Whether the next slice is the first of a round.
+    /// True if the next slice is the first of a round.
     pub fn is_at_start(&self) -> bool {
         self.row == 0
     }
 
-    /// Checks the next slice, four numbers of the table or the scalars; after the last begins again.
+    /// Checks the next slice: four numbers of the table, or the scalars. After the last slice a new round starts.
     ///
-    /// Call it from one place at a time, with the same damper every time. One that is loaded or whose clearance
-    /// is set between calls is no error.
+    /// Use one `Check` for each damper. Loading the damper or setting its clearance between two calls is allowed.
     ///
     /// # Errors
-    /// The constants are not those that were built. Every flipped bit is found within [`SLICES`] calls of the
-    /// round that begins after it.
+    /// The constants have changed since they were built. Every flipped bit is found within the [`SLICES`] calls of the
+    /// next round.
     pub fn slice<T: Real>(&mut self, damper: &Damper<T>) -> Result<(), Corrupted> {
         if self.row == 0 || self.expected != damper.table_check {
             *self = Self {
@@ -85,13 +85,13 @@ impl Check {
         }
     }
 
-    /// Whether a state is one that steps of the damper could leave behind.
+    /// Checks that a state could result from steps of the damper.
     ///
     /// # Errors
-    /// It is not: a number is not finite or out of range, or the state was never made.
+    /// A number is not finite or out of range, or the memory was never initialised.
     pub fn state<T: Real>(damper: &Damper<T>, state: &DamperState<T>) -> Result<(), Corrupted> {
-        let other = state.revision != damper.revision;
-        if state.is_marked() && (other || damper.could_leave(state)) {
+        let is_from_other = state.revision != damper.revision;
+        if state.is_marked() && (is_from_other || damper.could_leave(state)) {
             Ok(())
         } else {
             Err(Corrupted)

@@ -10,13 +10,14 @@ pub(crate) const ZERO_CELSIUS_K: f64 = 273.15;
 const AIR_GAS_CONSTANT: f64 = 287.053;
 
 impl Oil {
-    /// Density of oil with entrained air under gauge pressure (kg/m^3), by mass balance:
-    /// `rho = [(1 - alpha) rho_oil + alpha rho_air] / V(P)`, V the volume of a mixture that fills 1
-    /// at atmospheric pressure.
+    /// Density (kg/m^3) of oil with entrained air under a gauge pressure (Pa).
+    ///
+    /// Mass balance: `rho = [(1 - alpha) rho_oil + alpha rho_air] / V(P)`, where V is the volume over the volume at
+    /// atmospheric pressure.
     ///
     /// ```
     /// use dashpot_core::parameters::Oil;
-    /// let oil = Oil { thermal_expansion_per_k: 7e-4, ..Oil::new(870.0) }; // at 45 degC
+    /// let oil = Oil::new(870.0).thermal_expansion_per_k(7e-4); // at 45 degC
     /// assert!((oil.density_kg_per_m3(0.0) - 870.0 / 1.021).abs() < 1e-9);
     /// ```
     pub fn density_kg_per_m3(&self, pressure_pa: f64) -> f64 {
@@ -33,8 +34,10 @@ impl Oil {
         }
     }
 
-    /// Kinematic viscosity at the working temperature (m^2/s), Walther's law (ASTM D341):
-    /// `log10(log10(nu + 0.7)) = A - B log10(T)`, nu in mm^2/s, T in K, through the two given points.
+    /// Kinematic viscosity at the working temperature (m^2/s).
+    ///
+    /// Walther's law (ASTM D341) through the two given points: `log10(log10(nu + 0.7)) = A - B log10(T)`, nu in mm^2/s
+    /// and T in K.
     pub fn kinematic_viscosity_m2_per_s(&self) -> f64 {
         let ordinate = |viscosity: f64| log10(log10(viscosity * 1e6 + 0.7));
         let abscissa = |celsius: f64| log10(celsius + ZERO_CELSIUS_K);
@@ -49,7 +52,7 @@ impl Oil {
 }
 
 impl OilColumn {
-    /// Fraction of its atmospheric volume by which the mixture shortens under gauge pressure P:
+    /// Relative loss of volume of the mixture under a gauge pressure P (Pa), from its volume at atmospheric pressure:
     /// `(1 - alpha) P/E_l + alpha (1 - (p_a/(p_a + P))^(1/n))` (1).
     pub fn compression(&self, pressure_pa: f64) -> f64 {
         (1.0 - self.air_fraction) * pressure_pa / self.bulk_modulus_pa
@@ -74,19 +77,13 @@ impl OilColumn {
                 / (self.polytropic_exponent * absolute)
     }
 
-    /// Bulk modulus of the mixture at absolute pressure p (Pa): its volume over its compressibility,
+    /// Bulk modulus of the mixture (Pa) at an absolute pressure p (Pa): its volume over its compressibility,
     /// `E = E_l (1 + alpha (p_a/p)^(1/n)) / (1 + alpha p_a^(1/n) E_l/(n p^((n+1)/n)))` to first order
     /// in alpha.
     ///
     /// ```
     /// use dashpot_core::parameters::OilColumn;
-    /// let column = OilColumn {
-    ///     bulk_modulus_pa: 1.5e9,
-    ///     rod_side_volume_m3: 1e-3,
-    ///     piston_side_volume_m3: 1e-3,
-    ///     air_fraction: 0.0,
-    ///     polytropic_exponent: 1.0,
-    /// };
+    /// let column = OilColumn::new(1.5e9, 1e-3, 1e-3);
     /// assert!((column.bulk_modulus_pa(101_325.0) / 1.5e9 - 1.0).abs() < 1e-12);
     /// ```
     pub fn bulk_modulus_pa(&self, absolute_pressure_pa: f64) -> f64 {

@@ -1,82 +1,84 @@
-//! The numbers of a damper beside its table.
+//! The constants of a damper outside its table.
 
 use crate::math::Real;
 use crate::table::DOUBLINGS;
 
-/// The largest bound (m): no damper's input moves and no damper is stretched farther than from one end of the largest
-/// range of displacement to the other. Twice the bits of a number beyond 1.5 would be those of NaN.
-pub(crate) const LARGEST_BOUND_M: f64 = 1.45;
+/// Largest bound of moves and stretches (m): the length of the largest range of displacement.
+///
+/// Doubling the bits of a number above 1.5 would give NaN.
+pub(crate) const MAX_BOUND_M: f64 = 1.45;
 
-/// Numbers of a damper beside its table, in SI units; in the order the step reads them.
+/// Constants of a damper outside its table, in SI units and in the order in which the step reads them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C)]
 pub struct Scalars<T> {
-    /// Largest credible move of the input in a step (m), by its doubled bits.
+    /// Largest credible move of the input in a step (m), stored with doubled bits.
     pub(crate) move_bound: T,
-    /// Adding and subtracting it rounds a travel to the grid of positions: sums of such travels are
-    /// exact, so a piston at rest in its clearance does not drift (m).
+    /// Number (m) whose addition and subtraction rounds a travel to the grid of positions. Sums of such travels are
+    /// exact, so a piston at rest in its clearance does not drift.
     pub(crate) position_rounder: T,
-    /// Adding and subtracting it rounds a stretch far below that grid to zero (m).
+    /// Number (m) whose addition and subtraction rounds a stretch far below the grid to zero.
     pub(crate) rest_rounder: T,
     /// Step (s).
     pub(crate) step_s: T,
-    /// Stretch up to which nothing flows (m): half the clearance and the stretch held.
+    /// Largest stretch without flow (m): half the clearance plus the held stretch.
     pub(crate) offset: T,
-    /// Where the first piece of either side begins, a power of two (m).
+    /// Start of the first piece of each side (m), a power of two.
     pub(crate) first_knot: T,
     /// Half the clearance, a (m).
     pub(crate) half_clearance: T,
-    /// Half the force at which the element yields (N). A sum is not a signalling NaN, so compilers take the
-    /// lesser of it and the force in one instruction.
+    /// Half the force at which the element yields (N). The step doubles it: a sum is not a signalling NaN, so compilers
+    /// compute the minimum of it and the force in one instruction.
     pub(crate) half_force_limit: T,
     /// Stretch of the mount under seal friction (m).
     pub(crate) held: T,
-    /// Largest displacement from zero (m), by its doubled bits.
+    /// Largest displacement from zero (m), stored with doubled bits.
     pub(crate) displacement_bound: T,
-    /// Largest stretch (m) that a step leaves behind, and that a step looks up within the table, by its doubled bits.
+    /// Largest stretch after a step (m), for which the next step stays within the table; stored with doubled bits.
     pub(crate) stretch_bound: T,
 }
 
 impl<T: Real> Scalars<T> {
     /// Largest credible move of the input in a step (m).
-    pub(crate) fn largest_move(&self) -> T {
+    pub(crate) fn max_move(&self) -> T {
         self.move_bound.halved_bits()
     }
 
     /// Largest displacement from zero (m).
-    pub(crate) fn largest_displacement(&self) -> T {
+    pub(crate) fn max_displacement(&self) -> T {
         self.displacement_bound.halved_bits()
     }
 
-    /// Reach beyond the offset at the end of the bins (m); no stage of a sound state looks beyond it.
-    pub(crate) fn largest_reach_beyond_offset(&self) -> T {
+    /// Reach beyond the offset at the end of the bins (m). No stage of an undamaged state exceeds it.
+    pub(crate) fn max_reach_beyond_offset(&self) -> T {
         T::from_f64(f64::from(1_u32 << DOUBLINGS)) * self.first_knot
     }
 
-    /// What [`Scalars::stretch_bound`] is by the other numbers. From a stretch `u` beyond the offset the stages look at
-    /// most `sqrt(2) u` and 1.12 moves far, which must be in the table; nor can a damper be stretched farther than
-    /// from one end of its range to the other.
-    pub(crate) fn stretch_bound_by_others(&self) -> T {
-        let most = self.largest_reach_beyond_offset() - T::from_f64(1.12) * self.largest_move();
-        let in_table = self.offset + T::from_f64(0.7) * most;
-        let in_range = in_table.max(T::ZERO).min(T::from_f64(LARGEST_BOUND_M));
+    /// Computes [`Scalars::stretch_bound`] from the other constants.
+    ///
+    /// From a stretch `u` beyond the offset the stages reach at most `sqrt(2) u` plus 1.12 moves, which must be in the
+    /// table. The stretch also cannot exceed the length of the range of displacement.
+    pub(crate) fn computed_stretch_bound(&self) -> T {
+        let max_reach = self.max_reach_beyond_offset() - T::from_f64(1.12) * self.max_move();
+        let in_table = self.offset + T::from_f64(0.7) * max_reach;
+        let in_range = in_table.max(T::ZERO).min(T::from_f64(MAX_BOUND_M));
         in_range.doubled_bits()
     }
 }
 
-/// The scalars as an array and back, from one list of their names.
+/// Generates the conversions between scalars and array from one list of names.
 macro_rules! array_of_scalars {
     ($($name:ident),* $(,)?) => {
-        /// How many scalars there are.
+        /// Number of scalars.
         pub(crate) const SCALARS: usize = [$(stringify!($name)),*].len();
 
         impl<T: Copy> Scalars<T> {
-            /// The numbers in order of declaration.
+            /// Returns the scalars in order of declaration.
             pub(crate) const fn as_array(&self) -> [T; SCALARS] {
                 [$(self.$name),*]
             }
 
-            /// The inverse of [`Scalars::as_array`].
+            /// Inverse of [`Scalars::as_array`].
             pub(crate) const fn from_array([$($name),*]: [T; SCALARS]) -> Self {
                 Self { $($name),* }
             }

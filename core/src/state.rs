@@ -1,37 +1,37 @@
-//! What changes from tick to tick.
+//! The state of a damper, which changes from tick to tick.
 
 use crate::math::Real;
 use crate::status::Status;
 
-/// Upper bits of the status word: they tell a state from memory that was never written.
+/// Upper bits of the status word, which distinguish a state from uninitialised memory.
 const MARK: u16 = 0x3940;
 const MARK_BITS: u16 = 0xffc0;
 
 /// State of one damper: plain data, saved and restored by copying. 24 bytes in `f32`.
 ///
-/// [`Damper::at_rest`](crate::Damper::at_rest) makes one.
+/// Created by [`Damper::at_rest`](crate::Damper::at_rest).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct DamperState<T> {
-    /// Displacement used last (m).
+    /// Last displacement used (m).
     pub(crate) displacement: T,
     /// Stretch of clearance and series springs `x - x_r` (m).
     pub(crate) stretch: T,
-    /// Flow potential at the stretch, times the step (m^2).
+    /// Flow potential at the stretch times the step (m^2).
     pub(crate) potential: T,
-    /// Force returned last (N).
+    /// Last force returned (N).
     pub(crate) force: T,
     /// Revision of the damper that stepped last.
     pub(crate) revision: u32,
-    /// The mark and the status.
+    /// Mark and status bits.
     status_word: u16,
     pub(crate) rejected_inputs: u16,
 }
 
 #[cfg(feature = "link")]
 impl DamperState<f32> {
-    /// All bits zero, so that a static of it takes no flash; no state yet.
+    /// Not a state yet: all bits are zero, so a static takes no flash.
     pub(crate) const UNWRITTEN: Self = Self {
         displacement: 0.0,
         stretch: 0.0,
@@ -44,14 +44,14 @@ impl DamperState<f32> {
 }
 
 impl<T: Real> Default for DamperState<T> {
-    /// At rest at 0, of no damper yet: the first that steps it takes it over.
+    /// At rest at 0, without a damper. The first damper that steps it adopts it.
     fn default() -> Self {
         Self::new([T::ZERO; 4], 0, Status::empty(), 0)
     }
 }
 
 impl<T: Real> DamperState<T> {
-    /// A state of these numbers, in the order of its fields.
+    /// Creates a state from its numbers in the order of the fields.
     pub(crate) fn new(
         [displacement, stretch, potential, force]: [T; 4],
         revision: u32,
@@ -69,8 +69,10 @@ impl<T: Real> DamperState<T> {
         }
     }
 
-    /// Whether this is a state, and not memory that was never written: for programs that get their states from
-    /// elsewhere than [`Damper::at_rest`](crate::Damper::at_rest), as those in C do.
+    /// True for a state, false for uninitialised memory (with any usual fill pattern).
+    ///
+    /// For programs whose states come from elsewhere than [`Damper::at_rest`](crate::Damper::at_rest), for example in
+    /// C.
     ///
     /// ```
     /// assert!(dashpot_core::DamperState::<f32>::default().is_marked());
@@ -80,49 +82,49 @@ impl<T: Real> DamperState<T> {
         self.status_word & MARK_BITS == MARK
     }
 
-    /// Displacement used last (m), positive in extension.
+    /// Last displacement used (m), positive in extension.
     pub fn displacement_m(&self) -> T {
         self.displacement
     }
 
-    /// Piston displacement in the cylinder `x_r` (m).
+    /// Displacement `x_r` of the piston in the cylinder (m), positive in extension.
     pub fn piston_displacement_m(&self) -> T {
         self.displacement - self.stretch
     }
 
-    /// Force returned last (N), positive when it resists extension.
+    /// Last force returned (N), positive when it resists extension.
     pub fn force_n(&self) -> T {
         self.force
     }
 
-    /// Revision of the damper that stepped last, 0 before the first step.
+    /// Revision of the damper that stepped last; 0 before the first step.
     #[inline]
     pub fn revision(&self) -> u32 {
         self.revision
     }
 
-    /// Bits latched since they were last cleared.
+    /// Status bits latched since the last [`Self::clear_status`].
     pub fn status(&self) -> Status {
         Status::from_bits_truncate(self.status_word)
     }
 
-    /// Ticks whose displacement was held or limited, or at which the damper restarted, up to 65535.
+    /// Number of ticks at which the displacement was held or limited or the damper restarted, up to 65535.
     pub fn rejected_inputs(&self) -> u16 {
         self.rejected_inputs
     }
 
-    /// The numbers of the step, in order of declaration.
+    /// Returns the numbers of the step in order of declaration.
     #[inline(always)]
     pub(crate) fn numbers(&self) -> [T; 4] {
         [self.displacement, self.stretch, self.potential, self.force]
     }
 
-    /// Whether every number of the step is finite.
+    /// True if every number of the step is finite.
     pub(crate) fn is_finite(&self) -> bool {
         self.numbers().iter().all(|number| number.is_finite())
     }
 
-    /// Counts a displacement that was not taken as it came.
+    /// Counts a displacement that was held or limited.
     pub(crate) fn count_rejected_input(&mut self) {
         self.rejected_inputs = self.rejected_inputs.saturating_add(1);
     }

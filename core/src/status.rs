@@ -1,4 +1,4 @@
-//! What the step noticed: latched bits and a counter, never errors.
+//! Status bits that the step latches. It never returns errors.
 
 bitflags::bitflags! {
     /// Latched status bits of one damper.
@@ -11,26 +11,26 @@ bitflags::bitflags! {
     /// ```
     #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
     pub struct Status: u16 {
-        /// A displacement was not finite, beyond the damper's range of displacement, or too far from the last one to
-        /// catch up with; the last good one was held.
+        /// A displacement was not finite, outside the damper's range, or too far from the previous one to catch up
+        /// with. The last good displacement was held.
         const INPUT_HELD = 1;
-        /// A displacement moved faster than the configured rate; it was followed at that rate.
+        /// The displacement changed faster than the configured rate and was followed at that rate.
         const INPUT_LIMITED = 1 << 1;
-        /// The element yielded: saturation force or configured force limit reached.
+        /// The element yielded: it reached the saturation force or the configured force limit.
         const SATURATED = 1 << 2;
-        /// Another damper than before stepped this state; the force was carried over.
+        /// A different damper stepped this state; the force was carried over.
         const DAMPER_SWAPPED = 1 << 3;
-        /// Memory was damaged: a state that no step leaves behind was met and started over at rest, or a slow check
-        /// ([`integrity`](crate::integrity)) found constants or a state that no build and no step leaves behind.
+        /// Memory was damaged. The step found an impossible state and restarted it at rest, or a slow check
+        /// ([`integrity`](crate::integrity)) found impossible constants or an impossible state.
         const CORRUPTED = 1 << 4;
-        /// A displacement was too far from the last one to catch up with: the damper restarted at rest there, without
-        /// force.
+        /// A displacement was too far from the previous one to catch up with. The damper restarted there at rest and
+        /// without force.
         const RESTARTED = 1 << 5;
     }
 }
 
 impl Status {
-    /// These bits where `condition` holds, without a branch.
+    /// Returns these bits if `condition` holds, else none, without a branch.
     pub(crate) fn only_if(self, condition: bool) -> Self {
         Self::from_bits_retain(self.bits() * u16::from(condition))
     }

@@ -1,51 +1,54 @@
-//! The step of one damper or of several side by side.
+//! The step of one damper, or of several in parallel.
 //!
-//! With the stretch `u = x - x_r` of clearance and springs, the chain
-//! `x = g + delta(F) + x_r`, `dx_r/dt = v_h(F)` is one equation, `du/dt = dx/dt - f(u)`, with
-//! `f = v_h(F(u))` zero in the clearance and rising beyond. A step takes two implicit stages
-//! (Alexander's SDIRK2, gamma = 1 - 1/sqrt 2: second order, L-stable, last stage at the tick) and then
-//! corrects the flow by the difference between its exact mean along the step's straight path and the
-//! stages' quadrature of that path. The correction vanishes for linear f, so stability and order are
-//! those of the stages; where f has a root (orifice) or a corner (clearance edge) inside the step it
-//! takes away their leading error. See docs/numerics.md.
+//! With the stretch `u = x - x_r` of clearance and springs, the chain `x = g + delta(F) + x_r`, `dx_r/dt = v_h(F)` is
+//! the single equation `du/dt = dx/dt - f(u)`, where `f = v_h(F(u))` is zero in the clearance and increases beyond it.
+//!
+//! A step has two implicit stages (Alexander's SDIRK2, gamma = 1 - 1/sqrt 2: second order, L-stable, last stage at the
+//! tick). It then corrects the flow by the difference between its exact mean along the straight path of the step and
+//! the quadrature of the stages. The correction vanishes for linear f, so the stages determine stability and order. If
+//! f has a root (orifice) or a corner (clearance edge) inside the step, the correction removes the leading error. See
+//! docs/numerics.md.
 
 use crate::damper::Damper;
 use crate::math::{Lanes, Real};
-use crate::parameters::LARGEST_FORCE_N;
+use crate::parameters::MAX_FORCE_N;
 use crate::scalars::Scalars;
 use crate::state::DamperState;
 use crate::status::Status;
 use crate::table::{Piece, Table, cubic, locate};
 use crate::unusual;
 
-/// gamma of both stages: the implicit part of each.
+/// Coefficient gamma of both stages: the implicit part of each.
 pub(crate) const GAMMA: f64 = 1.0 - core::f64::consts::FRAC_1_SQRT_2;
 
-/// Largest correction over the change of the stretch in the step, so that it never undoes the damping.
-const LARGEST_CORRECTION: f64 = 0.125;
+/// Largest correction over the change of the stretch in the step (1). A larger one could cancel the damping.
+const MAX_CORRECTION: f64 = 0.125;
 
 impl<T: Real> Damper<T> {
-    /// Force (N) at this tick for the displacement (m) of the tick; positive when it resists
-    /// extension. The displacement is taken as linear since the last tick: no added delay.
+    /// Returns the force (N) at this tick for the displacement (m) of the tick.
     ///
-    /// Never fails: bad input is held or limited and latched in the state's status. The force is
-    /// finite and at most [`Damper::force_limit_n`] in magnitude, whatever bits the damper and the state
-    /// have.
+    /// The displacement is positive in extension, the force when it resists extension. The displacement is interpolated
+    /// linearly since the last tick, which adds no delay.
     ///
-    /// A state that another damper stepped before is carried over first, its force kept. A state that no step leaves
-    /// behind (a number that is not finite, a stretch beyond what the damper can reach, a displacement beyond its
-    /// range) starts over at rest and latches [`Status::CORRUPTED`].
+    /// The step never fails: bad input is held or limited, and the status of the state latches it. The force is finite
+    /// and at most [`Damper::force_limit_n`] in magnitude, even if the damper or the state is damaged.
+    ///
+    /// A state that another damper stepped before is adopted first and keeps its force. An impossible state (a number
+    /// that is not finite, a stretch beyond the reach of the damper, a displacement outside its range) restarts at rest
+    /// and latches [`Status::CORRUPTED`].
     #[inline]
     pub fn step(&self, state: &mut DamperState<T>, displacement: T) -> T {
         let [force] = step::<T, T, 1>([self], core::array::from_mut(state), [displacement]);
         force
     }
 
-    /// Carries a state over from another damper: displacement and force stay, within the limits of this one, the
-    /// stretch becomes the one this damper has under that force; without force it stays within the clearance.
+    /// Takes over a state of another damper.
     ///
-    /// [`Damper::step`] does this by itself when it meets a state of another damper; call it between
-    /// ticks to keep that tick at its usual cost. Fixed work: 26 stages in `f32`, 55 in `f64`.
+    /// Displacement and force remain, within the limits of this damper. The stretch becomes that of this damper under
+    /// the same force; without force it remains, within the clearance.
+    ///
+    /// [`Damper::step`] calls this when needed. Call it between ticks so that the next tick has its usual cost. The
+    /// work is fixed: 26 stages in `f32`, 55 in `f64`.
     pub fn adopt(&self, state: &mut DamperState<T>) {
         let a = self.scalars.half_clearance;
         let limit = self.force_limit_n();
@@ -81,8 +84,8 @@ pub(crate) fn step<T: Real, V: Lanes<T, L>, const L: usize>(
     }
 }
 
-/// Whether the dampers can step: states that they stepped themselves and could have left, with displacements (m) within
-/// their ranges that moved by credible `travel`s (m). A damaged displacement makes an incredible travel.
+/// True if all dampers can take the usual step: each stepped its state last, the state is possible, and displacement
+/// and travel (m) are within their bounds. A damaged displacement in the state gives a travel out of bounds.
 #[inline(always)]
 fn is_usual<T: Real, V: Lanes<T, L>, const L: usize>(
     dampers: [&Damper<T>; L],
@@ -101,7 +104,7 @@ fn is_usual<T: Real, V: Lanes<T, L>, const L: usize>(
         && stretch.all_within(dampers.map(|damper| &damper.scalars.stretch_bound))
 }
 
-/// A step of which anything is unusual. Apart from the usual one, which calls nothing: it has a step of its own.
+/// Steps if anything is unusual. This is a separate copy of the step, so that the usual one calls no function.
 #[cold]
 #[inline(never)]
 fn unusual_step<T: Real, V: Lanes<T, L>, const L: usize>(
@@ -116,16 +119,16 @@ fn unusual_step<T: Real, V: Lanes<T, L>, const L: usize>(
     advance(dampers, states, V::new(travels))
 }
 
-/// Moves the ends of `L` dampers by travels (m); returns the forces (N).
+/// Moves the ends of `L` dampers by the given travels (m) and returns the forces (N).
 #[inline(always)]
 fn advance<T: Real, V: Lanes<T, L>, const L: usize>(
     dampers: [&Damper<T>; L],
     states: &mut [DamperState<T>; L],
     travel: V,
 ) -> [T; L] {
-    let number = |of: fn(&Scalars<T>) -> T| V::new(dampers.map(|damper| of(&damper.scalars)));
-    let position_rounder = number(|k| k.position_rounder);
-    let rest_rounder = number(|k| k.rest_rounder);
+    let scalar = |get: fn(&Scalars<T>) -> T| V::new(dampers.map(|damper| get(&damper.scalars)));
+    let position_rounder = scalar(|k| k.position_rounder);
+    let rest_rounder = scalar(|k| k.rest_rounder);
     let travel = (travel + position_rounder) - position_rounder;
     let [last, start, potential, _] = V::transpose(states.each_ref().map(DamperState::numbers));
     let displacements = (last + travel).array();
@@ -139,11 +142,13 @@ fn advance<T: Real, V: Lanes<T, L>, const L: usize>(
     let change = travel - quadrature;
     let end = start + change;
 
-    // The flow's mean over the straight path, by its potential and, off the path, by its slope.
+    // The mean flow over the straight path, from the potential and, off the path, from the slope.
     let end_potential = last.potential();
     let area = end_potential - potential + bend * bend;
-    let most = (change * V::splat(LARGEST_CORRECTION)).abs();
-    let correction = (area / change - quadrature).min(most).max(-most);
+    let max_correction = (change * V::splat(MAX_CORRECTION)).abs();
+    let correction = (area / change - quadrature)
+        .min(max_correction)
+        .max(-max_correction);
     let contact = last.flow * start * potential;
     let correction = correction.unless_positive(contact);
 
@@ -151,9 +156,9 @@ fn advance<T: Real, V: Lanes<T, L>, const L: usize>(
     let potential = end_potential - last.flow * correction;
     let magnitude = stages.force(stretch, last.stiffness());
     let yields = magnitude.reaches(stages.force_limit);
-    // Damaged constants may make each of the two any number or NaN; the force is finite all the same.
+    // Damaged constants can make each of the two any number or NaN; the force must be finite even then.
     let limited = magnitude.min(stages.force_limit).max(V::splat(0.0));
-    let limited = limited.min(V::splat(LARGEST_FORCE_N));
+    let limited = limited.min(V::splat(MAX_FORCE_N));
     let forces = limited.with_sign_of(stretch).array();
     let (stretches, potentials) = (stretch.array(), potential.array());
     for (lane, state) in states.iter_mut().enumerate() {
@@ -166,7 +171,7 @@ fn advance<T: Real, V: Lanes<T, L>, const L: usize>(
     forces
 }
 
-/// The constants of implicit stages.
+/// Constants of the implicit stages.
 struct Stages<'a, T, V, const L: usize> {
     tables: [&'a Table<T>; L],
     offset: V,
@@ -200,18 +205,17 @@ impl<'a, T: Real, V: Lanes<T, L>, const L: usize> Stages<'a, T, V, L> {
         }
     }
 
-    /// The stage whose stretch and flow sum to `reach` (m).
+    /// Solves the stage whose stretch and gamma times its flow sum to `reach` (m).
     #[inline(always)]
     fn solve(&self, reach: V) -> Stage<'a, T, V, L> {
-        // Comparing with a constant takes one instruction by every compiler, with a variable it may take eight.
+        // Every compiler needs one instruction to compare with a constant, but up to eight to compare with a variable.
         let beyond = (reach.abs() - self.offset).max(V::splat(0.0));
         let (pieces, z) = locate(self.tables, beyond + self.first_knot, reach);
         let flow = cubic(pieces.map(|piece| piece.flow), z);
         Stage { flow, pieces, z }
     }
 
-    /// Force magnitude (N) at a stretch (m), by the stiffness of the stage that ended there; it may exceed
-    /// the limit.
+    /// Force magnitude (N) at a stretch (m), from the stiffness of the stage that ended there. It can exceed the limit.
     #[inline(always)]
     fn force(&self, stretch: V, stiffness: V) -> V {
         let beyond = (stretch.abs() - self.half_clearance).max(V::splat(0.0));
@@ -233,12 +237,12 @@ impl<T: Real, V: Lanes<T, L>, const L: usize> Stage<'_, T, V, L> {
     }
 }
 
-/// The stretch (m) and flow potential (m^2) at which `damper` has a force (N), by bisection of its stages.
+/// Finds the stretch (m) and the flow potential (m^2) at which `damper` has a force (N), by bisection of its stages.
 pub(crate) fn state_at_force<T: Real>(damper: &Damper<T>, force: T) -> (T, T) {
     let stages: Stages<'_, T, T, 1> = Stages::new([damper]);
     let signed = |value: T| if force < T::ZERO { -value } else { value };
     let mut low = damper.scalars.half_clearance;
-    let mut high = damper.largest_reach();
+    let mut high = damper.max_reach();
     let mut found = (T::ZERO, T::ZERO);
     for _ in 0..T::MANTISSA_DIGITS + 2 {
         let middle = T::from_f64(0.5) * (low + high);

@@ -1,61 +1,59 @@
-//! Piecewise cubics of a stage's reach, found and read in constant time.
+//! Piecewise cubics in the reach of a stage, found and evaluated in constant time.
 //!
-//! Knots lie where the law has its corners and as close between them as its curvature asks, so they are
-//! not equally spaced. A reach finds its piece through bins: its exponent and the leading bits of its
-//! fraction, 128 bins to each doubling, name a bin, and a bin names the piece around its lower border.
-//! At most [`KNOTS_PER_BIN`] knots lie within a bin, so as many comparisons end at the right piece.
+//! The knots are at the corners of the law, with more between them where the law is curved, so they are not equally
+//! spaced. Bins find the piece of a reach. The exponent and the leading bits of the fraction of the reach select a bin,
+//! with 128 bins for each doubling. A bin contains the index of the piece at its lower border. At most
+//! [`KNOTS_PER_BIN`] knots lie within a bin, so this number of comparisons finds the piece.
 
 use crate::encoding::checksum;
 use crate::math::Lanes;
 
-/// Pieces a side.
+/// Number of pieces of a side.
 pub(crate) const PIECES: usize = 64;
 
-/// Bins a side: 16 doublings of the reach.
+/// Number of bins of a side: 16 doublings of the reach.
 pub(crate) const BINS: usize = 1 << BIN_BITS;
 pub(crate) const BIN_BITS: u32 = 11;
 
-/// Leading bits of the fraction that take part in the number of a bin.
+/// Number of leading bits of the fraction in the index of a bin.
 pub(crate) const BIN_FRACTION_BITS: u32 = 7;
 
-/// Knots within a bin.
+/// Largest number of knots within a bin.
 pub(crate) const KNOTS_PER_BIN: usize = 2;
 
-/// Doublings of the reach from the first knot to the end of the bins.
+/// Number of doublings of the reach from the first knot to the end of the bins.
 pub(crate) const DOUBLINGS: u32 = 1 << (BIN_BITS - BIN_FRACTION_BITS);
 
 const _: () = {
     assert!(
         PIECES >= 64,
-        "docs/numerics.md promises an accuracy that fewer pieces do not reach"
+        "fewer pieces do not reach the accuracy of docs/numerics.md"
     );
     assert!(
         (2 * PIECES).is_power_of_two(),
-        "an index is masked to be within bounds"
+        "a mask keeps indices within bounds"
     );
-    assert!(2 * PIECES <= 256, "a bin names a piece by a byte");
+    assert!(2 * PIECES <= 256, "the index of a piece is a byte");
     assert!(KNOTS_PER_BIN == 2, "the step compares with two knots");
-    assert!(
-        BIN_FRACTION_BITS < BIN_BITS,
-        "a bin is a part of a doubling"
-    );
+    assert!(BIN_FRACTION_BITS < BIN_BITS, "there are several doublings");
     assert!(
         size_of::<Piece<f32>>() == 64,
-        "the address of a piece takes one shift"
+        "one shift computes the address of a piece"
     );
 };
 
-/// Parts in which bins are set.
+/// Number of slices in which the bins are set.
 pub(crate) const INDEX_SLICES: usize = 2 * BINS / BINS_PER_SLICE;
 const BINS_PER_SLICE: usize = 64;
 
-/// Rows of four numbers of a table: bins by fours of their bytes, then the rows of each piece.
+/// Number of rows of a table: rows of bins, then the rows of four numbers of the pieces.
 pub(crate) const ROWS: usize = BIN_ROWS + 4 * 2 * PIECES;
 const BIN_ROWS: usize = BINS / BINS_PER_ROW;
 const BINS_PER_ROW: usize = 8;
 
-/// Cubics of one piece in z, the reach beyond its knot: coefficients of 1, z, z^2, z^3. Sixteen numbers,
-/// so that its address takes one shift.
+/// Cubics of one piece: coefficients of 1, z, z^2, z^3, where z is the reach beyond the knot.
+///
+/// A piece has sixteen numbers, so one shift computes its address.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C)]
 pub struct Piece<T> {
@@ -65,15 +63,15 @@ pub struct Piece<T> {
     pub(crate) potential: [T; 4],
     /// Force over stretch beyond the clearance (N/m).
     pub(crate) stiffness: [T; 4],
-    /// Where the piece begins (m).
+    /// Start of the piece (m).
     pub(crate) knot: T,
-    /// Where the next pieces begin (m).
+    /// Starts of the next pieces (m).
     pub(crate) next_knots: [T; KNOTS_PER_BIN],
     pub(crate) padding: T,
 }
 
 impl<T> Piece<T> {
-    /// The numbers that mean something, in order of declaration.
+    /// Iterates over the numbers of a build, in order of declaration.
     pub(crate) fn numbers(&self) -> impl Iterator<Item = &T> {
         let coefficients = self
             .flow
@@ -83,7 +81,7 @@ impl<T> Piece<T> {
         coefficients.chain([&self.knot])
     }
 
-    /// As [`Piece::numbers`], to be written.
+    /// Iterates over the numbers of [`Piece::numbers`] for writing.
     pub(crate) fn numbers_mut(&mut self) -> impl Iterator<Item = &mut T> {
         let coefficients = self.flow.iter_mut().chain(&mut self.potential);
         coefficients
@@ -92,11 +90,11 @@ impl<T> Piece<T> {
     }
 }
 
-/// Pieces of extension, then of compression, and the bins that find them.
+/// Pieces of extension, then of compression, with their bins.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C)]
 pub struct Table<T> {
-    /// Of either side by turns, so that a bin takes one address.
+    /// Bins of extension and compression in pairs, so that a bin needs one address.
     pub(crate) bins: [[u8; 2]; BINS],
     pub(crate) pieces: [Piece<T>; 2 * PIECES],
 }
@@ -104,7 +102,7 @@ pub struct Table<T> {
 macro_rules! table {
     ($float:ident, $word:ident) => {
         impl Table<$float> {
-            /// Pieces without meaning, to be written.
+            /// A table of zeros.
             pub(crate) const ZERO: Self = Self {
                 pieces: [Piece {
                     flow: [0.0; 4],
@@ -117,7 +115,7 @@ macro_rules! table {
                 bins: [[0; 2]; BINS],
             };
 
-            /// Sets bins and next knots by the knots. Knots rise on either side, the first a power of two.
+            /// Sets bins and next knots from the knots, which increase on each side. The first knot is a power of two.
             pub(crate) const fn index(&mut self) {
                 let (mut slice, mut piece) = (0, 0);
                 while slice < INDEX_SLICES {
@@ -126,7 +124,7 @@ macro_rules! table {
                 }
             }
 
-            /// A part of [`Self::index`], the parts in order; `piece` is what the part before returned.
+            /// Sets one slice of the bins, in order. `piece` is the result of the previous slice.
             pub(crate) const fn index_slice(&mut self, slice: usize, piece: usize) -> usize {
                 const WIDTH: $word = 1 << bin_shift($float::MANTISSA_DIGITS);
                 let side = slice / (INDEX_SLICES / 2) % 2;
@@ -144,14 +142,14 @@ macro_rules! table {
                     while piece + 1 < end && self.pieces[piece + 1].knot.to_bits() <= border {
                         piece += 1;
                     }
-                    let place = (border / WIDTH) as usize % BINS;
-                    self.bins[place][side] = piece as u8;
+                    let index = (border / WIDTH) as usize % BINS;
+                    self.bins[index][side] = piece as u8;
                     bin += 1;
                 }
                 piece
             }
 
-            /// Writes into the pieces from `start` to `end` where the next ones begin; returns the first.
+            /// Sets the next knots of the pieces from `start` to `end`. Returns `start`.
             const fn link_knots(&mut self, start: usize, end: usize) -> usize {
                 let mut piece = start;
                 while piece < end {
@@ -170,7 +168,7 @@ macro_rules! table {
                 start
             }
 
-            /// CRC-32 of the table as it lies in memory.
+            /// CRC-32 of the table in memory.
             pub(crate) const fn check(&self) -> u32 {
                 let (mut crc, mut row) = (0, 0);
                 while row < ROWS {
@@ -180,7 +178,7 @@ macro_rules! table {
                 crc
             }
 
-            /// CRC-32 of the rows before and this one.
+            /// Continues a CRC-32 over a row.
             pub(crate) const fn check_row(&self, row: usize, crc: u32) -> u32 {
                 if row < BIN_ROWS {
                     let mut bytes = [0; 2 * BINS_PER_ROW];
@@ -217,13 +215,12 @@ macro_rules! table {
 table!(f32, u32);
 table!(f64, u64);
 
-/// Bits below those that number a bin, in a number with so many significant digits.
+/// Number of bits below the index of a bin, in a number with this many significant binary digits.
 pub(crate) const fn bin_shift(digits: u32) -> u32 {
     digits - 1 - BIN_FRACTION_BITS
 }
 
-/// For each lane the piece around the positive `reach` on the side of `direction`, and z in it. Any
-/// number is safe to look up.
+/// Finds the piece of the positive `reach` on the side of `direction`, and z in it, for each lane. Any number is safe.
 #[inline(always)]
 pub(crate) fn locate<T: Copy, V: Lanes<T, L>, const L: usize>(
     tables: [&Table<T>; L],
@@ -246,8 +243,8 @@ pub(crate) fn locate<T: Copy, V: Lanes<T, L>, const L: usize>(
     (pieces, reach - knot)
 }
 
-/// `c0 + c1 z + c2 z^2 + c3 z^3` of each lane, in pairs: a shorter chain than Horner's for one product
-/// more.
+/// Evaluates `c0 + c1 z + c2 z^2 + c3 z^3` of each lane in pairs, with a shorter chain than Horner's rule for one more
+/// product.
 #[inline(always)]
 pub(crate) fn cubic<T: Copy, V: Lanes<T, L>, const L: usize>(coefficients: [[T; 4]; L], z: V) -> V {
     let [c0, c1, c2, c3] = V::transpose(coefficients);

@@ -1,4 +1,4 @@
-//! The last samples of a damper, kept in a ring for a link to read between ticks.
+//! A ring of the last samples of a damper, which a link reads between ticks.
 
 use heapless::Deque;
 
@@ -7,6 +7,7 @@ use crate::status::Status;
 
 /// One tick of one damper.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
 #[repr(C)]
 pub struct Sample {
     /// Tick count.
@@ -15,18 +16,31 @@ pub struct Sample {
     pub displacement_m: f32,
     /// Force returned (N), positive when it resists extension.
     pub force_n: f32,
-    /// Status bits latched by then.
+    /// Latched status bits.
     pub status: Status,
 }
 
-/// The last `N` samples, oldest first. No allocation; recording costs the same whether full or not.
+impl Sample {
+    /// A sample of a tick: displacement used (m), force returned (N) and latched status bits.
+    pub const fn new(tick: u32, displacement_m: f32, force_n: f32, status: Status) -> Self {
+        Self {
+            tick,
+            displacement_m,
+            force_n,
+            status,
+        }
+    }
+}
+
+/// The last `N` samples, oldest first. Recording allocates nothing and has a constant cost.
 ///
 /// ```
+/// use dashpot_core::Status;
 /// use dashpot_core::telemetry::{Sample, Telemetry};
 ///
 /// let mut telemetry = Telemetry::<2>::new();
 /// for tick in 1..=3 {
-///     telemetry.record(Sample { tick, force_n: 500.0, ..Sample::default() });
+///     telemetry.record(Sample::new(tick, 1e-3, 500.0, Status::empty()));
 /// }
 /// assert_eq!(telemetry.take().map(|sample| sample.tick), Some(2));
 /// assert_eq!(telemetry.overwritten(), 1);
@@ -46,13 +60,13 @@ impl<const N: usize> Telemetry<N> {
         }
     }
 
-    /// Adds a sample; a full ring loses its oldest, counted.
+    /// Adds a sample. A full ring drops its oldest sample and counts it.
     pub fn record(&mut self, sample: Sample) {
         if self.samples.is_full() {
             let _ = self.samples.pop_front();
             self.overwritten = self.overwritten.saturating_add(1);
         }
-        // It is not full now, unless N is 0: then nothing is kept.
+        // There is room, unless N is 0: then no sample is kept.
         let _ = self.samples.push_back(sample);
     }
 
@@ -61,26 +75,27 @@ impl<const N: usize> Telemetry<N> {
         self.samples.pop_front()
     }
 
-    /// The samples, oldest first, left where they are.
+    /// Iterates over the samples, oldest first, without removing them.
     pub fn iter(&self) -> impl Iterator<Item = &Sample> {
         self.samples.iter()
     }
 
-    /// Samples lost to newer ones before a link took them.
+    /// Number of samples that were overwritten before they were taken.
     pub fn overwritten(&self) -> u32 {
         self.overwritten
     }
 
-    /// Root mean square of the force over the samples (N), 0 without any.
+    /// Approximate root mean square of the force over the samples (N); 0 without samples.
     ///
-    /// For a display: its square root is approximate and errs by up to 6 %. The step never uses it.
+    /// For displays only: the square root has an error of up to 6 %. The step never uses it.
     ///
     /// ```
+    /// use dashpot_core::Status;
     /// use dashpot_core::telemetry::{Sample, Telemetry};
     ///
     /// let mut telemetry = Telemetry::<4>::new();
     /// for force_n in [300.0, -400.0] {
-    ///     telemetry.record(Sample { force_n, ..Sample::default() });
+    ///     telemetry.record(Sample::new(0, 0.0, force_n, Status::empty()));
     /// }
     /// let exact = 353.553; // sqrt((300^2 + 400^2)/2)
     /// assert!((telemetry.approximate_rms_force_n() / exact - 1.0).abs() < 0.062);

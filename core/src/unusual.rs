@@ -1,4 +1,4 @@
-//! What comes before a step when a state or a displacement is not usual.
+//! Handles an unusual state or displacement before a step.
 
 use crate::damper::Damper;
 use crate::math::Real;
@@ -6,21 +6,21 @@ use crate::state::DamperState;
 use crate::status::Status;
 use crate::step::state_at_force;
 
-/// How far the damper may be behind its input: as far as it follows at its largest rate in this time (s). The force
-/// falls from its limit to zero in this time too, when the input is farther away.
+/// Time in which the damper can catch up with its input at its largest rate (s). If the input is farther away, the
+/// force falls from its limit to zero in the same time.
 const CATCH_UP_S: f64 = 0.01;
 
-/// The least share of the force limit that the force falls by in a step: that of the shortest step.
-const LEAST_FALL: f64 = 1e-4;
+/// Smallest decrease of the force in a step as a fraction of the force limit (1): that of the shortest step.
+const MIN_FALL: f64 = 1e-4;
 
-/// The travel (m) to a displacement (m), after the state was made one that the damper can step.
+/// Makes the state valid for the damper and returns the travel (m) towards a displacement (m).
 ///
-/// - A state that no step leaves behind starts over at rest; one that another damper stepped is adopted.
-/// - A displacement that is not finite or beyond the range is held.
-/// - One that is too fast is followed at the largest rate, while it is no farther away than [`CATCH_UP_S`] at that rate.
-/// - One that is farther away is held while the force falls to zero; then the damper restarts at rest there.
+/// - An impossible state restarts at rest; a state of another damper is adopted.
+/// - A displacement that is not finite or out of range is held.
+/// - A displacement that is too fast is followed at the largest rate if it can be reached within [`CATCH_UP_S`].
+/// - A displacement farther away is held while the force falls to zero; then the damper restarts there at rest.
 ///
-/// Each is latched, the last three are counted.
+/// The status latches each of these; the last three are counted.
 #[inline(never)]
 pub(crate) fn travel<T: Real>(
     damper: &Damper<T>,
@@ -38,17 +38,17 @@ pub(crate) fn travel<T: Real>(
         return hold(state);
     }
     let travel = displacement - state.displacement;
-    let most = damper.scalars.largest_move();
-    if travel.abs() <= most {
+    let max_move = damper.scalars.max_move();
+    if travel.abs() <= max_move {
         return travel;
     }
     let steps = T::from_f64(CATCH_UP_S) / damper.scalars.step_s;
-    if travel.abs() <= most * steps.max(T::from_f64(2.0)) {
+    if travel.abs() <= max_move * steps.max(T::from_f64(2.0)) {
         state.count_rejected_input();
         state.latch(Status::INPUT_LIMITED);
-        return travel.max(-most).min(most);
+        return travel.max(-max_move).min(max_move);
     }
-    let share = (T::from_f64(1.0) / steps).max(T::from_f64(LEAST_FALL));
+    let share = (T::from_f64(1.0) / steps).max(T::from_f64(MIN_FALL));
     let fall = damper.force_limit_n() * share.min(T::from_f64(1.0));
     if state.force.abs() <= fall {
         restart(damper, state, displacement, Status::RESTARTED);
@@ -64,19 +64,19 @@ pub(crate) fn travel<T: Real>(
     hold(state)
 }
 
-/// The travel (m) of a step whose displacement is held.
+/// Holds the displacement: counts and latches it and returns a travel of zero (m).
 fn hold<T: Real>(state: &mut DamperState<T>) -> T {
     state.count_rejected_input();
     state.latch(Status::INPUT_HELD);
     T::ZERO
 }
 
-/// Puts a state at rest at a displacement (m); what it had latched and counted stays.
+/// Puts a state at rest at a displacement (m). Status bits and the count remain.
 fn restart<T: Real>(
     damper: &Damper<T>,
     state: &mut DamperState<T>,
     displacement: T,
-    because: Status,
+    cause: Status,
 ) {
     let (status, count) = if state.is_marked() {
         (state.status(), state.rejected_inputs)
@@ -84,7 +84,7 @@ fn restart<T: Real>(
         (Status::empty(), 0)
     };
     *state = damper.at_rest(displacement);
-    // A displacement that is held is counted where it is held.
+    // `hold` counts a displacement that is held.
     state.rejected_inputs = count;
-    state.latch(status | because);
+    state.latch(status | cause);
 }

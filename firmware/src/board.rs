@@ -1,8 +1,7 @@
 //! The board's UART and timer: CMSDK peripherals of the MPS2 (Arm DUI 0479, chapters 4.2 and 4.4).
 //!
-//! The board is the MPS2 with AN500 (Cortex-M7) or AN386 (Cortex-M4), or with AN505 where the build is for
-//! a Cortex-M33 (Arm DAI 0505, chapter 3; secure addresses). For another board this file changes, and
-//! `memory.x`.
+//! The board is the MPS2 with AN500 (Cortex-M7) or AN386 (Cortex-M4), or with AN505 for a Cortex-M33 (Arm DAI 0505,
+//! chapter 3; secure addresses). For another board change this file and `memory.x`.
 
 use core::ptr::{with_exposed_provenance, with_exposed_provenance_mut};
 
@@ -15,7 +14,7 @@ pub const CLOCK_HZ: u32 = if cfg!(mps2_an505) {
     25_000_000
 };
 
-/// Registers of the first UART; those of the others follow.
+/// Address of the first UART. The other UARTs follow.
 const UARTS: usize = if cfg!(mps2_an505) {
     0x5020_0000
 } else {
@@ -23,11 +22,11 @@ const UARTS: usize = if cfg!(mps2_an505) {
 };
 
 const UART_DATA: usize = 0x00;
-/// Bit 0: the transmitter is full; bit 1: a received byte waits.
+/// Bit 0: transmitter full. Bit 1: received byte available.
 const UART_STATE: usize = 0x04;
-/// Bit 0: transmit; bit 1: receive.
+/// Bit 0: transmit. Bit 1: receive.
 const UART_CONTROL: usize = 0x08;
-/// Clocks a bit, 16 at least.
+/// Clocks per bit, at least 16.
 const UART_BAUD_DIVISOR: usize = 0x10;
 
 const TIMER0: usize = if cfg!(mps2_an505) {
@@ -35,39 +34,39 @@ const TIMER0: usize = if cfg!(mps2_an505) {
 } else {
     0x4000_0000
 };
-/// Bit 0: count.
+/// Bit 0: enable counting.
 const TIMER_CONTROL: usize = TIMER0;
-/// Counts down.
+/// Value of the timer, which counts down.
 pub(crate) const TIMER_VALUE: usize = TIMER0 + 0x04;
 const TIMER_RELOAD: usize = TIMER0 + 0x08;
 
 fn read(register: usize) -> u32 {
-    // SAFETY: every address here is a register of the board, word-aligned and always readable.
+    // SAFETY: every address in this file is a register of the board, word-aligned and always readable.
     unsafe { with_exposed_provenance::<u32>(register).read_volatile() }
 }
 
 fn write(register: usize, value: u32) {
-    // SAFETY: as above; no register written here has an effect on memory.
+    // SAFETY: as in `read`; no register written here affects memory.
     unsafe { with_exposed_provenance_mut::<u32>(register).write_volatile(value) }
 }
 
-/// A UART of the board, by the address of its registers.
+/// UARTs of the board, with the addresses of their registers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Port {
     /// UART0: the link.
     Link = UARTS as isize,
     /// UART1: the outputs.
     Outputs = UARTS as isize + 0x1000,
-    /// UART2: nothing.
+    /// UART2: unused.
     Spare = UARTS as isize + 0x2000,
 }
 
-/// A serial line, 8 data bits, no parity.
+/// A serial line with 8 data bits and no parity.
 #[derive(Debug)]
 pub struct Uart(usize);
 
 impl Uart {
-    /// Starts the UART of a port at `baud` bits a second, up to 1 562 500.
+    /// Starts the UART of a port at `baud` bits per second, up to 1 562 500.
     pub fn start(port: Port, baud: u32) -> Self {
         let base = port as usize;
         write(base + UART_BAUD_DIVISOR, (CLOCK_HZ / baud.max(1)).max(16));
@@ -98,14 +97,11 @@ pub fn start_clock() -> Clock {
     write(TIMER_RELOAD, u32::MAX);
     write(TIMER_VALUE, u32::MAX);
     write(TIMER_CONTROL, 1);
-    Clock {
-        now: clock_now,
-        hz: CLOCK_HZ,
-    }
+    Clock::new(clock_now, CLOCK_HZ)
 }
 
-/// Clock ticks since the start, wrapping, [`CLOCK_HZ`] a second. The processor's own cycle counter
-/// (DWT) would do as well; QEMU does not have it.
+/// Number of clock ticks since the start, wrapping, at [`CLOCK_HZ`]. The processor's cycle counter (DWT) would also
+/// work, but QEMU does not have it.
 pub fn clock_now() -> u32 {
     !read(TIMER_VALUE)
 }

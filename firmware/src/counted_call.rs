@@ -1,41 +1,43 @@
-//! A call of any function, counted in ticks of the clock.
+//! Calls any function and counts its clock ticks.
 
 use core::arch::asm;
 
 use crate::board;
 
-/// What a function gets: whole numbers and addresses in r0 to r3 and the next on the stack, a real number
-/// in s0 (Procedure Call Standard for the Arm Architecture, hard-float variant).
+/// Arguments of a function: integers and addresses in r0 to r3 and on the stack, a real number in s0 (Procedure Call
+/// Standard for the Arm Architecture, hard-float variant).
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Arguments {
-    /// Whole numbers and addresses.
+    /// Integers and addresses.
     pub integers: [usize; 5],
     /// A real number.
     pub real: f32,
 }
 
-/// What a function returned, and what it took.
+/// Results of a function and its cost.
 #[derive(Clone, Copy, Debug)]
 pub struct Returned {
-    /// In r0.
+    /// Result in r0.
     pub integer: usize,
-    /// In s0.
+    /// Result in s0.
     pub real: f32,
-    /// Clock ticks: of the function, its call and a reading of the clock.
+    /// Clock ticks of the function, its call and reading the clock.
     pub ticks: u32,
 }
 
-/// Calls the function at an address. The same two instructions are counted beside the function's own
-/// whatever it is, so the ticks of a function of one instruction tell what to subtract.
+/// Calls the function at an address.
+///
+/// The count always includes the same two additional instructions. Measure a function of one instruction to subtract
+/// them.
 ///
 /// # Safety
-/// `function` takes arguments of these types, those of addresses are right, and it returns.
+/// `function` must take arguments of these types with valid addresses, and return.
 #[inline(never)]
 pub unsafe fn counted_call(function: *const (), arguments: Arguments) -> Returned {
     let [mut integer, a1, a2, a3, on_stack] = arguments.integers;
     let mut real = arguments.real.to_bits();
     let (start, end): (u32, u32);
-    // SAFETY: the caller's promise; the stack pointer is as before at the end, and stays aligned to 8.
+    // SAFETY: the caller's promise; the stack pointer is restored and stays aligned to 8 bytes.
     unsafe {
         asm!(
             "push {{r9, r10}}",

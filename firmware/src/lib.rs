@@ -1,4 +1,4 @@
-//! What the images share: the bank of dampers, the board, the outputs and the safe state.
+//! Parts shared by the images: bank of dampers, board, outputs and safe state.
 #![no_std]
 
 pub mod bank;

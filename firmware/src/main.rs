@@ -1,7 +1,7 @@
-//! The bank behind the serial link.
+//! A bank of dampers behind a serial link.
 //!
-//! One loop owns the device: it runs the ticks that SysTick counted, then moves one byte of the link.
-//! Nothing waits, so a tick is late by at most the longest request, and that is counted.
+//! One loop owns the device. It runs the ticks that SysTick counted, then does one thing for the link. Nothing blocks,
+//! so the longest request bounds the delay of a tick; overruns are counted.
 #![no_std]
 #![no_main]
 
@@ -18,10 +18,10 @@ use static_cell::ConstStaticCell;
 
 const BAUD: u32 = 1_000_000;
 
-/// Ticks due and not yet run.
+/// Number of ticks that are due but not yet run.
 static DUE: AtomicU32 = AtomicU32::new(0);
 
-/// All zeros until it is started, so it takes no flash, and is built where it stays.
+/// All bits are zero before the start, so it takes no flash and is never moved.
 static DEVICE: ConstStaticCell<Device<DAMPERS, DAMPERS>> = ConstStaticCell::new(Device::new());
 
 #[exception]
@@ -34,7 +34,7 @@ fn main() -> ! {
     let Some(device) = DEVICE.try_take() else {
         safe_state::halt();
     };
-    // Behind a pointer fields are reached by their offsets; of a known address each takes two more instructions.
+    // Access through a pointer uses offsets. With a known address each access takes two more instructions.
     let device = core::hint::black_box(device);
     if device.start(&BANK, board::start_clock()).is_err() {
         safe_state::halt();

@@ -1,18 +1,18 @@
-//! The forces on their way to the actuators: packets on the board's second UART, as a rig's drives take them from
-//! a bus. For another bus this file changes.
+//! Sends the forces to the actuators as packets on the board's second UART, in place of a field bus of the drives.
+//! Change this file for another bus.
 //!
-//! A packet is `ff ff ff ff`, then each force (N) in single precision, little-endian. No force has that bit
-//! pattern, so a reader that comes late waits for it.
+//! A packet is `ff ff ff ff`, then each force (N) in single precision, little-endian. No force has this bit pattern, so
+//! a reader can synchronise to it.
 
 use dashpot_core::link::{Line, Outputs};
 
 use crate::bank::DAMPERS;
 use crate::board::{Port, Uart};
 
-/// Bits a second: a packet takes a third of a tick of 1 ms.
+/// Bits per second. A packet takes a third of a 1 ms tick.
 const BAUD: u32 = 1_562_500;
 
-/// Bytes of a packet.
+/// Number of bytes of a packet.
 const BYTES: usize = 4 + 4 * DAMPERS;
 
 fn packet(forces_n: &[f32; DAMPERS]) -> [u8; BYTES] {
@@ -24,19 +24,19 @@ fn packet(forces_n: &[f32; DAMPERS]) -> [u8; BYTES] {
     packet
 }
 
-/// The second UART: sends the forces set last, as fast as the line takes them; those set while a packet is under
-/// way wait for its end, and of several the last are sent.
+/// The second UART, which sends the last forces as fast as the line allows. Forces that are set during a packet wait
+/// for its end; only the last of them are sent.
 #[derive(Debug)]
 pub struct SerialOutputs {
     uart: Uart,
     packet: [u8; BYTES],
-    /// Bytes of the packet still to send, from the end.
+    /// Number of bytes of the packet still to send, at its end.
     unsent: usize,
     waiting: Option<[f32; DAMPERS]>,
 }
 
 impl SerialOutputs {
-    /// Starts the UART; nothing is sent yet.
+    /// Starts the UART without sending.
     pub fn start() -> Self {
         Self {
             uart: Uart::start(Port::Outputs, BAUD),
@@ -46,7 +46,7 @@ impl SerialOutputs {
         }
     }
 
-    /// Sends what the line takes.
+    /// Sends as many bytes as the line takes now.
     pub fn send_waiting(&mut self) {
         if self.unsent == 0 {
             let Some(forces_n) = self.waiting.take() else {
@@ -74,13 +74,13 @@ impl Outputs<DAMPERS> for SerialOutputs {
     }
 }
 
-/// Sets every output to zero after a panic or fault, whatever was under way: zeros end a broken packet, then one
-/// of zeros follows. Waits for the line, a while at most.
+/// Sets every output to zero after a panic or fault: zeros complete an interrupted packet, then a packet of zeros
+/// follows. Waits for the line for a limited time.
 pub fn zero() {
     let mut uart = Uart::start(Port::Outputs, BAUD);
     let end = [0; BYTES];
     for byte in end.iter().chain(&packet(&[0.0; DAMPERS])) {
-        // A byte takes 10 bits of 16 clocks; a try takes a few.
+        // A byte takes 10 bits of 16 clocks; each attempt takes a few clocks.
         let _ = (0..1000).any(|_| uart.send(*byte));
     }
 }

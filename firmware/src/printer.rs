@@ -1,4 +1,4 @@
-//! Text on a UART, for the images that measure.
+//! Text output on a UART for the measuring images.
 
 use core::fmt::{Result, Write};
 
@@ -6,7 +6,7 @@ use dashpot_core::link::Line;
 
 use crate::board::Uart;
 
-/// Writes to a UART, waiting for room.
+/// Writes to a UART and waits for room.
 #[derive(Debug)]
 pub struct Printer(pub Uart);
 

@@ -1,4 +1,4 @@
-//! The safe state after a panic or a fault: outputs zero, nothing runs, the host gets no answer.
+//! The safe state after a panic or a fault: outputs are zero, nothing runs and the host gets no answer.
 
 use core::panic::PanicInfo;
 
@@ -11,19 +11,19 @@ fn panic(_: &PanicInfo<'_>) -> ! {
     halt()
 }
 
-// SAFETY: the handler touches nothing but the registers of the outputs, and nothing runs after it.
+// SAFETY: the handler accesses only the registers of the outputs, and nothing runs after it.
 #[exception]
 unsafe fn HardFault(_: &cortex_m_rt::ExceptionFrame) -> ! {
     halt()
 }
 
-// SAFETY: as above. Every other exception and interrupt: none is expected.
+// SAFETY: as for `HardFault`. No other exception or interrupt is expected.
 #[exception]
 unsafe fn DefaultHandler(_: i16) -> ! {
     halt()
 }
 
-/// Outputs zero, then nothing.
+/// Sets the outputs to zero and stops.
 pub fn halt() -> ! {
     cortex_m::interrupt::disable();
     outputs::zero();

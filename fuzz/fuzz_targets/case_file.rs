@@ -1,4 +1,5 @@
-//! Any text as a case file: refused, or a case whose faults are of its dampers, by rising time within it.
+//! Reads any text as a case file. It is refused, or its faults concern its dampers and have increasing times within the
+//! case.
 #![no_main]
 
 use dashpot_files::case::CaseOptions;

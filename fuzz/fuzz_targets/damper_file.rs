@@ -1,4 +1,4 @@
-//! Any text as a damper file: refused, or a damper that builds or names a field.
+//! Reads any text as a damper file. It is refused, or the damper builds, or its error names a field.
 #![no_main]
 
 use dashpot_files::damper;

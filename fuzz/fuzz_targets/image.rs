@@ -1,14 +1,15 @@
-//! Any bytes as a damper's image or a saved state: refused, or a damper whose force keeps its limit.
+//! Reads any bytes as the image of a damper or as a saved state. They are refused, or the force of the damper is within
+//! its limit.
 //!
-//! Bytes at random never have the right CRC-32 and revisions, so they are made right: then most images whose
-//! numbers are finite are dampers.
+//! Random bytes never have a correct CRC-32 and correct revisions, so the target corrects them. Most images with finite
+//! numbers are then dampers.
 #![no_main]
 
 use dashpot::signed_image::of_any_bytes;
 use dashpot_core::Damper;
 use libfuzzer_sys::fuzz_target;
 
-/// Bytes before the words of an image.
+/// Number of bytes before the words of an image.
 const HEADER: usize = 16;
 
 macro_rules! refused_or_stepped {
@@ -19,7 +20,7 @@ macro_rules! refused_or_stepped {
             let Ok(damper) = Damper::<$float>::from_image(image) else {
                 continue;
             };
-            // The last bytes are a state, if it is one of this damper.
+            // The last bytes are used as a state, if they are a state of this damper.
             let saved = bytes
                 .last_chunk()
                 .and_then(|saved| damper.state_from_bytes(saved).ok());

@@ -1,6 +1,6 @@
-//! Any bytes on the link: refused or answered, and the next frame after a zero is read.
+//! Receives any bytes on the link. They are refused or answered, and the next frame after a zero is read.
 //!
-//! Changed frames never have the right CRC-32, so the same bytes come a second time with it made right.
+//! Mutated frames never have a correct CRC-32, so the same bytes are sent again with a corrected CRC-32.
 #![no_main]
 
 use dashpot::signed_image::crc_32;
@@ -8,7 +8,7 @@ use dashpot_core::Damper;
 use dashpot_core::link::{Clock, Device, FrameReader, REQUEST_BYTES, ResponseFrame};
 use libfuzzer_sys::fuzz_target;
 
-/// Of zeros but for its step, that of the seed's model of health.
+/// A damper of zeros except its step, which is that of the health model among the seeds.
 static DAMPER: Damper<f32> = {
     let mut words = [0; Damper::<f32>::WORDS];
     words[3] = 1e-3_f32.to_bits();
@@ -17,7 +17,7 @@ static DAMPER: Damper<f32> = {
 
 fuzz_target!(|bytes: &[u8]| {
     let mut reader = FrameReader::<REQUEST_BYTES>::new();
-    let clock = Clock { now: || 0, hz: 1 };
+    let clock = Clock::new(|| 0, 1);
     let mut device = Box::new(Device::<2, 2>::new());
     device.start(&[&DAMPER; 2], clock).expect("one step");
     for byte in bytes.iter().chain(&[0]).chain(&signed(bytes)) {
@@ -39,7 +39,7 @@ fuzz_target!(|bytes: &[u8]| {
     assert!(read.eq([true]));
 });
 
-/// The frames between zeros, each with the CRC-32 of its message.
+/// Returns the frames between zeros, each with the CRC-32 of its message.
 fn signed(bytes: &[u8]) -> Vec<u8> {
     let mut stream = Vec::new();
     for frame in bytes.split(|byte| *byte == 0) {

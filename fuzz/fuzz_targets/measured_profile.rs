@@ -1,4 +1,4 @@
-//! Any text as a wheel or rail profile of any format: refused, or a profile with rising lateral position.
+//! Reads any text as a wheel or rail profile of any format. It is refused, or the lateral positions increase.
 #![no_main]
 
 use dashpot_rail::profile::Body;

@@ -1,11 +1,11 @@
-//! Any text as a measured track: refused, or deviations and slopes that are finite everywhere.
+//! Reads any text as a measured track. It is refused, or all deviations and slopes are finite.
 #![no_main]
 
 use dashpot_rail::track::measured::{self, Options};
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|text: &str| {
-    // With and without a header, which bytes at random hardly ever are.
+    // Also adds a header, which random bytes hardly ever contain.
     let headed = format!("distance_m,vertical_m,lateral_m,cross_level_m,gauge_m\n{text}");
     let options = Options {
         ramp_m: 1.0,

@@ -1,4 +1,4 @@
-//! Any bytes as a recording: refused, or rows of finite numbers whose time grows.
+//! Reads any bytes as a recording. They are refused, or the rows are finite with increasing times.
 #![no_main]
 
 use std::io::{Cursor, Write};
@@ -8,11 +8,11 @@ use dashpot_recording::{Channels, Recording, overview};
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|bytes: &[u8]| {
-    // All that a file has is looked at, whatever its channels are called.
+    // Reads all contents of the file, with any names of channels.
     let mut file = tempfile::NamedTempFile::new().expect("a temporary file");
     file.write_all(bytes).expect("a temporary file");
     let _ = overview(file.path(), &Channels::default());
-    // With and without a header, which bytes at random hardly ever are.
+    // Also adds a header, which random bytes hardly ever contain.
     let headed = [b"time_s,displacement_m\n", bytes].concat();
     for text in [bytes.to_vec(), headed] {
         let recording = Recording::read(Path::new("fuzz.csv"), Box::new(Cursor::new(text)));

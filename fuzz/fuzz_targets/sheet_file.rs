@@ -1,4 +1,4 @@
-//! Any text as a sheet file: refused, or tests that a bench can make and limits that a value can keep.
+//! Reads any text as a sheet file. It is refused, or a bench can run its tests and a value can satisfy each limit.
 #![no_main]
 
 use dashpot_files::sheet::SheetParameters;

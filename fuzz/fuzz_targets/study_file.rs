@@ -1,4 +1,5 @@
-//! Any text as a study file: refused, or sweeps with values, each of which has every point, and figures of its sweeps.
+//! Reads any text as a study file. It is refused, or each sweep has values at every point and the figures belong to its
+//! sweeps.
 #![no_main]
 
 use dashpot_files::study::StudyParameters;

@@ -1,4 +1,4 @@
-//! Any text as a row of a study, with the digests it needs: refused, or one that is written as it was read.
+//! Reads any text as a row of a study with the required digests. It is refused, or writing the row gives the same text.
 #![no_main]
 
 use std::sync::LazyLock;

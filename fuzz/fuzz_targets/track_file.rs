@@ -1,4 +1,5 @@
-//! Any text as a track file: refused, or a track that is finite everywhere, its irregularity generated if that is soon done.
+//! Reads any text as a track file. It is refused, or the track is finite everywhere. Irregularity is generated if that
+//! is quick.
 #![no_main]
 
 use std::path::Path;
@@ -7,7 +8,7 @@ use dashpot_files::track::{self, IrregularityParameters, TrackParameters};
 use dashpot_rail::track::{Band, Track};
 use libfuzzer_sys::fuzz_target;
 
-/// Not what is read from a file, nor what takes long.
+/// Excludes irregularity that is read from a file or takes long to generate.
 fn built(parameters: &TrackParameters) -> Option<Track> {
     match &parameters.irregularity {
         IrregularityParameters::Measured { .. } => return None,

@@ -1,4 +1,4 @@
-//! Any text as a vehicle file: refused, or a vehicle whose modes are found or refused.
+//! Reads any text as a vehicle file. It is refused, or the modes of the vehicle are found or refused.
 #![no_main]
 
 use dashpot_files::vehicle;

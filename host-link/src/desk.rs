@@ -37,10 +37,7 @@ impl<const N: usize> Desk<N> {
 }
 
 fn power_on<const N: usize>(bank: &[Damper<f32>; N]) -> Result<Box<Device<N, N>>, StepSizeError> {
-    let clock = Clock {
-        now: || 0,
-        hz: 1_000_000,
-    };
+    let clock = Clock::new(|| 0, 1_000_000);
     let mut device = Box::new(Device::new());
     device.start(&bank.each_ref(), clock)?;
     Ok(device)

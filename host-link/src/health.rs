@@ -1,7 +1,7 @@
 //! Health of the real damper that a place of a target stands for.
 
 use dashpot_core::health::{HealthModel, HealthReading};
-use dashpot_core::link::{MOST_MEASURED, Request, Response};
+use dashpot_core::link::{MAX_MEASURED, Request, Response};
 
 use super::{Client, Link, LinkError};
 
@@ -23,7 +23,7 @@ impl<L: Link> Client<L> {
     /// # Errors
     /// No answer, or a refusal, as of a place without a model; samples before that were taken.
     pub fn measure(&mut self, place: u8, samples: &[(f32, f32)]) -> Result<(), LinkError> {
-        for samples in samples.chunks(MOST_MEASURED) {
+        for samples in samples.chunks(MAX_MEASURED) {
             let pairs = samples.iter();
             let numbers = pairs.flat_map(|(displacement_m, force_n)| [displacement_m, force_n]);
             let bytes: Vec<u8> = numbers.flat_map(|number| number.to_le_bytes()).collect();

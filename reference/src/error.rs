@@ -6,6 +6,9 @@ use std::error::Error;
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ReferenceError {
+    /// The reference has no law for this element.
+    #[error("reference: no law for this element")]
+    Element,
     /// The clearance is negative or not finite.
     #[error("reference: mount.clearance_m = {clearance_m} must be 0 or more")]
     Clearance {

@@ -70,7 +70,7 @@ pub fn run<'a>(
             test,
             temperature_c: match &damper.element {
                 Element::Physical(hydraulics) => Some(hydraulics.oil.temperature_c),
-                Element::Reduced(_) => None,
+                _ => None,
             },
             cycle: cycle.map_err(|error| sheet.wrong(test, error))?,
         })

@@ -93,7 +93,6 @@ fn corners(name: &str) -> Vec<(String, f64)> {
         .expect("a row of the table");
     let law = Characteristic::new(&damper(preset, overrides).check().expect("a valid damper"));
     law.corners()
-        .iter()
         .map(|(corner, force)| {
             let what = match corner {
                 Corner::PistonValveOpens => "P",
@@ -103,8 +102,8 @@ fn corners(name: &str) -> Vec<(String, f64)> {
                 Corner::Yields => "Y",
                 other => panic!("{other:?} has no letter"),
             };
-            let side = if *force < 0.0 { "c" } else { "e" };
-            (format!("{what}{side}"), *force)
+            let side = if force < 0.0 { "c" } else { "e" };
+            (format!("{what}{side}"), force)
         })
         .collect()
 }

@@ -5,7 +5,7 @@ use std::cell::Cell;
 
 use dashpot::damper;
 use dashpot::signed_image::{SCALARS, TABLE, sum_and_sign, word};
-use dashpot_core::parameters::LARGEST_FORCE_N;
+use dashpot_core::parameters::MAX_FORCE_N;
 use dashpot_core::{Damper, ImageError};
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -55,7 +55,7 @@ macro_rules! a_changed_image_steps_within_the_limit {
                     };
                     stepped.set(stepped.get() + 1);
                     let limit = damper.force_limit_n();
-                    prop_assert!((0.0..=LARGEST_FORCE_N as $float).contains(&limit));
+                    prop_assert!((0.0..=MAX_FORCE_N as $float).contains(&limit));
                     let mut state = damper.at_rest(0.0);
                     for x in displacements {
                         let force = damper.step(&mut state, x);

@@ -1,9 +1,7 @@
 //! The contract for bad values: input, output, tiny states, nonsense parameters, live changes.
 
 use dashpot::damper;
-use dashpot_core::{
-    ClearanceError, Damper, DamperParameters, DamperState, Real, Status, step_bank,
-};
+use dashpot_core::{Damper, DamperParameters, DamperState, Real, Status, step_bank};
 use dashpot_files::damper;
 
 const STEP_S: f64 = 1e-3;
@@ -441,7 +439,7 @@ fn the_clearance_is_set_without_a_rebuild() {
     assert_ne!(damper.revision(), revision);
     assert_eq!(damper, built, "the same damper, revision and all");
     for refused in [f64::NAN, -1.0, f64::INFINITY, 5.0] {
-        assert_eq!(damper.set_clearance_m(refused), Err(ClearanceError));
+        assert!(damper.set_clearance_m(refused).is_err());
         assert_eq!(damper, built, "as it was");
     }
     for allowed in [0.0, 0.1] {

@@ -4,7 +4,7 @@
 use dashpot::damper;
 use dashpot::memory::{PlainData, bytes};
 use dashpot_core::integrity::{Check, SLICES};
-use dashpot_core::parameters::LARGEST_FORCE_N;
+use dashpot_core::parameters::MAX_FORCE_N;
 use dashpot_core::{Damper, DamperState, Real, step_bank};
 use fastrand::Rng;
 
@@ -80,7 +80,7 @@ where
                 let single = damper.step(state, x);
                 let limit = damper.force_limit_n().to_f64();
                 assert!(
-                    (0.0..=LARGEST_FORCE_N).contains(&limit),
+                    (0.0..=MAX_FORCE_N).contains(&limit),
                     "round {round}: limit {limit}"
                 );
                 for force in [force, single] {

@@ -3,24 +3,17 @@
 use dashpot_core::parameters::{ATMOSPHERIC_PRESSURE_PA as ATMOSPHERE, Oil, OilColumn};
 
 fn column(air_fraction: f64, polytropic_exponent: f64) -> OilColumn {
-    OilColumn {
-        bulk_modulus_pa: 1.5e9,
-        rod_side_volume_m3: 8e-4,
-        piston_side_volume_m3: 9e-4,
-        air_fraction,
-        polytropic_exponent,
-    }
+    OilColumn::new(1.5e9, 8e-4, 9e-4)
+        .air_fraction(air_fraction)
+        .polytropic_exponent(polytropic_exponent)
 }
 
 fn oil(temperature_c: f64, column: Option<OilColumn>) -> Oil {
-    Oil {
-        density_kg_per_m3: 870.0,
-        thermal_expansion_per_k: 7e-4,
-        temperature_c,
-        viscosity_40c_m2_per_s: 15e-6,
-        viscosity_100c_m2_per_s: 3.8e-6,
-        column,
-    }
+    let mut oil = Oil::new(870.0)
+        .thermal_expansion_per_k(7e-4)
+        .temperature_c(temperature_c);
+    oil.column = column;
+    oil
 }
 
 /// `E` of the model, air included to first order in its ratio.

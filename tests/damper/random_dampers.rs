@@ -62,7 +62,7 @@ fn measure(number: u64) -> Result<Case, String> {
                     }
                 }
                 let peak = |corner: f64| found.reference_peak_n[usize::from(corner < 0.0)];
-                let corners = law.corners().into_iter();
+                let corners = law.corners();
                 case.reached.extend(
                     corners
                         .filter(|(_, at)| peak(*at) >= (1.0 - 1e-9) * at.abs())

@@ -95,6 +95,7 @@ impl Fault {
                         relief.discharge_coefficient *= 1.25;
                     }
                 }
+                other => panic!("no flow of {other:?}"),
             },
         }
         faulty
@@ -123,6 +124,7 @@ pub fn varied(preset: &str, seed: Option<u64>) -> DamperParameters {
             reduced.saturation_velocity_m_per_s *= factor(1.0, 1.5);
         }
         Element::Physical(hydraulics) => hydraulics.orifice.diameter_m *= factor(0.8, 1.25),
+        other => panic!("no variation of {other:?}"),
     }
     parameters
 }

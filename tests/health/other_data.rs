@@ -108,10 +108,7 @@ fn faults_of_another_law_are_known_against_its_baseline() {
         (noise, noise.on(&x, &force, seed))
     };
     let (noise, (x, force)) = run(&healthy, 301);
-    let settings = HealthSettings {
-        law_deviation: 0.2,
-        ..HealthSettings::new(noise.displacement_m, noise.force_n)
-    };
+    let settings = HealthSettings::new(noise.displacement_m, noise.force_n).law_deviation(0.2);
     let mut model = nominal
         .check()
         .unwrap()

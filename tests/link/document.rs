@@ -14,9 +14,9 @@ use dashpot_core::health::{
     Estimate, Health, HealthImageError, HealthModel, HealthReading, HealthSettings, HealthStatus,
 };
 use dashpot_core::link::{
-    Counters, Forces, FrameReader, Header, MEASURED_BYTES, MOST_MEASURED, PROTOCOL, Parameter,
-    RESPONSE_BYTES, Reals, Refusal, Request, Response, SafeOutput, Sample, Scalar, Welcome,
-    request_frame,
+    Counters, Forces, FrameReader, Header, MAX_MEASURED, MEASURED_BYTES, PROTOCOL, Parameter,
+    PerDamper, RESPONSE_BYTES, Reals, Refusal, Request, Response, SafeOutput, Sample, Samples,
+    Scalar, Welcome, request_frame,
 };
 use dashpot_core::{Damper, ImageError, Status};
 use dashpot_host_link::{Desk, Link};
@@ -59,17 +59,7 @@ fn name(choice: &impl std::fmt::Debug) -> String {
 }
 
 fn welcome() -> Welcome<'static> {
-    Welcome {
-        protocol: PROTOCOL,
-        core_version: "",
-        revisions: Vec::new().into_iter().collect(),
-        scalar: Scalar::F32,
-        step_s: 0.0,
-        image_bytes: 0,
-        tick: 0,
-        clock_hz: 0,
-        running: false,
-    }
+    Welcome::default()
 }
 
 fn numbered<T: Serialize + std::fmt::Debug>(choices: &[T]) -> Vec<(u8, String)> {
@@ -147,15 +137,15 @@ fn the_numbers_are_those_of_the_code() {
         },
         Response::Telemetry {
             overwritten: 0,
-            samples: Vec::new().into_iter().collect(),
+            samples: Samples::default(),
         },
         Response::Counters(Counters::default()),
         Response::Outputs {
             outputs_n: Reals::new(),
         },
         Response::Status {
-            status: Vec::new().into_iter().collect(),
-            rejected_inputs: Vec::new().into_iter().collect(),
+            status: PerDamper::new(),
+            rejected_inputs: PerDamper::new(),
         },
         Response::Refused(Refusal::State),
         Response::Health(HealthReading::default()),
@@ -198,7 +188,7 @@ fn the_numbers_are_those_of_the_code() {
     ] {
         assert!(stated.starts_with(&format!("{} ", bit.bits())) && text.contains(stated));
     }
-    let most = format!("1 to {MOST_MEASURED} samples of {MEASURED_BYTES} bytes");
+    let most = format!("1 to {MAX_MEASURED} samples of {MEASURED_BYTES} bytes");
     assert!(text.contains(&most), "{most}");
     let bytes = format!("{} bytes, whole", HealthModel::IMAGE_BYTES);
     assert!(text.contains(&bytes), "{bytes}");
@@ -216,13 +206,7 @@ fn the_numbers_are_those_of_the_code() {
         }
     };
     in_order(format!("{:?}", Counters::default()));
-    let sample = Sample {
-        tick: 0,
-        displacement_m: 0.0,
-        force_n: 0.0,
-        status: 0,
-    };
-    in_order(format!("{sample:?}"));
+    in_order(format!("{:?}", Sample::default()));
     let reading = format!("{:?}", HealthReading::default());
     // Value and deviation of each number are told once for all.
     let estimate = format!("{:?}", Estimate::default());

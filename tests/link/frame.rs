@@ -3,7 +3,7 @@
 use dashpot::signed_image::crc_32;
 use dashpot_core::health::{Estimate, HealthReading, HealthStatus};
 use dashpot_core::link::{
-    Forces, FrameError, FrameReader, Header, MOST_DAMPERS, MOST_SAMPLES, REQUEST_BYTES,
+    Forces, FrameError, FrameReader, Header, MAX_DAMPERS, MAX_SAMPLES, REQUEST_BYTES,
     RESPONSE_BYTES, Request, RequestFrame, Response, ResponseFrame, Sample, Scalar, Welcome,
 };
 use proptest::prelude::*;
@@ -98,7 +98,7 @@ fn the_longest_messages_fit() {
         session: u16::MAX,
         sequence: u32::MAX,
     };
-    let states = [0xff; MOST_DAMPERS * 24];
+    let states = [0xff; MAX_DAMPERS * 24];
     let tick = u32::MAX;
     let mut request = RequestFrame::new();
     let restore = Request::Restore {
@@ -119,53 +119,49 @@ fn the_longest_messages_fit() {
         states: &states,
     };
     assert!(response.write(&(header, saved)));
-    let welcome = Response::Welcome(Welcome {
-        protocol: u16::MAX,
-        core_version: "1000.1000.1000",
-        revisions: [u32::MAX; MOST_DAMPERS].into_iter().collect(),
-        scalar: Scalar::F64,
-        step_s: f32::MAX,
-        image_bytes: tick,
-        tick,
-        clock_hz: tick,
-        running: true,
-    });
-    assert!(response.write(&(header, welcome)));
-    let sample = Sample {
-        tick,
-        displacement_m: f32::MAX,
-        force_n: f32::MAX,
-        status: u16::MAX,
-    };
+    let mut welcome = Welcome::default();
+    welcome.protocol = u16::MAX;
+    welcome.core_version = "1000.1000.1000";
+    welcome.revisions = [u32::MAX; MAX_DAMPERS].into_iter().collect();
+    welcome.scalar = Scalar::F64;
+    welcome.step_s = f32::MAX;
+    welcome.image_bytes = tick;
+    welcome.tick = tick;
+    welcome.clock_hz = tick;
+    welcome.running = true;
+    assert!(response.write(&(header, Response::Welcome(welcome))));
+    let mut sample = Sample::default();
+    sample.tick = tick;
+    sample.displacement_m = f32::MAX;
+    sample.force_n = f32::MAX;
+    sample.status = u16::MAX;
     let telemetry = Response::Telemetry {
         overwritten: tick,
-        samples: [sample; MOST_SAMPLES].into_iter().collect(),
+        samples: [sample; MAX_SAMPLES].into_iter().collect(),
     };
     assert!(response.write(&(header, telemetry)));
-    let forces = Response::Forces(Forces {
-        tick,
-        forces_n: [f32::MAX; MOST_DAMPERS].into_iter().collect(),
-        status: [u16::MAX; MOST_DAMPERS].into_iter().collect(),
-        clock_ticks: tick,
-    });
-    assert!(response.write(&(header, forces)));
-    let bound = Estimate {
+    let mut forces = Forces::default();
+    forces.tick = tick;
+    forces.forces_n = [f32::MAX; MAX_DAMPERS].into_iter().collect();
+    forces.status = [u16::MAX; MAX_DAMPERS].into_iter().collect();
+    forces.clock_ticks = tick;
+    assert!(response.write(&(header, Response::Forces(forces))));
+    let largest = Estimate {
         value: f32::MAX,
         sd: f32::MAX,
     };
-    let health = Response::Health(HealthReading {
-        flow_factor: bound,
-        stiffness_n_per_m: bound,
-        clearance_m: bound,
-        lag_s: bound,
-        compliance_m_per_n: bound,
-        force_zero_n: bound,
-        added_friction_n: bound,
-        samples: tick,
-        rejected: tick,
-        status: HealthStatus::from_bits_retain(u16::MAX),
-    });
-    assert!(response.write(&(header, health)));
+    let mut health = HealthReading::default();
+    health.flow_factor = largest;
+    health.stiffness_n_per_m = largest;
+    health.clearance_m = largest;
+    health.lag_s = largest;
+    health.compliance_m_per_n = largest;
+    health.force_zero_n = largest;
+    health.added_friction_n = largest;
+    health.samples = tick;
+    health.rejected = tick;
+    health.status = HealthStatus::from_bits_retain(u16::MAX);
+    assert!(response.write(&(header, Response::Health(health))));
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use dashpot::damper;
 use dashpot::signed_image::crc_32;
 use dashpot_core::health::{Health, HealthImageError, HealthModel, HealthReading, HealthSettings};
-use dashpot_core::link::{Clock, Device, MOST_MEASURED, Refusal, Request, Response, request_frame};
+use dashpot_core::link::{Clock, Device, MAX_MEASURED, Refusal, Request, Response, request_frame};
 
 use crate::common::{Answer, Bench, SESSION, reals};
 
@@ -65,7 +65,7 @@ fn a_measured_damper_has_the_reading_of_the_desk() {
             damper: 1,
             samples: &bytes(batch),
         });
-        (rest_of_them, size) = (rest, size % MOST_MEASURED + 1);
+        (rest_of_them, size) = (rest, size % MAX_MEASURED + 1);
     }
     for (x, force) in &samples {
         expected.tick(&model, *x, *force);
@@ -112,7 +112,7 @@ fn what_no_model_watches_is_refused() {
     );
     assert_eq!(load(&mut bench, 0, &image).response().1, Response::Done);
     let before = reading(&mut bench, &Request::Health { damper: 0 });
-    let too_many = bytes(&[(1e-3, 500.0); MOST_MEASURED + 1]);
+    let too_many = bytes(&[(1e-3, 500.0); MAX_MEASURED + 1]);
     for samples in [&[][..], &one[1..], &too_many, &too_many[4..]] {
         let refused = bench.ask(&Request::Measure { damper: 0, samples });
         assert_eq!(refused.refusal(), Some(Refusal::Range));
@@ -130,7 +130,7 @@ fn a_damaged_model_is_refused_and_the_estimate_goes_on() {
     let mut bench = Bench::open();
     let image = model("reduced-vertical", 1e-3).to_image();
     load(&mut bench, 1, &image);
-    let fed = bytes(&samples(&bench, MOST_MEASURED));
+    let fed = bytes(&samples(&bench, MAX_MEASURED));
     bench.done(&Request::Measure {
         damper: 1,
         samples: &fed,
@@ -199,7 +199,10 @@ fn a_model_is_loaded_between_ticks_and_fed_by_the_board() {
     let mut slices = 0;
     while !bench.device.advance() {
         slices += 1;
-        assert!(!bench.device.measured(1, 0.0, 0.0), "not yet loaded");
+        assert!(
+            bench.device.push_measurement(1, 0.0, 0.0).is_err(),
+            "not yet loaded"
+        );
         bench.device.tick(1);
         let dampers = bench.dampers.iter().zip(&mut states);
         for ((damper, state), output) in dampers.zip(bench.device.outputs_n()) {
@@ -209,8 +212,10 @@ fn a_model_is_loaded_between_ticks_and_fed_by_the_board() {
     assert!(slices > 10, "{slices}");
     let mut expected = Health::new(&model);
     for (x, force) in samples(&bench, 3000) {
-        assert!(bench.device.measured(1, x, force));
-        assert!(!bench.device.measured(0, x, force) && !bench.device.measured(2, x, force));
+        let device = &mut bench.device;
+        assert!(device.push_measurement(1, x, force).is_ok());
+        assert!(device.push_measurement(0, x, force).is_err());
+        assert!(device.push_measurement(2, x, force).is_err());
         expected.tick(&model, x, force);
     }
     let found = reading(&mut bench, &Request::Health { damper: 1 });
@@ -222,7 +227,7 @@ fn a_model_is_loaded_between_ticks_and_fed_by_the_board() {
 fn places_that_are_not_watched_take_no_model() {
     let bench = Bench::new();
     let mut device = Box::new(Device::<2, 1>::new());
-    let clock = Clock { now: || 0, hz: 1 };
+    let clock = Clock::new(|| 0, 1);
     device.start(&bench.dampers.each_ref(), clock).unwrap();
     let image = model("reduced-vertical", 1e-3).to_image();
     let header = |sequence| dashpot_core::link::Header {

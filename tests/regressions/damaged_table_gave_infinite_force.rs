@@ -3,7 +3,7 @@
 use dashpot::damper;
 use dashpot::memory::bytes;
 use dashpot_core::Damper;
-use dashpot_core::parameters::LARGEST_FORCE_N;
+use dashpot_core::parameters::MAX_FORCE_N;
 
 #[test]
 fn any_number_of_the_constants_may_be_infinite() {
@@ -16,7 +16,7 @@ fn any_number_of_the_constants_may_be_infinite() {
             for x in [1e-3, -2e-3, 5e-3] {
                 let force = damaged.step(&mut state, x);
                 assert!(
-                    force.abs() <= LARGEST_FORCE_N as f32,
+                    force.abs() <= MAX_FORCE_N as f32,
                     "{number} at byte {place}: {force} N"
                 );
             }

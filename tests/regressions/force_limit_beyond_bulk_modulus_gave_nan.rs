@@ -73,9 +73,7 @@ fn two_chambers_are_bounded_by_the_piston_sides_pressure() {
     let Element::Physical(hydraulics) = &mut parameters.element else {
         panic!("a preset with oil");
     };
-    hydraulics.two_chamber = Some(TwoChamber {
-        vapour_pressure_pa: -9e4,
-    });
+    hydraulics.two_chamber = Some(TwoChamber::new(-9e4));
     // The foot valve closed, the whole force is on the rod's area.
     hydraulics.valves.foot_compression.edge_compliance_m_per_pa = Some(0.0);
     let bound = |checked: Result<CheckedParameters, BuildError>| checked.err()?.bound;

@@ -106,9 +106,8 @@ fn what_is_vendored_keeps_its_licence() {
     }
 }
 
-/// The compiler that CI checks one of them with is that of all.
 #[test]
-fn our_packages_state_one_licence_and_one_compiler() {
+fn our_packages_state_their_licence_and_compiler() {
     for workspace in &*WORKSPACES {
         let ours = workspace
             .packages
@@ -123,7 +122,12 @@ fn our_packages_state_one_licence_and_one_compiler() {
             );
             assert_eq!(package.edition.as_str(), "2024", "{name}");
             let version = package.rust_version.as_ref().map(ToString::to_string);
-            assert_eq!(version.as_deref(), Some("1.95.0"), "{name}");
+            // Only the core works with an older compiler than the others.
+            let stated = match name.as_str() {
+                "dashpot-core" => "1.89.0",
+                _ => "1.95.0",
+            };
+            assert_eq!(version.as_deref(), Some(stated), "{name}");
         }
     }
 }

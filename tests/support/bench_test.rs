@@ -95,7 +95,7 @@ pub fn settled_force(parameters: &DamperParameters, velocity_m_per_s: f64) -> f6
     const STEP_S: f64 = 1e-3;
     // From one end of the largest range of displacement to the other, 4 s at most.
     let mut parameters = parameters.clone();
-    parameters.limits.displacement_m = Limits::RANGES.displacement_m.greatest;
+    parameters.limits.displacement_m = Limits::RANGES.displacement_m.max;
     let start = -0.99 * parameters.limits.displacement_m * velocity_m_per_s.signum();
     let move_m = velocity_m_per_s * STEP_S;
     let ticks = (-2.0 * start / move_m).min(4000.0) as u32;

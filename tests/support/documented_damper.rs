@@ -2,7 +2,7 @@
 
 use dashpot_core::parameters::{
     Element, Geometry, Leakage, Limits, Mount, Oil, OilColumn, Orifice, Range, Reduced, Relief,
-    Reservoir, Seal, TwoChamber, Valve,
+    Reservoir, Seal, Shims, TwoChamber, Valve,
 };
 use dashpot_core::{BuildError, CheckedParameters, DamperParameters};
 
@@ -13,7 +13,7 @@ type Change<'a> = &'a mut dyn FnMut(&mut f64, &Range);
 
 /// A number anywhere in its range: each decade as likely as another where the range has many, sometimes its least.
 fn anywhere(random: &mut Random, range: &Range) -> f64 {
-    let (least, greatest) = (range.least, range.greatest);
+    let (least, greatest) = (range.min, range.max);
     if random.happens(0.05) {
         least
     } else if least >= 0.0 && (least == 0.0 || greatest > 100.0 * least) {
@@ -48,7 +48,7 @@ pub fn changed_damper(of: &DamperParameters, random: &mut Random) -> CheckedPara
         change(&mut parameters, &mut |number, range| {
             if random.happens(0.25) {
                 let factor = random.between(-0.6, 0.6).exp();
-                *number = (*number * factor).clamp(range.least, range.greatest);
+                *number = (*number * factor).clamp(range.min, range.max);
             }
         });
         if let Some(checked) = related(parameters, random) {
@@ -70,7 +70,8 @@ fn use_shims(parameters: &mut DamperParameters, random: &mut Random) {
     ] {
         if random.happens(0.3) {
             let shims = 1 + (8.0 * random.unit()) as usize;
-            valve.shims_m = (0..shims).map(|_| random.decades(1e-4, 1e-3)).collect();
+            let thicknesses: Vec<f64> = (0..shims).map(|_| random.decades(1e-4, 1e-3)).collect();
+            valve.shims_m = Shims::new(&thicknesses).expect("at most 8 shims");
             valve.edge_compliance_m_per_pa = None;
         }
     }
@@ -152,6 +153,7 @@ fn change(parameters: &mut DamperParameters, by: Change<'_>) {
             return;
         }
         Element::Physical(hydraulics) => hydraulics,
+        other => panic!("no ranges of {other:?}"),
     };
     let (geometry, ranges) = (&mut hydraulics.geometry, Geometry::RANGES);
     by(&mut geometry.rod_diameter_m, &ranges.rod_diameter_m);
@@ -213,7 +215,7 @@ fn change_valve(valve: &mut Valve, by: Change<'_>) {
     let ranges = Valve::RANGES;
     by(&mut valve.clamp_radius_m, &ranges.clamp_radius_m);
     by(&mut valve.free_radius_m, &ranges.free_radius_m);
-    for shim in &mut valve.shims_m {
+    for shim in valve.shims_m.iter_mut() {
         by(shim, &ranges.shims_m);
     }
     if let Some(compliance) = &mut valve.edge_compliance_m_per_pa {

@@ -41,100 +41,84 @@ impl Random {
 }
 
 fn valve(random: &mut Random, free_radius_m: f64) -> Valve {
-    Valve {
-        clamp_radius_m: 0.5 * free_radius_m,
-        free_radius_m,
-        shims_m: heapless::Vec::new(),
-        edge_compliance_m_per_pa: Some(random.decades(1e-13, 1e-10)),
-        equivalent_pressure_factor: random.between(0.2, 1.0),
-        discharge_coefficient: random.between(0.5, 0.8),
-        preload_pa: random.some(0.6, |r| r.decades(1e4, 1e7)).unwrap_or(0.0),
-        elastic_modulus_pa: 2e11,
-        poisson_ratio: 0.3,
-    }
+    let compliance = random.decades(1e-13, 1e-10);
+    let factor = random.between(0.2, 1.0);
+    let discharge = random.between(0.5, 0.8);
+    let preload_pa = random.some(0.6, |r| r.decades(1e4, 1e7)).unwrap_or(0.0);
+    Valve::with_edge_compliance(0.5 * free_radius_m, free_radius_m, compliance, discharge)
+        .equivalent_pressure_factor(factor)
+        .preload_pa(preload_pa)
 }
 
 fn oil(random: &mut Random) -> Oil {
-    Oil {
-        density_kg_per_m3: random.between(800.0, 900.0),
-        thermal_expansion_per_k: 7e-4,
-        temperature_c: random.between(-40.0, 90.0),
-        viscosity_40c_m2_per_s: 15e-6,
-        viscosity_100c_m2_per_s: 3.8e-6,
-        column: random.some(0.6, |r| OilColumn {
-            bulk_modulus_pa: r.decades(8e8, 2e9),
-            rod_side_volume_m3: r.decades(1e-4, 2e-3),
-            piston_side_volume_m3: r.decades(1e-4, 2e-3),
-            air_fraction: r.some(0.7, |r| r.decades(1e-5, 0.05)).unwrap_or(0.0),
-            polytropic_exponent: r.some(0.5, |r| r.between(1.0, 1.4)).unwrap_or(1.0),
-        }),
-    }
+    let mut oil = Oil::new(random.between(800.0, 900.0))
+        .thermal_expansion_per_k(7e-4)
+        .temperature_c(random.between(-40.0, 90.0));
+    oil.column = random.some(0.6, |r| {
+        OilColumn::new(
+            r.decades(8e8, 2e9),
+            r.decades(1e-4, 2e-3),
+            r.decades(1e-4, 2e-3),
+        )
+        .air_fraction(r.some(0.7, |r| r.decades(1e-5, 0.05)).unwrap_or(0.0))
+        .polytropic_exponent(r.some(0.5, |r| r.between(1.0, 1.4)).unwrap_or(1.0))
+    });
+    oil
 }
 
 fn hydraulics(random: &mut Random) -> Hydraulics {
     let piston = random.between(0.03, 0.12);
-    Hydraulics {
-        geometry: Geometry {
-            rod_diameter_m: piston * random.between(0.2, 0.7),
-            piston_diameter_m: piston,
-        },
-        orifice: Orifice {
-            diameter_m: random.some(0.9, |r| r.decades(5e-4, 4e-3)).unwrap_or(0.0),
-            discharge_coefficient: random.between(0.5, 0.9),
-            transition_reynolds: random.some(0.5, |r| r.decades(10.0, 2000.0)).unwrap_or(0.0),
-        },
-        valves: Valves {
-            piston_extension: valve(random, 0.3 * piston),
-            piston_compression: valve(random, 0.3 * piston),
-            foot_compression: valve(random, 0.15 * piston),
-        },
-        leakage: random.some(0.5, |r| Leakage {
-            radial_clearance_m: r.decades(1e-5, 1e-4),
-            length_m: r.between(0.01, 0.06),
-            eccentricity_ratio: r.unit(),
-        }),
-        relief: random.some(0.5, |r| Relief {
-            opening_pressure_pa: r.decades(3e5, 2e7),
-            area_gradient_m2_per_pa: r.decades(1e-13, 1e-11),
-            discharge_coefficient: r.between(0.5, 0.8),
-        }),
-        reservoir: random.some(0.5, |r| Reservoir {
-            fill_pressure_pa: r.some(0.5, |r| r.decades(1e4, 2e6)).unwrap_or(0.0),
-            gas_volume_m3: 1e-3,
-            fill_temperature_c: 20.0,
-            rod_insertion_m: r.between(-0.05, 0.05),
-        }),
-        seal: random.some(0.5, |r| Seal {
-            friction_n: r.decades(10.0, 1000.0),
-        }),
-        two_chamber: random.some(0.4, |r| TwoChamber {
-            vapour_pressure_pa: r.between(-1e5, -1e4),
-        }),
-        oil: oil(random),
-    }
+    let geometry = Geometry::new(piston * random.between(0.2, 0.7), piston);
+    let orifice = Orifice::new(
+        random.some(0.9, |r| r.decades(5e-4, 4e-3)).unwrap_or(0.0),
+        random.between(0.5, 0.9),
+    )
+    .transition_reynolds(random.some(0.5, |r| r.decades(10.0, 2000.0)).unwrap_or(0.0));
+    let valves = Valves::new(
+        valve(random, 0.3 * piston),
+        valve(random, 0.3 * piston),
+        valve(random, 0.15 * piston),
+    );
+    let leakage = random.some(0.5, |r| {
+        Leakage::new(r.decades(1e-5, 1e-4), r.between(0.01, 0.06)).eccentricity_ratio(r.unit())
+    });
+    let relief = random.some(0.5, |r| {
+        Relief::new(
+            r.decades(3e5, 2e7),
+            r.decades(1e-13, 1e-11),
+            r.between(0.5, 0.8),
+        )
+    });
+    let reservoir = random.some(0.5, |r| {
+        let fill_pressure_pa = r.some(0.5, |r| r.decades(1e4, 2e6)).unwrap_or(0.0);
+        Reservoir::new(fill_pressure_pa, 1e-3, 20.0).rod_insertion_m(r.between(-0.05, 0.05))
+    });
+    let seal = random.some(0.5, |r| Seal::new(r.decades(10.0, 1000.0)));
+    let two_chamber = random.some(0.4, |r| TwoChamber::new(r.between(-1e5, -1e4)));
+    let mut hydraulics = Hydraulics::new(geometry, orifice, valves, oil(random));
+    hydraulics.leakage = leakage;
+    hydraulics.relief = relief;
+    hydraulics.reservoir = reservoir;
+    hydraulics.seal = seal;
+    hydraulics.two_chamber = two_chamber;
+    hydraulics
 }
 
 /// A damper with each term on or off.
 pub fn damper(random: &mut Random) -> DamperParameters {
     let element = if random.happens(0.15) {
-        Element::Reduced(Reduced {
-            damping_n_s_per_m: random.decades(1e4, 1e6),
-            saturation_velocity_m_per_s: random.decades(5e-3, 0.3),
-        })
+        Element::Reduced(Reduced::new(
+            random.decades(1e4, 1e6),
+            random.decades(5e-3, 0.3),
+        ))
     } else {
         Element::Physical(hydraulics(random))
     };
-    DamperParameters {
-        element,
-        mount: Mount {
-            stiffness_n_per_m: random.decades(1e6, 4e7),
-            seat_stiffness_n_per_m: random.some(0.3, |r| r.decades(1e7, 1e9)),
-            clearance_m: random.some(0.5, |r| r.decades(1e-5, 5e-3)).unwrap_or(0.0),
-        },
-        limits: Limits {
-            force_n: random.decades(5e3, 2e5),
-            rate_m_per_s: random.between(2.0, 10.0),
-            ..Limits::default()
-        },
-    }
+    let mut mount = Mount::new(random.decades(1e6, 4e7));
+    mount.seat_stiffness_n_per_m = random.some(0.3, |r| r.decades(1e7, 1e9));
+    mount.clearance_m = random.some(0.5, |r| r.decades(1e-5, 5e-3)).unwrap_or(0.0);
+    let limits = Limits::DEFAULT
+        .force_n(random.decades(5e3, 2e5))
+        .rate_m_per_s(random.between(2.0, 10.0));
+    DamperParameters::new(element, mount).limits(limits)
 }

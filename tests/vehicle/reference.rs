@@ -35,10 +35,8 @@ fn vehicle(random: &mut Rng) -> VehicleParameters {
                 damping_n_s_per_m[2] *= between(random, 0.5, 1.5);
             }
             Law::Damper { parameters, .. } => {
-                let mount = Mount {
-                    clearance_m: between(random, 0.0, 4e-3),
-                    ..Mount::new(between(random, 2e6, 12e6))
-                };
+                let clearance_m = between(random, 0.0, 4e-3);
+                let mount = Mount::new(between(random, 2e6, 12e6)).clearance_m(clearance_m);
                 let (damping, saturation) =
                     (between(random, 20e3, 150e3), between(random, 0.02, 0.3));
                 **parameters = DamperParameters::reduced(damping, saturation, mount);

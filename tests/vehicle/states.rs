@@ -54,14 +54,7 @@ fn a_damper_changes_without_a_jump_and_its_force_can_come_from_outside() {
         .unwrap();
     let before = state.damper_forces_n()[lateral];
     assert!(before.abs() > 50.0, "{before}");
-    let worn = DamperParameters::reduced(
-        90e3,
-        0.07,
-        Mount {
-            clearance_m: 8e-3,
-            ..Mount::new(3e6)
-        },
-    );
+    let worn = DamperParameters::reduced(90e3, 0.07, Mount::new(3e6).clearance_m(8e-3));
     vehicle.set_damper(lateral, &worn).unwrap();
     vehicle.step(&mut state, &track);
     let after = state.damper_forces_n()[lateral];

@@ -1,5 +1,5 @@
-/* The controller on a Cortex-M4F, M7 or M33: the tick is the SysTick interrupt, text goes to the debugger
- * through semihosting. Memory and clock are those of the board's linker script. No C library. */
+/* The controller on a Cortex-M4F, M7 or M33. The tick is the SysTick interrupt, and text goes to the
+ * debugger through semihosting. The linker script of the board defines memory and clock. Needs no C library. */
 #include <stdbool.h>
 #include <stdint.h>
 
@@ -12,13 +12,13 @@ enum { TICK_HZ = 1000 };
 #define SYST_CVR (*(volatile uint32_t *)0xE000E018U)
 #define CPACR (*(volatile uint32_t *)0xE000ED88U)
 #define SYST_RUN 7U            /* counter, interrupt, processor clock */
-#define SYST_WRAPPED (1U << 16) /* since the register was read last */
+#define SYST_WRAPPED (1U << 16) /* since the last read of the register */
 
 enum { SYS_WRITE0 = 0x04, SYS_EXIT = 0x18 };
 #define STOPPED_BY_EXIT 0x20026U
 #define STOPPED_BY_ERROR 0x20023U
 
-extern const char clock_hz[]; /* its address is the number */
+extern const char clock_hz[]; /* the address is the value */
 extern uint32_t stack_top[], data_start[], data_end[], data_image[], bss_start[], bss_end[];
 
 static volatile bool finished;
@@ -45,7 +45,7 @@ static _Noreturn void stop(bool well)
 
 static void tick_interrupt(void)
 {
-    (void)SYST_CSR; /* forgets the wrap that brought us here */
+    (void)SYST_CSR; /* clears the wrap of this interrupt */
     controller_tick();
     if ((SYST_CSR & SYST_WRAPPED) != 0U) {
         overrun = true;
@@ -59,7 +59,7 @@ static void unexpected(void)
     stop(false);
 }
 
-void start(void); /* the linker script names it */
+void start(void); /* entry point of the linker script */
 void start(void)
 {
     const uint32_t *from = data_image;
@@ -70,7 +70,7 @@ void start(void)
     for (uint32_t *to = bss_start; to < bss_end; to++) {
         *to = 0;
     }
-    CPACR |= 0xFU << 20; /* floating point on */
+    CPACR |= 0xFU << 20; /* enables floating point */
     __asm__ volatile("dsb\n\tisb" ::: "memory");
 
     if (!controller_start()) {

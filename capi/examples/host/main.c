@@ -1,4 +1,4 @@
-/* The controller on a desk: ticks as fast as they go. */
+/* The controller on a desktop, which runs ticks as fast as possible. */
 #include <stdio.h>
 #include <stdlib.h>
 

@@ -1,9 +1,6 @@
-//! One branch of the element, extension or compression: the velocity law and its series chain.
+//! One branch of the element (extension or compression): the velocity law and the springs in series.
 
-use heapless::Vec;
-
-use crate::characteristic::Corner;
-use crate::hydraulics::HydraulicSide;
+use crate::hydraulics::{Corners, HydraulicSide};
 use crate::parameters::{OilColumn, Reduced};
 
 /// The velocity law `v_h(F)` of one branch.
@@ -13,20 +10,20 @@ pub(crate) enum Law<'a> {
     Reduced(Reduced),
 }
 
-/// A branch: all functions take the force magnitude (N) up to `force_limit`.
+/// One branch. All functions take a force magnitude (N) up to `force_limit`.
 #[derive(Clone, Copy)]
 pub(crate) struct Branch<'a> {
     pub(crate) law: Law<'a>,
-    /// `1/K_rubber + 1/K_seat` (m/N).
+    /// Compliance `1/K_rubber + 1/K_seat` (m/N).
     pub(crate) mount_compliance: f64,
-    /// Oil column and its volume (m^3).
+    /// Oil column and volume of the chamber under pressure (m^3).
     pub(crate) column: Option<(OilColumn, f64)>,
-    /// The branch yields at this force (N).
+    /// Force at which the branch yields (N).
     pub(crate) force_limit: f64,
 }
 
 impl Branch<'_> {
-    /// `v_h(F)` (m/s).
+    /// Velocity `v_h(F)` of the piston in the cylinder (m/s).
     pub(crate) fn velocity(&self, force: f64) -> f64 {
         match &self.law {
             Law::Physical(side) => side.velocity(force),
@@ -42,8 +39,7 @@ impl Branch<'_> {
         }
     }
 
-    /// Shortening of the chain `delta(F)` (m): mount and oil column, the latter under the oil's
-    /// gauge pressure.
+    /// Deflection `delta(F)` (m) of the mount and, under the gauge pressure of the oil, of the oil column.
     pub(crate) fn deflection(&self, force: f64) -> f64 {
         let oil = match (&self.column, &self.law) {
             (Some((column, volume)), Law::Physical(side)) => {
@@ -54,7 +50,7 @@ impl Branch<'_> {
         force * self.mount_compliance + oil
     }
 
-    /// `d delta/dF` (m/N).
+    /// Compliance of mount and oil column `d delta/dF` (m/N).
     pub(crate) fn compliance(&self, force: f64) -> f64 {
         let oil = match (&self.column, &self.law) {
             (Some((column, volume)), Law::Physical(side)) if force >= side.laws.friction_n => {
@@ -66,12 +62,12 @@ impl Branch<'_> {
         self.mount_compliance + oil
     }
 
-    /// Deflection up to which the piston is held (m).
+    /// Deflection up to which friction holds the piston (m).
     pub(crate) fn held(&self) -> f64 {
         self.friction() * self.mount_compliance
     }
 
-    /// Force over deflection (N/m), without force the limit of it.
+    /// Force over deflection (N/m); at zero deflection its limit.
     pub(crate) fn secant_stiffness(&self, force: f64, deflection: f64) -> f64 {
         if deflection > 0.0 {
             force / deflection
@@ -80,11 +76,11 @@ impl Branch<'_> {
         }
     }
 
-    /// Corners of `v_h`, with their forces (N) below the limit.
-    pub(crate) fn corners(&self) -> Vec<(Corner, f64), 8> {
+    /// Corners of `v_h` below the force limit, with their forces (N).
+    pub(crate) fn corners(&self) -> Corners {
         match &self.law {
             Law::Physical(side) => side.corners(self.force_limit),
-            Law::Reduced(_) => Vec::new(),
+            Law::Reduced(_) => Corners::new(),
         }
     }
 }

@@ -1,4 +1,4 @@
-//! Parameters that were checked: every range, every relation, and the laws that follow.
+//! Checked parameters: ranges, relations between parameters, and the resulting laws.
 
 use core::ops::Deref;
 
@@ -13,13 +13,13 @@ use crate::parameters::{
 #[allow(clippy::large_enum_variant)] // one per damper, never in an array
 #[derive(Clone, Debug)]
 pub(crate) enum ElementLaws {
-    /// Hydraulics.
+    /// Oil through orifice and valves.
     Physical(Laws),
     /// Damping coefficient and saturation velocity.
     Reduced(Reduced),
 }
 
-/// Parameters that were checked once, with the shim packs solved: what dampers and curves are made of.
+/// Checked parameters with solved shim packs, from which dampers and static laws are built.
 ///
 /// ```
 /// use dashpot_core::characteristic::Characteristic;
@@ -51,7 +51,7 @@ impl DamperParameters {
     /// Checks every parameter and solves the shim packs.
     ///
     /// # Errors
-    /// The first field out of its range, with the range.
+    /// The first field that is out of range, with the range.
     ///
     /// ```
     /// use dashpot_core::parameters::{DamperParameters, Mount};
@@ -69,13 +69,13 @@ impl DamperParameters {
                 let laws = Laws::new(hydraulics);
                 let limit = self.limits.force_n;
                 let range = &Limits::RANGES.force_n;
-                let least = 2.0 * laws.friction_n;
-                let most = laws.largest_force_n().unwrap_or(f64::INFINITY);
-                // A bound is named where it is what refuses the limit.
-                let bound = if range.contains(limit) && limit <= least {
-                    Some(least)
+                let min = 2.0 * laws.friction_n;
+                let max = laws.max_force_n().unwrap_or(f64::INFINITY);
+                // The error contains the bound only if the limit violates it.
+                let bound = if range.contains(limit) && limit <= min {
+                    Some(min)
                 } else {
-                    (limit > most).then_some(most)
+                    (limit > max).then_some(max)
                 };
                 require("limits", range, limit, bound.is_none())
                     .map_err(|error| BuildError { bound, ..error })?;
@@ -156,7 +156,7 @@ fn check_oil(oil: &Oil) -> Result<(), BuildError> {
 }
 
 impl Valve {
-    /// Checks the valve that stands in `table`.
+    /// Checks the valve of `table`.
     pub(crate) fn check(&self, table: &'static str) -> Result<(), BuildError> {
         self.check_ranges(table)?;
         let (clamp, free) = (self.clamp_radius_m, self.free_radius_m);
@@ -166,23 +166,15 @@ impl Valve {
         if self.edge_compliance_m_per_pa.is_some() {
             return Ok(());
         }
-        // What the theory of the pack needs.
-        let refused = |field, value, allowed| {
-            Err(BuildError {
-                section: table,
-                field,
-                value,
-                allowed,
-                bound: None,
-            })
-        };
+        // Without an edge compliance the pack is computed, which needs shims and a clamp radius within these bounds.
+        let invalid = |field, value, allowed| Err(BuildError::new(table, field, value, allowed));
         if !(1e-3 * free..0.999 * free).contains(&clamp) {
             let key = Self::RANGES.clamp_radius_m.key;
-            return refused(key, clamp, "between 0.001 and 0.999 of free_radius_m");
+            return invalid(key, clamp, "between 0.001 and 0.999 of free_radius_m");
         }
         if self.shims_m.is_empty() {
             let allowed = "1 to 16 shims when edge_compliance_m_per_pa is not given";
-            return refused(Self::RANGES.shims_m.key, 0.0, allowed);
+            return invalid(Self::RANGES.shims_m.key, 0.0, allowed);
         }
         Ok(())
     }

@@ -1,7 +1,8 @@
 //! The cubic through four samples.
 
-/// Coefficients of 1, z, z^2, z^3 of the cubic through the values at four different z, by Newton's divided
-/// differences. With `z[0] = 0` the constant is the first value exactly.
+/// Returns the coefficients of 1, z, z^2, z^3 of the cubic through the values at four different z.
+///
+/// Uses Newton's divided differences. With `z[0] = 0` the constant coefficient is exactly the first value.
 pub(super) fn cubic(z: [f64; 4], values: [f64; 4]) -> [f64; 4] {
     let mut differences = values;
     for order in 1..4 {
@@ -24,7 +25,7 @@ pub(super) fn cubic(z: [f64; 4], values: [f64; 4]) -> [f64; 4] {
     p
 }
 
-/// Value of a cubic.
+/// Evaluates a cubic at z.
 pub(super) fn value([c0, c1, c2, c3]: [f64; 4], z: f64) -> f64 {
     ((c3 * z + c2) * z + c1) * z + c0
 }

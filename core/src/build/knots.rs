@@ -1,4 +1,4 @@
-//! Where the knots of a branch lie: at its corners, and between them where its cubics would miss most.
+//! Places the knots of a branch at its corners, and between them where the cubics have the largest errors.
 
 use heapless::Vec;
 
@@ -8,20 +8,20 @@ use crate::math::Real;
 use crate::step::GAMMA;
 use crate::table::{DOUBLINGS, KNOTS_PER_BIN, PIECES, Piece};
 
-/// A span whose cubics miss by no more than this fraction is not divided.
+/// A span is not divided if the relative error of its cubics is at most this (1).
 const TOLERANCE: f64 = 1e-9;
 
-/// Fraction by which the table's force exceeds the limit where the element yields, above rounding in `f32`.
+/// Relative excess of the table's force over the limit at the yield point (1), larger than rounding in `f32`.
 const YIELD_MARGIN: f64 = 1e-5;
 
-/// Least distance of two knots over their reach: through a span much shorter no cubic can be laid in double precision.
-/// Two corners may lie as close, as a relief valve does that opens where vapour ceases.
-const LEAST_SEPARATION: f64 = 1e-9;
+/// Smallest distance of two knots relative to their reach (1). Double precision cannot resolve a cubic over a much
+/// shorter span. Two corners can be closer, for example if the relief valve opens as the vapour disappears.
+const MIN_SEPARATION: f64 = 1e-9;
 
-/// The last piece is the one beyond the limit.
+/// One span for each piece except the last, which is beyond the limit.
 type Spans = Vec<Span, { PIECES - 1 }>;
 
-/// Writes the pieces of a branch; flow has the sign of `direction`.
+/// Writes the pieces of a branch. The flow has the sign of `direction`.
 pub(super) fn write<T: Real>(stage: &Stage<'_>, direction: f64, pieces: &mut [Piece<T>]) {
     let mut knot_of = pieces.iter_mut();
     let mut potential = 0.0;
@@ -43,13 +43,13 @@ pub(super) fn write<T: Real>(stage: &Stage<'_>, direction: f64, pieces: &mut [Pi
     let mut knot = T::from_f64(end.reach);
     let flow = end.flow + (knot.to_f64() - end.reach) / GAMMA;
     for piece in knot_of {
-        // Where the element yields, what is not stretch is flow: exactly, over any reach.
+        // As the element yields, every further reach is flow. This is exact for any reach.
         let linear = [direction * flow, direction / GAMMA, 0.0, 0.0];
         piece.knot = knot;
         piece.flow = linear.map(T::from_f64);
         piece.stiffness = constant((1.0 + YIELD_MARGIN) * end.stiffness);
         piece.potential = constant(potential);
-        // Pieces left over are never reached.
+        // The remaining pieces are never reached.
         knot = T::MAX;
     }
 }
@@ -58,7 +58,7 @@ fn constant<T: Real>(value: f64) -> [T; 4] {
     [value, 0.0, 0.0, 0.0].map(T::from_f64)
 }
 
-/// Spans from corner to corner, the one missed most divided until there are as many as pieces.
+/// Divides the branch at its corners, then repeatedly halves the span with the largest error until every piece is used.
 fn spans<T: Real>(stage: &Stage<'_>) -> Spans {
     let mut spans: Spans = corners::<T>(stage)
         .windows(2)
@@ -75,7 +75,7 @@ fn spans<T: Real>(stage: &Stage<'_>) -> Spans {
         if fits::<T>(knots, spans[worst].middle().reach) {
             let [before, after] = spans[worst].halves(stage);
             spans[worst] = before;
-            // It is not full: the loop's condition.
+            // There is room: the loop ends when the vector is full.
             let _ = spans.insert(worst + 1, after);
         } else {
             spans[worst].misfit = 0.0;
@@ -84,17 +84,16 @@ fn spans<T: Real>(stage: &Stage<'_>) -> Spans {
     spans
 }
 
-/// Forces (N) that knots must lie at, rising: where the branch begins and ends, and its corners.
+/// Returns the forces (N) that need a knot, in ascending order: start, corners and end of the branch.
 ///
-/// Left out is a corner whose bin is full of other corners: within a span the law is then smoothed over
-/// less than a bin.
+/// A corner is left out if its bin is already full of corners. The law is then smoothed over less than a bin.
 fn corners<T: Real>(stage: &Stage<'_>) -> Vec<f64, 10> {
     let (start, end) = (stage.branch.friction(), end(stage));
     let mut forces = Vec::from_array([start, end]);
     for (_, corner) in stage.branch.corners() {
         let knots = forces.iter().map(|force| stage.sample(*force).reach);
         if start < corner && corner < end && fits::<T>(knots, stage.sample(corner).reach) {
-            // Its capacity exceeds the number of a branch's corners by the two ends.
+            // There is room for all corners of a branch and its two ends.
             let _ = forces.push(corner);
         }
     }
@@ -102,24 +101,24 @@ fn corners<T: Real>(stage: &Stage<'_>) -> Vec<f64, 10> {
     forces
 }
 
-/// Force at the end of the table (N): the limit or, when no stage gets there, what the bins end at.
+/// Returns the force at the end of the table (N): the limit or, if the bins end before it, the force at their end.
 fn end(stage: &Stage<'_>) -> f64 {
     let limit = stage.branch.force_limit;
-    let most = stage.first_knot * f64::from(1_u32 << DOUBLINGS);
-    if stage.sample(limit).reach < most {
+    let max_reach = stage.first_knot * f64::from(1_u32 << DOUBLINGS);
+    if stage.sample(limit).reach < max_reach {
         return limit;
     }
     bracketed_root(stage.branch.friction(), limit, |force| {
-        stage.sample(force).reach - most
+        stage.sample(force).reach - max_reach
     })
 }
 
-/// Whether a knot at `reach` (m) is neither one too many in its bin nor as good as equal to another.
+/// True if a knot at `reach` (m) has room in its bin and is not too close to another knot.
 fn fits<T: Real>(knots: impl Iterator<Item = f64>, reach: f64) -> bool {
     let knot = T::from_f64(reach);
     let mut within = 0;
     for other in knots {
-        let is_apart = (other - reach).abs() > LEAST_SEPARATION * reach;
+        let is_apart = (other - reach).abs() > MIN_SEPARATION * reach;
         let other = T::from_f64(other);
         if other == knot || !is_apart {
             return false;

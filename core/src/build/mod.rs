@@ -1,4 +1,4 @@
-//! Parameters to constants: what may be refused and takes its time; nothing is allocated.
+//! Builds constants from parameters. Building can fail and takes time; it allocates nothing.
 
 mod branch;
 mod checked;
@@ -18,54 +18,49 @@ use crate::error::BuildError;
 use crate::hydraulics::HydraulicSide;
 use crate::math::Real;
 use crate::parameters::{DamperParameters, Mount, OilColumn, STEP_ALLOWED, STEP_RANGE_S};
-use crate::scalars::{LARGEST_BOUND_M, Scalars};
+use crate::scalars::{MAX_BOUND_M, Scalars};
 use crate::table::{DOUBLINGS, PIECES};
 
 impl DamperParameters {
-    /// [`Self::check`], then [`CheckedParameters::build`].
+    /// Checks the parameters and builds the damper: [`Self::check`], then [`CheckedParameters::build`].
     ///
     /// # Errors
-    /// The first field out of its range, with the range.
+    /// The first field that is out of range, with the range.
     pub fn build<T: Real>(&self, step_s: f64) -> Result<Damper<T>, BuildError> {
         self.check()?.build(step_s)
     }
 }
 
 impl CheckedParameters {
-    /// The constants of this damper for a fixed step (s).
+    /// Builds the constants of this damper for a fixed step (s).
     ///
-    /// Bounded work (some thousand evaluations of the flow laws), no allocation; run it on the
-    /// host or outside the tick.
+    /// The work is bounded (a few thousand evaluations of the flow laws) and allocates nothing. Run it on the host or
+    /// outside the tick.
     ///
     /// # Errors
-    /// A step outside [`STEP_RANGE_S`]; a table with a number that is not finite: springs too stiff for the scalar.
+    /// A step outside [`STEP_RANGE_S`], or springs so stiff that a number of the table is not finite.
     pub fn build<T: Real>(&self, step_s: f64) -> Result<Damper<T>, BuildError> {
         if !STEP_RANGE_S.contains(&step_s) {
-            return Err(BuildError {
-                section: "step",
-                field: "step_s",
-                value: step_s,
-                allowed: STEP_ALLOWED,
-                bound: None,
-            });
+            return Err(BuildError::new("step", "step_s", step_s, STEP_ALLOWED));
         }
         let branches = self.branches();
         let damper: Damper<T> = self.assemble(&branches, step_s);
         if !damper.is_finite() {
-            return Err(BuildError {
-                section: "mount",
-                field: Mount::RANGES.stiffness_n_per_m.key,
-                value: self.mount.stiffness_n_per_m,
-                allowed: "low enough for a table of finite numbers; a larger limits.force_n or f64 helps too",
-                bound: None,
-            });
+            let key = Mount::RANGES.stiffness_n_per_m.key;
+            let allowed = "low enough for a table of finite numbers; a larger limits.force_n or f64 helps too";
+            return Err(BuildError::new(
+                "mount",
+                key,
+                self.mount.stiffness_n_per_m,
+                allowed,
+            ));
         }
         #[cfg(feature = "log")]
         log::debug!("built damper {:08x} for {step_s} s", damper.revision());
         Ok(damper)
     }
 
-    /// Extension and compression.
+    /// Returns the branches of extension and compression.
     pub(crate) fn branches(&self) -> [Branch<'_>; 2] {
         match &self.laws {
             ElementLaws::Physical(laws) => [false, true].map(|compression| {
@@ -104,11 +99,11 @@ impl CheckedParameters {
 
     /// Samples both branches into a table.
     fn assemble<T: Real>(&self, branches: &[Branch<'_>; 2], step_s: f64) -> Damper<T> {
-        let largest_move = self.limits.rate_m_per_s * step_s;
-        // The last stage looks at most sqrt(2) times the largest stretch past a move; the end of
-        // a step lies at most an eighth of its travel beyond yield.
+        let max_move = self.limits.rate_m_per_s * step_s;
+        // The last stage reaches at most sqrt(2) times the largest stretch plus a move; a step ends at most an eighth
+        // of its travel beyond the yield point.
         let yields = branches.map(|branch| branch.deflection(branch.force_limit));
-        let reach = 1.5 * (1.2 * yields[0].max(yields[1]) + 0.2 * largest_move) + largest_move;
+        let reach = 1.5 * (1.2 * yields[0].max(yields[1]) + 0.2 * max_move) + max_move;
         let first_knot = first_knot(reach);
         let mut table = T::ZERO_TABLE;
         let (extension, compression) = table.pieces.split_at_mut(PIECES);
@@ -119,9 +114,9 @@ impl CheckedParameters {
             knots::write(&Stage::new(branch, step_s, first_knot), direction, pieces);
         }
         T::index(&mut table);
-        let span = position_span(largest_move);
+        let span = position_span(max_move);
         let half_clearance = T::from_f64(0.5 * self.mount.clearance_m);
-        // Friction holds the piston until the mount, alike on both sides, has this stretch.
+        // Friction holds the piston until the mount has this stretch, which is the same on both sides.
         let held = T::from_f64(branches[0].held());
         let mut scalars = Scalars {
             step_s: T::from_f64(step_s),
@@ -132,19 +127,19 @@ impl CheckedParameters {
             half_force_limit: T::from_f64(
                 0.5 * branches[0].force_limit.max(branches[1].force_limit),
             ),
-            move_bound: T::from_f64(largest_move.min(LARGEST_BOUND_M)).doubled_bits(),
+            move_bound: T::from_f64(max_move.min(MAX_BOUND_M)).doubled_bits(),
             position_rounder: T::from_f64(1.5 * span),
-            // Twice the grid of positions.
+            // Rounds to twice the grid of positions.
             rest_rounder: T::from_f64(2.0 * span * T::EPSILON),
             displacement_bound: T::from_f64(self.limits.displacement_m).doubled_bits(),
             stretch_bound: T::ZERO,
         };
-        scalars.stretch_bound = scalars.stretch_bound_by_others();
+        scalars.stretch_bound = scalars.computed_stretch_bound();
         Damper::new(scalars, table)
     }
 }
 
-/// The power of two (m) from which the doublings of a table go beyond `reach`.
+/// Returns the power of two (m) at which a table must start to cover `reach` (m) with its doublings.
 fn first_knot(reach: f64) -> f64 {
     let mut end = 1.0;
     while end < reach {
@@ -156,11 +151,12 @@ fn first_knot(reach: f64) -> f64 {
     end / f64::from(1_u32 << DOUBLINGS)
 }
 
-/// Span (m) over which the unit in the last place is the grid of positions: moves are at most half of
-/// it, and it is at least 2^-7 m, a grid of 2^-30 m in `f32`.
-fn position_span(largest_move: f64) -> f64 {
+/// Returns the span (m) whose unit in the last place is the grid of positions.
+///
+/// Moves are at most half of the span. It is at least 2^-7 m, which gives a grid of 2^-30 m in `f32`.
+fn position_span(max_move: f64) -> f64 {
     let mut span = 1.0 / 128.0;
-    while span < 2.0 * largest_move {
+    while span < 2.0 * max_move {
         span *= 2.0;
     }
     span

@@ -1,9 +1,9 @@
 //! Root of a monotone function in a bracket.
 
-/// Root of the monotone `function` in `[low, high]`, or the end nearer to it when the function does
-/// not change sign there.
+/// Finds the root of the monotone `function` in `[low, high]`. Without a change of sign it returns the end with the
+/// smaller magnitude of the function.
 ///
-/// Illinois method, a bisection whenever it stalls; a fixed bound on the work.
+/// Uses the Illinois method with regular bisections; the number of iterations is bounded.
 pub(crate) fn bracketed_root(low: f64, high: f64, function: impl Fn(f64) -> f64) -> f64 {
     let (mut a, mut b) = (low, high);
     let (mut fa, mut fb) = (function(a), function(b));

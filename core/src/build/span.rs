@@ -1,19 +1,19 @@
-//! A stretch of a branch between two knots, sampled: its cubics and what they miss.
+//! The part of a branch between two knots: samples, cubics through them and the errors of the cubics.
 
 use super::branch::Branch;
 use super::fit;
 use crate::math::elementary::sqrt;
 use crate::step::GAMMA;
 
-/// Fraction of the force limit; see [`Stage::floor`].
+/// Low force as a fraction of the force limit; see [`Stage::floor`].
 const LOW_FORCE: f64 = 1e-3;
-/// As [`LOW_FORCE`], of the flow at the limit, for a branch that is closed at low force.
+/// Low flow as a fraction of the flow at the force limit, for a branch that is closed at low force.
 const LOW_FLOW: f64 = 1e-4;
 
-/// What an implicit stage finds at a force.
+/// Reach, flow and stiffness of an implicit stage at one force.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Sample {
-    /// Reach beyond the stretch held, from the first knot on (m).
+    /// Reach beyond the held stretch, counted from the first knot (m).
     pub(super) reach: f64,
     /// Flow times the step (m).
     pub(super) flow: f64,
@@ -21,13 +21,13 @@ pub(super) struct Sample {
     pub(super) stiffness: f64,
 }
 
-/// The implicit stages of a branch, for a step.
+/// The implicit stages of a branch for one step size.
 pub(super) struct Stage<'a> {
     pub(super) branch: &'a Branch<'a>,
     pub(super) step_s: f64,
     pub(super) first_knot: f64,
-    /// Errors of the flow are relative to the flow and at least this, times the step (m): what passes at low force
-    /// hardly matters where the force is not low.
+    /// Smallest flow times the step (m) to which errors are related: at higher forces, errors below the flow at low
+    /// force hardly matter.
     floor: f64,
 }
 
@@ -44,7 +44,7 @@ impl<'a> Stage<'a> {
         }
     }
 
-    /// What a stage that ends at a force (N) starts from and finds.
+    /// Samples the stage that ends at a force (N).
     pub(super) fn sample(&self, force: f64) -> Sample {
         let flow = self.step_s * self.branch.velocity(force);
         let deflection = self.branch.deflection(force);
@@ -56,15 +56,15 @@ impl<'a> Stage<'a> {
     }
 }
 
-/// Samples of a span: those its cubics go through, and those between that tell what they miss.
+/// Samples of a span: the nodes of its cubics, with a check between each two nodes.
 const SAMPLES: usize = 7;
 const NODES: [usize; 4] = [0, 2, 4, 6];
 const CHECKS: [usize; 3] = [1, 3, 5];
 
-/// A stretch of a branch between two knots.
+/// The part of a branch between two knots.
 ///
-/// Its forces are `F = corner + (width t)^2`, `corner` the one before it: where a path opens with the root
-/// of the force, as the orifice does at zero, everything is smooth in t.
+/// Its forces are `F = corner + (width t)^2`, where `corner` is the force of the preceding corner. Some paths open with
+/// the root of the force, as the orifice does at zero; all quantities are smooth in t even there.
 #[derive(Clone, Copy)]
 pub(super) struct Span {
     corner: f64,
@@ -76,7 +76,7 @@ pub(super) struct Span {
 }
 
 impl Span {
-    /// The span between the forces (N) of two corners.
+    /// Samples the span between the forces (N) of two corners.
     pub(super) fn new(stage: &Stage<'_>, from: f64, to: f64) -> Self {
         let mut span = Self {
             corner: from,
@@ -94,7 +94,7 @@ impl Span {
         span
     }
 
-    /// Both halves, at equal steps of t.
+    /// Splits the span in the middle of t.
     pub(super) fn halves(&self, stage: &Stage<'_>) -> [Self; 2] {
         let middle = 0.5 * (self.t[0] + self.t[1]);
         let half = |t: [f64; 2], from: usize| {
@@ -123,13 +123,13 @@ impl Span {
         &self.samples[SAMPLES - 1]
     }
 
-    /// The cubic of a quantity over the reach beyond `knot` (m).
+    /// Returns the cubic of a quantity in the reach beyond `knot` (m).
     pub(super) fn cubic(&self, knot: f64, quantity: impl Fn(&Sample) -> f64) -> [f64; 4] {
         self.cubic_of(knot, NODES.map(|node| quantity(&self.samples[node])))
     }
 
-    /// The cubic of the flow potential times the step (m^2), which is `start` at the start, and its value at
-    /// the end.
+    /// Returns the cubic of the flow potential times the step (m^2) and its value at the end; `start` is its value at
+    /// the start.
     pub(super) fn potential(&self, stage: &Stage<'_>, knot: f64, start: f64) -> ([f64; 4], f64) {
         let mut values = [start; NODES.len()];
         for third in 1..values.len() {
@@ -142,7 +142,7 @@ impl Span {
         fit::cubic(NODES.map(|node| self.samples[node].reach - knot), values)
     }
 
-    /// Flow potential times the step gained over a third (m^2), `integral of h v_h d delta`.
+    /// Increase of the flow potential times the step over a third of the span (m^2): `integral of h v_h d delta`.
     fn potential_of_third(&self, stage: &Stage<'_>, third: usize) -> f64 {
         /// Three-point Gauss-Legendre rule on [-1, 1] (Abramowitz and Stegun 25.4.29).
         const RULE: [(f64, f64); 3] = [
@@ -164,7 +164,7 @@ impl Span {
         stage.step_s * half * sum
     }
 
-    /// Samples between the nodes, and what the cubics miss there.
+    /// Samples between the nodes and computes the errors of the cubics there.
     fn check(&mut self, stage: &Stage<'_>) {
         for check in CHECKS {
             self.samples[check] = stage.sample(self.force(check));
@@ -174,11 +174,11 @@ impl Span {
         let stiffness = self.cubic(knot, |sample| sample.stiffness);
         self.misfit = 0.0;
         for sample in CHECKS.map(|check| self.samples[check]) {
-            let miss = |cubic, value: f64| (fit::value(cubic, sample.reach - knot) - value).abs();
-            // A closed branch holds a stretch for seconds: 1e-5 of it counts as flow.
+            let error = |cubic, value: f64| (fit::value(cubic, sample.reach - knot) - value).abs();
+            // A closed branch holds its stretch for seconds, so 1e-5 of the stretch counts as flow.
             let scale = sample.flow + stage.floor + 1e-5 * sample.reach;
-            let misfit = (miss(flow, sample.flow) / scale)
-                .max(miss(stiffness, sample.stiffness) / sample.stiffness);
+            let misfit = (error(flow, sample.flow) / scale)
+                .max(error(stiffness, sample.stiffness) / sample.stiffness);
             self.misfit = self.misfit.max(misfit);
         }
     }

@@ -1,4 +1,4 @@
-//! Dampers and states as numbers and bytes: words, images, saved states, and the checks they carry.
+//! Dampers and states as words and bytes: constants, images, saved states and their checksums.
 
 pub(crate) mod checksum;
 mod image;

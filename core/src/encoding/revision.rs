@@ -1,15 +1,14 @@
-//! A number that tells built dampers apart: FNV-1a (Fowler, Noll, Vo; 32 bit) over the bits of every
-//! constant.
+//! Revision of a damper: 32-bit FNV-1a hash (Fowler, Noll, Vo) of the bits of all constants.
 
 use crate::math::Real;
 use crate::scalars::Scalars;
 #[cfg(feature = "builder")]
 use crate::table::{Piece, Table};
 
-/// Hash of nothing.
+/// Initial value of the hash.
 pub(crate) const START: u32 = 0x811c_9dc5;
 
-/// `hash` continued over the bits of constants, zero-extended.
+/// Continues a hash over the bits of constants, zero-extended.
 pub(crate) fn of_words(hash: u32, words: impl Iterator<Item = u64>) -> u32 {
     words.fold(hash, of_word)
 }
@@ -28,7 +27,7 @@ pub(crate) fn of_table<T: Real>(table: &Table<T>) -> u32 {
     of_words(START, numbers.map(|value| value.to_bits_u64()))
 }
 
-/// Hash of a damper: its table's and its scalars', never 0.
+/// Hash of a damper, from the hash of its table and its scalars; never 0.
 pub(crate) fn of_damper<T: Real>(table: u32, scalars: &Scalars<T>) -> u32 {
     let scalars = scalars.as_array();
     of_words(table, scalars.iter().map(|value| value.to_bits_u64())).max(1)

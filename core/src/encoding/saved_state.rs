@@ -1,4 +1,4 @@
-//! A saved state: what a host or a program in C keeps in a file and gives back to the same damper.
+//! A saved state, which a host or a C program stores and later restores for the same damper.
 //!
 //! | offset | bytes | holds |
 //! |---|---|---|
@@ -8,7 +8,7 @@
 //! | 8 | 24 or 40 | [`DamperState::to_bytes`](crate::DamperState) |
 //! | end - 4 | 4 | CRC-32 (ISO-HDLC) of all bytes before |
 //!
-//! Every number is little-endian.
+//! All numbers are little-endian.
 
 use zerocopy::little_endian::{U16, U32};
 use zerocopy::{FromBytes, Immutable, IntoBytes, KnownLayout, Unaligned};
@@ -18,33 +18,33 @@ use crate::damper::Damper;
 use crate::state::DamperState;
 
 const MAGIC: [u8; 4] = *b"DAST";
-/// Changes whenever the same bytes would mean another state.
+/// Version of the format. It changes whenever the meaning of the bytes changes.
 const VERSION: u16 = 1;
-/// Bytes of the CRC-32.
+/// Number of bytes of the CRC-32.
 const CHECK_BYTES: usize = 4;
 
-/// Why bytes are no state of a damper.
+/// Errors of a saved state.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SavedStateError {
-    /// Cut short or too long.
+    /// The bytes are truncated or too long.
     #[error("{found} bytes where a saved state has {expected}")]
     Length {
-        /// Bytes of a saved state.
+        /// Number of bytes of a saved state.
         expected: usize,
-        /// Bytes there are.
+        /// Number of bytes found.
         found: usize,
     },
     /// The first four bytes are not `DAST`.
     #[error("not a saved state: must start with DAST")]
     Magic,
-    /// Another version of the format, the one found.
+    /// The bytes have this other version of the format.
     #[error("format version {0}, must be {VERSION}")]
     Version(u16),
-    /// Another scalar; the bytes of the one found.
+    /// The bytes are for another scalar, of this many bytes.
     #[error("scalar of {0} bytes is not this damper's")]
     Scalar(u16),
-    /// The CRC-32 is not that of the bytes: damaged on the way.
+    /// The CRC-32 does not match: the bytes are damaged.
     #[error("CRC-32 does not match: the bytes are damaged")]
     Checksum,
     /// Another damper stepped the state last.
@@ -55,12 +55,12 @@ pub enum SavedStateError {
         /// Revision in the bytes.
         found: u32,
     },
-    /// A number that no step of this damper leaves behind.
+    /// A number cannot result from a step of this damper.
     #[error("state with values that no step leaves behind")]
     Values,
 }
 
-/// A saved state of `BYTES` without what is around it.
+/// Layout of a saved state around the `BYTES` of the state.
 #[derive(FromBytes, IntoBytes, Immutable, KnownLayout, Unaligned)]
 #[repr(C)]
 struct Saved<const BYTES: usize> {
@@ -74,10 +74,10 @@ struct Saved<const BYTES: usize> {
 macro_rules! saved_state {
     ($float:ident) => {
         impl DamperState<$float> {
-            /// Bytes of a saved state.
+            /// Number of bytes of a saved state.
             pub const SAVED_BYTES: usize = size_of::<Saved<{ Self::BYTES }>>();
 
-            /// This state as bytes that stand by themselves, the same in Rust and in C; [`Damper::restore`] takes them.
+            /// Returns this state as checked bytes for [`Damper::restore`], the same in Rust and in C.
             pub fn save(&self) -> [u8; Self::SAVED_BYTES] {
                 let mut saved = Saved {
                     magic: MAGIC,
@@ -92,11 +92,11 @@ macro_rules! saved_state {
         }
 
         impl Damper<$float> {
-            /// The state of [`DamperState::save`], to the bit.
+            /// Restores the state of [`DamperState::save`], identical in every bit.
             ///
             /// # Errors
-            /// The bytes are damaged or no saved state; the state is another damper's, or holds what no step of this
-            /// damper leaves behind.
+            /// The bytes are damaged or not a saved state, the state belongs to another damper, or a number cannot
+            /// result from a step of this damper.
             ///
             /// ```
             /// # #[cfg(feature = "builder")] {
@@ -138,7 +138,7 @@ macro_rules! saved_state {
 saved_state!(f32);
 saved_state!(f64);
 
-/// CRC-32 of a saved state but for the CRC-32 at its end.
+/// CRC-32 of a saved state without the CRC-32 at its end.
 fn check(saved: &[u8]) -> u32 {
     let (checked, _) = saved
         .split_at_checked(saved.len().wrapping_sub(CHECK_BYTES))

@@ -1,4 +1,4 @@
-//! A state as bare bytes, for messages that have a check of their own.
+//! A state as plain bytes, for messages that have their own checksum.
 
 use super::saved_state::SavedStateError;
 use crate::damper::Damper;
@@ -8,10 +8,10 @@ use crate::status::Status;
 macro_rules! state_bytes {
     ($float:ident, $bytes:literal) => {
         impl DamperState<$float> {
-            /// Bytes of a state.
+            /// Number of bytes of a state.
             pub const BYTES: usize = $bytes;
 
-            /// This state as bare bytes, little-endian: displacement, stretch, flow potential, force, then
+            /// Returns this state as plain little-endian bytes: displacement, stretch, flow potential, force, then
             /// revision (4 bytes), status bits (2) and rejected inputs (2).
             pub fn to_bytes(&self) -> [u8; $bytes] {
                 let reals = [self.displacement, self.stretch, self.potential, self.force];
@@ -29,10 +29,10 @@ macro_rules! state_bytes {
         }
 
         impl Damper<$float> {
-            /// The state of [`DamperState::to_bytes`], to the bit.
+            /// Restores the state of [`DamperState::to_bytes`], identical in every bit.
             ///
             /// # Errors
-            /// The state is another damper's, or holds what no step of this damper leaves behind.
+            /// The state belongs to another damper, or a number cannot result from a step of this damper.
             ///
             /// ```
             /// # #[cfg(feature = "builder")] {
@@ -90,11 +90,11 @@ mod tests {
 
     #[cfg(feature = "builder")]
     #[test]
-    fn a_restored_state_goes_on_to_the_bit() {
+    fn a_restored_state_steps_identically() {
         let damper = damper();
         let mut state = damper.at_rest(0.0);
         for tick in 0..500 {
-            // Up to 0.3 m/s, ten times the saturation velocity, and a step too fast to follow.
+            // Up to 0.3 m/s, ten times the saturation velocity, and one step that is too fast to follow.
             let x = 0.01 * (0.03 * tick as f32).sin() + if tick == 250 { 5.0 } else { 0.0 };
             let mut restored = damper.state_from_bytes(&state.to_bytes()).unwrap();
             assert_eq!(restored, state);
@@ -106,7 +106,7 @@ mod tests {
 
     #[cfg(feature = "builder")]
     #[test]
-    fn values_that_no_step_leaves_are_refused() {
+    fn impossible_values_are_refused() {
         let damper = damper();
         let state = damper.at_rest(0.0);
         for (offset, value) in [

@@ -1,14 +1,14 @@
-//! A built damper as plain words: how a host hands constants to firmware.
+//! A built damper as plain words: constants for firmware.
 
 use crate::damper::Damper;
 use crate::scalars::{SCALARS, Scalars};
 use crate::table::{PIECES, Piece, Table};
 
-/// Scalars, the two revisions, thirteen numbers of each piece.
+/// Number of words of a damper: scalars, two revisions and the pieces of the table.
 const WORDS: usize = TABLE + 2 * PIECES * PIECE;
-/// Words before the table.
+/// Number of words before the table.
 pub(crate) const TABLE: usize = SCALARS + 2;
-/// Words of a piece.
+/// Number of words of a piece.
 pub(crate) const PIECE: usize = 13;
 
 macro_rules! words {
@@ -18,11 +18,11 @@ macro_rules! words {
             /// Number of words of a damper.
             pub const WORDS: usize = WORDS;
 
-            /// The damper of these words, at compile time or later, without the `builder` feature.
+            /// Returns the damper of these words, also at compile time. Does not need the `builder` feature.
             ///
-            /// Order: scalars, revision, revision of the table, table; each piece the four coefficients
-            /// of the flow, of the potential, of the stiffness, then its knot. Words that [`Self::to_words`] of
-            /// this version did not make are read without harm, but step to forces without meaning.
+            /// Order: scalars, revision, revision of the table, pieces. Each piece has four coefficients each of flow,
+            /// potential and stiffness, then its knot. Words that are not from [`Self::to_words`] of this version are
+            /// safe, but give meaningless forces.
             ///
             /// ```
             /// use dashpot_core::Damper;
@@ -69,7 +69,7 @@ macro_rules! words {
                 }
             }
 
-            /// The words of this damper; [`Self::from_words`] gives it back to the bit.
+            /// Returns the words of this damper, from which [`Self::from_words`] restores it exactly.
             pub fn to_words(&self) -> [$word; WORDS] {
                 let revisions = [self.revision, self.table_revision].map($word::from);
                 let numbers = self.table.pieces.iter().flat_map(Piece::numbers);
@@ -90,7 +90,7 @@ words!(f64, u64);
 
 #[cfg(feature = "link")]
 impl Damper<f32> {
-    /// All bits zero, so that a static of it takes no flash; to be loaded.
+    /// A damper before it is loaded: all bits are zero, so a static takes no flash.
     pub(crate) const EMPTY: Self = Self {
         scalars: Scalars::from_array([0.0; SCALARS]),
         revision: 0,
@@ -106,8 +106,8 @@ mod tests {
     use super::{PIECES, WORDS};
     use crate::Damper;
 
-    /// Words that are all different and none of them NaN: 1.0 and the numbers after it.
-    macro_rules! every_word_has_its_place {
+    /// Tests with words that are all different and not NaN: 1.0 and the following numbers.
+    macro_rules! check_order_of_words {
         ($float:ident, $word:ident) => {
             let first = $float::to_bits(1.0);
             let words: [$word; WORDS] = core::array::from_fn(|index| first + index as $word);
@@ -129,18 +129,18 @@ mod tests {
     }
 
     #[test]
-    fn every_f32_word_has_its_place() {
-        every_word_has_its_place!(f32, u32);
+    fn f32_words_are_in_order() {
+        check_order_of_words!(f32, u32);
     }
 
     #[test]
-    fn every_f64_word_has_its_place() {
-        every_word_has_its_place!(f64, u64);
+    fn f64_words_are_in_order() {
+        check_order_of_words!(f64, u64);
     }
 
     #[cfg(feature = "builder")]
     #[test]
-    fn a_built_damper_comes_back() {
+    fn words_restore_a_built_damper() {
         let parameters = crate::example::reduced_vertical();
         let single: Damper<f32> = parameters.build(1e-3).unwrap();
         assert_eq!(Damper::<f32>::from_words(&single.to_words()), single);

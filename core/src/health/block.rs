@@ -1,8 +1,8 @@
-//! Samples gathered to blocks: what a tick adds, and a block as one measurement.
+//! Blocks of samples: the sums of a tick, and a block as one measurement.
 
 use super::model::HealthModel;
 
-/// Sums over the samples of a block so far.
+/// Sums over the samples of the present block.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C)]
 pub(crate) struct Gathered {
@@ -10,22 +10,22 @@ pub(crate) struct Gathered {
     pub(crate) displacement: f32,
     /// Nominal velocity at the last sample (m/s).
     velocity: f32,
-    /// Nominal travel since the block before (m).
+    /// Nominal travel since the previous block (m).
     travel: f32,
     travels: f32,
     positions: f32,
     forces: f32,
-    /// Forces times their ticks off the centre (N).
+    /// Sum of force times ticks from the centre (N).
     moment: f32,
     slopes: f32,
     lowest: f32,
     highest: f32,
-    /// Tick of the next sample off the centre.
+    /// Ticks of the next sample from the centre.
     offset: f32,
     pub(crate) ticks_left: u32,
-    /// Zero of the force (N) that this block's forces are corrected by.
+    /// Force zero by which the forces of this block are corrected (N).
     zero: f32,
-    /// Added friction (N) that this block's laws are corrected by.
+    /// Added friction by which the laws of this block are corrected (N).
     friction: f32,
 }
 
@@ -35,9 +35,9 @@ pub(crate) struct Gathered {
 pub(crate) struct Block {
     /// Nominal travel of the piston (m).
     pub(crate) travel: f32,
-    /// Its part up to the block's centre (m).
+    /// Nominal travel up to the centre of the block (m).
     pub(crate) centre: f32,
-    /// Mean displacement less that of the oil column (m).
+    /// Mean displacement minus the deflection of the oil column (m).
     pub(crate) position: f32,
     /// Mean force (N).
     pub(crate) force: f32,
@@ -49,14 +49,14 @@ pub(crate) struct Block {
     pub(crate) slope: f32,
     pub(crate) lowest: f32,
     pub(crate) highest: f32,
-    /// Zero of the force (N) by which its forces are corrected.
+    /// Force zero by which the forces are corrected (N).
     pub(crate) zero: f32,
-    /// Added friction (N) by which its laws are corrected.
+    /// Added friction by which the laws are corrected (N).
     pub(crate) friction: f32,
 }
 
 impl Block {
-    /// Of nothing.
+    /// A block of zeros.
     pub(crate) const NONE: Self = Self {
         travel: 0.0,
         centre: 0.0,
@@ -71,7 +71,7 @@ impl Block {
         friction: 0.0,
     };
 
-    /// Whether a sample was left out.
+    /// True if a sample was left out.
     #[inline(always)]
     pub(crate) fn is_incomplete(&self) -> bool {
         self.lowest < -1e30
@@ -79,7 +79,7 @@ impl Block {
 }
 
 impl Gathered {
-    /// Of zero bits.
+    /// Sums with zero bits.
     pub(crate) const EMPTY: Self = Self {
         displacement: 0.0,
         velocity: 0.0,
@@ -97,7 +97,7 @@ impl Gathered {
         friction: 0.0,
     };
 
-    /// Begins a block; last displacement and velocity stay, and so do the corrections.
+    /// Starts a block. The last displacement, the last velocity and the corrections remain.
     #[inline(always)]
     pub(crate) fn begin(&mut self, model: &HealthModel) {
         self.travel = 0.0;
@@ -112,7 +112,7 @@ impl Gathered {
         self.ticks_left = model.block_ticks;
     }
 
-    /// Corrects the samples of the next block by a zero of the force (N) and an added friction (N).
+    /// Sets the corrections of the next block: force zero (N) and added friction (N).
     #[inline(always)]
     pub(crate) fn correct(&mut self, zero: f32, friction: f32) {
         self.zero = zero;
@@ -149,8 +149,8 @@ impl Gathered {
         self.offset += 1.0;
     }
 
-    /// Leaves a sample out: its block measures nothing. True when the block has no sample at all, so that it is not
-    /// known how far the piston went.
+    /// Leaves out a sample, so that its block gives no measurement. True if the block has no sample at all: then the
+    /// travel of the piston is unknown.
     pub(crate) fn leave_out(&mut self, model: &HealthModel, displacement: f32) -> bool {
         let is_blind = self.ticks_left == 1 && self.offset <= -model.block_centre;
         if is_blind {
@@ -165,7 +165,7 @@ impl Gathered {
         is_blind
     }
 
-    /// The samples as one measurement.
+    /// Returns the samples as one measurement.
     #[inline(always)]
     pub(crate) fn block(&self, model: &HealthModel) -> Block {
         Block {

@@ -1,59 +1,65 @@
-//! The constants of the estimator from the parameters of a damper.
+//! Computes the constants of the estimator from the parameters of a damper.
 
 use super::model::{
-    Baseline, FEWEST_TICKS, HealthLimits, HealthModel, MARK, PIECE_SHIFT, PIECES, Piece,
+    Baseline, HealthLimits, HealthModel, MARK, MIN_TICKS, PIECE_SHIFT, PIECES, Piece,
 };
 use crate::build::CheckedParameters;
 use crate::error::BuildError;
 use crate::parameters::Element;
 
-/// Time over which samples are gathered to one measurement (s): short beside the motion of a vehicle, and of eight ticks
-/// at 1 kHz, one for each part of the filter's work.
+/// Duration of a block, whose samples form one measurement (s): short compared with the motion of a vehicle, and eight
+/// ticks at 1 kHz, one for each part of the filter's work.
 const BLOCK_S: f64 = 8e-3;
-/// Time without contact after which a crossing of the clearance tells nothing more (s).
-const LONGEST_CROSSING_S: f64 = 0.5;
-/// Standard deviations of the force's noise that a force in contact must exceed.
+/// Longest time without contact after which a crossing of the clearance is still useful (s).
+const MAX_CROSSING_S: f64 = 0.5;
+/// Threshold of a force in contact, in standard deviations of the force noise (1).
 const CONTACT_DEVIATIONS: f64 = 4.0;
-/// Part of the yield force below which the element surely does not yield.
+/// Fraction of the yield force below which the element certainly does not yield (1).
 const UNYIELDING: f64 = 0.98;
-/// Memory of the lag over that of the other parameters: wires do not age.
+/// Memory of the lag over that of the other parameters (1). The lag hardly changes with age.
 const LAG_MEMORY: f64 = 20.0;
 
-/// Standard deviation with which the zero of a force sensor is known beforehand (N).
+/// Prior standard deviation of the zero of the force sensor (N).
 const ZERO_SD_N: f64 = 500.0;
-/// Zero of the force that is an alarm, at least (N).
-const LEAST_ZERO_LIMIT_N: f64 = 100.0;
-/// Standard deviation with which the friction of the seals is known beforehand: part of the yield force (1), and at
-/// most (N).
+/// Smallest alarm limit of the force zero (N).
+const MIN_ZERO_LIMIT_N: f64 = 100.0;
+/// Prior standard deviation of the seal friction as a fraction of the yield force (1).
 const FRICTION_PART: f64 = 0.01;
-const MOST_FRICTION_SD_N: f64 = 200.0;
-/// Standard deviations of a block's position that a move must exceed to be one.
+/// Largest prior standard deviation of the seal friction (N).
+const MAX_FRICTION_SD_N: f64 = 200.0;
+/// Smallest move that is not noise, in standard deviations of a block's position (1).
 const STILL_DEVIATIONS: f64 = 8.0;
-/// Move beyond the clearance for which the force is missing at once (m): beyond what a clearance grows by at once.
+/// Move beyond the clearance at which the force counts as missing (m). A clearance cannot grow by so much at once.
 const MISSING_M: f64 = 2e-3;
 
-/// What is known of sensors and use.
+/// Properties of the sensors and settings of the estimator.
 ///
-/// A struct literal with `..HealthSettings::new(...)` changes single ones.
+/// ```
+/// use dashpot_core::health::HealthSettings;
+///
+/// const SETTINGS: HealthSettings = HealthSettings::new(50e-6, 50.0).memory_s(10.0);
+/// assert_eq!(SETTINGS.memory_s, 10.0);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct HealthSettings {
-    /// Standard deviation of a sample's displacement (m), above 0 to 0.01.
+    /// Standard deviation of a sample's displacement (m), 1e-9 to 1e-2.
     pub displacement_noise_m: f64,
-    /// Standard deviation of a sample's force (N), above 0 to 1e6.
+    /// Standard deviation of a sample's force (N), 1e-3 to 1e6.
     pub force_noise_n: f64,
-    /// Time in contact after which a sample counts for 1/e (s), 0.1 to 1e5.
+    /// Time in contact after which the weight of a sample is 1/e (s), 0.1 to 1e5.
     pub memory_s: f64,
-    /// Part of the flow (1), 0 to 1, by which the law of a healthy damper may be wrong within a stroke.
+    /// Relative error of a healthy damper's law within a stroke (1), 0 to 1.
     pub law_deviation: f64,
     /// Lag of the measured force behind the measured displacement (s), -5e-3 to 5e-3.
     pub lag_s: f64,
-    /// Standard deviation with which the lag is known (s), 0 to 5e-3; 0 keeps it.
+    /// Standard deviation of the lag (s), 0 to 5e-3; 0 keeps it constant.
     pub lag_sd_s: f64,
 }
 
 impl HealthSettings {
-    /// Noise of the sensors (m, N); a memory of 1 s in contact, 5 % of the law, no lag known to 1 ms.
-    pub fn new(displacement_noise_m: f64, force_noise_n: f64) -> Self {
+    /// Settings for this noise of the sensors (m, N): memory 1 s, error of the law 5 %, lag 0 with a deviation of 1 ms.
+    pub const fn new(displacement_noise_m: f64, force_noise_n: f64) -> Self {
         Self {
             displacement_noise_m,
             force_noise_n,
@@ -62,6 +68,28 @@ impl HealthSettings {
             lag_s: 0.0,
             lag_sd_s: 1e-3,
         }
+    }
+
+    /// Sets [`memory_s`](field@Self::memory_s).
+    #[must_use]
+    pub const fn memory_s(mut self, memory_s: f64) -> Self {
+        self.memory_s = memory_s;
+        self
+    }
+
+    /// Sets [`law_deviation`](field@Self::law_deviation).
+    #[must_use]
+    pub const fn law_deviation(mut self, law_deviation: f64) -> Self {
+        self.law_deviation = law_deviation;
+        self
+    }
+
+    /// Sets the lag and its standard deviation (s).
+    #[must_use]
+    pub const fn lag(mut self, lag_s: f64, lag_sd_s: f64) -> Self {
+        self.lag_s = lag_s;
+        self.lag_sd_s = lag_sd_s;
+        self
     }
 
     fn check(&self) -> Result<(), BuildError> {
@@ -85,15 +113,9 @@ impl HealthSettings {
             ("lag_s", self.lag_s, -5e-3, 5e-3, "-5e-3 to 5e-3 s"),
             ("lag_sd_s", self.lag_sd_s, 0.0, 5e-3, "0 to 5e-3 s"),
         ];
-        for (field, value, least, greatest, allowed) in ranges {
-            if !(least..=greatest).contains(&value) {
-                return Err(BuildError {
-                    section: "health",
-                    field,
-                    value,
-                    allowed,
-                    bound: None,
-                });
+        for (field, value, min, max, allowed) in ranges {
+            if !(min..=max).contains(&value) {
+                return Err(BuildError::new("health", field, value, allowed));
             }
         }
         Ok(())
@@ -101,11 +123,11 @@ impl HealthSettings {
 }
 
 impl CheckedParameters {
-    /// The constants with which [`Health`](crate::health::Health) watches a damper of these parameters, sampled at
-    /// every step (s).
+    /// Builds the constants for [`Health`](crate::health::Health) of a damper with these parameters, sampled at each
+    /// step (s).
     ///
     /// # Errors
-    /// A setting out of its range, or a step that is not 1e-5 to 2e-3 s.
+    /// A setting out of its range, or a step outside 1e-5 to 2e-3 s.
     pub fn health_model(
         &self,
         settings: &HealthSettings,
@@ -113,13 +135,8 @@ impl CheckedParameters {
     ) -> Result<HealthModel, BuildError> {
         settings.check()?;
         if !(1e-5..=2e-3).contains(&step_s) {
-            return Err(BuildError {
-                section: "step",
-                field: "step_s",
-                value: step_s,
-                allowed: "1e-5 to 2e-3 s for an estimate of health",
-                bound: None,
-            });
+            let allowed = "1e-5 to 2e-3 s for a health estimate";
+            return Err(BuildError::new("step", "step_s", step_s, allowed));
         }
         let branches = self.branches();
         let yields = branches[0].force_limit.min(branches[1].force_limit);
@@ -148,11 +165,11 @@ impl CheckedParameters {
             })
         });
 
-        let ticks = libm::round(BLOCK_S / step_s).max(f64::from(FEWEST_TICKS));
+        let ticks = libm::round(BLOCK_S / step_s).max(f64::from(MIN_TICKS));
         let block_s = ticks * step_s;
-        // A straight law with friction is nearly another straight law, and has none.
+        // The reduced law has no friction. A linear law with friction is nearly another linear law.
         let friction_sd = match self.element {
-            Element::Physical(_) => (FRICTION_PART * yields).min(MOST_FRICTION_SD_N),
+            Element::Physical(_) => (FRICTION_PART * yields).min(MAX_FRICTION_SD_N),
             Element::Reduced(_) => 0.0,
         };
         let compliance = self.mount.compliance_m_per_n();
@@ -166,9 +183,9 @@ impl CheckedParameters {
         Ok(HealthModel {
             mark: MARK,
             half_step_s: (0.5 * step_s) as f32,
-            largest_move_m: (self.limits.rate_m_per_s * step_s
-                + 8.0 * settings.displacement_noise_m) as f32,
-            largest_force_n: (2.0 * self.limits.force_n + 8.0 * force_noise) as f32,
+            max_move_m: (self.limits.rate_m_per_s * step_s + 8.0 * settings.displacement_noise_m)
+                as f32,
+            max_force_n: (2.0 * self.limits.force_n + 8.0 * force_noise) as f32,
             first_piece,
             block_ticks: ticks as u32,
             per_block: (1.0 / ticks) as f32,
@@ -182,7 +199,7 @@ impl CheckedParameters {
             law_variance: square(settings.law_deviation) / ticks as f32,
             growth: growth(settings.memory_s) as f32,
             lag_growth: growth(LAG_MEMORY * settings.memory_s) as f32,
-            most_unmeasured: (LONGEST_CROSSING_S / block_s) as u32,
+            max_unmeasured: (MAX_CROSSING_S / block_s) as u32,
             alarm_blocks: (settings.memory_s / block_s) as u32,
             start: [
                 1.0,
@@ -203,7 +220,7 @@ impl CheckedParameters {
             block_s: block_s as f32,
             still_m: (STILL_DEVIATIONS * libm::sqrt(position_variance / ticks)) as f32,
             missing_m: MISSING_M as f32,
-            zero_limit_n: (CONTACT_DEVIATIONS * force_noise).max(LEAST_ZERO_LIMIT_N) as f32,
+            zero_limit_n: (CONTACT_DEVIATIONS * force_noise).max(MIN_ZERO_LIMIT_N) as f32,
             baseline: Baseline {
                 flow_factor: 1.0,
                 compliance_m_per_n: compliance as f32,
@@ -218,8 +235,10 @@ impl CheckedParameters {
     }
 }
 
-/// Value at no force and slope of the line through a law's values at both ends of a piece, moved so that its mean over
-/// the piece is the law's by Simpson's rule: the travel it sums to has no error of one sign.
+/// Fits a line to a law over a piece and returns its value at zero force and its slope.
+///
+/// The slope is that between both ends. The mean over the piece equals that of the law (Simpson's rule), so errors of
+/// the summed travel cancel.
 fn line(law: &dyn Fn(f64) -> f64, from: f64, to: f64) -> (f32, f32) {
     let (first, last) = (law(from), law(to));
     let middle = law(0.5 * (from + to));

@@ -1,5 +1,5 @@
-//! The estimator: a tick takes a sample of displacement and force; samples are gathered to blocks, and the filter's
-//! work on a block is spread over the ticks of the next one, so that no tick is much dearer than another.
+//! The estimator. Each tick takes a sample of displacement and force, and a block of samples forms one measurement. The
+//! filter's work on a block is spread over the ticks of the next block, so that all ticks cost about the same.
 
 use super::block::{Block, Gathered};
 use super::filter::{
@@ -10,20 +10,20 @@ use super::model::{HealthModel, MARK};
 use super::reading::{Estimate, HealthReading, HealthStatus};
 use super::watch::Watch;
 
-/// Variance (m^2) of a position of which nothing is known.
+/// Variance of an unknown position (m^2).
 const UNKNOWN: f32 = 1.0;
-/// Innovations beyond this many times their standard deviation, squared, are left out.
+/// Squared innovation over its variance above which a measurement is an outlier (1).
 const OUTLIER: f32 = 900.0;
-/// How many usual blocks one that is left out makes forget: what has changed is then followed soon.
+/// Forgetting after an outlier, in usual blocks (1), so that the estimate soon follows a change.
 const OUTLIER_SURPRISE: f32 = 25.0;
-/// Blocks left out one after the other before the estimate begins anew.
-const MOST_OUTLIERS: u16 = 12;
-/// Share of a block's information, in its forgetting, below which nothing is forgotten.
-const LEAST_TOLD: f32 = 0.25;
-/// Standard deviations of the force's zero, squared, by which a force must be beyond the contact's threshold.
+/// Largest number of consecutive outliers. One more restarts the estimate.
+const MAX_OUTLIERS: u16 = 12;
+/// Smallest information of a block, relative to its forgetting, at which anything is forgotten (1).
+const MIN_INFORMATION_SHARE: f32 = 0.25;
+/// Squared excess of a force in contact over the threshold, relative to the variance of the force zero (1).
 const SURE_CONTACT: f32 = 9.0;
 
-/// What changes from tick to tick of one damper under watch; plain data, saved and restored by copying.
+/// Health estimate of one damper: plain data that changes at each tick, saved and restored by copying.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C)]
 pub struct Health {
@@ -35,9 +35,9 @@ pub struct Health {
     follow: Follow,
     filter: Filter,
     watch: Watch,
-    /// Blocks since the last that measured something.
+    /// Number of blocks since the last measurement.
     unmeasured: u32,
-    /// How much the next forgetting is of the usual one; 0 where the last block told nothing.
+    /// Next forgetting relative to the usual one (1); 0 if the last block contained no information.
     forgetting: f32,
     outliers: u16,
     status: HealthStatus,
@@ -45,7 +45,7 @@ pub struct Health {
     rejected: u32,
 }
 
-/// What is left to be done for the last block; a number, so that any bits are an estimate.
+/// Next stage of the work on the last block. A number, so that any bits are valid.
 mod stage {
     pub(super) const DONE: u32 = 0;
     pub(super) const PREDICT: u32 = 1;
@@ -60,7 +60,7 @@ mod stage {
 }
 
 impl Health {
-    /// No estimate: of zero bits, not marked.
+    /// Not an estimate yet: all bits are zero.
     pub(crate) const EMPTY: Self = Self {
         gathered: Gathered::EMPTY,
         mark: 0,
@@ -78,7 +78,7 @@ impl Health {
         rejected: 0,
     };
 
-    /// Before the first sample.
+    /// An estimate before the first sample.
     pub fn new(model: &HealthModel) -> Self {
         let mut health = Self {
             mark: MARK,
@@ -87,7 +87,7 @@ impl Health {
         };
         health.watch.begin();
         health.follow.begin();
-        // No sample is near it: the first one is taken without a count.
+        // The first sample is never credible, but is not counted as rejected.
         health.gathered.displacement = f32::NAN;
         health.gathered.begin(model);
         health
@@ -102,13 +102,15 @@ impl Health {
         )
     }
 
-    /// Takes the sample of a tick: measured displacement (m), positive in extension, and force (N), positive when it
-    /// resists extension. Never fails: a sample that is not finite or not credible is left out and counted.
+    /// Takes the sample of a tick: displacement (m), positive in extension, and force (N), positive when it resists
+    /// extension.
+    ///
+    /// Never fails: a sample that is not finite or not credible is left out and counted.
     #[inline]
     pub fn tick(&mut self, model: &HealthModel, displacement: f32, force: f32) {
         let gathered = &mut self.gathered;
-        let credible = (displacement - gathered.displacement).abs() <= model.largest_move_m
-            && force.abs() <= model.largest_force_n;
+        let credible = (displacement - gathered.displacement).abs() <= model.max_move_m
+            && force.abs() <= model.max_force_n;
         if credible {
             gathered.add(model, displacement, force);
         } else {
@@ -130,7 +132,7 @@ impl Health {
             stage::LEAVE_OUT => self.leave_out(model),
             stage::FOLLOW => {
                 let [_, flow, _, half, ..] = self.filter.state;
-                let is_idle = self.unmeasured > model.most_unmeasured;
+                let is_idle = self.unmeasured > model.max_unmeasured;
                 self.follow.take(model, &self.block, [flow, half], is_idle);
                 self.stage = stage::COMPARE_FIRST;
             }
@@ -154,13 +156,13 @@ impl Health {
         }
     }
 
-    /// Leaves a sample out; its block measures nothing.
+    /// Leaves out a sample. Its block gives no measurement.
     #[cold]
     #[inline(never)]
     fn reject(&mut self, displacement: f32, model: &HealthModel) {
         let first = self.gathered.displacement.is_nan();
         if self.gathered.leave_out(model, displacement) {
-            self.unmeasured = model.most_unmeasured;
+            self.unmeasured = model.max_unmeasured;
         }
         if !first {
             self.status |= HealthStatus::INPUT_REJECTED;
@@ -177,7 +179,7 @@ impl Health {
         self.gathered.begin(model);
     }
 
-    /// Moves the position over the block, and makes a measurement of it where both ends were in contact.
+    /// Moves the position over the block. Computes the measurement if both ends were in contact.
     #[inline(always)]
     fn predict(&mut self, model: &HealthModel) {
         let block = &self.block;
@@ -186,15 +188,15 @@ impl Health {
             + model.law_variance * (block.travel * block.travel);
         let zero_slip = flow * (block.slope * model.block_s);
         let friction_slip = zero_slip.copysign(block.force);
-        // The block was corrected by what was known when it began.
+        // The block was corrected with the estimates at its start.
         let (zero, friction) = (zero - block.zero, friction - block.friction);
         self.filter
             .travel(block.travel, [zero_slip, friction_slip], variance);
         self.filter.state[POSITION] -= zero_slip * zero + friction_slip * friction;
         self.unmeasured = self.unmeasured.saturating_add(1);
         let yields = block.lowest < -model.yield_force_n || block.highest > model.yield_force_n;
-        if yields || self.unmeasured > model.most_unmeasured {
-            self.filter.let_go(UNKNOWN);
+        if yields || self.unmeasured > model.max_unmeasured {
+            self.filter.forget_position(UNKNOWN);
         }
         self.stage = stage::FOLLOW;
         let (sign, beyond) = if block.lowest > model.contact_force_n {
@@ -228,7 +230,7 @@ impl Health {
             .prepare(&mut self.prepared, model.measured_variance);
         let prepared = &self.prepared;
         let ratio = prepared.innovation * prepared.innovation / prepared.variance;
-        let is_expected = ratio < OUTLIER; // not so of NaN
+        let is_expected = ratio < OUTLIER; // false for NaN
         if !is_expected {
             self.stage = stage::LEAVE_OUT;
             return;
@@ -237,32 +239,33 @@ impl Health {
         self.outliers = 0;
         self.unmeasured = 0;
         self.samples = self.samples.saturating_add(model.block_ticks);
-        let bounded = self.watch.expect(ratio);
-        let tells = prepared.told > LEAST_TOLD * (model.growth - 1.0) * prepared.variance;
+        let bounded = self.watch.average_square(ratio);
+        let is_informative =
+            prepared.information > MIN_INFORMATION_SHARE * (model.growth - 1.0) * prepared.variance;
         let surprise = if bounded > 1.0 { bounded } else { 1.0 };
-        self.forgetting = if tells { surprise } else { 0.0 };
+        self.forgetting = if is_informative { surprise } else { 0.0 };
     }
 
-    /// Lets the parameters' variances grow, the more the less the last block was expected, up to where they began; also
-    /// where the ends have moved for long without contact, for what was known grows old.
+    /// Increases the variances of the parameters up to their initial values, more after an unexpected block. Also does
+    /// so after a long motion without contact, because the estimates become outdated.
     #[inline(always)]
     fn forget(&mut self, model: &HealthModel) {
         self.stage = stage::DONE;
-        if self.unmeasured > model.most_unmeasured && self.follow.has_moved(model) {
+        if self.unmeasured > model.max_unmeasured && self.follow.has_moved(model) {
             self.forgetting = 1.0;
         }
         let growth = 1.0 + (model.growth - 1.0) * self.forgetting;
-        // The lag may be wrong too where nothing fits.
-        let lag_growth = if self.watch.is_on_its_way() {
+        // The lag can be wrong too if the model does not fit.
+        let lag_growth = if self.watch.is_converging() {
             growth
         } else {
             1.0 + (model.lag_growth - 1.0) * self.forgetting
         };
         self.forgetting = 0.0;
-        for (place, most) in (1..STATES).zip(model.start_variance) {
-            let factor = if place == LAG { lag_growth } else { growth };
-            let grown = self.filter.diagonal[place] * factor;
-            self.filter.diagonal[place] = if grown < most { grown } else { most };
+        for (row, max) in (1..STATES).zip(model.start_variance) {
+            let factor = if row == LAG { lag_growth } else { growth };
+            let grown = self.filter.diagonal[row] * factor;
+            self.filter.diagonal[row] = if grown < max { grown } else { max };
         }
     }
 
@@ -274,7 +277,7 @@ impl Health {
         self.forgetting = OUTLIER_SURPRISE;
         let damaged = !self.filter.state.iter().all(|number| number.is_finite())
             || !self.prepared.variance.is_finite();
-        if damaged || self.outliers > MOST_OUTLIERS {
+        if damaged || self.outliers > MAX_OUTLIERS {
             self.filter = Self::start(model);
             self.outliers = 0;
             self.watch.begin();
@@ -282,20 +285,16 @@ impl Health {
         }
     }
 
-    /// What is known now. Square roots and divisions: not for every tick.
+    /// Returns the present reading. It needs square roots and divisions, so do not call it in every tick.
     pub fn reading(&self, model: &HealthModel) -> HealthReading {
         let [_, flow, compliance, half, lag, zero, friction] = self.filter.state;
         let scale = self.watch.scale();
         let sd = |row| libm::sqrtf(self.filter.variance(row) * scale);
-        // A compliance within its noise of none is a stiffness without bound.
-        let least = 1e-3 * model.start[1];
-        let bounded = if compliance > least {
-            compliance
-        } else {
-            least
-        };
+        // A compliance near zero would be an unbounded stiffness.
+        let min = 1e-3 * model.start[1];
+        let bounded = if compliance > min { compliance } else { min };
         let stiffness = 1.0 / bounded;
-        // No damper drives its piston: a reversed sign does.
+        // A negative flow factor means a reversed sign of a sensor: no damper drives its piston.
         let mut status = self.status;
         if flow <= 0.0 {
             status |= HealthStatus::MISFIT;
@@ -315,7 +314,7 @@ impl Health {
         }
     }
 
-    /// Whether this is an estimate, and not memory that was never written.
+    /// True for an estimate, false for uninitialised memory.
     #[inline]
     pub fn is_marked(&self) -> bool {
         self.mark == MARK
@@ -326,7 +325,7 @@ impl Health {
         self.status
     }
 
-    /// Clears the status bits and the count of rejected samples; alarms whose cause stays come back.
+    /// Clears the status bits and the count of rejected samples. Alarms return if their cause remains.
     pub fn clear_status(&mut self) {
         self.status = HealthStatus::empty();
         self.rejected = 0;

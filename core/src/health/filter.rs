@@ -1,70 +1,70 @@
-//! Kalman filter of seven states with its covariance as `U D U'`, U of unit diagonal.
+//! Kalman filter of seven states. The covariance is stored as `U D U'`, where U has a unit diagonal.
 //!
-//! An update is Bierman's: the diagonal shrinks by factors between 0 and 1 and never turns negative, in any precision.
-//! The position stands first, so that its row of U takes the piston's travel by a few sums and D alone its noise.
-//! The work of an update is done in two parts, one a tick.
+//! The update is Bierman's: it multiplies the diagonal by factors between 0 and 1, so the diagonal never becomes
+//! negative in any precision. The position is the first state, so the travel of the piston changes only its row of U,
+//! with a few sums, and noise changes only D. An update is done in two parts, one in each of two ticks.
 
-/// Number of states: position of the piston (m), flow factor (1), compliance (m/N), half clearance (m), lag (s), zero of
-/// the force (N), added friction (N).
+/// Number of states: position of the piston (m), flow factor (1), compliance (m/N), half clearance (m), lag (s), force
+/// zero (N), added friction (N).
 pub(crate) const STATES: usize = 7;
-/// Entries of U above its diagonal.
+/// Number of entries of U above its diagonal.
 const UPPER: usize = STATES * (STATES - 1) / 2;
-/// The first column of the second part of an update.
+/// First column of the second part of an update.
 const SECOND_PART: usize = 5;
-/// State of the position of the piston.
+/// Index of the piston position.
 pub(crate) const POSITION: usize = 0;
-/// State of the flow factor.
+/// Index of the flow factor.
 pub(crate) const FLOW: usize = 1;
-/// State of the compliance.
+/// Index of the compliance.
 pub(crate) const COMPLIANCE: usize = 2;
-/// State of half the clearance.
+/// Index of half the clearance.
 pub(crate) const CLEARANCE: usize = 3;
-/// State of the lag.
+/// Index of the lag.
 pub(crate) const LAG: usize = 4;
-/// State of the zero of the force.
+/// Index of the force zero.
 pub(crate) const ZERO: usize = 5;
-/// State of the added friction.
+/// Index of the added friction.
 pub(crate) const FRICTION: usize = 6;
 
-/// Estimate and its covariance.
+/// State estimate and its covariance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C)]
 pub(crate) struct Filter {
     pub(crate) state: [f32; STATES],
     /// Diagonal of D.
     pub(crate) diagonal: [f32; STATES],
-    /// Above the diagonal of U: row 0 from column 1, row 1 from column 2 and so on.
+    /// Entries of U above its diagonal: row 0 from column 1, row 1 from column 2 and so on.
     upper: [f32; UPPER],
 }
 
-/// A measurement `z = h . state + noise`, prepared against a filter.
+/// A measurement `z = h . state + noise`, prepared for a filter.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C)]
 pub(crate) struct Prepared {
-    /// `z`, corrected for the force's zero and for friction already.
+    /// `z`, already corrected for force zero and friction.
     pub(crate) measured: f32,
-    /// `h` of the parameters; that of the position is 1.
+    /// `h` of all states except the position, whose entry is 1.
     pub(crate) parts: [f32; STATES - 1],
     /// `U' h`.
     projected: [f32; STATES],
-    /// Gains of the columns that were taken in, not yet over the variance.
+    /// Gains of the processed columns, not yet divided by the variance.
     gain: [f32; STATES],
-    /// Variance of the noise and of the columns that were taken in.
+    /// Variance of the noise and the processed columns.
     alpha: f32,
-    /// One over it.
+    /// Inverse of `alpha`.
     inverse: f32,
     /// `z - h . state`.
     pub(crate) innovation: f32,
     /// Variance of the noise.
     noise: f32,
-    /// Variance that the innovation should have.
+    /// Expected variance of the innovation.
     pub(crate) variance: f32,
-    /// Part of it that comes from the parameters, not from position and noise.
-    pub(crate) told: f32,
+    /// Part of the expected variance due to the parameters, without position and noise.
+    pub(crate) information: f32,
 }
 
 impl Prepared {
-    /// Of nothing.
+    /// A measurement of zeros.
     pub(crate) const NONE: Self = Self {
         measured: 0.0,
         parts: [0.0; STATES - 1],
@@ -75,7 +75,7 @@ impl Prepared {
         innovation: 0.0,
         noise: 0.0,
         variance: 0.0,
-        told: 0.0,
+        information: 0.0,
     };
 }
 
@@ -88,54 +88,55 @@ impl Filter {
         }
     }
 
-    /// Moves the position by the flow factor times a nominal travel (m), which has a variance (m^2) of its own.
-    /// `slips` is how much less it moves for each newton of the force's zero and of added friction (m/N).
+    /// Moves the position by the flow factor times a nominal travel (m) with an additional variance (m^2). `slips` is
+    /// the loss of travel for each newton of force zero and of added friction (m/N).
     #[inline(always)]
     pub(crate) fn travel(&mut self, travel: f32, slips: [f32; 2], variance: f32) {
         self.state[0] += travel * self.state[1];
         self.upper[0] += travel;
         for column in 2..STATES {
-            self.upper[place(0, column)] += travel * self.upper[place(1, column)];
+            self.upper[index(0, column)] += travel * self.upper[index(1, column)];
         }
         let [zero, friction] = slips;
-        self.upper[place(0, ZERO)] -= zero;
-        self.upper[place(0, FRICTION)] -= friction + zero * self.upper[place(ZERO, FRICTION)];
+        self.upper[index(0, ZERO)] -= zero;
+        self.upper[index(0, FRICTION)] -= friction + zero * self.upper[index(ZERO, FRICTION)];
         self.diagonal[0] += variance;
     }
 
-    /// Forgets the position but for a variance (m^2).
+    /// Forgets the position: only a variance (m^2) remains.
     #[inline(always)]
-    pub(crate) fn let_go(&mut self, variance: f32) {
+    pub(crate) fn forget_position(&mut self, variance: f32) {
         self.diagonal[0] = variance;
         self.upper[..STATES - 1].fill(0.0);
     }
 
-    /// Prepares a measurement with a variance of its noise. It was corrected for the force's zero and for friction, so
-    /// that these two have no part in the innovation.
+    /// Prepares a measurement with a variance of its noise.
+    ///
+    /// The measurement is already corrected for force zero and friction, so both are missing from the innovation.
     #[inline(always)]
     pub(crate) fn prepare(&self, prepared: &mut Prepared, noise: f32) {
         let h = prepared.parts;
         let mut innovation = prepared.measured - self.state[POSITION];
-        let mut told = 0.0;
+        let mut information = 0.0;
         prepared.projected[POSITION] = 1.0;
         for column in 1..STATES {
-            let mut sum = h[column - 1] + self.upper[place(POSITION, column)];
+            let mut sum = h[column - 1] + self.upper[index(POSITION, column)];
             for row in 1..column {
-                sum += self.upper[place(row, column)] * h[row - 1];
+                sum += self.upper[index(row, column)] * h[row - 1];
             }
             prepared.projected[column] = sum;
-            told += (sum * self.diagonal[column]) * sum;
+            information += (sum * self.diagonal[column]) * sum;
             if column < ZERO {
                 innovation -= self.state[column] * h[column - 1];
             }
         }
         prepared.innovation = innovation;
         prepared.noise = noise;
-        prepared.told = told;
-        prepared.variance = noise + self.diagonal[POSITION] + told;
+        prepared.information = information;
+        prepared.variance = noise + self.diagonal[POSITION] + information;
     }
 
-    /// Takes the first part of a prepared measurement in.
+    /// Does the first part of an update with a prepared measurement.
     #[inline(always)]
     pub(crate) fn update_first(&mut self, prepared: &mut Prepared) {
         let position = self.diagonal[POSITION];
@@ -148,7 +149,7 @@ impl Filter {
         }
     }
 
-    /// Takes the second part in, and moves the estimate.
+    /// Does the second part of an update and corrects the state.
     #[inline(always)]
     pub(crate) fn update_second(&mut self, prepared: &mut Prepared) {
         for column in SECOND_PART..STATES {
@@ -170,9 +171,9 @@ impl Filter {
         prepared.inverse = 1.0 / prepared.alpha;
         self.diagonal[column] *= before * prepared.inverse;
         for row in 0..column {
-            let place = place(row, column);
-            let u = self.upper[place];
-            self.upper[place] = u - prepared.gain[row] * factor;
+            let entry = index(row, column);
+            let u = self.upper[entry];
+            self.upper[entry] = u - prepared.gain[row] * factor;
             prepared.gain[row] += g * u;
         }
         prepared.gain[column] = g;
@@ -182,14 +183,14 @@ impl Filter {
     pub(crate) fn variance(&self, row: usize) -> f32 {
         let mut variance = self.diagonal[row];
         for column in row + 1..STATES {
-            let u = self.upper[place(row, column)];
+            let u = self.upper[index(row, column)];
             variance += (u * u) * self.diagonal[column];
         }
         variance
     }
 }
 
-/// Where an element of U lies.
-const fn place(row: usize, column: usize) -> usize {
+/// Index of an entry of U in its array.
+const fn index(row: usize, column: usize) -> usize {
     row * (2 * STATES - 3 - row) / 2 + column - 1
 }

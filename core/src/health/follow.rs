@@ -1,39 +1,39 @@
-//! Whether the force follows the displacement.
+//! Checks that the force follows the displacement.
 //!
-//! While the force stays within its noise of one value, the piston moves as that force says, and the ends may only move
-//! by the clearance beside it. Ends that move further have no force between them that the model has: the force channel
-//! is dead or stuck, the oil is gone, or the clearance is far beyond what is known of it.
+//! While the force is constant within its noise, it determines the travel of the piston, and the ends can move further
+//! only by the clearance. If they move more than that, the force is missing: the force channel is dead or stuck, the
+//! oil is gone, or the clearance is much larger than estimated.
 
 use super::block::Block;
 use super::model::HealthModel;
 
-/// Move (m) beyond the clearance for which the force is missing, where no contact was seen for half a second.
+/// Move beyond the clearance at which the force is missing after half a second without contact (m).
 const WITHOUT_CONTACT_M: f32 = 0.5e-3;
-/// Part of the piston's path that the law may be wrong by.
+/// Possible error of the law as a fraction of the piston's path (1).
 const LAW_PART: f32 = 0.5;
-/// Blocks in a row beyond that which make it certain.
+/// Number of consecutive blocks beyond the limit that make a missing force certain.
 const CERTAIN: u32 = 3;
 
-/// The stretch of blocks in which the force stayed within its noise.
+/// Consecutive blocks in which the force is constant within its noise.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C)]
 pub(crate) struct Follow {
-    /// Force (N) at its start.
+    /// Force at the start (N).
     force: f32,
-    /// Travel of the piston since its start (m).
+    /// Travel of the piston since the start (m).
     travel: f32,
-    /// Sum of the travel's magnitudes (m).
+    /// Sum of the magnitudes of the travel (m).
     path: f32,
-    /// Displacement less oil column and travel: least and greatest (m).
+    /// Smallest and largest displacement minus oil column and travel (m).
     lowest: f32,
     highest: f32,
     blocks: u32,
-    /// Blocks in a row that moved too far.
+    /// Number of consecutive blocks with too large a move.
     beyond: u32,
 }
 
 impl Follow {
-    /// Of zero bits.
+    /// All bits zero.
     pub(crate) const EMPTY: Self = Self {
         force: 0.0,
         travel: 0.0,
@@ -44,12 +44,12 @@ impl Follow {
         beyond: 0,
     };
 
-    /// Before the first block: no force is near this one.
+    /// Starts before the first block. No force is near this one.
     pub(crate) fn begin(&mut self) {
         self.force = f32::MAX;
     }
 
-    /// Takes a block in, with the flow factor and half the clearance (m) as they are estimated now.
+    /// Takes a block with the present estimates of the flow factor and half the clearance (m).
     #[inline(always)]
     pub(crate) fn take(
         &mut self,
@@ -61,11 +61,11 @@ impl Follow {
         let change = (block.force - self.force).abs();
         self.blocks = self.blocks.wrapping_add(1);
         let stays = change <= model.contact_force_n
-            && self.blocks <= 2 * model.most_unmeasured
+            && self.blocks <= 2 * model.max_unmeasured
             && block.lowest >= -model.yield_force_n
             && block.highest <= model.yield_force_n;
         if !stays {
-            // A block with samples left out has no mean: the next one begins.
+            // An incomplete block has no mean force, so the next block starts.
             self.force = if block.is_incomplete() {
                 f32::MAX
             } else {
@@ -82,14 +82,14 @@ impl Follow {
         let travel = flow * block.travel;
         self.travel += travel;
         self.path += travel.abs();
-        let place = block.position - self.travel;
-        self.lowest = if place < self.lowest {
-            place
+        let position = block.position - self.travel;
+        self.lowest = if position < self.lowest {
+            position
         } else {
             self.lowest
         };
-        self.highest = if place > self.highest {
-            place
+        self.highest = if position > self.highest {
+            position
         } else {
             self.highest
         };
@@ -109,13 +109,13 @@ impl Follow {
         };
     }
 
-    /// Whether the ends moved as they cannot without a change of force.
+    /// True if the ends moved further than possible without a change of force.
     #[inline(always)]
     pub(crate) fn is_missing(&self) -> bool {
         self.beyond >= CERTAIN
     }
 
-    /// Whether the ends moved at all.
+    /// True if the ends moved at all.
     #[inline(always)]
     pub(crate) fn has_moved(&self, model: &HealthModel) -> bool {
         self.highest - self.lowest > model.still_m

@@ -1,4 +1,4 @@
-//! The estimator's constants as bytes: how a host hands them to firmware and to programs in C.
+//! Constants of the estimator as bytes, for firmware and C programs.
 //!
 //! | offset | bytes | holds |
 //! |---|---|---|
@@ -7,56 +7,56 @@
 //! | 8 | 4 a word | the constants, floats as their bits |
 //! | end - 4 | 4 | CRC-32 (ISO-HDLC) of all bytes before |
 //!
-//! Every number is little-endian.
+//! All numbers are little-endian.
 
 use core::mem::offset_of;
 
-use super::model::{FEWEST_TICKS, HealthModel, MARK};
+use super::model::{HealthModel, MARK, MIN_TICKS};
 use crate::encoding::checksum;
 use crate::encoding::crc_32;
 
 const MAGIC: [u8; 4] = *b"DAHM";
-/// Changes whenever the same bytes would mean another model.
+/// Version of the format. It changes whenever the meaning of the bytes changes.
 const VERSION: u32 = 2;
 const HEADER_BYTES: usize = 8;
 const CHECK_BYTES: usize = 4;
-/// Words of a model.
+/// Number of words of a model.
 const WORDS: usize = size_of::<HealthModel>() / 4;
-/// Bytes of an image that a slice checks, and words that one writes.
+/// Number of bytes checked and words written in a slice.
 const BYTES_PER_SLICE: usize = 124;
 const WORDS_PER_SLICE: usize = 64;
 
-// Slices are whole: the checksum, shared with the dampers' images, need not ask for bytes that are not there.
+// All slices are whole, so the checksum (shared with images of dampers) needs no case for a shorter slice.
 const _: () = assert!((HealthModel::IMAGE_BYTES - CHECK_BYTES).is_multiple_of(BYTES_PER_SLICE));
 
-/// Why bytes are no model.
+/// Errors of a health model's image.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[cfg_attr(feature = "link", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum HealthImageError {
-    /// Cut short or too long.
-    #[error("{found} bytes where a model of health has {expected}")]
+    /// The image is truncated or too long.
+    #[error("{found} bytes, but a health model has {expected}")]
     Length {
-        /// Bytes of an image.
+        /// Number of bytes of an image.
         expected: u32,
-        /// Bytes there are.
+        /// Number of bytes found.
         found: u32,
     },
     /// The first four bytes are not `DAHM`.
-    #[error("not a model of health: must start with DAHM")]
+    #[error("not a health model: must start with DAHM")]
     Magic,
-    /// Another version of the format, the one found.
+    /// The image has this other version of the format.
     #[error("format version {0}, must be {VERSION}")]
     Version(u32),
-    /// The CRC-32 is not that of the bytes: damaged on the way.
+    /// The CRC-32 does not match: the bytes are damaged.
     #[error("CRC-32 does not match: the bytes are damaged")]
     Checksum,
-    /// Constants that no build makes: of another step than above 0, or of too short a block.
-    #[error("constants that no build makes")]
+    /// Invalid constants: the step is not positive or the block is too short.
+    #[error("invalid constants: not from a build")]
     Values,
 }
 
-/// How far the loading of an image has come: a slice at a time, for a device between ticks.
+/// Progress of loading an image in slices, between the ticks of a device.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct HealthLoading {
     slices: usize,
@@ -64,7 +64,7 @@ pub(crate) struct HealthLoading {
     words: usize,
 }
 
-/// The constants of an image that was checked whole.
+/// Constants of an image that passed all checks.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct CheckedImage<'a>(&'a [[u8; 4]; WORDS]);
 
@@ -76,7 +76,7 @@ impl HealthLoading {
         words: 0,
     };
 
-    /// Checks the next slice of an image; its constants once it was checked whole.
+    /// Checks the next slice of an image. Returns the constants once the whole image is checked.
     pub(crate) fn check_slice<'a>(
         &mut self,
         image: &'a [u8],
@@ -107,7 +107,7 @@ impl HealthLoading {
         let words = words.as_chunks().0.try_into().map_err(|_| length)?;
         let image = CheckedImage(words);
         let possible = image.word(offset_of!(HealthModel, mark)) == MARK
-            && image.word(offset_of!(HealthModel, block_ticks)) >= FEWEST_TICKS
+            && image.word(offset_of!(HealthModel, block_ticks)) >= MIN_TICKS
             && image.half_step_s() > 0.0
             && image.half_step_s().is_finite();
         possible
@@ -117,14 +117,13 @@ impl HealthLoading {
 }
 
 impl HealthLoading {
-    /// Whether nothing was written yet.
+    /// True if no word was written yet.
     #[cfg(feature = "link")]
     pub(crate) fn writes_nothing_yet(&self) -> bool {
         self.words == 0
     }
 
-    /// Writes the next slice of checked constants to a model, in place: no copy of them on the stack. True with the
-    /// last one.
+    /// Writes the next slice of checked constants to a model, without a copy on the stack. True after the last slice.
     pub(crate) fn write_slice(
         &mut self,
         image: &CheckedImage<'_>,
@@ -159,13 +158,13 @@ impl CheckedImage<'_> {
 }
 
 impl HealthModel {
-    /// Bytes of an image of a model.
+    /// Number of bytes of an image.
     pub const IMAGE_BYTES: usize = HEADER_BYTES + 4 * WORDS + CHECK_BYTES;
 
-    /// No model: of zero bits, not marked.
+    /// Not a model yet: all bits are zero.
     pub(crate) const EMPTY: Self = zerocopy::transmute!([0_u32; WORDS]);
 
-    /// This model as bytes, baseline and limits with it.
+    /// Returns this model as bytes, with baseline and limits.
     pub fn to_image(&self) -> [u8; Self::IMAGE_BYTES] {
         let words: [u32; WORDS] = zerocopy::transmute!(*self);
         let header = MAGIC.into_iter().chain(VERSION.to_le_bytes());
@@ -180,10 +179,10 @@ impl HealthModel {
         image
     }
 
-    /// The model of an image, to the bit.
+    /// Returns the model of an image, identical in every bit.
     ///
     /// # Errors
-    /// The bytes are not those that [`Self::to_image`] of this version made.
+    /// The bytes are not from [`Self::to_image`] of this version.
     ///
     /// ```
     /// # #[cfg(feature = "builder")] {

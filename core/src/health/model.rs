@@ -1,44 +1,45 @@
-//! What the estimator takes as known: the nominal laws of a damper, the noise of its sensors, its healthy state.
+//! Constants of the estimator: nominal laws of a damper, noise of its sensors and its healthy state.
 
 use zerocopy::{FromBytes, Immutable, IntoBytes};
 
-/// What stands in a model and in an estimate: memory that was never written has other bits.
+/// Mark of a model and of an estimate, which uninitialised memory does not have.
 pub(crate) const MARK: u32 = 0x4d48_4144;
 
-/// Fewest ticks of a block: each stage of the filter takes one.
-pub(crate) const FEWEST_TICKS: u32 = 8;
+/// Smallest number of ticks of a block: one for each stage of the filter.
+pub(crate) const MIN_TICKS: u32 = 8;
 
-/// Pieces of a side: four to an octave of force, the first from no force.
+/// Number of pieces of a side: four for each octave of force. The first piece starts at zero force.
 pub(crate) const PIECES: usize = 64;
-/// Bits of a force below those that number a piece.
+/// Number of low bits of a force that do not select a piece.
 pub(crate) const PIECE_SHIFT: u32 = 21;
 
-/// The laws over a piece of force magnitude (N), each a line `value + slope F`.
+/// The laws over one piece of force magnitude F (N), each as a line `value + slope F`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, FromBytes, Immutable, IntoBytes)]
 #[repr(C)]
 pub(crate) struct Piece {
     /// Velocity of the piston in the cylinder (m/s).
     pub(crate) velocity: f32,
-    /// Its slope (m/(s N)).
+    /// Slope of the velocity (m/(s N)).
     pub(crate) velocity_slope: f32,
     /// Deflection of the oil column (m).
     pub(crate) oil: f32,
-    /// Its slope (m/N).
+    /// Slope of the deflection (m/N).
     pub(crate) oil_slope: f32,
 }
 
-/// What a damper was when it was healthy, and with which variance that is known.
+/// Healthy state of a damper with its uncertainty.
 ///
-/// Plain numbers to be kept where the damper's other papers are: [`Health::reading`](super::Health::reading) of a run
-/// with the new damper gives one, [`HealthModel::set_baseline`] takes it.
+/// Plain numbers to file with the damper's documents. [`HealthReading::as_baseline`](super::HealthReading::as_baseline)
+/// returns the baseline of a run with the new damper; [`HealthModel::set_baseline`] uses it.
 #[derive(Clone, Copy, Debug, PartialEq, FromBytes, Immutable, IntoBytes)]
+#[non_exhaustive]
 #[repr(C)]
 pub struct Baseline {
     /// Flow over nominal flow at the same force (1).
     pub flow_factor: f32,
     /// Compliance of the mount `1/Ke` (m/N).
     pub compliance_m_per_n: f32,
-    /// Clearance 2a (m); of a healthy damper without play what air and friction make look like it.
+    /// Clearance 2a (m). A healthy damper without play also has a small apparent clearance, due to air and friction.
     pub clearance_m: f32,
     /// Standard deviation of the flow factor (1).
     pub flow_factor_sd: f32,
@@ -48,17 +49,36 @@ pub struct Baseline {
     pub clearance_sd_m: f32,
 }
 
-/// How far an estimate may lie from the baseline before an alarm.
+impl Baseline {
+    /// A baseline without uncertainty: flow factor (1), compliance of the mount (m/N), clearance 2a (m).
+    ///
+    /// Set the standard deviations through their fields.
+    pub const fn new(flow_factor: f32, compliance_m_per_n: f32, clearance_m: f32) -> Self {
+        Self {
+            flow_factor,
+            compliance_m_per_n,
+            clearance_m,
+            flow_factor_sd: 0.0,
+            compliance_sd_m_per_n: 0.0,
+            clearance_sd_m: 0.0,
+        }
+    }
+}
+
+/// Alarm limits: allowed differences of an estimate from the baseline.
+///
+/// Start from [`HealthLimits::default`] and change single fields.
 #[derive(Clone, Copy, Debug, PartialEq, FromBytes, Immutable, IntoBytes)]
+#[non_exhaustive]
 #[repr(C)]
 pub struct HealthLimits {
-    /// Change of the flow factor either way (1).
+    /// Change of the flow factor in either direction (1).
     pub flow_factor: f32,
-    /// Change of the compliance either way, over that of the baseline (1): 0.43 is a stiffness fallen by 30 %.
+    /// Change of the compliance in either direction, relative to the baseline (1). 0.43 means 30 % less stiffness.
     pub compliance: f32,
-    /// Change of the clearance either way (m).
+    /// Change of the clearance in either direction (m).
     pub clearance_m: f32,
-    /// Standard deviations, of estimate and baseline together, by which it must differ too (1).
+    /// Smallest significant difference, in combined standard deviations of estimate and baseline (1).
     pub deviations: f32,
 }
 
@@ -73,12 +93,13 @@ impl Default for HealthLimits {
     }
 }
 
-/// A baseline with a number that is not finite, a flow factor or compliance that is not positive, or a negative
-/// standard deviation.
+/// Invalid baseline: a number is not finite, flow factor or compliance is not positive, or a standard deviation is
+/// negative.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
     "a baseline must be finite, its flow factor and compliance positive, its deviations not negative"
 )]
+#[non_exhaustive]
 pub struct BaselineError;
 
 /// Constants of the estimator for one damper and one step size; shared by any number of [`Health`](super::Health).
@@ -93,7 +114,7 @@ pub struct BaselineError;
 /// let settings = HealthSettings::new(50e-6, 50.0); // noise of the sensors: 50 um, 50 N
 /// let model = checked.health_model(&settings, 1e-3)?;
 ///
-/// let damper: Damper<f32> = checked.build(1e-3)?; // here in place of a real one
+/// let damper: Damper<f32> = checked.build(1e-3)?; // here instead of a real damper
 /// let mut state = damper.at_rest(0.0);
 /// let mut health = Health::new(&model);
 /// for tick in 0..20_000 {
@@ -111,27 +132,27 @@ pub struct BaselineError;
 #[derive(Clone, Copy, Debug, PartialEq, FromBytes, Immutable, IntoBytes)]
 #[repr(C)]
 pub struct HealthModel {
-    /// Tells a model from memory that was never written.
+    /// Distinguishes a model from uninitialised memory.
     pub(crate) mark: u32,
     /// Half the step (s).
     pub(crate) half_step_s: f32,
     /// Largest credible move of the displacement in a step (m).
-    pub(crate) largest_move_m: f32,
-    /// Forces beyond this are not credible (N).
-    pub(crate) largest_force_n: f32,
-    /// Number of the piece before the first in the bits of a force.
+    pub(crate) max_move_m: f32,
+    /// Largest credible force (N).
+    pub(crate) max_force_n: f32,
+    /// Number of the first piece in the bits of a force.
     pub(crate) first_piece: u32,
-    /// Ticks of a block.
+    /// Number of ticks of a block.
     pub(crate) block_ticks: u32,
-    /// One over the ticks of a block.
+    /// Inverse of the number of ticks of a block (1).
     pub(crate) per_block: f32,
-    /// One over the time of a block (1/s).
+    /// Inverse of the duration of a block (1/s).
     pub(crate) per_block_s: f32,
-    /// Half of the ticks of a block less one: the place of its centre.
+    /// Centre of a block in ticks from its first tick.
     pub(crate) block_centre: f32,
-    /// What turns the sum of forces times their ticks off the centre into a rate of force (1/s).
+    /// Factor from the sum of force times ticks from the centre to the rate of force (1/s).
     pub(crate) rate_scale_per_s: f32,
-    /// Force above which both ends are in contact, whatever the noise (N).
+    /// Force above which both ends are in contact in spite of noise (N).
     pub(crate) contact_force_n: f32,
     /// Force above which the element may be yielding (N).
     pub(crate) yield_force_n: f32,
@@ -139,39 +160,38 @@ pub struct HealthModel {
     pub(crate) measured_variance: f32,
     /// Variance of the piston's travel in a block over the square of the mean slope of the law (N^2 s^2).
     pub(crate) force_travel_variance: f32,
-    /// The same over the square of the block's travel, for what the law does not tell (1).
+    /// Variance of the piston's travel in a block over the square of the travel, due to errors of the law (1).
     pub(crate) law_variance: f32,
     /// Growth of the parameters' variance in a block (1).
     pub(crate) growth: f32,
     /// Growth of the lag's variance in a block (1).
     pub(crate) lag_growth: f32,
-    /// Blocks without contact after which the position is let go: an offset of the force sensor moves it.
-    pub(crate) most_unmeasured: u32,
-    /// Measured blocks in a row beyond a limit that make an alarm.
+    /// Number of blocks without contact after which the position counts as unknown: it drifts with the force zero.
+    pub(crate) max_unmeasured: u32,
+    /// Number of consecutive measured blocks beyond a limit that cause an alarm.
     pub(crate) alarm_blocks: u32,
-    /// What an estimate begins with: flow factor, compliance, half clearance, lag; zero of the force and added friction
-    /// begin at 0.
+    /// Initial flow factor, compliance, half clearance and lag. Force zero and added friction start at 0.
     pub(crate) start: [f32; 4],
-    /// The variances it begins with and never exceeds, those of the force's zero and of friction last.
+    /// Initial and largest variances, in the order of `start`, then force zero and added friction.
     pub(crate) start_variance: [f32; 6],
     /// Mean compliance of the oil column (m/N).
     pub(crate) oil_compliance: f32,
-    /// Time of a block (s).
+    /// Duration of a block (s).
     pub(crate) block_s: f32,
-    /// Moves that may be noise (m).
+    /// Largest move that can be noise (m).
     pub(crate) still_m: f32,
-    /// Move beyond the clearance for which the force is missing, whenever contact was seen last (m).
+    /// Move beyond the clearance at which the force is missing, however recent the last contact (m).
     pub(crate) missing_m: f32,
-    /// Zero of the force that is an alarm (N).
+    /// Alarm limit of the force zero (N).
     pub(crate) zero_limit_n: f32,
     pub(crate) baseline: Baseline,
     pub(crate) limits: HealthLimits,
-    /// Extension, compression.
+    /// Pieces of extension, then of compression.
     pub(crate) pieces: [[Piece; PIECES]; 2],
 }
 
 impl HealthModel {
-    /// Whether this is a model, and not memory that was never written: for programs that get theirs from elsewhere.
+    /// True for a model, false for uninitialised memory. For programs whose models come from elsewhere.
     #[inline]
     pub fn is_marked(&self) -> bool {
         self.mark == MARK
@@ -182,15 +202,15 @@ impl HealthModel {
         2.0 * self.half_step_s
     }
 
-    /// What estimates are compared with: of a model just built the nominal damper.
+    /// Baseline of the alarms. That of a new model is the nominal damper.
     pub fn baseline(&self) -> Baseline {
         self.baseline
     }
 
-    /// Sets what estimates are compared with from now on.
+    /// Sets the baseline of the alarms.
     ///
     /// # Errors
-    /// [`BaselineError`]; the model stays as it is.
+    /// The baseline is invalid; the model is unchanged.
     pub fn set_baseline(&mut self, baseline: Baseline) -> Result<(), BaselineError> {
         let positive = [baseline.flow_factor, baseline.compliance_m_per_n];
         let deviations = [
@@ -210,17 +230,17 @@ impl HealthModel {
         Ok(())
     }
 
-    /// How far estimates may lie from the baseline.
+    /// Alarm limits.
     pub fn limits(&self) -> HealthLimits {
         self.limits
     }
 
-    /// Sets how far estimates may lie from the baseline; a limit of infinity or NaN never alarms.
+    /// Sets the alarm limits. An infinite or NaN limit disables its alarm.
     pub fn set_limits(&mut self, limits: HealthLimits) {
         self.limits = limits;
     }
 
-    /// The piece around a force magnitude (N), extension first. Any bits are safe to look up.
+    /// Finds the piece of a force (N); its sign selects the side. Any bits are safe.
     #[inline(always)]
     pub(crate) fn piece(&self, force: f32) -> &Piece {
         let bits = force.to_bits();

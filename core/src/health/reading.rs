@@ -1,39 +1,38 @@
-//! What the estimator tells.
+//! Results of the estimator.
 
 bitflags::bitflags! {
-    /// Bits of an estimate. Alarms are latched until they are cleared.
+    /// Status bits of an estimate. Alarms are latched until they are cleared.
     #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
     pub struct HealthStatus: u16 {
-        /// Flow at the same force, and with it damping, has changed: alarm.
+        /// Alarm: the flow at the same force, and thus the damping, has changed.
         const FLOW = 1;
-        /// The mount's stiffness has changed: alarm.
+        /// Alarm: the stiffness of the mount has changed.
         const STIFFNESS = 1 << 1;
-        /// The clearance has changed: alarm.
+        /// Alarm: the clearance has changed.
         const CLEARANCE = 1 << 2;
-        /// Not enough is known now for an alarm: too little motion in contact. Not latched.
+        /// There is too little motion in contact for an alarm. Not latched.
         const LITTLE_EXCITATION = 1 << 3;
         /// A sample was not finite or not credible and was left out.
         const INPUT_REJECTED = 1 << 4;
-        /// The estimate itself was damaged or contradicted for long, and began anew.
+        /// The estimate was damaged or contradicted the samples for long, and restarted.
         const RESTARTED = 1 << 5;
-        /// The damper moved and the force did not follow: no force, or one that never changes, where the model has
-        /// force. A dead or stuck force channel, oil full of air, a clearance wider than the motion: alarm.
+        /// Alarm: the damper moved, but the force is zero or does not change. Possible causes are a dead or stuck force
+        /// channel, oil full of air, or a clearance wider than the motion.
         const NO_FORCE = 1 << 6;
-        /// The zero of the force sensor is off: alarm. The estimates are corrected for it.
+        /// Alarm: the force sensor has a zero offset. The estimates are corrected for it.
         const FORCE_ZERO = 1 << 7;
-        /// The channels are further apart in time than is known beforehand; stiffness and clearance are then wrong. Not
-        /// latched.
+        /// The lag between the channels is larger than assumed, so stiffness and clearance are wrong. Not latched.
         const LATE = 1 << 8;
-        /// Two or three of flow, stiffness and clearance differ from the baseline: wear seldom does that, a wrong scale
-        /// of a sensor, a stuck displacement or a reversed sign does. Not latched.
+        /// Two or three of flow, stiffness and clearance differ from the baseline. A wrong scale, a stuck displacement
+        /// or a reversed sign of a sensor is a likelier cause than wear. Not latched.
         const SEVERAL_CHANGED = 1 << 9;
-        /// What is measured does not follow from the model whatever its parameters are, or the estimate is still on its
-        /// way after a change. Not latched.
+        /// The model cannot explain the samples with any parameters, or the estimate is still converging after a
+        /// change. Not latched.
         const MISFIT = 1 << 10;
     }
 }
 
-/// On the wire a number of 16 bits; bits of later versions stay.
+/// Serialised as a 16-bit number. Unknown bits of later versions are kept.
 #[cfg(feature = "link")]
 impl serde::Serialize for HealthStatus {
     fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
@@ -48,47 +47,47 @@ impl<'de> serde::Deserialize<'de> for HealthStatus {
     }
 }
 
-/// A number and the standard deviation with which it is known.
+/// A value and its standard deviation.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "link", derive(serde::Serialize, serde::Deserialize))]
 #[repr(C)]
 pub struct Estimate {
-    /// The number.
+    /// Estimated value.
     pub value: f32,
-    /// Its standard deviation.
+    /// Standard deviation of the value.
     pub sd: f32,
 }
 
-/// What is known of a damper now.
+/// Present estimates of a damper.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "link", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 #[repr(C)]
 pub struct HealthReading {
     /// Flow over nominal flow at the same force (1). Its inverse is the damping factor.
     pub flow_factor: Estimate,
-    /// Effective stiffness Ke of the mount (N/m), the nominal oil column taken out.
+    /// Effective stiffness Ke of the mount without the nominal oil column (N/m).
     pub stiffness_n_per_m: Estimate,
-    /// Clearance 2a, the whole play (m).
+    /// Clearance 2a: the total play (m).
     pub clearance_m: Estimate,
     /// Lag of the measured force behind the measured displacement (s).
     pub lag_s: Estimate,
-    /// Compliance `1/Ke` (m/N), which is what is estimated.
+    /// Compliance `1/Ke` (m/N), the quantity that the filter estimates.
     pub compliance_m_per_n: Estimate,
-    /// Samples that told something: in contact, not yielding.
+    /// Number of usable samples: in contact, not yielding.
     pub samples: u32,
-    /// Samples that were not finite or not credible.
+    /// Number of samples that were not finite or not credible.
     pub rejected: u32,
-    /// Status.
+    /// Status bits.
     pub status: HealthStatus,
-    /// Force that is measured where there is none (N): the zero of the force sensor. The other estimates are corrected
-    /// for it.
+    /// Zero offset of the force sensor (N). The other estimates are corrected for it.
     pub force_zero_n: Estimate,
     /// Friction of the seals beyond the nominal one (N). The other estimates are corrected for it.
     pub added_friction_n: Estimate,
 }
 
 impl HealthStatus {
-    /// The bits that say that intervals may not contain the truth now.
+    /// Bits for which the intervals may not contain the true values.
     pub const DOUBTS: Self = Self::NO_FORCE
         .union(Self::LATE)
         .union(Self::SEVERAL_CHANGED)
@@ -96,12 +95,13 @@ impl HealthStatus {
 }
 
 impl HealthReading {
-    /// Whether nothing says that its intervals may not contain the truth.
+    /// True if no bit of [`HealthStatus::DOUBTS`] is set.
     pub fn is_trusted(&self) -> bool {
         !self.status.intersects(HealthStatus::DOUBTS)
     }
 
-    /// Damping force over the nominal one at the same velocity were the law linear: the inverse of the flow factor.
+    /// Damping force over the nominal force at the same velocity (1), assuming a linear law: the inverse of the flow
+    /// factor.
     pub fn damping_factor(&self) -> Estimate {
         let value = 1.0 / self.flow_factor.value;
         Estimate {
@@ -110,7 +110,7 @@ impl HealthReading {
         }
     }
 
-    /// This reading as the baseline of the same damper.
+    /// Returns this reading as a baseline for the same damper.
     pub fn as_baseline(&self) -> super::Baseline {
         super::Baseline {
             flow_factor: self.flow_factor.value,

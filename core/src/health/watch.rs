@@ -1,48 +1,48 @@
-//! What an estimate means: whether the model fits the samples, which parameter has changed, what cannot be trusted.
+//! Interprets an estimate: quality of the fit, changed parameters and doubtful results.
 
 use super::filter::{CLEARANCE, COMPLIANCE, FLOW, Filter, LAG, Prepared, ZERO};
 use super::model::HealthModel;
 use super::reading::HealthStatus;
 
-/// Blocks over which innovations are averaged, inverted.
+/// Inverse of the number of blocks over which innovations are averaged (1).
 const RATE: f32 = 1.0 / 128.0;
-/// Largest square of an innovation over its variance in the averages.
-const MOST: f32 = 9.0;
-/// Largest product of neighbouring innovations over their variance in the averages.
-const MOST_PRODUCT: f32 = 3.0;
-/// Mean product of neighbouring innovations over their variance above which the model does not fit.
+/// Bound of the squared innovation over its variance in the averages (1).
+const MAX_SQUARE: f32 = 9.0;
+/// Bound of the product of successive innovations over their variance in the averages (1).
+const MAX_PRODUCT: f32 = 3.0;
+/// Correlation of successive innovations above which the model does not fit (1).
 const MISFIT: f32 = 0.5;
-/// The same below which it fits again.
+/// Correlation below which the model fits again (1).
 const FITS_AGAIN: f32 = 0.2;
-/// The same above which changes are no alarm yet: the estimate is on its way.
-const ON_ITS_WAY: f32 = 1.0;
-/// The same that is chance.
+/// Correlation above which the estimate is still converging, so that changes cause no alarm (1).
+const CONVERGING: f32 = 1.0;
+/// Correlation that occurs by chance (1).
 const CHANCE: f32 = 0.1;
-/// By how much the rest makes variances greater: errors that repeat do not average out.
+/// Factor from the remaining correlation to the variance inflation (1): repeated errors do not average out.
 const REPEATED: f32 = 6.0;
-/// Part of an alarm's limit within which a parameter must be known, else there is little excitation.
+/// Largest standard deviation over the alarm limit (1); above it there is little excitation.
 const KNOWN: f32 = 0.5;
-/// Part of an alarm's limit by which a parameter has changed at all.
+/// Smallest change of a parameter over the alarm limit (1).
 const CHANGED: f32 = 1.0 / 6.0;
-/// Standard deviations, squared, by which it has changed then.
+/// Smallest squared change of a parameter over its variance (1).
 const SURELY: f32 = 9.0;
-/// Standard deviations, squared, by which a lag differs from what is known of it beforehand.
+/// Squared difference of the lag from its prior over the prior variance, above which the channels are late (1).
 const LATE: f32 = 2.25;
 
-/// Averages over the innovations, and how long each parameter has been beyond its limit.
+/// Averages of the innovations, and the time each parameter has been beyond its limit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C)]
 pub(crate) struct Watch {
     /// Mean of the squared innovation over its variance.
     scatter: f32,
-    /// Mean of the product of neighbouring innovations over their variance: 0 where the model fits.
+    /// Mean of the product of successive innovations over their variance: 0 if the model fits.
     correlation: f32,
     last: f32,
-    /// Measured blocks in a row with flow, compliance, clearance and the force's zero beyond its limit.
+    /// Number of consecutive measured blocks with flow, compliance, clearance and force zero beyond the limit.
     beyond: [u32; 4],
-    /// Status bits found in this block so far.
+    /// Status bits found so far in this block.
     found: u32,
-    /// Parameters that have changed, of those compared in this block so far.
+    /// Number of changed parameters among those compared so far in this block.
     changed: u32,
 }
 
@@ -50,7 +50,7 @@ fn square(number: f32) -> f32 {
     number * number
 }
 
-/// A parameter against what it is compared with.
+/// Change of a parameter from its reference value, with limit and variance.
 struct Change {
     change: f32,
     limit: f32,
@@ -58,7 +58,7 @@ struct Change {
 }
 
 impl Watch {
-    /// Of zero bits.
+    /// All bits zero.
     pub(crate) const EMPTY: Self = Self {
         scatter: 0.0,
         correlation: 0.0,
@@ -68,46 +68,50 @@ impl Watch {
         changed: 0,
     };
 
-    /// Begins the averages as where the model fits.
+    /// Resets the averages to those of a model that fits.
     pub(crate) fn begin(&mut self) {
         self.scatter = 1.0;
         self.correlation = 0.0;
         self.last = 0.0;
     }
 
-    /// Takes in the square of a measured block's innovation over its variance. Returns it, bounded.
+    /// Averages the squared innovation of a measured block over its variance, and returns it with its bound applied.
     #[inline(always)]
-    pub(crate) fn expect(&mut self, ratio: f32) -> f32 {
-        let bounded = if ratio < MOST { ratio } else { MOST };
+    pub(crate) fn average_square(&mut self, ratio: f32) -> f32 {
+        let bounded = if ratio < MAX_SQUARE {
+            ratio
+        } else {
+            MAX_SQUARE
+        };
         self.scatter += (bounded - self.scatter) * RATE;
         bounded
     }
 
-    /// Takes in the product of a measured block's innovation and the one before.
+    /// Averages the product of the innovations of a measured block and the previous one.
     #[inline(always)]
     pub(crate) fn correlate(&mut self, prepared: &Prepared) {
         let product = self.last * prepared.innovation / prepared.variance;
-        let product = if product < MOST_PRODUCT {
+        let product = if product < MAX_PRODUCT {
             product
         } else {
-            MOST_PRODUCT
+            MAX_PRODUCT
         };
-        let product = if product > -MOST_PRODUCT {
+        let product = if product > -MAX_PRODUCT {
             product
         } else {
-            -MOST_PRODUCT
+            -MAX_PRODUCT
         };
         self.correlation += (product - self.correlation) * RATE;
         self.last = prepared.innovation;
     }
 
-    /// Whether the model fits so badly that the estimate is on its way after a change, or none is right.
+    /// True if the model fits badly: the estimate is still converging after a change, or no parameters fit.
     #[inline(always)]
-    pub(crate) fn is_on_its_way(&self) -> bool {
-        self.correlation >= ON_ITS_WAY
+    pub(crate) fn is_converging(&self) -> bool {
+        self.correlation >= CONVERGING
     }
 
-    /// Variance inflation factor: above 1 where innovations scatter more than the model says, or repeat.
+    /// Variance inflation factor: above 1 if innovations have a larger variance than expected or are correlated.
     #[inline(always)]
     pub(crate) fn scale(&self) -> f32 {
         let repeated = self.correlation - CHANCE;
@@ -137,8 +141,7 @@ impl Watch {
         self.compare(model, 1, &compliance, measured, HealthStatus::STIFFNESS);
     }
 
-    /// Compares the clearance with the baseline, the force's zero and the lag with what they should be; returns the
-    /// status with everything found.
+    /// Compares clearance, force zero and lag with their reference values. Returns the status with all findings.
     #[inline(always)]
     pub(crate) fn compare_second(
         &mut self,
@@ -188,7 +191,7 @@ impl Watch {
     fn compare(
         &mut self,
         model: &HealthModel,
-        place: usize,
+        index: usize,
         Change {
             change,
             limit,
@@ -198,15 +201,15 @@ impl Watch {
         alarm: HealthStatus,
     ) {
         let (change, limit, variance) = (square(*change), square(*limit), *variance);
-        let counted = u32::from(measured && !self.is_on_its_way());
+        let counted = u32::from(measured && !self.is_converging());
         let is_beyond = change > limit && change > square(model.limits.deviations) * variance;
         let blocks = if is_beyond {
-            self.beyond[place] + counted
+            self.beyond[index] + counted
         } else {
             0
         };
         let certain = blocks > model.alarm_blocks;
-        self.beyond[place] = if certain { model.alarm_blocks } else { blocks };
+        self.beyond[index] = if certain { model.alarm_blocks } else { blocks };
         if certain {
             self.found |= u32::from(alarm.bits());
         }

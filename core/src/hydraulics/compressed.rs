@@ -1,28 +1,30 @@
-//! How far the law of the oil's density goes: the pressures it represents, and the force that makes them.
+//! Limits of the density law of the oil: the largest pressure and the force that causes it.
 
 use super::flow::Laws;
 use crate::build::root::bracketed_root;
 
-/// Largest pressure over the bulk modulus (1). The volume falls linearly with the pressure and is zero at the bulk
-/// modulus itself; at half of it the oil is already at half its volume, far beyond any real damper.
-const LARGEST_PRESSURE_RATIO: f64 = 0.5;
+/// Largest pressure over the bulk modulus (1).
+///
+/// The volume falls linearly with the pressure and would be zero at the bulk modulus. At half of the modulus the oil
+/// has half its volume, far beyond any real damper.
+const MAX_PRESSURE_RATIO: f64 = 0.5;
 
-/// A root is searched beyond the largest pressure too. There the density stays what it is at this ratio.
-const SEARCHED_PRESSURE_RATIO: f64 = 0.9;
+/// Pressure over the bulk modulus above which the density is constant (1). Root searches exceed the largest pressure.
+const MAX_DENSITY_RATIO: f64 = 0.9;
 
 impl Laws {
-    /// Density of the oil (kg/m^3) under gauge pressure (Pa): finite and positive at any pressure.
+    /// Density of the oil under a gauge pressure (kg/m^3), finite and positive at any pressure (Pa).
     pub(crate) fn density_kg_per_m3(&self, pressure_pa: f64) -> f64 {
         let highest = self
             .bulk_modulus_pa()
-            .map_or(f64::INFINITY, |modulus| SEARCHED_PRESSURE_RATIO * modulus);
+            .map_or(f64::INFINITY, |modulus| MAX_DENSITY_RATIO * modulus);
         self.oil.density_kg_per_m3(pressure_pa.min(highest))
     }
 
-    /// Largest force (N) under which no chamber has more than [`LARGEST_PRESSURE_RATIO`] of the bulk modulus; `None`
+    /// Largest force (N) at which no chamber pressure exceeds [`MAX_PRESSURE_RATIO`] of the bulk modulus; `None`
     /// for rigid oil.
-    pub(crate) fn largest_force_n(&self) -> Option<f64> {
-        let pressure = LARGEST_PRESSURE_RATIO * self.bulk_modulus_pa()?;
+    pub(crate) fn max_force_n(&self) -> Option<f64> {
+        let pressure = MAX_PRESSURE_RATIO * self.bulk_modulus_pa()?;
         let extension = pressure * self.rod_side_area;
         let compression = self
             .vapour_pressure_pa
@@ -36,13 +38,13 @@ impl Laws {
         self.oil.column.map(|column| column.bulk_modulus_pa)
     }
 
-    /// Force on the oil (N) in compression with two chambers, the piston side at a pressure (Pa).
+    /// Force on the oil (N) in compression with two chambers, at a pressure of the piston side (Pa).
     fn two_chamber_force(&self, vapour_pressure_pa: f64, pressure_pa: f64) -> f64 {
         let (rod_side, rod) = (self.rod_side_area, self.rod_area());
         let foot = self.through_foot(pressure_pa) * rod_side;
         // The rod side cannot fall below the vapour pressure.
-        let most = pressure_pa - vapour_pressure_pa;
-        let difference = bracketed_root(0.0, most, |difference| {
+        let max_difference = pressure_pa - vapour_pressure_pa;
+        let difference = bracketed_root(0.0, max_difference, |difference| {
             self.through_piston(true, difference, pressure_pa) * rod - foot
         });
         pressure_pa * rod + difference * rod_side

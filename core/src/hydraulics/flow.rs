@@ -1,4 +1,4 @@
-//! Volume flow (m^3/s) of each path under its pressure difference (Pa).
+//! Volume flow (m^3/s) through each path under its pressure difference (Pa).
 
 use core::f64::consts::PI;
 
@@ -9,7 +9,7 @@ use crate::parameters::{
 };
 use crate::shim::edge_compliance;
 
-/// Shim-pack valve ready to evaluate: `Q = Cd 2 pi r_w k_w (P - P_0)+ sqrt(2 (P - P_b)+/rho)`.
+/// A shim-pack valve, ready to evaluate: `Q = Cd 2 pi r_w k_w (P - P_0)+ sqrt(2 (P - P_b)+/rho)`.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ShimValve {
     /// `Cd 2 pi r_w k_w` (m^2/Pa).
@@ -29,18 +29,18 @@ impl ShimValve {
         }
     }
 
-    /// Flow of a jet at `jet_m_per_s` through the valve, which lifts under `lift_pa`.
+    /// Flow through the valve at a jet velocity (m/s) and a pressure (Pa) that lifts the shims.
     pub(crate) fn flow(&self, lift_pa: f64, jet_m_per_s: f64) -> f64 {
         self.area_gradient * (lift_pa - self.preload_pa).max(0.0) * jet_m_per_s
     }
 }
 
-/// The paths of the piston that are open both ways: orifice, annular leakage, relief valve.
+/// Paths through the piston that are open both ways: orifice, annular leakage and relief valve.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct FlowPaths {
     /// `Cd A` of the orifice (m^2).
     orifice_area: f64,
-    /// Flow at which laminar and turbulent pressure drop of the orifice are equal (m^3/s).
+    /// Flow at which the laminar and the turbulent pressure drop of the orifice are equal (m^3/s).
     transition_flow: f64,
     /// Leakage conductance times density (kg/(s Pa)).
     leakage: f64,
@@ -66,7 +66,7 @@ impl FlowPaths {
         }
     }
 
-    /// Flow at `pressure_pa` across the piston of oil of a density, whose jet has `jet_m_per_s`.
+    /// Flow under a pressure difference (Pa) across the piston, at a density (kg/m^3) and a jet velocity (m/s).
     fn flow(&self, pressure_pa: f64, density_kg_per_m3: f64, jet_m_per_s: f64) -> f64 {
         let turbulent = self.orifice_area * jet_m_per_s;
         // P = R_t Q^2 + R_l Q with R_l = R_t Q_t and turbulent^2 = P/R_t.
@@ -86,12 +86,12 @@ impl FlowPaths {
     }
 }
 
-/// `sqrt(2 D/rho)` (m/s) of a pressure difference D (Pa) that drives oil of a density.
+/// Jet velocity `sqrt(2 D/rho)` (m/s) of oil under a pressure difference D (Pa).
 pub(crate) fn jet_velocity(difference_pa: f64, density_kg_per_m3: f64) -> f64 {
     sqrt(2.0 * difference_pa / density_kg_per_m3)
 }
 
-/// Every law of a physical damper, checked and ready to evaluate.
+/// The laws of a physical damper, checked and ready to evaluate.
 #[derive(Clone, Debug)]
 pub(crate) struct Laws {
     pub(crate) oil: Oil,
@@ -113,12 +113,12 @@ impl Laws {
         self.piston_area - self.rod_side_area
     }
 
-    /// Gauge pressure on the piston side from which the foot valve passes oil (Pa).
+    /// Gauge pressure of the piston side at which the foot valve opens (Pa).
     pub(crate) fn foot_opening_pa(&self) -> f64 {
         self.foot.preload_pa.max(self.back_pressure_pa)
     }
 
-    /// Flow through the foot valve under the piston-side pressure.
+    /// Flow through the foot valve under a pressure of the piston side (Pa).
     pub(crate) fn through_foot(&self, pressure_pa: f64) -> f64 {
         let difference = pressure_pa - self.back_pressure_pa;
         if difference <= 0.0 {
@@ -129,7 +129,7 @@ impl Laws {
             .flow(pressure_pa, jet_velocity(difference, density))
     }
 
-    /// Flow through the piston in extension or compression at a difference from an upstream pressure.
+    /// Flow through the piston in extension or compression under a pressure difference and an upstream pressure (Pa).
     pub(crate) fn through_piston(
         &self,
         compression: bool,
@@ -149,7 +149,7 @@ impl Laws {
         self.paths.flow(difference_pa, density, jet) + valve.flow(difference_pa, jet)
     }
 
-    /// The laws of parameters that were checked.
+    /// Returns the laws of checked parameters.
     pub(crate) fn new(hydraulics: &Hydraulics) -> Self {
         let valves = &hydraulics.valves;
         let geometry = &hydraulics.geometry;
@@ -175,7 +175,7 @@ impl Laws {
     }
 }
 
-/// Leakage past the piston, conductance times density (kg/(s Pa)).
+/// Conductance times density of the leakage past the piston (kg/(s Pa)).
 fn leakage_conductance(leakage: &Leakage, hydraulics: &Hydraulics) -> f64 {
     let (c, e) = (leakage.radial_clearance_m, leakage.eccentricity_ratio);
     let radius = 0.5 * hydraulics.geometry.piston_diameter_m;

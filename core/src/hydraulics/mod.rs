@@ -1,4 +1,4 @@
-//! Hydraulics: pressure to flow through each path, force to piston velocity of each side.
+//! Hydraulics: flow through each path as a function of pressure, piston velocity of each side as a function of force.
 
 mod compressed;
 mod flow;
@@ -6,4 +6,4 @@ mod side;
 mod two_chamber;
 
 pub(crate) use flow::{Laws, jet_velocity};
-pub(crate) use side::HydraulicSide;
+pub(crate) use side::{Corners, HydraulicSide};

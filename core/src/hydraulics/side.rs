@@ -1,4 +1,4 @@
-//! One working side: piston velocity as a function of force.
+//! One working side of the damper: piston velocity as a function of force.
 
 use heapless::Vec;
 
@@ -8,7 +8,10 @@ use crate::build::root::bracketed_root;
 use crate::characteristic::Corner;
 use crate::math::elementary::sqrt;
 
-/// Panels, equal in the root of the force, in which vapour may begin or end to form.
+/// Corners of one side, with their forces (N); room for more than a side has.
+pub(crate) type Corners = Vec<(Corner, f64), 8>;
+
+/// Panels, equal in the root of the force, that are searched for the start and the end of vapour.
 const VAPOUR_PANELS: u32 = 32;
 
 /// Extension (rod-side chamber) or compression (piston-side chamber) of a physical damper.
@@ -33,7 +36,7 @@ impl HydraulicSide<'_> {
         (force_n - self.laws.friction_n).max(0.0) / self.area()
     }
 
-    /// Velocity of the piston in the cylinder (m/s) under the force magnitude (N).
+    /// Velocity of the piston in the cylinder (m/s) under a force magnitude (N).
     pub(crate) fn velocity(&self, force_n: f64) -> f64 {
         let laws = self.laws;
         let pressure = self.pressure_pa(force_n);
@@ -49,14 +52,14 @@ impl HydraulicSide<'_> {
         (laws.through_piston(true, pressure, pressure) + laws.through_foot(pressure)) / self.area()
     }
 
-    /// Corners of the law at forces (N) below `limit_n`: valves that open, vapour that forms or ceases to.
-    pub(crate) fn corners(&self, limit_n: f64) -> Vec<(Corner, f64), 8> {
+    /// Returns the corners of the law below `limit_n` (N): opening valves, start and end of vapour.
+    pub(crate) fn corners(&self, limit_n: f64) -> Corners {
         let laws = self.laws;
         let friction = laws.friction_n;
-        let mut corners = Vec::new();
+        let mut corners = Corners::new();
         let mut add = |corner: Corner, force: f64| {
             if force > 0.0 && force < limit_n - friction {
-                // Capacity 8 exceeds the number of corners.
+                // There is room for every corner.
                 let _ = corners.push((corner, friction + force));
             }
         };
@@ -78,7 +81,7 @@ impl HydraulicSide<'_> {
             }
             return corners;
         };
-        // The rod side adds pressure only with flow, so the foot valve opens on the rod area.
+        // The rod side is under pressure only with flow, so the force on the rod area opens the foot valve.
         add(Corner::FootValveOpens, foot * laws.rod_area());
         openings.for_each(|(corner, opening)| {
             add(corner, force_at_difference(laws, vapour, opening));

@@ -1,15 +1,14 @@
 //! Compression with a pressure in each chamber.
 //!
-//! `A_ext v = Q_piston(P1 - P2)`, `A_rod v = Q_foot(P1 - P_b)`, `F = P1 A_comp - P2 A_ext`, all forces
-//! those on the oil.
+//! `A_ext v = Q_piston(P1 - P2)`, `A_rod v = Q_foot(P1 - P_b)`, `F = P1 A_comp - P2 A_ext`. All forces act on the oil.
 
 use super::flow::Laws;
 use crate::build::root::bracketed_root;
 
-/// Pressures of the piston side P1, and of it less the rod side's P1 - P2, were there no vapour (Pa).
+/// Pressure of the piston side P1 and pressure difference P1 - P2 (Pa), if no vapour forms.
 fn pressures(laws: &Laws, force_n: f64) -> (f64, f64) {
     let (rod_side, rod) = (laws.rod_side_area, laws.rod_area());
-    // With F = P1 A_rod + (P1 - P2) A_ext one unknown is left, the pressure difference.
+    // With F = P1 A_rod + (P1 - P2) A_ext the pressure difference is the only unknown.
     let upstream = |difference: f64| (force_n - difference * rod_side) / rod;
     let difference = bracketed_root(0.0, force_n / rod_side, |difference| {
         let upstream = upstream(difference);
@@ -19,7 +18,7 @@ fn pressures(laws: &Laws, force_n: f64) -> (f64, f64) {
     (upstream(difference), difference)
 }
 
-/// What the pressure of the rod side has beyond the vapour's, were there no vapour (Pa).
+/// Pressure of the rod side above the vapour pressure (Pa), if no vapour forms.
 pub(super) fn above_vapour_pa(laws: &Laws, vapour_pressure_pa: f64, force_n: f64) -> f64 {
     let (upstream, difference) = pressures(laws, force_n);
     upstream - difference - vapour_pressure_pa
@@ -27,8 +26,8 @@ pub(super) fn above_vapour_pa(laws: &Laws, vapour_pressure_pa: f64, force_n: f64
 
 /// Piston velocity (m/s) in compression under a force (N).
 ///
-/// Where P2 would fall below the vapour pressure it stays there and the oil flowing into the rod side no
-/// longer fills it: `A_comp v = Q_piston(P1 - P_v) + Q_foot(P1 - P_b)`.
+/// P2 cannot fall below the vapour pressure. At the vapour pressure the oil no longer fills the rod side:
+/// `A_comp v = Q_piston(P1 - P_v) + Q_foot(P1 - P_b)`.
 pub(super) fn compression_velocity(laws: &Laws, vapour_pressure_pa: f64, force_n: f64) -> f64 {
     let (upstream, difference) = pressures(laws, force_n);
     if upstream - difference >= vapour_pressure_pa {
@@ -40,7 +39,7 @@ pub(super) fn compression_velocity(laws: &Laws, vapour_pressure_pa: f64, force_n
         / laws.piston_area
 }
 
-/// Force (N) at which the piston's pressure difference is `difference` (Pa).
+/// Force (N) at which the pressure difference across the piston is `difference` (Pa).
 pub(super) fn force_at_difference(laws: &Laws, vapour_pressure_pa: f64, difference: f64) -> f64 {
     let (rod_side, rod) = (laws.rod_side_area, laws.rod_area());
     let upstream = bracketed_root(laws.foot_opening_pa(), 1e9, |pressure| {

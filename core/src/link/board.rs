@@ -1,17 +1,17 @@
-//! What a board gives a device: a line for the link, and outputs for the forces.
+//! Interfaces of a board: a serial line for the link, and outputs for the forces.
 
-/// A serial line, a byte at a time. Nothing waits.
+/// A serial line for single bytes. No method may block.
 pub trait Line {
-    /// A received byte, if one waits.
+    /// Returns the next received byte, if any.
     fn receive(&mut self) -> Option<u8>;
 
-    /// Sends a byte; false when the line cannot take it now.
+    /// Sends a byte. False if the line cannot take it now.
     fn send(&mut self, byte: u8) -> bool;
 }
 
-/// Where the forces go: the rig's actuators.
+/// Outputs for the forces: the actuators of the rig.
 pub trait Outputs<const N: usize> {
-    /// Sets every output (N). Called after every free-running tick and after every request that may have changed
-    /// them; it must not wait.
+    /// Sets all outputs (N), positive when they resist extension. Called after each free-running tick and after each
+    /// request that may change them. Must not block.
     fn drive(&mut self, forces_n: &[f32; N]);
 }

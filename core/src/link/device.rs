@@ -1,4 +1,4 @@
-//! The device's end of the link: bytes in, responses out, ticks.
+//! The device end of the link: takes bytes and ticks, returns responses.
 
 use super::board::{Line, Outputs};
 use super::exchange::{Exchange, Load, Served, answer};
@@ -11,20 +11,22 @@ use super::session::Session;
 use crate::damper::Damper;
 use crate::state::DamperState;
 
-/// Bytes taken of the line before ticks are looked at again.
+/// Largest number of bytes read from the line before the next check for ticks.
 const BYTES_PER_PASS: usize = 32;
 
-/// A bank of `N` dampers behind a serial link, the first `WATCHED` of which may have an estimate of their health.
+/// A bank of `N` dampers behind a serial link. The first `WATCHED` dampers can have a health estimate.
 ///
-/// Of zeros until [`Device::start`], so it lies in static storage that takes no flash and is never moved: 22 KB,
-/// 13 KB a damper and 2.4 KB a watched one. A firmware calls [`Device::poll`] in a loop. While the host steps (after power on, and after
-/// [`Request::Stop`](super::Request::Stop)) time is the tick of its step requests; after [`Request::Run`](super::Request::Run) it is that of the ticks due.
+/// All bits are zero until [`Device::start`], so a static takes no flash. It needs 22 KB, 13 KB for each damper and
+/// 2.4 KB for each watched damper. The firmware calls [`Device::poll`] in a loop.
+///
+/// After power on and after [`Request::Stop`](super::Request::Stop) the host steps: each step request is a tick. After
+/// [`Request::Run`](super::Request::Run) the timer of the firmware determines the ticks.
 ///
 /// ```
 /// use dashpot_core::Damper;
 /// use dashpot_core::link::{Clock, Device, Header, Line, Outputs, PROTOCOL, Request, request_frame};
 ///
-/// /// A host that says hello, and counts the bytes it gets back.
+/// /// A host that sends a hello and counts the bytes of the response.
 /// struct Host(std::vec::IntoIter<u8>, usize);
 /// impl Line for Host {
 ///     fn receive(&mut self) -> Option<u8> {
@@ -44,7 +46,7 @@ const BYTES_PER_PASS: usize = 32;
 ///
 /// static DAMPER: Damper<f32> = Damper::<f32>::from_words(&[0; Damper::<f32>::WORDS]);
 /// let mut device = Box::new(Device::<2>::new()); // in firmware a static
-/// device.start(&[&DAMPER; 2], Clock { now: || 0, hz: 1_000_000 })?;
+/// device.start(&[&DAMPER; 2], Clock::new(|| 0, 1_000_000))?;
 ///
 /// let hello = Request::Hello { protocol: PROTOCOL };
 /// let hello = request_frame(Header { session: 1, sequence: 1 }, &hello);
@@ -58,33 +60,39 @@ const BYTES_PER_PASS: usize = 32;
 /// # Ok::<(), dashpot_core::link::StepSizeError>(())
 /// ```
 #[derive(Debug)]
-#[repr(C)] // what every byte needs first, where an instruction reaches it
+#[repr(C)] // starts with the fields that every byte needs, within reach of one instruction
 pub struct Device<const N: usize, const WATCHED: usize = 0> {
-    /// Bytes of the response still to send, from the end.
+    /// Number of bytes of the response still to send, at its end.
     unsent: usize,
     answers_with_notice: bool,
     intake: Intake,
     reader: FrameReader<REQUEST_BYTES>,
-    /// The load that is under way while loading: as an option it would not be of zeros.
+    /// The load in progress, if any. An `Option` would not have zero bits.
     load: Load,
     session: Session,
-    /// Response to the last request of the session, kept to be given again.
+    /// Response to the last request of the session, for repeated requests.
     stored: ResponseFrame,
-    /// Response to anything else.
+    /// Response to any other message.
     notice: ResponseFrame,
     service: Service<N, WATCHED>,
 }
 
-/// What becomes of a byte.
+/// No health model is loaded for a damper.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("no health model is loaded for this damper")]
+#[non_exhaustive]
+pub struct NotWatched;
+
+/// How a byte is handled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Intake {
-    /// It belongs to a frame.
+    /// The byte belongs to a frame.
     Frames,
-    /// It is dropped, for an image is being loaded from the buffer of the frames.
+    /// The byte is dropped because an image is being loaded from the frame buffer.
     Loading,
-    /// As [`Intake::Loading`], within a frame.
+    /// The byte is dropped as for [`Intake::Loading`], within a frame.
     LoadingWithinFrame,
-    /// It is dropped until its frame ends.
+    /// The byte is dropped until its frame ends.
     Dropping,
 }
 
@@ -95,7 +103,7 @@ impl<const N: usize, const WATCHED: usize> Default for Device<N, WATCHED> {
 }
 
 impl<const N: usize, const WATCHED: usize> Device<N, WATCHED> {
-    /// All bits zero: without dampers until it is started.
+    /// A device without dampers: all bits are zero.
     pub const fn new() -> Self {
         Self {
             unsent: 0,
@@ -110,10 +118,10 @@ impl<const N: usize, const WATCHED: usize> Device<N, WATCHED> {
         }
     }
 
-    /// Takes copies of `dampers`, at rest at 0, the host stepping. Steps are measured by `clock`.
+    /// Starts with copies of `dampers` at rest at 0, stepped by the host. `clock` measures the steps.
     ///
     /// # Errors
-    /// The dampers are not all built for one step; the device is as it was.
+    /// The dampers are built for different steps; the device is unchanged.
     pub fn start(
         &mut self,
         dampers: &[&Damper<f32>; N],
@@ -122,9 +130,10 @@ impl<const N: usize, const WATCHED: usize> Device<N, WATCHED> {
         self.service.start(dampers, clock)
     }
 
-    /// One pass of a firmware's loop: runs the `due` ticks that the timer counted since the last pass, then does
-    /// one thing for the link: sends what the line takes, loads a slice of a damper, or takes what the line has.
-    /// Drives the outputs when they may have changed. Never waits.
+    /// Runs one pass of the firmware's loop. Never blocks.
+    ///
+    /// Runs the `due` ticks that the timer counted since the last pass. Then it does one thing for the link: sends
+    /// bytes, loads a slice of an image, or reads bytes. It drives the outputs whenever they may have changed.
     pub fn poll(&mut self, due: u32, line: &mut impl Line, outputs: &mut impl Outputs<N>) {
         if due > 0 {
             self.tick(due);
@@ -149,7 +158,8 @@ impl<const N: usize, const WATCHED: usize> Device<N, WATCHED> {
         }
     }
 
-    /// Takes bytes of the line until there is a response to send, or none waits, or it took as many as a pass may.
+    /// Reads bytes from the line until there is a response, no byte is left, or the limit of a pass is reached. True if
+    /// there is a response to send.
     #[inline]
     fn receive_waiting(&mut self, line: &mut impl Line) -> bool {
         for _ in 0..BYTES_PER_PASS {
@@ -162,7 +172,7 @@ impl<const N: usize, const WATCHED: usize> Device<N, WATCHED> {
         false
     }
 
-    /// Takes a byte of the link; true when there is a response to send, before the next byte is taken.
+    /// Takes a byte of the link. True if there is a response, which must be sent before the next byte is taken.
     #[inline]
     pub fn receive(&mut self, byte: u8) -> bool {
         if self.intake != Intake::Frames {
@@ -193,7 +203,7 @@ impl<const N: usize, const WATCHED: usize> Device<N, WATCHED> {
         true
     }
 
-    /// Drops a byte that came while an image was being loaded, and what belongs to its frame.
+    /// Drops a byte that arrived during loading, and the rest of its frame.
     #[cold]
     fn drop_byte(&mut self, byte: u8) -> bool {
         self.intake = match (self.intake, byte) {
@@ -208,17 +218,17 @@ impl<const N: usize, const WATCHED: usize> Device<N, WATCHED> {
         false
     }
 
-    /// Whether an image is being loaded: bytes that come meanwhile are dropped.
+    /// True while an image is being loaded. Bytes that arrive then are dropped.
     pub fn is_busy(&self) -> bool {
         matches!(self.intake, Intake::Loading | Intake::LoadingWithinFrame)
     }
 
-    /// Whether bytes of the response are still to be sent by [`Device::poll`].
+    /// True while [`Device::poll`] has bytes of a response to send.
     pub fn is_sending(&self) -> bool {
         self.unsent > 0
     }
 
-    /// Loads the next slice of an image; true when there is a response to send.
+    /// Loads the next slice of an image. True if there is a response to send.
     pub fn advance(&mut self) -> bool {
         if !self.is_busy() {
             return false;
@@ -242,7 +252,7 @@ impl<const N: usize, const WATCHED: usize> Device<N, WATCHED> {
         true
     }
 
-    /// A frame was broken on the way.
+    /// Answers a corrupt frame.
     #[inline(never)]
     fn corrupt(&mut self) -> bool {
         count(&mut self.service.counters.corrupt);
@@ -251,7 +261,7 @@ impl<const N: usize, const WATCHED: usize> Device<N, WATCHED> {
         true
     }
 
-    /// The response to send: a whole frame.
+    /// Response to send: a whole frame.
     pub fn response(&self) -> &[u8] {
         if self.answers_with_notice {
             self.notice.bytes()
@@ -260,32 +270,45 @@ impl<const N: usize, const WATCHED: usize> Device<N, WATCHED> {
         }
     }
 
-    /// Runs the `due` ticks that the timer counted since the last call, each one; more than one are
-    /// counted as overruns. Nothing while the host steps.
+    /// Runs each of the `due` ticks that the timer counted since the last call. Ticks beyond the first are counted as
+    /// overruns. Does nothing while the host steps.
     pub fn tick(&mut self, due: u32) {
         self.service.tick(due);
     }
 
-    /// Takes a sample of the real damper that a place stands for, as sensors of this board measure it: displacement
-    /// (m), positive in extension, and force (N), positive when it resists extension, once in each step. False, and
-    /// nothing done, where no model of health was loaded. What came of it is read over the link.
+    /// Takes a sample of a real damper from sensors of this board, once in each step.
+    ///
+    /// The displacement (m) is positive in extension, the force (N) when it resists extension. The host reads the
+    /// estimate over the link.
+    ///
+    /// # Errors
+    /// No health model is loaded for the damper of this index; nothing changes.
     #[inline]
-    pub fn measured(&mut self, place: usize, displacement_m: f32, force_n: f32) -> bool {
+    pub fn push_measurement(
+        &mut self,
+        damper: usize,
+        displacement_m: f32,
+        force_n: f32,
+    ) -> Result<(), NotWatched> {
         let watched = &mut self.service.watched;
-        watched.sample(place, displacement_m, force_n)
+        if watched.sample(damper, displacement_m, force_n) {
+            Ok(())
+        } else {
+            Err(NotWatched)
+        }
     }
 
-    /// Forces (N) for the actuators: of the last tick, or the safe output; 0 when stopped.
+    /// Forces for the actuators (N): those of the last tick, or the safe outputs; 0 when stopped.
     pub fn outputs_n(&self) -> &[f32; N] {
         self.service.outputs_n()
     }
 
-    /// Ticks since the dampers were put at rest.
+    /// Number of ticks since the dampers were put at rest.
     pub fn tick_number(&self) -> u32 {
         self.service.loaded().tick()
     }
 
-    /// State of each damper.
+    /// States of the dampers.
     pub fn states(&self) -> &[DamperState<f32>; N] {
         self.service.loaded().states()
     }
@@ -295,7 +318,7 @@ impl<const N: usize, const WATCHED: usize> Device<N, WATCHED> {
         self.service.loaded().step_s()
     }
 
-    /// What happened so far.
+    /// Counters since power on.
     pub fn counters(&self) -> Counters {
         self.service.counters
     }

@@ -1,4 +1,4 @@
-//! A message of the host: judged, carried out, answered.
+//! Handles a message of the host: checks it, carries it out and answers it.
 
 use core::ops::Range;
 
@@ -10,17 +10,17 @@ use super::session::{Session, Verdict};
 use crate::encoding::Loading;
 use crate::health::HealthLoading;
 
-/// A load that is under way, in slices.
+/// A load in progress, in slices.
 #[derive(Clone, Debug)]
 pub(super) struct Load {
     pub(super) header: Header,
     pub(super) damper: u8,
-    /// Where the image is in the reader's message.
+    /// Range of the image in the reader's message.
     pub(super) image: Range<usize>,
     pub(super) progress: Progress,
 }
 
-/// What is being loaded, and how far it has come.
+/// Progress of loading a damper or a health model.
 #[derive(Clone, Debug)]
 pub(super) enum Progress {
     Damper(Loading),
@@ -39,17 +39,17 @@ impl Load {
     };
 }
 
-/// What a message came to.
+/// Result of handling a message.
 pub(super) enum Served {
-    /// The stored response is to be sent.
+    /// Send the stored response.
     Stored,
-    /// The notice is to be sent.
+    /// Send the notice.
     Notice,
-    /// An image is to be loaded first.
+    /// Load an image first.
     Loads(Load),
 }
 
-/// A message, and what it is judged by and answered with.
+/// Session, service and response frames for handling a message.
 pub(super) struct Exchange<'a, const N: usize, const WATCHED: usize> {
     pub(super) session: &'a mut Session,
     pub(super) service: &'a mut Service<N, WATCHED>,
@@ -58,7 +58,7 @@ pub(super) struct Exchange<'a, const N: usize, const WATCHED: usize> {
 }
 
 impl<const N: usize, const WATCHED: usize> Exchange<'_, N, WATCHED> {
-    /// Judges a message and carries it out.
+    /// Checks a message, carries it out and answers it.
     #[inline(never)]
     pub(super) fn serve(self, message: Message<'_>) -> Served {
         let counters = &mut self.service.counters;
@@ -103,7 +103,7 @@ impl<const N: usize, const WATCHED: usize> Exchange<'_, N, WATCHED> {
         let done = self.service.execute(&request);
         let carried_out = done.is_ok();
         let frame = if opens && !carried_out {
-            // Another protocol: no session is opened.
+            // A hello with another protocol opens no session.
             self.notice
         } else {
             self.session.advance(header, message.check);
@@ -117,7 +117,7 @@ impl<const N: usize, const WATCHED: usize> Exchange<'_, N, WATCHED> {
                 _ => None,
             };
             if let Some((damper, image, progress)) = loads.filter(|_| carried_out) {
-                // The image is the end of the message.
+                // The image is at the end of the message.
                 let end = message.bytes.len();
                 return Served::Loads(Load {
                     header,
@@ -153,6 +153,6 @@ pub(super) fn answer(
             &refused
         }
     };
-    // Every response fits: see the test `the_longest_messages_fit`.
+    // Every response fits, as the test `the_longest_messages_fit` shows.
     let _ = frame.write(&(header, response));
 }

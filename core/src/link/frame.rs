@@ -9,13 +9,13 @@ use super::message::{Header, Request};
 use crate::damper::Damper;
 use crate::encoding::checksum;
 
-/// Bytes of a request with header and CRC-32 at most: a whole image and what stands before it.
+/// Largest request with header and CRC-32 (bytes): a whole image and its header.
 pub const REQUEST_BYTES: usize = Damper::<f32>::IMAGE_BYTES + 32;
-/// Bytes of a response with header and CRC-32 at most.
+/// Largest response with header and CRC-32 (bytes).
 pub const RESPONSE_BYTES: usize = 512;
-/// Bytes of the frame of a request at most: one more for every 254, one first, the zero.
+/// Largest frame of a request (bytes): one more byte for every 254, one at the start and the final zero.
 pub const REQUEST_FRAME_BYTES: usize = frame_bytes(REQUEST_BYTES);
-/// As [`REQUEST_FRAME_BYTES`], of a response.
+/// Largest frame of a response (bytes).
 pub const RESPONSE_FRAME_BYTES: usize = frame_bytes(RESPONSE_BYTES);
 const CHECK_BYTES: usize = 4;
 
@@ -26,28 +26,29 @@ const fn frame_bytes(message_bytes: usize) -> usize {
     message_bytes + message_bytes / 254 + 2
 }
 
-/// Why bytes between two zeros are no message.
+/// Errors of a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum FrameError {
-    /// A zero byte where COBS allows no zero.
+    /// A zero byte inside a COBS block.
     Framing,
     /// Longer than the reader's buffer.
     TooLong,
-    /// The CRC-32 is missing or not that of the message.
+    /// The CRC-32 is missing or does not match the message.
     Check,
 }
 
-/// What a whole frame holds.
+/// Message of an intact frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Message<'a> {
-    /// The message in postcard.
+    /// The message, encoded with postcard.
     pub bytes: &'a [u8],
-    /// Its CRC-32, which tells a repeated request from another one of the same number.
+    /// CRC-32 of the message, which distinguishes a repeated request from another one with the same number.
     pub check: u32,
 }
 
-/// A frame to send, of `BYTES` at most.
+/// A frame to send, of at most `BYTES` bytes.
 ///
 /// ```
 /// use dashpot_core::link::Frame;
@@ -76,7 +77,7 @@ impl<const BYTES: usize> Default for Frame<BYTES> {
 }
 
 impl<const BYTES: usize> Frame<BYTES> {
-    /// An empty one.
+    /// An empty frame.
     pub const fn new() -> Self {
         Self {
             plain: Vec::new(),
@@ -85,7 +86,7 @@ impl<const BYTES: usize> Frame<BYTES> {
         }
     }
 
-    /// Becomes the frame of `message`; false, and empty, when it does not fit.
+    /// Encodes `message`. If it does not fit, the frame is empty and the result false.
     pub fn write(&mut self, message: &impl Serialize) -> bool {
         self.length = self.encode(message).unwrap_or(0);
         self.length > 0
@@ -101,13 +102,13 @@ impl<const BYTES: usize> Frame<BYTES> {
         Some(end + 1)
     }
 
-    /// The bytes to send, the zero at the end included.
+    /// Bytes to send, including the final zero.
     pub fn bytes(&self) -> &[u8] {
         self.encoded.get(..self.length).unwrap_or_default()
     }
 }
 
-/// A request as a frame, for a host; empty when the request is longer than a device takes.
+/// Encodes a request as a frame. The frame is empty if the request is too long for a device.
 ///
 /// ```
 /// use dashpot_core::link::{Header, PROTOCOL, Request, request_frame};
@@ -122,7 +123,7 @@ pub fn request_frame(header: Header, request: &Request<'_>) -> RequestFrame {
     frame
 }
 
-/// Where postcard writes: a vector that need not be cleared first.
+/// Buffer for postcard that need not be initialised.
 struct Plain<'a, const BYTES: usize>(&'a mut Vec<u8, BYTES>);
 
 impl<const BYTES: usize> Flavor for Plain<'_, BYTES> {
@@ -147,8 +148,9 @@ impl<const BYTES: usize> Flavor for Plain<'_, BYTES> {
     }
 }
 
-/// Takes frames out of a stream of bytes, each byte at one cost. Whatever the bytes, the next zero ends the
-/// trouble.
+/// Reads frames from a stream of bytes at a constant cost for each byte.
+///
+/// Resynchronises at the next zero byte, whatever came before.
 ///
 /// ```
 /// use dashpot_core::link::{Frame, FrameReader};
@@ -157,7 +159,7 @@ impl<const BYTES: usize> Flavor for Plain<'_, BYTES> {
 /// assert!(frame.write(&(7_u8, 1.5_f32)));
 /// let mut reader = FrameReader::<32>::new();
 /// let mut messages = 0;
-/// for byte in [3, 0].iter().chain(frame.bytes()) { // a broken frame first
+/// for byte in [3, 0].iter().chain(frame.bytes()) { // starts with a corrupt frame
 ///     if let Some(Ok(message)) = reader.push(*byte) {
 ///         assert_eq!(message.bytes, [7, 0, 0, 0xc0, 0x3f]);
 ///         messages += 1;
@@ -166,11 +168,11 @@ impl<const BYTES: usize> Flavor for Plain<'_, BYTES> {
 /// assert_eq!(messages, 1);
 /// ```
 #[derive(Debug)]
-#[repr(C)] // what every byte needs first, where an instruction reaches it
+#[repr(C)] // starts with the fields that every byte needs, within reach of one instruction
 pub struct FrameReader<const BYTES: usize> {
-    /// Bytes of the message so far.
+    /// Number of bytes of the message so far.
     length: usize,
-    /// Register of its CRC-32, which is the inverse.
+    /// Register of the CRC-32: the inverse of the CRC-32 so far.
     register: u32,
     cobs: DecoderState,
     error: Option<FrameError>,
@@ -184,32 +186,31 @@ impl<const BYTES: usize> Default for FrameReader<BYTES> {
 }
 
 impl<const BYTES: usize> FrameReader<BYTES> {
-    /// At the start of a frame.
+    /// A reader at the start of a frame.
     pub const fn new() -> Self {
         Self {
             length: 0,
             register: 0,
             cobs: DecoderState::Idle,
-            // Of zero bits, and replaced at the first byte.
+            // Has zero bits; the first byte replaces it.
             error: Some(FrameError::Framing),
             message: [0; BYTES],
         }
     }
 
-    /// Takes a byte; with the last one of a frame returns its message or what is wrong with it. Two
-    /// zeros in a row hold nothing.
+    /// Takes a byte. At the end of a frame, returns its message or its error. Repeated zeros are no frames.
     pub fn push(&mut self, byte: u8) -> Option<Result<Message<'_>, FrameError>> {
         self.take(byte).then(|| self.message())
     }
 
-    /// Takes a byte; true when it ends a frame.
+    /// Takes a byte. True at the end of a frame.
     #[inline(always)]
     pub(crate) fn take(&mut self, byte: u8) -> bool {
         let starts = matches!(self.cobs, DecoderState::Idle);
         match self.cobs.feed(byte) {
             Ok(DecodeResult::DataContinue(decoded)) => {
-                if let Some(place) = self.message.get_mut(self.length) {
-                    *place = decoded;
+                if let Some(byte) = self.message.get_mut(self.length) {
+                    *byte = decoded;
                     self.length += 1;
                 } else {
                     self.error = Some(FrameError::TooLong);
@@ -231,7 +232,7 @@ impl<const BYTES: usize> FrameReader<BYTES> {
         }
     }
 
-    /// The message of the frame that ended last, or what is wrong with it.
+    /// Returns the message or the error of the last frame.
     pub(crate) fn message(&self) -> Result<Message<'_>, FrameError> {
         if let Some(error) = self.error {
             return Err(error);
@@ -248,7 +249,7 @@ impl<const BYTES: usize> FrameReader<BYTES> {
         }
     }
 
-    /// Bytes of the last message, which stay until the next byte comes.
+    /// Returns bytes of the last message. They remain until the next byte.
     pub(crate) fn last_message(&self, bytes: core::ops::Range<usize>) -> &[u8] {
         self.message.get(bytes).unwrap_or_default()
     }

@@ -1,13 +1,13 @@
-//! Looks for damage in memory, a slice a tick: the constants of one damper after the other, and one state.
+//! Checks memory for damage: at each tick one slice of constants, damper by damper, and one state.
 
 use super::loaded::Loaded;
-use super::message::MOST_DAMPERS;
+use super::message::MAX_DAMPERS;
 use crate::integrity::Check;
 
-/// A bit for each damper has room for all of them.
-const _: () = assert!(MOST_DAMPERS <= u16::BITS as usize);
+// There is one bit for each damper.
+const _: () = assert!(MAX_DAMPERS <= u16::BITS as usize);
 
-/// Where the check stands, the dampers found damaged: a bit for each, and forces from before any damage.
+/// Progress of the check, damaged dampers (one bit each), and forces from before any damage.
 #[derive(Clone, Debug)]
 pub(crate) struct Guard<const N: usize> {
     check: Check,
@@ -15,11 +15,11 @@ pub(crate) struct Guard<const N: usize> {
     next_state: u8,
     constants: u16,
     states: u16,
-    /// Force (N) of the damper whose constants are being checked, from when its round began.
+    /// Force (N) of the damper under check at the start of its round.
     at_start_n: f32,
-    /// Force (N) of each damper when the last round began that found its constants sound.
+    /// Force (N) of each damper at the start of the last round that found sound constants.
     of_sound_constants_n: [f32; N],
-    /// Force (N) of each damper when its state was last found sound.
+    /// Force (N) of each damper when a check last found its state sound.
     of_sound_states_n: [f32; N],
 }
 
@@ -37,8 +37,7 @@ impl<const N: usize> Guard<N> {
         }
     }
 
-    /// Checks the next slice of constants and the next state. How many were found damaged that were not known
-    /// to be.
+    /// Checks the next slice of constants and the next state. Returns the number of newly damaged ones.
     pub(crate) fn check(&mut self, loaded: &mut Loaded<N>) -> u32 {
         let mut found = 0;
         let damper = self.next_constants;
@@ -50,7 +49,7 @@ impl<const N: usize> Guard<N> {
         } else if self.check.is_at_start() {
             keep(&mut self.of_sound_constants_n, damper, self.at_start_n);
         }
-        // A state latches what it met of damaged constants too.
+        // A state also latches damage of the constants.
         let damper = self.next_state;
         if !loaded.check_state(damper) {
             if self.constants & bit(damper) == 0 {
@@ -77,8 +76,9 @@ impl<const N: usize> Guard<N> {
         found
     }
 
-    /// Writes over the force (N) of each damaged damper the last one from before the damage. A bit may have flipped at
-    /// any time since the round before began, so the force of the tick that found it may be far off.
+    /// Replaces the force (N) of each damaged damper with its last one from before the damage.
+    ///
+    /// A bit may have flipped at any time since the start of the previous round, so the present force can be wrong.
     pub(crate) fn replace_damaged(&self, forces_n: &mut [f32; N]) {
         let sound = self
             .of_sound_constants_n
@@ -94,7 +94,7 @@ impl<const N: usize> Guard<N> {
         }
     }
 
-    /// A damper was loaded. If the old one was damaged, so is what its state came to.
+    /// Records a newly loaded damper. If the old one was damaged, its state is damaged too.
     pub(crate) fn loaded(&mut self, damper: u8) {
         if damper == self.next_constants {
             self.check = Check::START;
@@ -103,7 +103,7 @@ impl<const N: usize> Guard<N> {
         self.constants &= !bit(damper);
     }
 
-    /// Every state was made anew.
+    /// Records that all states were reset.
     pub(crate) fn new_states(&mut self) {
         self.states = 0;
         self.at_start_n = 0.0;
@@ -111,18 +111,18 @@ impl<const N: usize> Guard<N> {
         self.of_sound_states_n = [0.0; N];
     }
 
-    /// The first damper whose constants are damaged.
+    /// Index of the first damper with damaged constants.
     pub(crate) fn damaged_constants(&self) -> Option<u8> {
         first(self.constants)
     }
 
-    /// The first damper whose constants or state are damaged.
+    /// Index of the first damper with damaged constants or a damaged state.
     pub(crate) fn damaged(&self) -> Option<u8> {
         first(self.constants | self.states)
     }
 }
 
-/// The force (N) of a damper in the last tick.
+/// Force (N) of a damper in the last tick.
 fn force_of<const N: usize>(loaded: &Loaded<N>, damper: u8) -> f32 {
     let force = loaded.forces_n().get(usize::from(damper));
     force.copied().unwrap_or_default()
@@ -138,7 +138,7 @@ fn bit(damper: u8) -> u16 {
     1 << (damper % u16::BITS as u8)
 }
 
-/// Whether the damper was not marked before.
+/// Marks a damper. True if it was not marked before.
 fn mark(dampers: &mut u16, damper: u8) -> bool {
     let new = *dampers & bit(damper) == 0;
     *dampers |= bit(damper);

@@ -1,8 +1,7 @@
-//! The dampers a device steps, with their states and the tick count.
+//! The dampers of a device with their states and the tick count.
 
-use heapless::Vec;
-
-use super::message::{Forces, MOST_DAMPERS, Reals, Response};
+use super::lists::{PerDamper, Reals};
+use super::message::{Forces, MAX_DAMPERS, Response};
 use super::refusal::Refusal;
 use super::slots::Slots;
 use crate::bank::step_bank;
@@ -13,18 +12,19 @@ use crate::status::Status;
 
 const STATE_BYTES: usize = DamperState::<f32>::BYTES;
 
-/// Buffer for the states of a bank as bytes.
-pub(crate) type SavedStates = [u8; MOST_DAMPERS * STATE_BYTES];
+/// Buffer for the states of a bank in bytes.
+pub(crate) type SavedStates = [u8; MAX_DAMPERS * STATE_BYTES];
 
-/// A bank whose dampers are not all built for one step.
+/// The dampers of a bank are built for different steps.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("damper {damper} is built for another step than damper 0")]
+#[non_exhaustive]
 pub struct StepSizeError {
-    /// The first damper of another step than the first of all.
+    /// Index of the first damper with another step than damper 0.
     pub damper: usize,
 }
 
-/// Dampers, states, last displacements and forces, tick.
+/// Dampers and states, last displacements and forces, tick count.
 #[derive(Clone, Debug)]
 pub(crate) struct Loaded<const N: usize> {
     dampers: Slots<N>,
@@ -32,7 +32,7 @@ pub(crate) struct Loaded<const N: usize> {
     displacements_m: [f32; N],
     forces_n: [f32; N],
     tick: u32,
-    /// Step of the bank (s), that of its first damper at the start: a damaged one must not decide it.
+    /// Step of the bank (s), copied from the first damper at the start so that later damage cannot change it.
     step_s: f32,
 }
 
@@ -49,7 +49,7 @@ impl<const N: usize> Loaded<N> {
         }
     }
 
-    /// Copies of these dampers, at rest at 0.
+    /// Copies these dampers and puts them at rest at 0.
     pub(crate) fn start(&mut self, dampers: &[&Damper<f32>; N]) -> Result<(), StepSizeError> {
         let step_s = dampers.first().map_or(0.0, |damper| damper.step_s());
         if let Some(damper) = dampers.iter().position(|other| other.step_s() != step_s) {
@@ -77,18 +77,18 @@ impl<const N: usize> Loaded<N> {
         self.step_s
     }
 
-    pub(crate) fn revisions(&self) -> Vec<u32, MOST_DAMPERS> {
+    pub(crate) fn revisions(&self) -> PerDamper<u32> {
         let revisions = self.dampers.all().map(Damper::revision);
         revisions.into_iter().collect()
     }
 
-    /// Displacements (m) of the ticks from now on.
+    /// Sets the displacements (m) of the following ticks.
     pub(crate) fn displace(&mut self, displacements_m: &Reals) -> Result<(), Refusal> {
         self.displacements_m = all(displacements_m)?;
         Ok(())
     }
 
-    /// One tick at the displacements given last.
+    /// Steps once at the last displacements.
     #[inline]
     pub(crate) fn step(&mut self) {
         let (dampers, states) = (self.dampers.all(), &mut self.states);
@@ -96,7 +96,7 @@ impl<const N: usize> Loaded<N> {
         self.tick = self.tick.wrapping_add(1);
     }
 
-    /// Every damper at rest, tick 0.
+    /// Puts every damper at rest and sets the tick to 0.
     pub(crate) fn reset(&mut self, displacements_m: &Reals) -> Result<(), Refusal> {
         let displacements_m = all(displacements_m)?;
         let dampers = self.dampers.all();
@@ -119,12 +119,12 @@ impl<const N: usize> Loaded<N> {
         self.tick = 0;
     }
 
-    /// The damper to load into, for [`Self::replace`].
+    /// Returns the spare damper, which [`Self::replace`] puts into the bank once it is loaded.
     pub(crate) fn spare(&mut self) -> &mut Damper<f32> {
         self.dampers.spare_mut()
     }
 
-    /// Makes the damper that was loaded one of the bank, in place of another, whose state keeps the force.
+    /// Replaces a damper of the bank with the loaded one; the state keeps its force.
     pub(crate) fn replace(&mut self, damper: u8) -> Result<(), Refusal> {
         let step_s = self.spare().step_s();
         if step_s != self.step_s {
@@ -135,7 +135,7 @@ impl<const N: usize> Loaded<N> {
         Ok(())
     }
 
-    /// Changes the clearance 2a (m) of a damper; its state keeps the force.
+    /// Changes the clearance 2a (m) of a damper; the state keeps its force.
     pub(crate) fn set_clearance(&mut self, damper: u8, clearance_m: f32) -> Result<(), Refusal> {
         if let Some(damper) = self.dampers.get_mut(damper) {
             let set = damper.set_clearance_m(clearance_m);
@@ -145,7 +145,7 @@ impl<const N: usize> Loaded<N> {
         Ok(())
     }
 
-    /// Between ticks, so that the next tick costs what every tick costs.
+    /// Adopts a state between ticks, so that the next tick has its usual cost.
     fn carry_over(&mut self, damper: u8) {
         let state = self.states.get_mut(usize::from(damper));
         if let Some((damper, state)) = self.dampers.get(damper).zip(state) {
@@ -153,13 +153,13 @@ impl<const N: usize> Loaded<N> {
         }
     }
 
-    /// Refuses a damper that is not there.
-    pub(crate) fn has(&self, damper: u8) -> Result<(), Refusal> {
+    /// Refuses an index without a damper.
+    pub(crate) fn require_damper(&self, damper: u8) -> Result<(), Refusal> {
         let known = usize::from(damper) < N;
         known.then_some(()).ok_or(Refusal::Damper(N as u8))
     }
 
-    /// Whether a slice of a damper's constants is undamaged; latched when it is not.
+    /// Checks a slice of a damper's constants. Damage returns false and is latched.
     pub(crate) fn check_constants(&mut self, damper: u8, check: &mut Check) -> bool {
         let found = self.dampers.get(damper);
         let good = found.is_none_or(|damper| check.slice(damper).is_ok());
@@ -167,7 +167,7 @@ impl<const N: usize> Loaded<N> {
         good
     }
 
-    /// Whether a damper's state is undamaged, and was when it was last stepped; latched when it is not.
+    /// Checks a damper's state. Damage now or at the last step returns false and is latched.
     pub(crate) fn check_state(&mut self, damper: u8) -> bool {
         let pair = self.dampers.get(damper);
         let pair = pair.zip(self.states.get(usize::from(damper)));
@@ -186,7 +186,7 @@ impl<const N: usize> Loaded<N> {
         }
     }
 
-    /// The states as bytes, in order.
+    /// Writes the states as bytes, in order.
     pub(crate) fn save<'a>(&self, buffer: &'a mut SavedStates) -> &'a [u8] {
         let (bytes, _) = buffer.as_chunks_mut::<STATE_BYTES>();
         for (bytes, state) in bytes.iter_mut().zip(&self.states) {
@@ -195,7 +195,7 @@ impl<const N: usize> Loaded<N> {
         buffer.get(..N * STATE_BYTES).unwrap_or_default()
     }
 
-    /// All states and the tick from bytes; nothing changes unless every state is right.
+    /// Restores the tick and all states from bytes. Nothing changes unless every state is valid.
     pub(crate) fn restore(&mut self, tick: u32, bytes: &[u8]) -> Result<(), Refusal> {
         let (saved, rest) = bytes.as_chunks::<STATE_BYTES>();
         if saved.len() != N || !rest.is_empty() {
@@ -212,7 +212,7 @@ impl<const N: usize> Loaded<N> {
         Ok(())
     }
 
-    /// The tick's result, `outputs_n` for the forces (N).
+    /// Returns the result of the tick, with `outputs_n` as the forces (N).
     pub(crate) fn forces(&self, outputs_n: &[f32; N], clock_ticks: u32) -> Forces {
         Forces {
             tick: self.tick,
@@ -222,7 +222,7 @@ impl<const N: usize> Loaded<N> {
         }
     }
 
-    /// Status bits and rejected inputs.
+    /// Returns status bits and rejected inputs.
     pub(crate) fn status(&self) -> Response<'static> {
         Response::Status {
             status: self.status_bits(),
@@ -230,17 +230,17 @@ impl<const N: usize> Loaded<N> {
         }
     }
 
-    /// Clears what [`Self::status`] tells.
+    /// Clears status bits and rejected inputs.
     pub(crate) fn clear_status(&mut self) {
         self.states.iter_mut().for_each(DamperState::clear_status);
     }
 
-    fn status_bits(&self) -> Vec<u16, MOST_DAMPERS> {
+    fn status_bits(&self) -> PerDamper<u16> {
         self.states.iter().map(|s| s.status().bits()).collect()
     }
 }
 
-/// The numbers of all `N` dampers.
+/// Returns the numbers as an array of `N`, if there are as many.
 fn all<const N: usize>(reals: &Reals) -> Result<[f32; N], Refusal> {
-    <[f32; N]>::try_from(reals.as_slice()).map_err(|_| Refusal::Count(N as u8))
+    <[f32; N]>::try_from(&**reals).map_err(|_| Refusal::Count(N as u8))
 }

@@ -1,141 +1,140 @@
-//! The messages: what a host asks and a device answers, postcard on the wire.
+//! Requests of a host and responses of a device, encoded with postcard.
+//!
+//! The fields of requests and responses are part of [`PROTOCOL`]; a new field is a new version of the protocol.
 
-use heapless::Vec;
 use serde::{Deserialize, Serialize};
 
+use super::lists::{PerDamper, Reals, Samples};
 use super::refusal::Refusal;
 use super::safe_output::LossOfLink;
 use crate::health::HealthReading;
 
-/// Version of the messages; changes whenever the bytes of one do. Messages are added behind the others without it: a
-/// device that does not have one answers [`Refusal::Unreadable`].
+/// Version of the messages. It changes whenever the bytes of a message change. New messages are added at the end
+/// without a new version: a device that does not know one answers [`Refusal::Unreadable`].
 pub const PROTOCOL: u16 = 3;
-/// Dampers a device may hold.
-pub const MOST_DAMPERS: usize = 16;
-/// Telemetry samples in one response at most.
-pub const MOST_SAMPLES: usize = 8;
-/// Measured samples in one request at most.
-pub const MOST_MEASURED: usize = 8;
+/// Largest number of dampers of a device.
+pub const MAX_DAMPERS: usize = 16;
+/// Largest number of telemetry samples in one response.
+pub const MAX_SAMPLES: usize = 8;
+/// Largest number of measured samples in one request.
+pub const MAX_MEASURED: usize = 8;
 /// Bytes of a measured sample.
 pub const MEASURED_BYTES: usize = 8;
 
-/// One number for each damper, in order of the dampers.
-pub type Reals = Vec<f32, MOST_DAMPERS>;
-
-/// What stands before every request and, given back, before its response.
+/// Header of a request, repeated in its response.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Header {
-    /// Chosen by the host when it says hello.
+    /// Session number, chosen by the host in its hello.
     pub session: u16,
-    /// Grows by one with every request of a session and wraps; a repeated request keeps its number.
+    /// Sequence number: increases by one with each request of a session and wraps. A repeated request keeps its number.
     pub sequence: u32,
 }
 
-/// What a host asks. Displacements (m) are positive in extension.
+/// Request of a host. Displacements (m) are positive in extension.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub enum Request<'a> {
-    /// Opens the session of the header. Moves no state.
+    /// Opens the session of the header. Changes no state.
     Hello {
         /// [`PROTOCOL`] of the host.
         protocol: u16,
     },
-    /// Checks an image and puts its damper in the place of another; the state's force is kept.
+    /// Checks an image and replaces a damper with it; the state keeps its force.
     Load {
-        /// Which damper, from 0.
+        /// Index of the damper.
         damper: u8,
-        /// [`Damper::to_image`](crate::Damper), whole.
+        /// Whole image from [`Damper::to_image`](crate::Damper).
         image: &'a [u8],
     },
-    /// Changes one parameter of one damper at once.
+    /// Changes one parameter of one damper immediately.
     Set {
-        /// Which damper, from 0.
+        /// Index of the damper.
         damper: u8,
-        /// Which parameter.
+        /// The parameter.
         parameter: Parameter,
-        /// Its value, in the unit of its name.
+        /// New value, in the unit of the parameter's name.
         value: f32,
     },
-    /// What happens when the link is lost.
+    /// Configures the response to a loss of the link.
     LossOfLink(LossOfLink),
-    /// Puts every damper at rest at these displacements; tick 0.
+    /// Puts every damper at rest at these displacements and sets the tick to 0.
     Reset {
-        /// One a damper (m).
+        /// Displacement of each damper (m).
         displacements_m: Reals,
     },
     /// Steps every damper once.
     Step {
-        /// Tick of these displacements: the last tick and one.
+        /// Tick of these displacements: the last tick plus one.
         tick: u32,
-        /// One a damper (m).
+        /// Displacement of each damper (m).
         displacements_m: Reals,
     },
-    /// Starts the free-running tick with every damper at rest at these displacements; ends a loss of
-    /// link.
+    /// Starts the free-running tick with every damper at rest at these displacements. Ends a loss of the link.
     Run {
-        /// One a damper (m).
+        /// Displacement of each damper (m).
         displacements_m: Reals,
     },
-    /// Displacements of the free-running ticks from now on.
+    /// Sets the displacements of the following free-running ticks.
     Displace {
-        /// One a damper (m).
+        /// Displacement of each damper (m).
         displacements_m: Reals,
     },
-    /// Ends the free-running tick.
+    /// Stops the free-running tick.
     Stop,
-    /// Asks for the states of all dampers.
+    /// Requests the states of all dampers.
     Save,
-    /// Gives all dampers their states back, or none.
+    /// Restores the states of all dampers, or of none.
     Restore {
         /// Tick of the states.
         tick: u32,
         /// [`DamperState::to_bytes`](crate::DamperState) of each damper, in order.
         states: &'a [u8],
     },
-    /// Takes the oldest samples of a damper not yet taken; those of others stay.
+    /// Takes the oldest telemetry samples of one damper that were not yet taken.
     Telemetry {
-        /// Which damper, from 0.
+        /// Index of the damper.
         damper: u8,
     },
-    /// Asks for the counters.
+    /// Requests the counters.
     Counters,
-    /// Asks what the outputs are now.
+    /// Requests the present outputs.
     Outputs,
-    /// Asks for status bits and rejected inputs.
+    /// Requests status bits and rejected inputs.
     Status,
-    /// Clears status bits and rejected inputs of every damper; the answer has what was cleared.
+    /// Clears status bits and rejected inputs of every damper. The response contains the cleared values.
     ClearStatus,
-    /// Checks a model of health and begins an estimate of the damper in a place with it.
+    /// Checks a health model and starts an estimate for one damper with it.
     LoadHealth {
-        /// Which damper, from 0.
+        /// Index of the damper.
         damper: u8,
-        /// [`HealthModel::to_image`](crate::health::HealthModel::to_image), whole.
+        /// Whole image from [`HealthModel::to_image`](crate::health::HealthModel::to_image).
         image: &'a [u8],
     },
-    /// Samples of a real damper for the estimate of its health, one a step.
+    /// Feeds the health estimate with samples of a real damper, one for each step.
     Measure {
-        /// Which damper, from 0.
+        /// Index of the damper.
         damper: u8,
-        /// Of each sample displacement (m) and force (N), little-endian in single precision; [`MOST_MEASURED`] at most.
+        /// Displacement (m) and force (N) of each sample in single precision, little-endian; at most [`MAX_MEASURED`]
+        /// samples.
         samples: &'a [u8],
     },
-    /// Asks for the health of a damper.
+    /// Requests the health of a damper.
     Health {
-        /// Which damper, from 0.
+        /// Index of the damper.
         damper: u8,
     },
-    /// Clears status bits and rejected samples of a damper's health; the answer has what was cleared.
+    /// Clears status bits and rejected samples of a health estimate. The response contains the cleared values.
     ClearHealth {
-        /// Which damper, from 0.
+        /// Index of the damper.
         damper: u8,
     },
 }
 
-/// Parameters by their key in a damper file. Only the clearance can change without a rebuild.
+/// Parameters of a damper file. Only the clearance can change without a rebuild.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub enum Parameter {
-    /// `mount.clearance_m`: 2a, the whole play.
+    /// `mount.clearance_m`: 2a, the total play.
     ClearanceM,
     /// `mount.stiffness_n_per_m`.
     StiffnessNPerM,
@@ -147,63 +146,64 @@ pub enum Parameter {
     ForceLimitN,
 }
 
-/// What a device answers.
+/// Response of a device.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub enum Response<'a> {
-    /// To hello.
+    /// Answers hello.
     #[serde(borrow)]
     Welcome(Welcome<'a>),
-    /// Done as asked.
+    /// The request was carried out.
     Done,
-    /// To step, run and displace.
+    /// Answers step, run and displace.
     Forces(Forces),
-    /// To save.
+    /// Answers save.
     Saved {
         /// Last tick.
         tick: u32,
         /// [`DamperState::to_bytes`](crate::DamperState) of each damper, in order.
         states: &'a [u8],
     },
-    /// To telemetry.
+    /// Answers telemetry.
     Telemetry {
-        /// Samples of the damper lost to newer ones before they were taken.
+        /// Number of samples of the damper that were overwritten before they were taken.
         overwritten: u32,
-        /// Oldest first.
-        samples: Vec<Sample, MOST_SAMPLES>,
+        /// Samples, oldest first.
+        samples: Samples,
     },
-    /// To counters.
+    /// Answers counters.
     Counters(Counters),
-    /// To outputs.
+    /// Answers outputs.
     Outputs {
-        /// What the outputs were set to last (N).
+        /// Last values of the outputs (N), positive when they resist extension.
         outputs_n: Reals,
     },
-    /// To status and clear status.
+    /// Answers status and clear status.
     Status {
         /// Latched [`Status`](crate::Status) bits of each damper.
-        status: Vec<u16, MOST_DAMPERS>,
-        /// Ticks of each damper whose displacement was held or limited, up to 65535.
-        rejected_inputs: Vec<u16, MOST_DAMPERS>,
+        status: PerDamper<u16>,
+        /// Number of ticks of each damper with a held or limited displacement, up to 65535.
+        rejected_inputs: PerDamper<u16>,
     },
-    /// Not done; nothing changed.
+    /// The request was refused and nothing changed.
     Refused(Refusal),
-    /// To health and clear health.
+    /// Answers health and clear health.
     Health(HealthReading),
 }
 
-/// Who answers, and what it holds.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+/// Description of a device and its dampers.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Welcome<'a> {
     /// [`PROTOCOL`] of the device.
     pub protocol: u16,
     /// Version of dashpot-core in the device.
     pub core_version: &'a str,
-    /// [`Damper::revision`](crate::Damper) of each damper loaded now.
-    pub revisions: Vec<u32, MOST_DAMPERS>,
+    /// [`Damper::revision`](crate::Damper) of each loaded damper.
+    pub revisions: PerDamper<u32>,
     /// Type of displacement, force and state.
     pub scalar: Scalar,
-    /// Step of every damper (s).
+    /// Step of all dampers (s).
     pub step_s: f32,
     /// Bytes of a damper's image.
     pub image_bytes: u32,
@@ -211,35 +211,38 @@ pub struct Welcome<'a> {
     pub tick: u32,
     /// Rate of the clock behind [`Forces::clock_ticks`] (Hz).
     pub clock_hz: u32,
-    /// Whether the tick runs free.
+    /// True while the tick runs free.
     pub running: bool,
 }
 
 /// Floating-point type of a device's dampers.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub enum Scalar {
     /// Single precision.
+    #[default]
     F32,
     /// Double precision.
     F64,
 }
 
-/// A tick's result.
+/// Result of a tick.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Forces {
-    /// The tick.
+    /// Tick count.
     pub tick: u32,
     /// Output of each damper (N), positive when it resists extension.
     pub forces_n: Reals,
     /// Latched [`Status`](crate::Status) bits of each damper.
-    pub status: Vec<u16, MOST_DAMPERS>,
-    /// Clock ticks that stepping the bank took.
+    pub status: PerDamper<u16>,
+    /// Duration of stepping the bank in clock ticks.
     pub clock_ticks: u32,
 }
 
-/// A tick of the recorded damper.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+/// One recorded tick of a damper.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Sample {
     /// Tick count.
     pub tick: u32,
@@ -251,24 +254,25 @@ pub struct Sample {
     pub status: u16,
 }
 
-/// What happened since power on; each stops at its largest value.
+/// Counters since power on. Each saturates at its largest value.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Counters {
     /// Requests carried out.
     pub accepted: u32,
-    /// Frames broken on the way: framing, length or CRC-32.
+    /// Corrupt frames: wrong framing, length or CRC-32.
     pub corrupt: u32,
-    /// Whole frames that hold no request of this protocol.
+    /// Intact frames without a request of this protocol.
     pub unreadable: u32,
     /// Requests of a session that is not open.
     pub no_session: u32,
-    /// Requests received again, answered again, not carried out again.
+    /// Repeated requests: answered again, but not carried out again.
     pub repeated: u32,
     /// Requests out of sequence.
     pub out_of_order: u32,
-    /// Requests in sequence that were refused.
+    /// Refused requests among those in sequence.
     pub refused: u32,
-    /// Free-running ticks that had not begun when the next was due.
+    /// Free-running ticks that had not started when the next was due.
     pub overruns: u32,
     /// Losses of the link.
     pub link_losses: u32,
@@ -277,7 +281,7 @@ pub struct Counters {
 }
 
 impl Counters {
-    /// Nothing happened.
+    /// All counters at zero.
     pub(crate) const NONE: Self = Self {
         accepted: 0,
         corrupt: 0,

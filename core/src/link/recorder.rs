@@ -1,14 +1,12 @@
-//! The last ticks of the bank, kept for a host to take damper by damper.
+//! The last ticks of the bank, which a host reads for one damper at a time.
 
-use heapless::Vec;
-
-use super::message::{MOST_SAMPLES, Response, Sample};
+use super::message::{MAX_SAMPLES, Response, Sample};
 use super::refusal::Refusal;
 use crate::state::DamperState;
 use crate::status::Status;
 
-/// Ticks kept of every damper for [`Request::Telemetry`](super::Request::Telemetry): a power of two, so that a count
-/// that wraps goes on in the ring.
+/// Number of ticks kept for [`Request::Telemetry`](super::Request::Telemetry). A power of two: the ring stays in order
+/// as the count of ticks wraps.
 pub const KEPT_TICKS: usize = 64;
 
 /// One tick of the bank.
@@ -20,14 +18,14 @@ struct Tick<const N: usize> {
     status: [Status; N],
 }
 
-/// A ring of ticks that every damper is read from on its own.
+/// A ring of ticks, from which each damper is read separately.
 #[derive(Debug)]
 pub(crate) struct Recorder<const N: usize> {
     ticks: [Tick<N>; KEPT_TICKS],
-    /// Ticks ever recorded, wrapping; modulo the ring it is the index of the next.
+    /// Number of recorded ticks, wrapping. Modulo the length of the ring it is the index of the next tick.
     recorded: u32,
     kept: u32,
-    /// Of those, how many each damper's reader has taken or missed.
+    /// Number of recorded ticks that were taken or missed, for each damper.
     taken: [u32; N],
     overwritten: [u32; N],
 }
@@ -59,7 +57,7 @@ impl<const N: usize> Recorder<N> {
         self.kept = (self.kept + 1).min(KEPT_TICKS as u32);
     }
 
-    /// The oldest samples of a damper that were not taken yet.
+    /// Takes the oldest samples of a damper that were not yet taken.
     pub(crate) fn take(&mut self, damper: u8) -> Result<Response<'static>, Refusal> {
         let index = usize::from(damper);
         let reader = self
@@ -71,17 +69,17 @@ impl<const N: usize> Recorder<N> {
         *overwritten = overwritten.saturating_add(missed);
         *taken = taken.wrapping_add(missed);
         let waiting = self.recorded.wrapping_sub(*taken);
-        let count = waiting.min(MOST_SAMPLES as u32);
+        let count = waiting.min(MAX_SAMPLES as u32);
         let samples = (0..count).filter_map(|sample| {
-            let of = &self.ticks[taken.wrapping_add(sample) as usize % KEPT_TICKS];
+            let recorded = &self.ticks[taken.wrapping_add(sample) as usize % KEPT_TICKS];
             Some(Sample {
-                tick: of.tick,
-                displacement_m: *of.displacements_m.get(index)?,
-                force_n: *of.forces_n.get(index)?,
-                status: of.status.get(index)?.bits(),
+                tick: recorded.tick,
+                displacement_m: *recorded.displacements_m.get(index)?,
+                force_n: *recorded.forces_n.get(index)?,
+                status: recorded.status.get(index)?.bits(),
             })
         });
-        let samples: Vec<Sample, MOST_SAMPLES> = samples.collect();
+        let samples = samples.collect();
         *taken = taken.wrapping_add(count);
         Ok(Response::Telemetry {
             overwritten: *overwritten,

@@ -1,85 +1,85 @@
-//! Why a request was not carried out.
+//! Reasons for refusing a request.
 
 use serde::{Deserialize, Serialize};
 
-use super::message::{MOST_MEASURED, PROTOCOL};
+use super::message::{MAX_MEASURED, PROTOCOL};
 use crate::encoding::ImageError;
 use crate::health::HealthImageError;
 use crate::parameters::Mount;
 
-/// Why a request was not carried out; its text is for a person at the host.
+/// Reason for refusing a request. The text is for the user at the host.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, thiserror::Error)]
 #[non_exhaustive]
 pub enum Refusal {
-    /// The frame was broken on the way; the header is not that of a request. Send again.
+    /// The frame was corrupt. The header of this response is not that of the request. Send it again.
     #[error("the request reached the target broken")]
     Corrupt,
-    /// The frame holds no request of this protocol.
+    /// The frame contains no request of this protocol.
     #[error("the target cannot read the request")]
     Unreadable,
-    /// The device speaks this protocol.
+    /// The device uses this version of the protocol.
     #[error("the target speaks version {0} of the link protocol, this host {PROTOCOL}")]
     Protocol(u16),
-    /// No such session: say hello first. A device that was reset has none.
+    /// The session is not open: send a hello first. A device has no session after a reset.
     #[error("the target knows no such session; say hello first")]
     NoSession,
-    /// Expected this sequence number.
+    /// This sequence number was expected.
     #[error("the target expects the sequence number {0}")]
     OutOfOrder(u32),
-    /// Expected this tick.
+    /// This tick was expected.
     #[error("the target expects tick {0}")]
     Tick(u32),
-    /// Expected this many displacements or states.
+    /// This number of displacements or states was expected.
     #[error("the target has {0} dampers; allowed: one value for each")]
     Count(u8),
-    /// There is no such damper; this many are there.
-    #[error("the target has {0} dampers; allowed: places 0 to {last}", last = .0.saturating_sub(1))]
+    /// The index is out of range; the device has this many dampers.
+    #[error("the target has {0} dampers; allowed: 0 to {last}", last = .0.saturating_sub(1))]
     Damper(u8),
-    /// Needs a rebuild on the host, then a load.
+    /// The change needs a rebuild on the host and a load.
     #[error(
         "the target changes the clearance only; for other parameters build a damper on the host and load it"
     )]
     NeedsRebuild,
-    /// The value is not finite or out of range.
+    /// A value is not finite or out of range.
     #[error(
         "the target refused a value as not finite or out of range; allowed: a clearance of {clearance}, \
-         finite displacements, a link lost after 1 tick or more, 1 to {MOST_MEASURED} whole samples",
+         finite displacements, a link lost after 1 tick or more, 1 to {MAX_MEASURED} whole samples",
         clearance = Mount::RANGES.clearance_m.allowed
     )]
     Range,
-    /// The image is no damper of this device.
+    /// The image is not a valid damper for this device.
     #[error("the target refused the damper's image: {0}")]
     Image(#[source] ImageError),
-    /// The image is of a damper, or of a model of health, built for another step.
+    /// The image is a damper or a health model for another step.
     #[error("the target refused a damper or model of health built for another step")]
     StepSize,
-    /// A saved state is another damper's or damaged.
+    /// A saved state belongs to another damper or is damaged.
     #[error(
         "the target refused a state of another damper, or with values that no step leaves behind"
     )]
     State,
-    /// Not while the tick runs free: stop first.
+    /// The tick runs free: stop it first.
     #[error("the target's tick runs free; stop or reset the target first")]
     Running,
-    /// Only while the tick runs free.
+    /// The tick does not run free.
     #[error("the target's tick does not run free; run it first")]
     NotRunning,
-    /// The link was lost: the safe output stays until run.
+    /// The link was lost. The safe outputs remain until the next run.
     #[error("the target lost the link; its outputs stay safe until it is run again")]
     LinkLost,
-    /// Memory of this damper was damaged: the safe output stays until run or, where it is the constants, until the
-    /// damper is loaded again and run.
+    /// Memory of this damper was damaged. The safe outputs remain until the next run. Damaged constants must be loaded
+    /// again before it.
     #[error(
-        "memory of the damper in place {0} was damaged; the outputs stay safe until it is loaded again and run"
+        "memory of damper {0} was damaged; the outputs stay safe until it is loaded again and run"
     )]
     Corrupted(u8),
-    /// The damper in that place is not watched: load a model of health first. A device that was reset has none, and
-    /// there may be places that it keeps none for.
+    /// The damper is not watched: load a health model first. A device has no models after a reset, and may have room
+    /// for fewer models than dampers.
     #[error(
-        "the target does not watch the damper in that place; load a model of health, in a place that it can watch"
+        "the target does not watch this damper; load a health model for a damper that it can watch"
     )]
     NoHealth,
-    /// The image is no model of health of this device.
+    /// The image is not a valid health model for this device.
     #[error("the target refused the model of health: {0}")]
     HealthImage(#[source] HealthImageError),
 }

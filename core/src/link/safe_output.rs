@@ -1,18 +1,18 @@
-//! What the outputs do when the link is lost or memory was damaged while the tick runs free.
+//! Safe outputs after the loss of the link or damage in memory while the tick runs free.
 
 use serde::{Deserialize, Serialize};
 
-/// When the link counts as lost, and the output then.
+/// Condition for a lost link, and the output from then on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct LossOfLink {
-    /// Ticks without new displacements that are still good, at least 1.
+    /// Number of ticks without new displacements before the link is lost, at least 1.
     pub after_ticks: u32,
-    /// The output from the next tick on.
+    /// Output after the loss.
     pub output: SafeOutput,
 }
 
 impl Default for LossOfLink {
-    /// After 100 ticks to zero in 100 ticks: a tenth of a second each at 1 kHz.
+    /// Loss after 100 ticks, then to zero in 100 ticks: 0.1 s each at 1 kHz.
     fn default() -> Self {
         Self {
             after_ticks: 100,
@@ -25,30 +25,30 @@ impl Default for LossOfLink {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub enum SafeOutput {
-    /// The last good force: of a damper that was found damaged the last one that a check found sound.
+    /// Holds the last good force. For a damaged damper this is the force when a check last found it sound.
     Hold,
-    /// From the last good force, as for [`SafeOutput::Hold`], to zero in equal parts.
+    /// Falls from the force of [`SafeOutput::Hold`] to zero in equal steps.
     RampToZero {
-        /// Ticks from the loss to zero.
+        /// Number of ticks from the loss to zero.
         ticks: u32,
     },
-    /// Zero at once.
+    /// Sets the output to zero immediately.
     Zero,
 }
 
-/// Counts silent ticks and makes the output of each tick.
+/// Counts silent ticks and computes the outputs of each tick.
 #[derive(Clone, Debug)]
 pub(crate) struct Watch<const N: usize> {
     configuration: LossOfLink,
     silent_ticks: u32,
-    /// Ticks of the safe output so far.
+    /// Number of ticks with safe outputs so far.
     safe_ticks: u32,
-    /// Output of the last tick before the safe output (N), or of damaged dampers that from before the damage.
+    /// Output before the safe output (N); for damaged dampers, output before the damage.
     last_good: [f32; N],
 }
 
 impl<const N: usize> Watch<N> {
-    /// All bits zero, to be configured.
+    /// Not configured: all bits are zero.
     pub(crate) const fn new() -> Self {
         Self {
             configuration: LossOfLink {
@@ -61,18 +61,18 @@ impl<const N: usize> Watch<N> {
         }
     }
 
-    /// A new configuration; ticks that were silent until now never lose the link by themselves.
+    /// Sets the configuration. Ticks that were silent so far never lose the link immediately.
     pub(crate) fn configure(&mut self, configuration: LossOfLink) {
         self.silent_ticks = self.silent_ticks.min(configuration.after_ticks);
         self.configuration = configuration;
     }
 
-    /// New displacements came.
+    /// Records the arrival of new displacements.
     pub(crate) fn alive(&mut self) {
         self.silent_ticks = 0;
     }
 
-    /// The tick starts to run free, or stops.
+    /// Starts again as the free-running tick starts or stops.
     pub(crate) fn restart(&mut self) {
         self.alive();
         self.safe_ticks = 0;
@@ -82,13 +82,13 @@ impl<const N: usize> Watch<N> {
         self.silent_ticks > self.configuration.after_ticks
     }
 
-    /// What the safe output holds or starts from (N), to be replaced where a damper is found damaged.
+    /// Forces (N) that the safe output holds or starts from; the guard replaces those of damaged dampers.
     pub(crate) fn last_good_mut(&mut self) -> &mut [f32; N] {
         &mut self.last_good
     }
 
-    /// The outputs of a tick whose dampers give `forces` (N), and whether the link was lost in it. Where
-    /// memory is `damaged` the output is the safe one too.
+    /// Returns the outputs of a tick with these forces (N), and true if this tick lost the link. Damaged memory also
+    /// causes safe outputs.
     pub(crate) fn output(&mut self, forces: &[f32; N], damaged: bool) -> ([f32; N], bool) {
         let was_lost = self.lost();
         self.silent_ticks = self.silent_ticks.saturating_add(1);
@@ -174,8 +174,9 @@ mod tests {
         }
         assert_eq!(watch.output(&[7.0], false), ([7.0 * 0.99], true));
     }
+
     #[test]
-    fn damage_takes_the_safe_output_at_once_and_a_lost_link_goes_on_with_it() {
+    fn damage_starts_the_safe_output_and_a_lost_link_continues_it() {
         let mut watch = Watch::<1>::new();
         watch.configure(LossOfLink {
             after_ticks: 2,

@@ -1,10 +1,11 @@
-//! Carries requests out on the loaded dampers.
+//! Carries out requests on the loaded dampers.
 
 use super::exchange::Progress;
 use super::guard::Guard;
+use super::lists::Reals;
 use super::loaded::{Loaded, SavedStates, StepSizeError};
 use super::message::{
-    Counters, MOST_DAMPERS, PROTOCOL, Parameter, Reals, Request, Response, Scalar, Welcome,
+    Counters, MAX_DAMPERS, PROTOCOL, Parameter, Request, Response, Scalar, Welcome,
 };
 use super::recorder::Recorder;
 use super::refusal::Refusal;
@@ -13,16 +14,21 @@ use super::watched::Watched;
 use crate::damper::Damper;
 use crate::state::DamperState;
 
-/// A free-running clock to measure steps with.
+/// A free-running clock that measures steps.
 #[derive(Clone, Copy, Debug)]
 pub struct Clock {
-    /// Its count, upwards, wrapping.
-    pub now: fn() -> u32,
-    /// Its rate (Hz).
-    pub hz: u32,
+    now: fn() -> u32,
+    hz: u32,
 }
 
-/// Dampers, and everything a request can ask of them.
+impl Clock {
+    /// A clock whose count `now` rises at a rate (Hz) and wraps.
+    pub const fn new(now: fn() -> u32, hz: u32) -> Self {
+        Self { now, hz }
+    }
+}
+
+/// The dampers and all that requests read or change.
 #[derive(Debug)]
 pub(crate) struct Service<const N: usize, const WATCHED: usize> {
     loaded: Loaded<N>,
@@ -39,10 +45,10 @@ pub(crate) struct Service<const N: usize, const WATCHED: usize> {
 }
 
 impl<const N: usize, const WATCHED: usize> Service<N, WATCHED> {
-    /// All bits zero, to be started.
+    /// A service without dampers: all bits are zero.
     pub(crate) const fn new() -> Self {
-        const { assert!(N > 0 && N <= MOST_DAMPERS, "1 to MOST_DAMPERS dampers") };
-        const { assert!(WATCHED <= N, "no more places watched than there are") };
+        const { assert!(N > 0 && N <= MAX_DAMPERS, "1 to MAX_DAMPERS dampers") };
+        const { assert!(WATCHED <= N, "at most as many watched dampers as dampers") };
         Self {
             loaded: Loaded::new(),
             guard: Guard::new(),
@@ -52,7 +58,7 @@ impl<const N: usize, const WATCHED: usize> Service<N, WATCHED> {
             clock: None,
             clock_ticks: 0,
             recorder: Recorder::new(),
-            saved: [0; MOST_DAMPERS * DamperState::<f32>::BYTES],
+            saved: [0; MAX_DAMPERS * DamperState::<f32>::BYTES],
             watched: Watched::new(),
             counters: Counters::NONE,
         }
@@ -77,7 +83,7 @@ impl<const N: usize, const WATCHED: usize> Service<N, WATCHED> {
         &self.loaded
     }
 
-    /// The free-running ticks that are due; nothing while the host steps.
+    /// Runs the free-running ticks that are due. Does nothing while the host steps.
     pub(crate) fn tick(&mut self, due: u32) {
         if !self.running {
             return;
@@ -109,7 +115,7 @@ impl<const N: usize, const WATCHED: usize> Service<N, WATCHED> {
             .record(self.loaded.tick(), self.loaded.states());
     }
 
-    /// Counts a request in sequence that was carried out or refused.
+    /// Counts a request in sequence as accepted or refused.
     pub(crate) fn count_done(&mut self, carried_out: bool) {
         let counters = &mut self.counters;
         count(if carried_out {
@@ -119,7 +125,7 @@ impl<const N: usize, const WATCHED: usize> Service<N, WATCHED> {
         });
     }
 
-    /// A slice of loading an image; true when its damper is one of the bank, or its model watches one.
+    /// Loads a slice of an image. True once the damper or the health model is in use.
     pub(crate) fn load_slice(
         &mut self,
         damper: u8,
@@ -142,21 +148,21 @@ impl<const N: usize, const WATCHED: usize> Service<N, WATCHED> {
         Ok(done)
     }
 
-    /// Carries out a request or says why not; then nothing has changed.
+    /// Carries out a request. A refused request changes nothing.
     pub(crate) fn execute(&mut self, request: &Request<'_>) -> Result<Response<'_>, Refusal> {
         match request {
             Request::Hello { protocol } if *protocol == PROTOCOL => {
                 return Ok(Response::Welcome(self.welcome()));
             }
             Request::Hello { .. } => return Err(Refusal::Protocol(PROTOCOL)),
-            // The rest is done in slices: see `load_slice`.
-            Request::Load { damper, .. } => self.loaded.has(*damper)?,
+            // `load_slice` does the rest.
+            Request::Load { damper, .. } => self.loaded.require_damper(*damper)?,
             Request::Set {
                 damper,
                 parameter,
                 value,
             } => {
-                self.loaded.has(*damper)?;
+                self.loaded.require_damper(*damper)?;
                 if *parameter != Parameter::ClearanceM {
                     return Err(Refusal::NeedsRebuild);
                 }
@@ -184,7 +190,7 @@ impl<const N: usize, const WATCHED: usize> Service<N, WATCHED> {
                 }
                 self.loaded.displace(displacements_m)?;
                 self.step();
-                // The answer alone has them: outputs are driven while the tick runs free.
+                // The outputs are driven only while the tick runs free, so these forces are not outputs.
                 let forces = self.loaded.forces(self.loaded.forces_n(), self.clock_ticks);
                 return Ok(Response::Forces(forces));
             }
@@ -240,21 +246,21 @@ impl<const N: usize, const WATCHED: usize> Service<N, WATCHED> {
                 self.loaded.clear_status();
                 return Ok(cleared);
             }
-            // As of `Load`, the rest is done in slices.
+            // `load_slice` does the rest.
             Request::LoadHealth { damper, .. } => {
-                self.loaded.has(*damper)?;
-                self.watched.has(*damper)?;
+                self.loaded.require_damper(*damper)?;
+                self.watched.require_slot(*damper)?;
             }
             Request::Measure { damper, samples } => {
-                self.loaded.has(*damper)?;
+                self.loaded.require_damper(*damper)?;
                 self.watched.samples(*damper, samples)?;
             }
             Request::Health { damper } => {
-                self.loaded.has(*damper)?;
+                self.loaded.require_damper(*damper)?;
                 return self.watched.reading(*damper).map(Response::Health);
             }
             Request::ClearHealth { damper } => {
-                self.loaded.has(*damper)?;
+                self.loaded.require_damper(*damper)?;
                 let cleared = self.watched.reading(*damper)?;
                 self.watched.clear_status(*damper)?;
                 return Ok(Response::Health(cleared));
@@ -281,7 +287,7 @@ impl<const N: usize, const WATCHED: usize> Service<N, WATCHED> {
         Response::Forces(self.loaded.forces(&self.outputs_n, self.clock_ticks))
     }
 
-    /// Every damper at rest, outputs 0.
+    /// Puts every damper at rest and sets the outputs to 0.
     fn put_at_rest(&mut self, displacements_m: &Reals) -> Result<(), Refusal> {
         self.loaded.reset(displacements_m)?;
         self.guard.new_states();
@@ -289,7 +295,7 @@ impl<const N: usize, const WATCHED: usize> Service<N, WATCHED> {
         Ok(())
     }
 
-    /// Only while the host steps.
+    /// Refuses a request while the tick runs free.
     fn require_host_steps(&self) -> Result<(), Refusal> {
         if self.running {
             Err(Refusal::Running)
@@ -298,7 +304,7 @@ impl<const N: usize, const WATCHED: usize> Service<N, WATCHED> {
         }
     }
 
-    /// Only while the outputs are not the safe ones.
+    /// Refuses a request while the safe outputs are active.
     fn require_outputs_good(&self) -> Result<(), Refusal> {
         match self.guard.damaged() {
             _ if self.watch.lost() => Err(Refusal::LinkLost),
@@ -308,7 +314,7 @@ impl<const N: usize, const WATCHED: usize> Service<N, WATCHED> {
     }
 }
 
-/// Counts one more.
+/// Increments a counter, saturating.
 pub(crate) fn count(counter: &mut u32) {
     *counter = counter.saturating_add(1);
 }

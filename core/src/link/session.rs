@@ -1,4 +1,4 @@
-//! Which request is next: sequence numbers, repeated requests, sessions.
+//! Order of requests: sequence numbers, repeated requests and sessions.
 
 use super::message::Header;
 use super::refusal::Refusal;
@@ -9,25 +9,25 @@ pub(crate) struct Session {
     last: Option<(Header, u32)>,
 }
 
-/// What to do with a request.
+/// How to handle a request.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Verdict {
     /// Carry it out.
     Next,
-    /// Give the stored response again.
+    /// Send the stored response again.
     Repeated,
-    /// Of a session that is not open.
+    /// Refuse it: its session is not open.
     NoSession,
-    /// Not the next one of the session.
+    /// Refuse it: this sequence number is expected.
     OutOfOrder(u32),
 }
 
 impl Session {
-    /// None is open.
+    /// No session is open.
     pub(crate) const NONE: Self = Self { last: None };
 
-    /// Judges a request by its header and the CRC-32 of its message: a repeated one is the last one to
-    /// the bit.
+    /// Decides how to handle a request from its header and the CRC-32 of its message. A repeated request is identical
+    /// to the last one.
     pub(crate) fn judge(&self, header: Header, check: u32) -> Verdict {
         let Some((last, last_check)) = self.last else {
             return Verdict::NoSession;
@@ -44,12 +44,12 @@ impl Session {
         }
     }
 
-    /// Takes a request as the last one; a hello opens its session with it.
+    /// Records a request as the last one. A hello opens its session.
     pub(crate) fn advance(&mut self, header: Header, check: u32) {
         self.last = Some((header, check));
     }
 
-    /// Header of the last request.
+    /// Returns the header of the last request.
     pub(crate) fn last(&self) -> Header {
         self.last.map(|(header, _)| header).unwrap_or_default()
     }

@@ -1,16 +1,16 @@
-//! Storage for the dampers of a bank and one more, which is loaded while the others step.
+//! Storage for the dampers of a bank and a spare one that is loaded while the others step.
 
 use crate::damper::Damper;
 
-/// Dampers in order of their slots; a damper of the bank is where `slots` says.
+/// Dampers in the order of their slots. `slots` has the slot of each damper of the bank.
 #[derive(Clone, Debug)]
 pub(crate) struct Slots<const N: usize> {
     dampers: [Damper<f32>; N],
-    /// The slot after those.
+    /// Damper of the last slot.
     last: Damper<f32>,
     /// Slot of each damper of the bank.
     slots: [u8; N],
-    /// The slot that no damper of the bank is in.
+    /// Slot of the spare damper.
     spare: u8,
 }
 
@@ -25,7 +25,7 @@ impl<const N: usize> Slots<N> {
         }
     }
 
-    /// Copies of these dampers.
+    /// Copies these dampers into the bank.
     pub(crate) fn fill(&mut self, dampers: &[&Damper<f32>; N]) {
         for (slot, damper) in self.dampers.iter_mut().zip(dampers) {
             *slot = **damper;
@@ -34,31 +34,31 @@ impl<const N: usize> Slots<N> {
         self.spare = N as u8;
     }
 
-    /// The bank.
+    /// Returns all dampers of the bank.
     #[inline]
     pub(crate) fn all(&self) -> [&Damper<f32>; N] {
         let slot = |slot| self.dampers.get(usize::from(slot)).unwrap_or(&self.last);
         self.slots.map(slot)
     }
 
-    /// A damper of the bank.
+    /// Returns a damper of the bank.
     pub(crate) fn get(&self, damper: u8) -> Option<&Damper<f32>> {
         let slot = self.slots.get(usize::from(damper))?;
         Some(self.dampers.get(usize::from(*slot)).unwrap_or(&self.last))
     }
 
-    /// As [`Self::get`], to change it.
+    /// Returns a damper of the bank for changes.
     pub(crate) fn get_mut(&mut self, damper: u8) -> Option<&mut Damper<f32>> {
         let slot = *self.slots.get(usize::from(damper))?;
         Some(self.slot_mut(slot))
     }
 
-    /// The damper that is not of the bank.
+    /// Returns the spare damper.
     pub(crate) fn spare_mut(&mut self) -> &mut Damper<f32> {
         self.slot_mut(self.spare)
     }
 
-    /// Makes the spare damper one of the bank and that one the spare.
+    /// Exchanges a damper of the bank with the spare damper.
     pub(crate) fn swap_spare(&mut self, damper: u8) {
         if let Some(slot) = self.slots.get_mut(usize::from(damper)) {
             core::mem::swap(slot, &mut self.spare);

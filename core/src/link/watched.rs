@@ -1,13 +1,13 @@
-//! Estimates of the dampers' health, fed with what sensors measure on real ones.
+//! Health estimates, fed with the measured samples of real dampers.
 
-use super::message::{MEASURED_BYTES, MOST_MEASURED};
+use super::message::{MAX_MEASURED, MEASURED_BYTES};
 use super::refusal::Refusal;
 use crate::health::{Health, HealthLoading, HealthModel, HealthReading};
 
-/// The first `N` places of a bank, each with a model of health once one was loaded.
+/// Health models and estimates of the first `N` dampers of a bank.
 ///
-/// Nothing here moves a damper's state or an output, so memory is not guarded: with any bits an estimate is read
-/// and fed without harm.
+/// They change neither a damper's state nor an output, so memory is not guarded: estimates with any bits can be read
+/// and fed safely.
 #[derive(Clone, Debug)]
 pub(crate) struct Watched<const N: usize> {
     models: [HealthModel; N],
@@ -15,7 +15,7 @@ pub(crate) struct Watched<const N: usize> {
 }
 
 impl<const N: usize> Watched<N> {
-    /// No model yet.
+    /// No models yet.
     pub(crate) const fn new() -> Self {
         Self {
             models: [HealthModel::EMPTY; N],
@@ -23,13 +23,13 @@ impl<const N: usize> Watched<N> {
         }
     }
 
-    /// Refuses a place that no model can be loaded for.
-    pub(crate) fn has(&self, damper: u8) -> Result<(), Refusal> {
+    /// Refuses a damper for which no model can be loaded.
+    pub(crate) fn require_slot(&self, damper: u8) -> Result<(), Refusal> {
         let known = usize::from(damper) < N;
         known.then_some(()).ok_or(Refusal::NoHealth)
     }
 
-    /// A slice of loading a model for a bank of step `step_s` (s); true when its estimate begins.
+    /// Loads a slice of a model for a bank of step `step_s` (s). True once its estimate starts.
     pub(crate) fn load_slice(
         &mut self,
         damper: u8,
@@ -43,14 +43,14 @@ impl<const N: usize> Watched<N> {
         if image.step_s() != step_s {
             return Err(Refusal::StepSize);
         }
-        let place = usize::from(damper);
+        let index = usize::from(damper);
         let pair = self
             .models
-            .get_mut(place)
-            .zip(self.estimates.get_mut(place));
+            .get_mut(index)
+            .zip(self.estimates.get_mut(index));
         let (model, estimate) = pair.ok_or(Refusal::NoHealth)?;
         if loading.writes_nothing_yet() {
-            // None until its model is whole.
+            // There is no estimate until the model is complete.
             *estimate = Health::EMPTY;
         }
         let done = loading.write_slice(&image, model);
@@ -60,26 +60,26 @@ impl<const N: usize> Watched<N> {
         Ok(done)
     }
 
-    /// The model and the estimate of a place that has them.
+    /// Returns model and estimate of a watched damper.
     #[inline]
-    fn get_mut(&mut self, place: usize) -> Option<(&HealthModel, &mut Health)> {
-        let pair = self.models.get(place).zip(self.estimates.get_mut(place));
+    fn get_mut(&mut self, index: usize) -> Option<(&HealthModel, &mut Health)> {
+        let pair = self.models.get(index).zip(self.estimates.get_mut(index));
         pair.filter(|(model, health)| model.is_marked() && health.is_marked())
     }
 
-    /// Takes a sample; false, and no more, in a place without a model.
+    /// Takes a sample. Does nothing and returns false if the damper is not watched.
     #[inline]
-    pub(crate) fn sample(&mut self, place: usize, displacement_m: f32, force_n: f32) -> bool {
-        let pair = self.get_mut(place);
+    pub(crate) fn sample(&mut self, index: usize, displacement_m: f32, force_n: f32) -> bool {
+        let pair = self.get_mut(index);
         pair.map(|(model, health)| health.tick(model, displacement_m, force_n))
             .is_some()
     }
 
-    /// Takes samples as a request has them, all or none.
+    /// Takes all samples of a request, or none.
     pub(crate) fn samples(&mut self, damper: u8, samples: &[u8]) -> Result<(), Refusal> {
         let (model, health) = self.get_mut(usize::from(damper)).ok_or(Refusal::NoHealth)?;
         let (samples, rest) = samples.as_chunks::<MEASURED_BYTES>();
-        if !rest.is_empty() || !(1..=MOST_MEASURED).contains(&samples.len()) {
+        if !rest.is_empty() || !(1..=MAX_MEASURED).contains(&samples.len()) {
             return Err(Refusal::Range);
         }
         for [x0, x1, x2, x3, f0, f1, f2, f3] in samples {
@@ -90,7 +90,7 @@ impl<const N: usize> Watched<N> {
         Ok(())
     }
 
-    /// What is known of a damper.
+    /// Returns the reading of a damper.
     pub(crate) fn reading(&mut self, damper: u8) -> Result<HealthReading, Refusal> {
         let (model, health) = self.get_mut(usize::from(damper)).ok_or(Refusal::NoHealth)?;
         Ok(health.reading(model))

@@ -1,11 +1,11 @@
-//! Cheap approximations, for displays only: nothing the force depends on may use them.
+//! Cheap approximations for displays only. The force must not depend on them.
 
 use micromath::F32Ext;
 
-/// Square root of `value` within 6 %; 0 for 0 and below.
+/// Returns the square root of `value` within 6.1 %; 0 for 0 and below.
 ///
-/// micromath halves the exponent in the number's bits, which is exact at even powers of 2 and largest
-/// in error, 6.07 %, half-way between two.
+/// micromath halves the exponent in the bits of the number. This is exact at even powers of 2. The largest error, 6.07
+/// %, is half-way between two of them.
 pub(crate) fn sqrt(value: f32) -> f32 {
     if value > 0.0 {
         F32Ext::sqrt(value)
@@ -16,9 +16,9 @@ pub(crate) fn sqrt(value: f32) -> f32 {
 
 #[cfg(test)]
 mod tests {
-    /// Worst relative error against the exact root, over two octaves and at either end of a force.
+    /// Checks the largest relative error over two octaves at three magnitudes.
     #[test]
-    fn errs_by_six_percent_at_most() {
+    fn error_is_at_most_six_percent() {
         let mut worst = 0.0_f32;
         for step in 0..40_000 {
             let value = 1.0 + 3.0 * step as f32 / 40_000.0;
@@ -30,7 +30,7 @@ mod tests {
         assert!(worst < 0.062, "worst error {worst}");
         assert!(
             worst > 0.01,
-            "exact after all: {worst}; the documentation is wrong"
+            "the root is exact ({worst}) and the documentation wrong"
         );
         assert_eq!(super::sqrt(0.0), 0.0);
         assert_eq!(super::sqrt(-1.0), 0.0);

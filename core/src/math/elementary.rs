@@ -1,3 +1,3 @@
-//! Functions outside the step, the same bits on every machine (software, by `libm`).
+//! Elementary functions outside the step, from `libm`: software with the same bits on every machine.
 
 pub(crate) use libm::{log, log10, pow, sqrt};

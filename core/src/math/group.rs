@@ -1,4 +1,4 @@
-//! Eight dampers in the vector instructions of a desktop processor.
+//! A group of eight dampers, in the vector instructions of a desktop processor.
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -8,15 +8,15 @@ use wide::{f32x4, f64x4, u32x4, u64x4};
 use super::Lanes;
 use crate::table::{BINS, bin_shift};
 
-/// Lanes of a group.
+/// Number of lanes of a group.
 pub(crate) const GROUP: usize = 8;
 
-/// A number for each damper of a group.
+/// Numbers of a group in single precision.
 pub type F32 = Pair<f32x4>;
-/// As [`F32`].
+/// Numbers of a group in double precision.
 pub type F64 = Pair<f64x4>;
 
-/// Two vectors: the operations of one fill the waiting times of the other.
+/// Two vectors. The processor works on one while the other waits for a result.
 #[derive(Clone, Copy)]
 pub struct Pair<V>(V, V);
 
@@ -45,13 +45,13 @@ impl<V: Neg<Output = V>> Neg for Pair<V> {
     }
 }
 
-/// The two halves of an array.
+/// Splits an array into two halves.
 #[inline(always)]
 fn halves<T: Copy>([a, b, c, d, e, f, g, h]: [T; GROUP]) -> [[T; 4]; 2] {
     [[a, b, c, d], [e, f, g, h]]
 }
 
-/// The array of two halves.
+/// Joins two halves to an array.
 #[inline(always)]
 fn whole<T: Copy>([[a, b, c, d], [e, f, g, h]]: [[T; 4]; 2]) -> [T; GROUP] {
     [a, b, c, d, e, f, g, h]
@@ -97,7 +97,7 @@ macro_rules! group {
             }
             #[inline(always)]
             fn max(self, other: Self) -> Self {
-                // One instruction there; elsewhere it would pass NaN on.
+                // One instruction on x86-64. On other processors `fast_max` would return NaN for NaN.
                 if cfg!(target_arch = "x86_64") {
                     self.zip(other, $vector::fast_max)
                 } else {

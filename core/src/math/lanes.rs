@@ -1,12 +1,12 @@
-//! A number for each of `L` dampers: the step is written once, for one damper and for several.
+//! Numbers of `L` dampers side by side. The step is written once, for one damper and for several.
 //!
-//! Every lane is computed as a single number is, so the bits do not depend on `L`.
+//! Each lane has the same operations as a single number, so the bits do not depend on `L`.
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
 use crate::table::{BINS, bin_shift};
 
-/// `L` numbers computed side by side.
+/// `L` numbers side by side.
 pub trait Lanes<T, const L: usize>:
     Copy
     + Add<Output = Self>
@@ -15,37 +15,37 @@ pub trait Lanes<T, const L: usize>:
     + Div<Output = Self>
     + Neg<Output = Self>
 {
-    /// The numbers of an array.
+    /// Returns the lanes of an array.
     fn new(lanes: [T; L]) -> Self;
-    /// The same number in every lane.
+    /// Returns equal lanes.
     fn splat(value: f64) -> Self;
-    /// The numbers as an array.
+    /// Returns the lanes as an array.
     fn array(self) -> [T; L];
-    /// Four numbers of each lane as four times a number a lane.
+    /// Transposes four numbers of each lane to four columns of lanes.
     fn transpose(rows: [[T; 4]; L]) -> [Self; 4];
     /// Magnitude.
     fn abs(self) -> Self;
-    /// The larger of two numbers that are not zeros of opposite sign; of NaN `other`, which is not NaN.
+    /// Lane-wise maximum; `other` if `self` is NaN. `other` must not be NaN, nor both zeros of opposite sign.
     fn max(self, other: Self) -> Self;
-    /// The smaller of two numbers that are not zeros of opposite sign; of NaN `other`, which is not NaN.
+    /// Lane-wise minimum; `other` if `self` is NaN. `other` must not be NaN, nor both zeros of opposite sign.
     fn min(self, other: Self) -> Self;
-    /// Whether every magnitude is at most that whose [`doubled_bits`](crate::math::Scalar) are given; false for NaN.
+    /// True if no magnitude exceeds its bound, given by its [`doubled_bits`](crate::math::real::Scalar). False for NaN.
     fn all_within(self, doubled_bits: [&T; L]) -> bool;
-    /// Whether each number is not below the limit; true for NaN.
+    /// True for each lane that is not below the limit. True for NaN.
     fn reaches(self, limit: Self) -> [bool; L];
-    /// 0 where `gate` is positive.
+    /// Zero in lanes with a positive `gate`, else unchanged.
     fn unless_positive(self, gate: Self) -> Self;
-    /// Negated where `direction` is below zero.
+    /// Negated in lanes with a negative `direction`, else unchanged.
     fn with_sign_of(self, direction: Self) -> Self;
-    /// Number of the bin of a table that each positive number lies in; of any other number a bin too.
+    /// Index of the table's bin for each positive number; a valid index for any other number.
     fn bins(self) -> [usize; L];
-    /// How many of the second and third of its knots each positive number is beyond.
+    /// Number of knots, among the second and the third, that each positive number exceeds.
     fn knots_passed(self, knots: [[T; 4]; L]) -> [usize; L];
-    /// 1 where the sign bit is set, else 0.
+    /// Sign bit of each lane, 0 or 1.
     fn sign_bits(self) -> [usize; L];
 }
 
-/// One number is one lane.
+/// Implements a single number as one lane.
 macro_rules! single_lane {
     ($float:ident, $bits:ident) => {
         impl Lanes<$float, 1> for $float {
@@ -69,7 +69,7 @@ macro_rules! single_lane {
             fn abs(self) -> Self {
                 $float::abs(self)
             }
-            // One instruction on either machine; they differ only for NaN and signed zeros.
+            // One instruction on each machine. The variants differ only for NaN and signed zeros.
             #[inline(always)]
             fn max(self, other: Self) -> Self {
                 if cfg!(target_arch = "arm") {
@@ -92,8 +92,8 @@ macro_rules! single_lane {
             }
             #[inline(always)]
             fn all_within(self, [doubled_bits]: [&$float; 1]) -> bool {
-                // Without its sign; the bits of NaN are beyond those of every number. Read as bits, the bound is what
-                // one instruction compares with the shifted bits.
+                // The shift drops the sign; the bits of NaN exceed those of all numbers. One instruction compares the
+                // shifted bits with the bits of the bound.
                 let bound: &$bits = zerocopy::transmute_ref!(doubled_bits);
                 *bound >= self.to_bits() << 1
             }
@@ -108,7 +108,7 @@ macro_rules! single_lane {
             }
             #[inline(always)]
             fn with_sign_of(self, direction: Self) -> Self {
-                // One instruction, where an `if` is two on some.
+                // One instruction; an `if` takes two on some processors.
                 core::hint::select_unpredictable(direction >= 0.0, self, -self)
             }
             #[inline(always)]
@@ -117,7 +117,7 @@ macro_rules! single_lane {
             }
             #[inline(always)]
             fn knots_passed(self, [[_, next, second, _]]: [[$float; 4]; 1]) -> [usize; 1] {
-                // Positive numbers are in the order of their bits.
+                // The bits of positive numbers are in the same order as the numbers.
                 let passed = |knot: $float| {
                     (knot.to_bits().wrapping_sub(self.to_bits()) >> ($bits::BITS - 1)) as usize
                 };

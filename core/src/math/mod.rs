@@ -1,4 +1,4 @@
-//! Arithmetic the step is allowed to use: + - * /, exact in IEEE 754.
+//! Arithmetic of the step: + - * / only, which IEEE 754 defines exactly.
 
 pub(crate) mod approximate;
 #[cfg_attr(

@@ -1,4 +1,4 @@
-//! The scalar of the step: `f32` on the target, `f64` on the desk.
+//! The scalar of the step: `f32` on the target, `f64` on the desktop.
 
 use core::fmt::Debug;
 use core::ops::{Add, Div, Mul, Neg, Sub};
@@ -7,7 +7,7 @@ use super::Lanes;
 use super::group::{self, GROUP};
 use crate::table::Table;
 
-/// The scalar of a damper: `f32` or `f64`, and no other type.
+/// Scalar of a damper, implemented only for `f32` and `f64`.
 ///
 /// ```
 /// use dashpot_core::Real;
@@ -19,22 +19,22 @@ use crate::table::Table;
 /// assert_eq!(<f64 as Real>::NAME, "f64");
 /// ```
 pub trait Real: Scalar {
-    /// `f32` or `f64`.
+    /// Name of the type: `f32` or `f64`.
     const NAME: &'static str;
     /// Zero.
     const ZERO: Self;
 
-    /// The nearest representable number.
+    /// Rounds to the nearest representable number.
     fn from_f64(value: f64) -> Self;
-    /// The same number in double precision.
+    /// Converts to double precision.
     fn to_f64(self) -> f64;
-    /// Bits, zero-extended.
+    /// Returns the bits, zero-extended.
     fn to_bits_u64(self) -> u64;
-    /// Whether the number is neither NaN nor infinite.
+    /// True if the number is neither NaN nor infinite.
     fn is_finite(self) -> bool;
 }
 
-/// What the step and the builder need of a scalar; out of reach of other crates, so that they cannot add one.
+/// Operations of a scalar for the step and the builder. Not public, so other crates cannot implement [`Real`].
 pub trait Scalar:
     Copy
     + Debug
@@ -50,22 +50,23 @@ pub trait Scalar:
     + Lanes<Self, 1>
     + 'static
 {
-    /// A number for each damper of a group.
+    /// Numbers of a group of dampers.
     type Group: Lanes<Self, GROUP>;
 
     /// Distance from 1 to the next larger number.
     const EPSILON: f64;
     /// Largest finite number.
     const MAX: Self;
-    /// Significant binary digits.
+    /// Number of significant binary digits.
     const MANTISSA_DIGITS: u32;
-    /// A table without meaning, to be written.
+    /// A table of zeros.
     const ZERO_TABLE: Table<Self>;
 
-    /// The number whose bits are twice those of this one, a magnitude below 1.5: the step compares it with the bits
-    /// of a number without their sign, one instruction where numbers take three.
+    /// Returns the number with the doubled bits of this one, which must be a magnitude below 1.5.
+    ///
+    /// The step compares it with the bits of another number without the sign: one instruction instead of three.
     fn doubled_bits(self) -> Self;
-    /// The inverse of [`Scalar::doubled_bits`].
+    /// Inverse of [`Scalar::doubled_bits`].
     fn halved_bits(self) -> Self;
     /// See [`Table::index`].
     fn index(table: &mut Table<Self>);

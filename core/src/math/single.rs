@@ -1,9 +1,9 @@
-//! Where there are no vector instructions a group is one damper.
+//! A group of one damper, for processors without vector instructions.
 
-/// Lanes of a group.
+/// Number of lanes of a group.
 pub(crate) const GROUP: usize = 1;
 
-/// A number for each damper of a group.
+/// Numbers of a group in single precision.
 pub type F32 = f32;
-/// As [`F32`].
+/// Numbers of a group in double precision.
 pub type F64 = f64;

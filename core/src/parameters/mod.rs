@@ -1,22 +1,34 @@
-//! What a damper is: parameters in SI units, as a damper file or a literal gives them.
+//! Parameters of a damper in SI units, from a damper file or from code.
 //!
-//! Signals of the element: `x` relative displacement of the two seats, positive in
-//! extension (m); `F` force (N), positive when it resists extension.
+//! Signals of the element: `x` is the relative displacement of the two seats (m), positive in extension; `F` is the
+//! force (N), positive when it resists extension.
+//!
+//! Each structure is made by `new` with the parameters it requires; setters change the others, also in a `const`:
+//!
+//! ```
+//! use dashpot_core::parameters::{DamperParameters, Limits, Mount};
+//!
+//! const MOUNT: Mount = Mount::new(8e6).clearance_m(1e-3);
+//! const WORN: DamperParameters =
+//!     DamperParameters::reduced(60e3, 0.03, MOUNT).limits(Limits::DEFAULT.force_n(20e3));
+//! assert_eq!((WORN.mount.clearance_m, WORN.limits.force_n), (1e-3, 20e3));
+//! ```
 
 mod hydraulics;
 #[cfg(feature = "builder")]
 mod numbers;
 mod oil;
 mod range;
+mod shims;
 #[cfg(feature = "serde")]
 mod written;
 
 #[cfg(feature = "builder")]
 pub(crate) use hydraulics::circle_area;
 pub use hydraulics::{
-    Geometry, GeometryRanges, Hydraulics, Leakage, LeakageRanges, MAX_SHIMS, Orifice,
-    OrificeRanges, Relief, ReliefRanges, Reservoir, ReservoirRanges, Seal, SealRanges, TwoChamber,
-    TwoChamberRanges, Valve, ValveRanges, Valves,
+    Geometry, GeometryRanges, Hydraulics, Leakage, LeakageRanges, Orifice, OrificeRanges, Relief,
+    ReliefRanges, Reservoir, ReservoirRanges, Seal, SealRanges, TwoChamber, TwoChamberRanges,
+    Valve, ValveRanges, Valves,
 };
 #[cfg(feature = "builder")]
 pub(crate) use numbers::Numbers;
@@ -25,18 +37,19 @@ pub use oil::{
 };
 pub use range::Range;
 use range::{allowed, parameters};
+pub use shims::{MAX_SHIMS, Shims};
 
-/// Step sizes (s) that a damper can be built for.
+/// Step sizes for which a damper can be built (s).
 pub const STEP_RANGE_S: core::ops::RangeInclusive<f64> = 1e-6..=2e-2;
 
 /// [`STEP_RANGE_S`] in words.
 pub const STEP_ALLOWED: &str = "1e-6 to 2e-2 s";
 
 /// Largest clearance 2a (m).
-pub const LARGEST_CLEARANCE_M: f64 = Mount::RANGES.clearance_m.greatest;
+pub const MAX_CLEARANCE_M: f64 = Mount::RANGES.clearance_m.max;
 
-/// Largest force limit (N). No step returns more, whatever bits its damper and state have.
-pub const LARGEST_FORCE_N: f64 = Limits::RANGES.force_n.greatest;
+/// Largest force limit (N). No step returns more, even if its damper or state is damaged.
+pub const MAX_FORCE_N: f64 = Limits::RANGES.force_n.max;
 
 /// Everything that defines one damper.
 ///
@@ -49,12 +62,13 @@ pub const LARGEST_FORCE_N: f64 = Limits::RANGES.force_n.greatest;
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub struct DamperParameters {
-    /// What makes the force: hydraulics or the reduced in-service law.
+    /// The force element: hydraulics or the reduced in-service law.
     pub element: Element,
     /// Seats, rubber and clearance in series with the element.
     pub mount: Mount,
-    /// Bounds on force and input that hold whatever the input is.
+    /// Bounds on force and input.
     pub limits: Limits,
 }
 
@@ -62,6 +76,7 @@ pub struct DamperParameters {
 #[derive(Clone, Debug, PartialEq)]
 #[allow(clippy::large_enum_variant)] // built once on the host, never in an array
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub enum Element {
     /// Oil through orifice and shim-pack valves.
     Physical(Hydraulics),
@@ -70,21 +85,29 @@ pub enum Element {
 }
 
 impl DamperParameters {
-    /// A damper of this element on this mount, with the default limits.
-    pub fn new(element: Element, mount: Mount) -> Self {
+    /// A damper with this element and mount and the default limits.
+    pub const fn new(element: Element, mount: Mount) -> Self {
         Self {
             element,
             mount,
-            limits: Limits::default(),
+            limits: Limits::DEFAULT,
         }
     }
 
-    /// The reduced element: damping coefficient C (N s/m), saturation velocity V_r (m/s).
-    pub fn reduced(damping_n_s_per_m: f64, saturation_velocity_m_per_s: f64, mount: Mount) -> Self {
-        let reduced = Reduced {
-            damping_n_s_per_m,
-            saturation_velocity_m_per_s,
-        };
+    /// Sets the limits.
+    #[must_use]
+    pub const fn limits(mut self, limits: Limits) -> Self {
+        self.limits = limits;
+        self
+    }
+
+    /// A damper with the reduced element: damping coefficient C (N s/m), saturation velocity V_r (m/s).
+    pub const fn reduced(
+        damping_n_s_per_m: f64,
+        saturation_velocity_m_per_s: f64,
+        mount: Mount,
+    ) -> Self {
+        let reduced = Reduced::new(damping_n_s_per_m, saturation_velocity_m_per_s);
         Self::new(Element::Reduced(reduced), mount)
     }
 }
@@ -93,23 +116,30 @@ parameters! {
     /// Seats of the damper: springs and clearance in series with it.
     #[derive(Copy)]
     pub struct Mount, MountRanges {
-        /// Stiffness of the rubber bushes, or the whole effective stiffness Ke (N/m).
+        /// Stiffness of the rubber bushes, or the total effective stiffness Ke (N/m).
         stiffness_n_per_m: f64, 1e4 to 1e12 "N/m";
-        /// Stiffness of the seats (N/m); `None` is rigid.
+        /// Stiffness of the seats (N/m); `None` for rigid seats.
         seat_stiffness_n_per_m: Option<f64>, 1e4 to 1e12 "N/m";
-        /// Clearance 2a between damper and seats, the whole play (m).
+        /// Clearance 2a between damper and seats: the total play (m).
         clearance_m: f64 = 0, 0 to 0.1 "m";
     }
 }
 
 impl Mount {
-    /// One spring (N/m), rigid seats, no clearance.
-    pub fn new(stiffness_n_per_m: f64) -> Self {
+    /// A mount with one spring (N/m), rigid seats and no clearance.
+    pub const fn new(stiffness_n_per_m: f64) -> Self {
         Self {
             stiffness_n_per_m,
             seat_stiffness_n_per_m: None,
-            clearance_m: 0.0,
+            clearance_m: const { Self::RANGES.clearance_m.default.unwrap() },
         }
+    }
+
+    /// Sets the stiffness of the seats (N/m), which are rigid by default.
+    #[must_use]
+    pub const fn seat_stiffness_n_per_m(mut self, stiffness_n_per_m: f64) -> Self {
+        self.seat_stiffness_n_per_m = Some(stiffness_n_per_m);
+        self
     }
 
     /// Compliance of rubber and seats in series, `1/K_rubber + 1/K_seat` (m/N).
@@ -130,34 +160,48 @@ parameters! {
     }
 }
 
-parameters! {
-    /// Bounds that hold whatever the input is.
-    #[derive(Copy)]
-    pub struct Limits, LimitsRanges {
-        /// Largest force magnitude (N); beyond it the damper yields at constant force.
-        force_n: f64 = 50e3, 1 to 1e7
-            => "1 to 1e7 N, above twice seal.friction_n, at most half of oil.column.bulk_modulus_pa times the area under pressure";
-        /// Largest credible rate of the displacement input (m/s); a faster input is followed at
-        /// this rate and flagged.
-        rate_m_per_s: f64 = 2, 1e-3 to 100 "m/s";
-        /// Largest credible displacement from zero (m), either way: half the stroke, and what the zero of the sensor
-        /// lies off its middle. An input beyond it is held and flagged.
-        displacement_m: f64 = 0.5, 1e-3 to 0.7 "m";
-    }
-}
-
-impl Default for Limits {
-    fn default() -> Self {
+impl Reduced {
+    /// The element of this damping coefficient (N s/m) and saturation velocity (m/s).
+    pub const fn new(damping_n_s_per_m: f64, saturation_velocity_m_per_s: f64) -> Self {
         Self {
-            force_n: const { Self::RANGES.force_n.default.unwrap() },
-            rate_m_per_s: const { Self::RANGES.rate_m_per_s.default.unwrap() },
-            displacement_m: const { Self::RANGES.displacement_m.default.unwrap() },
+            damping_n_s_per_m,
+            saturation_velocity_m_per_s,
         }
     }
 }
 
-/// Every parameter: the table of a damper file it stands in, and its range. A table `valves` stands for each of
-/// the three.
+parameters! {
+    /// Bounds on force and input.
+    #[derive(Copy)]
+    pub struct Limits, LimitsRanges {
+        /// Largest force magnitude (N); at this force the damper yields.
+        force_n: f64 = 50e3, 1 to 1e7
+            => "1 to 1e7 N, above twice seal.friction_n, at most half of oil.column.bulk_modulus_pa times the area under pressure";
+        /// Largest credible rate of the displacement input (m/s); a faster input is followed at this rate and flagged.
+        rate_m_per_s: f64 = 2, 1e-3 to 100 "m/s";
+        /// Largest credible displacement from zero in either direction (m): half the stroke plus the offset of the
+        /// sensor's zero from mid-stroke. An input beyond it is held and flagged.
+        displacement_m: f64 = 0.5, 1e-3 to 0.7 "m";
+    }
+}
+
+impl Limits {
+    /// Limits with every default.
+    pub const DEFAULT: Self = Self {
+        force_n: Self::RANGES.force_n.default.unwrap(),
+        rate_m_per_s: Self::RANGES.rate_m_per_s.default.unwrap(),
+        displacement_m: Self::RANGES.displacement_m.default.unwrap(),
+    };
+}
+
+impl Default for Limits {
+    fn default() -> Self {
+        Self::DEFAULT
+    }
+}
+
+/// Iterates over all parameters: the table of a damper file that holds each, and its range. The table `valves` is
+/// listed once for the three valves.
 ///
 /// ```
 /// let mut all = dashpot_core::parameters::ranges();

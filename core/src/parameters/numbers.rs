@@ -1,10 +1,10 @@
-//! The numbers of a field, which its range is checked for.
+//! The numbers of a field, for checking its range.
 
-use heapless::Vec;
+use super::Shims;
 
-/// A field of a table.
+/// A field of a damper file's table.
 pub(crate) trait Numbers {
-    /// Its numbers.
+    /// Returns every number of the field.
     fn numbers(&self) -> &[f64];
 }
 
@@ -20,7 +20,7 @@ impl Numbers for Option<f64> {
     }
 }
 
-impl<const N: usize> Numbers for Vec<f64, N> {
+impl Numbers for Shims {
     fn numbers(&self) -> &[f64] {
         self
     }

@@ -1,29 +1,29 @@
-//! Ranges and defaults: written once, beside the field; checks, error texts and documentation come from there.
+//! Ranges and defaults. Each is written once, next to its field; checks, error texts and documentation come from there.
 
 /// Range and default of one parameter.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Range {
-    /// Key in a damper file; it ends with the unit.
+    /// Key in a damper file. It ends with the unit.
     pub key: &'static str,
-    /// Least value, in the key's unit.
-    pub least: f64,
-    /// Greatest value, in the key's unit.
-    pub greatest: f64,
-    /// The range in words, and what else the value must keep.
+    /// Smallest allowed value, in the key's unit.
+    pub min: f64,
+    /// Largest allowed value, in the key's unit.
+    pub max: f64,
+    /// The range in words, with any relation to other parameters.
     pub allowed: &'static str,
-    /// Value where a damper file gives none.
+    /// Value used when a damper file omits the key; `None` if the key is required.
     pub default: Option<f64>,
 }
 
 impl Range {
-    /// Whether a value lies in the range; false for NaN.
+    /// True if the value is in the range. False for NaN.
     pub fn contains(&self, value: f64) -> bool {
-        (self.least..=self.greatest).contains(&value)
+        (self.min..=self.max).contains(&value)
     }
 }
 
-/// `None`, or `Some` of what is given.
+/// `Some` of the literal, or `None` without one.
 macro_rules! optional {
     () => {
         None
@@ -34,24 +34,25 @@ macro_rules! optional {
 }
 pub(crate) use optional;
 
-/// A range in words: its bounds and its unit, or the words given instead.
+/// A range in words: bounds and unit, or the given text.
 macro_rules! allowed {
-    ($least:literal $greatest:literal) => {
-        concat!($least, " to ", $greatest)
+    ($min:literal $max:literal) => {
+        concat!($min, " to ", $max)
     };
-    ($least:literal $greatest:literal $unit:literal) => {
-        concat!($least, " to ", $greatest, " ", $unit)
+    ($min:literal $max:literal $unit:literal) => {
+        concat!($min, " to ", $max, " ", $unit)
     };
-    ($least:literal $greatest:literal => $allowed:literal) => {
+    ($min:literal $max:literal => $allowed:literal) => {
         $allowed
     };
 }
 pub(crate) use allowed;
 
-/// A table of a damper file: each field with its type, its default, and its range with the unit, or with `=>` and
-/// words where it depends on other fields.
+/// Declares one table of a damper file: for each field its type, optional default and range. The range is followed by
+/// its unit, or by `=>` and a text if it depends on other fields.
 ///
-/// Makes the structure, its documentation, its `RANGES`, `check_ranges` by them, and what reads it by serde.
+/// Generates the struct with its documentation, a setter for each field with a default, `RANGES`, `check_ranges` and
+/// `serde::Deserialize`.
 macro_rules! parameters {
     (
         $(#[$attribute:meta])*
@@ -59,7 +60,7 @@ macro_rules! parameters {
             $(
                 $(#[$field_attribute:meta])*
                 $field:ident: $type:ty $(= $default:literal)?,
-                $least:literal to $greatest:literal $($unit:literal)? $(=> $allowed:literal)?;
+                $min:literal to $max:literal $($unit:literal)? $(=> $allowed:literal)?;
             )+
         }
         $(tables {
@@ -72,11 +73,12 @@ macro_rules! parameters {
         $(#[$attribute])*
         #[derive(Clone, Debug, PartialEq)]
         #[cfg_attr(feature = "serde", derive(serde::Serialize))]
+        #[non_exhaustive]
         pub struct $name {
             $(
                 $(#[$field_attribute])*
                 ///
-                #[doc = concat!("Allowed: ", allowed!($least $greatest $($unit)? $(=> $allowed)?), ".")]
+                #[doc = concat!("Allowed: ", allowed!($min $max $($unit)? $(=> $allowed)?), ".")]
                 $(#[doc = concat!("Default: ", $default, ".")])?
                 pub $field: $type,
             )+
@@ -88,15 +90,16 @@ macro_rules! parameters {
 
         #[doc = concat!("Range and default of each parameter of [`", stringify!($name), "`].")]
         #[derive(Clone, Copy, Debug, PartialEq)]
+        #[non_exhaustive]
         pub struct $ranges {
             $(
-                #[doc = concat!("Of [`", stringify!($name), "::", stringify!($field), "`].")]
+                #[doc = concat!("Range of `", stringify!($name), "::", stringify!($field), "`.")]
                 pub $field: $crate::parameters::Range,
             )+
         }
 
         impl $ranges {
-            /// The ranges in order of declaration.
+            /// Iterates over the ranges in order of declaration.
             pub fn all(&self) -> impl Iterator<Item = $crate::parameters::Range> {
                 [$(self.$field),+].into_iter()
             }
@@ -109,15 +112,27 @@ macro_rules! parameters {
                 $(
                     $field: $crate::parameters::Range {
                         key: stringify!($field),
-                        least: $least as f64,
-                        greatest: $greatest as f64,
-                        allowed: allowed!($least $greatest $($unit)? $(=> $allowed)?),
+                        min: $min as f64,
+                        max: $max as f64,
+                        allowed: allowed!($min $max $($unit)? $(=> $allowed)?),
                         default: $crate::parameters::range::optional!($($default)?),
                     },
                 )+
             };
 
-            /// The first parameter out of its range, as an error that names it in `table`.
+            $($(
+                #[doc = concat!("Sets `", stringify!($field), "`; the default is ", $default, ".")]
+                #[must_use]
+                pub const fn $field(mut self, $field: $type) -> Self {
+                    self.$field = $field;
+                    self
+                }
+            )?)+
+
+            /// Checks every parameter against its range.
+            ///
+            /// # Errors
+            /// The first parameter that is out of range, as a field of `table`.
             #[cfg(feature = "builder")]
             pub(crate) fn check_ranges(
                 &self,
@@ -132,7 +147,7 @@ macro_rules! parameters {
         #[allow(clippy::unnecessary_cast)] // literals with and without a point
         impl<'de> serde::Deserialize<'de> for $name {
             fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-                /// What a damper file gives.
+                /// The keys of a damper file.
                 #[derive(serde::Deserialize)]
                 #[serde(deny_unknown_fields)]
                 struct $name {

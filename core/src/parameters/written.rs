@@ -1,13 +1,12 @@
-//! The value of a key of a damper file: what is written, else its default.
+//! The value of a key of a damper file: as written, or its default.
 
-use heapless::Vec;
 use serde::de::Error;
 
-use super::OilColumn;
+use super::{OilColumn, Shims};
 
-/// A field of a table.
+/// A field of a damper file's table.
 pub(crate) trait Written: Sized {
-    /// Its value where nothing is written and there is no default; `None` where it must be written.
+    /// Value of an omitted key without a default; `None` if the key is required.
     fn absent() -> Option<Self>;
 }
 
@@ -29,13 +28,16 @@ impl Written for Option<OilColumn> {
     }
 }
 
-impl<const N: usize> Written for Vec<f64, N> {
+impl Written for Shims {
     fn absent() -> Option<Self> {
-        Some(Self::new())
+        Some(Self::EMPTY)
     }
 }
 
-/// The value of `key`.
+/// Returns the value of `key`.
+///
+/// # Errors
+/// A required key is missing.
 pub(crate) fn written<T: Written, E: Error>(
     written: Option<T>,
     default: Option<T>,

@@ -1,11 +1,10 @@
-//! One annular disc under uniform pressure.
+//! An annular disc under uniform pressure.
 
-use heapless::Vec;
 use nalgebra::{Matrix4, Vector4};
 
 use crate::error::BuildError;
 use crate::math::elementary::log;
-use crate::parameters::Valve;
+use crate::parameters::{Shims, Valve};
 
 /// Annular disc of a pack: clamped at `clamp_radius_m`, free at `free_radius_m`.
 ///
@@ -32,7 +31,9 @@ pub struct Disc {
 }
 
 impl Disc {
-    /// Solves the disc's four boundary conditions; `section` names the disc in errors.
+    /// Solves the four boundary conditions of a disc: radii (m), elastic modulus (Pa), Poisson's ratio (1).
+    ///
+    /// `section` names the disc in errors.
     ///
     /// # Errors
     /// A radius, the modulus or Poisson's ratio out of the range of [`Valve::RANGES`].
@@ -43,17 +44,16 @@ impl Disc {
         elastic_modulus_pa: f64,
         poisson_ratio: f64,
     ) -> Result<Self, BuildError> {
-        let valve = Valve {
-            elastic_modulus_pa,
-            poisson_ratio,
-            // Any thickness: the coefficients hold for all.
-            ..Valve::with_shims(clamp_radius_m, free_radius_m, Vec::from_array([1e-3]), 0.0)
-        };
+        // The coefficients do not depend on the thickness.
+        const ANY: Shims = Shims::new(&[1e-3]).unwrap();
+        let valve = Valve::with_shims(clamp_radius_m, free_radius_m, ANY, 0.0)
+            .elastic_modulus_pa(elastic_modulus_pa)
+            .poisson_ratio(poisson_ratio);
         valve.check(section)?;
         Ok(Self::of(&valve))
     }
 
-    /// The disc of a valve that was checked.
+    /// Returns the disc of a checked valve.
     pub(crate) fn of(valve: &Valve) -> Self {
         let &Valve {
             clamp_radius_m,
@@ -64,8 +64,8 @@ impl Disc {
         } = valve;
         let q = clamp_radius_m / free_radius_m;
         let (nu, ln) = (poisson_ratio, log(q));
-        // Rows: w(q) = 0, w'(q) = 0, shear(1) = 0, moment(1) = 0, each for
-        // ln q, q^2, q^2 ln q, 1; on the right the load q^4/64.
+        // Rows: w(q) = 0, w'(q) = 0, shear(1) = 0, moment(1) = 0. Columns: ln q, q^2, q^2 ln q, 1. The right-hand side
+        // is the load q^4/64.
         #[rustfmt::skip]
         let conditions = Matrix4::new(
             ln,       q * q,           q * q * ln,          1.0,
@@ -93,7 +93,7 @@ impl Disc {
         }
     }
 
-    /// Deflection coefficient `Cw(r)` (m^6/N) of `w = Cw P/h^3`, `r` held within the disc.
+    /// Deflection coefficient `Cw(r)` (m^6/N) of `w = Cw P/h^3`; the radius (m) is limited to the disc.
     pub fn deflection_coefficient(&self, radius_m: f64) -> f64 {
         let q =
             (radius_m / self.free_radius_m).clamp(self.clamp_radius_m / self.free_radius_m, 1.0);
@@ -102,12 +102,12 @@ impl Disc {
         self.scale * (c1 * ln + c2 * square + c3 * square * ln + c4 + square * square / 64.0)
     }
 
-    /// Largest deflection as `K` of `w(r_w) = K P r_w^4/D` (1) (Roark, case 2l).
+    /// Coefficient `K` of the largest deflection `w(r_w) = K P r_w^4/D` (1) (Roark, case 2l).
     pub fn edge_coefficient(&self) -> f64 {
         self.deflection_coefficient(self.free_radius_m) / self.scale
     }
 
-    /// Radial moment at the clamp as `K` of `|M| = K P r_w^2` (1) (Roark, case 2l).
+    /// Coefficient `K` of the radial moment at the clamp `|M| = K P r_w^2` (1) (Roark, case 2l).
     pub fn clamp_moment_coefficient(&self) -> f64 {
         let q = self.clamp_radius_m / self.free_radius_m;
         let nu = self.poisson_ratio;

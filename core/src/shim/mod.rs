@@ -1,4 +1,4 @@
-//! Shim packs: thin annular discs clamped at the inner edge, bent open by oil pressure.
+//! Shim packs: thin annular discs, clamped at the inner edge, that oil pressure bends open.
 
 mod disc;
 mod pack;

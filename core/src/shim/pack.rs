@@ -1,41 +1,39 @@
-//! A frictionless stack of discs and the edge compliance of a valve.
-
-use heapless::Vec;
+//! A stack of discs without friction, and the edge compliance of a valve.
 
 use super::Disc;
 use crate::error::BuildError;
-use crate::parameters::{MAX_SHIMS, Valve};
+use crate::parameters::{Shims, Valve};
 
-/// Stack of discs with equal radii that slide on each other: `h_e^3 = sum h_i^3`.
+/// Stack of discs with equal radii that slide on each other without friction: `h_e^3 = sum h_i^3`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pack {
     disc: Disc,
-    shims_m: Vec<f64, MAX_SHIMS>,
+    shims_m: Shims,
 }
 
 impl Pack {
-    /// The pack of a valve; `section` names the valve in errors.
+    /// Builds the pack of a valve; `section` names the valve in errors.
     ///
     /// # Errors
-    /// A disc that cannot be, no shim, or a thickness outside 0.01 to 10 mm.
+    /// Invalid disc, no shims, or a thickness outside 0.01 to 10 mm.
     pub fn new(section: &'static str, valve: &Valve) -> Result<Self, BuildError> {
-        let shims_alone = Valve {
+        let with_shims_only = Valve {
             edge_compliance_m_per_pa: None,
             ..valve.clone()
         };
-        shims_alone.check(section)?;
+        with_shims_only.check(section)?;
         Ok(Self::of(valve))
     }
 
-    /// The pack of a valve that was checked.
+    /// Returns the pack of a checked valve.
     fn of(valve: &Valve) -> Self {
         Self {
             disc: Disc::of(valve),
-            shims_m: valve.shims_m.clone(),
+            shims_m: valve.shims_m,
         }
     }
 
-    /// Equivalent thickness cubed `h_e^3 = sum h_i^3` (m^3).
+    /// Cube of the equivalent thickness `h_e^3 = sum h_i^3` (m^3).
     pub fn equivalent_thickness_cubed_m3(&self) -> f64 {
         self.shims_m.iter().map(|h| h * h * h).sum()
     }
@@ -45,28 +43,28 @@ impl Pack {
         libm::cbrt(self.equivalent_thickness_cubed_m3())
     }
 
-    /// Deflection per uniform pressure at radius r, `Cw(r)/h_e^3` (m/Pa).
+    /// Deflection per uniform pressure at a radius r (m): `Cw(r)/h_e^3` (m/Pa).
     pub fn compliance_m_per_pa(&self, radius_m: f64) -> f64 {
         self.disc.deflection_coefficient(radius_m) / self.equivalent_thickness_cubed_m3()
     }
 
-    /// The disc all shims share.
+    /// Returns the disc that all shims share.
     pub fn disc(&self) -> &Disc {
         &self.disc
     }
 }
 
-/// Edge lift per working pressure of a valve (m/Pa): the given or the computed compliance times
-/// the equivalent-pressure factor Ce.
+/// Returns the edge lift per working pressure of a valve (m/Pa): the given or the computed compliance times the
+/// equivalent-pressure factor Ce. `section` names the valve in errors.
 ///
 /// # Errors
-/// As [`Pack::new`]; shims are needed only where no compliance is given.
+/// Invalid disc, a thickness outside 0.01 to 10 mm, or neither shims nor an edge compliance.
 pub fn edge_compliance_m_per_pa(section: &'static str, valve: &Valve) -> Result<f64, BuildError> {
     valve.check(section)?;
     Ok(edge_compliance(valve))
 }
 
-/// As [`edge_compliance_m_per_pa`], of a valve that was checked.
+/// Returns the edge lift per working pressure of a checked valve (m/Pa).
 pub(crate) fn edge_compliance(valve: &Valve) -> f64 {
     let uniform = valve
         .edge_compliance_m_per_pa

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use dashpot_core::Damper;
-use dashpot_core::parameters::LARGEST_CLEARANCE_M;
+use dashpot_core::parameters::MAX_CLEARANCE_M;
 use maud::{Markup, html};
 
 use super::sources::{Source, fixed, of_interface, with_own_names};
@@ -135,7 +135,7 @@ fn variables(prefix: &str, clearance_m: f64) -> [Variable; 6] {
             description: "Clearance 2a, the whole play",
             kind: Kind::Tunable {
                 start: clearance_m,
-                greatest: LARGEST_CLEARANCE_M,
+                greatest: MAX_CLEARANCE_M,
             },
         },
         Variable {

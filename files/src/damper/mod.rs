@@ -199,6 +199,8 @@ impl DamperFile {
                 oil: Some(hydraulics.oil),
                 ..empty
             },
+            // Reading the file back reports the missing tables.
+            _ => empty,
         }
     }
 }
@@ -224,23 +226,20 @@ fn from_file(file: DamperFile) -> Result<CheckedParameters, ContentError> {
         }
         None => {
             let missing = |table| ContentError::Missing { table };
-            Element::Physical(Hydraulics {
-                geometry: file.geometry.ok_or_else(|| missing("geometry"))?,
-                orifice: file.orifice.ok_or_else(|| missing("orifice"))?,
-                valves: file.valves.ok_or_else(|| missing("valves"))?,
-                leakage: file.leakage,
-                relief: file.relief,
-                reservoir: file.reservoir,
-                seal: file.seal,
-                two_chamber: file.two_chamber,
-                oil: file.oil.ok_or_else(|| missing("oil"))?,
-            })
+            let mut hydraulics = Hydraulics::new(
+                file.geometry.ok_or_else(|| missing("geometry"))?,
+                file.orifice.ok_or_else(|| missing("orifice"))?,
+                file.valves.ok_or_else(|| missing("valves"))?,
+                file.oil.ok_or_else(|| missing("oil"))?,
+            );
+            hydraulics.leakage = file.leakage;
+            hydraulics.relief = file.relief;
+            hydraulics.reservoir = file.reservoir;
+            hydraulics.seal = file.seal;
+            hydraulics.two_chamber = file.two_chamber;
+            Element::Physical(hydraulics)
         }
     };
-    let parameters = DamperParameters {
-        element,
-        mount: file.mount,
-        limits: file.limits,
-    };
+    let parameters = DamperParameters::new(element, file.mount).limits(file.limits);
     Ok(parameters.check()?)
 }

@@ -1,5 +1,5 @@
-//! The dampers linked into the image: for each end of two bogies one in-service damper, one vertical
-//! and one lateral damper of reduced form.
+//! Dampers of the image: one in-service damper, one reduced vertical damper and one reduced lateral damper for each end
+//! of two bogies.
 
 mod in_service;
 mod reduced_lateral;
@@ -10,10 +10,10 @@ use in_service::IN_SERVICE;
 use reduced_lateral::REDUCED_LATERAL;
 use reduced_vertical::REDUCED_VERTICAL;
 
-/// Dampers of the bank.
+/// Number of dampers of the bank.
 pub const DAMPERS: usize = 12;
 
-/// The bank, in order of the link's displacements and forces.
+/// The bank, in the order of displacements and forces on the link.
 pub static BANK: [&Damper<f32>; DAMPERS] = [
     &IN_SERVICE,
     &IN_SERVICE,

@@ -1,8 +1,8 @@
-//! Counts instructions of a tick of the estimator of health over samples that the host puts into memory, and digests
-//! what it tells.
+//! Counts the instructions of a tick of the health estimator over samples that the host puts into memory, and digests
+//! its results.
 //!
-//! The host loads a [`Watch`] at [`__sheap`] before the start and reads one JSON object from the link's UART. Counts as
-//! in the image `step-cost`.
+//! The host loads a [`Watch`] at [`__sheap`] before the start and reads one JSON object from the link's UART. The image
+//! `step-cost` describes the counts.
 #![no_std]
 #![no_main]
 
@@ -18,27 +18,27 @@ use dashpot_firmware::counted_call::{Arguments, counted_call};
 use dashpot_firmware::printer::Printer;
 
 unsafe extern "C" {
-    /// Where the host loads the samples: RAM that start-up code, data and stack leave alone. The symbol
-    /// is of cortex-m-rt's linker script.
+    /// RAM for the samples from the host, unused by start-up code, data and stack. The linker script of cortex-m-rt
+    /// defines the symbol.
     static __sheap: [u8; BYTES];
 }
 
-/// Displacement and force lie in memory: two instructions fetch them.
+/// A tick whose displacement and force are in memory; two instructions load them.
 extern "C" fn tick(health: &mut Health, model: &HealthModel, sample: &[f32; 2]) {
     health.tick(model, sample[0], sample[1]);
 }
 
-/// The same by the C library.
+/// A tick through the C library.
 extern "C" fn c_tick(
     health: *mut DashpotHealth,
     model: *const DashpotHealthModel,
     sample: &[f32; 2],
 ) {
-    // SAFETY: the caller's pointers, of storage that is C's to the byte.
+    // SAFETY: the caller's pointers are valid, and their storage has the layout of the C types.
     let _ = unsafe { dashpot_health_tick(model, health, sample[0], sample[1]) };
 }
 
-/// One instruction, the return.
+/// A function of one instruction, its return.
 #[unsafe(naked)]
 extern "C" fn nothing() {
     core::arch::naked_asm!("bx lr")
@@ -49,7 +49,7 @@ fn timed(function: *const (), integers: [usize; 5]) -> u32 {
         integers,
         real: 0.0,
     };
-    // SAFETY: every caller below gives each function what it takes, valid during the call.
+    // SAFETY: every caller below passes valid arguments of the function's types.
     unsafe { counted_call(function, arguments).ticks }
 }
 
@@ -57,7 +57,7 @@ fn timed(function: *const (), integers: [usize; 5]) -> u32 {
 fn main() -> ! {
     board::start_clock();
     let mut printer = Printer(Uart::start(Port::Link, 1_000_000));
-    // SAFETY: the host wrote it before the start, nothing writes it now.
+    // SAFETY: the host wrote it before the start; nothing writes it now.
     let bytes = unsafe { &*black_box(&raw const __sheap) };
     match Watch::parse(bytes) {
         Some(watch) => measure(&watch, &mut printer),
@@ -70,11 +70,11 @@ fn main() -> ! {
 
 fn measure(watch: &Watch<'_>, printer: &mut Printer) {
     let Ok(model) = HealthModel::from_image(watch.model) else {
-        let _ = writeln!(printer, "the samples come without a model of this core");
+        let _ = writeln!(printer, "the samples have no health model of this core");
         return;
     };
     let call = timed(nothing as *const (), [0; 5]);
-    let (mut least, mut most, mut sum) = (u32::MAX, 0, 0_u64);
+    let (mut min, mut max, mut sum) = (u32::MAX, 0, 0_u64);
     let digest = watch.run(&model, |health, model, sample| {
         let integers = [
             (&raw mut *health).expose_provenance(),
@@ -84,11 +84,11 @@ fn measure(watch: &Watch<'_>, printer: &mut Printer) {
             0,
         ];
         let ticks = timed(tick as *const (), integers);
-        least = ticks.min(least);
-        most = ticks.max(most);
+        min = ticks.min(min);
+        max = ticks.max(max);
         sum += u64::from(ticks);
     });
-    let mut c_most = 0;
+    let mut c_max = 0;
     let c_digest = watch.run(&model, |health, model, sample| {
         let integers = [
             (&raw mut *health).expose_provenance(),
@@ -97,15 +97,15 @@ fn measure(watch: &Watch<'_>, printer: &mut Printer) {
             0,
             0,
         ];
-        c_most = timed(c_tick as *const (), integers).max(c_most);
+        c_max = timed(c_tick as *const (), integers).max(c_max);
     });
     if c_digest.value() != digest.value() {
-        let _ = writeln!(printer, "the C library has other bits");
+        let _ = writeln!(printer, "the C library has different bits");
         return;
     }
     let _ = writeln!(
         printer,
-        "{{\"clock_hz\": {CLOCK_HZ}, \"call\": {call}, \"least\": {least}, \"most\": {most}, \"sum\": {sum}, \"c_most\": {c_most}, \
+        "{{\"clock_hz\": {CLOCK_HZ}, \"call\": {call}, \"least\": {min}, \"most\": {max}, \"sum\": {sum}, \"c_most\": {c_max}, \
          \"digest\": \"{:016x}\", \"model_bytes\": {}, \"health_bytes\": {}}}",
         digest.value(),
         size_of::<HealthModel>(),

@@ -1,10 +1,11 @@
-//! Measures one tick of the bank with everything the link takes: a step request received byte by byte
-//! from a UART's register, carried out, answered byte by byte, and the outputs sent.
+//! Measures one tick of the bank including the link: a step request is received byte by byte from the register of a
+//! UART, carried out and answered byte by byte, and the outputs are sent.
 //!
-//! Answers go to the spare UART. Prints one JSON object on that of the link: clock ticks of [`CLOCK_HZ`] for all
-//! requests together, the most for one, bytes in and out; then the same of health: the longest pass of loading a
-//! model that the host put at [`__sheap`], the longest request of measured samples, a reading; also what devices of 1, 4,
-//! 12 and 16 dampers take. Under QEMU's `-icount shift=0` a clock tick is 40 instructions.
+//! Answers go to the spare UART. The image prints one JSON object on the UART of the link: clock ticks of [`CLOCK_HZ`]
+//! for all requests, largest clock ticks of one request, bytes in and out. For health these are the longest slice of
+//! loading a model that the host put at [`__sheap`], the longest request with measured samples, and a reading. It also
+//! prints the sizes of devices of 1, 4, 12 and 16 dampers. Under QEMU's `-icount shift=0` a clock tick is 40
+//! instructions.
 #![no_std]
 #![no_main]
 
@@ -13,7 +14,7 @@ use core::fmt::Write;
 use cortex_m_rt::entry;
 use dashpot_core::health::HealthModel;
 use dashpot_core::link::{
-    Device, Frame, Header, Line, MEASURED_BYTES, MOST_MEASURED, PROTOCOL, Reals, Request,
+    Device, Frame, Header, Line, MAX_MEASURED, MEASURED_BYTES, PROTOCOL, Reals, Request,
 };
 use dashpot_firmware::bank::{BANK, DAMPERS};
 use dashpot_firmware::board::{self, CLOCK_HZ, Port, Uart};
@@ -23,26 +24,27 @@ use dashpot_firmware::safe_state;
 use static_cell::ConstStaticCell;
 
 const REQUESTS: usize = 1000;
-/// Of measured samples, [`MOST_MEASURED`] each.
+/// Number of requests with measured samples, [`MAX_MEASURED`] each.
 const MEASUREMENTS: u32 = 500;
-/// Force over displacement of the samples measured (N/m): large enough to be in contact most of the time.
+/// Force over displacement of the measured samples (N/m), large enough for contact most of the time.
 const STIFFNESS_N_PER_M: f32 = 4e5;
-/// Of the triangular motion (m), its half period (ticks).
+/// Amplitude of the triangular motion (m).
 const AMPLITUDE_M: f32 = 5e-3;
+/// Half period of the triangular motion (ticks).
 const HALF_PERIOD: u32 = 125;
 
-/// A frame with a whole model of health.
+/// A frame with a whole health model.
 type LongFrame = Frame<{ HealthModel::IMAGE_BYTES + 64 }>;
 
 unsafe extern "C" {
-    /// Where the host loads the model: RAM that start-up code, data and stack leave alone. The symbol
-    /// is of cortex-m-rt's linker script.
+    /// RAM for the model from the host, unused by start-up code, data and stack. The linker script of cortex-m-rt
+    /// defines the symbol.
     static __sheap: [u8; HealthModel::IMAGE_BYTES];
 }
 
 static DEVICE: ConstStaticCell<Device<DAMPERS, DAMPERS>> = ConstStaticCell::new(Device::new());
 
-/// A line on which a frame waits, as if the UART had received it: its registers are read as when it had.
+/// A line with a waiting frame. It reads the registers of the UART as for a received frame.
 struct Replayed<'a> {
     uart: Uart,
     frame: &'a [u8],
@@ -70,7 +72,7 @@ fn main() -> ! {
     let Some(device) = DEVICE.try_take() else {
         safe_state::halt();
     };
-    // Behind a pointer fields are reached by their offsets; of a known address each takes two more instructions.
+    // Access through a pointer uses offsets. With a known address each access takes two more instructions.
     let device = core::hint::black_box(device);
     if device.start(&BANK, board::start_clock()).is_err() {
         safe_state::halt();
@@ -92,7 +94,7 @@ fn main() -> ! {
         frame.write(&(header(tick), step));
         let asked = ask(device, &mut outputs, frame.bytes());
         total += asked.ticks;
-        // The first displacements are too far from rest: that of every damper is limited.
+        // The first displacements are too far from rest, so those of all dampers are limited.
         if tick == 1 {
             limited = asked.ticks;
         } else {
@@ -135,17 +137,17 @@ fn header(sequence: u32) -> Header {
     }
 }
 
-/// What a request took.
+/// Cost of a request.
 struct Asked {
-    /// Clock ticks with its answer and the outputs.
+    /// Clock ticks including the answer and the outputs.
     ticks: u32,
-    /// Clock ticks of the longest pass in which an image was being loaded.
+    /// Clock ticks of the longest pass during loading of an image.
     slice: u32,
-    /// Bytes of the answer.
+    /// Number of bytes of the answer.
     sent: usize,
 }
 
-#[inline(never)] // one copy of the device's loop, as in the image that it is measured for
+#[inline(never)] // one copy of the device's loop, as in the main image
 fn ask(device: &mut Device<DAMPERS, DAMPERS>, outputs: &mut SerialOutputs, frame: &[u8]) -> Asked {
     let mut line = Replayed {
         uart: Uart::start(Port::Spare, 1_562_500),
@@ -166,16 +168,16 @@ fn ask(device: &mut Device<DAMPERS, DAMPERS>, outputs: &mut SerialOutputs, frame
     Asked { ticks, slice, sent }
 }
 
-/// Most clock ticks of what is asked about health.
+/// Largest clock ticks of health requests.
 #[derive(Default)]
 struct HealthCost {
-    /// Requests carried out.
+    /// Number of requests carried out.
     accepted: u32,
-    /// Of a slice of loading a model.
+    /// Clock ticks of a slice of loading a model.
     slice: u32,
-    /// Of a request of measured samples.
+    /// Clock ticks of a request with measured samples.
     measure: u32,
-    /// Of a reading.
+    /// Clock ticks of a reading.
     reading: u32,
 }
 
@@ -190,18 +192,18 @@ fn measure_health(
     sequence += 1;
     let load = Request::LoadHealth {
         damper: 0,
-        // SAFETY: the host wrote it before the start, nothing writes it now.
+        // SAFETY: the host wrote it before the start; nothing writes it now.
         image: unsafe { &*core::hint::black_box(&raw const __sheap) },
     };
     frame.write(&(header(sequence), load));
     cost.slice = ask(device, outputs, frame.bytes()).slice;
     for number in 0..MEASUREMENTS {
-        let mut samples = [0; MEASURED_BYTES * MOST_MEASURED];
+        let mut samples = [0; MEASURED_BYTES * MAX_MEASURED];
         let (rows, _) = samples.as_chunks_mut::<4>();
-        for (place, row) in rows.iter_mut().enumerate() {
-            let tick = number * MOST_MEASURED as u32 + place as u32 / 2;
+        for (index, row) in rows.iter_mut().enumerate() {
+            let tick = number * MAX_MEASURED as u32 + index as u32 / 2;
             let displacement_m = triangle(tick);
-            let is_force = place % 2 == 1;
+            let is_force = index % 2 == 1;
             let force_n = STIFFNESS_N_PER_M * displacement_m;
             *row = if is_force { force_n } else { displacement_m }.to_le_bytes();
         }

@@ -1,9 +1,9 @@
-//! Counts instructions of the step, one damper or a bank of twelve, over a motion that the host puts
-//! into memory, and digests the forces; then those of what is not usual and of the C library's functions.
+//! Counts the instructions of the step of one damper or a bank of twelve over a motion that the host puts into memory,
+//! and digests the forces. Then it counts the instructions of unusual steps and of the functions of the C library.
 //!
-//! The host loads an [`Experiment`] at [`__sheap`] before the start and reads one JSON object from
-//! the link's UART. Counts are in ticks of the clock and take in the call: `call` is the count of a
-//! function of one instruction, its return. Under QEMU's `-icount shift=10` an instruction takes 1024 ns.
+//! The host loads an [`Experiment`] at [`__sheap`] before the start and reads one JSON object from the link's UART.
+//! Counts are in clock ticks and include the call: `call` is the count of a function of one instruction, its return.
+//! Under QEMU's `-icount shift=10` an instruction takes 1024 ns.
 #![no_std]
 #![no_main]
 
@@ -24,17 +24,17 @@ use dashpot_firmware::board::{self, CLOCK_HZ, Port, Uart};
 use dashpot_firmware::counted_call::{Arguments, Returned, counted_call};
 use dashpot_firmware::printer::Printer;
 
-/// Stack looked at below the measured call (bytes).
+/// Size of the checked stack below the measured call (bytes).
 const PAINTED: usize = 2048;
 const PAINT: u32 = 0xa5a5_a5a5;
 
 unsafe extern "C" {
-    /// Where the host loads the experiment: RAM that start-up code, data and stack leave alone. The symbol
-    /// is of cortex-m-rt's linker script.
+    /// RAM for the experiment from the host, unused by start-up code, data and stack. The linker script of cortex-m-rt
+    /// defines the symbol.
     static __sheap: [u8; BYTES];
 }
 
-/// Fewest, most and sum of clock ticks.
+/// Smallest, largest and total clock ticks.
 #[derive(Clone, Copy)]
 struct Cost {
     least: u32,
@@ -71,12 +71,12 @@ extern "C" fn bank(
     step_bank(dampers, states, displacements, forces);
 }
 
-/// 0 while slices are left, then 1; 2 when the image is refused.
+/// Returns 0 while slices are left, then 1; 2 if the image is refused.
 extern "C" fn load_slice(damper: &mut Damper<f32>, image: &&[u8], loading: &mut Loading) -> usize {
     damper.load_slice(image, loading).map_or(2, usize::from)
 }
 
-/// Most clock ticks of a slice of loading a damper, 0 when it is refused.
+/// Returns the largest clock ticks of a slice of loading a damper; 0 if it is refused.
 fn timed_load(image: &[u8]) -> u32 {
     let mut damper = Damper::<f32>::from_words(&[0; Damper::<f32>::WORDS]);
     let mut loading = Loading::START;
@@ -99,21 +99,21 @@ fn timed_load(image: &[u8]) -> u32 {
     }
 }
 
-/// One instruction, the return.
+/// A function of one instruction, its return.
 #[unsafe(naked)]
 extern "C" fn nothing() {
     naked_asm!("bx lr")
 }
 
-/// A hundred and one instructions: what is found for it proves the count.
+/// A function of 101 instructions, which proves the count.
 #[unsafe(naked)]
 extern "C" fn known() {
     naked_asm!(".rept 100", "nop", ".endr", "bx lr")
 }
 
-/// Calls a function of this file or of the C library with arguments that are right for it.
+/// Calls a function of this file or of the C library with valid arguments.
 fn timed(function: *const (), integers: [usize; 5], real: f32) -> Returned {
-    // SAFETY: every caller below gives each function what it takes, valid during the call.
+    // SAFETY: every caller below passes valid arguments of the function's types.
     unsafe { counted_call(function, Arguments { integers, real }) }
 }
 
@@ -132,18 +132,18 @@ fn address<T: ?Sized>(value: &T) -> usize {
     (&raw const *value).expose_provenance()
 }
 
-/// Bytes of stack that `call` takes, the frames of the counting included.
+/// Stack of `call` including the frames of the counting (bytes).
 #[inline(always)]
 fn stack_of(call: impl FnOnce()) -> usize {
     let top = cortex_m::register::msp::read() as usize & !3;
     let word = |offset: usize| core::ptr::with_exposed_provenance_mut::<u32>(top - offset);
     for offset in (4..=PAINTED).step_by(4) {
-        // SAFETY: RAM below the stack pointer, used by nothing: no interrupt is enabled.
+        // SAFETY: RAM below the stack pointer is unused because no interrupt is enabled.
         unsafe { word(offset).write_volatile(PAINT) }
     }
     call();
     let mut used = PAINTED;
-    // SAFETY: as above.
+    // SAFETY: the same unused RAM.
     while used > 0 && unsafe { word(used).read_volatile() } == PAINT {
         used -= 4;
     }
@@ -156,7 +156,7 @@ struct Library {
     step: u32,
     step_bank: u32,
     set_clearance: u32,
-    /// Most of a round.
+    /// Largest clock ticks of a slice in a round.
     check_slice: u32,
 }
 
@@ -178,7 +178,7 @@ impl Library {
             0.0,
         );
         for state in &mut states {
-            // SAFETY: storage of its own and a damper that was made.
+            // SAFETY: separate storage and an initialised damper.
             let _ = unsafe { dashpot_state_init(state, &damper, 0.0) };
         }
         let states_address = (&raw mut states).expose_provenance();
@@ -222,7 +222,7 @@ impl Library {
             [damper_address, 0, 0, 0, 0],
             2e-3,
         );
-        // An error would be cheaper than the work.
+        // An error would cost less than the work.
         let counted = |returned: Returned| match returned.integer {
             0 => returned.ticks,
             _ => 0,
@@ -241,7 +241,7 @@ impl Library {
 fn main() -> ! {
     board::start_clock();
     let mut printer = Printer(Uart::start(Port::Link, 1_000_000));
-    // SAFETY: the host wrote it before the start, nothing writes it now.
+    // SAFETY: the host wrote it before the start; nothing writes it now.
     let bytes = unsafe { &*black_box(&raw const __sheap) };
     match Experiment::parse(bytes) {
         Some(experiment) => measure(&experiment, &mut printer),
@@ -281,7 +281,7 @@ fn measure(experiment: &Experiment<'_>, printer: &mut Printer) {
     );
     let cost = cost.get();
 
-    // The first step after a reset, and what is not usual, under force.
+    // The first step after a reset, and unusual steps under force.
     let state = &mut damper.at_rest(0.0);
     let mut stack = 0;
     let mut unusual = |damper: &Damper<f32>, displacement: f32| {

@@ -79,13 +79,13 @@ impl SensorArguments {
     /// The settings of an estimate from samples with this noise.
     pub fn settings(&self, noise: Noise) -> HealthSettings {
         let default = HealthSettings::new(noise.displacement_m, noise.force_n);
-        HealthSettings {
-            memory_s: self.memory_s.unwrap_or(default.memory_s),
-            law_deviation: self.law_deviation.unwrap_or(default.law_deviation),
-            lag_s: self.lag_s.unwrap_or(default.lag_s),
-            lag_sd_s: self.lag_sd_s.unwrap_or(default.lag_sd_s),
-            ..default
-        }
+        default
+            .memory_s(self.memory_s.unwrap_or(default.memory_s))
+            .law_deviation(self.law_deviation.unwrap_or(default.law_deviation))
+            .lag(
+                self.lag_s.unwrap_or(default.lag_s),
+                self.lag_sd_s.unwrap_or(default.lag_sd_s),
+            )
     }
 }
 

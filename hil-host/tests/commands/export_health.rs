@@ -21,12 +21,9 @@ const EXPORT: [&str; 9] = [
 
 fn model() -> HealthModel {
     let parameters = damper::load("paper", &[]).unwrap();
-    let settings = HealthSettings {
-        memory_s: 3.0,
-        lag_s: -1e-4,
-        lag_sd_s: 0.0,
-        ..HealthSettings::new(60e-6, 50.0)
-    };
+    let settings = HealthSettings::new(60e-6, 50.0)
+        .memory_s(3.0)
+        .lag(-1e-4, 0.0);
     parameters.health_model(&settings, 5e-4).unwrap()
 }
 

@@ -30,10 +30,7 @@ fn measurement(set: &[&str], ticks: usize) -> (Vec<(f64, f64)>, String) {
 
 fn model(name: &str) -> HealthModel {
     let parameters = damper::load(name, &[]).unwrap();
-    let settings = HealthSettings {
-        memory_s: 2.0,
-        ..HealthSettings::new(60e-6, 60.0)
-    };
+    let settings = HealthSettings::new(60e-6, 60.0).memory_s(2.0);
     parameters.health_model(&settings, 1e-3).unwrap()
 }
 
@@ -140,10 +137,7 @@ fn alarms_are_told_in_words_and_cleared() {
 fn what_cannot_be_done_is_told() {
     let rig = Rig::new();
     let none = rig.error(&["health"], 1);
-    assert!(
-        none.contains("does not watch the damper in that place"),
-        "{none}"
-    );
+    assert!(none.contains("does not watch this damper"), "{none}");
     let beyond = rig.error(&["health", "--place", "3"], 2);
     assert!(
         beyond.contains("--place 3: the target has 3 dampers"),

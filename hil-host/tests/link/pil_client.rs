@@ -88,7 +88,7 @@ fn every_refusal_has_a_sentence() {
         (Refusal::OutOfOrder(8), "expects the sequence number 8"),
         (Refusal::Tick(7), "expects tick 7"),
         (Refusal::Count(6), "has 6 dampers"),
-        (Refusal::Damper(5), "places 0 to 4"),
+        (Refusal::Damper(5), "allowed: 0 to 4"),
         (Refusal::NeedsRebuild, "build a damper on the host"),
         (Refusal::Range, "a clearance of 0 to 0.1 m"),
         (
@@ -104,7 +104,7 @@ fn every_refusal_has_a_sentence() {
         (Refusal::Running, "runs free; stop"),
         (Refusal::NotRunning, "does not run free"),
         (Refusal::LinkLost, "lost the link"),
-        (Refusal::Corrupted(3), "place 3 was damaged"),
+        (Refusal::Corrupted(3), "damper 3 was damaged"),
     ] {
         let reported = LinkError::Refused(refusal).to_string();
         assert!(reported.contains(part), "{refusal:?}: {reported}");

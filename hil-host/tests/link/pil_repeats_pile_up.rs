@@ -53,10 +53,7 @@ impl Outputs<3> for NoActuators {
 impl SlowLine {
     fn new(byte_time: Duration, latency: Duration) -> Self {
         let bank = ["reduced-vertical", "in-service", "reduced-lateral"].map(built);
-        let clock = Clock {
-            now: || 0,
-            hz: 1_000_000,
-        };
+        let clock = Clock::new(|| 0, 1_000_000);
         let mut device = Box::new(Device::new());
         device.start(&bank.each_ref(), clock).unwrap();
         Self {

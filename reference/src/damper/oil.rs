@@ -114,20 +114,12 @@ mod tests {
     use super::*;
 
     fn oil(temperature_c: f64) -> Oil {
-        Oil {
-            density_kg_per_m3: 870.0,
-            thermal_expansion_per_k: 7e-4,
-            temperature_c,
-            viscosity_40c_m2_per_s: 15e-6,
-            viscosity_100c_m2_per_s: 3.8e-6,
-            column: Some(OilColumn {
-                bulk_modulus_pa: 1.5e9,
-                rod_side_volume_m3: 0.5e-3,
-                piston_side_volume_m3: 0.6e-3,
-                air_fraction: 0.005,
-                polytropic_exponent: 1.0,
-            }),
-        }
+        Oil::new(870.0)
+            .thermal_expansion_per_k(7e-4)
+            .temperature_c(temperature_c)
+            .viscosity_40c_m2_per_s(15e-6)
+            .viscosity_100c_m2_per_s(3.8e-6)
+            .column(OilColumn::new(1.5e9, 0.5e-3, 0.6e-3).air_fraction(0.005))
     }
 
     /// Both data points, and the D341 line through them worked out separately at 45 and 60 degC.

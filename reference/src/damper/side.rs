@@ -77,6 +77,7 @@ impl Side {
                     )?,
                 ])
             }
+            _ => Err(ReferenceError::Element),
         }
     }
 

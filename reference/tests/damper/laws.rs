@@ -12,7 +12,7 @@ use crate::common::{dampers, motions};
 fn hydraulics(parameters: &mut DamperParameters) -> &mut Hydraulics {
     match &mut parameters.element {
         Element::Physical(hydraulics) => hydraulics,
-        Element::Reduced(_) => unreachable!("a physical damper"),
+        _ => unreachable!("a physical damper"),
     }
 }
 
@@ -85,9 +85,7 @@ fn two_chambers_balance() {
     };
     let foot = root * 0.61 * 2.0 * PI * 0.011 * 1.446e-12 * 0.8265;
     let mut parameters = dampers::paper();
-    hydraulics(&mut parameters).two_chamber = Some(TwoChamber {
-        vapour_pressure_pa: -0.9e5,
-    });
+    hydraulics(&mut parameters).two_chamber = Some(TwoChamber::new(-0.9e5));
     for drop in [0.1e6, 1e6, 3e6] {
         let velocity = piston(drop) / annulus;
         let upstream = (rod * velocity / foot).powf(2.0 / 3.0);

@@ -50,7 +50,7 @@ pub fn reals(values: [f32; 2]) -> Reals {
 impl Bench {
     pub fn new() -> Self {
         let dampers = [built("in-service", &[]), built("reduced-vertical", &[])];
-        let clock = Clock { now: || 0, hz: 1 };
+        let clock = Clock::new(|| 0, 1);
         let mut device = Box::new(Device::new());
         device.start(&dampers.each_ref(), clock).unwrap();
         let header = Header {

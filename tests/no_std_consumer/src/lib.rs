@@ -1,4 +1,4 @@
-//! Every call firmware makes in a tick, without `std`, heap and builder.
+//! All calls of a firmware in a tick, without `std`, heap and builder.
 #![no_std]
 
 use dashpot_core::integrity::Check;
@@ -10,7 +10,7 @@ fn panic(_: &core::panic::PanicInfo<'_>) -> ! {
     loop {}
 }
 
-/// A step in single precision.
+/// Steps in single precision.
 #[unsafe(no_mangle)]
 pub extern "C" fn checked_step_f32(
     damper: &Damper<f32>,
@@ -20,7 +20,7 @@ pub extern "C" fn checked_step_f32(
     damper.step(state, x)
 }
 
-/// A step in double precision.
+/// Steps in double precision.
 #[unsafe(no_mangle)]
 pub extern "C" fn checked_step_f64(
     damper: &Damper<f64>,
@@ -30,7 +30,7 @@ pub extern "C" fn checked_step_f64(
     damper.step(state, x)
 }
 
-/// A bank that fills its lanes and leaves some over.
+/// Steps a bank that fills a group and has dampers left over.
 #[unsafe(no_mangle)]
 pub extern "C" fn checked_bank(
     damper: &Damper<f32>,
@@ -41,7 +41,7 @@ pub extern "C" fn checked_bank(
     step_bank(&[damper; 19], states, x, forces);
 }
 
-/// The live changes of firmware.
+/// Changes a damper while it runs.
 #[unsafe(no_mangle)]
 pub extern "C" fn checked_change(
     damper: &mut Damper<f32>,
@@ -54,7 +54,7 @@ pub extern "C" fn checked_change(
     set.is_ok()
 }
 
-/// A damper over a link; whether it was taken.
+/// Loads a damper from a link. True if it was accepted.
 #[unsafe(no_mangle)]
 pub extern "C" fn checked_image(
     damper: &mut Damper<f32>,
@@ -66,7 +66,7 @@ pub extern "C" fn checked_image(
         .is_some_and(|image| damper.load_image(image).is_ok())
 }
 
-/// A slice of a load and of the check, as a tick has room for; whether both are good.
+/// Runs a slice of a load and of the check, as in a tick. True if both succeed.
 #[unsafe(no_mangle)]
 pub extern "C" fn checked_slices(
     damper: &mut Damper<f32>,
@@ -80,24 +80,24 @@ pub extern "C" fn checked_slices(
     loaded && check.slice(damper).is_ok() && Check::state(damper, &damper.at_rest(0.0)).is_ok()
 }
 
-/// The telemetry ring, written and read.
+/// Writes and reads the telemetry ring.
 #[unsafe(no_mangle)]
 pub extern "C" fn checked_telemetry(
     telemetry: &mut Telemetry<64>,
     state: &DamperState<f32>,
     tick: u32,
 ) -> f32 {
-    telemetry.record(Sample {
+    telemetry.record(Sample::new(
         tick,
-        displacement_m: state.displacement_m(),
-        force_n: state.force_n(),
-        status: state.status(),
-    });
+        state.displacement_m(),
+        state.force_n(),
+        state.status(),
+    ));
     let oldest = telemetry.take().unwrap_or_default();
     oldest.force_n + telemetry.approximate_rms_force_n()
 }
 
-/// The control: panics when `index` is out of range, so the check can be seen to find something.
+/// Panics if `index` is out of range, to show that the check finds panics.
 #[unsafe(no_mangle)]
 pub extern "C" fn control_panics(values: &[f32; 4], index: usize) -> f32 {
     values[index]

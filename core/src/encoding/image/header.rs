@@ -7,10 +7,10 @@ use super::ImageError;
 
 const MAGIC: [u8; 4] = *b"DASH";
 const BYTE_ORDER: u16 = 0xfeff;
-/// Changes whenever the same words would mean another damper.
+/// Version of the format. It changes whenever the meaning of the words changes.
 pub(super) const VERSION: u16 = 3;
 
-/// What stands before the words.
+/// Header before the words.
 #[derive(Clone, Copy, FromBytes, IntoBytes, Immutable, KnownLayout, Unaligned)]
 #[repr(C)]
 pub(super) struct Header {
@@ -24,7 +24,7 @@ pub(super) struct Header {
 impl Header {
     pub(super) const BYTES: usize = size_of::<Self>();
 
-    /// Of an image of `image_bytes` in all.
+    /// Header of an image with a total of `image_bytes`.
     pub(super) fn new(scalar_bytes: usize, image_bytes: usize) -> Self {
         Self {
             magic: MAGIC,
@@ -35,7 +35,10 @@ impl Header {
         }
     }
 
-    /// Whether `image` begins with this header and has the length that it states.
+    /// Checks that `image` starts with this header and has its length.
+    ///
+    /// # Errors
+    /// The first difference.
     pub(super) fn check(&self, image: &[u8]) -> Result<(), ImageError> {
         let expected = self.image_bytes.get();
         let length = |found| ImageError::Length { expected, found };

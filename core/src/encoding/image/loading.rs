@@ -1,66 +1,68 @@
-//! A damper from an image, in slices of bounded work. Nothing is written before everything is verified.
+//! Loads a damper from an image in slices of bounded work. Nothing is written before the whole image is verified.
 
 use super::super::words::{PIECE, TABLE};
 use super::header::Header;
 use super::{CHECK_BYTES, ImageError};
 use crate::damper::Damper;
 use crate::encoding::{checksum, revision};
-use crate::parameters::{LARGEST_CLEARANCE_M, LARGEST_FORCE_N, Limits, Range};
+use crate::parameters::{Limits, MAX_CLEARANCE_M, MAX_FORCE_N, Range};
 use crate::scalars::{SCALARS, Scalars};
 use crate::table::{INDEX_SLICES, ROWS};
 
-/// How far the loading of an image has come: see [`Damper::load_slice`](crate::Damper).
+/// Progress of loading an image, for [`Damper::load_slice`](crate::Damper).
 #[derive(Clone, Copy, Debug)]
 pub struct Loading(Stage);
 
 impl Loading {
-    /// Before the first slice.
+    /// Loading before the first slice.
     pub const START: Self = Self(Stage::Checksum { bytes: 0, crc: 0 });
 }
 
-/// What the next slice does.
+/// Work of the next slice.
 #[derive(Clone, Copy, Debug)]
 enum Stage {
-    /// CRC-32 of the bytes so far.
+    /// Continue the CRC-32 of the bytes.
     Checksum { bytes: usize, crc: u32 },
-    /// Hash of the pieces so far, each number of them finite.
+    /// Continue the hash of the pieces and check that all numbers are finite.
     Verify { piece: usize, hash: u32 },
-    /// Pieces written so far.
+    /// Write the next piece.
     Write { piece: usize },
-    /// Slices of the index so far, and the piece they came to.
+    /// Build the next slice of the bins, starting at this piece.
     Index { slice: usize, piece: usize },
-    /// CRC-32 of the rows of the table so far.
+    /// Continue the CRC-32 of the rows of the table.
     Check { row: usize, crc: u32 },
 }
 
-/// Range of the largest displacement.
+/// Allowed range of the largest displacement.
 const DISPLACEMENTS_M: Range = Limits::RANGES.displacement_m;
 
-/// Bytes of an image in a slice.
+/// Number of bytes of an image in a slice.
 const BYTES_PER_SLICE: usize = 64;
-/// Rows of the table in a slice.
+/// Number of rows of the table in a slice.
 const ROWS_PER_SLICE: usize = 8;
 
 macro_rules! loading {
     ($float:ident, $word:ident) => {
         impl Damper<$float> {
-            /// Makes this the damper of an image, in place: no copy of it on the stack. A state that
-            /// this damper stepped before is carried over at its next step.
+            /// Replaces this damper by that of an image, without a copy on the stack. The next step adopts states of
+            /// the old damper.
             ///
             /// # Errors
-            /// The first fault found, from the front of the image; the damper is then as it was.
+            /// The first error in the image; the damper is unchanged.
             pub fn load_image(&mut self, image: &[u8]) -> Result<(), ImageError> {
                 let mut loading = Loading::START;
                 while !self.load_slice(image, &mut loading)? {}
                 Ok(())
             }
 
-            /// [`Self::load_image`] in slices of some thousand operations at most, for a program that has a tick to
-            /// serve between them: call it with the same image and damper until it returns true. Until then, and
-            /// after an error, the damper is not to be stepped.
+            /// Loads the next slice of an image, of at most a few thousand operations, so that ticks can run between
+            /// slices.
+            ///
+            /// Call it with the same image and damper until it returns true. Do not step the damper until then, or
+            /// after an error.
             ///
             /// # Errors
-            /// As [`Self::load_image`].
+            /// The first error in the image.
             ///
             /// ```
             /// # #[cfg(feature = "builder")] {
@@ -73,7 +75,7 @@ macro_rules! loading {
             #[doc = concat!("let mut damper = Damper::<", stringify!($float), ">::from_words(&[0; Damper::<", stringify!($float), ">::WORDS]);")]
             /// let mut loading = Loading::START;
             /// while !damper.load_slice(&image, &mut loading).unwrap() {
-            ///     // a tick may run here
+            ///     // a tick can run here
             /// }
             /// assert_eq!(damper, built);
             /// # }
@@ -85,8 +87,8 @@ macro_rules! loading {
                     Stage::Checksum { .. } | Stage::Verify { .. } => Self::verify_slice(image, loading.0)?,
                     Stage::Write { piece } => {
                         match (Words::<BYTES>::of(image).piece(piece), self.table.pieces.get_mut(piece)) {
-                            (Some(words), Some(place)) => {
-                                for (number, word) in place.numbers_mut().zip(words) {
+                            (Some(words), Some(target)) => {
+                                for (number, word) in target.numbers_mut().zip(words) {
                                     *number = $float::from_le_bytes(*word);
                                 }
                                 Stage::Write { piece: piece + 1 }
@@ -115,10 +117,10 @@ macro_rules! loading {
                 Ok(false)
             }
 
-            /// Whether an image is a damper, without taking it; where [`Self::load_slice`] goes on with it.
+            /// Checks an image without loading it. Returns the progress from which [`Self::load_slice`] continues.
             ///
             /// # Errors
-            /// Those of [`Self::load_image`].
+            /// The first error in the image.
             pub fn check_image(image: &[u8]) -> Result<Loading, ImageError> {
                 let mut stage = Loading::START.0;
                 while matches!(stage, Stage::Checksum { .. } | Stage::Verify { .. }) {
@@ -127,7 +129,7 @@ macro_rules! loading {
                 Ok(Loading(stage))
             }
 
-            /// The scalars of an image, and the revisions it states of damper and table.
+            /// Reads the scalars of an image and the stated revisions of damper and table.
             fn read_scalars(image: &[u8]) -> Result<(Scalars<$float>, [$word; 2]), ImageError> {
                 let words = Words::<{ size_of::<$float>() }>::of(image);
                 let both = words.scalars().zip(words.revisions());
@@ -136,7 +138,7 @@ macro_rules! loading {
                 Ok((scalars, revisions.map($word::from_le_bytes)))
             }
 
-            /// What comes after a stage that only reads.
+            /// Runs a slice that only reads and returns the next stage.
             fn verify_slice(image: &[u8], stage: Stage) -> Result<Stage, ImageError> {
                 const BYTES: usize = size_of::<$float>();
                 let number = |word: &[u8; BYTES]| $float::from_le_bytes(*word);
@@ -169,13 +171,13 @@ macro_rules! loading {
                         let credible = scalars.as_array().iter().all(|scalar| scalar.is_finite() && *scalar >= 0.0)
                             && scalars.step_s > 0.0
                             && scalars.move_bound > 0.0
-                            && scalars.half_clearance <= (0.5 * LARGEST_CLEARANCE_M) as $float
-                            && scalars.half_force_limit <= (0.5 * LARGEST_FORCE_N) as $float
+                            && scalars.half_clearance <= (0.5 * MAX_CLEARANCE_M) as $float
+                            && scalars.half_force_limit <= (0.5 * MAX_FORCE_N) as $float
                             && scalars.first_knot > 0.0
                             && scalars.offset == scalars.half_clearance + scalars.held
-                            && (DISPLACEMENTS_M.least as $float..=DISPLACEMENTS_M.greatest as $float)
-                                .contains(&scalars.largest_displacement())
-                            && scalars.stretch_bound == scalars.stretch_bound_by_others();
+                            && (DISPLACEMENTS_M.min as $float..=DISPLACEMENTS_M.max as $float)
+                                .contains(&scalars.max_displacement())
+                            && scalars.stretch_bound == scalars.computed_stretch_bound();
                         if revisions != [revision, hash].map($word::from) {
                             Err(ImageError::Revision)
                         } else if !credible {
@@ -191,16 +193,16 @@ macro_rules! loading {
     };
 }
 
-/// What the CRC-32 of an image is of, and what it is.
+/// Bytes under the CRC-32 of an image, and the stated CRC-32.
 struct Body<'a> {
     checked: &'a [u8],
     stated: u32,
 }
 
-/// An image whose header and length are right.
+/// Checks header and length of an image and returns its body.
 fn open<'a>(image: &'a [u8], header: &Header) -> Result<Body<'a>, ImageError> {
     header.check(image)?;
-    // The header is there, and so are more bytes than the check has.
+    // The length is correct, so there are enough bytes for the CRC-32.
     let (checked, stated) = image
         .split_last_chunk()
         .unwrap_or((image, &[0; CHECK_BYTES]));
@@ -218,17 +220,17 @@ impl<'a, const BYTES: usize> Words<'a, BYTES> {
         Self(words.as_chunks().0)
     }
 
-    /// The scalars.
+    /// Returns the scalars.
     fn scalars(&self) -> Option<&'a [[u8; BYTES]; SCALARS]> {
         self.0.first_chunk()
     }
 
-    /// The damper's revision and its table's.
+    /// Returns the revisions of damper and table.
     fn revisions(&self) -> Option<&'a [[u8; BYTES]; 2]> {
         self.0.get(SCALARS..)?.first_chunk()
     }
 
-    /// The numbers of a piece.
+    /// Returns the numbers of a piece.
     fn piece(&self, piece: usize) -> Option<&'a [[u8; BYTES]; PIECE]> {
         self.0.get(TABLE + PIECE * piece..)?.first_chunk()
     }

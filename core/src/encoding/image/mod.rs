@@ -1,4 +1,4 @@
-//! A built damper as bytes: how a host hands one to firmware over a link, a file or a C program.
+//! A built damper as bytes, for a link, a file or a C program.
 //!
 //! | offset | bytes | holds |
 //! |---|---|---|
@@ -8,9 +8,9 @@
 //! | 8 | 4 | bytes of a scalar, 4 or 8 |
 //! | 12 | 4 | bytes of the whole image |
 //! | 16 | | the words of [`Damper::to_words`](crate::Damper) |
-//! | end - 4 | 4 | CRC-32 (ISO-HDLC, that of Ethernet and zip) of all bytes before |
+//! | end - 4 | 4 | CRC-32 (ISO-HDLC, as in Ethernet and zip) of all bytes before |
 //!
-//! Every number is little-endian.
+//! All numbers are little-endian.
 
 mod header;
 mod loading;
@@ -22,56 +22,56 @@ use zerocopy::IntoBytes;
 use super::checksum::crc_32;
 use crate::damper::Damper;
 
-/// Bytes of the CRC-32.
+/// Number of bytes of the CRC-32.
 const CHECK_BYTES: usize = 4;
 
-/// Why bytes are no damper.
+/// Errors of an image.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[cfg_attr(feature = "link", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum ImageError {
-    /// Cut short, too long, or of a core with another table.
+    /// The bytes are truncated, too long, or from a core with another table.
     #[error("{found} bytes where a damper has {expected}")]
     Length {
-        /// Bytes of an image.
+        /// Number of bytes of an image.
         expected: u32,
-        /// Bytes there are, or bytes the header states.
+        /// Number of bytes found, or stated in the header.
         found: u32,
     },
     /// The first four bytes are not `DASH`.
     #[error("not a damper: must start with DASH")]
     Magic,
-    /// The byte-order mark is not that of little-endian numbers.
+    /// The byte-order mark is not little-endian.
     #[error("byte order is not little-endian")]
     ByteOrder,
-    /// Another version of the format, the one found.
+    /// The image has this other version of the format.
     #[error("format version {0}, must be {VERSION}")]
     Version(u16),
-    /// Another scalar; the bytes of the one found.
+    /// The image is for another scalar, of this many bytes.
     #[error("scalar of {0} bytes is not this damper's")]
     Scalar(u32),
-    /// The CRC-32 is not that of the bytes: damaged on the way.
+    /// The CRC-32 does not match: the bytes are damaged.
     #[error("CRC-32 does not match: the bytes are damaged")]
     Checksum,
-    /// A number of this piece of the table, from 0, is not finite.
+    /// A number of this piece of the table is not finite; pieces count from 0.
     #[error("piece {0} of the table has a number that is not finite")]
     Piece(u32),
-    /// The revision is not that of the constants: no build made them.
-    #[error("the revision is not that of the constants: no build made them")]
+    /// The revision does not match the constants, so they are not from a build.
+    #[error("the revision does not match the constants: they are not from a build")]
     Revision,
-    /// A constant beside the table is not finite or out of range.
-    #[error("a constant beside the table is not finite or out of range")]
+    /// A constant outside the table is not finite or out of range.
+    #[error("a constant outside the table is not finite or out of range")]
     Scalars,
 }
 
 macro_rules! image {
     ($float:ident, $word:ident) => {
         impl Damper<$float> {
-            /// Bytes of an image of a damper.
+            /// Number of bytes of an image.
             pub const IMAGE_BYTES: usize =
                 Header::BYTES + Self::WORDS * size_of::<$word>() + CHECK_BYTES;
 
-            /// This damper as bytes, checked by [`Self::load_image`].
+            /// Returns this damper as checked bytes for [`Self::load_image`].
             pub fn to_image(&self) -> [u8; Self::IMAGE_BYTES] {
                 let mut image = [0; Self::IMAGE_BYTES];
                 let words = self.to_words();
@@ -87,10 +87,10 @@ macro_rules! image {
                 image
             }
 
-            /// The damper of an image.
+            /// Returns the damper of an image.
             ///
             /// # Errors
-            /// Those of [`Self::load_image`].
+            /// The first error in the image.
             ///
             /// ```
             /// use dashpot_core::{Damper, ImageError};

@@ -17,7 +17,7 @@ fn number(value: f64) -> String {
 fn hydraulics(bench: &Bench) -> Option<&Hydraulics> {
     match &bench.parameters.element {
         Element::Physical(hydraulics) => Some(hydraulics),
-        Element::Reduced(_) => None,
+        _ => None,
     }
 }
 

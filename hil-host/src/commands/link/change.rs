@@ -4,7 +4,7 @@ use std::fmt;
 use std::str::FromStr;
 
 use dashpot_core::link::{LossOfLink, Parameter, Request, SafeOutput};
-use dashpot_core::parameters::LARGEST_CLEARANCE_M;
+use dashpot_core::parameters::MAX_CLEARANCE_M;
 use serde::Serialize;
 
 use super::LinkArguments;
@@ -25,7 +25,7 @@ pub(super) struct SetArguments {
     place: u8,
     /// Clearance 2a, the whole play, m.
     #[arg(
-        help = format!("Clearance 2a, the whole play, m; 0 to {LARGEST_CLEARANCE_M}"),
+        help = format!("Clearance 2a, the whole play, m; 0 to {MAX_CLEARANCE_M}"),
         long,
         value_name = "M",
         value_parser = clearance,
@@ -37,8 +37,8 @@ pub(super) struct SetArguments {
 fn clearance(text: &str) -> Result<f32, String> {
     text.parse()
         .ok()
-        .filter(|clearance_m| (0.0..=LARGEST_CLEARANCE_M as f32).contains(clearance_m))
-        .ok_or_else(|| format!("allowed: 0 to {LARGEST_CLEARANCE_M} m"))
+        .filter(|clearance_m| (0.0..=MAX_CLEARANCE_M as f32).contains(clearance_m))
+        .ok_or_else(|| format!("allowed: 0 to {MAX_CLEARANCE_M} m"))
 }
 
 #[derive(Serialize)]

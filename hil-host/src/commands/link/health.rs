@@ -4,7 +4,7 @@ use std::io::{self, Write};
 use std::path::PathBuf;
 
 use dashpot_core::health::{HealthReading, HealthStatus};
-use dashpot_core::link::MOST_MEASURED;
+use dashpot_core::link::MAX_MEASURED;
 use serde::Serialize;
 
 use super::LinkArguments;
@@ -168,12 +168,12 @@ fn feed(
         .map(|every_s| (every_s / step_s).round().max(1.0) as u64);
     let length = health.input.as_deref().map_or(0, input::length);
     let bar = progress::bar(length, "feed");
-    let mut batch: Vec<(f32, f32)> = Vec::with_capacity(MOST_MEASURED);
+    let mut batch: Vec<(f32, f32)> = Vec::with_capacity(MAX_MEASURED);
     while let Some(tick) = ticks.next_tick()? {
         batch.push((tick.displacement_m as f32, tick.force_n as f32));
         report.fed += 1;
         let is_due = every.is_some_and(|every| report.fed.is_multiple_of(every));
-        if is_due || batch.len() == MOST_MEASURED {
+        if is_due || batch.len() == MAX_MEASURED {
             target.client().measure(health.place, &batch)?;
             batch.clear();
         }

@@ -1,6 +1,6 @@
 //! Places of a bank, as options name them.
 
-use dashpot_core::link::MOST_DAMPERS;
+use dashpot_core::link::MAX_DAMPERS;
 
 use super::target::Target;
 use crate::commands::failure::{Failure, Outcome};
@@ -15,7 +15,7 @@ pub(super) struct Places {
 
 /// Parses a place that a target may have.
 pub(super) fn place() -> clap::builder::RangedI64ValueParser<u8> {
-    clap::value_parser!(u8).range(..MOST_DAMPERS as i64)
+    clap::value_parser!(u8).range(..MAX_DAMPERS as i64)
 }
 
 impl Places {

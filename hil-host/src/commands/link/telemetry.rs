@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use dashpot_core::link::{KEPT_TICKS, MOST_SAMPLES, Request, Response, Sample};
+use dashpot_core::link::{KEPT_TICKS, MAX_SAMPLES, Request, Response, Sample};
 use serde::Serialize;
 
 use super::LinkArguments;
@@ -15,7 +15,7 @@ use dashpot_files::output::{self, cannot_write_rows, write_whole_if};
 use dashpot_files::status_bits::{self, StatusBit};
 
 /// Answers that hold all the ticks a target keeps; what comes after those is newer than the question.
-const MOST_ANSWERS: usize = KEPT_TICKS / MOST_SAMPLES;
+const MOST_ANSWERS: usize = KEPT_TICKS / MAX_SAMPLES;
 
 /// Take all samples that wait: the last 64 ticks at most of each damper, each sample once.
 #[derive(Debug, Clone, clap::Args)]
@@ -104,7 +104,7 @@ fn take_all(target: &mut Target, place: u8) -> Outcome<Taken> {
         let taken = take(target, place)?;
         all.overwritten = taken.overwritten;
         all.samples.extend(&taken.samples);
-        if taken.samples.len() < MOST_SAMPLES {
+        if taken.samples.len() < MAX_SAMPLES {
             break;
         }
     }

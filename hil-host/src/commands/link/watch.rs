@@ -4,7 +4,7 @@ use std::io::{self, Write};
 use std::path::Path;
 use std::time::Duration;
 
-use dashpot_core::link::{MOST_SAMPLES, Sample};
+use dashpot_core::link::{MAX_SAMPLES, Sample};
 
 use super::LinkArguments;
 use super::places::Places;
@@ -115,6 +115,6 @@ fn print(out: &mut dyn Write, format: Format, place: u8, sample: &Sample) -> io:
 
 /// The time in which an answer fills with samples.
 fn pause(step_s: f32) -> Duration {
-    Duration::try_from_secs_f32(step_s * MOST_SAMPLES as f32)
+    Duration::try_from_secs_f32(step_s * MAX_SAMPLES as f32)
         .map_or(LONGEST_PAUSE, |pause| pause.min(LONGEST_PAUSE))
 }

@@ -187,14 +187,15 @@ fn baseline(path: &Path) -> Outcome<Baseline> {
         compliance_m_per_n,
         clearance_m,
     } = earlier.map_err(|error| no_baseline(path, error))?.health;
-    Ok(Baseline {
-        flow_factor: flow_factor.value,
-        compliance_m_per_n: compliance_m_per_n.value,
-        clearance_m: clearance_m.value,
-        flow_factor_sd: flow_factor.sd,
-        compliance_sd_m_per_n: compliance_m_per_n.sd,
-        clearance_sd_m: clearance_m.sd,
-    })
+    let mut baseline = Baseline::new(
+        flow_factor.value,
+        compliance_m_per_n.value,
+        clearance_m.value,
+    );
+    baseline.flow_factor_sd = flow_factor.sd;
+    baseline.compliance_sd_m_per_n = compliance_m_per_n.sd;
+    baseline.clearance_sd_m = clearance_m.sd;
+    Ok(baseline)
 }
 
 fn no_baseline(path: &Path, reason: impl std::fmt::Display) -> Failure {

@@ -5,7 +5,7 @@ mod calculix;
 mod correction;
 mod harmonics;
 
-use dashpot_core::parameters::{Element, Valve};
+use dashpot_core::parameters::{Element, Shims, Valve};
 use dashpot_files::damper;
 use dashpot_testbench::plate::{Stack, Stacking};
 
@@ -18,7 +18,7 @@ fn stack(clamp_m: f64, free_m: f64, discs_m: &[f64]) -> Stack {
 }
 
 fn stack_of(clamp_m: f64, free_m: f64, discs_m: &[f64], stacking: Stacking) -> Stack {
-    let discs = discs_m.iter().copied().collect();
+    let discs = Shims::new(discs_m).unwrap();
     let valve = Valve::with_shims(clamp_m, free_m, discs, 0.61);
     Stack::new("valve", &valve, stacking).unwrap()
 }

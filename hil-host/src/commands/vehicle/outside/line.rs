@@ -1,7 +1,7 @@
 //! Dampers behind one link.
 
 use dashpot_core::Damper;
-use dashpot_core::link::MOST_DAMPERS;
+use dashpot_core::link::MAX_DAMPERS;
 
 use super::choice::{Choice, Source};
 use super::report::Target;
@@ -15,7 +15,7 @@ use dashpot_host_link::{
 use dashpot_vehicle_run::Run;
 
 /// Places of a target on the desk: as many as a target may have.
-const DESK_PLACES: usize = MOST_DAMPERS;
+const DESK_PLACES: usize = MAX_DAMPERS;
 
 /// How far the steps of case and target may be from whole multiples of each other: a target tells its own in single precision.
 const SAME_STEP: f64 = 1e-6;
