@@ -75,10 +75,7 @@ fn contact(criterion: &mut Criterion) {
     let tables = Tables::new(geometry, Grid::default()).expect("the default grid is valid");
     let tables = Arc::new(tables);
     let friction = Friction::default();
-    let falling = Friction {
-        residual_ratio: 0.4,
-        ..friction
-    };
+    let falling = friction.with_residual_ratio(0.4);
     measure(
         criterion,
         "kalker_book",

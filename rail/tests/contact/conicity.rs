@@ -116,10 +116,7 @@ fn cone() -> Profile {
 
 #[test]
 fn a_cone_on_the_round_head_rolls_on_the_point_of_equal_slope() {
-    let installation = Installation {
-        inclination: 0.0,
-        ..Installation::default()
-    };
+    let installation = Installation::default().with_inclination(0.0);
     let pair = Pair::new(cone(), &uic60::profile(), installation).unwrap();
     let mut scratch = Vec::new();
     for shift in [-4e-3, -1e-3, 0.0, 2e-3, 4e-3] {

@@ -188,11 +188,9 @@ fn contacts_without_load_area_or_friction_give_no_force() {
 
 #[test]
 fn friction_falls_as_its_law_says() {
-    let friction = Friction {
-        static_coefficient: 0.36,
-        residual_ratio: 0.4,
-        decay_speed_m_per_s: 2.0,
-    };
+    let friction = Friction::constant(0.36)
+        .with_residual_ratio(0.4)
+        .with_decay_speed_m_per_s(2.0);
     assert!((friction.at(0.0) - 0.36).abs() < 1e-15);
     assert!((friction.at(1e9) - 0.144).abs() < 1e-15);
     assert!((friction.at(2.0) - 0.36 * (0.6 / std::f64::consts::E + 0.4)).abs() < 1e-15);

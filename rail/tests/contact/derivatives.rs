@@ -68,11 +68,9 @@ fn worst<L: CreepLaw, S: PatchSource>(
 }
 
 fn damped<S: PatchSource>(source: std::sync::Arc<S>) -> WheelsetContact<ShenHedrickElkins, S> {
-    let friction = Friction {
-        static_coefficient: 0.35,
-        residual_ratio: 0.4,
-        decay_speed_m_per_s: 2.0,
-    };
+    let friction = Friction::constant(0.35)
+        .with_residual_ratio(0.4)
+        .with_decay_speed_m_per_s(2.0);
     WheelsetContact::new(source, ShenHedrickElkins, friction)
         .and_then(|contact| contact.with_normal_damping(3.0))
         .unwrap()

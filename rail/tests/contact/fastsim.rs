@@ -33,10 +33,7 @@ fn simplified(contact: &LoadedContact, creepage: f64, c: f64) -> f64 {
 fn fastsim_without_spin_is_the_closed_form() {
     let contact = contact(80e3, 6e-3, 4e-3, 0.3);
     let limit = contact.load_n * contact.friction;
-    let fine = Fastsim {
-        elements: 200,
-        strips: 201,
-    };
+    let fine = Fastsim::default().with_elements(200).with_strips(201);
     for creepage in [2e-4, 1e-3, 2e-3, 4e-3, 2e-2] {
         let forces = fine.forces(
             &contact,
@@ -84,11 +81,10 @@ fn a_finer_mesh_converges() {
         let all: Vec<CreepForces> = meshes
             .iter()
             .map(|&elements| {
-                Fastsim {
-                    elements,
-                    strips: elements + 1,
-                }
-                .forces(&contact, &creepage)
+                Fastsim::default()
+                    .with_elements(elements)
+                    .with_strips(elements + 1)
+                    .forces(&contact, &creepage)
             })
             .collect();
         let finest = all[all.len() - 1];

@@ -129,10 +129,7 @@ fn the_sample_files_pass() {
     let read = |name: &str, body: Body, mirror: Option<Mirror>| {
         let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/");
         let text = std::fs::read_to_string(format!("{folder}{name}")).unwrap();
-        let options = Options {
-            mirror,
-            ..Options::default()
-        };
+        let options = Options::default().with_mirror(mirror);
         measured::parse(name, &text, body, &options).unwrap().0
     };
     for (wheel, rail, mirror) in [

@@ -73,10 +73,7 @@ fn three_separate_contacts_carry_their_own_hertz_loads() {
         };
         flat + hump(y, -14.0, 1.0) + hump(y, 2.0, 1.0) + hump(y, 17.0, 1.0)
     });
-    let installation = Installation {
-        inclination: 0.0,
-        ..Installation::default()
-    };
+    let installation = Installation::default().with_inclination(0.0);
     let pair = Pair::new(wheel, &rail, installation).unwrap();
     let geometry = Arc::new(ContactGeometry::new(pair, Steel::default(), 100e3).unwrap());
     let contact = WheelsetContact::new(geometry, KalkerBook::new(), Friction::default()).unwrap();

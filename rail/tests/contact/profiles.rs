@@ -90,26 +90,14 @@ fn splines_follow_the_definitions_with_their_curvatures() {
 fn impossible_installations_are_refused() {
     for (installation, part) in [
         (
-            Installation {
-                gauge_m: 1.0,
-                ..Installation::default()
-            },
+            Installation::default().with_gauge_m(1.0),
             "gauge less back-to-back",
         ),
         (
-            Installation {
-                wheel_radius_m: f64::NAN,
-                ..Installation::default()
-            },
+            Installation::default().with_wheel_radius_m(f64::NAN),
             "wheel radius",
         ),
-        (
-            Installation {
-                inclination: 0.5,
-                ..Installation::default()
-            },
-            "inclination",
-        ),
+        (Installation::default().with_inclination(0.5), "inclination"),
     ] {
         let message = Pair::standard(installation).unwrap_err().to_string();
         assert!(

@@ -24,12 +24,8 @@ fn contact(
 
 #[test]
 fn a_larger_wheel_reaches_deeper_and_rolls_on_its_own_radius() {
-    let sides = [0.62495, 0.62505].map(|wheel_radius_m| {
-        of(Installation {
-            wheel_radius_m,
-            ..Installation::default()
-        })
-    });
+    let sides = [0.62495, 0.62505]
+        .map(|wheel_radius_m| of(Installation::default().with_wheel_radius_m(wheel_radius_m)));
     let unequal = contact(sides);
     let equal = contact([Arc::new(geometry().clone()), Arc::new(geometry().clone())]);
     let motion = at_height_under_load(&equal, &rolling(20.0), 206e3);
@@ -62,12 +58,7 @@ fn a_rolled_rail_is_a_rail_laid_at_another_inclination() {
     // 1:40 rolled until it lies at 1:32.
     let steeper = 1.0 / 32.0;
     let roll = f64::atan(steeper) - 0.025_f64.atan();
-    let laid = |inclination| {
-        of(Installation {
-            inclination,
-            ..Installation::default()
-        })
-    };
+    let laid = |inclination| of(Installation::default().with_inclination(inclination));
     let (upright, inclined) = (laid(0.025), laid(steeper));
     // The middle of the head, by its tangent: it turns about the top of the rail.
     let middle = |rail: &Profile, inclination: f64| {
@@ -181,10 +172,7 @@ fn normal_damping_is_that_of_hunt_and_crossley_and_never_pulls() {
 #[test]
 fn a_left_wheel_of_its_own_is_read_on_the_left() {
     // A left rail without inclination touches the same wheel elsewhere; the right side stays as it was.
-    let other = of(Installation {
-        inclination: 0.0,
-        ..Installation::default()
-    });
+    let other = of(Installation::default().with_inclination(0.0));
     let usual = Arc::new(geometry().clone());
     let both = contact([Arc::clone(&usual), Arc::clone(&usual)]);
     let mixed = contact([other, usual]);

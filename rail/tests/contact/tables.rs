@@ -52,20 +52,14 @@ fn elastic_constants_and_loads_out_of_bounds_are_refused() {
     };
     let steel = Steel::default();
     for young_modulus_pa in [0.0, -210e9, 1e13, f64::NAN] {
-        let bad = Steel {
-            young_modulus_pa,
-            ..steel
-        };
+        let bad = steel.with_young_modulus_pa(young_modulus_pa);
         assert!(matches!(
             refused(bad, 100e3),
             GeometryError::Steel(SteelError::YoungModulus { .. })
         ));
     }
     for poisson_ratio in [-0.1, 0.6, f64::NAN] {
-        let bad = Steel {
-            poisson_ratio,
-            ..steel
-        };
+        let bad = steel.with_poisson_ratio(poisson_ratio);
         assert!(matches!(
             refused(bad, 100e3),
             GeometryError::Steel(SteelError::PoissonRatio { .. })
@@ -84,22 +78,10 @@ fn elastic_constants_and_loads_out_of_bounds_are_refused() {
 fn frictions_and_dampings_out_of_bounds_are_refused() {
     let friction = Friction::default();
     for bad in [
-        Friction {
-            static_coefficient: -0.1,
-            ..friction
-        },
-        Friction {
-            static_coefficient: f64::NAN,
-            ..friction
-        },
-        Friction {
-            residual_ratio: 1.1,
-            ..friction
-        },
-        Friction {
-            decay_speed_m_per_s: 0.0,
-            ..friction
-        },
+        friction.with_static_coefficient(-0.1),
+        friction.with_static_coefficient(f64::NAN),
+        friction.with_residual_ratio(1.1),
+        friction.with_decay_speed_m_per_s(0.0),
     ] {
         let error = WheelsetContact::new(tables(), Polach, bad).unwrap_err();
         assert!(matches!(

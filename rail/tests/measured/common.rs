@@ -20,11 +20,10 @@ pub const RAILS: [(&str, &str); 4] = [
 ];
 
 /// Through every point.
-pub const EXACT: Options = Options {
-    format: None,
-    mirror: None,
-    smoothing_m: 0.0,
-};
+pub const EXACT: Options = Options::new()
+    .with_format(None)
+    .with_mirror(None)
+    .with_smoothing_m(0.0);
 
 /// The wheel of two columns, smoothed as by default.
 pub fn wheel(text: &str) -> Result<(Profile, Reading), ProfileError> {

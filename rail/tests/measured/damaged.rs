@@ -94,10 +94,7 @@ fn columns_say_what_is_wrong_where_and_what_is_allowed() {
     let mut head = rail_readings();
     head.iter_mut().for_each(|row| row.1 = -row.1);
     assert_eq!(rail(&text(&head)).unwrap_err(), ProfileError::HeadDown);
-    let options = Options {
-        smoothing_m: f64::NAN,
-        ..EXACT
-    };
+    let options = EXACT.with_smoothing_m(f64::NAN);
     let error = measured::parse("wheel.csv", &text(&good), Body::Wheel, &options).unwrap_err();
     assert!(
         matches!(error, ProfileError::Curve(CurveError::Smoothing { .. })),
@@ -226,11 +223,9 @@ fn read_as_anything(text: &str, mirror: usize) {
     use dashpot_rail::profile::measured::Mirror;
     for format in Format::ALL {
         for body in [Body::Wheel, Body::Rail] {
-            let options = Options {
-                format: Some(format),
-                mirror: Some(Mirror::ALL[mirror]),
-                ..Options::default()
-            };
+            let options = Options::default()
+                .with_format(Some(format))
+                .with_mirror(Some(Mirror::ALL[mirror]));
             let Ok((profile, reading)) = measured::parse("any", text, body, &options) else {
                 continue;
             };

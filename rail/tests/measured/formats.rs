@@ -6,10 +6,7 @@ use dashpot_rail::profile::{Body, Profile, s1002, uic60};
 use crate::common::{EXACT, RAILS, WHEELS};
 
 /// Side of the track centre of `uic60.rail`.
-const GENSYS_RAIL: Options = Options {
-    mirror: Some(Mirror::Y),
-    ..EXACT
-};
+const GENSYS_RAIL: Options = EXACT.with_mirror(Some(Mirror::Y));
 
 fn read_rail(name: &str, text: &str) -> (Profile, Reading) {
     let options = if name.ends_with(".rail") {
@@ -116,10 +113,7 @@ fn a_format_is_told_by_content_before_extension() {
 
 #[test]
 fn a_stated_format_counts_before_content() {
-    let gensys = Options {
-        format: Some(Format::Gensys),
-        ..EXACT
-    };
+    let gensys = EXACT.with_format(Some(Format::Gensys));
     let (name, text) = WHEELS[3];
     let (expected, _) = read_wheel(name, text);
     let (stated, _) = measured::parse("s1002.txt", text, Body::Wheel, &gensys).unwrap();
@@ -130,10 +124,7 @@ fn a_stated_format_counts_before_content() {
 
 #[test]
 fn a_mirror_changes_the_side_in_the_axes_of_the_file() {
-    let mirrored = |mirror| Options {
-        mirror: Some(mirror),
-        ..EXACT
-    };
+    let mirrored = |mirror| EXACT.with_mirror(Some(mirror));
     let deeper_at = |options: &Options, (name, text): (&str, &str)| {
         let (rail, _) = measured::parse(name, text, Body::Rail, options).unwrap();
         let points = rail.points();

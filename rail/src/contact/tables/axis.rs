@@ -7,6 +7,7 @@ use fearless_simd::{Simd, SimdBase, f64x4};
 use super::TablesError;
 use crate::math::each::Each;
 use crate::math::number::load;
+use crate::setters::setters;
 
 /// Nodes along one axis, in three parts: coarse, fine, coarse.
 ///
@@ -163,6 +164,7 @@ pub(super) fn whole(number: f64) -> usize {
 
 /// Extent and spacing of the tables.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Grid {
     /// Lateral shift of the wheel, field side positive, m.
     pub lateral_m: Axis,
@@ -173,6 +175,12 @@ pub struct Grid {
 }
 
 impl Grid {
+    setters! {
+        with_lateral_m sets lateral_m: Axis;
+        with_roll_rad sets roll_rad: Axis;
+        with_yaw_squared_rad2 sets yaw_squared_rad2: Axis;
+    }
+
     /// Number of nodes.
     pub(super) fn nodes(&self) -> usize {
         self.lateral_m.nodes() * self.roll_rad.nodes() * self.yaw_squared_rad2.nodes()
