@@ -122,7 +122,8 @@ impl PatchForces {
 }
 
 impl WheelsetForces {
-    /// Returns true if forces can be computed for the motion; otherwise sets them to zero and the status to `NotFinite`.
+    /// Returns true if forces can be computed for the motion; otherwise sets them to zero and the status to
+    /// `NotFinite`.
     #[inline(always)]
     pub(super) fn begin(&mut self, motion: &Motion, rails: &[RailDisplacement; 2]) -> bool {
         let accepted = motion.is_accepted() & rails[0].is_accepted() & rails[1].is_accepted();

@@ -24,7 +24,8 @@ pub(super) struct Frame<T> {
     /// Speed by which creepages are divided, m/s, and its reciprocal.
     pub reference_speed: T,
     pub per_reference_speed: T,
-    /// 1 when rolling forward, -1 when rolling backward: the contact axes are then rotated by 180 degrees about the normal.
+    /// 1 when rolling forward, -1 when rolling backward: the contact axes are then rotated by 180 degrees about the
+    /// normal.
     pub direction: f64,
 }
 
@@ -83,8 +84,8 @@ impl<T: Number> Frame<T> {
         ]
     }
 
-    /// Point of the silhouette relative to the wheelset's centre, m: `offset` along the axle, on the circle of `radius`,
-    /// where the surface has `slope` across the track.
+    /// Point of the silhouette relative to the wheelset's centre, m: `offset` along the axle, on the circle of
+    /// `radius`, where the surface has `slope` across the track.
     #[inline(always)]
     pub fn silhouette_point(&self, offset: T, radius: T, slope: T) -> [T; 3] {
         let unrolled_slope = (slope - self.tan_roll) * (slope * self.tan_roll + 1.0).reciprocal();

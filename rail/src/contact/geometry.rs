@@ -44,8 +44,8 @@ pub struct ContactGeometry {
 }
 
 impl ContactGeometry {
-    /// Contact of `pair`, with both bodies of `steel`. The nominal wheel load, N, determines the [softness](softness_m) and
-    /// thereby the spread of the contact.
+    /// Contact of `pair`, with both bodies of `steel`. The nominal wheel load, N, determines the [softness](softness_m)
+    /// and thereby the spread of the contact.
     ///
     /// # Errors
     /// The elastic constants or the load are out of bounds.

@@ -157,8 +157,8 @@ impl Hertz {
     }
 }
 
-/// Minor divided by major semi-axis for a ratio >= 1 of the curvatures, by the secant method on logarithms, starting from
-/// the power law of Hamrock and Brewe (1983).
+/// Minor divided by major semi-axis for a ratio >= 1 of the curvatures, by the secant method on logarithms, starting
+/// from the power law of Hamrock and Brewe (1983).
 fn axis_ratio(ratio: f64) -> f64 {
     if ratio < 1.0 + 1e-9 {
         return 1.0;

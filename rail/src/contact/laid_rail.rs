@@ -3,7 +3,8 @@
 use super::installation::Installation;
 use crate::profile::{Profile, ProfilePoint};
 
-/// Returns the part of `rail` that a wheel can touch, in track axes: `y` from the track centre, `z` below the rail's top.
+/// Returns the part of `rail` that a wheel can touch, in track axes: `y` from the track centre, `z` below the rail's
+/// top.
 ///
 /// `None` if the gauge side ends above the depth at which the gauge is measured.
 pub(super) fn lay(rail: &Profile, installation: &Installation) -> Option<Profile> {

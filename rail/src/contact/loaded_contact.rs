@@ -97,9 +97,9 @@ impl CreepNumber for Tangent {
 impl Contact<Tangent> {
     /// Differentiates the forces with respect to everything they depend on.
     ///
-    /// Every law is `mu N f(x, y, z)` with `x = G ab C11 xi / (mu N)`, similarly `y` and `z`, and for the moment a further
-    /// factor `sqrt(ab)`. A change of the scale of a creepage therefore acts on the force like a change of the creepage
-    /// itself. The explicit influence of `a/b` and `C33` is neglected.
+    /// Every law is `mu N f(x, y, z)` with `x = G ab C11 xi / (mu N)`, similarly `y` and `z`, and for the moment a
+    /// further factor `sqrt(ab)`. A change of the scale of a creepage therefore acts on the force like a change of the
+    /// creepage itself. The explicit influence of `a/b` and `C33` is neglected.
     fn differentiated(&self, derivatives: &CreepDerivatives, friction: Tangent) -> [Tangent; 3] {
         let creepage = self.creepage.map(|number| number.value());
         // The coefficient that scales each creepage.

@@ -9,8 +9,8 @@
 //! 3. [`Hertz`] turns local curvatures into stiffness and semi-axes of a patch; [`ContactGeometry`] does so for a pair
 //!    under its nominal load.
 //! 4. [`Tables`] holds these patches, precomputed over a [`Grid`] of [`WheelPose`]s.
-//! 5. [`WheelsetContact`] reads the tables, or the geometry itself, in every time step. The input is the [`Motion`] of the
-//!    wheelset and the [`RailDisplacement`] of both rails. The output is [`WheelsetForces`] with a [`Status`], and
+//! 5. [`WheelsetContact`] reads the tables, or the geometry itself, in every time step. The input is the [`Motion`] of
+//!    the wheelset and the [`RailDisplacement`] of both rails. The output is [`WheelsetForces`] with a [`Status`], and
 //!    optionally [`WheelDerivatives`].
 //!
 //! Axes: x forward, y right, z down. Quantities of a single wheel refer to the right wheel, whose field side is at

@@ -48,9 +48,9 @@ pub struct Pair {
     pub(super) rail_slopes: Vec<f64>,
 }
 
-/// Contact angle that separates tread and flange. In a flange root as round as the rail's corner, the contact jumps within
-/// one sample from 40 degrees to the 70 degrees of the flange face. With a boundary in between, tread and flange each have
-/// one maximum of interpenetration.
+/// Contact angle that separates tread and flange. In a flange root as round as the rail's corner, the contact jumps
+/// within one sample from 40 degrees to the 70 degrees of the flange face. With a boundary in between, tread and flange
+/// each have one maximum of interpenetration.
 const FLANGE_ANGLE: f64 = 50.0 * std::f64::consts::PI / 180.0;
 
 impl Pair {
@@ -141,7 +141,8 @@ impl Pair {
         self.tread_end_m
     }
 
-    /// Position of the steepest point of the flange, m from the tread datum. A wheel in contact at smaller values climbs.
+    /// Position of the steepest point of the flange, m from the tread datum. A wheel in contact at smaller values
+    /// climbs.
     pub fn steepest_flange_m(&self) -> f64 {
         self.steepest_flange_m
     }

@@ -9,14 +9,14 @@ use super::zones::{ZONES, Zones};
 
 /// Softness of the contact divided by the Hertzian penetration.
 ///
-/// With 0.25 the contact position agrees with that of an elastic half-space within 0.15 mm; 0.26 also halves the remaining
-/// error of the steering forces near the centre.
+/// With 0.25 the contact position agrees with that of an elastic half-space within 0.15 mm; 0.26 also halves the
+/// remaining error of the steering forces near the centre.
 const SOFTNESS_RATIO: f64 = 0.26;
 /// Transverse curvature of the contact whose penetration sets the softness, 1/m: a rail head of R 300.
 const TYPICAL_CURVATURE_PER_M: f64 = 1.0 / 0.3;
 
-/// Softness of the contact of a wheel of `wheel_radius_m` under `load_n`, m: the interpenetration over which the weight of
-/// a point falls to `1/e`. It is 0.26 times the Hertzian penetration on a rail head of R 300.
+/// Softness of the contact of a wheel of `wheel_radius_m` under `load_n`, m: the interpenetration over which the weight
+/// of a point falls to `1/e`. It is 0.26 times the Hertzian penetration on a rail head of R 300.
 ///
 /// ```
 /// use dashpot_rail::contact::{Steel, softness_m};
@@ -60,13 +60,13 @@ const ABSENT_M: f64 = -0.05;
 const MIN_EXPONENT: f64 = -20.0;
 
 impl TurnedWheel<'_> {
-    /// Computes the patch of each zone at a lateral shift, from the flange to the field side. `scratch` is working memory
-    /// and is overwritten.
+    /// Computes the patch of each zone at a lateral shift, from the flange to the field side. `scratch` is working
+    /// memory and is overwritten.
     ///
-    /// Two summits with a valley of depth `v` between them are merged to the degree `1 - S(v / 4 softness)`, where `S` is the
-    /// smooth step. A fully separate patch carries its own load at its own interpenetration and curvature. Merged patches
-    /// share one load; its interpenetration and curvature are weighted means over all of them. Sums over a wheel are
-    /// therefore continuous where a summit splits or two summits merge.
+    /// Two summits with a valley of depth `v` between them are merged to the degree `1 - S(v / 4 softness)`, where `S`
+    /// is the smooth step. A fully separate patch carries its own load at its own interpenetration and curvature.
+    /// Merged patches share one load; its interpenetration and curvature are weighted means over all of them. Sums over
+    /// a wheel are therefore continuous where a summit splits or two summits merge.
     pub fn patches(
         &self,
         lateral_m: f64,
@@ -128,7 +128,8 @@ impl TurnedWheel<'_> {
         })
     }
 
-    /// Finds the summit of the wheel within `zone` (m from the tread datum); `None` if the zone is nowhere over the rail.
+    /// Finds the summit of the wheel within `zone` (m from the tread datum); `None` if the zone is nowhere over the
+    /// rail.
     fn summit(
         &self,
         silhouette: &[SilhouettePoint],

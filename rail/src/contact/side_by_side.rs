@@ -1,8 +1,8 @@
 //! The step: evaluates the patches of both wheels in parallel vector lanes.
 //!
-//! The four lanes hold one patch of the left wheel (of its mirror image on the right side), one of the right wheel, and a
-//! second patch of each. The instruction set is detected once. On processors with fused multiply-add, the last bits of
-//! single precision differ from those on processors without.
+//! The four lanes hold one patch of the left wheel (of its mirror image on the right side), one of the right wheel, and
+//! a second patch of each. The instruction set is detected once. On processors with fused multiply-add, the last bits
+//! of single precision differ from those on processors without.
 
 use fearless_simd::{Simd, SimdBase, dispatch, f64x4};
 
@@ -127,8 +127,8 @@ fn ones(used: [bool; 4]) -> [f64; 4] {
 }
 
 impl<L: CreepLaw, P: PatchSource> WheelsetContact<L, P> {
-    /// [`WheelsetContact::update`]: with a loop for any number of patches if `MANY`, else without one for at most two patches
-    /// per wheel. Returns false if there are more.
+    /// [`WheelsetContact::update`]: with a loop for any number of patches if `MANY`, else without one for at most two
+    /// patches per wheel. Returns false if there are more.
     #[inline(always)]
     pub(super) fn update_side_by_side<const MANY: bool, S: Simd>(
         &self,

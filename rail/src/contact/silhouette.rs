@@ -26,8 +26,8 @@ pub struct SilhouettePoint {
     pub track_y_m: f64,
     /// Depth of the wheel below the rail's surface when the tread datum is at the height of the rail's top, m.
     pub interpenetration_m: f64,
-    /// Interpenetration measured along the normal, `integral of cos(angle) d(interpenetration)` from the first point of the
-    /// wheel, m. It ranks points by how close they are to contact.
+    /// Interpenetration measured along the normal, `integral of cos(angle) d(interpenetration)` from the first point of
+    /// the wheel, m. It ranks points by how close they are to contact.
     pub normal_height_m: f64,
     /// `dz/dy` of the wheel's surface across the track.
     pub slope: f64,
@@ -56,9 +56,10 @@ struct TurnedPoint {
 impl Pair {
     /// Rotates the wheel by `roll_rad` and `yaw_rad`.
     ///
-    /// The silhouette is that of the body of revolution, yawed and then rolled about the rail's direction, as seen along the
-    /// rail. A circle of radius `r` and slope `t = dr/ds` touches it `r t tan(yaw)` behind the axle, `r t tan(yaw) sin(yaw)`
-    /// inward and `r sqrt(1 - t^2 tan(yaw)^2)` below the axle. This is exact for this order of rotations.
+    /// The silhouette is that of the body of revolution, yawed and then rolled about the rail's direction, as seen
+    /// along the rail. A circle of radius `r` and slope `t = dr/ds` touches it `r t tan(yaw)` behind the axle, `r t
+    /// tan(yaw) sin(yaw)` inward and `r sqrt(1 - t^2 tan(yaw)^2)` below the axle. This is exact for this order of
+    /// rotations.
     pub fn turned(&self, roll_rad: f64, yaw_rad: f64) -> TurnedWheel<'_> {
         let (sin_roll, cos_roll) = roll_rad.sin_cos();
         let (sin_yaw, cos_yaw) = yaw_rad.sin_cos();

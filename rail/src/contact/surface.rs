@@ -53,8 +53,8 @@ impl<L> Surface<L> {
         )
     }
 
-    /// Factor `1 + beta w` on the elastic load of surfaces that approach each other at speed `w` (Hunt and Crossley 1975).
-    /// It is never negative, because rails cannot pull.
+    /// Factor `1 + beta w` on the elastic load of surfaces that approach each other at speed `w` (Hunt and Crossley
+    /// 1975). It is never negative, because rails cannot pull.
     #[inline(always)]
     pub fn damping<T: Number>(&self, approach_speed: T) -> T {
         (approach_speed * self.normal_damping_s_per_m + 1.0).not_negative()

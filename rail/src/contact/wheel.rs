@@ -179,7 +179,8 @@ impl<T: CreepNumber> MovingWheel<T> {
         }
     }
 
-    /// Evaluates the patch of `numbers` whose surfaces interpenetrate by `depth` along z, m, in the lanes that are `used`.
+    /// Evaluates the patch of `numbers` whose surfaces interpenetrate by `depth` along z, m, in the lanes that are
+    /// `used`.
     #[inline(always)]
     pub fn patch<L: CreepLaw>(
         &self,
@@ -266,8 +267,8 @@ impl<T: CreepNumber> MovingWheel<T> {
 
 /// Status of a wheel.
 ///
-/// `is_inside`: the pose is inside the tables. `penetration_m`: maximum over the patches. `wheel_y_m`: lateral position of
-/// the loaded patch nearest to the flange tip.
+/// `is_inside`: the pose is inside the tables. `penetration_m`: maximum over the patches. `wheel_y_m`: lateral position
+/// of the loaded patch nearest to the flange tip.
 #[inline(always)]
 pub(super) fn status(
     pair: &Pair,

@@ -17,7 +17,9 @@ use crate::creep::{CreepLaw, Friction};
 ///
 /// ```
 /// # use std::sync::Arc;
-/// # use dashpot_rail::contact::{ContactGeometry, Grid, Installation, Motion, Pair, RailDisplacement, Steel, Tables, WheelsetContact};
+/// # use dashpot_rail::contact::{
+/// #     ContactGeometry, Grid, Installation, Motion, Pair, RailDisplacement, Steel, Tables, WheelsetContact,
+/// # };
 /// # use dashpot_rail::creep::{Friction, Polach};
 /// # let mut grid = Grid::default();
 /// # grid.roll_rad.cells = [1, 2, 1];
@@ -53,8 +55,8 @@ impl<L: CreepLaw, S: PatchSource> WheelsetContact<L, S> {
 
     /// Contact of a left and a right wheel that differ in profile, diameter or rail inclination.
     ///
-    /// The left pair is given as its mirror image, as if it were on the right side. The shear modulus is the mean of both
-    /// sides.
+    /// The left pair is given as its mirror image, as if it were on the right side. The shear modulus is the mean of
+    /// both sides.
     ///
     /// # Errors
     /// The friction is out of bounds.
@@ -89,7 +91,8 @@ impl<L: CreepLaw, S: PatchSource> WheelsetContact<L, S> {
 
     /// Sets the normal damping `beta` of Hunt and Crossley, s/m; the default is zero.
     ///
-    /// The load is `k penetration^1.5 (1 + beta w)`, where `w` is the approach speed of the surfaces. It is never negative.
+    /// The load is `k penetration^1.5 (1 + beta w)`, where `w` is the approach speed of the surfaces. It is never
+    /// negative.
     ///
     /// # Errors
     /// The damping is not within 0 to [`MAX_NORMAL_DAMPING_S_PER_M`].
@@ -149,8 +152,8 @@ impl<L: CreepLaw, S: PatchSource> WheelsetContact<L, S> {
         }
     }
 
-    /// As [`update`](WheelsetContact::update), and returns the derivatives of force and moment on the left and the right
-    /// wheel with respect to every field of [`Motion`].
+    /// As [`update`](WheelsetContact::update), and returns the derivatives of force and moment on the left and the
+    /// right wheel with respect to every field of [`Motion`].
     ///
     /// The derivatives with respect to the lateral and vertical displacement and velocity of a wheel's own rail are the
     /// negatives of those with respect to the wheelset's.

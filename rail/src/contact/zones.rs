@@ -30,9 +30,10 @@ const AVOIDED_M: f64 = 25e-6;
 
 /// The cuts between the zones of a wheel, as functions of the lateral shift.
 ///
-/// Neighbouring zones without a valley between them share one patch ([`TurnedWheel::patches`](super::TurnedWheel::patches)),
-/// so there the position of a cut does not matter. A cut only has to follow a valley if there is one, and to move
-/// continuously, so that neighbouring nodes of the tables have the same zones.
+/// Neighbouring zones without a valley between them share one patch
+/// ([`TurnedWheel::patches`](super::TurnedWheel::patches)), so there the position of a cut does not matter. A cut only
+/// has to follow a valley if there is one, and to move continuously, so that neighbouring nodes of the tables have the
+/// same zones.
 #[derive(Debug, Clone)]
 pub struct Zones {
     flange_end: f64,
@@ -40,8 +41,8 @@ pub struct Zones {
 }
 
 impl Zones {
-    /// Determines the cuts of `pair` by dynamic programming. Each cut is the path over the shift that follows the deepest
-    /// valleys with the least movement; the second cut takes the first into account.
+    /// Determines the cuts of `pair` by dynamic programming. Each cut is the path over the shift that follows the
+    /// deepest valleys with the least movement; the second cut takes the first into account.
     pub fn new(pair: &Pair) -> Self {
         let landscape = Landscape::new(pair);
         let flange_end = pair.tread_end_m();

@@ -9,10 +9,11 @@ use super::law::{CreepForces, CreepLaw, LoadedContact};
 pub struct CreepDerivatives {
     /// The forces.
     pub forces: CreepForces,
-    /// Derivatives with respect to the creepages. Rows: longitudinal force, N, lateral force, N, and moment, N m. Columns:
-    /// longitudinal creepage, lateral creepage, and spin, 1/m.
+    /// Derivatives with respect to the creepages. Rows: longitudinal force, N, lateral force, N, and moment, N m.
+    /// Columns: longitudinal creepage, lateral creepage, and spin, 1/m.
     pub by_creepage: [[f64; 3]; 3],
-    /// Derivatives of the same three with respect to the load, N/N and N m/N; the semi-axes grow as its cube root (Hertz).
+    /// Derivatives of the same three with respect to the load, N/N and N m/N; the semi-axes grow as its cube root
+    /// (Hertz).
     pub by_load: [f64; 3],
 }
 

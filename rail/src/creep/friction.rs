@@ -64,7 +64,8 @@ impl Friction {
     /// Checks that every quantity is within its bounds.
     ///
     /// # Errors
-    /// The coefficient is not within 0 to 2, the ratio not within 0 to 1, or the decay speed not within 0.001 to 1000 m/s.
+    /// The coefficient is not within 0 to 2, the ratio not within 0 to 1, or the decay speed not within 0.001 to 1000
+    /// m/s.
     pub fn check(&self) -> Result<(), FrictionError> {
         let allowed = [
             (

@@ -97,8 +97,8 @@ impl CreepForces {
 /// # Ok::<(), dashpot_rail::creep::KalkerError>(())
 /// ```
 pub trait CreepLaw: Send + Sync {
-    /// Forces as the source of the law states them. The caller ensures positive load, semi-axes and friction, and a finite
-    /// creepage.
+    /// Forces as the source of the law states them. The caller ensures positive load, semi-axes and friction, and a
+    /// finite creepage.
     fn unlimited_forces(&self, contact: &LoadedContact, creepage: &Creepage) -> CreepForces;
 
     /// Dissipative forces within the friction limit; zero unless load, friction and semi-axes are positive and finite.
@@ -114,8 +114,8 @@ pub trait CreepLaw: Send + Sync {
         )
     }
 
-    /// `[longitudinal force, lateral force, moment]` of four contacts, each lane as [`CreepLaw::forces`]; zero in lanes that
-    /// are not `used`.
+    /// `[longitudinal force, lateral force, moment]` of four contacts, each lane as [`CreepLaw::forces`]; zero in lanes
+    /// that are not `used`.
     ///
     /// The default evaluates the lanes one after the other. Override it only for speed.
     #[inline(always)]
@@ -186,8 +186,8 @@ pub(super) fn is_loaded(contact: &LoadedContact) -> bool {
     loaded && contact.a_m > 0.0 && area > 0.0 && area.is_finite()
 }
 
-/// Forces of Kalker's linear theory, without friction limit: `Fx = -G ab C11 xi`, `Fy = -G ab C22 eta - G (ab)^1.5 C23 phi`,
-/// `M = G (ab)^1.5 C23 eta - G (ab)^2 C33 phi`.
+/// Forces of Kalker's linear theory, without friction limit: `Fx = -G ab C11 xi`, `Fy = -G ab C22 eta - G (ab)^1.5 C23
+/// phi`, `M = G (ab)^1.5 C23 eta - G (ab)^2 C33 phi`.
 #[inline]
 pub fn linear_forces(contact: &LoadedContact, creepage: &Creepage) -> CreepForces {
     let area = contact.a_m * contact.b_m;

@@ -9,11 +9,11 @@
 //! | [`ShenHedrickElkins`] | closed form | comparison, with little spin |
 //! | [`Fastsim`] | about a thousand times the others | comparison: Kalker's simplified theory |
 //!
-//! With large spin, as on flanges and other steep contacts, the two closed forms are wrong by up to 45 % and 29 % of the
-//! friction limit.
+//! With large spin, as on flanges and other steep contacts, the two closed forms are wrong by up to 45 % and 29 % of
+//! the friction limit.
 //!
-//! [`KalkerTable`] provides the coefficients of the linear theory ([`linear_forces`]), [`Friction`] the friction coefficient
-//! as a function of the sliding speed.
+//! [`KalkerTable`] provides the coefficients of the linear theory ([`linear_forces`]), [`Friction`] the friction
+//! coefficient as a function of the sliding speed.
 //!
 //! Contact axes: 1 in the rolling direction, 2 along the common tangent to the field side, 3 into the rail. Forces act
 //! on the wheel; creepages are the velocity of the wheel's surface relative to the rail, divided by the speed.
@@ -21,8 +21,8 @@
 //! # Adding a creep law
 //!
 //! Add a file to `rail/src/creep/` with a type that implements [`CreepLaw::unlimited_forces`], the forces as the source
-//! states them. [`CreepLaw::forces`] limits them to friction and makes them dissipative. Declare the file in `mod.rs`, and
-//! add the law to `laws()` in `rail/tests/contact/common/mod.rs`: all tests of creep laws then cover it, and
+//! states them. [`CreepLaw::forces`] limits them to friction and makes them dissipative. Declare the file in `mod.rs`,
+//! and add the law to `laws()` in `rail/tests/contact/common/mod.rs`: all tests of creep laws then cover it, and
 //! `rail/tests/contact/laws.rs` measures its errors for `docs/contact.md`.
 
 mod contact_lanes;

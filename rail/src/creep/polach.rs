@@ -12,9 +12,9 @@ use super::law::{CreepForces, CreepLaw, LoadedContact, linear_forces};
 /// `s_c = hypot(xi, eta_c)`, where `eta_c` is the greater in magnitude of `eta` and `eta + phi a`. The lateral force
 /// caused by spin is `9/16 a mu N K (1 + 6.3 (1 - exp(-a/b))) phi / s_c`.
 ///
-/// **Not for contacts with spin** (flange, large contact angles). If the spin `phi sqrt(ab)` is half the sliding creepage, the
-/// RMS error of the force is 8 % of the friction limit over the grid of docs/contact.md, at most 20 %. If it is twice that
-/// creepage, the error is 14 % (45 %). [`KalkerBook`](super::KalkerBook) has no such limit.
+/// **Not for contacts with spin** (flange, large contact angles). If the spin `phi sqrt(ab)` is half the sliding
+/// creepage, the RMS error of the force is 8 % of the friction limit over the grid of docs/contact.md, at most 20 %. If
+/// it is twice that creepage, the error is 14 % (45 %). [`KalkerBook`](super::KalkerBook) has no such limit.
 ///
 /// The source states no moment. Here it is the moment of the linear theory, reduced by the same factor as the force.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

@@ -5,8 +5,8 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use super::number::Number;
 
-/// A number with its derivatives with respect to `N` variables. The derivatives are in single precision, which suffices for a
-/// tangent, and lets one instruction process four of them.
+/// A number with its derivatives with respect to `N` variables. The derivatives are in single precision, which suffices
+/// for a tangent, and lets one instruction process four of them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Dual<const N: usize> {
     value: f64,

@@ -1,4 +1,5 @@
-//! Eigenvalues of a real matrix: balancing, Hessenberg form, QR iteration with Francis' double shift and exceptional shifts.
+//! Eigenvalues of a real matrix: balancing, Hessenberg form, QR iteration with Francis' double shift and exceptional
+//! shifts.
 
 use nalgebra::linalg::{Hessenberg, balancing::balance_parlett_reinsch};
 use nalgebra::{Complex, DMatrix};
@@ -10,11 +11,11 @@ const EXCEPTIONAL_EACH: usize = 10;
 /// Maximum iterations for one eigenvalue, per row of the matrix; an eigenvalue usually takes three in all.
 const MAX_ITERATIONS_PER_ROW: usize = 30;
 
-/// Computes the eigenvalues of `matrix`, unordered, with conjugate pairs adjacent. `None` if an entry is not finite, or if the
-/// iteration does not converge, which is not known to happen.
+/// Computes the eigenvalues of `matrix`, unordered, with conjugate pairs adjacent. `None` if an entry is not finite, or
+/// if the iteration does not converge, which is not known to happen.
 ///
-/// The algorithm is that of LAPACK's `dhseqr` for small matrices (`dlahqr`): Francis' implicit double shift (1961), deflation by the
-/// criterion of Ahues and Tisseur (LAPACK Working Note 122, 1997).
+/// The algorithm is that of LAPACK's `dhseqr` for small matrices (`dlahqr`): Francis' implicit double shift (1961),
+/// deflation by the criterion of Ahues and Tisseur (LAPACK Working Note 122, 1997).
 pub(crate) fn eigenvalues(matrix: &DMatrix<f64>) -> Option<Vec<Complex<f64>>> {
     if matrix.is_empty() {
         return Some(Vec::new());
@@ -230,8 +231,8 @@ impl Iteration {
     }
 }
 
-/// Householder reflection `1 - factor v v^T` with `v[0] = 1` that maps three numbers to a multiple of the first unit vector.
-/// Returns `v`, `factor` and that multiple.
+/// Householder reflection `1 - factor v v^T` with `v[0] = 1` that maps three numbers to a multiple of the first unit
+/// vector. Returns `v`, `factor` and that multiple.
 fn reflector(numbers: [f64; 3]) -> ([f64; 3], f64, f64) {
     let [x, y, z] = numbers;
     let rest = y.hypot(z);

@@ -11,9 +11,9 @@ pub struct Spline {
 impl Spline {
     /// Fits the natural spline that minimises `integral (f - v)^2 + lambda integral f''^2` (Reinsch 1967).
     ///
-    /// The weight of each value is half the distance between its neighbours; `lambda = 0` interpolates. The amplitude of waves
-    /// of length `L` along the knots is multiplied by `1 / (1 + lambda (2 pi / L)^4)`. The caller ensures that there are three
-    /// or more `knots` and that they rise strictly.
+    /// The weight of each value is half the distance between its neighbours; `lambda = 0` interpolates. The amplitude
+    /// of waves of length `L` along the knots is multiplied by `1 / (1 + lambda (2 pi / L)^4)`. The caller ensures that
+    /// there are three or more `knots` and that they rise strictly.
     pub fn fit(knots: &[f64], values: &[f64], lambda: f64) -> Self {
         let n = knots.len();
         assert!(n >= 3 && values.len() == n, "a spline needs three knots");
@@ -60,7 +60,8 @@ impl Spline {
         }
     }
 
-    /// Returns `[value, first derivative, second derivative]` at `t`; beyond the ends the outermost cubic is extrapolated.
+    /// Returns `[value, first derivative, second derivative]` at `t`; beyond the ends the outermost cubic is
+    /// extrapolated.
     pub fn at(&self, t: f64) -> [f64; 3] {
         let last = self.knots.len() - 2;
         let i = self
@@ -80,8 +81,8 @@ impl Spline {
     }
 }
 
-/// Solves a symmetric positive definite system with diagonal `d`, first and second upper bands `e` and `f`, and right-hand
-/// side `b`.
+/// Solves a symmetric positive definite system with diagonal `d`, first and second upper bands `e` and `f`, and
+/// right-hand side `b`.
 fn solve_pentadiagonal(
     mut d: Vec<f64>,
     mut e: Vec<f64>,

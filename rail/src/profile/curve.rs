@@ -79,8 +79,8 @@ impl Profile {
     /// The amplitude of waves of length `smoothing_m`, m, is halved; at 0 the spline passes through every point.
     ///
     /// # Errors
-    /// There are too few points; a coordinate is not finite or does not rise; the curve is longer than [`MAX_LENGTH_M`]; the
-    /// smoothing length is negative; or the smoothed curve folds back.
+    /// There are too few points; a coordinate is not finite or does not rise; the curve is longer than
+    /// [`MAX_LENGTH_M`]; the smoothing length is negative; or the smoothed curve folds back.
     ///
     /// ```
     /// use dashpot_rail::profile::Profile;

@@ -1,4 +1,4 @@
-//! Grids and steels that tables refuse, and what can be shared between threads.
+//! Rejection of invalid grids, elastic constants and frictions; types that can be shared between threads.
 
 use dashpot_rail::contact::{
     ContactGeometry, GeometryError, Grid, Installation, InstallationError, Motion, Pair, PairError,
@@ -17,7 +17,7 @@ fn refused(change: impl Fn(&mut Grid)) -> TablesError {
 }
 
 #[test]
-fn grids_without_a_cell_or_an_order_are_refused() {
+fn grids_without_cells_or_order_are_rejected() {
     type Change = fn(&mut Grid);
     let changes: [(&str, Change); 7] = [
         ("lateral_m", |grid| grid.lateral_m.cells = [0; 3]),
@@ -45,7 +45,7 @@ fn grids_without_a_cell_or_an_order_are_refused() {
 }
 
 #[test]
-fn elastic_constants_and_loads_out_of_bounds_are_refused() {
+fn elastic_constants_and_loads_out_of_bounds_are_rejected() {
     let refused = |steel: Steel, nominal_load_n: f64| {
         let pair = Pair::standard(Installation::default()).unwrap();
         ContactGeometry::new(pair, steel, nominal_load_n).unwrap_err()
@@ -75,7 +75,7 @@ fn elastic_constants_and_loads_out_of_bounds_are_refused() {
 }
 
 #[test]
-fn frictions_and_dampings_out_of_bounds_are_refused() {
+fn frictions_and_dampings_out_of_bounds_are_rejected() {
     let friction = Friction::default();
     for bad in [
         friction.with_static_coefficient(-0.1),

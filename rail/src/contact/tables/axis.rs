@@ -21,8 +21,8 @@ pub struct Axis {
 }
 
 impl Axis {
-    /// Checks that the ends are finite and rise, that exactly the parts with a width have cells, and that there are at most
-    /// `limit` nodes.
+    /// Checks that the ends are finite and rise, that exactly the parts with a width have cells, and that there are at
+    /// most `limit` nodes.
     pub(super) fn check(&self, name: &'static str, limit: usize) -> Result<(), TablesError> {
         let part = |k: usize| {
             let width = self.ends[k + 1] - self.ends[k];
@@ -188,11 +188,11 @@ impl Grid {
 }
 
 impl Default for Grid {
-    /// Shift from -20 mm (wheel towards the track centre) to 65 mm (flange past the rail's top), roll up to 24 mrad, yaw up
-    /// to 50 mrad.
+    /// Shift from -20 mm (wheel towards the track centre) to 65 mm (flange past the rail's top), roll up to 24 mrad,
+    /// yaw up to 50 mrad.
     ///
-    /// The shift nodes are 0.03 mm apart from 0 to 12 mm and 0.1 mm apart below, the roll nodes 1.5 mrad apart within 12
-    /// mrad, the nodes of the squared yaw 1e-4 rad^2 apart within 30 mrad.
+    /// The shift nodes are 0.03 mm apart from 0 to 12 mm and 0.1 mm apart below, the roll nodes 1.5 mrad apart within
+    /// 12 mrad, the nodes of the squared yaw 1e-4 rad^2 apart within 30 mrad.
     fn default() -> Self {
         Self {
             lateral_m: Axis {

@@ -44,11 +44,12 @@ const PROBES: usize = 64;
 const MAX_ATTEMPTS: u32 = 1000;
 
 impl Tables {
-    /// Returns the tables of [`Tables::new`]: reads them from `folder` if they were computed before, else computes and stores
-    /// them there.
+    /// Returns the tables of [`Tables::new`]: reads them from `folder` if they were computed before, else computes and
+    /// stores them there.
     ///
-    /// A file is identified by its profiles, distances, steel, load and grid; names do not matter. A file that is damaged or
-    /// was written by another version is replaced. Files are written atomically, so several programs can share a folder.
+    /// A file is identified by its profiles, distances, steel, load and grid; names do not matter. A file that is
+    /// damaged or was written by another version is replaced. Files are written atomically, so several programs can
+    /// share a folder.
     ///
     /// # Errors
     /// [`Tables::new`] rejects the inputs; the folder cannot be created, read or written.

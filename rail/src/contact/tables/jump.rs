@@ -1,4 +1,5 @@
-//! Detection of jumps: changes of the contact force between neighbouring poses that the contact stiffness does not explain.
+//! Detection of jumps: changes of the contact force between neighbouring poses that the contact stiffness does not
+//! explain.
 
 use crate::contact::geometry::ContactGeometry;
 use crate::contact::silhouette::{SilhouettePoint, TurnedWheel, WheelPose};
@@ -43,7 +44,8 @@ pub struct Jump {
 }
 
 impl Jump {
-    /// Jump beyond the change explained by the stiffness, as a fraction of the load; negative if the stiffness explains it.
+    /// Jump beyond the change explained by the stiffness, as a fraction of the load; negative if the stiffness explains
+    /// it.
     pub fn excess(&self) -> f64 {
         (self.jump_n - self.allowed_n) / self.load_n
     }

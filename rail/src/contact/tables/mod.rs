@@ -34,8 +34,8 @@ pub const MAX_NODES: usize = 4_000_000;
 pub enum TablesError {
     /// An axis of the grid has no cells, too many, or ends that do not rise.
     #[error(
-        "axis {name}: ends {:?}, cells {:?}; allowed: finite rising ends, cells in exactly the parts that have a width, \
-         fewer than {MAX_NODES} cells in all, a squared yaw of 0 or more",
+        "axis {name}: ends {:?}, cells {:?}; allowed: finite rising ends, cells in exactly the parts that have a \
+         width, fewer than {MAX_NODES} cells in all, a squared yaw of 0 or more",
         .axis.ends, .axis.cells
     )]
     Axis {
@@ -90,17 +90,17 @@ pub struct Finder {
     yaw_shift: [f64; 4],
 }
 
-/// Slope of the part of the flange that stays at the same node while the yaw changes; the yaw moves its silhouette outwards
-/// by `r slope yaw^2`. The value lies between the slopes of the root, where the contact jumps, and of the face. Without
-/// this correction the tables would need twice as many yaw nodes.
+/// Slope of the part of the flange that stays at the same node while the yaw changes; the yaw moves its silhouette
+/// outwards by `r slope yaw^2`. The value lies between the slopes of the root, where the contact jumps, and of the
+/// face. Without this correction the tables would need twice as many yaw nodes.
 const FLANGE_SLOPE: f64 = 1.8;
 
 impl Tables {
     /// Computes every node of `grid`, on all cores.
     ///
     /// # Errors
-    /// An axis does not rise or has no cells; there are more than [`MAX_NODES`] nodes; the contact force of the profiles
-    /// jumps between neighbouring poses ([`Jump`]).
+    /// An axis does not rise or has no cells; there are more than [`MAX_NODES`] nodes; the contact force of the
+    /// profiles jumps between neighbouring poses ([`Jump`]).
     pub fn new(geometry: ContactGeometry, grid: Grid) -> Result<Self, TablesError> {
         check_grid(&grid)?;
         let mut nodes = vec![Node::default(); grid.nodes()];
@@ -114,8 +114,8 @@ impl Tables {
         }
     }
 
-    /// Returns the largest jump of the force between neighbouring nodes of `grid`, or `None` if the stiffness of the contact
-    /// explains every change of the force.
+    /// Returns the largest jump of the force between neighbouring nodes of `grid`, or `None` if the stiffness of the
+    /// contact explains every change of the force.
     ///
     /// [`Tables::new`] rejects profiles with a [`Jump::excess`] above [`MAX_JUMP`].
     ///

@@ -48,9 +48,10 @@ impl<T> KalkerCoefficients<T> {
 
 /// Kalker's table for one Poisson's ratio.
 ///
-/// Between the rows, a spline interpolates `ln C` over `ln(a/b)`, and a parabola interpolates between the three Poisson's
-/// ratios of the table. Beyond the rows (0.1 to 10), the value at the end of the table grows as in Kalker's asymptotic
-/// formulas (Kalker 1967), except `C33` of contacts that are long in the rolling direction, which stays constant.
+/// Between the rows, a spline interpolates `ln C` over `ln(a/b)`, and a parabola interpolates between the three
+/// Poisson's ratios of the table. Beyond the rows (0.1 to 10), the value at the end of the table grows as in Kalker's
+/// asymptotic formulas (Kalker 1967), except `C33` of contacts that are long in the rolling direction, which stays
+/// constant.
 ///
 /// ```
 /// use dashpot_rail::creep::KalkerTable;
@@ -80,12 +81,12 @@ impl KalkerTable {
 
     /// Reads another table for `poisson_ratio`.
     ///
-    /// The columns are `a_over_b,nu,C11,C22,C23,C33`. Each ratio of the semi-axes has the same three values of `nu`. Lines
-    /// that begin with `#` are comments.
+    /// The columns are `a_over_b,nu,C11,C22,C23,C33`. Each ratio of the semi-axes has the same three values of `nu`.
+    /// Lines that begin with `#` are comments.
     ///
     /// # Errors
-    /// A cell is not a positive number (`nu`: 0 to 0.5); rows are incomplete or out of order; Poisson's ratio is not within
-    /// 0 to 0.5.
+    /// A cell is not a positive number (`nu`: 0 to 0.5); rows are incomplete or out of order; Poisson's ratio is not
+    /// within 0 to 0.5.
     pub fn from_csv(text: &str, poisson_ratio: f64) -> Result<Self, KalkerError> {
         let rows = rows(text)?;
         if !(0.0..=0.5).contains(&poisson_ratio) {

@@ -60,8 +60,8 @@ impl Contact<f64> {
     }
 }
 
-/// Minimum scaled creepage at which the direction of sliding is differentiated. The coefficients of the book are in single
-/// precision; over smaller creepages their rounding would cause a large slope.
+/// Minimum scaled creepage at which the direction of sliding is differentiated. The coefficients of the book are in
+/// single precision; over smaller creepages their rounding would cause a large slope.
 const MIN_SLIDING: f64 = 1e-5;
 
 impl Contact<f64> {
@@ -90,7 +90,8 @@ impl<S: Simd> Contact<f64x4<S>> {
         )
     }
 
-    /// True if friction force and semi-axes are positive and finite in all lanes, as in [`is_loaded`](super::is_loaded).
+    /// True if friction force and semi-axes are positive and finite in all lanes, as in
+    /// [`is_loaded`](super::is_loaded).
     #[inline(always)]
     pub(super) fn are_loaded(&self, load: f64x4<S>) -> bool {
         // Two negative semi-axes have a negative sum, and a product that overflows is infinite.
@@ -120,10 +121,10 @@ pub(super) const TINY: f64 = 1e-60;
 impl<R: Number> Coordinates<R> {
     /// Coordinates of the creepages `[longitudinal, lateral, spin]`.
     ///
-    /// With `(X, Y, Z) = G a b C22 / (mu N) (xi, eta, phi (a + b)/2)` and `q = X^2 + Y^2 + Z^2`, the scaled creepages are
-    /// `x = (X C11/C22 + X q)/(1 + q)`, `y = Y` and `z = (Z' C23/C22 + Z q)/(1 + q)`, where `Z'` is `Z` with `sqrt(a b)`
-    /// instead of `(a + b)/2`. For any Poisson's ratio they give the forces of the linear theory at small creepages and the
-    /// directions of sliding at large ones.
+    /// With `(X, Y, Z) = G a b C22 / (mu N) (xi, eta, phi (a + b)/2)` and `q = X^2 + Y^2 + Z^2`, the scaled creepages
+    /// are `x = (X C11/C22 + X q)/(1 + q)`, `y = Y` and `z = (Z' C23/C22 + Z q)/(1 + q)`, where `Z'` is `Z` with
+    /// `sqrt(a b)` instead of `(a + b)/2`. For any Poisson's ratio they give the forces of the linear theory at small
+    /// creepages and the directions of sliding at large ones.
     #[inline(always)]
     pub(super) fn new<C: Number>(contact: &Contact<C>, creepage: [R; 3]) -> Self
     where

@@ -9,16 +9,17 @@ use crate::math::number::Number;
 
 /// Layout of the file of the book, for programs that write or check it.
 ///
-/// The forces are `f = N(size, spin, direction) / (1 + direction^2)`. `N` is a quadratic B-spline on equal cells, interpolated
-/// linearly between the ratios of the semi-axes. Its coefficients belong to the midpoints of the cells, with one more beyond
-/// each end. Each coefficient is three little-endian `f32`: longitudinal and lateral force divided by `mu N`, and moment
-/// divided by `mu N (a^2 + b^2)/(2 sqrt(a b))`. The direction varies fastest, then spin, size and ratio.
+/// The forces are `f = N(size, spin, direction) / (1 + direction^2)`. `N` is a quadratic B-spline on equal cells,
+/// interpolated linearly between the ratios of the semi-axes. Its coefficients belong to the midpoints of the cells,
+/// with one more beyond each end. Each coefficient is three little-endian `f32`: longitudinal and lateral force divided
+/// by `mu N`, and moment divided by `mu N (a^2 + b^2)/(2 sqrt(a b))`. The direction varies fastest, then spin, size and
+/// ratio.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Layout;
 
 impl Layout {
-    /// Number of ratios of the semi-axes, in equal steps of `(a^2 - b^2)/(a^2 + 4 a b + b^2)`, which is approximately a third
-    /// of `ln(a/b)`.
+    /// Number of ratios of the semi-axes, in equal steps of `(a^2 - b^2)/(a^2 + 4 a b + b^2)`, which is approximately a
+    /// third of `ln(a/b)`.
     pub const RATIOS: usize = 18;
     /// Number of cells of size, spin and direction.
     pub const CELLS: [usize; 3] = [16, 10, 14];
@@ -205,8 +206,8 @@ fn weighted<S: Simd>([a, b, c]: [f32x8<S>; 3], [p, q, r]: &[f32x8<S>; 3]) -> f32
     simd.mul_add_f32x8(c, *r, simd.mul_add_f32x8(b, *q, a * *p))
 }
 
-/// Locates two sets of four coordinates. Returns the positions within their cells, 0 to 1, and the sum over both sets of the
-/// cell index times the stride.
+/// Locates two sets of four coordinates. Returns the positions within their cells, 0 to 1, and the sum over both sets
+/// of the cell index times the stride.
 #[inline(always)]
 fn located<S: Simd>(
     simd: S,

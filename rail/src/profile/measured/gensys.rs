@@ -1,8 +1,8 @@
 //! Profile files of GENSYS: two columns in mm, `#` for comments.
 //!
-//! Source: GENSYS, Users Manual for Program KPF, "Wheel profile input data" (gensys.se/doc_html/kpf.html): `Y` is positive
-//! towards the track centre for both wheels, `Z` is positive down, and the origin is the nominal running circle. The sign of
-//! `Y` of a rail could not be verified, so the user must state it.
+//! Source: GENSYS, Users Manual for Program KPF, "Wheel profile input data" (gensys.se/doc_html/kpf.html): `Y` is
+//! positive towards the track centre for both wheels, `Z` is positive down, and the origin is the nominal running
+//! circle. The sign of `Y` of a rail could not be verified, so the user must state it.
 
 use super::ProfileError;
 use super::columns::rows;

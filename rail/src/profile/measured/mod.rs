@@ -1,14 +1,15 @@
 //! Measured profiles: reads the files of profile gauges and simulation programs, checks, trims and smooths them.
 //!
-//! | [`Format`] | files | axes of the file |
-//! |---|---|---|
-//! | [`Columns`](Format::Columns) | two columns `y_mm`, `z_mm` | `y` to the field side, `z` down |
-//! | [`MiniProf`](Format::MiniProf) | `.whl`, `.ban` | wheel: `X` from the flange back to the field side, `Y` down; rail: the same, or both reversed |
-//! | [`Simpack`](Format::Simpack) | `.prw`, `.prr` | after the file's own shifts, rotations and mirrors: `y` to the field side, `z` down |
-//! | [`Gensys`](Format::Gensys) | `.wheel`, `.rail` | `z` down; wheel: `y` to the track centre; rail: must be stated |
+//! - [`Columns`](Format::Columns): two columns `y_mm`, `z_mm`, with `y` to the field side and `z` down.
+//! - [`MiniProf`](Format::MiniProf): `.whl`, `.ban`. A wheel has `X` from the flange back to the field side and `Y`
+//!   down; a rail has the same axes or both reversed.
+//! - [`Simpack`](Format::Simpack): `.prw`, `.prr`. After the file's own shifts, rotations and mirrors, `y` points to
+//!   the field side and `z` down.
+//! - [`Gensys`](Format::Gensys): `.wheel`, `.rail`. `z` points down. A wheel has `y` to the track centre; for a rail
+//!   the side must be stated.
 //!
-//! Points are in order along the curve, from either end; `y` need not rise. Points that cannot be in contact are removed, and
-//! [`Reading`] counts them; see [`MAX_FOLD_MM`] and [`REACH_MM`].
+//! Points are in order along the curve, from either end; `y` need not rise. Points that cannot be in contact are
+//! removed, and [`Reading`] counts them; see [`MAX_FOLD_MM`] and [`REACH_MM`].
 
 mod columns;
 mod error;
@@ -35,11 +36,11 @@ use reading::OrientedRows;
 pub const MIN_POINTS: usize = 30;
 /// Maximum distance between neighbouring points, mm. A chord of 5 mm cuts 0.24 mm off a rail corner of R 13.
 pub const MAX_GAP_MM: f64 = 5.0;
-/// Maximum width of a fold or burr that is removed, mm: several times the noise of a profile gauge. Behind a wider fold the
-/// shape of the surface is unknown.
+/// Maximum width of a fold or burr that is removed, mm: several times the noise of a profile gauge. Behind a wider fold
+/// the shape of the surface is unknown.
 pub const MAX_FOLD_MM: f64 = 0.3;
-/// Maximum depth of a point from the top of a rail or the tip of a flange, mm. The highest flanges are 36 mm high, and a
-/// chamfer ends 9 mm above the tread.
+/// Maximum depth of a point from the top of a rail or the tip of a flange, mm. The highest flanges are 36 mm high, and
+/// a chamfer ends 9 mm above the tread.
 pub const REACH_MM: f64 = 45.0;
 /// Default wavelength whose amplitude the smoothing halves, m. From readings every 0.5 mm, rounded to 0.01 mm, it gives
 /// positions within 0.005 mm and curvatures within 2 per m RMS.
@@ -47,8 +48,8 @@ pub const DEFAULT_SMOOTHING_M: f64 = 0.004;
 
 /// Reads the profile of `body` from the `text` of a file.
 ///
-/// The profile gets the name of the file, without folder and extension. The origin of a wheel is its tread datum. `#` starts
-/// a comment in files of columns and of GENSYS, `!` or `%` in files of SIMPACK.
+/// The profile gets the name of the file, without folder and extension. The origin of a wheel is its tread datum. `#`
+/// starts a comment in files of columns and of GENSYS, `!` or `%` in files of SIMPACK.
 ///
 /// # Errors
 /// The text does not have its format; a number is not within -1000 to 1000; there are fewer than [`MIN_POINTS`] points;

@@ -113,8 +113,8 @@ pub struct Reading {
     pub turned: bool,
     /// Number of points in the file.
     pub points: usize,
-    /// Number of points removed at the ends: beyond the widest point of a rail, above the back or the face of a wheel, or
-    /// beyond [`REACH_MM`](super::REACH_MM).
+    /// Number of points removed at the ends: beyond the widest point of a rail, above the back or the face of a wheel,
+    /// or beyond [`REACH_MM`](super::REACH_MM).
     pub overhanging: usize,
     /// Number of points removed in between, behind folds and burrs.
     pub folded: usize,

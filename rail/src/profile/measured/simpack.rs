@@ -1,16 +1,17 @@
 //! Profile files of SIMPACK: `.prw` and `.prr`.
 //!
-//! A file has the sections `header` and `spline`, each from `.begin` to `.end`. Within `spline`, the section `point` has rows
-//! of `y`, `z` and an optional weight. `!` or `%` starts a comment.
+//! A file has the sections `header` and `spline`, each from `.begin` to `.end`. Within `spline`, the section `point`
+//! has rows of `y`, `z` and an optional weight. `!` or `%` starts a comment.
 //!
 //! The processing steps are applied in the order in which SIMPACK numbers them in its files: minimum distance, shift,
 //! rotation, bounds, mirrors, and finally units (`units.len.f` is the number of file units per metre). The order of the
-//! points does not matter here, so `inversion` is ignored. Weights and `approx.smooth` are not used; the options set the
-//! smoothing. Points outside the bounds are removed. Bounds are used only if the lower one is below the upper one.
+//! points does not matter here, so `inversion` is ignored. Weights and `approx.smooth` are not used; the options set
+//! the smoothing. Points outside the bounds are removed. Bounds are used only if the lower one is below the upper one.
 //!
-//! Sources: the comments that SIMPACK writes into its files, as in `MBench_S1002_v3.prw` of the Manchester contact benchmark;
-//! CONTACT user guide (Vollebregt, Vtech CMCC) and its `read_simpack.m`. After these steps `y` points to the field side and
-//! `z` down. CONTACT sets `z` to the bound instead of removing the point, which creates a shelf that does not exist.
+//! Sources: the comments that SIMPACK writes into its files, as in `MBench_S1002_v3.prw` of the Manchester contact
+//! benchmark; CONTACT user guide (Vollebregt, Vtech CMCC) and its `read_simpack.m`. After these steps `y` points to the
+//! field side and `z` down. CONTACT sets `z` to the bound instead of removing the point, which creates a shelf that
+//! does not exist.
 
 use super::ProfileError;
 use super::reading::{Mirror, OrientedRows};

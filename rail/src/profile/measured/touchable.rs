@@ -19,8 +19,8 @@ pub(super) struct Touchable {
 
 /// Returns the outer envelope of `rows`, which are not empty and begin at the end with negative `y`.
 ///
-/// Seen from the top of a rail or the tip of a flange, a point is kept if it lies further out than all previous points. The
-/// other points are hidden: at the end of the curve they overhang, in between they form a fold.
+/// Seen from the top of a rail or the tip of a flange, a point is kept if it lies further out than all previous points.
+/// The other points are hidden: at the end of the curve they overhang, in between they form a fold.
 pub(super) fn touchable(body: Body, rows: &[Row]) -> Result<Touchable, ProfileError> {
     let sign = match body {
         Body::Wheel => -1.0,
