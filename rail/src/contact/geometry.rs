@@ -116,7 +116,7 @@ impl ContactGeometry {
         self.patches_of(&wheel, pose.lateral_m, scratch)
     }
 
-    /// As [`patches`](ContactGeometry::patches), for a wheel that is already turned, at a lateral shift.
+    /// Computes [`patches`](ContactGeometry::patches) for a wheel that is already turned, at a lateral shift.
     pub fn patches_of(
         &self,
         wheel: &TurnedWheel<'_>,

@@ -56,7 +56,7 @@ pub const STANDSTILL_SPEED_M_PER_S: f64 = 0.05;
 /// Maximum magnitude of any field, in its unit; its square does not overflow.
 const MAX_MAGNITUDE: f64 = 1e9;
 
-/// True if no number exceeds the accepted magnitude or is NaN.
+/// True if the magnitudes of all numbers are accepted; false for NaN.
 // Not short-circuited, so that the comparisons run in parallel.
 #[inline]
 fn all_accepted<const N: usize>(numbers: [f64; N]) -> bool {

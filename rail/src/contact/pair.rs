@@ -48,9 +48,9 @@ pub struct Pair {
     pub(super) rail_slopes: Vec<f64>,
 }
 
-/// Contact angle that separates tread and flange. In a flange root as round as the rail's corner, the contact jumps
-/// within one sample from 40 degrees to the 70 degrees of the flange face. With a boundary in between, tread and flange
-/// each have one maximum of interpenetration.
+/// Contact angle that separates tread and flange. If the flange root is as round as the rail's corner, the contact
+/// jumps within one sample from 40 degrees to the 70 degrees of the flange face. With a boundary in between, tread and
+/// flange each have one maximum of interpenetration.
 const FLANGE_ANGLE: f64 = 50.0 * std::f64::consts::PI / 180.0;
 
 impl Pair {
@@ -102,7 +102,7 @@ impl Pair {
     /// The wheel profile S1002 on the rail profile UIC 60.
     ///
     /// # Errors
-    /// As [`Pair::new`].
+    /// The installation is invalid, see [`Pair::new`].
     ///
     /// ```
     /// use dashpot_rail::contact::{Installation, Pair};

@@ -134,7 +134,8 @@ impl<L: CreepLaw, S: PatchSource> WheelsetContact<L, S> {
         forces
     }
 
-    /// As [`forces`](WheelsetContact::forces), but overwrites the forces of the previous step, which saves a copy.
+    /// Computes the forces like [`forces`](WheelsetContact::forces), and writes them over those of the previous step,
+    /// which saves a copy.
     ///
     /// Does not allocate if the source is [`Tables`].
     #[inline]
@@ -152,8 +153,8 @@ impl<L: CreepLaw, S: PatchSource> WheelsetContact<L, S> {
         }
     }
 
-    /// As [`update`](WheelsetContact::update), and returns the derivatives of force and moment on the left and the
-    /// right wheel with respect to every field of [`Motion`].
+    /// Computes the forces like [`update`](WheelsetContact::update), and returns the derivatives of force and moment on
+    /// the left and the right wheel with respect to every field of [`Motion`].
     ///
     /// The derivatives with respect to the lateral and vertical displacement and velocity of a wheel's own rail are the
     /// negatives of those with respect to the wheelset's.

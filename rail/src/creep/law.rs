@@ -186,8 +186,9 @@ pub(super) fn is_loaded(contact: &LoadedContact) -> bool {
     loaded && contact.a_m > 0.0 && area > 0.0 && area.is_finite()
 }
 
-/// Forces of Kalker's linear theory, without friction limit: `Fx = -G ab C11 xi`, `Fy = -G ab C22 eta - G (ab)^1.5 C23
-/// phi`, `M = G (ab)^1.5 C23 eta - G (ab)^2 C33 phi`.
+/// Forces of Kalker's linear theory, without friction limit.
+///
+/// `Fx = -G ab C11 xi`, `Fy = -G ab C22 eta - G (ab)^1.5 C23 phi`, `M = G (ab)^1.5 C23 eta - G (ab)^2 C33 phi`.
 #[inline]
 pub fn linear_forces(contact: &LoadedContact, creepage: &Creepage) -> CreepForces {
     let area = contact.a_m * contact.b_m;

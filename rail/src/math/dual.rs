@@ -177,7 +177,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn derivatives_are_those_of_closed_forms() {
+    fn derivatives_agree_with_closed_forms() {
         let (x, y) = (Dual::<4>::variable(0.7, 0), Dual::variable(-1.3, 3));
         let f = x * x * y / x.sqrt() - x * 2.0 + y.reciprocal();
         assert!((f.value() - (-1.3 * 0.7_f64.powf(1.5) - 1.4 - 1.0 / 1.3)).abs() < 1e-14);

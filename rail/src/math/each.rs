@@ -1,6 +1,6 @@
 //! An always-inlined `map` for arrays.
 
-/// As `[T; N]::map`, but always inlined. Vector instructions are inlined only into functions compiled for them; those
+/// An array `map` that is always inlined. Vector instructions are inlined only into functions compiled for them; those
 /// of the standard library are not.
 pub trait Each<T, const N: usize> {
     /// Applies `function` to every element.

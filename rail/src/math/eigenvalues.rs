@@ -138,7 +138,7 @@ impl Iteration {
                 imaginary: one.im,
             };
         }
-        // Of two real eigenvalues, the one closer to the last entry is used twice.
+        // Uses the real eigenvalue closer to the last entry twice.
         let is_nearer = (one.re - two[1][1]).abs() <= (other.re - two[1][1]).abs();
         let real = if is_nearer { one.re } else { other.re };
         Shifts {
@@ -285,9 +285,9 @@ mod tests {
         }
     }
 
-    /// The usual shifts leave a cyclic permutation as it is: without exceptional ones the iteration never ends.
+    /// The usual shifts do not change a cyclic permutation, so without exceptional shifts the iteration never terminates.
     #[test]
-    fn a_cyclic_permutation_has_the_roots_of_one() {
+    fn the_eigenvalues_of_a_cyclic_permutation_are_the_roots_of_unity() {
         for size in [3, 4, 5, 8, 13] {
             let matrix =
                 DMatrix::from_fn(size, size, |i, j| f64::from(u8::from(i == (j + 1) % size)));
@@ -307,14 +307,14 @@ mod tests {
     }
 
     #[test]
-    fn small_matrices_have_the_eigenvalues_of_their_formulas() {
+    fn eigenvalues_of_small_matrices_agree_with_closed_forms() {
         check(&DMatrix::zeros(0, 0), &[], 1e-15);
         check(&DMatrix::from_element(1, 1, -3.5), &[[-3.5, 0.0]], 1e-15);
         check(&DMatrix::zeros(3, 3), &[[0.0, 0.0]; 3], 1e-15);
         let oscillator = DMatrix::from_row_slice(2, 2, &[-0.4, -100.0, 1.0, 0.0]);
         let rate = (100.0 - 0.04_f64).sqrt();
         check(&oscillator, &[[-0.2, -rate], [-0.2, rate]], 1e-13);
-        // Overdamped by eight decades: the slow one without cancellation.
+        // Overdamped by eight decades: the slow eigenvalue has no cancellation error.
         let stiff = DMatrix::from_row_slice(2, 2, &[-1e8, -1.0, 1.0, 0.0]);
         let found = sorted(&stiff);
         assert!((found[0][0] / -1e8 - 1.0).abs() < 1e-15, "{found:?}");
@@ -322,7 +322,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_finite_has_none() {
+    fn a_matrix_that_is_not_finite_has_no_eigenvalues() {
         for entry in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
             let mut matrix = DMatrix::identity(4, 4);
             matrix[(1, 2)] = entry;

@@ -145,7 +145,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn each_lane_has_its_own_number() {
+    fn lanes_compute_independently() {
         fn formula<T: Number>(x: T, y: T) -> T {
             x * x * y / x.sqrt() - x * 2.0 + y.reciprocal()
         }

@@ -120,7 +120,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_sine_is_interpolated_and_damped_as_the_formula_says() {
+    fn a_sine_is_interpolated_and_smoothed_by_the_documented_gain() {
         let length = 2.0_f64;
         let k = std::f64::consts::TAU / length;
         let knots: Vec<f64> = (0..=400).map(|i| f64::from(i) * 0.05).collect();

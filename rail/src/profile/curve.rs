@@ -101,7 +101,8 @@ impl Profile {
         Self::between_vertical_ends(name, points_m, smoothing_m, 0.0)
     }
 
-    /// As [`Profile::through`], but cuts off an end beyond a vertical tangent if it is at most `width_m` wide.
+    /// Builds a profile like [`Profile::through`], but cuts off an end beyond a vertical tangent if it is at most
+    /// `width_m` wide.
     pub(super) fn between_vertical_ends(
         name: impl Into<String>,
         points_m: &[[f64; 2]],
@@ -133,7 +134,7 @@ impl Profile {
         Ok(profile)
     }
 
-    /// As [`Profile::through`], without checks, for three or more distinct successive points.
+    /// Builds a profile like [`Profile::through`], without checks, for three or more distinct successive points.
     pub(super) fn resampled(
         name: impl Into<String>,
         points_m: &[[f64; 2]],

@@ -91,7 +91,7 @@ fn invalid_installations_are_rejected() {
     for (installation, part) in [
         (
             Installation::default().with_gauge_m(1.0),
-            "gauge less back-to-back",
+            "gauge minus back-to-back",
         ),
         (
             Installation::default().with_wheel_radius_m(f64::NAN),

@@ -142,7 +142,7 @@ fn miniprof_files_say_what_is_wrong_where_and_what_is_allowed() {
         (
             "several parts",
             format!("[FileInfo]\n{good}"),
-            &[":1: \"[FileInfo]\", allowed: one profile a file"],
+            &[":1: \"[FileInfo]\", allowed: one profile per file"],
         ),
         (
             "cell",
@@ -191,7 +191,7 @@ fn simpack_files_say_what_is_wrong_where_and_what_is_allowed() {
         (
             "sections crossed",
             good.replace("  point.end", "  spline.end"),
-            &["spline.end", "the end of the section that was begun last"],
+            &["spline.end", "the end of the current section"],
         ),
         (
             "columns",

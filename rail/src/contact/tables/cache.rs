@@ -29,7 +29,7 @@ pub enum CacheError {
     File {
         /// Path of the file or folder.
         path: PathBuf,
-        /// What went wrong.
+        /// The underlying error.
         source: io::Error,
     },
 }

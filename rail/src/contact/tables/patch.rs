@@ -93,17 +93,18 @@ impl PatchNumbers<f64> {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct TabulatedPatch {
-    /// As [`Patch::interpenetration_m`], m; less if the load fraction is below 0.001.
+    /// Depth of the wheel below the rail's surface, see [`Patch::interpenetration_m`], m; reduced if the load fraction
+    /// is below 0.001.
     pub interpenetration_m: f64,
-    /// As [`Patch::wheel_y_m`], m.
+    /// Lateral position on the wheel from the tread datum, field side positive, m.
     pub wheel_y_m: f64,
-    /// As [`Patch::wheel_z_m`], m.
+    /// Depth on the wheel, m; the rolling radius is the wheel radius plus this depth.
     pub wheel_z_m: f64,
-    /// As [`Patch::slope`].
+    /// `dz/dy` of both surfaces across the track: the tangent of the contact angle.
     pub slope: f64,
-    /// As [`Patch::load_fraction`].
+    /// Fraction of the Hertzian load that the patch carries, 0 to 1.
     pub load_fraction: f64,
-    /// Hertz contact; the patch carries `load_fraction` of its load.
+    /// Hertzian constants of the contact.
     pub hertz: Hertz,
     /// Kalker's coefficients of the contact ellipse.
     pub kalker: KalkerCoefficients,

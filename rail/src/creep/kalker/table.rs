@@ -37,7 +37,7 @@ pub enum KalkerError {
         column: &'static str,
         /// Content of the cell.
         text: String,
-        /// What is allowed.
+        /// Allowed content.
         allowed: &'static str,
     },
     /// The rows are not in order.

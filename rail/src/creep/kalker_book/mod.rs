@@ -133,7 +133,7 @@ impl CreepLaw for KalkerBook {
         }
     }
 
-    /// All four in one evaluation.
+    /// Evaluates all four contacts in parallel.
     #[inline(always)]
     fn forces_in_lanes<S: Simd>(
         &self,

@@ -36,23 +36,23 @@ pub enum ProfileError {
         key: &'static str,
         /// Its value.
         text: String,
-        /// What is allowed.
+        /// Allowed values.
         allowed: &'static str,
     },
-    /// A line is out of place.
+    /// A line is unexpected.
     #[error("{text:?}, allowed: {allowed}")]
     Line {
         /// Line of the text, counted from 1.
         line: u64,
         /// Content of the line.
         text: String,
-        /// What is allowed there.
+        /// Content that is allowed there.
         allowed: &'static str,
     },
     /// The text ends too early.
     #[error("cut short: {missing}")]
     CutShort {
-        /// What is missing, and what is allowed.
+        /// The missing part, and the allowed content.
         missing: String,
     },
     /// The sign of the lateral axis is ambiguous in this kind of file.
