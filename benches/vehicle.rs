@@ -29,10 +29,7 @@ const LANES: usize = 16;
 type Contact = Arc<WheelsetContact<KalkerBook>>;
 
 fn contact(tables: &Arc<Tables>, case: &Case) -> Contact {
-    let friction = Friction {
-        static_coefficient: case.friction,
-        ..Friction::default()
-    };
+    let friction = Friction::constant(case.friction);
     let contact = WheelsetContact::new(Arc::clone(tables), KalkerBook::new(), friction)
         .and_then(|contact| contact.with_normal_damping(case.normal_damping_s_per_m))
         .expect("a shipped case is valid");
@@ -126,10 +123,7 @@ fn dampers(criterion: &mut Criterion, vehicle: &VehicleParameters) {
 }
 
 fn vehicle(criterion: &mut Criterion) {
-    let installation = Installation {
-        wheel_radius_m: 0.625,
-        ..Installation::default()
-    };
+    let installation = Installation::default().with_wheel_radius_m(0.625);
     let pair = Pair::standard(installation).expect("the standard pair is valid");
     let geometry =
         ContactGeometry::new(pair, Steel::default(), 101e3).expect("the default steel is valid");

@@ -99,10 +99,7 @@ fn banks_and_telemetry_allocate_nothing() {
 #[test]
 fn a_vehicle_steps_and_goes_back_without_allocation() {
     let case = Case::load("straight-180").unwrap();
-    let installation = Installation {
-        wheel_radius_m: 0.625,
-        ..Installation::default()
-    };
+    let installation = Installation::default().with_wheel_radius_m(0.625);
     let pair = Pair::standard(installation).unwrap();
     let geometry = ContactGeometry::new(pair, Steel::default(), 101e3).unwrap();
     let mut grid = Grid::default();

@@ -9,11 +9,9 @@ fuzz_target!(|text: &str| {
     let formats = Format::ALL.map(Some).into_iter().chain([None]);
     for format in formats {
         for body in [Body::Wheel, Body::Rail] {
-            let options = Options {
-                format,
-                mirror: Some(Mirror::None),
-                ..Options::default()
-            };
+            let options = Options::default()
+                .with_format(format)
+                .with_mirror(Some(Mirror::None));
             let Ok((profile, reading)) = measured::parse("fuzz.txt", text, body, &options) else {
                 continue;
             };

@@ -105,14 +105,13 @@ pub fn contact(
     rail_mirror: Option<&str>,
 ) -> Outcome<Contact> {
     let usual = Installation::default();
-    let installation = Installation {
-        wheel_radius_m: wheel_radius_m.unwrap_or(usual.wheel_radius_m),
-        back_to_back_m: back_to_back_m.unwrap_or(usual.back_to_back_m),
-        back_to_datum_m: back_to_datum_m.unwrap_or(usual.back_to_datum_m),
-        gauge_m: gauge_m.unwrap_or(usual.gauge_m),
-        gauge_depth_m: gauge_depth_m.unwrap_or(usual.gauge_depth_m),
-        inclination: inclination.unwrap_or(usual.inclination),
-    };
+    let installation = Installation::default()
+        .with_wheel_radius_m(wheel_radius_m.unwrap_or(usual.wheel_radius_m))
+        .with_back_to_back_m(back_to_back_m.unwrap_or(usual.back_to_back_m))
+        .with_back_to_datum_m(back_to_datum_m.unwrap_or(usual.back_to_datum_m))
+        .with_gauge_m(gauge_m.unwrap_or(usual.gauge_m))
+        .with_gauge_depth_m(gauge_depth_m.unwrap_or(usual.gauge_depth_m))
+        .with_inclination(inclination.unwrap_or(usual.inclination));
     let of_wheel = options(wheel_format, wheel_mirror, smoothing_m)?;
     let of_rail = options(rail_format, rail_mirror, smoothing_m)?;
     let wheel = wheel.map_or_else(|| Ok("s1002".into()), path)?;
@@ -161,11 +160,10 @@ fn options(
     mirror: Option<&str>,
     smoothing_m: Option<f64>,
 ) -> Outcome<Options> {
-    Ok(Options {
-        format: format.map(str::parse).transpose().or_else(refuse)?,
-        mirror: mirror.map(str::parse).transpose().or_else(refuse)?,
-        smoothing_m: smoothing_m.unwrap_or(DEFAULT_SMOOTHING_M),
-    })
+    Ok(Options::default()
+        .with_format(format.map(str::parse).transpose().or_else(refuse)?)
+        .with_mirror(mirror.map(str::parse).transpose().or_else(refuse)?)
+        .with_smoothing_m(smoothing_m.unwrap_or(DEFAULT_SMOOTHING_M)))
 }
 
 /// Creep forces by the exact theory of rolling contact from Kalker's book of tables, on the wheel: a row for each row of `creepages`, an array of

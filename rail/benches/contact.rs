@@ -1,4 +1,4 @@
-//! Time of the contact forces on a wheelset: tables, tread and flange of both wheels, each law.
+//! Time of the contact forces on a wheelset from tables, with tread and flange contact, for each creep law.
 
 use std::hint::black_box;
 use std::sync::Arc;
@@ -10,7 +10,7 @@ use dashpot_rail::contact::{
 };
 use dashpot_rail::creep::{CreepLaw, Fastsim, Friction, KalkerBook, Polach, ShenHedrickElkins};
 
-/// Both rails pressed inward until tread and flange of both wheels are loaded.
+/// Both rails moved inwards until tread and flange of both wheels carry load.
 fn four_patches() -> (Motion, [RailDisplacement; 2]) {
     let motion = Motion {
         speed_m_per_s: 27.8,
@@ -26,7 +26,7 @@ fn four_patches() -> (Motion, [RailDisplacement; 2]) {
     (motion, [rail(6.68e-3), rail(-6.68e-3)])
 }
 
-/// A wheelset in a curve: two patches on the outer wheel, one on the inner.
+/// A wheelset in a curve, with two patches on the outer wheel and one on the inner wheel.
 fn curve() -> (Motion, [RailDisplacement; 2]) {
     let motion = Motion {
         speed_m_per_s: 27.8,
@@ -75,10 +75,7 @@ fn contact(criterion: &mut Criterion) {
     let tables = Tables::new(geometry, Grid::default()).expect("the default grid is valid");
     let tables = Arc::new(tables);
     let friction = Friction::default();
-    let falling = Friction {
-        residual_ratio: 0.4,
-        ..friction
-    };
+    let falling = friction.with_residual_ratio(0.4);
     measure(
         criterion,
         "kalker_book",

@@ -8,10 +8,7 @@ use dashpot_rail::indices::RollingRadiusDifference;
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     println!("gauge mm   2 mm    3 mm    4 mm");
     for gauge_mm in [1430.0, 1435.0, 1440.0] {
-        let installation = Installation {
-            gauge_m: gauge_mm * 1e-3,
-            ..Installation::default()
-        };
+        let installation = Installation::default().with_gauge_m(gauge_mm * 1e-3);
         let pair = Pair::standard(installation)?;
         let difference = RollingRadiusDifference::of(&pair, 12e-3, 960)?;
         print!("{gauge_mm:8}");

@@ -1,4 +1,4 @@
-//! Forces on a wheelset of 206 kN that is shifted until its flange touches, by two creep laws.
+//! Forces on a wheelset of 206 kN that is shifted until its flange touches, for three creep laws.
 //!
 //! `cargo run --release -p dashpot-rail --example wheelset`
 
@@ -13,7 +13,7 @@ use dashpot_rail::creep::{CreepLaw, Friction, KalkerBook, Polach, ShenHedrickElk
 const LOAD_N: f64 = 206e3;
 const SPEED_M_PER_S: f64 = 27.8;
 
-/// Prints the lateral force, the steering moment and the derailment coefficient of the right wheel.
+/// Prints the lateral force, the steering moment, and the derailment coefficient of the right wheel.
 fn print(
     name: &str,
     tables: &Arc<Tables>,
@@ -24,7 +24,7 @@ fn print(
     let rails = [RailDisplacement::default(); 2];
     let radius_m = tables.geometry().pair().installation().wheel_radius_m;
     for shift_mm in 0..7 {
-        // The vertical position at which the rails carry the load, by bisection.
+        // Finds the vertical position at which the rails carry the load, by bisection.
         let (mut high, mut low) = (-2e-3, 1e-3);
         let mut motion = Motion {
             speed_m_per_s: SPEED_M_PER_S,

@@ -7,6 +7,7 @@ pub mod creep;
 pub mod indices;
 mod math;
 pub mod profile;
+mod setters;
 pub mod track;
 pub mod vehicle;
 

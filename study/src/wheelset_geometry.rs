@@ -50,17 +50,15 @@ impl ForceJump {
     /// The greatest jump of a pair whose contact tables are refused under a wheel load of 100 kN; `None` if its force does not jump at any
     /// of the looked-at rolls (0, 6 and 12 mrad to both sides) and yaws (0 and 20 mrad).
     pub fn of(pair: &Pair) -> Option<Self> {
-        let grid = Grid {
-            roll_rad: Axis {
+        let grid = Grid::default()
+            .with_roll_rad(Axis {
                 ends: [-12e-3, -12e-3, 12e-3, 12e-3],
                 cells: [0, 4, 0],
-            },
-            yaw_squared_rad2: Axis {
+            })
+            .with_yaw_squared_rad2(Axis {
                 ends: [0.0, 0.0, 4e-4, 4e-4],
                 cells: [0, 1, 0],
-            },
-            ..Grid::default()
-        };
+            });
         let geometry = ContactGeometry::new(pair.clone(), Steel::default(), LOAD_N).ok()?;
         let jump = Tables::greatest_jump(&geometry, &grid).ok()??;
         (jump.excess() > MAX_JUMP).then(|| jump.into())

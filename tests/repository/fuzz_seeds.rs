@@ -244,10 +244,7 @@ fn profiles_are_the_samples_of_every_format() {
             _ => Body::Rail,
         };
         let text = fs::read_to_string(&path).expect("text");
-        let options = Options {
-            mirror: name.ends_with(".rail").then_some(Mirror::Y),
-            ..Options::default()
-        };
+        let options = Options::default().with_mirror(name.ends_with(".rail").then_some(Mirror::Y));
         let read = measured::parse(&name, &text, body, &options);
         assert!(read.is_ok(), "{name}: {:?}", read.err());
         seeds.push((name.into_owned(), text.into_bytes()));

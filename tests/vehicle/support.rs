@@ -25,19 +25,13 @@ pub fn contact_without_tables() -> WheelsetContact<KalkerBook, ContactGeometry> 
 }
 
 fn geometry() -> ContactGeometry {
-    let installation = Installation {
-        wheel_radius_m: 0.625,
-        ..Installation::default()
-    };
+    let installation = Installation::default().with_wheel_radius_m(0.625);
     let pair = Pair::standard(installation).unwrap();
     ContactGeometry::new(pair, Steel::default(), 101.3e3).unwrap()
 }
 
 fn friction() -> Friction {
-    Friction {
-        static_coefficient: 0.3,
-        ..Friction::default()
-    }
+    Friction::constant(0.3)
 }
 
 pub fn locomotive() -> VehicleParameters {

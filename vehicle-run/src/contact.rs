@@ -78,10 +78,7 @@ impl ContactOf {
     /// # Errors
     /// A load that wheel and rail do not carry.
     pub fn geometry(&self) -> Result<ContactGeometry, VehicleRunError> {
-        let installation = Installation {
-            wheel_radius_m: self.wheel_radius_m,
-            ..Installation::default()
-        };
+        let installation = Installation::default().with_wheel_radius_m(self.wheel_radius_m);
         let pair = Pair::standard(installation)?;
         let load_n = self.mean_wheel_load_n;
         Ok(ContactGeometry::new(pair, Steel::default(), load_n)?)
@@ -90,10 +87,7 @@ impl ContactOf {
 
 /// Constant friction with a coefficient.
 pub fn friction(coefficient: f64) -> Friction {
-    Friction {
-        static_coefficient: coefficient,
-        ..Friction::default()
-    }
+    Friction::constant(coefficient)
 }
 
 /// Tabulated contact of a vehicle.

@@ -1,6 +1,7 @@
 //! Results of the contact: forces on patches, wheels and the wheelset, and the state of each wheel.
 
 use super::motion::{MOTION_FIELDS, Motion, RailDisplacement};
+use super::wheel::{PatchOutput, Wrench};
 use super::zones::ZONES;
 use crate::creep::{CreepForces, Creepage};
 
@@ -12,20 +13,20 @@ pub enum Status {
     /// No patch is loaded.
     #[default]
     Lifted,
-    /// The wheel is loaded on tread, flange or both.
+    /// The tread, the flange or both carry load.
     Rolling,
-    /// The flange is loaded beyond its steepest point: the wheel climbs.
+    /// The flange carries load beyond its steepest point: the wheel climbs.
     Climbing,
-    /// The flange tip, or the wheel behind it, runs on the rail.
+    /// The wheel runs on its flange tip or on the back of the flange.
     PastTip,
-    /// The pose is outside the tables (the forces are those of their nearest edge), or the penetration exceeds
+    /// The pose is outside the tables, and the forces are those at the nearest edge; or the penetration exceeds
     /// [`MAX_PENETRATION_M`](super::MAX_PENETRATION_M).
     OutsideTables,
-    /// A number of the motion is NaN or greater than 1e9 in magnitude: the forces are zero.
+    /// A field of the motion is NaN or greater than 1e9 in magnitude; the forces are zero.
     NotFinite,
 }
 
-/// Forces of the rail on one patch of the wheel.
+/// Forces of the rail on one contact patch of the wheel.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -34,7 +35,7 @@ pub struct PatchForces {
     pub load_n: f64,
     /// Normal penetration, m.
     pub penetration_m: f64,
-    /// Tangent of the contact angle against the track plane, positive on a cone that widens to the flange.
+    /// Tangent of the contact angle against the track plane; positive on a cone that widens towards the flange.
     pub slope: f64,
     /// Semi-axes `[a, b]` in the rolling direction and across, m.
     pub semi_axes_m: [f64; 2],
@@ -42,11 +43,11 @@ pub struct PatchForces {
     pub rolling_radius_m: f64,
     /// Lateral position on the wheel from the tread datum, field side positive, m.
     pub wheel_y_m: f64,
-    /// Position from the wheelset's centre along x, y (right positive) and z, m.
+    /// Position relative to the wheelset's centre, along x, y (right positive) and z, m.
     pub position_m: [f64; 3],
-    /// Creepages in contact axes (see [`creep`](crate::creep)); the left wheel's are those of its mirror image.
+    /// Creepages in contact axes (see [`creep`](crate::creep)); for the left wheel, those of its mirror image.
     pub creepage: Creepage,
-    /// Creep forces in the same axes.
+    /// Creep forces, in the same axes as `creepage`.
     pub creep: CreepForces,
     /// Power dissipated by friction, W.
     pub dissipation_w: f64,
@@ -57,7 +58,7 @@ pub struct PatchForces {
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct WheelForces {
-    /// The patch of each zone, from the flange to the field side; zeros where the zone is not loaded.
+    /// The patch of each zone, from the flange to the field side; all zeros if the zone carries no load.
     pub patches: [PatchForces; ZONES],
     /// Force in track axes, N.
     pub force_n: [f64; 3],
@@ -65,17 +66,20 @@ pub struct WheelForces {
     pub moment_n_m: [f64; 3],
     /// State of the wheel.
     pub status: Status,
-    /// A bit for each zone that carries load.
+    /// Bit mask of the zones that carry load.
     pub(super) loaded_zones: u32,
 }
 
-/// Derivatives of the force and moment of one rail on its wheel: one row for each component along x, y and z, in it one
-/// number for each field of [`Motion`](super::Motion) in the order of its declaration, in N and N m per unit of the field.
+/// Derivatives of the force and moment of one rail on its wheel, in N and N m per unit of the variable.
+///
+/// Rows are the components along x, y and z. Columns are the fields of [`Motion`](super::Motion) in the order of their
+/// declaration.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[non_exhaustive]
 pub struct WheelDerivatives {
-    /// Of the force.
+    /// Derivatives of the force.
     pub force: [[f64; MOTION_FIELDS]; 3],
-    /// Of the moment about the wheelset's centre.
+    /// Derivatives of the moment about the wheelset's centre.
     pub moment: [[f64; MOTION_FIELDS]; 3],
 }
 
@@ -94,52 +98,32 @@ pub struct WheelsetForces {
     pub status: Status,
 }
 
-/// Numbers told of a patch.
-pub(super) const TOLD: usize = 17;
-
-/// Place of the lateral position among them.
-pub(super) const POSITION_Y: usize = 8;
-
 impl PatchForces {
-    /// Of the numbers in the order of the fields.
     #[inline(always)]
-    pub(super) fn set(&mut self, told: [f64; TOLD]) {
-        let [
-            load,
-            penetration,
-            slope,
-            a,
-            b,
-            radius,
-            wheel_y,
-            x,
-            y,
-            z,
-            creep @ ..,
-        ] = told;
-        let [xi, eta, phi, longitudinal, lateral, moment, dissipation] = creep;
+    pub(super) fn set(&mut self, patch: PatchOutput<f64>) {
         *self = Self {
-            load_n: load,
-            penetration_m: penetration,
-            slope,
-            semi_axes_m: [a, b],
-            rolling_radius_m: radius,
-            wheel_y_m: wheel_y,
-            position_m: [x, y, z],
-            creepage: Creepage::of([xi, eta, phi]),
-            creep: CreepForces::of_components([longitudinal, lateral, moment]),
-            dissipation_w: dissipation,
+            load_n: patch.load,
+            penetration_m: patch.penetration,
+            slope: patch.slope,
+            semi_axes_m: patch.semi_axes,
+            rolling_radius_m: patch.rolling_radius,
+            wheel_y_m: patch.wheel_y,
+            position_m: patch.position,
+            creepage: Creepage::of(patch.creepage),
+            creep: CreepForces::of_components(patch.creep),
+            dissipation_w: patch.dissipation,
         };
     }
 
-    /// Contact angle against the track plane, rad; sign as `slope`.
+    /// Contact angle against the track plane, rad; it has the sign of `slope`.
     pub fn contact_angle_rad(&self) -> f64 {
         self.slope.atan()
     }
 }
 
 impl WheelsetForces {
-    /// Whether the motion is one that forces can be computed of; otherwise they are zero and say so.
+    /// Returns true if forces can be computed for the motion; otherwise sets them to zero and the status to
+    /// `NotFinite`.
     #[inline(always)]
     pub(super) fn begin(&mut self, motion: &Motion, rails: &[RailDisplacement; 2]) -> bool {
         let accepted = motion.is_accepted() & rails[0].is_accepted() & rails[1].is_accepted();
@@ -153,28 +137,30 @@ impl WheelsetForces {
         accepted
     }
 
-    /// Sets force and moment of both wheels, of the left one on its mirror image, and adds them up.
+    /// Sets the force and moment of both wheels and their sums; `wrench` has the left wheel's, of its mirror image, and
+    /// the right wheel's.
     #[inline(always)]
-    pub(super) fn set_wrenches(&mut self, wrench: [[f64; 2]; 6]) {
-        const MIRRORED: [bool; 6] = [false, true, false, true, false, true];
+    pub(super) fn set_wrenches(&mut self, wrench: Wrench<[f64; 2]>) {
         let [left_wheel, right_wheel] = &mut self.wheels;
-        for (component, [left, right]) in wrench.into_iter().enumerate() {
-            let left = if MIRRORED[component] { -left } else { left };
-            let k = component % 3;
-            let (of_left, of_right, sum) = if component < 3 {
-                let (left, right) = (&mut left_wheel.force_n, &mut right_wheel.force_n);
-                (left, right, &mut self.force_n)
-            } else {
-                let (left, right) = (&mut left_wheel.moment_n_m, &mut right_wheel.moment_n_m);
-                (left, right, &mut self.moment_n_m)
-            };
-            (of_left[k], of_right[k], sum[k]) = (left, right, left + right);
+        for k in 0..3 {
+            let [left, right] = wrench.force[k];
+            let left = if k == 1 { -left } else { left };
+            (left_wheel.force_n[k], right_wheel.force_n[k]) = (left, right);
+            self.force_n[k] = left + right;
+        }
+        for k in 0..3 {
+            let [left, right] = wrench.moment[k];
+            let left = if k == 1 { left } else { -left };
+            (left_wheel.moment_n_m[k], right_wheel.moment_n_m[k]) = (left, right);
+            self.moment_n_m[k] = left + right;
         }
         self.status = left_wheel.status.max(right_wheel.status);
     }
 
-    /// The forces where the profiles change along the track: `1 - share` of these and `share`, 0 to 1, of those by the profiles
-    /// that follow. The patches and creepages are those of the greater share, the status is the worse one.
+    /// Blends the forces of two profiles where the profiles change along the track: `1 - share` of these forces plus
+    /// `share` (0 to 1) of `next`, the forces with the profiles ahead.
+    ///
+    /// Patches and creepages are taken from the one with the greater share; the status is the worse of both.
     pub fn blended(&self, next: &Self, share: f64) -> Self {
         let mut forces = if share < 0.5 { *self } else { *next };
         let blend = |from: [f64; 3], to: [f64; 3]| {
@@ -192,8 +178,8 @@ impl WheelsetForces {
         forces
     }
 
-    /// Derailment coefficients `Y/Q` of the left and the right wheel, dimensionless: positive when the rail pushes
-    /// the wheel towards the track centre, zero for a lifted wheel.
+    /// Derailment coefficients `Y/Q` of the left and the right wheel, dimensionless; positive when the rail pushes the
+    /// wheel towards the track centre, zero for a lifted wheel.
     pub fn derailment_coefficients(&self) -> [f64; 2] {
         let coefficient = |wheel: &WheelForces, side: f64| {
             if wheel.force_n[2] < 0.0 {

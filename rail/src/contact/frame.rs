@@ -1,9 +1,9 @@
-//! What all patches of a wheel need of the motion of wheelset and rail, computed once.
+//! Kinematics of wheelset and rail, computed once for all patches of a wheel.
 
 use super::motion::{MotionNumbers, RailNumbers, STANDSTILL_SPEED_M_PER_S};
 use crate::math::number::Number;
 
-/// Attitude and velocities of a wheelset in track axes, for the wheel of the right side.
+/// Attitude and velocities of a wheelset in track axes, as seen by the right wheel.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Frame<T> {
     sin_roll: T,
@@ -24,14 +24,15 @@ pub(super) struct Frame<T> {
     /// Speed by which creepages are divided, m/s, and its reciprocal.
     pub reference_speed: T,
     pub per_reference_speed: T,
-    /// 1 rolling forward, -1 rolling backward: the contact axes then are turned by half a turn about the normal.
+    /// 1 when rolling forward, -1 when rolling backward: the contact axes are then rotated by 180 degrees about the
+    /// normal.
     pub direction: f64,
 }
 
 impl<T: Number> Frame<T> {
     #[inline(always)]
     pub fn new(motion: &MotionNumbers<T>) -> Self {
-        let [
+        let MotionNumbers {
             speed,
             lateral,
             vertical,
@@ -42,12 +43,12 @@ impl<T: Number> Frame<T> {
             roll_rate,
             rotation,
             yaw_rate,
-        ] = *motion;
+        } = *motion;
         let (sin_roll, cos_roll) = sine_and_cosine(roll);
         let (sin_yaw, cos_yaw) = sine_and_cosine(yaw);
         let standstill = STANDSTILL_SPEED_M_PER_S * STANDSTILL_SPEED_M_PER_S;
         let reference_speed = (speed * speed + standstill).sqrt();
-        // Rolling forward turns against the direction of the axle; roll rate about x, yaw rate about z.
+        // Rolling forward is a negative rotation about y; the roll rate acts about x, the yaw rate about z.
         let turning = -(rotation * cos_yaw);
         Self {
             sin_roll,
@@ -72,8 +73,9 @@ impl<T: Number> Frame<T> {
         }
     }
 
-    /// Displacement of the tread datum to the field side and down, m, from that of a centred wheelset without roll
-    /// and yaw; the datum is `offset` from the centre on a wheel of `radius`.
+    /// Displacement of the tread datum `[outwards, down]` relative to a centred wheelset without roll and yaw, m.
+    ///
+    /// The datum is `offset` from the wheelset's centre, on a wheel of `radius`.
     #[inline(always)]
     pub fn datum_displacement(&self, offset: T, radius: T) -> [T; 2] {
         [
@@ -82,8 +84,8 @@ impl<T: Number> Frame<T> {
         ]
     }
 
-    /// Point of the silhouette from the wheelset's centre, m: `offset` along the axle on the circle of `radius`,
-    /// where the surface has `slope` across the track.
+    /// Point of the silhouette relative to the wheelset's centre, m: `offset` along the axle, on the circle of
+    /// `radius`, where the surface has `slope` across the track.
     #[inline(always)]
     pub fn silhouette_point(&self, offset: T, radius: T, slope: T) -> [T; 3] {
         let unrolled_slope = (slope - self.tan_roll) * (slope * self.tan_roll + 1.0).reciprocal();
@@ -99,7 +101,7 @@ impl<T: Number> Frame<T> {
     }
 }
 
-/// A rolled rail of the right side.
+/// Roll of the right rail.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct RailRoll<T> {
     pub angle: T,
@@ -110,7 +112,7 @@ pub(super) struct RailRoll<T> {
 
 impl<T: Number> RailRoll<T> {
     #[inline(always)]
-    pub fn of(rail: &RailNumbers<T>) -> Self {
+    pub fn new(rail: &RailNumbers<T>) -> Self {
         let (sin, cos) = sine_and_cosine(rail.roll);
         Self {
             angle: rail.roll,
@@ -120,7 +122,7 @@ impl<T: Number> RailRoll<T> {
         }
     }
 
-    /// A vector across and down in the rail's own axes.
+    /// Transforms a vector `[across, down]` from track axes to the rail's own axes.
     #[inline(always)]
     pub fn into_rail(self, [across, down]: [T; 2]) -> [T; 2] {
         [
@@ -129,14 +131,14 @@ impl<T: Number> RailRoll<T> {
         ]
     }
 
-    /// The slope against the track plane of a surface that has `slope` in the rail's own axes.
+    /// Transforms the slope of a surface from the rail's own axes to track axes.
     #[inline(always)]
     pub fn into_track(self, slope: T) -> T {
         (slope + self.tan) * (-(slope * self.tan) + 1.0).reciprocal()
     }
 }
 
-/// Sine and cosine of an angle limited to 0.3 rad; in error by less than 5e-8 there, 3e-11 within 0.1 rad.
+/// Sine and cosine of an angle, which is limited to 0.3 rad. The error is below 5e-8, and below 3e-11 within 0.1 rad.
 #[inline(always)]
 fn sine_and_cosine<T: Number>(angle: T) -> (T, T) {
     let x = angle.limited(0.3);

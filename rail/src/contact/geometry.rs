@@ -1,4 +1,4 @@
-//! The patches of a pair at any pose, computed from the profiles: Hertz and Kalker at each summit.
+//! Contact patches of a pair at any pose, computed from the profiles.
 
 use super::hertz::{Steel, SteelError};
 use super::pair::Pair;
@@ -8,10 +8,10 @@ use super::tables::TabulatedPatch;
 use super::zones::{ZONES, Zones};
 use crate::creep::{KalkerError, KalkerTable};
 
-/// Smallest and greatest nominal load of a wheel, N.
+/// Minimum and maximum nominal wheel load, N.
 pub const NOMINAL_LOAD_RANGE_N: [f64; 2] = [100.0, 1e6];
 
-/// Why the contact of a pair cannot be computed.
+/// Errors from computing the contact of a pair.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum GeometryError {
@@ -23,7 +23,7 @@ pub enum GeometryError {
     Kalker(#[from] KalkerError),
     /// The nominal load is out of bounds.
     #[error(
-        "nominal load: {nominal_load_n} N, allowed: {} to {} N a wheel",
+        "nominal load: {nominal_load_n} N, allowed: {} to {} N per wheel",
         NOMINAL_LOAD_RANGE_N[0], NOMINAL_LOAD_RANGE_N[1]
     )]
     NominalLoad {
@@ -32,7 +32,7 @@ pub enum GeometryError {
     },
 }
 
-/// A pair of elastic bodies: what the contact of a wheel depends on, apart from its pose.
+/// A pair of elastic bodies: everything that the contact of a wheel depends on, apart from its pose.
 #[derive(Debug, Clone)]
 pub struct ContactGeometry {
     pair: Pair,
@@ -44,11 +44,11 @@ pub struct ContactGeometry {
 }
 
 impl ContactGeometry {
-    /// The contact of `pair`, both bodies of `steel`; the nominal load of a wheel, N, sets the [softness](softness_m)
-    /// and with it how far the contact spreads.
+    /// Contact of `pair`, with both bodies of `steel`. The nominal wheel load, N, determines the [softness](softness_m)
+    /// and thereby the spread of the contact.
     ///
     /// # Errors
-    /// Elastic constants or a load out of their bounds.
+    /// The elastic constants or the load are out of bounds.
     ///
     /// ```
     /// use dashpot_rail::contact::{ContactGeometry, Installation, Pair, Steel, WheelPose};
@@ -66,8 +66,8 @@ impl ContactGeometry {
     /// ```
     pub fn new(pair: Pair, steel: Steel, nominal_load_n: f64) -> Result<Self, GeometryError> {
         steel.check()?;
-        let [least, greatest] = NOMINAL_LOAD_RANGE_N;
-        if !(least..=greatest).contains(&nominal_load_n) {
+        let [min, max] = NOMINAL_LOAD_RANGE_N;
+        if !(min..=max).contains(&nominal_load_n) {
             return Err(GeometryError::NominalLoad { nominal_load_n });
         }
         Ok(Self {
@@ -80,7 +80,7 @@ impl ContactGeometry {
         })
     }
 
-    /// The profiles and their distances.
+    /// The pair of profiles.
     pub fn pair(&self) -> &Pair {
         &self.pair
     }
@@ -90,7 +90,7 @@ impl ContactGeometry {
         &self.steel
     }
 
-    /// The nominal load of a wheel, N.
+    /// The nominal wheel load, N.
     pub fn nominal_load_n(&self) -> f64 {
         self.nominal_load_n
     }
@@ -105,7 +105,8 @@ impl ContactGeometry {
         &self.zones
     }
 
-    /// The patch of each zone at `pose`, from the flange to the field side; `scratch` is working memory that is overwritten.
+    /// Computes the patch of each zone at `pose`, from the flange to the field side. `scratch` is working memory and is
+    /// overwritten.
     pub fn patches(
         &self,
         pose: &WheelPose,
@@ -115,7 +116,7 @@ impl ContactGeometry {
         self.patches_of(&wheel, pose.lateral_m, scratch)
     }
 
-    /// [`patches`](ContactGeometry::patches) of a wheel that is turned already and shifted by `lateral_m`.
+    /// Computes [`patches`](ContactGeometry::patches) for a wheel that is already turned, at a lateral shift.
     pub fn patches_of(
         &self,
         wheel: &TurnedWheel<'_>,

@@ -1,9 +1,11 @@
-//! Hertz: stiffness and contact ellipse of two smooth elastic bodies from their curvatures.
+//! Hertzian contact: stiffness and contact ellipse of two smooth elastic bodies.
 
 use crate::math::elliptic::complete;
+use crate::setters::setters;
 
 /// Elastic constants, the same for wheel and rail.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Steel {
     /// Young's modulus, Pa.
     pub young_modulus_pa: f64,
@@ -21,11 +23,11 @@ impl Default for Steel {
     }
 }
 
-/// Why elastic constants are refused.
+/// Errors in elastic constants.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SteelError {
-    /// Young's modulus is not that of a metal.
+    /// Young's modulus is out of bounds.
     #[error("Young's modulus: {young_modulus_pa} Pa, allowed: 1e9 to 1e12 Pa")]
     YoungModulus {
         /// Young's modulus, Pa.
@@ -40,10 +42,15 @@ pub enum SteelError {
 }
 
 impl Steel {
-    /// Checks that both constants are in their bounds.
+    setters! {
+        with_young_modulus_pa sets young_modulus_pa: f64;
+        with_poisson_ratio sets poisson_ratio: f64;
+    }
+
+    /// Checks that both constants are within their bounds.
     ///
     /// # Errors
-    /// Young's modulus not within 1e9 to 1e12 Pa, Poisson's ratio not within 0 to 0.5.
+    /// Young's modulus is not within 1e9 to 1e12 Pa, or Poisson's ratio is not within 0 to 0.5.
     pub fn check(&self) -> Result<(), SteelError> {
         let Self {
             young_modulus_pa,
@@ -68,30 +75,31 @@ impl Steel {
         self.young_modulus_pa / (2.0 * (1.0 + self.poisson_ratio))
     }
 
-    /// Contact modulus of the two bodies, `E* = E / (2 (1 - nu^2))`, Pa.
+    /// Contact modulus of the pair of bodies, `E* = E / (2 (1 - nu^2))`, Pa.
     fn contact_modulus_pa(&self) -> f64 {
         self.young_modulus_pa / (2.0 * (1.0 - self.poisson_ratio * self.poisson_ratio))
     }
 }
 
-/// A Hertz contact: `load = stiffness penetration^1.5`, `semi-axis = factor sqrt(penetration)`.
+/// A Hertzian contact: `load = stiffness penetration^1.5`, `semi-axis = factor sqrt(penetration)`.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Hertz {
-    /// Load over penetration to the power 1.5, N/m^1.5.
+    /// Load divided by `penetration^1.5`, N/m^1.5.
     pub stiffness_n_per_m_1_5: f64,
-    /// Semi-axis `a`, in the rolling direction, over the square root of the penetration, m^0.5.
+    /// Semi-axis `a`, in the rolling direction, divided by the square root of the penetration, m^0.5.
     pub a_factor_m_0_5: f64,
-    /// Semi-axis `b`, across, over the square root of the penetration, m^0.5.
+    /// Semi-axis `b`, across, divided by the square root of the penetration, m^0.5.
     pub b_factor_m_0_5: f64,
 }
 
 impl Hertz {
-    /// The contact of two bodies with relative curvatures `1/R` in the rolling direction and across, 1/m.
+    /// Contact of two bodies with the given relative curvatures `1/R` in the rolling direction and across, 1/m.
     ///
-    /// With `A + B` half their sum, `a` the major semi-axis and `k` minor over major:
+    /// `A + B` is half the sum of the curvatures, `a` the major semi-axis, and `k` the minor divided by the major one:
     /// `a^3 = 3 N E(k) / (2 pi k^2 E* (A + B))`, penetration `3 N K(k) / (2 pi a E*)`,
     /// `B / A = (E / k^2 - K) / (K - E)` (Johnson, Contact Mechanics, 1985, 4.26).
-    /// Without two positive curvatures there is no Hertz contact: stiffness and semi-axes are zero.
+    /// Unless both curvatures are positive, there is no Hertzian contact: stiffness and semi-axes are zero.
     ///
     /// ```
     /// use dashpot_rail::contact::{Hertz, Steel};
@@ -131,7 +139,7 @@ impl Hertz {
         }
     }
 
-    /// Normal load at a penetration, N; zero when the bodies are apart.
+    /// Normal load at a penetration, N; zero if the bodies are apart.
     pub fn load_n(&self, penetration_m: f64) -> f64 {
         let p = penetration_m.max(0.0);
         self.stiffness_n_per_m_1_5 * p * p.sqrt()
@@ -142,34 +150,34 @@ impl Hertz {
         (load_n.max(0.0) / self.stiffness_n_per_m_1_5).powf(2.0 / 3.0)
     }
 
-    /// Semi-axes `[a, b]` (rolling direction, across) at a penetration, m; zero when the bodies are apart.
+    /// Semi-axes `[a, b]` (rolling direction, across) at a penetration, m; zero if the bodies are apart.
     pub fn semi_axes_m(&self, penetration_m: f64) -> [f64; 2] {
         let root = penetration_m.max(0.0).sqrt();
         [self.a_factor_m_0_5 * root, self.b_factor_m_0_5 * root]
     }
 }
 
-/// Minor over major semi-axis of a contact whose curvatures have the ratio `ratio` >= 1, by the secant method on logarithms
+/// Minor divided by major semi-axis for a ratio >= 1 of the curvatures, by the secant method on logarithms, starting
 /// from the power law of Hamrock and Brewe (1983).
 fn axis_ratio(ratio: f64) -> f64 {
     if ratio < 1.0 + 1e-9 {
         return 1.0;
     }
-    let off = |logarithm: f64| {
+    let residual = |logarithm: f64| {
         let k = logarithm.exp();
         let (first, second) = complete(k);
         ((second / (k * k) - first) / (first - second) / ratio).ln()
     };
     let mut before = -0.636 * ratio.ln();
     let mut logarithm = 0.99 * before;
-    let mut off_before = off(before);
+    let mut residual_before = residual(before);
     for _ in 0..20 {
-        let here = off(logarithm);
-        let step = here * (logarithm - before) / (here - off_before);
+        let here = residual(logarithm);
+        let step = here * (logarithm - before) / (here - residual_before);
         if !step.is_finite() {
             break;
         }
-        (before, off_before) = (logarithm, here);
+        (before, residual_before) = (logarithm, here);
         logarithm = (logarithm - step).min(0.0);
         if step.abs() < 1e-14 {
             break;

@@ -1,15 +1,17 @@
-//! The distances of wheels and rails to each other.
+//! Distances between the wheels of a wheelset and between the rails of a track.
 
 use crate::profile::s1002;
+use crate::setters::setters;
 
-/// How the wheels of a wheelset and the rails of a track are placed.
+/// Dimensions of a wheelset and of a track.
 ///
 /// ```
 /// use dashpot_rail::contact::Installation;
-/// let narrow = Installation { gauge_m: 1.432, ..Installation::default() };
+/// let narrow = Installation::default().with_gauge_m(1.432);
 /// assert_eq!(narrow.datum_offset_m(), 0.750);
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Installation {
     /// Radius of the wheel at the tread datum, m.
     pub wheel_radius_m: f64,
@@ -25,7 +27,7 @@ pub struct Installation {
     pub inclination: f64,
 }
 
-/// Why wheels and rails cannot be placed as asked.
+/// Errors in an [`Installation`].
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum InstallationError {
@@ -36,33 +38,45 @@ pub enum InstallationError {
         name: &'static str,
         /// Its value, in m, or dimensionless for the inclination.
         value: f64,
-        /// Smallest and greatest allowed value.
+        /// Minimum and maximum allowed value.
         allowed: [f64; 2],
     },
-    /// Gauge and back-to-back distance do not belong together.
-    #[error("gauge less back-to-back distance: {play_m:.4} m, allowed: 0.03 to 0.12 m")]
+    /// Gauge and back-to-back distance do not match.
+    #[error("gauge minus back-to-back distance: {play_m:.4} m, allowed: 0.03 to 0.12 m")]
     Play {
-        /// Gauge less back-to-back distance, m.
+        /// Gauge minus back-to-back distance, m.
         play_m: f64,
     },
 }
 
 impl Default for Installation {
-    /// Wheel radius 0.625 m, 1360 mm back to back, gauge 1435 mm measured at 14 mm depth, inclination 1:40.
+    /// [`Installation::STANDARD`].
     fn default() -> Self {
-        Self {
-            wheel_radius_m: 0.625,
-            back_to_back_m: 1.360,
-            back_to_datum_m: s1002::FLANGE_BACK_TO_DATUM_M,
-            gauge_m: 1.435,
-            gauge_depth_m: 0.014,
-            inclination: 1.0 / 40.0,
-        }
+        Self::STANDARD
     }
 }
 
 impl Installation {
-    /// Lateral distance of the tread datum from the track centre when the wheelset is centred, m.
+    /// Wheel radius 0.625 m, 1360 mm back to back, gauge 1435 mm measured at 14 mm depth, inclination 1:40.
+    pub const STANDARD: Self = Self {
+        wheel_radius_m: 0.625,
+        back_to_back_m: 1.360,
+        back_to_datum_m: s1002::FLANGE_BACK_TO_DATUM_M,
+        gauge_m: 1.435,
+        gauge_depth_m: 0.014,
+        inclination: 1.0 / 40.0,
+    };
+
+    setters! {
+        with_wheel_radius_m sets wheel_radius_m: f64;
+        with_back_to_back_m sets back_to_back_m: f64;
+        with_back_to_datum_m sets back_to_datum_m: f64;
+        with_gauge_m sets gauge_m: f64;
+        with_gauge_depth_m sets gauge_depth_m: f64;
+        with_inclination sets inclination: f64;
+    }
+
+    /// Lateral distance of the tread datum from the track centre, for a centred wheelset, m.
     pub fn datum_offset_m(&self) -> f64 {
         0.5 * self.back_to_back_m + self.back_to_datum_m
     }

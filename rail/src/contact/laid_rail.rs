@@ -1,11 +1,12 @@
-//! A rail as it lies in the track: inclined, with its top at depth zero and its gauge face at half the gauge.
+//! A rail as laid in the track: inclined, with its top at depth zero and its gauge face at half the gauge.
 
 use super::installation::Installation;
 use crate::profile::{Profile, ProfilePoint};
 
-/// The part of `rail` that a wheel can touch, in track axes: `y` from the track centre, `z` below the rail's top.
+/// Returns the part of `rail` that a wheel can touch, in track axes: `y` from the track centre, `z` below the rail's
+/// top.
 ///
-/// `None` when the gauge side ends above the depth at which the gauge is measured.
+/// `None` if the gauge side ends above the depth at which the gauge is measured.
 pub(super) fn lay(rail: &Profile, installation: &Installation) -> Option<Profile> {
     let turn = installation.inclination.atan();
     let (sin, cos) = turn.sin_cos();
@@ -22,7 +23,7 @@ pub(super) fn lay(rail: &Profile, installation: &Installation) -> Option<Profile
     let top = (0..points.len())
         .min_by(|&i, &j| points[i].z_m.total_cmp(&points[j].z_m))
         .unwrap_or(0);
-    // Below its widest point an inclined head turns back: no wheel can touch it there.
+    // Below its widest point an inclined head curves back, where no wheel can touch it.
     let touchable = |p: &ProfilePoint| p.angle_rad.cos() > 0.01;
     let end = (top..points.len()).find(|&i| !touchable(&points[i]));
     points.truncate(end.unwrap_or(points.len()));

@@ -1,4 +1,4 @@
-//! Creep forces of a loaded contact, by lane or with the derivatives of what they depend on.
+//! Creep forces of a loaded contact, in vector lanes or with derivatives.
 
 use std::array::from_fn;
 
@@ -16,19 +16,18 @@ use crate::math::number::Number;
 pub(super) struct Contact<T> {
     /// Normal load, N.
     pub load: T,
-    /// Fraction of the load, and of the creep forces, that is asked for.
+    /// Fraction of the load and of the creep forces that belongs to the patch.
     pub fraction: T,
     /// Semi-axes in the rolling direction and across, m.
     pub semi_axes: [T; 2],
-    /// Kalker's `C11`, `C22`, `C23`, `C33`.
-    pub kalker: [T; 4],
-    /// Longitudinal and lateral creepage and spin.
+    pub kalker: KalkerCoefficients<T>,
+    /// Longitudinal creepage, lateral creepage, and spin, 1/m.
     pub creepage: [T; 3],
 }
 
-/// A number that a creep law can be evaluated with.
+/// A number type for which creep laws can be evaluated.
 pub(super) trait CreepNumber: Number {
-    /// Longitudinal and lateral force, N, and spin moment, N m, in the lanes that are `used`.
+    /// Longitudinal force, N, lateral force, N, and spin moment, N m, in the lanes that are `used`.
     fn creep_forces<L: CreepLaw>(
         contact: &Contact<Self>,
         surface: &Surface<L>,
@@ -68,13 +67,18 @@ impl CreepNumber for Tangent {
     ) -> [Self; 3] {
         let creepage = Creepage::of(contact.creepage.map(|number| number.value()));
         let sliding_speed = creepage.magnitude() * reference_speed.value();
-        let [c11, c22, c23, c33] = contact.kalker.map(|number| number.value());
+        let KalkerCoefficients { c11, c22, c23, c33 } = contact.kalker;
         let loaded = LoadedContact {
             load_n: contact.load.value(),
             a_m: contact.semi_axes[0].value(),
             b_m: contact.semi_axes[1].value(),
             shear_modulus_pa: surface.shear_modulus_pa,
-            kalker: KalkerCoefficients { c11, c22, c23, c33 },
+            kalker: KalkerCoefficients {
+                c11: c11.value(),
+                c22: c22.value(),
+                c23: c23.value(),
+                c33: c33.value(),
+            },
             friction: surface.friction.at(sliding_speed),
         };
         let derivatives = surface.law.forces_with_derivatives(&loaded, &creepage);
@@ -91,12 +95,15 @@ impl CreepNumber for Tangent {
 }
 
 impl Contact<Tangent> {
-    /// The forces as functions of all they depend on. Every law is `mu N f(x, y, z)` with
-    /// `x = G ab C11 xi / (mu N)`, `y` and `z` likewise, and the moment has `sqrt(ab)` more: what changes the scale of a
-    /// creepage acts on the force as the creepage itself does. (The explicit influence of `a/b` and `C33` is left out.)
+    /// Differentiates the forces with respect to everything they depend on.
+    ///
+    /// Every law is `mu N f(x, y, z)` with `x = G ab C11 xi / (mu N)`, similarly `y` and `z`, and for the moment a
+    /// further factor `sqrt(ab)`. A change of the scale of a creepage therefore acts on the force like a change of the
+    /// creepage itself. The explicit influence of `a/b` and `C33` is neglected.
     fn differentiated(&self, derivatives: &CreepDerivatives, friction: Tangent) -> [Tangent; 3] {
         let creepage = self.creepage.map(|number| number.value());
-        let kalker = self.kalker.map(|number| number.value());
+        // The coefficient that scales each creepage.
+        let scales = [self.kalker.c11, self.kalker.c22, self.kalker.c23];
         let limit = self.load * friction;
         let area = self.semi_axes[0] * self.semi_axes[1];
         let (per_limit, per_area) = (reciprocal(limit.value()), reciprocal(area.value()));
@@ -113,16 +120,16 @@ impl Contact<Tangent> {
                 (slopes[0], self.creepage[0]),
                 (slopes[1], self.creepage[1]),
                 (slopes[2], self.creepage[2]),
-                (scaled[0] * reciprocal(kalker[0]), self.kalker[0]),
-                (scaled[1] * reciprocal(kalker[1]), self.kalker[1]),
-                (scaled[2] * reciprocal(kalker[2]), self.kalker[2]),
+                (scaled[0] * reciprocal(scales[0].value()), scales[0]),
+                (scaled[1] * reciprocal(scales[1].value()), scales[1]),
+                (scaled[2] * reciprocal(scales[2].value()), scales[2]),
             ];
             Tangent::function(values[k], terms) * self.fraction
         })
     }
 }
 
-/// The reciprocal; zero for zero, where there is no load.
+/// The reciprocal, or zero without load, if `x` is zero.
 fn reciprocal(x: f64) -> f64 {
     if x > 0.0 { 1.0 / x } else { 0.0 }
 }

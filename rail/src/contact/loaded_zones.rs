@@ -1,18 +1,18 @@
-//! Which zones of a wheel carry load at its pose.
+//! The zones of a wheel that carry load at its pose.
 
 use super::forces::{PatchForces, WheelForces};
 use super::zones::ZONES;
 
-/// The zones of a wheel that carry load at its pose, one by one.
+/// Iterates over the zones that carry load.
 pub(super) struct LoadedZones {
-    /// A bit for each that is still to come.
+    /// Bit mask of the remaining zones.
     zones: u32,
-    /// The zone that came last.
+    /// The current zone.
     zone: usize,
 }
 
 impl LoadedZones {
-    /// The `zones`, a bit for each, that carry load; clears the patches of `wheel` that carry load no more.
+    /// Starts with the bit mask `zones`, and clears the patches of `wheel` that no longer carry load.
     #[inline(always)]
     pub fn new(zones: u32, wheel: &mut WheelForces) -> Self {
         let mut unloaded = wheel.loaded_zones & !zones;
@@ -24,13 +24,13 @@ impl LoadedZones {
         Self { zones, zone: 0 }
     }
 
-    /// Whether another one carries load.
+    /// True if another zone carries load.
     #[inline(always)]
     pub fn are_left(&self) -> bool {
         self.zones != 0
     }
 
-    /// Goes on to the next one, or stays at the last; whether there was another.
+    /// Advances to the next zone, or stays at the last. Returns the zone, and true if it is a new one.
     #[inline(always)]
     pub fn advance(&mut self) -> (usize, bool) {
         let is_another = self.are_left();

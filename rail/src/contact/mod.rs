@@ -1,19 +1,20 @@
 //! Contact of a wheelset: from two profiles to the forces on its wheels.
 //!
-//! In the order of use:
+//! The types in order of use:
 //!
-//! 1. [`Installation`] holds the distances of wheels and rails; [`Pair`] lays a rail under a wheel.
-//! 2. [`Pair::rigid_contact`] gives the contact points of a rigid wheelset ([`RigidContact`]), which is what
-//!    [`indices`](crate::indices) need; [`TurnedWheel::patches`] gives the elastic contact patches of one wheel,
-//!    one in each of its [`Zones`].
-//! 3. [`Hertz`] turns local curvatures into stiffness and semi-axes of a patch, [`ContactGeometry`] does so for a pair
+//! 1. [`Installation`] has the dimensions of wheelset and track; [`Pair`] lays a rail under a wheel.
+//! 2. [`Pair::rigid_contact`] gives the contact points of a rigid wheelset ([`RigidContact`]) for the
+//!    [`indices`](crate::indices); [`TurnedWheel::patches`] gives the elastic contact patches of one wheel, one in each
+//!    of its [`Zones`].
+//! 3. [`Hertz`] turns local curvatures into stiffness and semi-axes of a patch; [`ContactGeometry`] does so for a pair
 //!    under its nominal load.
-//! 4. [`Tables`] precomputes all this over a [`Grid`] of [`WheelPose`]s.
-//! 5. [`WheelsetContact`] reads tables (or the geometry itself) in every time step: [`Motion`] of the wheelset and
-//!    [`RailDisplacement`] of both rails in, [`WheelsetForces`] with a [`Status`] and, where asked for, [`WheelDerivatives`] out.
+//! 4. [`Tables`] holds these patches, precomputed over a [`Grid`] of [`WheelPose`]s.
+//! 5. [`WheelsetContact`] reads the tables, or the geometry itself, in every time step. The input is the [`Motion`] of
+//!    the wheelset and the [`RailDisplacement`] of both rails. The output is [`WheelsetForces`] with a [`Status`], and
+//!    optionally [`WheelDerivatives`].
 //!
-//! Axes: x forward, y right, z down. Quantities of a single wheel are those of the right wheel, whose field side
-//! is y positive; the left wheel is its mirror image.
+//! Axes: x forward, y right, z down. Quantities of a single wheel refer to the right wheel, whose field side is at
+//! positive y; the left wheel is its mirror image.
 
 mod forces;
 mod frame;

@@ -3,15 +3,17 @@
 use crate::math::dual::Dual;
 use crate::math::number::Number;
 
-/// Position and velocity of a wheelset, which is turned by its yaw and then rolled about the rail's direction.
+/// Position and velocity of a wheelset: yawed first, then rolled about the rail's direction.
+///
+/// The fields are the complete rigid-body state over the rails; none will be added.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Motion {
     /// Speed along the track, m/s.
     pub speed_m_per_s: f64,
     /// Lateral displacement of the centre, right positive, m.
     pub lateral_m: f64,
-    /// Vertical displacement of the centre, down positive, m; 0 has the tread datum at the height of the rail's top
-    /// (the mean of both, where the wheels differ).
+    /// Vertical displacement of the centre, down positive, m. At 0 the tread datum is at the height of the rail's top;
+    /// if the wheels differ, the mean of both is.
     pub vertical_m: f64,
     /// Roll, right side down positive, rad.
     pub roll_rad: f64,
@@ -23,13 +25,15 @@ pub struct Motion {
     pub vertical_velocity_m_per_s: f64,
     /// Roll rate, rad/s.
     pub roll_rate_rad_per_s: f64,
-    /// Angular velocity about the axle, rolling forward positive, rad/s: speed over rolling radius when rolling freely.
+    /// Angular velocity about the axle, rolling forward positive, rad/s; speed over rolling radius in free rolling.
     pub rotation_rad_per_s: f64,
-    /// Yaw rate over ground, rad/s. In a curve to the right of radius `R` it includes `speed / R`.
+    /// Yaw rate relative to the ground, rad/s. In a right-hand curve of radius `R` it includes `speed / R`.
     pub yaw_rate_rad_per_s: f64,
 }
 
-/// Displacement of one rail from its nominal position, by track irregularity or movement of its own.
+/// Displacement of one rail from its nominal position, by track irregularity or its own movement.
+///
+/// The fields are complete; none will be added.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct RailDisplacement {
     /// Lateral displacement, right positive, m.
@@ -46,14 +50,14 @@ pub struct RailDisplacement {
     pub roll_rate_rad_per_s: f64,
 }
 
-/// Smallest speed by which creepages are divided, m/s: at standstill the creep forces become a viscous drag.
+/// Smallest speed by which creepages are divided, m/s; near standstill the creep forces become a viscous drag.
 pub const STANDSTILL_SPEED_M_PER_S: f64 = 0.05;
 
-/// Greatest magnitude accepted in any field, in its unit: its square does not overflow.
+/// Maximum magnitude of any field, in its unit; its square does not overflow.
 const MAX_MAGNITUDE: f64 = 1e9;
 
-/// Whether every number is within the accepted magnitude; NaN is not.
-// Not short-circuited: the comparisons run side by side.
+/// True if the magnitudes of all numbers are accepted; false for NaN.
+// Not short-circuited, so that the comparisons run in parallel.
 #[inline]
 fn all_accepted<const N: usize>(numbers: [f64; N]) -> bool {
     numbers
@@ -64,23 +68,55 @@ fn all_accepted<const N: usize>(numbers: [f64; N]) -> bool {
 /// Number of fields of [`Motion`].
 pub const MOTION_FIELDS: usize = 10;
 
-/// A number with its derivatives by the fields of [`Motion`], filled up to three vectors of four.
+/// A number with its derivatives with respect to the fields of [`Motion`], padded to three vectors of four.
 pub(super) type Tangent = Dual<12>;
 
-/// The fields of [`Motion`] in their order, with or without derivatives.
-pub(super) type MotionNumbers<T> = [T; MOTION_FIELDS];
+/// The fields of [`Motion`], as vector lanes or with derivatives.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct MotionNumbers<T> {
+    pub speed: T,
+    pub lateral: T,
+    pub vertical: T,
+    pub roll: T,
+    pub yaw: T,
+    pub lateral_velocity: T,
+    pub vertical_velocity: T,
+    pub roll_rate: T,
+    pub rotation: T,
+    pub yaw_rate: T,
+}
+
+impl<T> MotionNumbers<T> {
+    /// The motion as seen by a right wheel, or by the mirror image of a left wheel.
+    ///
+    /// `odd` converts the fields that change sign when mirrored about the track centre, `even` the others. Both get the
+    /// value and the index of the field in [`Motion`].
+    #[inline(always)]
+    pub fn new(
+        motion: &Motion,
+        even: impl Fn(f64, usize) -> T,
+        odd: impl Fn(f64, usize) -> T,
+    ) -> Self {
+        Self {
+            speed: even(motion.speed_m_per_s, 0),
+            lateral: odd(motion.lateral_m, 1),
+            vertical: even(motion.vertical_m, 2),
+            roll: odd(motion.roll_rad, 3),
+            yaw: odd(motion.yaw_rad, 4),
+            lateral_velocity: odd(motion.lateral_velocity_m_per_s, 5),
+            vertical_velocity: even(motion.vertical_velocity_m_per_s, 6),
+            roll_rate: odd(motion.roll_rate_rad_per_s, 7),
+            rotation: even(motion.rotation_rad_per_s, 8),
+            yaw_rate: odd(motion.yaw_rate_rad_per_s, 9),
+        }
+    }
+}
 
 impl Motion {
-    /// Whether every field is a number of at most 1e9 in magnitude.
+    /// True if every field is at most 1e9 in magnitude.
     #[inline]
     pub(super) fn is_accepted(&self) -> bool {
-        all_accepted(self.numbers())
-    }
-
-    /// The fields in their order.
-    #[inline]
-    pub(super) fn numbers(&self) -> MotionNumbers<f64> {
-        [
+        all_accepted::<MOTION_FIELDS>([
             self.speed_m_per_s,
             self.lateral_m,
             self.vertical_m,
@@ -91,11 +127,11 @@ impl Motion {
             self.roll_rate_rad_per_s,
             self.rotation_rad_per_s,
             self.yaw_rate_rad_per_s,
-        ]
+        ])
     }
 }
 
-/// The fields of [`RailDisplacement`], with or without derivatives.
+/// The fields of [`RailDisplacement`], as vector lanes or with derivatives.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct RailNumbers<T> {
     pub lateral: T,
@@ -107,7 +143,7 @@ pub(super) struct RailNumbers<T> {
 }
 
 impl RailDisplacement {
-    /// Whether every field is a number of at most 1e9 in magnitude.
+    /// True if every field is at most 1e9 in magnitude.
     #[inline]
     pub(super) fn is_accepted(&self) -> bool {
         all_accepted([
@@ -122,8 +158,9 @@ impl RailDisplacement {
 }
 
 impl<T: Number> RailNumbers<T> {
-    /// The rails of a wheel of the right side, or of the mirror image of one of the left: what is odd in the mirror comes
-    /// from `odd`.
+    /// The rail as seen by a right wheel, or by the mirror image of a left wheel.
+    ///
+    /// `odd` converts the fields that change sign when mirrored about the track centre, `even` the others.
     #[inline(always)]
     pub fn new(
         even: impl Fn(fn(&RailDisplacement) -> f64) -> T,
@@ -139,9 +176,3 @@ impl<T: Number> RailNumbers<T> {
         }
     }
 }
-
-/// Whether a field of [`Motion`] changes its sign in a mirror about the track centre: the lateral one, roll and yaw,
-/// and their rates.
-pub(super) const ODD: [bool; MOTION_FIELDS] = [
-    false, true, false, true, true, true, false, true, false, true,
-];

@@ -1,14 +1,14 @@
-//! One wheel after the other, with derivatives by every field of the motion.
+//! Evaluates one wheel after the other, with derivatives with respect to every field of the motion.
 
 use std::array::from_fn;
 
-use super::forces::{POSITION_Y, WheelDerivatives, WheelsetForces};
+use super::forces::{WheelDerivatives, WheelsetForces};
 use super::frame::Frame;
 use super::loaded_zones::LoadedZones;
-use super::motion::{MOTION_FIELDS, Motion, ODD, RailDisplacement, RailNumbers, Tangent};
+use super::motion::{MOTION_FIELDS, Motion, MotionNumbers, RailDisplacement, RailNumbers, Tangent};
 use super::silhouette::WheelPose;
-use super::source::{PatchReader, PatchSource, functions_of_pose};
-use super::wheel::{Place, Wrench, status};
+use super::source::{PatchReader, PatchSource, differentiated};
+use super::wheel::{MovingWheel, Wrench, status};
 use super::wheelset::WheelsetContact;
 use super::zones::ZONES;
 use crate::creep::CreepLaw;
@@ -25,52 +25,44 @@ impl<L: CreepLaw, S: PatchSource> WheelsetContact<L, S> {
         if !forces.begin(motion, rails) {
             return derivatives;
         }
-        let mut wrenches = [[0.0; 2]; 6];
-        let values = motion.numbers();
+        let mut wrenches = Wrench::splat([0.0; 2]);
         for side in 0..2 {
             let sign = if side == 0 { -1.0 } else { 1.0 };
-            let numbers = from_fn(|field| {
-                let variable = Tangent::variable(values[field], field);
-                if ODD[field] {
-                    variable * sign
-                } else {
-                    variable
-                }
+            let numbers = MotionNumbers::new(motion, Tangent::variable, |value, field| {
+                Tangent::variable(value, field) * sign
             });
             let rail = RailNumbers::new(
-                |of| Tangent::constant(of(&rails[side])),
-                |of| Tangent::constant(sign * of(&rails[side])),
+                |field| Tangent::constant(field(&rails[side])),
+                |field| Tangent::constant(sign * field(&rails[side])),
             );
             let lengths = self.lengths[side].map(|length| Tangent::constant(*length));
-            let place = Place::new(Frame::new(&numbers), rail, lengths);
+            let moving = MovingWheel::new(Frame::new(&numbers), rail, lengths);
             let wheel = &mut forces.wheels[side];
             let source = self.sources[side].as_ref();
-            let [lateral_m, roll_rad, yaw_rad] = place.pose.map(|number| number.value());
+            let [lateral_m, roll_rad, yaw_rad] = moving.pose.map(|number| number.value());
             let reader = source.locate(&WheelPose {
                 lateral_m,
                 roll_rad,
                 yaw_rad,
             });
             let heights = reader.interpenetrations_m();
-            let depth = place.depth.value();
+            let depth = moving.depth.value();
             let loaded = |zone: usize| u32::from(heights[zone] + depth > 0.0) << zone;
             let mut zones = LoadedZones::new((0..ZONES).map(loaded).sum(), wheel);
             let (mut penetration_m, mut wheel_y_m) = (0.0_f64, f64::MAX);
-            let mut wrench = [Tangent::constant(0.0); 6];
+            let mut wrench = Wrench::splat(Tangent::constant(0.0));
             while zones.are_left() {
                 let (zone, _) = zones.advance();
                 let (interpenetration, numbers) =
-                    functions_of_pose(&reader, zone, heights[zone], place.pose);
-                let depth = interpenetration + place.depth;
-                let patch = place.patch(&self.surface, depth, numbers, [true; 4]);
-                for (sum, term) in wrench.iter_mut().zip(patch.wrench) {
-                    *sum = *sum + term;
-                }
-                let mut told = patch.told.map(|number| number.value());
-                told[POSITION_Y] *= sign;
-                wheel.patches[zone].set(told);
-                penetration_m = penetration_m.max(patch.penetration.value());
-                wheel_y_m = wheel_y_m.min(patch.wheel_y.value());
+                    differentiated(&reader, zone, heights[zone], moving.pose);
+                let depth = interpenetration + moving.depth;
+                let patch = moving.patch(&self.surface, depth, numbers, [true; 4]);
+                wrench.accumulate(&patch.wrench, |sum, term| sum + term);
+                let mut output = patch.output.values();
+                output.position[1] *= sign;
+                wheel.patches[zone].set(output);
+                penetration_m = penetration_m.max(output.penetration);
+                wheel_y_m = wheel_y_m.min(output.wheel_y);
             }
             wheel.status = status(
                 source.geometry().pair(),
@@ -79,10 +71,11 @@ impl<L: CreepLaw, S: PatchSource> WheelsetContact<L, S> {
                 penetration_m,
                 wheel_y_m,
             );
-            for (sums, number) in wrenches.iter_mut().zip(&wrench) {
-                sums[side] = number.value();
+            for k in 0..3 {
+                wrenches.force[k][side] = wrench.force[k].value();
+                wrenches.moment[k][side] = wrench.moment[k].value();
             }
-            derivatives[side] = WheelDerivatives::of(&wrench, sign);
+            derivatives[side] = WheelDerivatives::new(&wrench, sign);
         }
         forces.set_wrenches(wrenches);
         derivatives
@@ -90,12 +83,13 @@ impl<L: CreepLaw, S: PatchSource> WheelsetContact<L, S> {
 }
 
 impl WheelDerivatives {
-    /// Those of the wrench on a wheel, or on the mirror image (`sign` -1) of the left wheel.
-    fn of(wrench: &Wrench<Tangent>, sign: f64) -> Self {
+    /// Derivatives of the wrench on the right wheel (`sign` 1) or on the mirror image of the left wheel (`sign` -1).
+    fn new(wrench: &Wrench<Tangent>, sign: f64) -> Self {
         let by_field = |number: &Tangent, sign: f64| -> [f64; MOTION_FIELDS] {
             from_fn(|field| sign * f64::from(number.derivatives()[field]))
         };
-        let [fx, fy, fz, mx, my, mz] = wrench;
+        let [fx, fy, fz] = &wrench.force;
+        let [mx, my, mz] = &wrench.moment;
         Self {
             force: [by_field(fx, 1.0), by_field(fy, sign), by_field(fz, 1.0)],
             moment: [by_field(mx, sign), by_field(my, 1.0), by_field(mz, sign)],

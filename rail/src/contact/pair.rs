@@ -1,14 +1,14 @@
-//! A wheel profile over a laid rail.
+//! A wheel profile on a laid rail.
 
 use super::installation::{Installation, InstallationError};
 use super::laid_rail::lay;
 use crate::profile::{Profile, ProfilePoint, s1002, uic60};
 
-/// Why a wheel and a rail do not make a pair.
+/// Errors from pairing a wheel with a rail.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum PairError {
-    /// The distances of wheels and rails are not possible.
+    /// The dimensions of wheelset or track are invalid.
     #[error(transparent)]
     Installation(#[from] InstallationError),
     /// The wheel has no flange.
@@ -19,10 +19,10 @@ pub enum PairError {
         /// Name of the wheel's profile.
         wheel: String,
     },
-    /// The rail does not reach down to where the gauge is measured.
+    /// The rail does not reach the depth at which the gauge is measured.
     #[error(
-        "rail {rail}: its gauge side ends above {:.1} mm, where the gauge is measured; allowed: a profile \
-         reaching deeper",
+        "rail {rail}: the gauge side ends above the depth of {:.1} mm at which the gauge is measured; allowed: a \
+         profile that reaches deeper",
         .gauge_depth_m * 1e3
     )]
     LowRail {
@@ -48,16 +48,16 @@ pub struct Pair {
     pub(super) rail_slopes: Vec<f64>,
 }
 
-/// Steepness of the wheel that separates tread from flange. Inside a root as round as the rail's corner,
-/// contact moves within one sample from 40 degrees to the flange face's 70: with the boundary between them, tread and
-/// flange have one maximum of interpenetration each.
+/// Contact angle that separates tread and flange. If the flange root is as round as the rail's corner, the contact
+/// jumps within one sample from 40 degrees to the 70 degrees of the flange face. With a boundary in between, tread and
+/// flange each have one maximum of interpenetration.
 const FLANGE_ANGLE: f64 = 50.0 * std::f64::consts::PI / 180.0;
 
 impl Pair {
     /// Lays `rail` under `wheel`.
     ///
     /// # Errors
-    /// A distance out of its bounds, a rail too low to measure the gauge on, a wheel without a flange of 50 degrees.
+    /// A dimension is out of bounds, the rail ends above the gauge depth, or the wheel has no flange of 50 degrees.
     pub fn new(
         wheel: Profile,
         rail: &Profile,
@@ -79,7 +79,7 @@ impl Pair {
         let steepest = (tip..=tread_end)
             .min_by(|&i, &j| points[i].angle_rad.total_cmp(&points[j].angle_rad))
             .map_or(tip, |steepest| {
-                // The innermost point within 0.1 degree: contact on a straight face is not yet climbing.
+                // The innermost point within 0.1 degrees, because contact on a straight face is not yet climbing.
                 let bound = points[steepest].angle_rad + 1.7e-3;
                 (tip..=steepest)
                     .find(|&i| points[i].angle_rad <= bound)
@@ -99,15 +99,15 @@ impl Pair {
         })
     }
 
-    /// The profiles S1002 on UIC 60.
+    /// The wheel profile S1002 on the rail profile UIC 60.
     ///
     /// # Errors
-    /// As [`Pair::new`].
+    /// The installation is invalid, see [`Pair::new`].
     ///
     /// ```
     /// use dashpot_rail::contact::{Installation, Pair};
     /// let pair = Pair::standard(Installation::default())?;
-    /// // Running surfaces are in track axes: the gauge face lies at half the gauge, 14 mm below the top.
+    /// // The rail is in track axes: its gauge face lies at half the gauge, 14 mm below the top.
     /// let gauge_face = pair.rail().at(0.7175);
     /// assert!((gauge_face.z_m - 0.014).abs() < 1e-5);
     /// # Ok::<(), dashpot_rail::contact::PairError>(())
@@ -116,7 +116,7 @@ impl Pair {
         Self::new(s1002::profile(), &uic60::profile(), installation)
     }
 
-    /// The wheel's profile about its tread datum.
+    /// The wheel's profile, relative to its tread datum.
     pub fn wheel(&self) -> &Profile {
         &self.wheel
     }
@@ -126,7 +126,7 @@ impl Pair {
         &self.rail
     }
 
-    /// The distances of wheels and rails.
+    /// The dimensions of wheelset and track.
     pub fn installation(&self) -> &Installation {
         &self.installation
     }
@@ -136,17 +136,18 @@ impl Pair {
         self.rail_top_m
     }
 
-    /// Position on the wheel at which the tread (greater values) meets the flange, m from the tread datum.
+    /// Position on the wheel at which the tread meets the flange, m from the tread datum.
     pub fn tread_end_m(&self) -> f64 {
         self.tread_end_m
     }
 
-    /// Position of the flange's steepest angle, m from the tread datum; a wheel in contact at smaller values climbs.
+    /// Position of the steepest point of the flange, m from the tread datum. A wheel in contact at smaller values
+    /// climbs.
     pub fn steepest_flange_m(&self) -> f64 {
         self.steepest_flange_m
     }
 
-    /// Flange angle: the steepest one of the flange's face against the axle, rad.
+    /// Flange angle: the maximum angle of the flange face against the axle, rad.
     ///
     /// ```
     /// use dashpot_rail::contact::{Installation, Pair};
@@ -165,9 +166,9 @@ impl Pair {
     }
 }
 
-/// Samples of the flange tip and of the end of the flange's face towards the tread.
+/// Indices of the flange tip and of the end of the flange face towards the tread.
 ///
-/// The face is looked for from the tip: a chamfer on the field side is steep as well.
+/// The search for the face starts at the tip, because a chamfer on the field side is steep as well.
 fn flange(points: &[ProfilePoint]) -> Option<(usize, usize)> {
     let tip = (1..points.len()).max_by(|&i, &j| points[i].z_m.total_cmp(&points[j].z_m))?;
     let steep = |point: &ProfilePoint| point.angle_rad < -FLANGE_ANGLE;

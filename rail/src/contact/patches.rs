@@ -1,4 +1,4 @@
-//! Where a wheel touches its rail: a contact patch at the summit of each of its zones.
+//! Contact patches of a wheel: one at the summit of each zone.
 
 use std::ops::Range;
 
@@ -7,16 +7,16 @@ use super::pair::Pair;
 use super::silhouette::{SilhouettePoint, TurnedWheel};
 use super::zones::{ZONES, Zones};
 
-/// Softness of the contact over Hertz's penetration.
+/// Softness of the contact divided by the Hertzian penetration.
 ///
-/// With a quarter the place of contact is that of an elastic half-space within 0.15 mm; the hundredth more takes half
-/// of the remaining error off the steering forces near the centre.
+/// With 0.25 the contact position agrees with that of an elastic half-space within 0.15 mm; 0.26 also halves the
+/// remaining error of the steering forces near the centre.
 const SOFTNESS_RATIO: f64 = 0.26;
-/// Transverse curvature of the contact whose penetration sets the softness, 1/m: the top of a rail of R 300.
+/// Transverse curvature of the contact whose penetration sets the softness, 1/m: a rail head of R 300.
 const TYPICAL_CURVATURE_PER_M: f64 = 1.0 / 0.3;
 
-/// Softness of the contact of a wheel of `wheel_radius_m` under `load_n`, m: over this interpenetration the
-/// weight of a point falls to `1/e`. It is 0.26 of Hertz's penetration on a rail head of R 300.
+/// Softness of the contact of a wheel of `wheel_radius_m` under `load_n`, m: the interpenetration over which the weight
+/// of a point falls to `1/e`. It is 0.26 times the Hertzian penetration on a rail head of R 300.
 ///
 /// ```
 /// use dashpot_rail::contact::{Steel, softness_m};
@@ -30,8 +30,8 @@ pub fn softness_m(steel: &Steel, wheel_radius_m: f64, load_n: f64) -> f64 {
 
 /// One contact patch of a wheel.
 ///
-/// Every quantity is a mean over the silhouette of its zone with weights `exp(normal height / softness)`, so that it
-/// moves continuously where the contact of rigid bodies would jump (quasi-elastic contact, Arnold and Netter 1998).
+/// Each quantity is a mean over the silhouette of the zone with weights `exp(normal height / softness)`, so it moves
+/// continuously where the contact of rigid bodies would jump (quasi-elastic contact, Arnold and Netter 1998).
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Patch {
@@ -39,34 +39,34 @@ pub struct Patch {
     pub interpenetration_m: f64,
     /// Lateral position on the wheel from the tread datum, field side positive, m.
     pub wheel_y_m: f64,
-    /// Depth on the wheel, m: the rolling radius is the wheel radius plus this.
+    /// Depth on the wheel, m; the rolling radius is the wheel radius plus this depth.
     pub wheel_z_m: f64,
     /// Lateral position from the track centre, m.
     pub track_y_m: f64,
     /// `dz/dy` of both surfaces across the track: the tangent of the contact angle.
     pub slope: f64,
-    /// Curvature of the rail less that of the wheel across the track, 1/m.
+    /// Curvature of the rail minus that of the wheel, across the track, 1/m.
     pub curvature_per_m: f64,
-    /// Fraction of the load at `interpenetration_m` and `curvature_per_m` that the patch carries, 0 to 1: below 1 where
-    /// no valley separates it from a neighbour.
+    /// Fraction of the load at `interpenetration_m` and `curvature_per_m` that the patch carries, 0 to 1; below 1 if no
+    /// valley separates the patch from a neighbour.
     pub load_fraction: f64,
 }
 
-/// Depth of the valley from which two patches are separate, in lengths of the softness.
+/// Valley depth at which two patches are fully separate, in multiples of the softness.
 const SEPARATION: f64 = 4.0;
-/// Interpenetration of a zone that is nowhere over the rail, m: far above it.
+/// Interpenetration assigned to a zone that is nowhere over the rail, m: far out of contact.
 const ABSENT_M: f64 = -0.05;
-/// Weights below `exp` of this are left out.
-const LEAST_EXPONENT: f64 = -20.0;
+/// Weights below `exp` of this are neglected.
+const MIN_EXPONENT: f64 = -20.0;
 
 impl TurnedWheel<'_> {
-    /// The patches of the wheel's `zones` when it is shifted by `lateral_m`, from the flange to the field side; `scratch` is
-    /// working memory that is overwritten.
+    /// Computes the patch of each zone at a lateral shift, from the flange to the field side. `scratch` is working
+    /// memory and is overwritten.
     ///
-    /// Two summits with a valley `v` between them belong together by `1 - S(v / 4 softness)` with the smooth step `S`.
-    /// Each patch carries its own load by its own interpenetration and curvature once it belongs to itself alone; as long as it
-    /// belongs to others too, interpenetration and curvature are weighted means over all of them and it carries its
-    /// share of their one load. Sums over a wheel therefore do not change where a summit divides or two merge.
+    /// Two summits with a valley of depth `v` between them are merged to the degree `1 - S(v / 4 softness)`, where `S`
+    /// is the smooth step. A fully separate patch carries its own load at its own interpenetration and curvature.
+    /// Merged patches share one load; its interpenetration and curvature are weighted means over all of them. Sums over
+    /// a wheel are therefore continuous where a summit splits or two summits merge.
     pub fn patches(
         &self,
         lateral_m: f64,
@@ -85,8 +85,8 @@ impl TurnedWheel<'_> {
             let Some(own) = &summits[zone] else {
                 return self.pair().absent();
             };
-            // How far each summit belongs together with this one.
-            let together = summits.each_ref().map(|other| {
+            // Degree to which each summit is merged with this one.
+            let merged = summits.each_ref().map(|other| {
                 let Some(other) = other else {
                     return 0.0;
                 };
@@ -99,13 +99,13 @@ impl TurnedWheel<'_> {
                 let t = (valley_m / (SEPARATION * softness_m)).clamp(0.0, 1.0);
                 1.0 - t * t * (3.0 - 2.0 * t)
             });
-            let relatives = || {
-                let pairs = summits.iter().zip(together);
+            let group = || {
+                let pairs = summits.iter().zip(merged);
                 pairs
-                    .filter_map(|(other, together)| Some((other.as_ref()?, together)))
-                    .filter(|(_, together)| *together > 0.0)
+                    .filter_map(|(other, merged)| Some((other.as_ref()?, merged)))
+                    .filter(|(_, merged)| *merged > 0.0)
             };
-            let highest = relatives().fold(own.height_m, |highest, (other, _)| {
+            let highest = group().fold(own.height_m, |highest, (other, _)| {
                 highest.max(other.height_m)
             });
             let weight = |summit: &Summit| {
@@ -113,8 +113,8 @@ impl TurnedWheel<'_> {
             };
             let mut total = 0.0;
             let (mut interpenetration, mut curvature) = (0.0, 0.0);
-            for (other, together) in relatives() {
-                let weight = together * weight(other);
+            for (other, merged) in group() {
+                let weight = merged * weight(other);
                 total += weight;
                 interpenetration += weight * other.patch.interpenetration_m;
                 curvature += weight * other.patch.curvature_per_m;
@@ -128,14 +128,15 @@ impl TurnedWheel<'_> {
         })
     }
 
-    /// The summit of the part of the wheel within `zone` (m from the tread datum); `None` where it is nowhere over the rail.
+    /// Finds the summit of the wheel within `zone` (m from the tread datum); `None` if the zone is nowhere over the
+    /// rail.
     fn summit(
         &self,
         silhouette: &[SilhouettePoint],
         zone: Range<f64>,
         softness: f64,
     ) -> Option<Summit> {
-        // A sample stands for the wheel up to the middle of its neighbours, and for its zone as far as that lies within.
+        // A sample represents the wheel halfway to its neighbours, as far as that lies within the zone.
         let points = self.pair().wheel().points();
         let middle = |i: usize, j: usize| 0.5 * (points[i].y_m + points[j].y_m);
         let left = |i: usize| middle(i.saturating_sub(1), i);
@@ -145,24 +146,23 @@ impl TurnedWheel<'_> {
         let height = |i: usize| silhouette[i].normal_height_m;
         let sample = (first..end).max_by(|&i, &j| height(i).total_cmp(&height(j)))?;
         let mut weight_m = 0.0;
-        let mut sum = [0.0; 6];
+        let mut sum = Patch::uniform(0.0);
         for point in &silhouette[first..end] {
             let exponent = (point.normal_height_m - height(sample)) / softness;
-            if exponent < LEAST_EXPONENT {
+            if exponent < MIN_EXPONENT {
                 continue;
             }
             let width = right(point.index).min(zone.end) - left(point.index).max(zone.start);
             let weight = exponent.exp() * width;
             weight_m += weight;
-            for (sum, term) in sum.iter_mut().zip(self.pair().quantities(point)) {
-                *sum += weight * term;
-            }
+            let here = self.pair().patch_at(point);
+            sum = sum.zip(&here, |sum, term| sum + weight * term);
         }
         if weight_m <= 0.0 {
             return None;
         }
-        let mut patch = Patch::from_quantities(sum.map(|sum| sum / weight_m));
-        // The mean over a parabola lies half the softness, along the normal, below its vertex.
+        let mut patch = sum.zip(&sum, |sum, _| sum / weight_m);
+        // The mean over a parabola lies below its vertex by half the softness, along the normal.
         patch.interpenetration_m += 0.5 * softness * 1.0_f64.hypot(patch.slope);
         Some(Summit {
             sample,
@@ -174,7 +174,7 @@ impl TurnedWheel<'_> {
 }
 
 impl Pair {
-    /// The patch of a part of the wheel that is nowhere over the rail.
+    /// The patch of a zone that is nowhere over the rail.
     pub(super) fn absent(&self) -> Patch {
         Patch {
             interpenetration_m: ABSENT_M,
@@ -187,50 +187,56 @@ impl Pair {
         }
     }
 
-    /// The quantities of a patch at one point, in the order of [`Patch::from_quantities`].
-    pub(super) fn quantities(&self, point: &SilhouettePoint) -> [f64; 6] {
+    /// The patch at one point of the silhouette, carrying the whole load.
+    pub(super) fn patch_at(&self, point: &SilhouettePoint) -> Patch {
         let on_wheel = &self.wheel().points()[point.index];
-        [
-            point.interpenetration_m,
-            on_wheel.y_m,
-            on_wheel.z_m,
-            point.track_y_m,
-            point.slope,
-            point.curvature_per_m,
-        ]
+        Patch {
+            interpenetration_m: point.interpenetration_m,
+            wheel_y_m: on_wheel.y_m,
+            wheel_z_m: on_wheel.z_m,
+            track_y_m: point.track_y_m,
+            slope: point.slope,
+            curvature_per_m: point.curvature_per_m,
+            load_fraction: 1.0,
+        }
     }
 }
 
-/// The greatest interpenetration of one zone.
+/// The point of one zone with the largest normal height.
 struct Summit {
-    /// Its sample of the silhouette.
+    /// Index of its sample in the silhouette.
     sample: usize,
     height_m: f64,
-    /// Sum of the weights over the zone, relative to that of the summit, m.
+    /// Sum of the weights over the zone, relative to the weight of the summit, m.
     weight_m: f64,
-    /// The zone's own means.
+    /// Means over this zone alone.
     patch: Patch,
 }
 
 impl Patch {
-    /// The patch of these quantities, carrying the whole load.
-    pub(super) fn from_quantities(quantities: [f64; 6]) -> Self {
-        let [
-            interpenetration_m,
-            wheel_y_m,
-            wheel_z_m,
-            track_y_m,
-            slope,
-            curvature_per_m,
-        ] = quantities;
+    /// A patch whose quantities all have one value, carrying the whole load.
+    fn uniform(value: f64) -> Self {
         Self {
-            interpenetration_m,
-            wheel_y_m,
-            wheel_z_m,
-            track_y_m,
-            slope,
-            curvature_per_m,
+            interpenetration_m: value,
+            wheel_y_m: value,
+            wheel_z_m: value,
+            track_y_m: value,
+            slope: value,
+            curvature_per_m: value,
             load_fraction: 1.0,
+        }
+    }
+
+    /// Combines each quantity except the load fraction with that of `other`.
+    pub(super) fn zip(&self, other: &Self, function: impl Fn(f64, f64) -> f64) -> Self {
+        Self {
+            interpenetration_m: function(self.interpenetration_m, other.interpenetration_m),
+            wheel_y_m: function(self.wheel_y_m, other.wheel_y_m),
+            wheel_z_m: function(self.wheel_z_m, other.wheel_z_m),
+            track_y_m: function(self.track_y_m, other.track_y_m),
+            slope: function(self.slope, other.slope),
+            curvature_per_m: function(self.curvature_per_m, other.curvature_per_m),
+            load_fraction: self.load_fraction,
         }
     }
 }

@@ -1,10 +1,10 @@
-//! Contact of rigid bodies: the deepest point of a wheel, and a wheelset standing on both rails.
+//! Contact of rigid bodies: the deepest point of a wheel, and a wheelset resting on both rails.
 
 use super::pair::Pair;
 use super::patches::Patch;
 use super::silhouette::{SilhouettePoint, WheelPose};
 
-/// A wheelset standing on both rails without penetration.
+/// A rigid wheelset resting on both rails without penetration.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct RigidContact {
@@ -19,23 +19,23 @@ pub struct RigidContact {
 }
 
 impl RigidContact {
-    /// Rolling radius of the right wheel less that of the left wheel, m.
+    /// Rolling radius of the right wheel minus that of the left wheel, m.
     pub fn rolling_radius_difference_m(&self) -> f64 {
         self.sides[1].wheel_z_m - self.sides[0].wheel_z_m
     }
 }
 
 impl Pair {
-    /// The contact points of a rigid wheelset, shifted and yawed, that stands on two rails.
+    /// Finds the contact points of a rigid wheelset, shifted and yawed, that rests on both rails.
     ///
     /// The roll solves `z_right - z_left + 2 e sin(roll) = 0` with the interpenetrations `z` and the offset `e` of
-    /// the tread datum, by the secant method. `scratch` is working memory that is overwritten.
+    /// the tread datum, by the secant method. `scratch` is working memory and is overwritten.
     ///
     /// ```
     /// use dashpot_rail::contact::{Installation, Pair};
     /// let pair = Pair::standard(Installation::default())?;
     /// let contact = pair.rigid_contact(3e-3, 0.0, &mut Vec::new());
-    /// // A shift to the right makes the right rolling radius the greater one.
+    /// // A shift to the right makes the right rolling radius the larger one.
     /// assert!((contact.rolling_radius_difference_m() - 0.977e-3).abs() < 1e-5);
     /// # Ok::<(), dashpot_rail::contact::PairError>(())
     /// ```
@@ -72,7 +72,7 @@ impl Pair {
             if residual.abs() < 1e-10 || !secant.is_finite() {
                 break;
             }
-            // Where the contact jumps the residual has a kink; bounds on the slope keep the step reasonable.
+            // The residual has a kink where the contact jumps; bounds on the slope keep the step reasonable.
             slope = secant.clamp(datum, 4.0 * datum);
         }
         RigidContact {
@@ -83,7 +83,7 @@ impl Pair {
         }
     }
 
-    /// The deepest point of one wheel at `pose`, both bodies being rigid; `scratch` is overwritten.
+    /// Finds the deepest point of one wheel at `pose`, for rigid bodies; `scratch` is overwritten.
     pub fn deepest(&self, pose: &WheelPose, scratch: &mut Vec<SilhouettePoint>) -> Patch {
         self.silhouette(pose, scratch);
         let deepest = (0..scratch.len()).max_by(|&i, &j| {
@@ -94,34 +94,35 @@ impl Pair {
         let Some(deepest) = deepest else {
             return self.absent();
         };
-        let at = |i: usize| self.quantities(&scratch[i]);
-        let values = at(deepest);
+        let at = |i: usize| self.patch_at(&scratch[i]);
         if deepest == 0 || deepest + 1 == scratch.len() {
-            return Patch::from_quantities(values);
+            return at(deepest);
         }
-        Patch::from_quantities(vertex(at(deepest - 1), values, at(deepest + 1)))
+        vertex(&at(deepest - 1), &at(deepest), &at(deepest + 1))
     }
 }
 
-/// The quantities of a patch at the vertex of the parabola through three neighbouring interpenetrations.
-fn vertex(before: [f64; 6], deepest: [f64; 6], after: [f64; 6]) -> [f64; 6] {
-    let mut values = deepest;
-    let (x0, x2) = (before[3] - values[3], after[3] - values[3]);
-    let (f0, f2) = (before[0] - values[0], after[0] - values[0]);
+/// The patch at the vertex of the parabola through three neighbouring interpenetrations.
+fn vertex(before: &Patch, deepest: &Patch, after: &Patch) -> Patch {
+    let distance = |other: &Patch| other.track_y_m - deepest.track_y_m;
+    let rise = |other: &Patch| other.interpenetration_m - deepest.interpenetration_m;
+    let (x0, x2) = (distance(before), distance(after));
+    let (f0, f2) = (rise(before), rise(after));
     let quadratic = (f0 / x0 - f2 / x2) / (x0 - x2);
     let linear = f0 / x0 - quadratic * x0;
-    if quadratic < 0.0 {
-        let x = (-0.5 * linear / quadratic).clamp(x0.min(x2), x0.max(x2));
-        let top = values[0] + 0.5 * linear * x;
-        let (neighbour, distance) = if x * x2 > 0.0 {
-            (after, x2)
-        } else {
-            (before, x0)
-        };
-        for (value, neighbour) in values.iter_mut().zip(neighbour) {
-            *value += x / distance * (neighbour - *value);
-        }
-        values[0] = top;
+    if quadratic >= 0.0 || quadratic.is_nan() {
+        return *deepest;
     }
-    values
+    let x = (-0.5 * linear / quadratic).clamp(x0.min(x2), x0.max(x2));
+    let (neighbour, distance) = if x * x2 > 0.0 {
+        (after, x2)
+    } else {
+        (before, x0)
+    };
+    Patch {
+        interpenetration_m: deepest.interpenetration_m + 0.5 * linear * x,
+        ..deepest.zip(neighbour, |value, neighbour| {
+            value + x / distance * (neighbour - value)
+        })
+    }
 }

@@ -1,81 +1,108 @@
-//! The step: the patches of both wheels side by side in vector lanes.
+//! The step: evaluates the patches of both wheels in parallel vector lanes.
 //!
-//! In the four lanes are a patch of the left wheel (of its mirror image on the right side), one of the right wheel, and
-//! another of each. The instructions are those that the processor has, found out once; where these multiply and add without
-//! rounding between, the last bits of single precision differ from those of a processor that cannot.
+//! The four lanes hold one patch of the left wheel (of its mirror image on the right side), one of the right wheel, and
+//! a second patch of each. The instruction set is detected once. On processors with fused multiply-add, the last bits
+//! of single precision differ from those on processors without.
 
-use fearless_simd::{Simd, dispatch, f64x4};
+use fearless_simd::{Simd, SimdBase, dispatch, f64x4};
 
-use super::forces::{PatchForces, TOLD, WheelsetForces};
+use super::forces::{PatchForces, WheelsetForces};
 use super::frame::Frame;
 use super::loaded_zones::LoadedZones;
-use super::motion::{MOTION_FIELDS, Motion, MotionNumbers, ODD, RailDisplacement, RailNumbers};
+use super::motion::{Motion, MotionNumbers, RailDisplacement, RailNumbers};
 use super::source::{PatchReader, PatchSource};
-use super::tables::LOAD_FRACTION;
-use super::wheel::{Place, status};
+use super::wheel::{MovingWheel, PatchOutput, Wrench, status};
 use super::wheelset::WheelsetContact;
 use crate::creep::CreepLaw;
 use crate::math::each::Each;
-use crate::math::number::{Lanes, Number, load, rows};
+use crate::math::number::{Number, load, rows};
 
-/// Sign of what is odd in a mirror about the track centre.
+/// Sign in each lane of quantities that change sign when mirrored about the track centre.
 const SIDES: [f64; 4] = [-1.0, 1.0, -1.0, 1.0];
 
 #[inline(always)]
 fn numbers<S: Simd>(simd: S, motion: &Motion) -> MotionNumbers<f64x4<S>> {
-    let (values, sides) = (motion.numbers(), load(simd, &SIDES));
-    let mut numbers = [sides; MOTION_FIELDS];
-    for (field, number) in numbers.iter_mut().enumerate() {
-        let lanes = simd.splat_f64x4(values[field]);
-        *number = if ODD[field] { lanes * sides } else { lanes };
-    }
-    numbers
+    let sides = load(simd, &SIDES);
+    MotionNumbers::new(
+        motion,
+        |value, _| simd.splat_f64x4(value),
+        |value, _| simd.splat_f64x4(value) * sides,
+    )
 }
 
 #[inline(always)]
 fn rail_numbers<S: Simd>(simd: S, [left, right]: &[RailDisplacement; 2]) -> RailNumbers<f64x4<S>> {
     RailNumbers::new(
-        |of| load(simd, &[of(left), of(right), of(left), of(right)]),
-        |of| load(simd, &[-of(left), of(right), -of(left), of(right)]),
+        |field| {
+            load(
+                simd,
+                &[field(left), field(right), field(left), field(right)],
+            )
+        },
+        |field| {
+            let lanes = [-field(left), field(right), -field(left), field(right)];
+            load(simd, &lanes)
+        },
     )
 }
 
-/// What is told of the patch in each lane.
-struct Told<S: Simd> {
-    /// The first sixteen numbers in fours: of each four, those of each lane.
+/// Patch results, transposed so that a lane is stored in four vectors.
+struct TransposedOutput<S: Simd> {
+    /// Four results per vector, one vector for each lane.
     fours: [[f64x4<S>; 4]; 4],
-    last: f64x4<S>,
+    dissipation: f64x4<S>,
 }
 
-impl<S: Simd> Told<S> {
+impl<S: Simd> TransposedOutput<S> {
     #[inline(always)]
-    fn new(told: [f64x4<S>; TOLD]) -> Self {
-        let [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, last] = told;
-        let i = i * load(i.simd, &SIDES);
+    fn new(output: PatchOutput<f64x4<S>>) -> Self {
+        let PatchOutput {
+            load: normal_load,
+            penetration,
+            slope,
+            semi_axes: [a, b],
+            rolling_radius,
+            wheel_y,
+            position: [x, y, z],
+            creepage: [xi, eta, phi],
+            creep: [longitudinal, lateral, moment],
+            dissipation,
+        } = output;
+        let y = y * load(y.simd, &SIDES);
         Self {
             fours: [
-                rows([a, b, c, d]),
-                rows([e, f, g, h]),
-                rows([i, j, k, l]),
-                rows([m, n, o, p]),
+                rows([normal_load, penetration, slope, a]),
+                rows([b, rolling_radius, wheel_y, x]),
+                rows([y, z, xi, eta]),
+                rows([phi, longitudinal, lateral, moment]),
             ],
-            last,
+            dissipation,
         }
     }
 
     #[inline(always)]
     fn write(&self, lane: usize, patch: &mut PatchForces) {
         let [first, second, third, fourth] = &self.fours;
-        let [a, b, c, d] = first[lane].into();
-        let [e, f, g, h] = second[lane].into();
-        let [i, j, k, l] = third[lane].into();
-        let [m, n, o, p] = fourth[lane].into();
-        let last = self.last[lane];
-        patch.set([a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, last]);
+        let [load, penetration, slope, a] = first[lane].into();
+        let [b, rolling_radius, wheel_y, x] = second[lane].into();
+        let [y, z, xi, eta] = third[lane].into();
+        let [phi, longitudinal, lateral, moment] = fourth[lane].into();
+        patch.set(PatchOutput {
+            load,
+            penetration,
+            slope,
+            semi_axes: [a, b],
+            rolling_radius,
+            wheel_y,
+            position: [x, y, z],
+            creepage: [xi, eta, phi],
+            creep: [longitudinal, lateral, moment],
+            dissipation: self.dissipation[lane],
+        });
     }
 }
 
-/// A bit for each lane whose number is greater than zero.
+/// Bit mask of the lanes that are greater than zero.
 #[inline(always)]
 fn above_zero<S: Simd>(numbers: f64x4<S>) -> u32 {
     let simd = numbers.simd;
@@ -83,7 +110,7 @@ fn above_zero<S: Simd>(numbers: f64x4<S>) -> u32 {
     simd.to_bitmask_mask64x4(above) as u32
 }
 
-/// 1 in the lanes that are used, else 0: read from a table, which costs less than turning truths into numbers.
+/// 1 in the lanes that are used, else 0. A table costs less than converting the booleans.
 #[inline(always)]
 fn ones(used: [bool; 4]) -> [f64; 4] {
     const ONES: [[f64; 4]; 16] = {
@@ -100,7 +127,8 @@ fn ones(used: [bool; 4]) -> [f64; 4] {
 }
 
 impl<L: CreepLaw, P: PatchSource> WheelsetContact<L, P> {
-    /// [`WheelsetContact::update`] for `MANY` patches, or without a loop for at most two on a wheel; whether these were all.
+    /// [`WheelsetContact::update`]: with a loop for any number of patches if `MANY`, else without one for at most two
+    /// patches per wheel. Returns false if there are more.
     #[inline(always)]
     pub(super) fn update_side_by_side<const MANY: bool, S: Simd>(
         &self,
@@ -112,28 +140,28 @@ impl<L: CreepLaw, P: PatchSource> WheelsetContact<L, P> {
         if !forces.begin(motion, rails) {
             return true;
         }
-        let place = Place::new(
+        let moving = MovingWheel::new(
             Frame::new(&numbers(simd, motion)),
             rail_numbers(simd, rails),
             self.lengths_in_lanes.map(|lengths| load(simd, lengths)),
         );
         let sources = [self.sources[0].as_ref(), self.sources[1].as_ref()];
-        let [left_reader, right_reader] = P::locate_both(simd, &self.finder, sources, place.pose);
+        let [left_reader, right_reader] = P::locate_both(simd, &self.finder, sources, moving.pose);
         let left_heights = left_reader.interpenetrations_m();
         let right_heights = right_reader.interpenetrations_m();
         let [left, right] = &mut forces.wheels;
         let loaded = [
-            above_zero(load(simd, &left_heights) + place.depth[0]),
-            above_zero(load(simd, &right_heights) + place.depth[1]),
+            above_zero(load(simd, &left_heights) + moving.depth[0]),
+            above_zero(load(simd, &right_heights) + moving.depth[1]),
         ];
         let mut left_zones = LoadedZones::new(loaded[0], left);
         let mut right_zones = LoadedZones::new(loaded[1], right);
-        // Of both wheels.
-        let mut wrench = [simd.splat_f64x2(0.0); 6];
+        // One lane for each wheel.
+        let mut wrench = Wrench::splat(simd.splat_f64x2(0.0));
         let mut penetration = simd.splat_f64x4(0.0);
         let mut wheel_y = simd.splat_f64x4(f64::MAX);
         while left_zones.are_left() | right_zones.are_left() {
-            // A lane without a patch of its own computes the last one of its wheel again, with nothing of its load.
+            // A lane without a patch repeats the wheel's last patch with zero load.
             let [(a, p), (b, q)] = [left_zones.advance(), right_zones.advance()];
             let [(c, r), (d, s)] = [left_zones.advance(), right_zones.advance()];
             if !MANY && (left_zones.are_left() | right_zones.are_left()) {
@@ -142,33 +170,33 @@ impl<L: CreepLaw, P: PatchSource> WheelsetContact<L, P> {
             let used = [p, q, r, s];
             let mut numbers =
                 P::Reader::numbers_in_lanes(simd, [&left_reader, &right_reader], [a, b, c, d]);
-            numbers[LOAD_FRACTION] *= load(simd, &ones(used));
+            numbers.load_fraction *= load(simd, &ones(used));
             let heights = [
                 left_heights[a],
                 right_heights[b],
                 left_heights[c],
                 right_heights[d],
             ];
-            let depth = (place.depth + load(simd, &heights)).not_negative();
-            let patch = place.patch(&self.surface, depth, numbers, used);
-            for (sum, term) in wrench.iter_mut().zip(patch.wrench) {
-                let (first, again) = simd.split_f64x4(term);
-                *sum += first + again;
-            }
-            penetration = penetration.at_least(patch.penetration);
-            wheel_y = wheel_y.at_most(patch.wheel_y);
-            let told = Told::new(patch.told);
+            let depth = (moving.depth + load(simd, &heights)).not_negative();
+            let patch = moving.patch(&self.surface, depth, numbers, used);
+            wrench.accumulate(&patch.wrench, |sum, term| {
+                let (first, second) = simd.split_f64x4(term);
+                sum + (first + second)
+            });
+            penetration = penetration.max(patch.output.penetration);
+            wheel_y = wheel_y.min(patch.output.wheel_y);
+            let output = TransposedOutput::new(patch.output);
             if p {
-                told.write(0, &mut left.patches[a]);
+                output.write(0, &mut left.patches[a]);
             }
             if q {
-                told.write(1, &mut right.patches[b]);
+                output.write(1, &mut right.patches[b]);
             }
             if r {
-                told.write(2, &mut left.patches[c]);
+                output.write(2, &mut left.patches[c]);
             }
             if s {
-                told.write(3, &mut right.patches[d]);
+                output.write(3, &mut right.patches[d]);
             }
             if !MANY {
                 break;
@@ -184,7 +212,7 @@ impl<L: CreepLaw, P: PatchSource> WheelsetContact<L, P> {
                 wheel_y[side].min(wheel_y[side + 2]),
             );
         }
-        forces.set_wrenches(wrench.each(|sum| sum.into()));
+        forces.set_wrenches(wrench.map(|sum| sum.into()));
         true
     }
 
@@ -212,7 +240,7 @@ mod tests {
     use crate::creep::{Friction, KalkerBook};
 
     #[test]
-    fn an_old_processor_computes_the_same_forces() {
+    fn baseline_instructions_give_the_same_forces() {
         let pair = Pair::standard(Installation::default()).unwrap();
         let geometry = ContactGeometry::new(pair, Steel::default(), 100e3).unwrap();
         let mut grid = Grid::default();

@@ -1,12 +1,14 @@
-//! The silhouette of a turned wheel over its rail: how deep each of its points lies below the rail's surface.
+//! Silhouette of a turned wheel over its rail: the depth of each point below the rail's surface.
 
 use super::pair::Pair;
 use crate::profile::ProfilePoint;
 
-/// Position and attitude of one wheel over its rail, for the right side.
+/// Position and attitude of a right wheel over its rail.
+///
+/// The fields are complete; none will be added.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct WheelPose {
-    /// Shift of the wheel towards the field side from its centred position over the rail, m.
+    /// Shift of the wheel from its centred position over the rail, field side positive, m.
     pub lateral_m: f64,
     /// Roll, field side down positive, rad.
     pub roll_rad: f64,
@@ -24,16 +26,16 @@ pub struct SilhouettePoint {
     pub track_y_m: f64,
     /// Depth of the wheel below the rail's surface when the tread datum is at the height of the rail's top, m.
     pub interpenetration_m: f64,
-    /// The same as a height along the normal, `integral of cos(angle) d(interpenetration)` over the wheel from its first
-    /// point, m: by this height points are nearer to or farther from touching.
+    /// Interpenetration measured along the normal, `integral of cos(angle) d(interpenetration)` from the first point of
+    /// the wheel, m. It ranks points by how close they are to contact.
     pub normal_height_m: f64,
     /// `dz/dy` of the wheel's surface across the track.
     pub slope: f64,
-    /// Curvature of the rail less that of the wheel, 1/m.
+    /// Curvature of the rail minus that of the wheel, 1/m.
     pub curvature_per_m: f64,
 }
 
-/// A wheel turned by its roll and yaw, before it is shifted over the rail.
+/// A wheel rotated by its roll and yaw, before it is shifted over the rail.
 #[derive(Debug, Clone)]
 pub struct TurnedWheel<'a> {
     pair: &'a Pair,
@@ -44,7 +46,7 @@ pub struct TurnedWheel<'a> {
 /// One point of the silhouette of a turned wheel.
 #[derive(Debug, Clone, Copy)]
 struct TurnedPoint {
-    /// Lateral and vertical position from the place of the tread datum of a centred wheel over the rail's top, m.
+    /// Lateral and vertical position relative to the tread datum of a centred wheel at the height of the rail's top, m.
     y: f64,
     z: f64,
     slope: f64,
@@ -52,12 +54,12 @@ struct TurnedPoint {
 }
 
 impl Pair {
-    /// The wheel turned by `roll_rad` and `yaw_rad`.
+    /// Rotates the wheel by `roll_rad` and `yaw_rad`.
     ///
-    /// The silhouette is seen along the rail, of the body of revolution turned by the yaw and then rolled about
-    /// the rail's direction. A circle of radius `r` and slope `t = dr/ds` touches it `r t tan(yaw)` behind
-    /// the axle, `r t tan(yaw) sin(yaw)` inward and `r sqrt(1 - t^2 tan(yaw)^2)` below it. This is exact for
-    /// this order of turns.
+    /// The silhouette is that of the body of revolution, yawed and then rolled about the rail's direction, as seen along
+    /// the rail. A circle of radius `r` and slope `t = dr/ds` touches it `r t tan(yaw)` behind the axle,
+    /// `r t tan(yaw) sin(yaw)` inward and `r sqrt(1 - t^2 tan(yaw)^2)` below the axle. This is exact for this order of
+    /// rotations.
     pub fn turned(&self, roll_rad: f64, yaw_rad: f64) -> TurnedWheel<'_> {
         let (sin_roll, cos_roll) = roll_rad.sin_cos();
         let (sin_yaw, cos_yaw) = yaw_rad.sin_cos();
@@ -86,7 +88,7 @@ impl Pair {
         }
     }
 
-    /// Fills `silhouette` with the points of the wheel over the rail at `pose`.
+    /// Fills `silhouette` with the points of the wheel that are over the rail at `pose`.
     pub fn silhouette(&self, pose: &WheelPose, silhouette: &mut Vec<SilhouettePoint>) {
         self.turned(pose.roll_rad, pose.yaw_rad)
             .silhouette(pose.lateral_m, silhouette);
@@ -99,7 +101,7 @@ impl<'a> TurnedWheel<'a> {
         self.pair
     }
 
-    /// Fills `silhouette` with the points of the wheel that are over the rail when it is shifted by `lateral_m`.
+    /// Fills `silhouette` with the points of the wheel that are over the rail at a lateral shift.
     pub fn silhouette(&self, lateral_m: f64, silhouette: &mut Vec<SilhouettePoint>) {
         silhouette.clear();
         let datum = self.pair.installation().datum_offset_m() + lateral_m;
@@ -132,7 +134,7 @@ impl<'a> TurnedWheel<'a> {
     }
 }
 
-/// Reads a profile at positions that mostly rise, without searching it from the start.
+/// Interpolates a profile at mostly rising positions, without a search from the start.
 struct Cursor<'a> {
     points: &'a [ProfilePoint],
     slopes: &'a [f64],
@@ -140,7 +142,7 @@ struct Cursor<'a> {
 }
 
 impl Cursor<'_> {
-    /// Depth (cubic between the tangents of the samples) and curvature at `y`; `None` beyond the ends.
+    /// Depth (cubic Hermite interpolation) and curvature at `y`; `None` beyond the ends.
     fn at(&mut self, y: f64) -> Option<(f64, f64)> {
         let points = self.points;
         if !(points[0].y_m..=points[points.len() - 1].y_m).contains(&y) {

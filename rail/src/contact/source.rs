@@ -1,4 +1,4 @@
-//! Where the step takes the patches of a pose from: tables, or the geometry itself.
+//! Sources of the patches of a pose: precomputed tables, or the geometry itself.
 
 use std::array::from_fn;
 
@@ -7,12 +7,13 @@ use fearless_simd::{Simd, SimdBase, f64x4};
 use super::geometry::ContactGeometry;
 use super::motion::Tangent;
 use super::silhouette::WheelPose;
-use super::tables::{NUMBERS, TabulatedPatch};
+use super::tables::{NUMBERS, PatchNumbers, TabulatedPatch};
 use super::zones::ZONES;
 use crate::math::number::Number;
 
-/// A source of the patches of a wheel: [`Tables`](super::Tables) in real time, [`ContactGeometry`] where
-/// time does not matter and every number is to be smooth and in double precision.
+/// A source of the patches of a wheel.
+///
+/// [`Tables`](super::Tables) serve real time. [`ContactGeometry`] is slow, but smooth and in double precision.
 pub trait PatchSource: sealed::Source {}
 
 impl<S: sealed::Source> PatchSource for S {}
@@ -29,18 +30,18 @@ pub(super) mod sealed {
         where
             Self: 'a;
 
-        /// What finds the poses of a left and a right wheel.
+        /// Locates the poses of a left and a right wheel.
         type Finder: Clone + Debug + Send + Sync;
 
         fn geometry(&self) -> &ContactGeometry;
 
-        /// The place of `pose` in the source.
+        /// Locates `pose` in the source.
         fn locate(&self, pose: &WheelPose) -> Self::Reader<'_>;
 
-        /// The finder of a left and a right wheel.
+        /// Builds the finder of a left and a right wheel.
         fn finder(sides: [&Self; 2]) -> Self::Finder;
 
-        /// The places of the poses (lateral shift, roll, yaw) in the first two lanes, each in its own source.
+        /// Locates the poses (lateral shift, roll, yaw) of the first two lanes, each in its own source.
         fn locate_both<'a, S: Simd>(
             simd: S,
             finder: &Self::Finder,
@@ -50,74 +51,66 @@ pub(super) mod sealed {
     }
 }
 
-/// The patches of one pose, read one by one.
+/// Reads the patches of one pose.
 pub trait PatchReader {
-    /// Whether the pose is one of those that the source covers.
+    /// True if the source covers the pose.
     fn is_inside(&self) -> bool;
 
     /// Interpenetration of each patch, m.
     fn interpenetrations_m(&self) -> [f64; ZONES];
 
-    /// The numbers of one patch, as [`TabulatedPatch::to_numbers`].
-    fn numbers(&self, zone: usize) -> [f64; NUMBERS];
+    /// The numbers of one patch.
+    fn numbers(&self, zone: usize) -> PatchNumbers<f64>;
 
-    /// The numbers of the patches in four lanes, of the left and the right wheel and again of both.
+    /// The numbers of four patches: the lanes are left, right, left and right wheel, each with its zone.
     #[inline(always)]
     fn numbers_in_lanes<S: Simd>(
         simd: S,
         [left, right]: [&Self; 2],
         [a, b, c, d]: [usize; 4],
-    ) -> [f64x4<S>; NUMBERS] {
+    ) -> PatchNumbers<f64x4<S>> {
         let lanes = [
-            left.numbers(a),
-            right.numbers(b),
-            left.numbers(c),
-            right.numbers(d),
+            left.numbers(a).to_array(),
+            right.numbers(b).to_array(),
+            left.numbers(c).to_array(),
+            right.numbers(d).to_array(),
         ];
-        from_fn(|n| f64x4::from_fn(simd, |lane| lanes[lane][n]))
+        PatchNumbers::from_array(from_fn(|n| f64x4::from_fn(simd, |lane| lanes[lane][n])))
     }
 
-    /// Derivatives of interpenetration and numbers of one patch by lateral shift, roll and yaw.
-    fn slopes(&self, zone: usize) -> [Slopes; 3];
+    /// Derivatives of one patch with respect to lateral shift, roll and yaw.
+    fn slopes(&self, zone: usize) -> [PatchSlopes; 3];
 }
 
-/// The derivative of the interpenetration of a patch, then those of its numbers.
-pub type Slopes = [f64; 1 + NUMBERS];
+/// Derivatives of a patch with respect to one coordinate of the pose.
+pub struct PatchSlopes {
+    pub interpenetration: f64,
+    pub numbers: PatchNumbers<f64>,
+}
 
-/// Interpenetration and numbers of one patch as functions of `pose` (lateral shift, roll, yaw).
+/// Interpenetration and numbers of one patch, differentiated with respect to `pose` (lateral shift, roll, yaw).
 #[inline(always)]
-pub(super) fn functions_of_pose<R: PatchReader>(
+pub(super) fn differentiated<R: PatchReader>(
     reader: &R,
     zone: usize,
     interpenetration: f64,
     pose: [Tangent; 3],
-) -> (Tangent, [Tangent; NUMBERS]) {
-    let (numbers, slopes) = (reader.numbers(zone), reader.slopes(zone));
-    let function = |value: f64, n: usize| {
-        Tangent::function(
-            value,
-            from_fn::<_, 3, _>(|axis| (slopes[axis][n], pose[axis])),
-        )
+) -> (Tangent, PatchNumbers<Tangent>) {
+    let (numbers, slopes) = (reader.numbers(zone).to_array(), reader.slopes(zone));
+    let function = |value: f64, slopes: [f64; 3]| {
+        Tangent::function(value, [0, 1, 2].map(|axis| (slopes[axis], pose[axis])))
     };
+    let of_depth = slopes.each_ref().map(|slopes| slopes.interpenetration);
+    let of_numbers = slopes.map(|slopes| slopes.numbers.to_array());
     (
-        function(interpenetration, 0),
-        from_fn(|n| function(numbers[n], 1 + n)),
+        function(interpenetration, of_depth),
+        PatchNumbers::from_array(from_fn::<_, NUMBERS, _>(|n| {
+            function(numbers[n], of_numbers.map(|slopes| slopes[n]))
+        })),
     )
 }
 
-/// The numbers of a patch behind its interpenetration, in the order of [`Slopes`].
-#[inline(always)]
-pub(super) fn with_interpenetration(interpenetration: f64, numbers: [f64; NUMBERS]) -> Slopes {
-    from_fn(|n| {
-        if n == 0 {
-            interpenetration
-        } else {
-            numbers[n - 1]
-        }
-    })
-}
-
-/// A pose of the geometry itself.
+/// A pose evaluated from the geometry itself.
 pub struct ComputedPose<'a> {
     geometry: &'a ContactGeometry,
     pose: WheelPose,
@@ -169,24 +162,28 @@ impl PatchReader for ComputedPose<'_> {
         self.patches.map(|patch| patch.interpenetration_m)
     }
 
-    fn numbers(&self, zone: usize) -> [f64; NUMBERS] {
+    fn numbers(&self, zone: usize) -> PatchNumbers<f64> {
         self.patches[zone].to_numbers()
     }
 
     /// Central differences.
-    fn slopes(&self, zone: usize) -> [Slopes; 3] {
+    fn slopes(&self, zone: usize) -> [PatchSlopes; 3] {
         let mut scratch = Vec::new();
         from_fn(|axis| {
             let mut at = |step: f64| {
                 let mut pose = self.pose;
                 *[&mut pose.lateral_m, &mut pose.roll_rad, &mut pose.yaw_rad][axis] += step;
-                let patch = self.geometry.patches(&pose, &mut scratch)[zone];
-                with_interpenetration(patch.interpenetration_m, patch.to_numbers())
+                self.geometry.patches(&pose, &mut scratch)[zone]
             };
-            // A micrometre, or a microradian at the arm of a metre.
+            // A micrometre, or a microradian, which is about a micrometre at the lever arm of a wheelset.
             let step = 1e-6;
             let (before, after) = (at(-step), at(step));
-            from_fn(|n| (after[n] - before[n]) / (2.0 * step))
+            let slope = |before: f64, after: f64| (after - before) / (2.0 * step);
+            let [from, to] = [before, after].map(|patch| patch.to_numbers().to_array());
+            PatchSlopes {
+                interpenetration: slope(before.interpenetration_m, after.interpenetration_m),
+                numbers: PatchNumbers::from_array(from_fn(|n| slope(from[n], to[n]))),
+            }
         })
     }
 }

@@ -1,14 +1,14 @@
-//! What holds for every patch of a wheelset: creep law, friction, elasticity and damping of the surfaces.
+//! Properties shared by all patches of a wheelset: creep law, friction, elasticity and damping.
 
 use fearless_simd::{Simd, f64x4};
 
 use crate::creep::{Friction, FrictionError};
 use crate::math::number::{Number, load};
 
-/// Greatest normal damping, s/m: a wheel that falls at 0.1 m/s is pushed with eleven times its elastic force.
+/// Maximum normal damping, s/m; at an approach speed of 0.1 m/s it multiplies the elastic force by eleven.
 pub const MAX_NORMAL_DAMPING_S_PER_M: f64 = 100.0;
 
-/// Why the surfaces of a contact are refused.
+/// Errors in the surface properties of a contact.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SurfaceError {
@@ -35,7 +35,7 @@ pub(super) struct Surface<L> {
 }
 
 impl<L> Surface<L> {
-    /// The friction coefficients of four contacts.
+    /// Friction coefficients of four contacts.
     #[inline(always)]
     pub fn friction_in_lanes<S: Simd>(
         &self,
@@ -53,15 +53,15 @@ impl<L> Surface<L> {
         )
     }
 
-    /// The factor `1 + beta w` on the elastic load of surfaces that approach each other at the speed `w` (Hunt and
-    /// Crossley 1975); never negative, for the rails push and never pull.
+    /// Factor `1 + beta w` on the elastic load of surfaces that approach each other at speed `w` (Hunt and Crossley
+    /// 1975). It is never negative, because rails cannot pull.
     #[inline(always)]
     pub fn damping<T: Number>(&self, approach_speed: T) -> T {
         (approach_speed * self.normal_damping_s_per_m + 1.0).not_negative()
     }
 }
 
-/// Not inlined: the exponential would have what is in registers spilled, where friction does not fall too.
+/// Not inlined, because the exponential would spill registers even if the friction is constant.
 #[inline(never)]
 fn falling(friction: &Friction, sliding_speed: [f64; 4]) -> [f64; 4] {
     sliding_speed.map(|speed| friction.at(speed))

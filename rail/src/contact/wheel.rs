@@ -1,21 +1,57 @@
-//! Where a wheel is over its rail, and the force of one patch on it.
+//! Position of a wheel over its rail, and the force on one of its contact patches.
 
-use super::forces::{Status, TOLD};
+use super::forces::Status;
 use super::frame::{Frame, RailRoll};
 use super::geometry::ContactGeometry;
 use super::loaded_contact::{Contact, CreepNumber};
-use super::motion::RailNumbers;
+use super::motion::{RailNumbers, Tangent};
 use super::pair::Pair;
 use super::surface::Surface;
-use super::tables::NUMBERS;
+use super::tables::PatchNumbers;
 use crate::creep::{CreepLaw, MAX_CREEPAGE};
+use crate::math::each::Each;
 use crate::math::number::Number;
 
-/// Normal penetration beyond which steel does not stay elastic, m.
+/// Normal penetration beyond which steel no longer stays elastic, m.
 pub const MAX_PENETRATION_M: f64 = 2e-3;
 
 /// Force, N, and moment about the wheelset's centre, N m, in track axes.
-pub(super) type Wrench<T> = [T; 6];
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Wrench<T> {
+    pub force: [T; 3],
+    pub moment: [T; 3],
+}
+
+impl<T: Copy> Wrench<T> {
+    /// A wrench whose components are all `value`.
+    #[inline(always)]
+    pub fn splat(value: T) -> Self {
+        Self {
+            force: [value; 3],
+            moment: [value; 3],
+        }
+    }
+
+    /// Replaces each component by `sum(component, component of other)`.
+    #[inline(always)]
+    pub fn accumulate<U: Copy>(&mut self, other: &Wrench<U>, sum: impl Fn(T, U) -> T) {
+        for (total, term) in self.force.iter_mut().zip(other.force) {
+            *total = sum(*total, term);
+        }
+        for (total, term) in self.moment.iter_mut().zip(other.moment) {
+            *total = sum(*total, term);
+        }
+    }
+
+    /// Applies `function` to each component.
+    #[inline(always)]
+    pub fn map<U: Copy>(self, function: impl Fn(T) -> U) -> Wrench<U> {
+        Wrench {
+            force: self.force.each(&function),
+            moment: self.moment.each(&function),
+        }
+    }
+}
 
 /// Lengths of a wheel over its rail, m.
 #[derive(Debug, Clone, Copy)]
@@ -23,14 +59,14 @@ pub(super) struct WheelLengths<T> {
     /// Lateral distance of the tread datum from the wheelset's centre.
     offset: T,
     radius: T,
-    /// Nominal radius less the height of the wheelset's centre above the rails' top in its nominal position.
+    /// Nominal radius minus the nominal height of the wheelset's centre above the top of the rails.
     below_top: T,
     /// Lateral distance of the datum of a centred wheel from the rail's top.
     beside_top: T,
 }
 
 impl WheelLengths<f64> {
-    /// Those of the wheels of a geometry, whose wheelset is `height_m` above the rails.
+    /// Lengths of the wheels of `geometry`, on a wheelset whose centre is `height_m` above the rails.
     pub fn new(geometry: &ContactGeometry, height_m: f64) -> Self {
         let pair = geometry.pair();
         let offset = pair.installation().datum_offset_m();
@@ -45,54 +81,86 @@ impl WheelLengths<f64> {
 }
 
 impl<T> WheelLengths<T> {
-    /// The same with every number made another.
+    /// Applies `function` to every length.
     #[inline(always)]
-    pub fn map<U>(&self, number: impl Fn(&T) -> U) -> WheelLengths<U> {
+    pub fn map<U>(&self, function: impl Fn(&T) -> U) -> WheelLengths<U> {
         WheelLengths {
-            offset: number(&self.offset),
-            radius: number(&self.radius),
-            below_top: number(&self.below_top),
-            beside_top: number(&self.beside_top),
+            offset: function(&self.offset),
+            radius: function(&self.radius),
+            below_top: function(&self.below_top),
+            beside_top: function(&self.beside_top),
         }
     }
 
-    /// Those of two wheels side by side.
-    pub fn zip<U>(&self, other: &Self, number: impl Fn(&T, &T) -> U) -> WheelLengths<U> {
+    /// Combines each length with that of another wheel.
+    pub fn zip<U>(&self, other: &Self, function: impl Fn(&T, &T) -> U) -> WheelLengths<U> {
         WheelLengths {
-            offset: number(&self.offset, &other.offset),
-            radius: number(&self.radius, &other.radius),
-            below_top: number(&self.below_top, &other.below_top),
-            beside_top: number(&self.beside_top, &other.beside_top),
+            offset: function(&self.offset, &other.offset),
+            radius: function(&self.radius, &other.radius),
+            below_top: function(&self.below_top, &other.below_top),
+            beside_top: function(&self.beside_top, &other.beside_top),
         }
     }
 }
 
-/// Where a wheel is over its rail.
-pub(super) struct Place<T> {
+/// A wheel in motion over its rail.
+pub(super) struct MovingWheel<T> {
     frame: Frame<T>,
     rail: RailNumbers<T>,
     rail_roll: RailRoll<T>,
     lengths: WheelLengths<T>,
-    /// Shift, roll and yaw.
+    /// Lateral shift, m, roll and yaw, rad, over the rail.
     pub pose: [T; 3],
     /// Depth of the tread datum below the rail's top, m.
     pub depth: T,
 }
 
-/// One patch: its force and what is told of it.
-pub(super) struct Patch<T> {
-    pub wrench: Wrench<T>,
+/// Results for one patch of the right wheel, or of the mirror image of the left wheel; the fields are those of
+/// [`PatchForces`](super::PatchForces).
+#[derive(Debug, Clone, Copy)]
+pub(super) struct PatchOutput<T> {
+    pub load: T,
     pub penetration: T,
+    pub slope: T,
+    pub semi_axes: [T; 2],
+    pub rolling_radius: T,
     pub wheel_y: T,
-    /// The numbers of [`PatchForces`](super::PatchForces), of a patch of the right side.
-    pub told: [T; TOLD],
+    pub position: [T; 3],
+    pub creepage: [T; 3],
+    pub creep: [T; 3],
+    pub dissipation: T,
 }
 
-impl<T: CreepNumber> Place<T> {
+impl PatchOutput<Tangent> {
+    /// The values without their derivatives.
+    pub fn values(&self) -> PatchOutput<f64> {
+        let three = |numbers: [Tangent; 3]| numbers.map(|number| number.value());
+        PatchOutput {
+            load: self.load.value(),
+            penetration: self.penetration.value(),
+            slope: self.slope.value(),
+            semi_axes: self.semi_axes.map(|number| number.value()),
+            rolling_radius: self.rolling_radius.value(),
+            wheel_y: self.wheel_y.value(),
+            position: three(self.position),
+            creepage: three(self.creepage),
+            creep: three(self.creep),
+            dissipation: self.dissipation.value(),
+        }
+    }
+}
+
+/// Force on one patch, and its results.
+pub(super) struct Patch<T> {
+    pub wrench: Wrench<T>,
+    pub output: PatchOutput<T>,
+}
+
+impl<T: CreepNumber> MovingWheel<T> {
     #[inline(always)]
     pub fn new(frame: Frame<T>, rail: RailNumbers<T>, lengths: WheelLengths<T>) -> Self {
         let [lateral, vertical] = frame.datum_displacement(lengths.offset, lengths.radius);
-        let rail_roll = RailRoll::of(&rail);
+        let rail_roll = RailRoll::new(&rail);
         let [across, depth] = rail_roll.into_rail([
             lateral + lengths.beside_top - rail.lateral,
             vertical + lengths.below_top - rail.vertical,
@@ -111,30 +179,27 @@ impl<T: CreepNumber> Place<T> {
         }
     }
 
-    /// The patch of `numbers` whose surfaces interpenetrate by `depth` along z, in the lanes that are `used`.
+    /// Evaluates the patch of `numbers` whose surfaces interpenetrate by `depth` along z, m, in the lanes that are
+    /// `used`.
     #[inline(always)]
     pub fn patch<L: CreepLaw>(
         &self,
         surface: &Surface<L>,
         depth: T,
-        numbers: [T; NUMBERS],
+        numbers: PatchNumbers<T>,
         used: [bool; 4],
     ) -> Patch<T> {
         let (frame, rail) = (&self.frame, &self.rail);
-        let [
+        let PatchNumbers {
             wheel_y,
             wheel_z,
-            rail_slope,
-            fraction,
+            slope: rail_slope,
+            load_fraction: fraction,
             stiffness,
-            a,
-            b,
-            c11,
-            c22,
-            c23,
-            c33,
-            _,
-        ] = numbers;
+            a_factor,
+            b_factor,
+            kalker,
+        } = numbers;
         let penetration = depth * cosine(rail_slope);
         let slope = self.rail_roll.into_track(rail_slope);
         let cos = cosine(slope);
@@ -142,7 +207,7 @@ impl<T: CreepNumber> Place<T> {
         let radius = wheel_z + self.lengths.radius;
         let position = frame.silhouette_point(wheel_y + self.lengths.offset, radius, slope);
         let ([x, y, z], [wx, wy, wz]) = (position, frame.angular_velocity);
-        // Velocity of the wheel's surface relative to the rail, which turns about its top.
+        // Velocity of the wheel's surface relative to the rail, which rolls about its top.
         let beside_top = self.pose[0] + wheel_y + self.lengths.beside_top;
         let below_top = self.depth + wheel_z;
         let vx = frame.velocity[0] + wy * z - wz * y;
@@ -155,12 +220,12 @@ impl<T: CreepNumber> Place<T> {
         let directed = frame.per_reference_speed * frame.direction;
         let root = penetration.sqrt();
         let approach_speed = vz * cos - vy * sin;
-        // A patch that is part of another is a fraction of it, in its creep forces too.
+        // A merged patch carries a fraction of the load and of the creep forces.
         let contact = Contact {
             load: stiffness * penetration * root * surface.damping(approach_speed),
             fraction,
-            semi_axes: [a * root, b * root],
-            kalker: [c11, c22, c23, c33],
+            semi_axes: [a_factor * root, b_factor * root],
+            kalker,
             creepage: [
                 (vx * directed).limited(MAX_CREEPAGE),
                 ((vy * cos + vz * sin) * directed).limited(MAX_CREEPAGE),
@@ -176,41 +241,34 @@ impl<T: CreepNumber> Place<T> {
         let (fx, ft) = (longitudinal * frame.direction, lateral * frame.direction);
         let (fy, fz) = (ft * cos + load * sin, ft * sin - load * cos);
         Patch {
-            wrench: [
-                fx,
-                fy,
-                fz,
-                y * fz - z * fy,
-                z * fx - x * fz - spin_moment * sin,
-                x * fy - y * fx + spin_moment * cos,
-            ],
-            penetration,
-            wheel_y,
-            told: [
+            wrench: Wrench {
+                force: [fx, fy, fz],
+                moment: [
+                    y * fz - z * fy,
+                    z * fx - x * fz - spin_moment * sin,
+                    x * fy - y * fx + spin_moment * cos,
+                ],
+            },
+            output: PatchOutput {
                 load,
                 penetration,
-                -slope,
-                contact.semi_axes[0],
-                contact.semi_axes[1],
-                radius,
+                slope: -slope,
+                semi_axes: contact.semi_axes,
+                rolling_radius: radius,
                 wheel_y,
-                x,
-                y,
-                z,
-                xi,
-                eta,
-                phi,
-                longitudinal,
-                lateral,
-                spin_moment,
+                position,
+                creepage: contact.creepage,
+                creep,
                 dissipation,
-            ],
+            },
         }
     }
 }
 
-/// State of a wheel at a pose inside its tables or not, with the greatest penetration of its patches and the `wheel_y_m` of the
-/// one nearest to the flange's tip, if it is loaded.
+/// Status of a wheel.
+///
+/// `is_inside`: the pose is inside the tables. `penetration_m`: maximum over the patches. `wheel_y_m`: lateral position
+/// of the loaded patch nearest to the flange tip.
 #[inline(always)]
 pub(super) fn status(
     pair: &Pair,

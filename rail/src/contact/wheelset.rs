@@ -13,11 +13,13 @@ use super::tables::Tables;
 use super::wheel::WheelLengths;
 use crate::creep::{CreepLaw, Friction};
 
-/// The contact of a wheelset: constant, shared by every wheelset of the same profiles.
+/// The contact of a wheelset. It is constant and can be shared by all wheelsets with the same profiles.
 ///
 /// ```
 /// # use std::sync::Arc;
-/// # use dashpot_rail::contact::{ContactGeometry, Grid, Installation, Motion, Pair, RailDisplacement, Steel, Tables, WheelsetContact};
+/// # use dashpot_rail::contact::{
+/// #     ContactGeometry, Grid, Installation, Motion, Pair, RailDisplacement, Steel, Tables, WheelsetContact,
+/// # };
 /// # use dashpot_rail::creep::{Friction, Polach};
 /// # let mut grid = Grid::default();
 /// # grid.roll_rad.cells = [1, 2, 1];
@@ -27,13 +29,13 @@ use crate::creep::{CreepLaw, Friction};
 /// let contact = WheelsetContact::new(Arc::new(tables), Polach, Friction::default())?;
 /// let shifted = Motion { lateral_m: 3e-3, vertical_m: 0.0708e-3, ..Motion::default() };
 /// let forces = contact.forces(&shifted, &[RailDisplacement::default(); 2]);
-/// // An elastic half-space carries 100 kN on the right wheel; the rail pushes up, against the axis z.
+/// // An elastic half-space then carries 100 kN on the right wheel. The rail pushes up, against the z axis.
 /// assert!((forces.wheels[1].force_n[2] / -100e3 - 1.0).abs() < 0.02);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug, Clone)]
 pub struct WheelsetContact<L, S: PatchSource = Tables> {
-    /// Of the left wheel (as its mirror image on the right side) and of the right wheel.
+    /// Sources of the left wheel (of its mirror image on the right side) and of the right wheel.
     pub(super) sources: [Arc<S>; 2],
     pub(super) finder: S::Finder,
     pub(super) surface: Surface<L>,
@@ -43,29 +45,30 @@ pub struct WheelsetContact<L, S: PatchSource = Tables> {
 }
 
 impl<L: CreepLaw, S: PatchSource> WheelsetContact<L, S> {
-    /// The contact of two equal wheels on equal rails, with the patches of `source`.
+    /// Contact of two equal wheels on equal rails, with the patches of `source`.
     ///
     /// # Errors
-    /// A friction out of its bounds.
+    /// The friction is out of bounds.
     pub fn new(source: Arc<S>, law: L, friction: Friction) -> Result<Self, SurfaceError> {
         Self::with_sides([Arc::clone(&source), source], law, friction)
     }
 
-    /// The contact of a left and a right wheel that differ in profiles, diameter, or inclination of the rail.
+    /// Contact of a left and a right wheel that differ in profile, diameter or rail inclination.
     ///
-    /// The left pair is described as its mirror image: as if it were on the right side. The shear modulus is the
-    /// mean of both sides.
+    /// The left pair is given as its mirror image, as if it were on the right side. The shear modulus is the mean of
+    /// both sides.
     ///
     /// # Errors
-    /// A friction out of its bounds.
+    /// The friction is out of bounds.
     pub fn with_sides(
         [left, right]: [Arc<S>; 2],
         law: L,
         friction: Friction,
     ) -> Result<Self, SurfaceError> {
         friction.check()?;
-        let mean =
-            |of: fn(&ContactGeometry) -> f64| 0.5 * (of(left.geometry()) + of(right.geometry()));
+        let mean = |length: fn(&ContactGeometry) -> f64| {
+            0.5 * (length(left.geometry()) + length(right.geometry()))
+        };
         let surface = Surface {
             law,
             friction,
@@ -86,11 +89,13 @@ impl<L: CreepLaw, S: PatchSource> WheelsetContact<L, S> {
         })
     }
 
-    /// The same with the normal damping `beta` of Hunt and Crossley, s/m: the load is `k penetration^1.5 (1 + beta w)` with the
-    /// speed `w` at which the surfaces approach each other, and never negative. Zero unless set.
+    /// Sets the normal damping `beta` of Hunt and Crossley, s/m; the default is zero.
+    ///
+    /// The load is `k penetration^1.5 (1 + beta w)`, where `w` is the approach speed of the surfaces. It is never
+    /// negative.
     ///
     /// # Errors
-    /// A damping not within 0 to [`MAX_NORMAL_DAMPING_S_PER_M`].
+    /// The damping is not within 0 to [`MAX_NORMAL_DAMPING_S_PER_M`].
     pub fn with_normal_damping(
         mut self,
         normal_damping_s_per_m: f64,
@@ -104,12 +109,12 @@ impl<L: CreepLaw, S: PatchSource> WheelsetContact<L, S> {
         Ok(self)
     }
 
-    /// The sources of the patches of the left and the right wheel.
+    /// Sources of the patches of the left and the right wheel.
     pub fn sources(&self) -> &[Arc<S>; 2] {
         &self.sources
     }
 
-    /// Mean shear modulus of both sides, Pa.
+    /// Shear modulus, mean of both sides, Pa.
     pub fn shear_modulus_pa(&self) -> f64 {
         self.surface.shear_modulus_pa
     }
@@ -119,9 +124,9 @@ impl<L: CreepLaw, S: PatchSource> WheelsetContact<L, S> {
         self.surface.normal_damping_s_per_m
     }
 
-    /// Forces on a wheelset in `motion` over the left and the right rail.
+    /// Computes the forces on a wheelset in `motion` over the left and the right rail.
     ///
-    /// Does not fail: [`Status`](super::Status) reports a motion that is beyond the tables or contains NaN.
+    /// Cannot fail: [`Status`](super::Status) reports a motion outside the tables or with NaN.
     #[inline]
     pub fn forces(&self, motion: &Motion, rails: &[RailDisplacement; 2]) -> WheelsetForces {
         let mut forces = WheelsetForces::default();
@@ -129,9 +134,10 @@ impl<L: CreepLaw, S: PatchSource> WheelsetContact<L, S> {
         forces
     }
 
-    /// [`forces`](WheelsetContact::forces) written over those of the step before, which saves copying them.
+    /// Computes the forces like [`forces`](WheelsetContact::forces), and writes them over those of the previous step,
+    /// which saves a copy.
     ///
-    /// Does not allocate with [`Tables`].
+    /// Does not allocate if the source is [`Tables`].
     #[inline]
     pub fn update(
         &self,
@@ -147,11 +153,11 @@ impl<L: CreepLaw, S: PatchSource> WheelsetContact<L, S> {
         }
     }
 
-    /// As [`update`](WheelsetContact::update), and the derivatives of force and moment on the left and the right wheel by
-    /// every field of [`Motion`].
+    /// Computes the forces like [`update`](WheelsetContact::update), and returns the derivatives of force and moment on
+    /// the left and the right wheel with respect to every field of [`Motion`].
     ///
-    /// A wheel's derivatives by the lateral and vertical displacement and velocity of its own rail are the negative ones
-    /// of the wheelset's.
+    /// The derivatives with respect to the lateral and vertical displacement and velocity of a wheel's own rail are the
+    /// negatives of those with respect to the wheelset's.
     #[inline]
     pub fn update_with_derivatives(
         &self,

@@ -1,37 +1,39 @@
-//! Where a wheel is divided into zones, each with at most one contact patch: along the valleys between its summits.
+//! Division of a wheel into zones with at most one contact patch each, along the valleys between summits.
 
 use super::pair::Pair;
 use super::silhouette::SilhouettePoint;
 
 /// Number of zones of a wheel: the flange, and three on the tread and its root.
 pub const ZONES: usize = 4;
-/// Cuts within the tread part; the one between flange and tread is a property of the wheel.
+/// Number of cuts within the tread; the boundary between flange and tread is a property of the wheel.
 const CUTS: usize = ZONES - 2;
 
-/// Lateral shifts at which the cuts are placed, m: first, distance, number. Beyond them they stay.
+/// Lateral shifts at which the cuts are determined, m: first shift, spacing and number. Beyond, the cuts are constant.
 const FIRST_SHIFT_M: f64 = -0.025;
 const SHIFT_STEP_M: f64 = 0.2e-3;
 const SHIFTS: usize = 476;
-/// Rolls whose valleys are looked for, rad: a roll changes which summits are near contact at a shift.
+/// Roll angles considered, rad; the roll changes which summits are near contact at a given shift.
 const ROLLS_RAD: [f64; 3] = [-6e-3, 0.0, 6e-3];
-/// Distance of the positions on the wheel that a cut can have, m.
+/// Spacing of the possible positions of a cut on the wheel, m.
 const POSITION_STEP_M: f64 = 0.5e-3;
-/// Greatest movement of a cut from one shift to the next, in positions, and what a step of one position costs, m.
+/// Maximum movement of a cut from one shift to the next, in positions.
 const REACH: usize = 4;
+/// Cost of a movement by one position, m.
 const MOVEMENT_COST_M: f64 = 0.5e-6;
 
-/// Depth of a valley at which it fully separates two summits under usual loads, m.
+/// Depth of a valley that fully separates two summits under usual loads, m.
 const VALLEY_M: f64 = 60e-6;
-/// Height below the greatest interpenetration at which a summit no longer matters, m: twice a great penetration.
+/// Height below the maximum interpenetration at which a summit no longer matters, m: twice a large penetration.
 const RELEVANT_M: f64 = 0.4e-3;
-/// Softness with which a cut avoids the loaded part of a single summit, m.
+/// Height over which the penalty for cutting a loaded summit falls to 1/e, m.
 const AVOIDED_M: f64 = 25e-6;
 
-/// The cuts between the zones of a wheel, over the lateral shift.
+/// The cuts between the zones of a wheel, as functions of the lateral shift.
 ///
-/// Patches of neighbouring zones that no valley separates are one patch in all but name
-/// ([`TurnedWheel::patches`](super::TurnedWheel::patches)), so a cut decides nothing there; it need only lie in a valley where there is one,
-/// and move continuously, so that a zone is the same zone in neighbouring nodes of the tables.
+/// Neighbouring zones without a valley between them share one patch
+/// ([`TurnedWheel::patches`](super::TurnedWheel::patches)), so there the position of a cut does not matter. A cut only
+/// has to follow a valley if there is one, and to move continuously, so that neighbouring nodes of the tables have the
+/// same zones.
 #[derive(Debug, Clone)]
 pub struct Zones {
     flange_end: f64,
@@ -39,8 +41,8 @@ pub struct Zones {
 }
 
 impl Zones {
-    /// The cuts of `pair`: each is the path over the shift that follows the deepest valleys with the least
-    /// movement, found by dynamic programming; the second divides what the first has left together.
+    /// Determines the cuts of `pair` by dynamic programming. Each cut is the path over the shift that follows the
+    /// deepest valleys with the least movement; the second cut takes the first into account.
     pub fn new(pair: &Pair) -> Self {
         let landscape = Landscape::new(pair);
         let flange_end = pair.tread_end_m();
@@ -63,8 +65,8 @@ impl Zones {
         Self { flange_end, cuts }
     }
 
-    /// Ends of the zones on the wheel's field side at a lateral shift, m from the tread datum, from the flange outwards;
-    /// the last zone ends with the wheel.
+    /// Field-side ends of the zones at a lateral shift, m from the tread datum, from the flange outwards. The last zone
+    /// extends to the end of the wheel.
     pub fn ends_m(&self, lateral_m: f64) -> [f64; ZONES - 1] {
         let row = ((lateral_m - FIRST_SHIFT_M) / SHIFT_STEP_M).clamp(0.0, (SHIFTS - 1) as f64);
         let first = (row as usize).min(SHIFTS - 2);
@@ -75,10 +77,10 @@ impl Zones {
     }
 }
 
-/// Interpenetrations of the tread part of a wheel over its position, for each shift and roll.
+/// Interpenetration of the tread over the position on the wheel, for each shift and roll.
 struct Landscape {
     positions: Vec<f64>,
-    /// By shift, then by roll, then by position.
+    /// Indexed by shift, roll and position.
     heights: Vec<[Vec<f64>; ROLLS_RAD.len()]>,
 }
 
@@ -104,7 +106,7 @@ impl Landscape {
         Self { positions, heights }
     }
 
-    /// The path of greatest reward over all shifts, when the wheel is already cut along `paths`.
+    /// Finds the path with the maximum total reward, given that the wheel is already cut along `paths`.
     fn best_path(&self, paths: &[Vec<usize>]) -> Vec<usize> {
         let count = self.positions.len();
         let mut total = vec![0.0; count];
@@ -113,8 +115,8 @@ impl Landscape {
             let cuts: Vec<usize> = paths.iter().map(|path| path[row]).collect();
             let reward = self.reward(row, &cuts);
             let mut next = vec![f64::MIN; count];
-            let mut came = vec![0; count];
-            for (i, (next, came)) in next.iter_mut().zip(&mut came).enumerate() {
+            let mut origins = vec![0; count];
+            for (i, (next, origin)) in next.iter_mut().zip(&mut origins).enumerate() {
                 for movement in 0..=2 * REACH {
                     let Some(j) = (i + movement).checked_sub(REACH).filter(|&j| j < count) else {
                         continue;
@@ -122,13 +124,13 @@ impl Landscape {
                     let distance = movement.abs_diff(REACH) as f64;
                     let value = total[j] - MOVEMENT_COST_M * distance * distance;
                     if value > *next {
-                        (*next, *came) = (value, movement as u8);
+                        (*next, *origin) = (value, movement as u8);
                     }
                 }
                 *next += reward[i];
             }
             total = next;
-            from.push(came);
+            from.push(origins);
         }
         let mut position = (0..count)
             .max_by(|&i, &j| total[i].total_cmp(&total[j]))
@@ -141,8 +143,8 @@ impl Landscape {
         path
     }
 
-    /// What a cut at each position is worth at one shift, m: the depth of the valley there between two summits that matter,
-    /// less a charge where it would cut a loaded summit.
+    /// Reward of a cut at each position for one shift, m: the depth of the valley between two relevant summits, minus a
+    /// penalty for cutting a loaded summit.
     fn reward(&self, row: usize, cuts: &[usize]) -> Vec<f64> {
         let mut reward = vec![0.0; self.positions.len()];
         for heights in &self.heights[row] {
@@ -163,8 +165,8 @@ impl Landscape {
                     let lower = before.min(after[i]);
                     let relevance = (1.0 - (top - lower) / RELEVANT_M).max(0.0);
                     let valley = (lower - height).min(VALLEY_M) * relevance;
-                    let charge = VALLEY_M * ((height - top) / AVOIDED_M).exp();
-                    reward[position] += valley - charge;
+                    let penalty = VALLEY_M * ((height - top) / AVOIDED_M).exp();
+                    reward[position] += valley - penalty;
                 }
             }
         }
@@ -172,7 +174,7 @@ impl Landscape {
     }
 }
 
-/// The interpenetration at each of the rising `positions` on the wheel, m; far below contact where there is no rail.
+/// Interpenetration at each of the rising `positions` on the wheel, m; -1, far out of contact, where there is no rail.
 fn heights_at(positions: &[f64], silhouette: &[SilhouettePoint], pair: &Pair) -> Vec<f64> {
     let on_wheel = |point: &SilhouettePoint| pair.wheel().points()[point.index].y_m;
     let mut i = 0;

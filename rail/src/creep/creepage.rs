@@ -1,6 +1,8 @@
 //! Creepages of a contact.
 
-/// Velocity of the wheel's surface relative to the rail over the speed, in [contact axes](crate::creep).
+/// Velocity of the wheel's surface relative to the rail divided by the speed, in [contact axes](crate::creep).
+///
+/// The fields are complete; none will be added.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Creepage {
@@ -8,15 +10,15 @@ pub struct Creepage {
     pub longitudinal: f64,
     /// Lateral creepage, dimensionless.
     pub lateral: f64,
-    /// Spin: angular velocity about axis 3 over the speed, 1/m.
+    /// Spin: angular velocity about axis 3 divided by the speed, 1/m.
     pub spin_per_m: f64,
 }
 
-/// Greatest magnitude of a creepage (spin: in 1/m) that is used as it is; far beyond full sliding.
+/// Maximum magnitude of a creepage (spin in 1/m), far beyond full sliding; larger creepages are limited to it.
 pub const MAX_CREEPAGE: f64 = 1e6;
 
 impl Creepage {
-    /// Longitudinal and lateral creepage and spin.
+    /// Creepage with components `[longitudinal, lateral, spin]`.
     #[inline(always)]
     pub(crate) fn of([longitudinal, lateral, spin_per_m]: [f64; 3]) -> Self {
         Self {
@@ -26,7 +28,7 @@ impl Creepage {
         }
     }
 
-    /// The same with every component limited to [`MAX_CREEPAGE`] in magnitude; NaN becomes zero.
+    /// Limits the magnitude of every component to [`MAX_CREEPAGE`]; NaN becomes zero.
     ///
     /// ```
     /// use dashpot_rail::creep::Creepage;
@@ -52,7 +54,7 @@ impl Creepage {
         }
     }
 
-    /// Whether no component is greater than [`MAX_CREEPAGE`], nor all together, and none is NaN.
+    /// True if the root sum of squares of the components is at most [`MAX_CREEPAGE`], and none is NaN.
     #[inline(always)]
     pub(super) fn is_bounded(&self) -> bool {
         let square = self.longitudinal * self.longitudinal
@@ -61,7 +63,7 @@ impl Creepage {
         square <= MAX_CREEPAGE * MAX_CREEPAGE
     }
 
-    /// Magnitude of longitudinal and lateral creepage, without spin.
+    /// Resultant of longitudinal and lateral creepage, without spin.
     pub fn magnitude(&self) -> f64 {
         (self.longitudinal * self.longitudinal + self.lateral * self.lateral).sqrt()
     }

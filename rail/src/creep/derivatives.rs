@@ -3,21 +3,25 @@
 use super::creepage::Creepage;
 use super::law::{CreepForces, CreepLaw, LoadedContact};
 
-/// Forces with their derivatives, for Newton's method.
+/// Creep forces with their derivatives, for Newton's method.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[non_exhaustive]
 pub struct CreepDerivatives {
     /// The forces.
     pub forces: CreepForces,
-    /// Derivatives of longitudinal force, lateral force (N) and moment (N m), each by longitudinal creepage, lateral
-    /// creepage and spin (1/m).
+    /// Derivatives with respect to the creepages. Rows: longitudinal force, N, lateral force, N, and moment, N m.
+    /// Columns: longitudinal creepage, lateral creepage, and spin, 1/m.
     pub by_creepage: [[f64; 3]; 3],
-    /// Derivatives of the same three by the load, while the semi-axes grow as its cube root (Hertz): N/N and N m/N.
+    /// Derivatives of the same three with respect to the load, N/N and N m/N; the semi-axes grow as its cube root
+    /// (Hertz).
     pub by_load: [f64; 3],
 }
 
 impl CreepDerivatives {
-    /// Of a law whose forces are `mu N` times a function of `G ab xi / (mu N)`, `G ab eta / (mu N)` and
-    /// `G (ab)^1.5 phi / (mu N)`, as every law's are.
+    /// Adds the derivatives with respect to the load.
+    ///
+    /// The forces of every law are `mu N` times a function of `G ab xi / (mu N)`, `G ab eta / (mu N)` and
+    /// `G (ab)^1.5 phi / (mu N)`.
     #[inline]
     pub(super) fn new(
         forces: CreepForces,
@@ -25,7 +29,8 @@ impl CreepDerivatives {
         contact: &LoadedContact,
         creepage: &Creepage,
     ) -> Self {
-        // With a^3 and b^3 as the load, xi and eta count as load^(-1/3) and spin does not count; the arm is load^(1/3).
+        // a^3 and b^3 are proportional to the load. The scaled xi and eta then vary as load^(-1/3), the scaled spin is
+        // constant, and the lever arm of the moment varies as load^(1/3).
         let values = forces.components();
         let by_load = |k: usize| {
             let [by_longitudinal, by_lateral, _] = by_creepage[k];
@@ -41,7 +46,7 @@ impl CreepDerivatives {
     }
 }
 
-/// Central differences of `law` over a hundred thousandth of the creepage at which linear theory slides.
+/// Central differences of `law`, with steps of 1e-5 of the creepage at which linear theory reaches full sliding.
 pub(super) fn differences<L: CreepLaw + ?Sized>(
     law: &L,
     contact: &LoadedContact,

@@ -4,15 +4,19 @@ use std::f64::consts::PI;
 
 use super::creepage::Creepage;
 use super::law::{CreepForces, CreepLaw, LoadedContact};
+use crate::setters::setters;
 
-/// Kalker's FASTSIM (Vehicle System Dynamics 11, 1982, 1-13) with three flexibilities
-/// `L1 = 8a/(3 C11 G)`, `L2 = 8a/(3 C22 G)`, `L3 = pi a sqrt(a/b)/(4 C23 G)` and the parabolic
-/// traction bound `2 mu N / (pi a b) (1 - x^2/a^2 - y^2/b^2)`; midpoint rule over the strips and along each.
+/// Kalker's FASTSIM (Vehicle System Dynamics 11, 1982, 1-13).
 ///
-/// Where an element slides its traction opposes the slip, elastic part included, although `L1 != L2`; to bring the
-/// traction of sticking back to the bound in its own direction, as the source does, would turn the force of full sliding to
-/// `(C11 xi, C22 eta)`. Without elements or strips there is no force.
+/// The three flexibilities are `L1 = 8a/(3 C11 G)`, `L2 = 8a/(3 C22 G)` and `L3 = pi a sqrt(a/b)/(4 C23 G)`, the traction
+/// bound is the parabola `2 mu N / (pi a b) (1 - x^2/a^2 - y^2/b^2)`. The tractions are integrated by the midpoint rule
+/// across and along the strips.
+///
+/// The traction of a sliding element opposes the slip, including its elastic part, although `L1 != L2`. The source instead
+/// scales the sticking traction back to the bound, which would rotate the force of full sliding towards
+/// `(C11 xi, C22 eta)`. With zero elements or strips there is no force.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Fastsim {
     /// Number of elements along each strip.
     pub elements: u32,
@@ -21,12 +25,19 @@ pub struct Fastsim {
 }
 
 impl Default for Fastsim {
-    /// 80 x 81: within 0.3 % of the friction limit of a mesh four times finer each way.
+    /// 80 elements x 81 strips, within 0.3 % of the friction limit of the result on a mesh four times finer each way.
     fn default() -> Self {
         Self {
             elements: 80,
             strips: 81,
         }
+    }
+}
+
+impl Fastsim {
+    setters! {
+        with_elements sets elements: u32;
+        with_strips sets strips: u32;
     }
 }
 
@@ -52,11 +63,11 @@ impl CreepLaw for Fastsim {
             let y = -b + (f64::from(strip) + 0.5) * width;
             let half = a * (1.0 - (y / b).powi(2)).max(0.0).sqrt();
             let dx = 2.0 * half / f64::from(self.elements);
-            // The traction is zero at the leading edge, half a step before the middle of the first element.
+            // The traction is zero at the leading edge, half a step before the midpoint of the first element.
             let (mut px, mut py, mut step) = (0.0, 0.0, 0.5 * dx);
             for element in 0..self.elements {
                 let x = half - (f64::from(element) + 0.5) * dx;
-                // The rigid slip is linear in x: integrated exactly from the previous middle.
+                // The rigid slip is linear in x, so this integral from the previous midpoint is exact.
                 let middle = x + 0.5 * step;
                 px -= step * (rigid_x - spin * y);
                 py -= step * (rigid_y + spin * middle);
@@ -73,15 +84,15 @@ impl CreepLaw for Fastsim {
     }
 }
 
-/// The traction `p` of an element whose traction in stick would be `sticking`: that one within `bound`, else the one of
-/// magnitude `bound` against the slip `L (p - sticking)` over the flexibilities `L`.
+/// Traction `p` of an element: the `sticking` traction if its magnitude is within `bound`; otherwise a traction of
+/// magnitude `bound` that opposes the slip `L (p - sticking)`, with the flexibilities `L`.
 fn within_friction(sticking: [f64; 2], flexibilities: [f64; 2], bound: f64) -> [f64; 2] {
     let [x, y] = sticking;
     if x * x + y * y <= bound * bound {
         return sticking;
     }
-    // (L + r) p = L sticking with a resistance r = |slip| / bound; 1/|p| is nearly linear in r, so that three steps of
-    // Newton suffice where the flexibilities differ by half.
+    // (L + r) p = L sticking with the resistance r = |slip| / bound. 1/|p| is nearly linear in r, so three Newton steps
+    // suffice for flexibilities that differ by half.
     let mut resistance = 0.0;
     let mut p = sticking;
     for _ in 0..3 {

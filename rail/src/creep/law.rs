@@ -1,4 +1,4 @@
-//! What a creep law is, and what holds for the forces of every law.
+//! The trait of creep laws, and the limits on the forces of every law.
 
 use fearless_simd::{Simd, f64x4};
 
@@ -9,7 +9,9 @@ use super::kalker::KalkerCoefficients;
 use crate::math::each::Each;
 use crate::math::number::load;
 
-/// One loaded contact as the creep laws need it.
+/// One loaded contact, the input of creep laws.
+///
+/// The fields are complete; none will be added.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LoadedContact {
     /// Normal load, N.
@@ -22,11 +24,13 @@ pub struct LoadedContact {
     pub shear_modulus_pa: f64,
     /// Kalker's coefficients of the ellipse.
     pub kalker: KalkerCoefficients,
-    /// Friction coefficient at this sliding speed, dimensionless.
+    /// Friction coefficient at the contact's sliding speed, dimensionless.
     pub friction: f64,
 }
 
 /// Creep forces on the wheel, in [contact axes](crate::creep).
+///
+/// The fields are complete; none will be added.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct CreepForces {
@@ -34,18 +38,18 @@ pub struct CreepForces {
     pub longitudinal_n: f64,
     /// Force along the common tangent to the field side, N.
     pub lateral_n: f64,
-    /// Spin moment, about axis 3, N m.
+    /// Spin moment about axis 3, N m.
     pub moment_n_m: f64,
 }
 
 impl CreepForces {
-    /// Longitudinal force, lateral force (N) and moment (N m).
+    /// Returns `[longitudinal force, lateral force, moment]`, N and N m.
     #[inline]
     pub fn components(&self) -> [f64; 3] {
         [self.longitudinal_n, self.lateral_n, self.moment_n_m]
     }
 
-    /// Of longitudinal force, lateral force (N) and moment (N m).
+    /// Forces with components `[longitudinal force, lateral force, moment]`, N and N m.
     #[inline(always)]
     pub(crate) fn of_components([longitudinal_n, lateral_n, moment_n_m]: [f64; 3]) -> Self {
         Self {
@@ -55,18 +59,18 @@ impl CreepForces {
         }
     }
 
-    /// The forces times `factor`.
+    /// Multiplies forces and moment by `factor`.
     #[inline]
     pub fn scaled(&self, factor: f64) -> Self {
         Self::of_components(self.components().map(|component| component * factor))
     }
 
-    /// Magnitude of the force, N.
+    /// Magnitude of the tangential force, N.
     pub fn magnitude_n(&self) -> f64 {
         (self.longitudinal_n * self.longitudinal_n + self.lateral_n * self.lateral_n).sqrt()
     }
 
-    /// Dissipated power over the speed, N: `-(Fx xi + Fy eta + M phi)`, positive when energy is dissipated.
+    /// Dissipated power divided by the speed, N: `-(Fx xi + Fy eta + M phi)`; positive if energy is dissipated.
     pub fn dissipation_n(&self, creepage: &Creepage) -> f64 {
         -(self.longitudinal_n * creepage.longitudinal
             + self.lateral_n * creepage.lateral
@@ -74,7 +78,7 @@ impl CreepForces {
     }
 }
 
-/// A law of creep forces.
+/// A creep law: the tangential forces of a loaded contact as a function of the creepage.
 ///
 /// ```
 /// use dashpot_rail::creep::{CreepLaw, Creepage, KalkerTable, LoadedContact, ShenHedrickElkins};
@@ -93,10 +97,11 @@ impl CreepForces {
 /// # Ok::<(), dashpot_rail::creep::KalkerError>(())
 /// ```
 pub trait CreepLaw: Send + Sync {
-    /// Forces as the source of the law states them. Load, semi-axes and friction are positive, the creepage is finite.
+    /// Forces as the source of the law states them. The caller ensures positive load, semi-axes and friction, and a
+    /// finite creepage.
     fn unlimited_forces(&self, contact: &LoadedContact, creepage: &Creepage) -> CreepForces;
 
-    /// Forces within friction that dissipate energy; zero unless load, friction and semi-axes are positive and finite.
+    /// Dissipative forces within the friction limit; zero unless load, friction and semi-axes are positive and finite.
     fn forces(&self, contact: &LoadedContact, creepage: &Creepage) -> CreepForces {
         if !is_loaded(contact) {
             return CreepForces::default();
@@ -109,9 +114,10 @@ pub trait CreepLaw: Send + Sync {
         )
     }
 
-    /// Longitudinal force, lateral force and moment of four contacts side by side, each as [`CreepLaw::forces`]; zero in a
-    /// lane that is not `used`.
-    #[doc(hidden)]
+    /// `[longitudinal force, lateral force, moment]` of four contacts, each lane as [`CreepLaw::forces`]; zero in lanes
+    /// that are not `used`.
+    ///
+    /// The default evaluates the lanes one after the other. Override it only for speed.
     #[inline(always)]
     fn forces_in_lanes<S: Simd>(&self, contacts: &ContactLanes<S>, used: [bool; 4]) -> [f64x4<S>; 3]
     where
@@ -120,7 +126,7 @@ pub trait CreepLaw: Send + Sync {
         forces_one_by_one(self, contacts, used)
     }
 
-    /// [`CreepLaw::forces`] and their derivatives by the creepages; by differences unless the law knows better.
+    /// [`CreepLaw::forces`] with their derivatives; the default uses central differences.
     fn forces_with_derivatives(
         &self,
         contact: &LoadedContact,
@@ -148,7 +154,7 @@ impl<L: CreepLaw + ?Sized> CreepLaw for Box<L> {
     }
 }
 
-/// The contacts in lanes one by one.
+/// Evaluates the contacts in the lanes one after the other.
 #[inline(always)]
 pub(super) fn forces_one_by_one<L: CreepLaw + ?Sized, S: Simd>(
     law: &L,
@@ -170,18 +176,19 @@ pub(super) fn forces_one_by_one<L: CreepLaw + ?Sized, S: Simd>(
     forces.each(|lanes| load(contacts.load.simd, &lanes))
 }
 
-/// Whether load, friction and semi-axes are positive and finite.
+/// True if load, friction and semi-axes are positive and finite.
 #[inline]
 pub(super) fn is_loaded(contact: &LoadedContact) -> bool {
     let limit = contact.friction * contact.load_n;
     let area = contact.a_m * contact.b_m;
-    // Positive products of positive factors: two negative ones are refused.
+    // One factor of each product is checked as well, because two negative factors have a positive product.
     let loaded = contact.load_n > 0.0 && limit > 0.0 && limit.is_finite();
     loaded && contact.a_m > 0.0 && area > 0.0 && area.is_finite()
 }
 
-/// Forces of Kalker's linear theory: `Fx = -G ab C11 xi`, `Fy = -G ab C22 eta - G (ab)^1.5 C23 phi`,
-/// `M = G (ab)^1.5 C23 eta - G (ab)^2 C33 phi`.
+/// Forces of Kalker's linear theory, without friction limit.
+///
+/// `Fx = -G ab C11 xi`, `Fy = -G ab C22 eta - G (ab)^1.5 C23 phi`, `M = G (ab)^1.5 C23 eta - G (ab)^2 C33 phi`.
 #[inline]
 pub fn linear_forces(contact: &LoadedContact, creepage: &Creepage) -> CreepForces {
     let area = contact.a_m * contact.b_m;
@@ -198,9 +205,9 @@ pub fn linear_forces(contact: &LoadedContact, creepage: &Creepage) -> CreepForce
     }
 }
 
-/// Limits the force to friction, and the moment to that of full spin under Hertz pressure (`3 pi / 16 mu N r` for a
-/// circle, here with the major semi-axis). Power that would be generated is then removed, first from the moment, then from
-/// the force along the sliding.
+/// Limits the force to friction, and the moment to that of full spin under Hertzian pressure (`3 pi / 16 mu N r` for a
+/// circle of radius `r`, here the major semi-axis). Then removes generated power, first from the moment, then from the
+/// force in the sliding direction.
 #[inline]
 fn passive(contact: &LoadedContact, creepage: &Creepage, mut forces: CreepForces) -> CreepForces {
     let limit = contact.friction * contact.load_n;

@@ -1,29 +1,29 @@
 //! Creep forces: the tangential forces of rolling contact.
 //!
-//! [`Creepage`] and [`LoadedContact`] in, [`CreepForces`] out, by one of four laws behind [`CreepLaw`]:
+//! A [`CreepLaw`] computes [`CreepForces`] from a [`LoadedContact`] and a [`Creepage`]. There are four laws:
 //!
 //! | law | cost | use |
 //! |---|---|---|
-//! | [`KalkerBook`] | one reading of a table | recommended: exact theory with any spin, derivatives |
-//! | [`Polach`] | closed form | for comparison, without spin; falling friction |
-//! | [`ShenHedrickElkins`] | closed form | for comparison, with little spin |
-//! | [`Fastsim`] | about a thousand times the others | for comparison: Kalker's simplified theory |
+//! | [`KalkerBook`] | one table lookup | recommended: exact theory for any spin, with derivatives |
+//! | [`Polach`] | closed form | comparison, without spin; falling friction |
+//! | [`ShenHedrickElkins`] | closed form | comparison, with little spin |
+//! | [`Fastsim`] | about a thousand times the others | comparison: Kalker's simplified theory |
 //!
-//! The two closed forms are far off where spin counts, as on flanges and other steep contacts: by up to 45 % and 29 % of
-//! friction.
+//! With large spin, as on flanges and other steep contacts, the two closed forms are wrong by up to 45 % and 29 % of
+//! the friction limit.
 //!
-//! [`KalkerTable`] gives the coefficients of the linear theory ([`linear_forces`]), [`Friction`] the coefficient
-//! of friction over the sliding speed.
+//! [`KalkerTable`] provides the coefficients of the linear theory ([`linear_forces`]), [`Friction`] the friction
+//! coefficient as a function of the sliding speed.
 //!
 //! Contact axes: 1 in the rolling direction, 2 along the common tangent to the field side, 3 into the rail. Forces act
 //! on the wheel; creepages are the velocity of the wheel's surface relative to the rail, divided by the speed.
 //!
-//! # To add a creep law
+//! # Adding a creep law
 //!
-//! Add a file to `rail/src/creep/` with a type that implements [`CreepLaw::unlimited_forces`]: the
-//! forces as its source states them. [`CreepLaw::forces`] limits them to friction and dissipation. Declare the file
-//! here, and add the law to `laws()` in `rail/tests/contact/common/mod.rs`: every test of the creep laws then runs
-//! on it, and `rail/tests/contact/laws.rs` measures its errors for `docs/contact.md`.
+//! Add a file to `rail/src/creep/` with a type that implements [`CreepLaw::unlimited_forces`], the forces as the source
+//! states them. [`CreepLaw::forces`] limits them to friction and makes them dissipative. Declare the file in `mod.rs`,
+//! and add the law to `laws()` in `rail/tests/contact/common/mod.rs`: all tests of creep laws then cover it, and
+//! `rail/tests/contact/laws.rs` measures its errors for `docs/contact.md`.
 
 mod contact_lanes;
 mod creepage;
@@ -36,7 +36,7 @@ mod law;
 mod polach;
 mod shen_hedrick_elkins;
 
-pub(crate) use contact_lanes::ContactLanes;
+pub use contact_lanes::ContactLanes;
 pub use creepage::{Creepage, MAX_CREEPAGE};
 pub use derivatives::CreepDerivatives;
 pub use fastsim::Fastsim;

@@ -12,11 +12,11 @@ use super::law::{CreepForces, CreepLaw, LoadedContact, linear_forces};
 /// `s_c = hypot(xi, eta_c)`, where `eta_c` is the greater in magnitude of `eta` and `eta + phi a`. The lateral force
 /// caused by spin is `9/16 a mu N K (1 + 6.3 (1 - exp(-a/b))) phi / s_c`.
 ///
-/// **Not for contacts with spin** (flange, large contact angles): with spin `phi sqrt(ab)` of half the sliding creepage its
-/// force is off by 8 % of friction (RMS over the grid of docs/contact.md, 20 % at most), with twice that creepage by
-/// 14 % (45 %). [`KalkerBook`](super::KalkerBook) has no such limit.
+/// **Not for contacts with spin** (flange, large contact angles). If the spin `phi sqrt(ab)` is half the sliding
+/// creepage, the RMS error of the force is 8 % of the friction limit over the grid of docs/contact.md, at most 20 %. If
+/// it is twice that creepage, the error is 14 % (45 %). [`KalkerBook`](super::KalkerBook) has no such limit.
 ///
-/// The source states no moment: here it is that of the linear theory, reduced by the same factor as the force.
+/// The source states no moment. Here it is the moment of the linear theory, reduced by the same factor as the force.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Polach;
 
@@ -47,12 +47,12 @@ impl CreepLaw for Polach {
         if modified == 0.0 {
             return CreepForces::default();
         }
-        // Divisions and roots are the slow operations of this law: each is done once.
+        // Divisions and roots are the slow operations of this law, so each is done once.
         let (per_limit, per_modified) = (1.0 / limit, 1.0 / modified);
         let (linear_x, linear_y) = (kalker.c11 * longitudinal, kalker.c22 * lateral);
         let creepage_square = longitudinal * longitudinal + lateral * lateral;
         let linear_square = linear_x * linear_x + linear_y * linear_y;
-        // In pure spin the force that `c` scales has no direction.
+        // In pure spin, the force that `c` scales has no direction.
         let c = if creepage_square > 0.0 {
             (linear_square / creepage_square).sqrt()
         } else {

@@ -4,15 +4,15 @@ use super::creepage::Creepage;
 use super::law::{CreepForces, CreepLaw, LoadedContact, linear_forces};
 
 /// Kalker's linear forces, reduced by the cubic of Vermeulen and Johnson
-/// `mu N (f - f^2/3 + f^3/27)` with `f = |F linear| / (mu N)` up to 3
+/// `mu N (f - f^2/3 + f^3/27)`, where `f = |F linear| / (mu N)` is limited to 3
 /// (Shen, Hedrick, Elkins, Vehicle System Dynamics 12, 1983, 79-83).
 ///
-/// **Not for contacts with much spin** (flange, large contact angles): with spin `phi sqrt(ab)` of half the sliding creepage
-/// its force is off by 4 % of friction (RMS over the grid of docs/contact.md, 8 % at most), with twice that creepage by
-/// 12 % (29 %). [`KalkerBook`](super::KalkerBook) has no such limit.
+/// **Not for contacts with large spin** (flange, large contact angles). If the spin `phi sqrt(ab)` is half the sliding
+/// creepage, the RMS error of the force is 4 % of the friction limit over the grid of docs/contact.md, at most 8 %. If
+/// it is twice that creepage, the error is 12 % (29 %). [`KalkerBook`](super::KalkerBook) has no such limit.
 ///
-/// The moment is reduced by the same factor, so that the dissipation keeps the sign of the linear theory.
-/// The force of full sliding is against `(C11 xi, C22 eta)`, not against the sliding itself.
+/// The moment is reduced by the same factor, so the dissipation keeps the sign of the linear theory.
+/// In full sliding the force opposes `(C11 xi, C22 eta)`, not the sliding velocity.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ShenHedrickElkins;
 

@@ -1,16 +1,17 @@
-//! How this processor multiplies and adds.
+//! Detection of fused multiply-add.
 
 use std::cell::Cell;
 
 use fearless_simd::{Level, Simd, SimdBase, dispatch, f64x4};
 
 thread_local! {
-    /// Whether this thread computes without fused multiplication.
+    /// True if this thread computes without fused multiply-add.
     static IS_SEPARATE: Cell<bool> = const { Cell::new(false) };
 }
 
-/// Whether this processor multiplies and adds in one rounding. Contact forces have the same bits on all processors that do, and on
-/// all that do not.
+/// True if this processor uses fused multiply-add (one rounding for a product and a sum).
+///
+/// Contact forces are bit-identical on all processors that do, and on all processors that do not.
 ///
 /// ```
 /// let fused = dashpot_rail::fuses_multiplication();
@@ -22,9 +23,10 @@ pub fn fuses_multiplication() -> bool {
     dispatch!(level(), simd => is_fused(simd))
 }
 
-/// Does `work` on this thread with the arithmetic of a processor that rounds products and sums one by one; `None`,
-/// and `work` not done, where the code of this processor cannot, as on Arm. What `work` builds must not be stepped
-/// after it.
+/// Runs `work` on this thread with the arithmetic of a processor without fused multiply-add.
+///
+/// Returns `None`, without running `work`, if the instruction set always has it, as on Arm. Objects built by `work`
+/// must not be stepped afterwards.
 ///
 /// ```
 /// let fused = dashpot_rail::without_fused_multiplication(dashpot_rail::fuses_multiplication);
@@ -33,18 +35,18 @@ pub fn fuses_multiplication() -> bool {
 /// assert_eq!(fused, Some(false));
 /// ```
 pub fn without_fused_multiplication<R>(work: impl FnOnce() -> R) -> Option<R> {
-    /// Gives the thread its own arithmetic back, whether the work ends or panics.
-    struct Back(bool);
-    impl Drop for Back {
+    /// Restores the arithmetic of the thread when `work` returns or panics.
+    struct Restore(bool);
+    impl Drop for Restore {
         fn drop(&mut self) {
             IS_SEPARATE.set(self.0);
         }
     }
-    let _back = Back(IS_SEPARATE.replace(true));
+    let _restore = Restore(IS_SEPARATE.replace(true));
     (!fuses_multiplication()).then(work)
 }
 
-/// The instructions that this thread computes with.
+/// The instruction set that this thread uses.
 pub(crate) fn level() -> Level {
     if IS_SEPARATE.get() {
         Level::baseline()
@@ -55,7 +57,7 @@ pub(crate) fn level() -> Level {
 
 #[inline(always)]
 fn is_fused<S: Simd>(simd: S) -> bool {
-    // Its square has a last digit that only one rounding leaves.
+    // Fused multiply-add leaves a residual of the square that separate rounding loses.
     let factor = f64x4::splat(simd, 1.0 + f64::EPSILON);
     let square = f64x4::splat(simd, -1.0 - 2.0 * f64::EPSILON);
     <[f64; 4]>::from(simd.mul_add_f64x4(factor, factor, square))[0] != 0.0

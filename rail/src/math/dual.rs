@@ -1,12 +1,12 @@
-//! Numbers that carry their derivatives, so that a formula written once gives both.
+//! Dual numbers: forward automatic differentiation.
 
 use std::array::from_fn;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use super::number::Number;
 
-/// A number and its derivatives by `N` variables (forward automatic differentiation). The derivatives are in single
-/// precision: a tangent needs no more, and four of them take one instruction.
+/// A number with its derivatives with respect to `N` variables. The derivatives are in single precision, which suffices
+/// for a tangent, and lets one instruction process four of them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Dual<const N: usize> {
     value: f64,
@@ -14,7 +14,7 @@ pub struct Dual<const N: usize> {
 }
 
 impl<const N: usize> Dual<N> {
-    /// The variable number `index` at `value`.
+    /// The variable with index `index`, at `value`.
     pub fn variable(value: f64, index: usize) -> Self {
         Self {
             value,
@@ -22,7 +22,7 @@ impl<const N: usize> Dual<N> {
         }
     }
 
-    /// A number that depends on nothing.
+    /// A number with zero derivatives.
     #[inline(always)]
     pub fn constant(value: f64) -> Self {
         Self {
@@ -37,12 +37,12 @@ impl<const N: usize> Dual<N> {
         self.value
     }
 
-    /// The derivatives by the variables.
+    /// The derivatives with respect to the variables.
     pub fn derivatives(&self) -> &[f32; N] {
         &self.derivatives
     }
 
-    /// The function of `terms` that has this `value` and the given derivative by each term.
+    /// A function of `terms` by the chain rule; each term comes with the derivative of the function with respect to it.
     #[inline(always)]
     pub fn function<const TERMS: usize>(value: f64, terms: [(f64, Self); TERMS]) -> Self {
         let mut derivatives = [0.0; N];
@@ -177,7 +177,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn derivatives_are_those_of_closed_forms() {
+    fn derivatives_agree_with_closed_forms() {
         let (x, y) = (Dual::<4>::variable(0.7, 0), Dual::variable(-1.3, 3));
         let f = x * x * y / x.sqrt() - x * 2.0 + y.reciprocal();
         assert!((f.value() - (-1.3 * 0.7_f64.powf(1.5) - 1.4 - 1.0 / 1.3)).abs() < 1e-14);

@@ -1,9 +1,9 @@
-//! Functions of every element of an array, for the step.
+//! An always-inlined `map` for arrays.
 
-/// `[T; N]::map` that is always inlined: vector instructions are inlined only into functions that are compiled for them, which
-/// the library's are not.
+/// An array `map` that is always inlined. Vector instructions are inlined only into functions compiled for them; those
+/// of the standard library are not.
 pub trait Each<T, const N: usize> {
-    /// The function of every element.
+    /// Applies `function` to every element.
     fn each<U: Copy>(self, function: impl FnMut(T) -> U) -> [U; N];
 }
 

@@ -1,25 +1,26 @@
-//! Eigenvalues of a real matrix: balancing, Hessenberg form, QR iteration with Francis' double shift and exceptional shifts.
+//! Eigenvalues of a real matrix: balancing, Hessenberg form, QR iteration with Francis' double shift and exceptional
+//! shifts.
 
 use nalgebra::linalg::{Hessenberg, balancing::balance_parlett_reinsch};
 use nalgebra::{Complex, DMatrix};
 
-/// Iterations after which an eigenvalue gets an exceptional shift, and again after each further as many. The usual shift can make the
-/// iteration turn in a circle; the exceptional one leaves it.
+/// Interval of exceptional shifts, in iterations for one eigenvalue. The usual shifts can make the iteration cycle; an
+/// exceptional shift breaks the cycle.
 const EXCEPTIONAL_EACH: usize = 10;
 
-/// Iterations for one eigenvalue, per row of the matrix; three are usual in all.
+/// Maximum iterations for one eigenvalue, per row of the matrix; an eigenvalue usually takes three in all.
 const MAX_ITERATIONS_PER_ROW: usize = 30;
 
-/// The eigenvalues of `matrix` in no order; a pair of conjugates is adjacent. `None` if an entry is not finite, or if the iteration does
-/// not converge, which is not known to happen.
+/// Computes the eigenvalues of `matrix`, unordered, with conjugate pairs adjacent. `None` if an entry is not finite, or
+/// if the iteration does not converge, which is not known to happen.
 ///
-/// The algorithm is that of LAPACK's `dhseqr` for small matrices (`dlahqr`): Francis' implicit double shift (1961), deflation by the
-/// criterion of Ahues and Tisseur (LAPACK Working Note 122, 1997).
+/// The algorithm is that of LAPACK's `dhseqr` for small matrices (`dlahqr`): Francis' implicit double shift (1961),
+/// deflation by the criterion of Ahues and Tisseur (LAPACK Working Note 122, 1997).
 pub(crate) fn eigenvalues(matrix: &DMatrix<f64>) -> Option<Vec<Complex<f64>>> {
     if matrix.is_empty() {
         return Some(Vec::new());
     }
-    // An infinite entry would make the balancing endless.
+    // Balancing does not terminate with an infinite entry.
     if !matrix.iter().all(|entry| entry.is_finite()) {
         return None;
     }
@@ -36,7 +37,7 @@ pub(crate) fn eigenvalues(matrix: &DMatrix<f64>) -> Option<Vec<Complex<f64>>> {
         if first + 1 == size {
             found.push(Complex::from(h[(first, first)]));
         } else {
-            found.extend(of_two([
+            found.extend(eigenvalues_of_two([
                 [h[(first, first)], h[(first, first + 1)]],
                 [h[(first + 1, first)], h[(first + 1, first + 1)]],
             ]));
@@ -46,13 +47,12 @@ pub(crate) fn eigenvalues(matrix: &DMatrix<f64>) -> Option<Vec<Complex<f64>>> {
     Some(found)
 }
 
-/// A Hessenberg matrix whose last rows are split off, one or two at a time.
+/// A Hessenberg matrix that is deflated by one or two rows at a time.
 struct Iteration {
     h: DMatrix<f64>,
 }
 
-/// The sum and the product of two shifts, which are both real or conjugates, in the form in which the first column of the shifted matrix
-/// needs them: real parts, and the imaginary part of the first.
+/// Two shifts, both real or complex conjugates: their real parts, and the imaginary part of the first.
 #[derive(Clone, Copy)]
 struct Shifts {
     real: [f64; 2],
@@ -60,7 +60,7 @@ struct Shifts {
 }
 
 impl Iteration {
-    /// Iterates until the rows from the returned one to `last`, one or two of them, are split from those before.
+    /// Iterates until one or two rows up to `last` are decoupled from the rows before; returns the first of them.
     fn deflate(&mut self, last: usize) -> Option<usize> {
         let limit = MAX_ITERATIONS_PER_ROW * self.h.nrows().max(10);
         for iteration in 1..=limit {
@@ -77,7 +77,7 @@ impl Iteration {
         None
     }
 
-    /// First row of the block that ends with `last`: where a subdiagonal entry counts as zero.
+    /// First row of the unreduced block that ends at `last`, above which a subdiagonal entry is negligible.
     fn start_of_block(&self, last: usize) -> usize {
         let h = &self.h;
         let mut row = last;
@@ -112,7 +112,7 @@ impl Iteration {
         row
     }
 
-    /// The eigenvalues of the last two rows of the block, or exceptional ones.
+    /// Shifts: the eigenvalues of the trailing 2 x 2 matrix of the block, or exceptional ones.
     fn shifts(&self, first: usize, last: usize, iteration: usize) -> Shifts {
         let h = &self.h;
         let exceptional = |sum: f64, at: f64| {
@@ -131,14 +131,14 @@ impl Iteration {
                 [h[(last, last - 1)], h[(last, last)]],
             ]
         };
-        let [one, other] = of_two(two);
+        let [one, other] = eigenvalues_of_two(two);
         if one.im != 0.0 {
             return Shifts {
                 real: [one.re, one.re],
                 imaginary: one.im,
             };
         }
-        // Of two real ones the nearer to the last entry, twice.
+        // Uses the real eigenvalue closer to the last entry twice.
         let is_nearer = (one.re - two[1][1]).abs() <= (other.re - two[1][1]).abs();
         let real = if is_nearer { one.re } else { other.re };
         Shifts {
@@ -147,7 +147,7 @@ impl Iteration {
         }
     }
 
-    /// First column of the doubly shifted matrix that begins at `row`, but for a factor.
+    /// First column of the doubly shifted matrix that begins at `row`, up to a factor.
     fn first_column(&self, row: usize, shifts: &Shifts) -> [f64; 3] {
         let h = &self.h;
         let ([first, second], imaginary) = (shifts.real, shifts.imaginary);
@@ -167,7 +167,7 @@ impl Iteration {
 
     /// One implicit double-shift QR sweep over the rows from `first` to `last`.
     fn sweep(&mut self, first: usize, last: usize, shifts: Shifts) {
-        // Two small subdiagonal entries in a row let the sweep begin there.
+        // The sweep can begin after two consecutive small subdiagonal entries.
         let mut begin = last - 2;
         let mut column = self.first_column(begin, &shifts);
         while begin > first {
@@ -206,7 +206,7 @@ impl Iteration {
         }
     }
 
-    /// Applies the reflection `1 - factor v v^T` to so many rows and columns from `row` on, within the block.
+    /// Applies the reflection `1 - factor v v^T` to `rows` rows and columns from `row` on, within the block.
     fn reflect(
         &mut self,
         row: usize,
@@ -231,7 +231,8 @@ impl Iteration {
     }
 }
 
-/// Householder's reflection `1 - factor v v^T` with `v[0] = 1` that leaves only the first of three numbers: `v`, `factor`, and what is left.
+/// Householder reflection `1 - factor v v^T` with `v[0] = 1` that maps three numbers to a multiple of the first unit
+/// vector. Returns `v`, `factor` and that multiple.
 fn reflector(numbers: [f64; 3]) -> ([f64; 3], f64, f64) {
     let [x, y, z] = numbers;
     let rest = y.hypot(z);
@@ -243,8 +244,8 @@ fn reflector(numbers: [f64; 3]) -> ([f64; 3], f64, f64) {
     ([1.0, y * per, z * per], (left - x) / left, left)
 }
 
-/// The eigenvalues of two rows and columns.
-fn of_two([[a, b], [c, d]]: [[f64; 2]; 2]) -> [Complex<f64>; 2] {
+/// The eigenvalues of a 2 x 2 matrix.
+fn eigenvalues_of_two([[a, b], [c, d]]: [[f64; 2]; 2]) -> [Complex<f64>; 2] {
     let scale = a.abs() + b.abs() + c.abs() + d.abs();
     if scale == 0.0 {
         return [Complex::from(0.0); 2];
@@ -256,7 +257,7 @@ fn of_two([[a, b], [c, d]]: [[f64; 2]; 2]) -> [Complex<f64>; 2] {
     let found = if square < 0.0 {
         [Complex::new(d + half, root), Complex::new(d + half, -root)]
     } else {
-        // The one that is farther from `d` without cancellation; the product of both distances is `-b c`.
+        // The eigenvalue farther from `d` has no cancellation; the product of both distances is `-b c`.
         let far = half + root.copysign(half);
         let near = if far == 0.0 { 0.0 } else { -b * c / far };
         [Complex::from(d + far), Complex::from(d + near)]
@@ -284,9 +285,9 @@ mod tests {
         }
     }
 
-    /// The usual shifts leave a cyclic permutation as it is: without exceptional ones the iteration never ends.
+    /// The usual shifts do not change a cyclic permutation, so without exceptional shifts the iteration never terminates.
     #[test]
-    fn a_cyclic_permutation_has_the_roots_of_one() {
+    fn the_eigenvalues_of_a_cyclic_permutation_are_the_roots_of_unity() {
         for size in [3, 4, 5, 8, 13] {
             let matrix =
                 DMatrix::from_fn(size, size, |i, j| f64::from(u8::from(i == (j + 1) % size)));
@@ -306,14 +307,14 @@ mod tests {
     }
 
     #[test]
-    fn small_matrices_have_the_eigenvalues_of_their_formulas() {
+    fn eigenvalues_of_small_matrices_agree_with_closed_forms() {
         check(&DMatrix::zeros(0, 0), &[], 1e-15);
         check(&DMatrix::from_element(1, 1, -3.5), &[[-3.5, 0.0]], 1e-15);
         check(&DMatrix::zeros(3, 3), &[[0.0, 0.0]; 3], 1e-15);
         let oscillator = DMatrix::from_row_slice(2, 2, &[-0.4, -100.0, 1.0, 0.0]);
         let rate = (100.0 - 0.04_f64).sqrt();
         check(&oscillator, &[[-0.2, -rate], [-0.2, rate]], 1e-13);
-        // Overdamped by eight decades: the slow one without cancellation.
+        // Overdamped by eight decades: the slow eigenvalue has no cancellation error.
         let stiff = DMatrix::from_row_slice(2, 2, &[-1e8, -1.0, 1.0, 0.0]);
         let found = sorted(&stiff);
         assert!((found[0][0] / -1e8 - 1.0).abs() < 1e-15, "{found:?}");
@@ -321,7 +322,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_finite_has_none() {
+    fn a_matrix_that_is_not_finite_has_no_eigenvalues() {
         for entry in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
             let mut matrix = DMatrix::identity(4, 4);
             matrix[(1, 2)] = entry;

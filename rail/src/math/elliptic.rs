@@ -2,7 +2,8 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-/// `K` and `E` for the complementary modulus `k1`, 0 < `k1` <= 1: for an ellipse, its minor over its major semi-axis.
+/// Returns `K` and `E` for the complementary modulus `k1`, 0 < `k1` <= 1; for an ellipse, `k1` is the ratio of the
+/// minor to the major semi-axis.
 pub fn complete(k1: f64) -> (f64, f64) {
     let (mut a, mut b) = (1.0, k1);
     let mut sum = 0.5 * (1.0 - k1 * k1);

@@ -1,10 +1,10 @@
-//! What formulas compute with: a number, four side by side, or a number with derivatives.
+//! Number types for generic formulas: a scalar, four vector lanes, or a number with derivatives.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use fearless_simd::{Simd, SimdBase, f32x4, f64x4};
 
-/// A real number in several lanes, or with derivatives.
+/// A real number, possibly in several lanes or with derivatives.
 pub trait Number:
     Copy
     + Add<Output = Self>
@@ -21,16 +21,16 @@ pub trait Number:
     /// `1 / self`.
     fn reciprocal(self) -> Self;
 
-    /// Square root of a number that is not negative.
+    /// Square root of a non-negative number.
     fn sqrt(self) -> Self;
 
-    /// The number limited to `limit` in magnitude; constant where it is limited.
+    /// Limits the magnitude to `limit`; the derivatives of a limited number are zero.
     fn limited(self, limit: f64) -> Self;
 
-    /// The number, or zero where it is negative.
+    /// The number, or zero if it is negative.
     fn not_negative(self) -> Self;
 
-    /// 1, or -1 where the number has a minus sign.
+    /// 1 with the sign of the number (also of a negative zero).
     fn sign(self) -> Self;
 }
 
@@ -85,8 +85,8 @@ impl<S: Simd> Number for f64x4<S> {
     #[inline(always)]
     fn limited(self, limit: f64) -> Self {
         let simd = self.simd;
-        let (least, most) = (simd.splat_f64x4(-limit), simd.splat_f64x4(limit));
-        simd.min_f64x4(simd.max_f64x4(self, least), most)
+        let (low, high) = (simd.splat_f64x4(-limit), simd.splat_f64x4(limit));
+        simd.min_f64x4(simd.max_f64x4(self, low), high)
     }
 
     #[inline(always)]
@@ -102,28 +102,7 @@ impl<S: Simd> Number for f64x4<S> {
     }
 }
 
-/// Four numbers side by side.
-pub trait Lanes {
-    /// The greater number in each lane; either one where one is NaN.
-    fn at_least(self, low: Self) -> Self;
-
-    /// The lesser number in each lane; either one where one is NaN.
-    fn at_most(self, high: Self) -> Self;
-}
-
-impl<S: Simd> Lanes for f64x4<S> {
-    #[inline(always)]
-    fn at_least(self, low: Self) -> Self {
-        self.simd.max_f64x4(self, low)
-    }
-
-    #[inline(always)]
-    fn at_most(self, high: Self) -> Self {
-        self.simd.min_f64x4(self, high)
-    }
-}
-
-/// Whether the numbers in all lanes are greater than `low` and at most `high`; NaN is not.
+/// True if all lanes are greater than `low` and at most `high`; false for NaN.
 #[inline(always)]
 pub fn are_within<S: Simd>(numbers: f64x4<S>, low: f64, high: f64) -> bool {
     let simd = numbers.simd;
@@ -132,13 +111,13 @@ pub fn are_within<S: Simd>(numbers: f64x4<S>, low: f64, high: f64) -> bool {
     simd.all_true_mask64x4(above & below)
 }
 
-/// Loads an array.
+/// Loads an array into a vector.
 #[inline(always)]
 pub fn load<S: Simd>(simd: S, lanes: &[f64; 4]) -> f64x4<S> {
     f64x4::from_slice(simd, lanes)
 }
 
-/// The first numbers of all four vectors, then the second and so on.
+/// Transposes four vectors: returns the first lanes of all, then the second lanes, and so on.
 #[inline(always)]
 pub fn rows<S: Simd>([a, b, c, d]: [f64x4<S>; 4]) -> [f64x4<S>; 4] {
     let simd = a.simd;
@@ -148,7 +127,7 @@ pub fn rows<S: Simd>([a, b, c, d]: [f64x4<S>; 4]) -> [f64x4<S>; 4] {
     [first, second, third, last]
 }
 
-/// The first numbers of all four vectors, then the second and so on.
+/// Transposes four vectors, as [`rows`], and converts them to double precision.
 #[inline(always)]
 pub fn transposed<S: Simd>(simd: S, [a, b, c, d]: [f32x4<S>; 4]) -> [f64x4<S>; 4] {
     let (even, odd) = (simd.interleave_f32x4(a, c), simd.interleave_f32x4(b, d));
@@ -166,7 +145,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn each_lane_has_its_own_number() {
+    fn lanes_compute_independently() {
         fn formula<T: Number>(x: T, y: T) -> T {
             x * x * y / x.sqrt() - x * 2.0 + y.reciprocal()
         }
@@ -192,15 +171,6 @@ mod tests {
             let columns = transposed(simd, rows).map(<[f64; 4]>::from);
             assert_eq!(columns[0], [0.0, 1.0, 2.0, 3.0]);
             assert_eq!(columns[2], [20.0, 21.0, 22.0, 23.0]);
-            let others = load(simd, &[-2.0, 0.1, 1.0, 6.0]);
-            assert_eq!(
-                <[f64; 4]>::from(numbers.at_least(others)),
-                [-2.0, 0.2, 1.0, 6.0]
-            );
-            assert_eq!(
-                <[f64; 4]>::from(numbers.at_most(others)),
-                [-3.0, 0.1, 0.0, 5.0]
-            );
             assert!(are_within(numbers, -3.5, 5.0));
             assert!(!are_within(numbers, -3.0, 5.0));
             assert!(!are_within(

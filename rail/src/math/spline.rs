@@ -1,6 +1,6 @@
 //! Natural cubic splines, interpolating or smoothing.
 
-/// A twice differentiable piecewise cubic through (or near) given values.
+/// A natural cubic spline through, or near, given values.
 #[derive(Debug, Clone)]
 pub struct Spline {
     knots: Vec<f64>,
@@ -9,11 +9,11 @@ pub struct Spline {
 }
 
 impl Spline {
-    /// The natural spline that minimises `integral (f - v)^2 + lambda integral f''^2` (Reinsch 1967),
-    /// each value weighted by half the distance between its neighbours; `lambda = 0` interpolates.
+    /// Fits the natural spline that minimises `integral (f - v)^2 + lambda integral f''^2` (Reinsch 1967).
     ///
-    /// The amplitude of waves of length `L` along the knots is multiplied by `1 / (1 + lambda (2 pi / L)^4)`.
-    /// The caller ensures that there are three or more `knots` and that they rise strictly.
+    /// The weight of each value is half the distance between its neighbours; `lambda = 0` interpolates. The amplitude
+    /// of waves of length `L` along the knots is multiplied by `1 / (1 + lambda (2 pi / L)^4)`. The caller ensures that
+    /// there are three or more `knots` and that they rise strictly.
     pub fn fit(knots: &[f64], values: &[f64], lambda: f64) -> Self {
         let n = knots.len();
         assert!(n >= 3 && values.len() == n, "a spline needs three knots");
@@ -23,7 +23,7 @@ impl Spline {
             let after = if i < n - 1 { h[i] } else { 0.0 };
             0.5 * (before + after)
         };
-        // Column j of Q, the second difference about knot j + 1.
+        // Column j of Q, the second difference at knot j + 1.
         let column = |j: usize| [1.0 / h[j], -(1.0 / h[j] + 1.0 / h[j + 1]), 1.0 / h[j + 1]];
         let m = n - 2;
         let (mut diagonal, mut first, mut second) = (vec![0.0; m], vec![0.0; m], vec![0.0; m]);
@@ -60,7 +60,8 @@ impl Spline {
         }
     }
 
-    /// Value, first and second derivative at `t`; beyond the ends the outermost cubic is extrapolated.
+    /// Returns `[value, first derivative, second derivative]` at `t`; beyond the ends the outermost cubic is
+    /// extrapolated.
     pub fn at(&self, t: f64) -> [f64; 3] {
         let last = self.knots.len() - 2;
         let i = self
@@ -80,7 +81,8 @@ impl Spline {
     }
 }
 
-/// Solves a symmetric positive definite system with diagonal `d`, first and second upper band `e` and `f`, and right-hand side `b`.
+/// Solves a symmetric positive definite system with diagonal `d`, first and second upper bands `e` and `f`, and
+/// right-hand side `b`.
 fn solve_pentadiagonal(
     mut d: Vec<f64>,
     mut e: Vec<f64>,
@@ -118,7 +120,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_sine_is_interpolated_and_damped_as_the_formula_says() {
+    fn a_sine_is_interpolated_and_smoothed_by_the_documented_gain() {
         let length = 2.0_f64;
         let k = std::f64::consts::TAU / length;
         let knots: Vec<f64> = (0..=400).map(|i| f64::from(i) * 0.05).collect();

@@ -1,16 +1,16 @@
-//! A profile as samples of a spline, evenly spaced along the arc.
+//! A profile as samples of a spline, evenly spaced along the arc length.
 
 use crate::math::spline::Spline;
 
-/// Distance of the samples along the arc, m. The shortest wave of a tread or a rail worth keeping is
-/// near 2 mm; a twentieth of it keeps positions within 0.1 um.
+/// Spacing of the samples along the arc length, m. The shortest relevant wave of a tread or rail is about 2 mm long; a
+/// twentieth of that keeps positions within 0.1 um.
 pub const SAMPLE_SPACING_M: f64 = 1e-4;
-/// Smallest number of points of [`Profile::through`]: a cubic spline needs three knots.
+/// Minimum number of points of [`Profile::through`]; a cubic spline needs three knots.
 pub const MIN_POINTS: usize = 3;
-/// Greatest chord length of [`Profile::through`], m. Longer curves are in millimetres by mistake.
+/// Maximum chord length of [`Profile::through`], m. A longer curve is in millimetres by mistake.
 pub const MAX_LENGTH_M: f64 = 10.0;
 
-/// Why points do not make a profile.
+/// Errors in the points of a profile.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum CurveError {
@@ -20,7 +20,7 @@ pub enum CurveError {
         /// Number of points.
         found: usize,
     },
-    /// A point has a NaN or infinite coordinate, or its `y` does not exceed that of the point before.
+    /// A coordinate of a point is NaN or infinite, or its `y` does not exceed that of the previous point.
     #[error(
         "point {index}: ({y_m}, {z_m}) m, allowed: finite numbers with y rising from point to point"
     )]
@@ -44,7 +44,7 @@ pub enum CurveError {
         /// The smoothing length, m.
         smoothing_m: f64,
     },
-    /// The smoothed curve turns back.
+    /// The smoothed curve folds back.
     #[error("folded back near y_mm {y_mm:.2} once smoothed: use a shorter smoothing length")]
     FoldedBySmoothing {
         /// Lateral position of the fold, mm.
@@ -54,6 +54,7 @@ pub enum CurveError {
 
 /// One sample of a profile.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct ProfilePoint {
     /// Lateral position, positive to the field side, m.
     pub y_m: f64,
@@ -65,7 +66,7 @@ pub struct ProfilePoint {
     pub curvature_per_m: f64,
 }
 
-/// A named profile: samples [`SAMPLE_SPACING_M`] apart along the arc, with rising `y`.
+/// A named profile: samples [`SAMPLE_SPACING_M`] apart along the arc length, with rising `y`.
 #[derive(Debug, Clone)]
 pub struct Profile {
     name: String,
@@ -73,13 +74,13 @@ pub struct Profile {
 }
 
 impl Profile {
-    /// The cubic spline over the chord length of `points_m` (`[y, z]` in m, `y` rising), resampled.
+    /// Fits a cubic spline over the chord length to `points_m` (`[y, z]` in m, `y` rising), and resamples it.
     ///
-    /// `smoothing_m` is the wavelength whose amplitude is halved, m; with 0 the spline passes through every point.
+    /// The amplitude of waves of length `smoothing_m`, m, is halved; at 0 the spline passes through every point.
     ///
     /// # Errors
-    /// Too few points, a coordinate that is not finite or not rising, a curve longer than
-    /// [`MAX_LENGTH_M`], a negative smoothing length, or a smoothed curve that turns back.
+    /// There are too few points; a coordinate is not finite or does not rise; the curve is longer than
+    /// [`MAX_LENGTH_M`]; the smoothing length is negative; or the smoothed curve folds back.
     ///
     /// ```
     /// use dashpot_rail::profile::Profile;
@@ -100,7 +101,8 @@ impl Profile {
         Self::between_vertical_ends(name, points_m, smoothing_m, 0.0)
     }
 
-    /// As [`Profile::through`], without an end beyond a vertical tangent that takes up no more than `width_m`.
+    /// Builds a profile like [`Profile::through`], but cuts off an end beyond a vertical tangent if it is at most
+    /// `width_m` wide.
     pub(super) fn between_vertical_ends(
         name: impl Into<String>,
         points_m: &[[f64; 2]],
@@ -132,7 +134,7 @@ impl Profile {
         Ok(profile)
     }
 
-    /// As [`Profile::through`], for three or more points whose chord length rises.
+    /// Builds a profile like [`Profile::through`], without checks, for three or more distinct successive points.
     pub(super) fn resampled(
         name: impl Into<String>,
         points_m: &[[f64; 2]],
@@ -165,12 +167,12 @@ impl Profile {
         }
     }
 
-    /// A profile of samples computed elsewhere: two or more, with rising `y`.
+    /// Builds a profile from two or more samples with rising `y`.
     pub(crate) fn from_samples(name: String, points: Vec<ProfilePoint>) -> Self {
         Self { name, points }
     }
 
-    /// The name for people.
+    /// The name of the profile.
     pub fn name(&self) -> &str {
         &self.name
     }
@@ -180,7 +182,7 @@ impl Profile {
         &self.points
     }
 
-    /// The point at `y_m`, linear between the samples; outside, the nearest end.
+    /// Interpolates linearly between the samples at `y_m`; outside, returns the nearest end.
     pub fn at(&self, y_m: f64) -> ProfilePoint {
         let points = &self.points;
         let i = points
@@ -198,7 +200,7 @@ impl Profile {
     }
 }
 
-/// Checks that a curve can be laid through `points_m`.
+/// Checks the arguments of [`Profile::through`].
 fn check(points_m: &[[f64; 2]], smoothing_m: f64) -> Result<(), CurveError> {
     if points_m.len() < MIN_POINTS {
         return Err(CurveError::TooFewPoints {
@@ -221,7 +223,7 @@ fn check(points_m: &[[f64; 2]], smoothing_m: f64) -> Result<(), CurveError> {
     Ok(())
 }
 
-/// Length of the chords from the first point to each point.
+/// Cumulative chord length at each point.
 fn chord_lengths(points: &[[f64; 2]]) -> Vec<f64> {
     let mut length = 0.0;
     let mut lengths = Vec::with_capacity(points.len());

@@ -1,11 +1,11 @@
-//! Profiles of wheels and rails: plane curves with tangent and curvature, sampled along their arc.
+//! Profiles of wheels and rails: plane curves with tangent and curvature, sampled along the arc length.
 //!
 //! - [`s1002`] and [`uic60`]: the standard wheel and rail, from their definitions.
-//! - [`measured`]: a profile from the file of a profile gauge or of a simulation program, with every error located.
-//! - [`Profile::through`]: a profile from your own points.
+//! - [`measured`]: reads the files of profile gauges and simulation programs; errors name the line.
+//! - [`Profile::through`]: builds a profile from your own points.
 //!
-//! Axes of a profile: `y` to the field side (away from the track centre), `z` down. A wheel's origin is
-//! its tread datum, a rail's the top of its head.
+//! Axes of a profile: `y` to the field side (away from the track centre), `z` down. The origin of a wheel is its tread
+//! datum, that of a rail the top of its head.
 
 mod curve;
 pub mod measured;
@@ -17,8 +17,8 @@ pub use curve::{CurveError, MAX_LENGTH_M, MIN_POINTS, Profile, ProfilePoint, SAM
 /// The body that a profile belongs to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Body {
-    /// A wheel: the flange is on the negative `y` side and points down.
+    /// A wheel, with its flange at negative `y`, pointing down.
     Wheel,
-    /// A rail: the head is up and the gauge face is on the negative `y` side.
+    /// A rail, with its head up and its gauge face at negative `y`.
     Rail,
 }

@@ -5,7 +5,7 @@ use super::{Profile, SAMPLE_SPACING_M};
 /// Distance from the back of the flange to the tread datum, m (EN 13715).
 pub const FLANGE_BACK_TO_DATUM_M: f64 = 0.070;
 
-/// Ends of the sections A to H on the side of the flange, mm from the tread datum.
+/// Flange-side ends of the sections A to H, mm from the tread datum.
 pub const JOINTS_MM: [f64; 8] = [
     32.157_96,
     -26.0,
@@ -17,7 +17,7 @@ pub const JOINTS_MM: [f64; 8] = [
     -70.0,
 ];
 
-/// Coefficients of section B by rising power of the position in mm.
+/// Coefficients of section B, by rising powers of the position in mm.
 const B: [f64; 9] = [
     0.0,
     -3.358_537_058e-2,
@@ -29,7 +29,7 @@ const B: [f64; 9] = [
     -5.957_839_843e-12,
     2.646_656_573e-13,
 ];
-/// Coefficients of section C by rising power of the position in mm.
+/// Coefficients of section C, by rising powers of the position in mm.
 const C: [f64; 8] = [
     -4.320_221_063e3,
     -1.038_384_026e3,
@@ -43,7 +43,7 @@ const C: [f64; 8] = [
 
 /// Depth of one section at `s_mm` from the tread datum, mm, down positive.
 ///
-/// `section` counts from 0 (A) to 7 (H); greater numbers are H too.
+/// `section` is 0 (A) to 7 (H); larger numbers mean H as well.
 pub fn section_mm(section: usize, s_mm: f64) -> f64 {
     let s = s_mm;
     let polynomial = |c: &[f64]| c.iter().rev().fold(0.0, |sum, c| sum * s + c);
@@ -72,7 +72,7 @@ pub fn depth_mm(s_mm: f64) -> f64 {
     section_mm(section, s_mm)
 }
 
-/// The profile from 0.05 mm beside the back of the flange, where the tangent is vertical, to the field side.
+/// The profile from the flange back to the field side. It starts 0.05 mm from the back, where the tangent is vertical.
 pub fn profile() -> Profile {
     let mut points = Vec::new();
     let mut s = -69.95;

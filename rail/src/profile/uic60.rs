@@ -4,14 +4,14 @@ use super::{Profile, SAMPLE_SPACING_M};
 
 /// Radii of the head from the top to the side, mm.
 pub const RADII_MM: [f64; 3] = [300.0, 80.0, 13.0];
-/// Lateral positions of the joints R 300 to R 80 and R 80 to R 13, mm.
+/// Lateral positions of the joints from R 300 to R 80 and from R 80 to R 13, mm.
 pub const JOINTS_MM: [f64; 2] = [10.499_79, 25.988_03];
-/// Inclination of the side of the head: 1 across on 20 down.
+/// Inclination of the side of the head: 1 across to 20 down.
 const SIDE_INCLINATION: f64 = 1.0 / 20.0;
-/// Depth at which the profile ends, mm: below it the side turns back towards the web.
+/// Depth at which the profile ends, mm. Below, the head curves back towards the web.
 const MAX_DEPTH_MM: f64 = 36.0;
 
-/// Lateral position and depth at the arc length `arc_mm` from the top along the field half, mm.
+/// Lateral position and depth of the field half at the arc length `arc_mm` from the top, mm.
 ///
 /// ```
 /// // EN 13674-1: R 300 ends 10.5 mm from the middle, 0.18 mm down.

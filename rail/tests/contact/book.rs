@@ -1,4 +1,4 @@
-//! The law of the book of tables: smooth, with the derivatives it says, and its layout.
+//! The creep law of the book of tables: smoothness, derivatives and layout.
 
 use dashpot_rail::creep::{CreepForces, CreepLaw, Creepage, KalkerBook, LoadedContact};
 use proptest::prelude::*;
@@ -17,8 +17,8 @@ fn creepage([longitudinal, lateral, spin_per_m]: [f64; 3]) -> Creepage {
     }
 }
 
-/// Derivatives by the creepages in terms of sliding: force over `mu N`, moment over `mu N sqrt(a b)`, creepages over
-/// `mu N / (G a b C22)` and spin over that over `sqrt(a b)`.
+/// Dimensionless derivatives with respect to the creepages. The scales are `mu N` for forces, `mu N sqrt(a b)` for the
+/// moment, `s = mu N / (G a b C22)` for creepages and `s / sqrt(a b)` for spin.
 fn scaled_derivatives(contact: &LoadedContact, at: [f64; 3]) -> [[f64; 3]; 3] {
     let (limit, length) = (
         contact.friction * contact.load_n,
@@ -32,7 +32,7 @@ fn scaled_derivatives(contact: &LoadedContact, at: [f64; 3]) -> [[f64; 3]; 3] {
     [0, 1, 2].map(|i| [0, 1, 2].map(|j| by[i][j] * per[j] / of[i]))
 }
 
-/// A contact and creepages from small to sliding, in any direction.
+/// Contacts with creepages from small to full sliding, in any direction.
 fn cases() -> impl Strategy<Value = (LoadedContact, [f64; 3])> {
     let shape = (-2.0..2.0_f64, 0.1..0.6_f64);
     let creepages = (-2.0..1.0_f64, 0.0..std::f64::consts::TAU, -1.5..1.5_f64);
@@ -80,7 +80,7 @@ proptest! {
             for k in 0..3 {
                 let difference = (ahead[k] - behind[k]) / of[k];
                 let derived = derivatives.by_creepage[k][j] * 2.0 * step / of[k];
-                // Rounded to f32, and up to the change of slope over the step.
+                // Tolerance for rounding to f32 and for the change of slope over the step.
                 prop_assert!((difference - derived).abs() < 1e-6 + 2e-5 * size, "{k} {j}: {difference} {derived}");
             }
         }
@@ -111,7 +111,7 @@ proptest! {
 
     #[test]
     fn derivatives_have_no_jump((contact, at) in cases(), towards in prop::array::uniform3(-1.0..1.0_f64)) {
-        // Over a short way that may cross an edge of the cells, derivatives change by as little as the way is short.
+        // Over a short distance, possibly across the edge of a cell, derivatives change only a little.
         let length = 5e-3;
         let size = at[0].hypot(at[1]).hypot(at[2] * length);
         let moved = |way: f64| {

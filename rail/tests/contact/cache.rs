@@ -1,4 +1,4 @@
-//! Tables kept on disk: the same bits, found by content, replaced when they are not what they should be.
+//! Cached tables: identical bits, identified by content, replaced if damaged.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -38,7 +38,7 @@ fn same(a: &Tables, b: &Tables) -> bool {
 }
 
 #[test]
-fn tables_are_found_again_by_their_content() {
+fn tables_are_identified_by_their_content() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path().join("made/on/demand");
     let computed = Tables::new(geometry(100e3), grid()).unwrap();
@@ -48,7 +48,7 @@ fn tables_are_found_again_by_their_content() {
     let second = Tables::cached(&folder, geometry(100e3), grid()).unwrap();
     assert!(same(&computed, &first) && same(&computed, &second));
     assert_eq!(fs::metadata(&written).unwrap().modified().unwrap(), time);
-    // Another load, another grid: other tables.
+    // Another load and another grid need other tables.
     let other = Tables::cached(&folder, geometry(50e3), grid()).unwrap();
     assert!(!same(&computed, &other));
     let mut finer = grid();
@@ -58,7 +58,7 @@ fn tables_are_found_again_by_their_content() {
 }
 
 #[test]
-fn a_file_that_is_not_what_it_should_be_is_replaced() {
+fn a_wrong_or_damaged_file_is_replaced() {
     let folder = tempfile::tempdir().unwrap();
     let computed = Tables::cached(folder.path(), geometry(100e3), grid()).unwrap();
     let [file] = <[PathBuf; 1]>::try_from(files(folder.path())).unwrap();
@@ -72,7 +72,7 @@ fn a_file_that_is_not_what_it_should_be_is_replaced() {
         assert!(same(&computed, &again));
         assert_eq!(fs::read(&file).unwrap(), whole);
     }
-    // Whole and of this key, but computed by another method: the tables of another load under this name.
+    // A complete file with this key but other nodes, as from another method: the tables of another load.
     let other = tempfile::tempdir().unwrap();
     Tables::cached(other.path(), geometry(90e3), grid()).unwrap();
     let [strange] = <[PathBuf; 1]>::try_from(files(other.path())).unwrap();
@@ -85,7 +85,7 @@ fn a_file_that_is_not_what_it_should_be_is_replaced() {
 }
 
 #[test]
-fn a_folder_that_cannot_be_used_is_an_error_that_names_it() {
+fn an_unusable_folder_is_an_error_that_names_it() {
     let folder = tempfile::tempdir().unwrap();
     let occupied = folder.path().join("occupied");
     fs::write(&occupied, "a file").unwrap();

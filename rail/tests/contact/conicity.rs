@@ -1,4 +1,4 @@
-//! Rolling radius difference and equivalent conicity against closed forms and another integration.
+//! Rolling radius difference and equivalent conicity, compared with closed forms and an independent integration.
 
 use dashpot_rail::contact::{Installation, Pair};
 use dashpot_rail::indices::{CONTACT_DISTANCE_M, RollingRadiusDifference, RollingRadiusError};
@@ -17,15 +17,15 @@ fn a_cone_has_its_own_conicity_at_every_amplitude() {
 }
 
 #[test]
-fn a_shifted_cone_swings_about_its_own_line() {
+fn a_shifted_cone_oscillates_about_its_own_equilibrium() {
     let cone = RollingRadiusDifference::from_fn(10e-3, 400, |y| 2.0 * 0.1 * (y - 1.3e-3)).unwrap();
     assert!((cone.rolling_line_m().unwrap() - 1.3e-3).abs() < 1e-12);
     assert!((cone.equivalent_conicity(3e-3, RADIUS).unwrap() - 0.1).abs() < 1e-6);
 }
 
 #[test]
-fn a_step_has_the_wavelength_of_falling_to_and_fro() {
-    // Constant difference c either side: quarter wave sqrt(2 A e r / c), so tan g = pi^2 c / (16 A).
+fn a_step_has_the_wavelength_of_constant_acceleration() {
+    // Constant difference c on either side: quarter wave sqrt(2 A e r / c), so tan g = pi^2 c / (16 A).
     let c = 0.4e-3;
     let step = RollingRadiusDifference::from_fn(10e-3, 20_000, |y| c * y.signum()).unwrap();
     for amplitude in [1e-3, 4e-3] {
@@ -40,7 +40,7 @@ fn a_step_has_the_wavelength_of_falling_to_and_fro() {
 
 #[test]
 fn a_cubic_has_the_period_of_its_oscillator() {
-    // y'' = -k y^3 from A: quarter wave 1.854074677 / (A sqrt k), half the lemniscate's complete integral.
+    // y'' = -k y^3 from amplitude A: quarter wave 1.854074677 / (A sqrt k), from the lemniscate integral.
     let k3 = 2000.0;
     let cubic = RollingRadiusDifference::from_fn(10e-3, 4000, |y| k3 * y.powi(3)).unwrap();
     let amplitude = 5e-3;
@@ -55,14 +55,14 @@ fn a_cubic_has_the_period_of_its_oscillator() {
 }
 
 #[test]
-fn the_standard_pair_has_the_known_conicity_and_its_path_the_same_wave() {
+fn the_standard_pair_has_the_known_conicity_and_wavelength() {
     let pair = Pair::standard(Installation::default()).unwrap();
     let rolling = RollingRadiusDifference::of(&pair, 10e-3, 1600).unwrap();
     // S1002 on UIC 60 at 1:40, 1435 mm, 1360 mm: 0.17 to 0.18 at 3 mm in the literature (0.18 with two digits).
     let conicity = rolling.equivalent_conicity(3e-3, 0.625).unwrap();
     println!("conicity at 3 mm: {conicity:.4}");
     assert!((0.165..0.185).contains(&conicity), "{conicity}");
-    // The path itself, by Runge and Kutta's steps along the track.
+    // Integrates the path along the track by Runge-Kutta steps.
     for amplitude in [2e-3, 3e-3, 5.5e-3] {
         let bend = |y: f64| -rolling.at(y) / (CONTACT_DISTANCE_M * 0.625);
         let (mut y, mut slope, mut x) = (-amplitude, 0.0, 0.0);
@@ -87,14 +87,14 @@ fn the_standard_pair_has_the_known_conicity_and_its_path_the_same_wave() {
             "{amplitude}: {conicity} {expected}"
         );
     }
-    // Right and left are the same wheel.
+    // The right and the left wheel are equal.
     for i in 0..=800 {
         let (a, b) = (rolling.difference_m()[i], rolling.difference_m()[1600 - i]);
         assert!((a + b).abs() < 1e-6, "{a} {b}");
     }
 }
 
-/// A cone of 1:40 with a straight flange face of 70 degrees and a round tip, as readings each half millimetre.
+/// A cone of 1:40 with a straight flange face of 70 degrees and a round tip, sampled every 0.5 mm.
 fn cone() -> Profile {
     let face = 70_f64.to_radians().tan();
     let points: Vec<[f64; 2]> = (-132..=120)
@@ -115,17 +115,14 @@ fn cone() -> Profile {
 }
 
 #[test]
-fn a_cone_on_the_round_head_rolls_on_the_point_of_equal_slope() {
-    let installation = Installation {
-        inclination: 0.0,
-        ..Installation::default()
-    };
+fn a_cone_touches_the_round_head_at_the_point_of_equal_slope() {
+    let installation = Installation::default().with_inclination(0.0);
     let pair = Pair::new(cone(), &uic60::profile(), installation).unwrap();
     let mut scratch = Vec::new();
     for shift in [-4e-3, -1e-3, 0.0, 2e-3, 4e-3] {
         let contact = pair.rigid_contact(shift, 0.0, &mut scratch);
         for (side, sign) in contact.sides.iter().zip([-1.0, 1.0]) {
-            // The cone touches R 300 where the head has its slope: 300 sin(g) from the rail's middle.
+            // The cone touches R 300 where the head has the slope of the cone, 300 sin(g) from the middle of the rail.
             let slope = (1.0_f64 / 40.0).atan() - sign * contact.roll_rad;
             let middle = 0.5 * 1.435 + 35.984e-3;
             let y = middle - 0.3 * slope.sin();
@@ -140,8 +137,8 @@ fn a_cone_on_the_round_head_rolls_on_the_point_of_equal_slope() {
                 side.slope
             );
         }
-        // To the first order of the small angles a cone's radius difference is 2 g y / (1 - g R / e),
-        // with e the half distance of the points: the shift of the points on the heads included.
+        // To first order in the small angles, the radius difference of a cone is 2 g y / (1 - g R / e), where e is half
+        // the distance of the contact points. This includes the shift of the points on the rail heads.
         let e = contact.sides[1].track_y_m;
         let expected = 2.0 / 40.0 * shift / (1.0 - 0.3 / 40.0 / e);
         let found = contact.rolling_radius_difference_m();
@@ -153,7 +150,7 @@ fn a_cone_on_the_round_head_rolls_on_the_point_of_equal_slope() {
 }
 
 #[test]
-fn samples_that_make_no_function_are_refused() {
+fn invalid_samples_are_rejected() {
     let length = RollingRadiusDifference::new(vec![0.0], vec![0.0]).unwrap_err();
     assert!(matches!(
         length,

@@ -1,4 +1,4 @@
-//! Creep laws against exact theory and linear theory, and what holds for every law.
+//! Creep laws compared with exact theory and linear theory, and properties of every law.
 
 use dashpot_rail::creep::{CreepForces, Creepage, Friction, LoadedContact, linear_forces};
 use proptest::prelude::*;
@@ -8,7 +8,7 @@ use crate::common::{contact, laws};
 const CURVE: &str = include_str!("../../data/creep_curve.csv");
 
 #[test]
-fn the_creep_curve_of_exact_theory() {
+fn laws_follow_the_creep_curve_of_exact_theory() {
     let contact = contact(106_700.0, 6.304e-3, 12.61e-3, 0.33);
     let limit = contact.load_n * contact.friction;
     for (name, law) in laws() {
@@ -30,8 +30,8 @@ fn the_creep_curve_of_exact_theory() {
             worst = worst.max(off.abs());
         }
         println!("{name}: within {:.1} % of exact theory", worst * 100.0);
-        // The literature's "about 5 %". Each law's own formula sets its error, at any mesh for FASTSIM
-        // (its closed form is in `fastsim.rs`); of the friction limit it is 4.2, 5.5 and 3.6 %.
+        // The literature states "about 5 %". The errors are inherent in the formulas of the laws, for FASTSIM on any
+        // mesh (its closed form is in `fastsim.rs`). Relative to the friction limit they are 4.2, 5.5 and 3.6 %.
         let known = match name {
             "FASTSIM 80 x 81" => 0.054,
             "Polach" => 0.059,
@@ -49,7 +49,7 @@ fn small_creepages_are_linear() {
             let cases = [
                 (1e-7, 0.0, 0.0),
                 (0.0, -1e-7, 0.0),
-                // Polach mixes sliding and spin; alone, each is linear.
+                // Polach couples sliding and spin; each alone is linear.
                 (0.0, 0.0, 1e-5),
             ];
             for (longitudinal, lateral, spin) in cases {
@@ -64,7 +64,7 @@ fn small_creepages_are_linear() {
                 );
                 let off = (computed.longitudinal_n - expected.longitudinal_n)
                     .hypot(computed.lateral_n - expected.lateral_n);
-                // FASTSIM's flexibilities reproduce the coefficients only as its mesh rises.
+                // FASTSIM's flexibilities reproduce the coefficients only on a fine mesh.
                 assert!(
                     off <= 2e-3 * expected.magnitude_n(),
                     "{name} {creepage:?} {computed:?} {expected:?}"
@@ -75,7 +75,7 @@ fn small_creepages_are_linear() {
 }
 
 #[test]
-fn full_sliding_is_friction_against_the_sliding() {
+fn in_full_sliding_friction_opposes_the_sliding() {
     let contact = contact(80e3, 6e-3, 4e-3, 0.3);
     let limit = 0.3 * 80e3;
     for (name, law) in laws() {
@@ -87,7 +87,7 @@ fn full_sliding_is_friction_against_the_sliding() {
                 spin_per_m: 0.0,
             };
             let forces = law.forces(&contact, &creepage);
-            // In the law of Shen, Hedrick and Elkins the linear stiffnesses determine the direction.
+            // The direction in the law of Shen, Hedrick and Elkins depends on the linear stiffnesses.
             let (x, y) = if name == "Shen-Hedrick-Elkins" {
                 (x * contact.kalker.c11, y * contact.kalker.c22)
             } else {
@@ -187,12 +187,10 @@ fn contacts_without_load_area_or_friction_give_no_force() {
 }
 
 #[test]
-fn friction_falls_as_its_law_says() {
-    let friction = Friction {
-        static_coefficient: 0.36,
-        residual_ratio: 0.4,
-        decay_speed_m_per_s: 2.0,
-    };
+fn falling_friction_follows_its_formula() {
+    let friction = Friction::constant(0.36)
+        .with_residual_ratio(0.4)
+        .with_decay_speed_m_per_s(2.0);
     assert!((friction.at(0.0) - 0.36).abs() < 1e-15);
     assert!((friction.at(1e9) - 0.144).abs() < 1e-15);
     assert!((friction.at(2.0) - 0.36 * (0.6 / std::f64::consts::E + 0.4)).abs() < 1e-15);
@@ -227,7 +225,8 @@ proptest! {
             let limit = friction * load;
             prop_assert!(forces.magnitude_n() <= limit * (1.0 + 1e-9), "{name} {forces:?}");
             let scale = limit * (size + creepage.spin_per_m.abs() * a.max(b));
-            prop_assert!(forces.dissipation_n(&creepage) >= -1e-12 * scale, "{name} {forces:?} {}", forces.dissipation_n(&creepage));
+            let dissipation = forces.dissipation_n(&creepage);
+            prop_assert!(dissipation >= -1e-12 * scale, "{name} {forces:?} {dissipation}");
             let other = law.forces(&contact, &mirror);
             prop_assert!((other.longitudinal_n - forces.longitudinal_n).abs() <= 1e-9 * limit, "{name}");
             prop_assert!((other.lateral_n + forces.lateral_n).abs() <= 1e-9 * limit, "{name}");

@@ -1,4 +1,4 @@
-//! Derivatives of the forces against differences of the forces.
+//! Derivatives of the forces, compared with differences of the forces.
 
 use dashpot_rail::contact::{
     MOTION_FIELDS, Motion, PatchSource, RailDisplacement, WheelsetContact, WheelsetForces,
@@ -8,8 +8,8 @@ use proptest::prelude::*;
 
 use crate::common::{LEVEL, at_height_under_load, geometry, rolling, tables};
 
-/// The field of `motion` in the order of its declaration, and a step that moves contact by a tenth of a micrometre or
-/// micrometres a second: above the noise of tables in single precision, within their cells.
+/// A field of `motion`, by its index in the declaration, and a step that moves the contact by 0.1 um or a few um/s.
+/// That is above the noise of tables in single precision, and within their cells.
 fn field(motion: &mut Motion, index: usize) -> (&mut f64, f64) {
     match index {
         0 => (&mut motion.speed_m_per_s, 1e-6),
@@ -25,8 +25,8 @@ fn field(motion: &mut Motion, index: usize) -> (&mut f64, f64) {
     }
 }
 
-/// Greatest distance of the derivatives from the differences to both sides (between which they lie at the edge of a cell),
-/// over the greatest derivative by the same field.
+/// Maximum distance of the derivatives from the interval between the one-sided differences (which differ at the edge of
+/// a cell), relative to the maximum derivative with respect to the same field.
 fn worst<L: CreepLaw, S: PatchSource>(
     contact: &WheelsetContact<L, S>,
     motion: &Motion,
@@ -68,11 +68,9 @@ fn worst<L: CreepLaw, S: PatchSource>(
 }
 
 fn damped<S: PatchSource>(source: std::sync::Arc<S>) -> WheelsetContact<ShenHedrickElkins, S> {
-    let friction = Friction {
-        static_coefficient: 0.35,
-        residual_ratio: 0.4,
-        decay_speed_m_per_s: 2.0,
-    };
+    let friction = Friction::constant(0.35)
+        .with_residual_ratio(0.4)
+        .with_decay_speed_m_per_s(2.0);
     WheelsetContact::new(source, ShenHedrickElkins, friction)
         .and_then(|contact| contact.with_normal_damping(3.0))
         .unwrap()
@@ -126,7 +124,7 @@ proptest! {
 }
 
 #[test]
-fn the_geometry_itself_has_the_derivatives_of_its_forces() {
+fn the_derivatives_of_the_geometry_are_those_of_its_forces() {
     let contact = damped(std::sync::Arc::new(geometry().clone()));
     for lateral_m in [-2e-3, 1e-3, 5e-3, 6.4e-3] {
         let motion = Motion {

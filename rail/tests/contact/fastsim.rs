@@ -1,4 +1,4 @@
-//! FASTSIM against the closed form of the simplified theory, and over its mesh.
+//! FASTSIM compared with the closed form of the simplified theory, and its convergence.
 
 use std::f64::consts::PI;
 
@@ -6,7 +6,7 @@ use dashpot_rail::creep::{CreepForces, CreepLaw, Creepage, Fastsim, LoadedContac
 
 use crate::common::contact;
 
-/// Force of Kalker's simplified theory without spin, strips integrated in closed form.
+/// Force of Kalker's simplified theory without spin, integrated along each strip in closed form.
 fn simplified(contact: &LoadedContact, creepage: f64, c: f64) -> f64 {
     let (a, b) = (contact.a_m, contact.b_m);
     let flexibility = 8.0 * a / (3.0 * c * contact.shear_modulus_pa);
@@ -30,13 +30,10 @@ fn simplified(contact: &LoadedContact, creepage: f64, c: f64) -> f64 {
 }
 
 #[test]
-fn fastsim_without_spin_is_the_closed_form() {
+fn fastsim_without_spin_agrees_with_the_closed_form() {
     let contact = contact(80e3, 6e-3, 4e-3, 0.3);
     let limit = contact.load_n * contact.friction;
-    let fine = Fastsim {
-        elements: 200,
-        strips: 201,
-    };
+    let fine = Fastsim::default().with_elements(200).with_strips(201);
     for creepage in [2e-4, 1e-3, 2e-3, 4e-3, 2e-2] {
         let forces = fine.forces(
             &contact,
@@ -84,11 +81,10 @@ fn a_finer_mesh_converges() {
         let all: Vec<CreepForces> = meshes
             .iter()
             .map(|&elements| {
-                Fastsim {
-                    elements,
-                    strips: elements + 1,
-                }
-                .forces(&contact, &creepage)
+                Fastsim::default()
+                    .with_elements(elements)
+                    .with_strips(elements + 1)
+                    .forces(&contact, &creepage)
             })
             .collect();
         let finest = all[all.len() - 1];

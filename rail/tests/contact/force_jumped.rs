@@ -1,4 +1,4 @@
-//! Tables of worn profiles whose force jumps from one pose to the next were made without a word, and vehicles ran on them.
+//! Regression: tables of worn profiles whose force jumps between poses were accepted without an error.
 
 use std::f64::consts::TAU;
 
@@ -9,7 +9,7 @@ use dashpot_rail::contact::{
 use dashpot_rail::profile::measured::{self, Mirror, Options};
 use dashpot_rail::profile::{Body, Profile, s1002, uic60};
 
-/// Few rolls and yaws; shifts as by default where contact matters.
+/// A grid with few rolls and yaws, and the default shifts where there is contact.
 fn grid() -> Grid {
     let mut grid = Grid::default();
     grid.lateral_m.cells = [40, 400, 40];
@@ -23,7 +23,7 @@ fn geometry(wheel: Profile, rail: &Profile, nominal_load_n: f64) -> ContactGeome
     ContactGeometry::new(pair, Steel::default(), nominal_load_n).unwrap()
 }
 
-/// S1002 with a tread worn into waves of 8 mm, 60 um high to each side: more summits than zones.
+/// S1002 with waves of 8 mm length and 60 um amplitude on the tread: more summits than zones.
 fn worn_wheel() -> Profile {
     let wave = |y: f64| {
         let ramp = |t: f64| t.clamp(0.0, 1.0).powi(2) * (3.0 - 2.0 * t.clamp(0.0, 1.0));
@@ -67,7 +67,7 @@ fn change_n(geometry: &ContactGeometry, pose: &WheelPose, load_n: f64) -> f64 {
 }
 
 #[test]
-fn a_worn_wheel_whose_force_jumps_is_refused_with_the_place() {
+fn a_worn_wheel_whose_force_jumps_is_rejected_with_its_pose() {
     let geometry = geometry(worn_wheel(), &uic60::profile(), 100e3);
     let error = Tables::new(geometry.clone(), grid()).unwrap_err();
     let TablesError::Jump { wheel, rail, jump } = &error else {
@@ -84,13 +84,13 @@ fn a_worn_wheel_whose_force_jumps_is_refused_with_the_place() {
     let size = format!("jumps by {jump_n:.0} N under a load of {load_n:.0} N");
     let text = error.to_string();
     assert!(text.contains(&place) && text.contains(&size), "{text}");
-    // The force itself, from the geometry.
+    // The force from the geometry itself.
     let found = change_n(&geometry, &pose, load_n);
     assert!(
         (found / jump_n - 1.0).abs() < 0.6 && found > 0.1 * load_n,
         "{found}: {text}"
     );
-    // A micrometre beside it there is no jump.
+    // One micrometre away there is no jump.
     let beside = WheelPose {
         lateral_m: pose.lateral_m + 1e-6,
         ..pose
@@ -99,9 +99,9 @@ fn a_worn_wheel_whose_force_jumps_is_refused_with_the_place() {
     assert!(found < 0.02 * load_n, "{found}");
 }
 
-/// Neither a cache nor what was kept in one lets such a pair pass.
+/// The cache rejects such a pair as well.
 #[test]
-fn a_cache_refuses_it_too_and_keeps_nothing() {
+fn a_cache_rejects_it_too_and_stores_nothing() {
     let folder = tempfile::tempdir().unwrap();
     let geometry = geometry(worn_wheel(), &uic60::profile(), 100e3);
     for _ in 0..2 {
@@ -112,8 +112,8 @@ fn a_cache_refuses_it_too_and_keeps_nothing() {
     assert!(Tables::kept(folder.path(), geometry, grid()).is_err());
 }
 
-/// Tread and flange of S1002 touch UIC 60 together, and one takes over from the other within hundredths of a millimetre: no jump, under the
-/// wheel loads of all usual vehicles.
+/// Tread and flange of S1002 touch UIC 60 simultaneously, and the load moves from one to the other within hundredths of
+/// a millimetre. Under usual wheel loads that is not a jump.
 #[test]
 fn the_shipped_pair_passes_under_any_wheel_load() {
     for nominal_load_n in [15e3, 20e3, 29e3, 40e3, 53e3, 75e3, 101.3e3, 130e3] {
@@ -129,10 +129,7 @@ fn the_sample_files_pass() {
     let read = |name: &str, body: Body, mirror: Option<Mirror>| {
         let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/");
         let text = std::fs::read_to_string(format!("{folder}{name}")).unwrap();
-        let options = Options {
-            mirror,
-            ..Options::default()
-        };
+        let options = Options::default().with_mirror(mirror);
         measured::parse(name, &text, body, &options).unwrap().0
     };
     for (wheel, rail, mirror) in [

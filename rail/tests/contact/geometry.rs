@@ -1,11 +1,11 @@
-//! Contact geometry against a dense evaluation that shares no code with it.
+//! Contact geometry compared with a dense evaluation that shares no code with it.
 
 use std::sync::OnceLock;
 
 use dashpot_rail::contact::{Installation, Pair, WheelPose, Zones};
 use dashpot_rail::profile::{s1002, uic60};
 
-/// The laid rail 60E1 from its arcs alone: depth at a lateral position by bisection, m.
+/// The laid rail 60E1, computed from its arcs alone: depth at a lateral position by bisection, m.
 struct DenseRail {
     shift: f64,
     crown: f64,
@@ -19,9 +19,9 @@ impl DenseRail {
             shift: 0.0,
             crown: 0.0,
         };
-        // The centre of R 300 moves up by its cosine; the crown lies 300 mm above it.
+        // The inclination moves the centre of R 300; the crown lies 300 mm above it.
         rail.crown = 300e-3 * Self::TILT.atan().cos() - 300e-3;
-        // The gauge face 14 mm below the crown lies at half the gauge.
+        // The gauge face, 14 mm below the crown, lies at half the gauge.
         let (mut low, mut high) = (-45e-3, -20e-3);
         for _ in 0..80 {
             let middle = 0.5 * (low + high);
@@ -34,7 +34,7 @@ impl DenseRail {
         rail
     }
 
-    /// WheelPose at `arc` m from the top, negative to the gauge side, tilted, m.
+    /// Position on the inclined rail at the arc length `arc` from the top, negative towards the gauge side, m.
     fn position(&self, arc: f64) -> [f64; 2] {
         let [y, z] = uic60::position_mm(arc.abs() * 1e3).map(|x| x * 1e-3);
         let y = y * arc.signum();
@@ -62,16 +62,17 @@ impl DenseRail {
     }
 }
 
-/// How far the wheel, a body of revolution turned in space, reaches below the rail, and where on the profile this is.
+/// Maximum depth of the wheel, a rotated body of revolution, below the rail, and the position of that point on the
+/// profile.
 ///
-/// Circles of the profile, each turned point by point; the search closes in on the best.
+/// Rotates every point of the circles of the profile; the search is refined around the deepest point.
 fn dense(rail: &DenseRail, pose: &WheelPose) -> (f64, f64) {
     let radius = 0.625;
     let (sin_yaw, cos_yaw) = pose.yaw_rad.sin_cos();
     let (sin_roll, cos_roll) = pose.roll_rad.sin_cos();
     let reach = |s: f64, turn: f64| -> f64 {
         let r = radius + s1002::depth_mm(s * 1e3) * 1e-3;
-        // Wheel axes about the datum: x forward, y out, z down.
+        // Wheel axes with the origin at the datum: x forward, y outwards, z down.
         let [x, y, z] = [r * f64::sin(turn), s, r * f64::cos(turn) - radius];
         let across = x * sin_yaw + y * cos_yaw;
         let lateral = 0.750 + pose.lateral_m + across * cos_roll - z * sin_roll;
@@ -108,7 +109,7 @@ fn dense(rail: &DenseRail, pose: &WheelPose) -> (f64, f64) {
     (best.0, best.1)
 }
 
-/// Poses with contact on tread, root, flange face and tip, with depth and position on the wheel by the dense search.
+/// Poses with contact on tread, root, flange face and tip, with the depth and position found by the dense search.
 fn searched() -> &'static [(WheelPose, f64, f64)] {
     static SEARCHED: OnceLock<Vec<(WheelPose, f64, f64)>> = OnceLock::new();
     SEARCHED.get_or_init(|| {
@@ -132,7 +133,7 @@ fn searched() -> &'static [(WheelPose, f64, f64)] {
 }
 
 #[test]
-fn the_rigid_search_finds_what_a_dense_one_finds() {
+fn the_rigid_search_agrees_with_the_dense_search() {
     let pair = Pair::standard(Installation::default()).unwrap();
     let mut scratch = Vec::new();
     let mut worst = 0.0_f64;
@@ -140,14 +141,14 @@ fn the_rigid_search_finds_what_a_dense_one_finds() {
         let found = pair.deepest(&pose, &mut scratch);
         let off = (found.interpenetration_m - depth).abs();
         worst = worst.max(off);
-        // Across a steep face, heights answer a lateral error 2.7-fold.
+        // On a steep face, a lateral error changes the height 2.7-fold.
         assert!(
             off < 0.3e-6,
             "{pose:?}: {} for {depth}, s {} for {s}",
             found.interpenetration_m,
             found.wheel_y_m
         );
-        // The position of a flat maximum is known to the square root of the error of its height.
+        // The error of the position of a flat maximum is the square root of the error of its height.
         let width = (2.0 * 0.3e-6 / found.curvature_per_m.max(0.5)).sqrt() + 20e-6;
         assert!(
             (found.wheel_y_m - s).abs() < width,
@@ -176,7 +177,7 @@ fn patches_lie_within_the_softness_of_the_dense_maximum() {
             .filter(|patch| patch.load_fraction > 1e-3)
             .max_by(|p, q| p.interpenetration_m.total_cmp(&q.interpenetration_m))
             .unwrap();
-        // Along the normal: softness and loads are measured there.
+        // Compares along the normal, the direction of softness and loads.
         let off = (deepest.interpenetration_m - depth) / 1.0_f64.hypot(deepest.slope);
         worst = worst.max(off.abs());
         squares += off * off;

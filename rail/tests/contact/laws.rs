@@ -1,4 +1,4 @@
-//! Each creep law's error, measured, against the block of docs/contact.md that states it.
+//! Measured errors of the creep laws, compared with the block of docs/contact.md that states them.
 //!
 //! `DASHPOT_BLESS=1 cargo test -p dashpot-rail --test contact laws` rewrites the block.
 
@@ -18,10 +18,11 @@ const CURVE: &str = include_str!("../../data/creep_curve.csv");
 
 const GRID: &str = include_str!("../../data/creep_exact_grid.csv");
 
-/// Spins of the grid: `phi sqrt(ab)` over the creepage `s = mu N / (G ab C11)` that slides in linear theory.
+/// Spins of the grid: `phi sqrt(ab) / s`, where `s = mu N / (G ab C11)` is the creepage of full sliding in linear
+/// theory.
 const SPINS: [f64; 4] = [0.0, 0.5, 1.0, 2.0];
 
-/// The lines of a table that are not comments and headers, cell by cell.
+/// The rows of a table, without comments and headers.
 fn rows(text: &str) -> impl Iterator<Item = Vec<f64>> {
     let rows = text
         .lines()
@@ -29,7 +30,7 @@ fn rows(text: &str) -> impl Iterator<Item = Vec<f64>> {
     rows.map(|line| line.split(',').map(|cell| cell.parse().unwrap()).collect())
 }
 
-/// Greatest distance from exact theory over its value, pure longitudinal.
+/// Maximum relative deviation from exact theory, for longitudinal creepage alone.
 fn from_curve(law: &dyn CreepLaw) -> f64 {
     let contact = contact(106_700.0, 6.304e-3, 12.61e-3, 0.33);
     rows(CURVE)
@@ -43,7 +44,7 @@ fn from_curve(law: &dyn CreepLaw) -> f64 {
         .fold(0.0, f64::max)
 }
 
-/// RMS and greatest distance from exact theory over the friction limit, for each of [`SPINS`].
+/// RMS and maximum deviation from exact theory, relative to the friction limit, for each of [`SPINS`].
 fn from_grid(law: &dyn CreepLaw) -> [(f64, f64); 4] {
     let mut sums = [(0.0, 0.0, 0.0_f64); 4];
     for row in rows(GRID) {
@@ -72,8 +73,8 @@ fn from_grid(law: &dyn CreepLaw) -> [(f64, f64); 4] {
     sums.map(|(squares, count, worst)| (f64::sqrt(squares / count), worst))
 }
 
-/// Force on a wheelset of 206 kN over its friction: on the treads (3 mm, 2 mrad), and with the flange in contact
-/// (6.4 mm, 6 mrad).
+/// Force on a wheelset of 206 kN divided by its friction: on the treads (3 mm, 2 mrad), and in flange contact (6.4 mm,
+/// 6 mrad).
 fn on_a_wheelset(law: impl CreepLaw) -> [[f64; 3]; 2] {
     let contact = WheelsetContact::new(tables(), law, Friction::default()).unwrap();
     [(3e-3, 2e-3), (6.4e-3, 6e-3)].map(|(lateral_m, yaw_rad)| {
@@ -88,12 +89,12 @@ fn on_a_wheelset(law: impl CreepLaw) -> [[f64; 3]; 2] {
     })
 }
 
-/// Member `n` of a sequence that fills the unit interval evenly.
+/// Element `n` of a low-discrepancy sequence on the unit interval.
 fn even(n: usize, irrational: f64) -> f64 {
     (n as f64 * irrational).fract()
 }
 
-/// RMS and greatest errors of the tables at evenly spread poses within 10 mm, 10 mrad roll, 30 mrad yaw.
+/// RMS and maximum errors of the tables at evenly spread poses within 10 mm shift, 10 mrad roll and 30 mrad yaw.
 fn table_errors() -> Vec<(&'static str, f64, f64)> {
     let tables = tables();
     let names = [
@@ -121,7 +122,7 @@ fn table_errors() -> Vec<(&'static str, f64, f64)> {
                 summit.max(patch.interpenetration_m)
             });
         for (r, c) in read.iter().zip(&computed) {
-            // A patch 0.3 mm or more above the other one carries no load.
+            // A patch at least 0.3 mm above the other patch carries no load.
             if c.load_fraction < 0.5 || c.interpenetration_m < summit - 0.3e-3 {
                 continue;
             }
@@ -148,7 +149,8 @@ fn table_errors() -> Vec<(&'static str, f64, f64)> {
 
 fn measured() -> String {
     let mut text = String::from(
-        "| law | curve: greatest | no spin: RMS / greatest | spin 0.5: RMS / greatest | spin 1: RMS / greatest | spin 2: RMS / greatest |\n\
+        "| law | curve: greatest | no spin: RMS / greatest | spin 0.5: RMS / greatest | spin 1: RMS / greatest \
+         | spin 2: RMS / greatest |\n\
          |---|---|---|---|---|---|\n",
     );
     for (name, law) in laws() {
@@ -185,7 +187,7 @@ fn measured() -> String {
 }
 
 #[test]
-fn the_document_states_what_is_measured() {
+fn the_document_states_the_measured_errors() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/contact.md");
     let document = std::fs::read_to_string(&path).unwrap();
     let begin = document.find(BEGIN).expect("the block begins") + BEGIN.len();
@@ -213,7 +215,7 @@ fn the_recommended_law_is_exact_theory() {
 
 #[test]
 fn tables_keep_their_bounds() {
-    // A wheel's penetration is near 60 um and its radius matters to the conicity at 20 um.
+    // The penetration of a wheel is about 60 um; 20 um of its radius matter for the conicity.
     let errors = table_errors();
     assert!(errors[0].1 < 0.5 && errors[0].2 < 10.0, "{errors:?}");
     assert!(errors[1].1 < 80.0, "{errors:?}");

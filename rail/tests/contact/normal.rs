@@ -1,4 +1,4 @@
-//! Hertz and Kalker against their tables and closed forms.
+//! Hertz constants and Kalker coefficients, compared with published tables and closed forms.
 
 use dashpot_rail::contact::{Hertz, Steel};
 use dashpot_rail::creep::{KalkerError, KalkerTable};
@@ -20,7 +20,7 @@ fn a_wheel_on_a_rail_head_has_the_known_ellipse() {
 }
 
 #[test]
-fn a_ball_has_its_closed_form() {
+fn a_ball_agrees_with_its_closed_form() {
     let steel = Steel::default();
     let plane = steel.young_modulus_pa / (2.0 * (1.0 - steel.poisson_ratio.powi(2)));
     let hertz = Hertz::new(&steel, 5.0, 5.0);
@@ -30,7 +30,7 @@ fn a_ball_has_its_closed_form() {
 }
 
 #[test]
-fn curvatures_that_are_not_positive_make_no_contact() {
+fn without_positive_curvatures_there_is_no_contact() {
     for (rolling, across) in [
         (0.0, 1.0),
         (1.0, -1.0),
@@ -44,7 +44,7 @@ fn curvatures_that_are_not_positive_make_no_contact() {
 }
 
 #[test]
-fn every_row_of_hertz_s_table_is_met() {
+fn hertz_s_table_is_reproduced() {
     let steel = Steel::default();
     let plane = steel.young_modulus_pa / (2.0 * (1.0 - steel.poisson_ratio.powi(2)));
     for line in HERTZ
@@ -52,7 +52,7 @@ fn every_row_of_hertz_s_table_is_met() {
         .filter(|line| line.starts_with(|c: char| c.is_ascii_digit()))
     {
         let row: Vec<f64> = line.split(',').map(|cell| cell.parse().unwrap()).collect();
-        // A + B = 2 per m, B - A by theta; the rolling direction is the flatter one.
+        // A + B = 2 per m, B - A follows from theta; the rolling direction has the smaller curvature.
         let difference = 2.0 * row[0].to_radians().cos();
         let hertz = Hertz::new(&steel, 2.0 - difference, 2.0 + difference);
         let circle = (3.0 * 1000.0 / (4.0 * plane * 2.0)).cbrt();
@@ -84,7 +84,7 @@ fn kalker_rows() -> Vec<[f64; 6]> {
 }
 
 #[test]
-fn kalker_s_rows_are_met_at_every_poisson_ratio() {
+fn kalker_s_table_is_reproduced_at_every_poisson_ratio() {
     let rows = kalker_rows();
     assert_eq!(rows.len(), 57);
     for row in rows {
@@ -96,9 +96,9 @@ fn kalker_s_rows_are_met_at_every_poisson_ratio() {
 }
 
 #[test]
-fn between_rows_a_removed_row_is_recovered() {
-    // A table of every other ratio must give the coefficients between: twice the table's spacing,
-    // so at most about sixteen times its error.
+fn interpolation_recovers_removed_rows() {
+    // A table with every other ratio must reproduce the coefficients in between. It has twice the spacing, so at most
+    // about sixteen times the error.
     let header = "a_over_b,nu,C11,C22,C23,C33\n".to_owned();
     let rows = kalker_rows();
     let half = rows
@@ -124,7 +124,7 @@ fn between_rows_a_removed_row_is_recovered() {
 }
 
 #[test]
-fn a_wrong_kalker_table_is_refused_with_line_and_column() {
+fn a_wrong_kalker_table_is_rejected_with_line_and_column() {
     let message = |text: &str| KalkerTable::from_csv(text, 0.3).unwrap_err().to_string();
     for (from, to, expected) in [
         (
@@ -186,12 +186,12 @@ fn a_wrong_kalker_table_is_refused_with_line_and_column() {
 }
 
 #[test]
-fn slender_ellipses_reach_kalker_s_limits() {
+fn slender_ellipses_approach_kalker_s_limits() {
     use std::f64::consts::PI;
     for nu in [0.0, 0.3, 0.5] {
         let table = KalkerTable::new(nu).unwrap();
         let c = table.at(1e-4);
-        // The table's end at 0.1 lies up to 4 % above the limit it starts from.
+        // The end of the table at 0.1 lies up to 4 % above the asymptotic limit.
         assert!(
             (c.c11 / (PI * PI / (4.0 * (1.0 - nu))) - 1.0).abs() < 0.04,
             "{c:?}"

@@ -1,4 +1,4 @@
-//! Several patches on one wheel: where they are, what each carries, and that none appears or goes with a jump.
+//! Several patches on one wheel: positions, loads, and continuity where patches appear or vanish.
 
 use std::sync::Arc;
 
@@ -16,7 +16,7 @@ fn contact(wheel: Profile, rail: &Profile) -> WheelsetContact<KalkerBook, Contac
     WheelsetContact::new(geometry, KalkerBook::new(), Friction::default()).unwrap()
 }
 
-/// A profile with `change_mm` added to the depth at each position in mm.
+/// A profile with `change_mm` added to its depth at each position, mm.
 fn changed(profile: &Profile, name: &str, change_mm: impl Fn(f64) -> f64) -> Profile {
     let points: Vec<[f64; 2]> = profile
         .points()
@@ -27,14 +27,14 @@ fn changed(profile: &Profile, name: &str, change_mm: impl Fn(f64) -> f64) -> Pro
     Profile::through(name, &points, 0.0).unwrap()
 }
 
-/// A hump of `height_mm` at `at_mm`, which raises a rail.
+/// A hump of `height_mm` at `at_mm`; raises the surface of a rail.
 fn hump(y_mm: f64, at_mm: f64, height_mm: f64) -> f64 {
     -height_mm * (-((y_mm - at_mm) / 3.0).powi(2)).exp()
 }
 
 #[test]
 fn s1002_touches_at_tread_and_root_at_five_millimetres() {
-    // An elastic half-space under 100 kN has two areas there, of 67 kN at 737 mm and of 33 kN at 727 mm.
+    // An elastic half-space under 100 kN has two contact areas there, with 67 kN at 737 mm and 33 kN at 727 mm.
     let contact = contact(s1002::profile(), &uic60::profile());
     let motion = Motion {
         lateral_m: 5e-3,
@@ -57,7 +57,7 @@ fn s1002_touches_at_tread_and_root_at_five_millimetres() {
 
 #[test]
 fn three_separate_contacts_carry_their_own_hertz_loads() {
-    // A rail worn flat with three humps, under a wheel that is a cylinder beside its root.
+    // A flat rail with three humps, under a wheel that is cylindrical outside its root.
     let wheel = changed(&s1002::profile(), "cylinder", |y| {
         if y > -25.0 {
             -s1002::depth_mm(y)
@@ -73,10 +73,7 @@ fn three_separate_contacts_carry_their_own_hertz_loads() {
         };
         flat + hump(y, -14.0, 1.0) + hump(y, 2.0, 1.0) + hump(y, 17.0, 1.0)
     });
-    let installation = Installation {
-        inclination: 0.0,
-        ..Installation::default()
-    };
+    let installation = Installation::default().with_inclination(0.0);
     let pair = Pair::new(wheel, &rail, installation).unwrap();
     let geometry = Arc::new(ContactGeometry::new(pair, Steel::default(), 100e3).unwrap());
     let contact = WheelsetContact::new(geometry, KalkerBook::new(), Friction::default()).unwrap();
@@ -86,14 +83,14 @@ fn three_separate_contacts_carry_their_own_hertz_loads() {
     assert_eq!(loaded.len(), 3, "{loaded:?}");
     let mut rest = 0.0;
     for patch in loaded {
-        // A hump exp(-(y/3)^2) of 1 mm has the curvature 2/9 per mm at its top.
+        // A hump exp(-(y/3)^2) of 1 mm height has a curvature of 2/9 per mm at its top.
         let hertz = Hertz::new(
             &Steel::default(),
             1.0 / patch.rolling_radius_m,
             2.0 / 9.0 * 1e3,
         );
         let expected = hertz.load_n(patch.penetration_m);
-        // The mean curvature of the weights is a little less than that of the top.
+        // The weighted mean curvature is slightly less than that at the top.
         assert!(
             (patch.load_n / expected - 1.0).abs() < 0.1,
             "{patch:?} {expected}"
@@ -102,7 +99,7 @@ fn three_separate_contacts_carry_their_own_hertz_loads() {
         rest += patch.load_n;
     }
     assert!((rest - 100e3).abs() < 1e3, "{rest}");
-    // Four patches are computed side by side; the third of a wheel comes after them.
+    // Four patches are evaluated in parallel; the third patch of a wheel is evaluated after them.
     let mut one_by_one = WheelsetForces::default();
     contact.update_with_derivatives(&motion, &LEVEL, &mut one_by_one);
     assert_eq!(forces, one_by_one);
@@ -113,7 +110,7 @@ fn depth_of_uic60_mm(y_mm: f64) -> f64 {
 }
 
 #[test]
-fn a_chamfer_on_the_field_side_is_no_flange() {
+fn a_chamfer_on_the_field_side_is_not_a_flange() {
     let plain = Pair::standard(Installation::default()).unwrap();
     let chamfered = changed(&s1002::profile(), "chamfer", |y| -1.5 * (y - 54.0).max(0.0));
     let steepest = chamfered
@@ -128,7 +125,7 @@ fn a_chamfer_on_the_field_side_is_no_flange() {
 }
 
 #[test]
-fn no_patch_of_worn_profiles_appears_or_goes_with_a_jump() {
+fn patches_of_worn_profiles_appear_and_vanish_without_a_jump() {
     let worn_wheel = changed(&s1002::profile(), "hollow", |y| hump(y, 4.0, 0.25) * 0.8);
     let worn_rail = changed(&uic60::profile(), "worn", |y| {
         hump(y, -6.0, 0.12) + hump(y, 9.0, 0.15) - hump(y, -18.0, 0.2)
@@ -136,7 +133,7 @@ fn no_patch_of_worn_profiles_appears_or_goes_with_a_jump() {
     let contact = contact(worn_wheel, &worn_rail);
     let (mut worst, mut most) = (0.0_f64, 0);
     let mut last: Option<[f64; 3]> = None;
-    // At the height of a wheel load of about 100 kN, shifted by 5 um at a time.
+    // Shifts in steps of 5 um, at the height of a wheel load of about 100 kN.
     for step in 0..2400 {
         let motion = Motion {
             lateral_m: -6e-3 + 5e-6 * f64::from(step),

@@ -1,4 +1,4 @@
-//! Profiles against their definitions and the standards' figures, and points that make none.
+//! Profiles compared with their definitions and with figures of the standards; rejection of invalid points.
 
 use dashpot_rail::contact::{Installation, Pair};
 use dashpot_rail::profile::{CurveError, Profile, s1002, uic60};
@@ -6,7 +6,7 @@ use dashpot_rail::profile::{CurveError, Profile, s1002, uic60};
 #[test]
 fn s1002_sections_join() {
     // The other joints are given to nine decimals and meet within a tenth of a nanometre.
-    // Half a last digit of each of C's ten-digit coefficients sums to 7e-5 mm at -26 and 2.1e-4 mm at -35.
+    // The rounding of section C's ten-digit coefficients adds up to 7e-5 mm at -26 and 2.1e-4 mm at -35.
     let rounding = |joint: f64| match joint {
         -26.0 => 7e-5,
         -35.0 => 2.1e-4,
@@ -44,7 +44,7 @@ fn uic60_joints_lie_where_the_standard_says() {
             "{position:?} for {depth}"
         );
     }
-    // EN 13674-1: the head is 72 mm wide where R 13 ends, 14.3 mm down.
+    // EN 13674-1: the head is 72 mm wide at the end of R 13, 14.3 mm down.
     let side = uic60::position_mm(10.502_0 + 15.7 + 19.0);
     let width = 2.0 * (side[0] - (side[1] - 14.26) / 20.0);
     assert!((width - 72.0).abs() < 2e-3, "{width}");
@@ -56,7 +56,7 @@ fn splines_follow_the_definitions_with_their_curvatures() {
     for i in -6900..6000 {
         let s = f64::from(i) * 0.01;
         let off = wheel.at(s * 1e-3).z_m * 1e3 - s1002::depth_mm(s);
-        // Linear between samples 0.1 mm apart: h^2 / 8 R, steep on the back of the flange.
+        // The error of linear interpolation between samples 0.1 mm apart is h^2 / 8 R, more on the steep flange back.
         assert!(off.abs() < 2e-3, "{s}: {off} mm");
     }
     for sample in wheel.points() {
@@ -87,29 +87,17 @@ fn splines_follow_the_definitions_with_their_curvatures() {
 }
 
 #[test]
-fn impossible_installations_are_refused() {
+fn invalid_installations_are_rejected() {
     for (installation, part) in [
         (
-            Installation {
-                gauge_m: 1.0,
-                ..Installation::default()
-            },
-            "gauge less back-to-back",
+            Installation::default().with_gauge_m(1.0),
+            "gauge minus back-to-back",
         ),
         (
-            Installation {
-                wheel_radius_m: f64::NAN,
-                ..Installation::default()
-            },
+            Installation::default().with_wheel_radius_m(f64::NAN),
             "wheel radius",
         ),
-        (
-            Installation {
-                inclination: 0.5,
-                ..Installation::default()
-            },
-            "inclination",
-        ),
+        (Installation::default().with_inclination(0.5), "inclination"),
     ] {
         let message = Pair::standard(installation).unwrap_err().to_string();
         assert!(
@@ -120,7 +108,7 @@ fn impossible_installations_are_refused() {
 }
 
 #[test]
-fn points_that_make_no_curve_are_refused() {
+fn invalid_points_are_rejected() {
     let arc = |scale: f64| -> Vec<[f64; 2]> {
         let y = (0..50).map(|i| f64::from(i) * scale);
         y.map(|y| [y, 10.0 * y * y]).collect()
@@ -145,7 +133,7 @@ fn points_that_make_no_curve_are_refused() {
         refused(&nan, 0.0),
         CurveError::Point { index: 0, .. }
     ));
-    // Millimetres in place of metres.
+    // Millimetres instead of metres.
     assert!(matches!(
         refused(&arc(1.0), 0.0),
         CurveError::TooLong { .. }

@@ -1,10 +1,10 @@
-//! Polach's law and that of Shen, Hedrick and Elkins against numbers of other transcriptions.
+//! The laws of Polach and of Shen, Hedrick and Elkins, compared with results of other implementations.
 //!
-//! Polach: the subroutine of the 1999 paper evaluated in Python in the form two public codes give it,
-//! leo-bart/mbs-flex-rail (from the FORTRAN) and wangjianbin123/OpenVSD. Both agree with these numbers
-//! except in one respect each: the first takes the lesser of the lateral creepages with and without spin,
-//! by which pure spin would cause no force; in the second the force of the spin has the opposite sign, against
-//! Kalker's linear theory. Shen, Hedrick and Elkins: `mu N (1 - (1 - f / 3)^3)` in Python.
+//! Polach: the subroutine of the 1999 paper, evaluated in Python as implemented by two public codes,
+//! leo-bart/mbs-flex-rail (from the FORTRAN) and wangjianbin123/OpenVSD. Each code agrees with these numbers except in
+//! one respect. The first takes the smaller of the lateral creepages with and without spin, so that pure spin would
+//! cause no force. In the second, the force caused by spin has the opposite sign, contrary to Kalker's linear theory.
+//! Shen, Hedrick and Elkins: `mu N (1 - (1 - f / 3)^3)` in Python.
 
 use dashpot_rail::creep::{
     CreepForces, CreepLaw, Creepage, KalkerCoefficients, LoadedContact, Polach, ShenHedrickElkins,
@@ -39,7 +39,8 @@ const CONTACTS: [LoadedContact; 2] = [
     },
 ];
 
-/// Which contact; longitudinal, lateral, spin creepage; forces by Polach; by Shen, Hedrick and Elkins, N.
+/// Index of the contact; longitudinal creepage, lateral creepage and spin; forces by Polach; forces by Shen, Hedrick
+/// and Elkins, N.
 type Row = (usize, [f64; 3], [f64; 2], [f64; 2]);
 
 #[rustfmt::skip]
@@ -61,7 +62,7 @@ const ROWS: [Row; 14] = [
 ];
 
 #[test]
-fn the_closed_form_laws_agree_with_other_transcriptions() {
+fn the_closed_form_laws_agree_with_other_implementations() {
     for (contact, [longitudinal, lateral, spin], polach, she) in ROWS {
         let contact = &CONTACTS[contact];
         let creepage = Creepage {

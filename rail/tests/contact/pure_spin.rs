@@ -1,10 +1,10 @@
-//! Regression: at exactly no creepage but spin, as a wheel has that rolls freely at its centre, the derivatives of the book of
-//! tables were the last digits of its numbers over nothing, up to 1e30 N.
+//! Regression: in pure spin, as of a freely rolling centred wheel, the derivatives of the book of tables were rounding
+//! errors divided by almost zero, up to 1e30 N.
 
 use dashpot_rail::creep::{CreepLaw, Creepage, KalkerBook, KalkerTable, LoadedContact};
 
 #[test]
-fn the_derivatives_where_nothing_slides_are_those_of_the_forces() {
+fn the_derivatives_in_pure_spin_are_those_of_the_forces() {
     let book = KalkerBook::new();
     for a_over_b in [0.3, 1.0, 1.9, 6.0] {
         let contact = LoadedContact {

@@ -1,4 +1,4 @@
-//! What the forces on a wheelset keep everywhere: energy, mirror image, finite numbers, a status.
+//! Invariants of the forces on a wheelset: energy, mirror symmetry, finite numbers and status.
 
 use dashpot_rail::contact::{Motion, RailDisplacement, Status, WheelsetContact};
 use dashpot_rail::creep::CreepLaw;
@@ -54,7 +54,7 @@ fn flange_climbing_ends_past_the_tip_with_a_status() {
 }
 
 #[test]
-fn lifted_standing_and_lost_wheelsets() {
+fn lifted_stationary_and_lost_wheelsets_have_their_status() {
     let contact = polach();
     let lifted = Motion {
         vertical_m: -5e-3,
@@ -70,7 +70,7 @@ fn lifted_standing_and_lost_wheelsets() {
         forces.force_n[0] == 0.0 && forces.force_n[1].abs() < 1e-6,
         "{forces:?}"
     );
-    // Pushed at 1 mm/s while standing, friction drags against it, within its limit.
+    // Pushed at 1 mm/s while stationary: the creep force opposes the motion, within the friction limit.
     let pushed = Motion {
         lateral_velocity_m_per_s: 1e-3,
         ..standing
@@ -125,7 +125,7 @@ fn power_is_taken<L: CreepLaw>(
             );
             friction_power += patch.dissipation_w;
             if patch.load_n > 0.0 {
-                // Normal force times the speed of its own point, all by hand in track axes.
+                // Normal force times the velocity of its point, independently in track axes.
                 let mirror = if side == 0 { -1.0 } else { 1.0 };
                 let normal = [
                     0.0,
@@ -150,7 +150,7 @@ fn power_is_taken<L: CreepLaw>(
             }
         }
     }
-    // The same power from the resultants on the moving body.
+    // Power of the resultants on the moving body, which must be equal.
     let (sr, cr) = motion.roll_rad.sin_cos();
     let (sy, cy) = motion.yaw_rad.sin_cos();
     let turn = [
@@ -170,7 +170,7 @@ fn power_is_taken<L: CreepLaw>(
         .map(|k| (forces.force_n[k] * v[k]).abs() + (forces.moment_n_m[k] * turn[k]).abs())
         .sum();
     if motion.speed_m_per_s.abs() > 5.0 && forces.status <= Status::Climbing {
-        // Creepages are taken over hypot(V, 0.05 m/s): 5e-5 at 5 m/s.
+        // Creepages are divided by hypot(V, 0.05 m/s), a difference of 5e-5 at 5 m/s.
         assert!(
             (whole - normal_power + friction_power).abs() < 1e-4 * scale + 1e-3,
             "{motion:?}: {whole} {normal_power} {friction_power}"
@@ -233,17 +233,31 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(2000))]
 
     #[test]
-    fn friction_only_takes_energy_and_resultants_carry_it(motion in motions()) {
+    fn friction_dissipates_the_power_of_the_resultants(motion in motions()) {
         power_is_taken(polach(), &motion, &LEVEL);
     }
 
     #[test]
-    fn the_mirror_image_has_mirrored_forces(motion in motions(), left in -5e-3..5e-3_f64, right in -5e-3..5e-3_f64, down in -1e-3..1e-3_f64) {
-        let rail = |lateral: f64, vertical: f64| RailDisplacement { roll_rad: 0.5 * lateral, roll_rate_rad_per_s: lateral, lateral_m: lateral, vertical_m: vertical, lateral_velocity_m_per_s: 10.0 * lateral, vertical_velocity_m_per_s: vertical };
+    fn the_mirror_image_has_mirrored_forces(
+        motion in motions(),
+        left in -5e-3..5e-3_f64,
+        right in -5e-3..5e-3_f64,
+        down in -1e-3..1e-3_f64,
+    ) {
+        let rail = |lateral: f64, vertical: f64| RailDisplacement {
+            roll_rad: 0.5 * lateral,
+            roll_rate_rad_per_s: lateral,
+            lateral_m: lateral,
+            vertical_m: vertical,
+            lateral_velocity_m_per_s: 10.0 * lateral,
+            vertical_velocity_m_per_s: vertical,
+        };
         let rails = [rail(left, down), rail(right, 0.0)];
         let image = Motion {
             lateral_m: -motion.lateral_m, roll_rad: -motion.roll_rad, yaw_rad: -motion.yaw_rad,
-            lateral_velocity_m_per_s: -motion.lateral_velocity_m_per_s, roll_rate_rad_per_s: -motion.roll_rate_rad_per_s, yaw_rate_rad_per_s: -motion.yaw_rate_rad_per_s,
+            lateral_velocity_m_per_s: -motion.lateral_velocity_m_per_s,
+            roll_rate_rad_per_s: -motion.roll_rate_rad_per_s,
+            yaw_rate_rad_per_s: -motion.yaw_rate_rad_per_s,
             ..motion
         };
         let image_rails = [rail(-right, 0.0), rail(-left, down)];
@@ -258,13 +272,24 @@ proptest! {
     }
 
     #[test]
-    fn no_number_makes_it_panic(numbers in prop::collection::vec(anything(), 16)) {
+    fn no_input_causes_a_panic(numbers in prop::collection::vec(anything(), 16)) {
         let n = &numbers;
         let motion = Motion {
             speed_m_per_s: n[0], lateral_m: n[1], vertical_m: n[2], roll_rad: n[3], yaw_rad: n[4],
-            lateral_velocity_m_per_s: n[5], vertical_velocity_m_per_s: n[6], roll_rate_rad_per_s: n[7], rotation_rad_per_s: n[8], yaw_rate_rad_per_s: n[9],
+            lateral_velocity_m_per_s: n[5],
+            vertical_velocity_m_per_s: n[6],
+            roll_rate_rad_per_s: n[7],
+            rotation_rad_per_s: n[8],
+            yaw_rate_rad_per_s: n[9],
         };
-        let rail = RailDisplacement { roll_rad: n[14], roll_rate_rad_per_s: n[15], lateral_m: n[10], vertical_m: n[11], lateral_velocity_m_per_s: n[12], vertical_velocity_m_per_s: n[13] };
+        let rail = RailDisplacement {
+            lateral_m: n[10],
+            vertical_m: n[11],
+            lateral_velocity_m_per_s: n[12],
+            vertical_velocity_m_per_s: n[13],
+            roll_rad: n[14],
+            roll_rate_rad_per_s: n[15],
+        };
         let forces = polach().forces(&motion, &[rail, RailDisplacement::default()]);
         prop_assert!(forces.force_n.iter().chain(&forces.moment_n_m).all(|x| x.is_finite()), "{:?}", forces);
         for patch in forces.wheels.iter().flat_map(|wheel| wheel.patches) {

@@ -1,4 +1,4 @@
-//! Wheels and rails that differ from each other, rolled rails, normal damping, profiles that change along the track.
+//! Unequal wheels and rails, rolled rails, normal damping, and profiles that change along the track.
 
 use std::sync::Arc;
 
@@ -23,13 +23,9 @@ fn contact(
 }
 
 #[test]
-fn a_larger_wheel_reaches_deeper_and_rolls_on_its_own_radius() {
-    let sides = [0.62495, 0.62505].map(|wheel_radius_m| {
-        of(Installation {
-            wheel_radius_m,
-            ..Installation::default()
-        })
-    });
+fn a_larger_wheel_sits_deeper_and_rolls_on_its_own_radius() {
+    let sides = [0.62495, 0.62505]
+        .map(|wheel_radius_m| of(Installation::default().with_wheel_radius_m(wheel_radius_m)));
     let unequal = contact(sides);
     let equal = contact([Arc::new(geometry().clone()), Arc::new(geometry().clone())]);
     let motion = at_height_under_load(&equal, &rolling(20.0), 206e3);
@@ -52,24 +48,19 @@ fn a_larger_wheel_reaches_deeper_and_rolls_on_its_own_radius() {
             "{found} {expected}"
         );
     }
-    // The larger right wheel drives forward, the smaller left one brakes: the nose turns left.
+    // The larger right wheel drives forward and the smaller left wheel brakes, so the nose turns left.
     assert!(forces.wheels[1].force_n[0] > forces.wheels[0].force_n[0] + 1e3);
     assert!(forces.moment_n_m[2] < 0.0);
 }
 
 #[test]
-fn a_rolled_rail_is_a_rail_laid_at_another_inclination() {
-    // 1:40 rolled until it lies at 1:32.
+fn rolling_a_rail_changes_its_inclination() {
+    // A rail at 1:40, rolled to 1:32.
     let steeper = 1.0 / 32.0;
     let roll = f64::atan(steeper) - 0.025_f64.atan();
-    let laid = |inclination| {
-        of(Installation {
-            inclination,
-            ..Installation::default()
-        })
-    };
+    let laid = |inclination| of(Installation::default().with_inclination(inclination));
     let (upright, inclined) = (laid(0.025), laid(steeper));
-    // The middle of the head, by its tangent: it turns about the top of the rail.
+    // Middle of the head from its tangent; the rail rolls about its top.
     let middle = |rail: &Profile, inclination: f64| {
         let points = rail.points();
         let i = points.partition_point(|p| p.angle_rad < -inclination.atan());
@@ -79,7 +70,7 @@ fn a_rolled_rail_is_a_rail_laid_at_another_inclination() {
     };
     let [y, z] = middle(upright.pair().rail(), 0.025);
     let arm = y - upright.pair().rail_top_m();
-    // The right rail rolls its left side down.
+    // The left side of the right rail moves down.
     let (sin, cos) = (-roll).sin_cos();
     let turned = [
         upright.pair().rail_top_m() + arm * cos - z * sin,
@@ -125,7 +116,7 @@ fn a_rolled_rail_is_a_rail_laid_at_another_inclination() {
 
 #[test]
 fn a_rolling_rail_carries_the_contact_along() {
-    // A rail that rolls about its top lifts a contact beside it: the damping of the normal force feels it.
+    // A rail that rolls about its top lifts a contact away from the top, which changes the normal damping force.
     let damped = WheelsetContact::new(tables(), ShenHedrickElkins, Friction::default())
         .and_then(|contact| contact.with_normal_damping(10.0))
         .unwrap();
@@ -169,7 +160,7 @@ fn normal_damping_is_that_of_hunt_and_crossley_and_never_pulls() {
         let expected = still * (1.0 + 3.0 * velocity * angle.cos());
         assert!((found / expected - 1.0).abs() < 1e-9, "{found} {expected}");
     }
-    // Faster than 1/3 m/s apart: no load and no pull.
+    // Separating faster than 1/3 m/s: no load, but no pull either.
     assert_eq!(load(&damped, -0.5), None);
     let apart = Motion {
         vertical_velocity_m_per_s: -0.5,
@@ -179,12 +170,9 @@ fn normal_damping_is_that_of_hunt_and_crossley_and_never_pulls() {
 }
 
 #[test]
-fn a_left_wheel_of_its_own_is_read_on_the_left() {
-    // A left rail without inclination touches the same wheel elsewhere; the right side stays as it was.
-    let other = of(Installation {
-        inclination: 0.0,
-        ..Installation::default()
-    });
+fn a_different_left_rail_changes_only_the_left_wheel() {
+    // A left rail without inclination touches the wheel elsewhere; the right side does not change.
+    let other = of(Installation::default().with_inclination(0.0));
     let usual = Arc::new(geometry().clone());
     let both = contact([Arc::clone(&usual), Arc::clone(&usual)]);
     let mixed = contact([other, usual]);
@@ -197,7 +185,7 @@ fn a_left_wheel_of_its_own_is_read_on_the_left() {
 }
 
 #[test]
-fn profiles_that_change_along_the_track_change_the_forces_evenly() {
+fn forces_are_blended_where_profiles_change_along_the_track() {
     let worn: Vec<[f64; 2]> = uic60::profile()
         .points()
         .iter()

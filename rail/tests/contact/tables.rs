@@ -1,4 +1,4 @@
-//! Grids and steels that tables refuse, and what can be shared between threads.
+//! Rejection of invalid grids, elastic constants and frictions; types that can be shared between threads.
 
 use dashpot_rail::contact::{
     ContactGeometry, GeometryError, Grid, Installation, InstallationError, Motion, Pair, PairError,
@@ -17,7 +17,7 @@ fn refused(change: impl Fn(&mut Grid)) -> TablesError {
 }
 
 #[test]
-fn grids_without_a_cell_or_an_order_are_refused() {
+fn grids_without_cells_or_order_are_rejected() {
     type Change = fn(&mut Grid);
     let changes: [(&str, Change); 7] = [
         ("lateral_m", |grid| grid.lateral_m.cells = [0; 3]),
@@ -45,27 +45,21 @@ fn grids_without_a_cell_or_an_order_are_refused() {
 }
 
 #[test]
-fn elastic_constants_and_loads_out_of_bounds_are_refused() {
+fn elastic_constants_and_loads_out_of_bounds_are_rejected() {
     let refused = |steel: Steel, nominal_load_n: f64| {
         let pair = Pair::standard(Installation::default()).unwrap();
         ContactGeometry::new(pair, steel, nominal_load_n).unwrap_err()
     };
     let steel = Steel::default();
     for young_modulus_pa in [0.0, -210e9, 1e13, f64::NAN] {
-        let bad = Steel {
-            young_modulus_pa,
-            ..steel
-        };
+        let bad = steel.with_young_modulus_pa(young_modulus_pa);
         assert!(matches!(
             refused(bad, 100e3),
             GeometryError::Steel(SteelError::YoungModulus { .. })
         ));
     }
     for poisson_ratio in [-0.1, 0.6, f64::NAN] {
-        let bad = Steel {
-            poisson_ratio,
-            ..steel
-        };
+        let bad = steel.with_poisson_ratio(poisson_ratio);
         assert!(matches!(
             refused(bad, 100e3),
             GeometryError::Steel(SteelError::PoissonRatio { .. })
@@ -81,25 +75,13 @@ fn elastic_constants_and_loads_out_of_bounds_are_refused() {
 }
 
 #[test]
-fn frictions_and_dampings_out_of_bounds_are_refused() {
+fn frictions_and_dampings_out_of_bounds_are_rejected() {
     let friction = Friction::default();
     for bad in [
-        Friction {
-            static_coefficient: -0.1,
-            ..friction
-        },
-        Friction {
-            static_coefficient: f64::NAN,
-            ..friction
-        },
-        Friction {
-            residual_ratio: 1.1,
-            ..friction
-        },
-        Friction {
-            decay_speed_m_per_s: 0.0,
-            ..friction
-        },
+        friction.with_static_coefficient(-0.1),
+        friction.with_static_coefficient(f64::NAN),
+        friction.with_residual_ratio(1.1),
+        friction.with_decay_speed_m_per_s(0.0),
     ] {
         let error = WheelsetContact::new(tables(), Polach, bad).unwrap_err();
         assert!(matches!(

@@ -1,4 +1,4 @@
-//! Forces on a wheelset: statics, steering, small creepages, continuity, direction, law against law.
+//! Forces on a wheelset: statics, steering, small creepages, continuity, direction of travel, comparison of laws.
 
 use dashpot_rail::contact::{
     Hertz, Motion, PatchForces, Status, Steel, WheelForces, WheelsetContact, WheelsetForces,
@@ -19,7 +19,7 @@ fn single_patch(wheel: &WheelForces) -> &PatchForces {
 }
 
 #[test]
-fn a_centred_wheelset_stands_level_on_hertz_s_penetration() {
+fn a_centred_wheelset_rests_level_at_hertz_s_penetration() {
     let load = 206e3;
     let motion = at_height_under_load(polach(), &rolling(20.0), load);
     let forces = polach().forces(&motion, &LEVEL);
@@ -27,7 +27,7 @@ fn a_centred_wheelset_stands_level_on_hertz_s_penetration() {
     assert!((forces.force_n[2] + load).abs() < 1.0);
     assert!(forces.force_n[1].abs() < 1e-6 * load, "{forces:?}");
     let patch = single_patch(&forces.wheels[1]);
-    // The contact angle is 1.9 degrees there; the curvatures are the tread's own, 1.2 per m across.
+    // The contact angle there is 1.9 degrees, the transverse curvature of the tread 1.2 per m.
     let steel = Steel::default();
     let wheel = geometry().pair().turned(0.0, 0.0);
     let patches = wheel.patches(
@@ -55,9 +55,9 @@ fn a_centred_wheelset_stands_level_on_hertz_s_penetration() {
 }
 
 #[test]
-fn a_shifted_wheelset_is_steered_back_and_yaw_meets_friction() {
-    // Rolling freely at V / r, a shift right makes the right wheel the larger: its surface runs
-    // backwards over the rail, pushing forward, the left one back; the moment turns the nose left.
+fn a_shifted_wheelset_is_steered_back_and_friction_opposes_yaw() {
+    // In free rolling at V / r, a shift to the right gives the right wheel the larger radius. Its surface slides
+    // backwards on the rail and is pushed forwards, the left wheel backwards, so the moment turns the nose to the left.
     let contact = polach();
     let motion = at_height_under_load(
         contact,
@@ -69,7 +69,7 @@ fn a_shifted_wheelset_is_steered_back_and_yaw_meets_friction() {
     );
     let forces = contact.forces(&motion, &LEVEL);
     assert!(forces.moment_n_m[2] < 0.0, "{forces:?}");
-    // Yawed right and carried straight on, both wheels slide left over the rails and are pushed right.
+    // Yawed to the right and moving straight ahead, both wheels slide to the left and are pushed to the right.
     let motion = at_height_under_load(
         contact,
         &Motion {
@@ -80,7 +80,7 @@ fn a_shifted_wheelset_is_steered_back_and_yaw_meets_friction() {
     );
     let forces = contact.forces(&motion, &LEVEL);
     assert!(forces.force_n[1] > 0.3 * 0.4 * 206e3, "{forces:?}");
-    // At 5 mrad the lateral creepage is 5e-3: nearly all of friction.
+    // At 5 mrad the lateral creepage is 5e-3, which nearly exhausts friction.
     for wheel in &forces.wheels {
         assert!(
             (single_patch(wheel).creepage.lateral.abs() - 5e-3).abs() < 3e-4,
@@ -100,7 +100,7 @@ impl CreepLaw for Linear {
 
 #[test]
 fn small_creepages_give_kalker_s_forces_on_the_whole_wheelset() {
-    // Both wheels turned 0.002 % too fast: twice G a b C11 xi, by hand from the patch's own ellipse.
+    // Both wheels rotate 0.002 % too fast: twice G a b C11 xi, with the ellipse of the patch.
     let contact = polach();
     let slow = at_height_under_load(contact, &rolling(20.0), 206e3);
     let radius = single_patch(&contact.forces(&slow, &LEVEL).wheels[1]).rolling_radius_m;
@@ -119,7 +119,7 @@ fn small_creepages_give_kalker_s_forces_on_the_whole_wheelset() {
     let expected =
         2.0 * 80.769_230_769e9 * patch.semi_axes_m[0] * patch.semi_axes_m[1] * k.c11 * 2e-6;
     let pull = more.force_n[0] - less.force_n[0];
-    // Spin takes part of the adhesion of Polach's law even here.
+    // In Polach's law, spin reduces the adhesion even here.
     assert!((pull / expected - 1.0).abs() < 0.25, "{pull} {expected}");
     let linear = WheelsetContact::new(tables(), Linear, Friction::default()).unwrap();
     let of_linear = |ratio: f64| {
@@ -139,7 +139,7 @@ fn small_creepages_give_kalker_s_forces_on_the_whole_wheelset() {
 
 #[test]
 fn two_point_contact_is_continuous() {
-    // The wheelset is pushed through flange contact at constant height and at constant load.
+    // Moves the wheelset through flange contact at constant height and at constant load.
     let contact = polach();
     let step = 1e-6;
     let mut last: Option<WheelsetForces> = None;
@@ -168,7 +168,7 @@ fn two_point_contact_is_continuous() {
                 .map(|k| (right.force_n[k] - last.wheels[1].force_n[k]).powi(2))
                 .sum::<f64>()
                 .sqrt();
-            // The stiffest contact, a flange face at 1.4e9 N/m, moves 1.4 kN per um.
+            // The stiffest contact, a flange face with 1.4e9 N/m, changes by 1.4 kN per um.
             let load = right.patches.iter().map(|patch| patch.load_n).sum::<f64>();
             worst = worst.max(jump / (load + 20e3));
         }
@@ -186,8 +186,8 @@ fn two_point_contact_is_continuous() {
 }
 
 #[test]
-fn reverse_running_is_forward_running_seen_from_the_other_end() {
-    // Half a turn about the vertical axis: x and y change sign, and left with right.
+fn reverse_running_is_forward_running_rotated_by_180_degrees() {
+    // A rotation by 180 degrees about the vertical axis reverses x and y, and swaps left and right.
     let contact = polach();
     let motion = Motion {
         speed_m_per_s: 15.0,
@@ -228,7 +228,7 @@ fn reverse_running_is_forward_running_seen_from_the_other_end() {
 }
 
 #[test]
-fn the_step_gives_the_same_bits_again() {
+fn the_step_is_bitwise_reproducible() {
     let motion = Motion {
         lateral_m: 6.6e-3,
         vertical_m: -0.2e-3,
@@ -242,7 +242,7 @@ fn the_step_gives_the_same_bits_again() {
 }
 
 #[test]
-fn the_closed_form_laws_are_near_exact_theory_on_the_treads() {
+fn the_closed_form_laws_are_close_to_exact_theory_on_the_treads() {
     let motion = Motion {
         lateral_m: 3e-3,
         yaw_rad: 2e-3,

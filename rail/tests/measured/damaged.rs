@@ -1,4 +1,4 @@
-//! Damaged texts: each error says what is wrong, where, and what is allowed; no text makes a reader panic.
+//! Damaged files: each error says what is wrong, where, and what is allowed. No text causes a panic.
 
 use dashpot_rail::profile::measured::{self, Format, Options, ProfileError};
 use dashpot_rail::profile::{Body, CurveError};
@@ -6,7 +6,7 @@ use proptest::prelude::*;
 
 use crate::common::{EXACT, RAILS, WHEELS, rail, rail_readings, text, wheel, wheel_readings};
 
-/// `error` as the command writes it behind the file's name.
+/// Formats `error` as the command does after the file name.
 fn message(error: &ProfileError) -> String {
     let line = error.line().map(|line| format!(":{line}"));
     let column = error.column().map(|column| format!(": column {column}"));
@@ -94,10 +94,7 @@ fn columns_say_what_is_wrong_where_and_what_is_allowed() {
     let mut head = rail_readings();
     head.iter_mut().for_each(|row| row.1 = -row.1);
     assert_eq!(rail(&text(&head)).unwrap_err(), ProfileError::HeadDown);
-    let options = Options {
-        smoothing_m: f64::NAN,
-        ..EXACT
-    };
+    let options = EXACT.with_smoothing_m(f64::NAN);
     let error = measured::parse("wheel.csv", &text(&good), Body::Wheel, &options).unwrap_err();
     assert!(
         matches!(error, ProfileError::Curve(CurveError::Smoothing { .. })),
@@ -145,7 +142,7 @@ fn miniprof_files_say_what_is_wrong_where_and_what_is_allowed() {
         (
             "several parts",
             format!("[FileInfo]\n{good}"),
-            &[":1: \"[FileInfo]\", allowed: one profile a file"],
+            &[":1: \"[FileInfo]\", allowed: one profile per file"],
         ),
         (
             "cell",
@@ -194,7 +191,7 @@ fn simpack_files_say_what_is_wrong_where_and_what_is_allowed() {
         (
             "sections crossed",
             good.replace("  point.end", "  spline.end"),
-            &["spline.end", "the end of the section that was begun last"],
+            &["spline.end", "the end of the current section"],
         ),
         (
             "columns",
@@ -216,21 +213,19 @@ fn simpack_files_say_what_is_wrong_where_and_what_is_allowed() {
         let error = measured::parse(name, &text, Body::Wheel, &EXACT).unwrap_err();
         assert_says(kind, &error, expected);
     }
-    // Any text is no SIMPACK file without its sections.
+    // Without its sections, no text is a SIMPACK file.
     let error = measured::parse("a.prw", "1 2\n", Body::Wheel, &EXACT).unwrap_err();
     assert_says("bare", &error, &[":1: \"1 2\", allowed: section.begin"]);
 }
 
-/// What comes out of a reader is a profile that the rest can rely on.
+/// Reads a text in every format and checks the invariants of the resulting profiles.
 fn read_as_anything(text: &str, mirror: usize) {
     use dashpot_rail::profile::measured::Mirror;
     for format in Format::ALL {
         for body in [Body::Wheel, Body::Rail] {
-            let options = Options {
-                format: Some(format),
-                mirror: Some(Mirror::ALL[mirror]),
-                ..Options::default()
-            };
+            let options = Options::default()
+                .with_format(Some(format))
+                .with_mirror(Some(Mirror::ALL[mirror]));
             let Ok((profile, reading)) = measured::parse("any", text, body, &options) else {
                 continue;
             };
@@ -246,7 +241,11 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(512))]
 
     #[test]
-    fn no_text_makes_a_reader_panic(text in any::<String>(), lines in "([-0-9.,;e \t\n\"=#!']|nan|inf|header|spline|point|\\.begin|\\.end|ColumnDef=|MINIPROF|\n\n){0,200}", mirror in 0..4_usize) {
+    fn no_text_makes_a_reader_panic(
+        text in any::<String>(),
+        lines in "([-0-9.,;e \t\n\"=#!']|nan|inf|header|spline|point|\\.begin|\\.end|ColumnDef=|MINIPROF|\n\n){0,200}",
+        mirror in 0..4_usize,
+    ) {
         read_as_anything(&text, mirror);
         read_as_anything(&lines, mirror);
     }

@@ -1,4 +1,4 @@
-//! The same wheel and the same rail in every format are the same profile, which is that of its definition.
+//! Files of one wheel and one rail in every format give the same profiles, which agree with their definitions.
 
 use dashpot_rail::profile::measured::{self, Format, Mirror, Options, ProfileError, Reading};
 use dashpot_rail::profile::{Body, Profile, s1002, uic60};
@@ -6,10 +6,7 @@ use dashpot_rail::profile::{Body, Profile, s1002, uic60};
 use crate::common::{EXACT, RAILS, WHEELS};
 
 /// Side of the track centre of `uic60.rail`.
-const GENSYS_RAIL: Options = Options {
-    mirror: Some(Mirror::Y),
-    ..EXACT
-};
+const GENSYS_RAIL: Options = EXACT.with_mirror(Some(Mirror::Y));
 
 fn read_rail(name: &str, text: &str) -> (Profile, Reading) {
     let options = if name.ends_with(".rail") {
@@ -40,7 +37,7 @@ fn a_wheel_is_the_same_in_every_format() {
         let (profile, reading) = read_wheel(name, text);
         assert_eq!(profile.name(), "s1002");
         assert_same(name, &profile, &expected);
-        // Back and face of the wheel stand in the MiniProf file only.
+        // Only the MiniProf file contains the back and the face of the wheel.
         let overhanging = if name.ends_with(".whl") { 6 } else { 0 };
         assert_eq!(reading.overhanging, overhanging, "{name}");
         assert_eq!((reading.folded, reading.turned), (0, false), "{name}");
@@ -48,7 +45,7 @@ fn a_wheel_is_the_same_in_every_format() {
     for i in -6800..6000 {
         let y_mm = f64::from(i) * 0.01;
         let off = expected.at(y_mm * 1e-3).z_m * 1e3 - s1002::depth_mm(y_mm);
-        // Section B joins C with a bend, which a spline over 0.8 mm rounds.
+        // Sections B and C join with a kink, which a spline smooths over 0.8 mm.
         assert!(off.abs() < 5e-3, "{y_mm}: {off} mm");
     }
 }
@@ -59,13 +56,13 @@ fn a_rail_is_the_same_in_every_format() {
     for (name, text) in RAILS {
         let (profile, reading) = read_rail(name, text);
         assert_same(name, &profile, &expected);
-        // Web and foot of the rail stand in the MiniProf file only, which is upside down.
+        // Only the MiniProf file contains the web and the foot of the rail. It is upside down.
         let is_miniprof = name.ends_with(".ban");
         let overhanging = if is_miniprof { 15 } else { 0 };
         assert_eq!(reading.overhanging, overhanging, "{name}");
         assert_eq!((reading.folded, reading.turned), (0, is_miniprof), "{name}");
     }
-    // The gauge side reaches deeper than the field side: no reader changed them.
+    // The gauge side extends deeper than the field side, so no reader has swapped them.
     let ends = [
         expected.points()[0],
         expected.points()[expected.points().len() - 1],
@@ -84,7 +81,7 @@ fn a_rail_is_the_same_in_every_format() {
 }
 
 #[test]
-fn a_format_is_told_by_content_before_extension() {
+fn the_content_determines_the_format_before_the_extension() {
     let formats = [
         Format::Columns,
         Format::MiniProf,
@@ -115,11 +112,8 @@ fn a_format_is_told_by_content_before_extension() {
 }
 
 #[test]
-fn a_stated_format_counts_before_content() {
-    let gensys = Options {
-        format: Some(Format::Gensys),
-        ..EXACT
-    };
+fn a_stated_format_overrides_the_content() {
+    let gensys = EXACT.with_format(Some(Format::Gensys));
     let (name, text) = WHEELS[3];
     let (expected, _) = read_wheel(name, text);
     let (stated, _) = measured::parse("s1002.txt", text, Body::Wheel, &gensys).unwrap();
@@ -130,21 +124,19 @@ fn a_stated_format_counts_before_content() {
 
 #[test]
 fn a_mirror_changes_the_side_in_the_axes_of_the_file() {
-    let mirrored = |mirror| Options {
-        mirror: Some(mirror),
-        ..EXACT
-    };
+    let mirrored = |mirror| EXACT.with_mirror(Some(mirror));
     let deeper_at = |options: &Options, (name, text): (&str, &str)| {
         let (rail, _) = measured::parse(name, text, Body::Rail, options).unwrap();
         let points = rail.points();
         points[0].z_m > points[points.len() - 1].z_m
     };
-    // By default the deeper gauge side is at negative y.
+    // Without a mirror, the deeper gauge side is at negative y.
     for file in [RAILS[0], RAILS[1], RAILS[2]] {
         assert!(deeper_at(&EXACT, file), "{}", file.0);
         assert!(!deeper_at(&mirrored(Mirror::Y), file), "{}", file.0);
     }
-    // A MiniProf rail has no right way up of its own: half a turn changes nothing, one axis the side.
+    // A MiniProf rail may be either way up: a rotation by 180 degrees changes nothing, one mirrored axis swaps the
+    // sides.
     assert!(deeper_at(&mirrored(Mirror::Yz), RAILS[1]));
     assert!(!deeper_at(&mirrored(Mirror::Z), RAILS[1]));
     let over = |mirror| {
@@ -175,12 +167,12 @@ fn an_old_miniprof_header_is_free_text_up_to_the_empty_line() {
     assert_eq!(Format::detect(&old, None), Format::MiniProf);
     let (expected, _) = read_wheel(WHEELS[0].0, WHEELS[0].1);
     assert_same("old", &read_wheel("old.whl", &old).0, &expected);
-    // Without any header, the extension tells.
+    // Without a header, the extension determines the format.
     assert_same("bare", &read_wheel("bare.whl", rows).0, &expected);
 }
 
 #[test]
-fn the_steps_of_a_simpack_file_are_carried_out_in_their_order() {
+fn the_steps_of_a_simpack_file_are_applied_in_order() {
     let (_, text) = RAILS[2];
     let with = |key: &str, value: &str| {
         let text = text.replace("point.begin", &format!("{key} = {value}\n  point.begin"));
@@ -195,10 +187,10 @@ fn the_steps_of_a_simpack_file_are_carried_out_in_their_order() {
         reading.points < points && last.y_m <= 0.020 && last.y_m > 0.019,
         "{last:?}"
     );
-    // Points nearer than 1 mm to the one kept before: every other one of 0.8 mm.
+    // Removes points within 1 mm of the previous kept point: every other one at a spacing of 0.8 mm.
     let (_, thinned) = with("point.dist.min", "1e-3");
     assert_eq!(thinned.points, points.div_ceil(2));
-    // z is still up when it is bounded: what lies deeper than 20 mm is left out.
+    // The bounds apply while z still points up: points deeper than 20 mm are removed.
     let (shallow, _) = with("bound.z.max", "1\n  bound.z.min = -0.020");
     let deepest = shallow
         .points()

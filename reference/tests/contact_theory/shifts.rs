@@ -34,20 +34,16 @@ pub fn geometry() -> Arc<ContactGeometry> {
     static GEOMETRY: OnceLock<Arc<ContactGeometry>> = OnceLock::new();
     let geometry = GEOMETRY.get_or_init(|| {
         let pair = Pair::standard(Installation::default()).unwrap();
-        let steel = Steel {
-            young_modulus_pa: 2.0 * 82e9 * 1.28,
-            poisson_ratio: 0.28,
-        };
+        let steel = Steel::default()
+            .with_young_modulus_pa(2.0 * 82e9 * 1.28)
+            .with_poisson_ratio(0.28);
         Arc::new(ContactGeometry::new(pair, steel, LOAD_N).unwrap())
     });
     Arc::clone(geometry)
 }
 
 pub fn friction(static_coefficient: f64) -> Friction {
-    Friction {
-        static_coefficient,
-        ..Friction::default()
-    }
+    Friction::constant(static_coefficient)
 }
 
 /// The right wheel in `motion`, at the height at which it carries [`LOAD_N`], by bisection.

@@ -22,10 +22,7 @@ pub fn contact(static_coefficient: f64) -> Contact {
         grid.yaw_squared_rad2.cells = [0, 1, 1];
         Arc::new(Tables::new(geometry, grid).unwrap())
     });
-    let friction = Friction {
-        static_coefficient,
-        ..Friction::default()
-    };
+    let friction = Friction::constant(static_coefficient);
     WheelsetContact::new(Arc::clone(tables), Polach, friction).unwrap()
 }
 

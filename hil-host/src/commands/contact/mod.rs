@@ -70,14 +70,13 @@ pub fn run(arguments: &ContactArguments) -> Outcome<()> {
         rail,
         readings,
     } = arguments.profiles.load()?;
-    let installation = Installation {
-        wheel_radius_m: arguments.wheel_radius_m,
-        back_to_back_m: arguments.back_to_back_m,
-        back_to_datum_m: arguments.back_to_datum_m,
-        gauge_m: arguments.gauge_m,
-        gauge_depth_m: arguments.gauge_depth_m,
-        inclination: arguments.inclination,
-    };
+    let installation = Installation::default()
+        .with_wheel_radius_m(arguments.wheel_radius_m)
+        .with_back_to_back_m(arguments.back_to_back_m)
+        .with_back_to_datum_m(arguments.back_to_datum_m)
+        .with_gauge_m(arguments.gauge_m)
+        .with_gauge_depth_m(arguments.gauge_depth_m)
+        .with_inclination(arguments.inclination);
     let pair = Pair::new(wheel, &rail, installation)?;
     let geometry = WheelsetGeometry::of(&pair).map_err(|error| Failure::new(error.to_string()))?;
     let plots = if arguments.no_plots {

@@ -75,10 +75,11 @@ impl ProfileArguments {
             ("--wheel", Path::new(&self.wheel)),
             ("--rail", Path::new(&self.rail)),
         ])?;
-        let options = |format, mirror| Options {
-            format,
-            mirror,
-            smoothing_m,
+        let options = |format, mirror| {
+            Options::default()
+                .with_format(format)
+                .with_mirror(mirror)
+                .with_smoothing_m(smoothing_m)
         };
         let wheel_options = options(self.wheel_format, self.wheel_mirror);
         let rail_options = options(self.rail_format, self.rail_mirror);

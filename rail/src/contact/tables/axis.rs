@@ -1,26 +1,28 @@
-//! The axes of the tables: where their nodes lie and how a value finds its cell.
+//! The axes of the tables: positions of the nodes, and the cell of a value.
 
 use std::array::from_fn;
 
-use fearless_simd::{Simd, f64x4};
+use fearless_simd::{Simd, SimdBase, f64x4};
 
 use super::TablesError;
 use crate::math::each::Each;
-use crate::math::number::{Lanes, load};
+use crate::math::number::load;
+use crate::setters::setters;
 
-/// Nodes along one axis in three parts: coarse, fine, coarse.
+/// Nodes along one axis, in three parts: coarse, fine, coarse.
+///
+/// The fields are complete; none will be added.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Axis {
-    /// First value, beginning and end of the fine part, last value, in the unit of the axis.
+    /// First value, start and end of the fine part, and last value, in the unit of the axis.
     pub ends: [f64; 4],
-    /// Number of cells in each part; a part without width has zero cells.
+    /// Number of cells in each part; zero in a part without width.
     pub cells: [usize; 3],
 }
 
 impl Axis {
-    /// Checks that the ends are finite and rise, and that exactly the parts with a width have cells.
-    ///
-    /// The number of nodes is at most `limit`.
+    /// Checks that the ends are finite and rise, that exactly the parts with a width have cells, and that there are at
+    /// most `limit` nodes.
     pub(super) fn check(&self, name: &'static str, limit: usize) -> Result<(), TablesError> {
         let part = |k: usize| {
             let width = self.ends[k + 1] - self.ends[k];
@@ -41,7 +43,7 @@ impl Axis {
         self.cells.iter().sum::<usize>() + 1
     }
 
-    /// Value at a node, counted from 0; beyond the last node its value.
+    /// Value at a node, counted from 0; beyond the last node, the last value.
     pub fn value(&self, node: usize) -> f64 {
         let mut first = 0;
         for part in 0..3 {
@@ -56,28 +58,28 @@ impl Axis {
     }
 }
 
-/// Where values lie on an axis.
+/// Positions of values on an axis.
 #[derive(Clone, Copy)]
 pub(super) struct Located<S: Simd> {
-    /// Number of the cell, a whole number.
+    /// Index of the cell, a whole number.
     pub cell: f64x4<S>,
-    /// Place within the cell, from 0 to 1.
-    pub place: f64x4<S>,
-    /// Distance to the nearest end, zero inside.
+    /// Position within the cell, 0 to 1.
+    pub position: f64x4<S>,
+    /// Distance beyond the nearest end; zero inside.
     pub outside: f64x4<S>,
 }
 
-/// An axis prepared for reading, in four lanes: of the tables of one wheel, or of two.
+/// An axis prepared for lookup in four lanes, for the tables of one wheel or of two.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct AxisReader {
     ends: [[f64; 4]; 4],
     cells_per_unit: [[f64; 4]; 3],
-    /// What the position of the first end lacks of zero.
+    /// Minus the position of the first end, in cells.
     offset: [f64; 4],
     last_cell: [f64; 4],
 }
 
-/// 1.5 2^52: a much smaller number added to it becomes whole, and stands in the lower bits.
+/// 1.5 * 2^52: adding it to a much smaller number rounds that to a whole number, held in the low bits.
 const WHOLE: f64 = 6_755_399_441_055_744.0;
 
 impl AxisReader {
@@ -100,7 +102,7 @@ impl AxisReader {
         }
     }
 
-    /// The axes of a left and of a right wheel, each in every other lane.
+    /// Interleaves the axes of a left and a right wheel: left, right, left, right.
     pub fn of_two(left: &Self, right: &Self) -> Self {
         Self {
             ends: from_fn(|k| in_lanes(&left.ends[k], &right.ends[k])),
@@ -112,32 +114,32 @@ impl AxisReader {
         }
     }
 
-    /// Adds up the cells on the way through the three parts, so that no part need be chosen.
+    /// Locates values by adding up the cells passed in all three parts, which needs no branch.
     #[inline(always)]
     pub fn locate<S: Simd>(&self, x: f64x4<S>) -> Located<S> {
         let simd = x.simd;
         let [first, second, third, last] = self.ends.each(|end| load(simd, &end));
         let [before, fine, behind] = self.cells_per_unit.each(|cells| load(simd, &cells));
-        let position = x.at_least(first).at_most(second) * before
-            + x.at_least(second).at_most(third) * fine
-            + x.at_least(third).at_most(last) * behind
+        let position = x.max(first).min(second) * before
+            + x.max(second).min(third) * fine
+            + x.max(third).min(last) * behind
             + load(simd, &self.offset);
-        // The nearest whole number below, or at a node either cell.
-        let cell = (position - 0.5 + WHOLE - WHOLE).at_most(load(simd, &self.last_cell));
+        // Rounds down; at a node, either neighbouring cell is right.
+        let cell = (position - 0.5 + WHOLE - WHOLE).min(load(simd, &self.last_cell));
         Located {
             cell,
-            place: position - cell,
-            outside: x - x.at_least(first).at_most(last),
+            position: position - cell,
+            outside: x - x.max(first).min(last),
         }
     }
 
-    /// Derivative of the place in `cell` by the value.
+    /// Derivative of the position in `cell` with respect to the value.
     pub fn cells_per_unit(&self, cell: f64) -> f64 {
         let ([first, second, third, _], [before, fine, behind]) = (
             self.ends.map(|end| end[0]),
             self.cells_per_unit.map(|cells| cells[0]),
         );
-        // The ends of a part are whole numbers of cells but for rounding.
+        // The ends of a part are whole numbers of cells, except for rounding.
         let cells_before = before * (second - first);
         if cell + 0.5 < cells_before {
             before
@@ -149,12 +151,12 @@ impl AxisReader {
     }
 }
 
-/// Numbers of a left and of a right wheel, each in every other lane.
+/// Interleaves the first lanes of a left and a right wheel: left, right, left, right.
 pub(in crate::contact) fn in_lanes(left: &[f64; 4], right: &[f64; 4]) -> [f64; 4] {
     [left[0], right[0], left[0], right[0]]
 }
 
-/// A whole number from 0 to 2^32.
+/// Converts a whole number below 2^32 to an index.
 #[inline(always)]
 pub(super) fn whole(number: f64) -> usize {
     (number + WHOLE).to_bits() as u32 as usize
@@ -162,16 +164,23 @@ pub(super) fn whole(number: f64) -> usize {
 
 /// Extent and spacing of the tables.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Grid {
     /// Lateral shift of the wheel, field side positive, m.
     pub lateral_m: Axis,
     /// Roll, field side down positive, rad.
     pub roll_rad: Axis,
-    /// Square of the yaw, rad^2: the silhouette depends on the yaw by its square.
+    /// Square of the yaw, rad^2; the silhouette is an even function of the yaw.
     pub yaw_squared_rad2: Axis,
 }
 
 impl Grid {
+    setters! {
+        with_lateral_m sets lateral_m: Axis;
+        with_roll_rad sets roll_rad: Axis;
+        with_yaw_squared_rad2 sets yaw_squared_rad2: Axis;
+    }
+
     /// Number of nodes.
     pub(super) fn nodes(&self) -> usize {
         self.lateral_m.nodes() * self.roll_rad.nodes() * self.yaw_squared_rad2.nodes()
@@ -179,8 +188,11 @@ impl Grid {
 }
 
 impl Default for Grid {
-    /// Shift from -20 mm (wheel towards the track centre) to 65 mm (flange past the rail's top), roll to 24 mrad, yaw
-    /// to 50 mrad; nodes 0.03 mm apart up to 12 mm (0.1 mm below zero), 1.5 mrad within 12 mrad and 1e-4 rad^2 within 30 mrad.
+    /// Shift from -20 mm (wheel towards the track centre) to 65 mm (flange past the rail's top), roll up to 24 mrad,
+    /// yaw up to 50 mrad.
+    ///
+    /// The shift nodes are 0.03 mm apart from 0 to 12 mm and 0.1 mm apart below, the roll nodes 1.5 mrad apart within
+    /// 12 mrad, the nodes of the squared yaw 1e-4 rad^2 apart within 30 mrad.
     fn default() -> Self {
         Self {
             lateral_m: Axis {

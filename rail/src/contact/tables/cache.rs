@@ -1,6 +1,6 @@
-//! Tables kept on disk, found again by the content they were computed from.
+//! Cache of tables on disk, keyed by a hash of the inputs.
 
-use std::fs;
+use std::fs::{self, File};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
@@ -11,45 +11,48 @@ use super::{Axis, Grid, Tables, TablesError, check_grid, pose};
 use crate::contact::geometry::ContactGeometry;
 use crate::profile::Profile;
 
-/// Why there are no tables from a cache.
+/// Errors from reading or writing cached tables.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum CacheError {
     /// The tables cannot be computed.
     #[error(transparent)]
     Tables(#[from] TablesError),
-    /// A file is no such tables.
+    /// The file is damaged, belongs to other inputs or was written by another version.
     #[error("{}: damaged, or tables of another version", .path.display())]
     Damaged {
         /// Path of the file.
         path: PathBuf,
     },
-    /// A file or the folder of the cache cannot be read or written.
+    /// A file or the cache folder cannot be read or written.
     #[error("{}: {source}", .path.display())]
     File {
         /// Path of the file or folder.
         path: PathBuf,
-        /// What went wrong.
+        /// The underlying error.
         source: io::Error,
     },
 }
 
-/// Begins every file of the cache. The first version did not refuse pairs whose force jumps.
+/// First bytes of every file. Version 1 did not reject profiles whose contact force jumps.
 const MAGIC: &[u8; 16] = b"dashpot tables 2";
-/// Length of the key and of the checksum that follow it.
+/// Length in bytes of the key and of the checksum, which follow the magic number.
 const DIGEST: usize = 32;
-/// Nodes of a file that are computed anew before it is believed: a method that has changed changes them.
+/// Number of nodes that are recomputed to verify a file: a changed method gives other nodes.
 const PROBES: usize = 64;
+/// Maximum number of temporary names that are tried.
+const MAX_ATTEMPTS: u32 = 1000;
 
 impl Tables {
-    /// The tables of [`Tables::new`], read from `folder` if they have been computed before, else computed and kept there.
+    /// Returns the tables of [`Tables::new`]: reads them from `folder` if they were computed before, else computes and
+    /// stores them there.
     ///
-    /// A file is found by the profiles, distances, steel, load and grid it was computed from, whatever their names. A file that is
-    /// damaged or was computed by another version is replaced. Files are written whole or not at all, so that several
-    /// programs can use one folder.
+    /// A file is identified by its profiles, distances, steel, load and grid; names do not matter. A file that is
+    /// damaged or was written by another version is replaced. Files are written atomically, so several programs can
+    /// share a folder.
     ///
     /// # Errors
-    /// A grid that [`Tables::new`] refuses; a folder that cannot be read, created or written.
+    /// [`Tables::new`] rejects the inputs; the folder cannot be created, read or written.
     pub fn cached(
         folder: &Path,
         geometry: ContactGeometry,
@@ -65,7 +68,7 @@ impl Tables {
         match fs::read(&path) {
             Ok(bytes) => {
                 if let Some(nodes) = nodes(&bytes, &key, &geometry, &grid) {
-                    return Ok(Self::of_nodes(geometry, grid, nodes));
+                    return Ok(Self::from_nodes(geometry, grid, nodes));
                 }
             }
             Err(error) if error.kind() == io::ErrorKind::NotFound => {}
@@ -73,20 +76,14 @@ impl Tables {
         }
         let tables = Self::new(geometry, grid)?;
         fs::create_dir_all(folder).map_err(failed(folder))?;
-        let write = || -> io::Result<()> {
-            let mut file = tempfile::NamedTempFile::new_in(folder)?;
-            file.write_all(&file_of(&key, &tables.nodes))?;
-            file.persist(&path)?;
-            Ok(())
-        };
-        write().map_err(failed(&path))?;
+        write_whole(&path, &to_bytes(&key, &tables.nodes)).map_err(failed(&path))?;
         Ok(tables)
     }
 
-    /// The tables that [`Tables::cached`] has kept in `folder`, which stays as it is.
+    /// Reads tables that [`Tables::cached`] stored in `folder`, without writing anything.
     ///
     /// # Errors
-    /// A grid that [`Tables::new`] refuses; a file that is not there, cannot be read, is damaged or of another version.
+    /// [`Tables::new`] would reject the grid; the file is missing, unreadable, damaged or from another version.
     pub fn kept(folder: &Path, geometry: ContactGeometry, grid: Grid) -> Result<Self, CacheError> {
         check_grid(&grid)?;
         let path = folder.join(Self::file_name(&geometry, &grid));
@@ -95,12 +92,12 @@ impl Tables {
             source,
         })?;
         match nodes(&bytes, &key(&geometry, &grid), &geometry, &grid) {
-            Some(nodes) => Ok(Self::of_nodes(geometry, grid, nodes)),
+            Some(nodes) => Ok(Self::from_nodes(geometry, grid, nodes)),
             None => Err(CacheError::Damaged { path }),
         }
     }
 
-    /// What [`Tables::cached`] calls the file of the tables.
+    /// Name of the file in which [`Tables::cached`] stores the tables.
     pub fn file_name(geometry: &ContactGeometry, grid: &Grid) -> String {
         let key = key(geometry, grid);
         let name: String = key.iter().map(|byte| format!("{byte:02x}")).collect();
@@ -108,7 +105,7 @@ impl Tables {
     }
 }
 
-/// What the tables depend on, as a hash.
+/// Hash of everything that the tables depend on.
 fn key(geometry: &ContactGeometry, grid: &Grid) -> [u8; DIGEST] {
     let mut hash = Sha256::new();
     let mut add = |numbers: &[f64]| {
@@ -145,8 +142,8 @@ fn key(geometry: &ContactGeometry, grid: &Grid) -> [u8; DIGEST] {
     hash.finalize().into()
 }
 
-/// The bytes of a file: magic, key, checksum of the nodes, nodes as little-endian numbers.
-fn file_of(key: &[u8; DIGEST], nodes: &[Node]) -> Vec<u8> {
+/// Content of a file: magic number, key, checksum of the nodes, nodes as little-endian numbers.
+fn to_bytes(key: &[u8; DIGEST], nodes: &[Node]) -> Vec<u8> {
     let mut payload = Vec::with_capacity(nodes.len() * NODE_BYTES);
     for node in nodes {
         node.write(&mut payload);
@@ -155,7 +152,33 @@ fn file_of(key: &[u8; DIGEST], nodes: &[Node]) -> Vec<u8> {
     [MAGIC, &key[..], &checksum, &payload].concat()
 }
 
-/// The nodes in the bytes of a file; `None` unless it is whole, of this key and of this version's method.
+/// Writes a file under a temporary name in the same folder and renames it.
+fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    // A name that exists belongs to another process, possibly on another machine, or was left by one that crashed.
+    let mut attempt = 0_u32;
+    let (temporary, mut file) = loop {
+        let temporary = path.with_extension(format!("{}-{attempt}.part", std::process::id()));
+        match File::create_new(&temporary) {
+            Ok(file) => break (temporary, file),
+            Err(error)
+                if error.kind() == io::ErrorKind::AlreadyExists && attempt < MAX_ATTEMPTS =>
+            {
+                attempt += 1;
+            }
+            Err(error) => return Err(error),
+        }
+    };
+    let written = file.write_all(bytes);
+    drop(file);
+    let written = written.and_then(|()| fs::rename(&temporary, path));
+    if written.is_err() {
+        // The error to report is that of the writing.
+        let _ = fs::remove_file(&temporary);
+    }
+    written
+}
+
+/// Returns the nodes in a file; `None` if it is incomplete, has another key or was computed by another method.
 fn nodes(
     bytes: &[u8],
     key: &[u8; DIGEST],

@@ -1,4 +1,4 @@
-//! One cell of the tables: what is read at a pose between its eight nodes.
+//! One cell of the tables: interpolation between its eight nodes.
 
 use std::array::from_fn;
 
@@ -6,39 +6,39 @@ use fearless_simd::{Simd, SimdBase, dispatch, f32x4, f32x8, f64x4};
 
 use super::axis::whole;
 use super::node::Node;
-use super::patch::NUMBERS;
+use super::patch::{NUMBERS, PatchNumbers};
 use super::{Finder, Tables};
-use crate::contact::source::{PatchReader, Slopes, with_interpenetration};
+use crate::contact::source::{PatchReader, PatchSlopes};
 use crate::contact::zones::ZONES;
 use crate::math::each::Each;
 use crate::math::number::{Number, load, transposed};
 
-/// A cell of the tables and a place in it.
+/// A cell of the tables, and a position in it.
 pub struct Cell<'a> {
     tables: &'a Tables,
-    /// The two nodes along the shift, for both rolls at the first yaw, then at the second.
+    /// Pairs of nodes along the shift: both rolls at the first yaw, then both rolls at the second yaw.
     rows: [&'a [Node; 2]; 4],
     /// Weights of the eight nodes.
     weights: [f32; 8],
     interpenetrations: [f64; ZONES],
     cells: [f64; 3],
-    /// Place within the cell along shift, roll and squared yaw, from 0 to 1.
-    place: [f64; 3],
+    /// Position within the cell along shift, roll and squared yaw, 0 to 1.
+    position: [f64; 3],
     yaw: f64,
     is_inside: bool,
 }
 
-/// Poses of one wheel or of two in the cells of their tables.
-pub(super) struct Places<S: Simd> {
+/// Poses of one wheel or of two, located in the cells of their tables.
+pub(super) struct LocatedPoses<S: Simd> {
     start: f64x4<S>,
     cells: [f64x4<S>; 3],
-    place: [f64x4<S>; 3],
+    position: [f64x4<S>; 3],
     weights: [f64x4<S>; 8],
     yaw: f64x4<S>,
     outside_squared: f64x4<S>,
 }
 
-impl<S: Simd> Places<S> {
+impl<S: Simd> LocatedPoses<S> {
     #[inline(always)]
     pub fn new(finder: &Finder, [lateral, roll, yaw]: [f64x4<S>; 3]) -> Self {
         let (simd, yaw_squared) = (yaw.simd, yaw * yaw);
@@ -46,12 +46,12 @@ impl<S: Simd> Places<S> {
         let shift = shifts.locate(lateral + load(simd, &finder.yaw_shift) * yaw_squared);
         let (roll, yaw_squared) = (rolls.locate(roll), yaws.locate(yaw_squared));
         let [roll_stride, yaw_stride] = finder.strides.each(|stride| load(simd, &stride));
-        let place = [shift.place, roll.place, yaw_squared.place];
+        let position = [shift.position, roll.position, yaw_squared.position];
         Self {
             start: yaw_squared.cell * yaw_stride + roll.cell * roll_stride + shift.cell,
             cells: [shift.cell, roll.cell, yaw_squared.cell],
-            place,
-            weights: products(ends(place)),
+            position,
+            weights: products(ends(position)),
             yaw,
             outside_squared: shift.outside * shift.outside
                 + roll.outside * roll.outside
@@ -70,13 +70,13 @@ impl<S: Simd> Places<S> {
     }
 }
 
-/// Weights of both ends of each axis at `place`.
+/// Weights of both ends of each axis at `position`.
 #[inline(always)]
-fn ends<T: Number>(place: [T; 3]) -> [[T; 2]; 3] {
-    place.each(|place| [-place + 1.0, place])
+fn ends<T: Number>(position: [T; 3]) -> [[T; 2]; 3] {
+    position.each(|position| [-position + 1.0, position])
 }
 
-/// Weights of the eight nodes: products of those of both ends along each axis.
+/// Weights of the eight nodes: products of the weights along each axis.
 #[inline(always)]
 fn products<T: Number>([shift, roll, yaw]: [[T; 2]; 3]) -> [T; 8] {
     let row = |roll: T, yaw: T| {
@@ -91,8 +91,8 @@ fn products<T: Number>([shift, roll, yaw]: [[T; 2]; 3]) -> [T; 8] {
 impl<'a> Cell<'a> {
     /// The cell of the pose in one lane.
     #[inline(always)]
-    pub(super) fn new<S: Simd>(tables: &'a Tables, places: &Places<S>, lane: usize) -> Self {
-        let start = whole(places.start.lane(lane));
+    pub(super) fn new<S: Simd>(tables: &'a Tables, poses: &LocatedPoses<S>, lane: usize) -> Self {
+        let start = whole(poses.start.lane(lane));
         let [roll_stride, yaw_stride] = tables.strides;
         let row = |offset: usize| {
             let (rows, _) = tables.nodes[start + offset..].as_chunks::<2>();
@@ -104,20 +104,20 @@ impl<'a> Cell<'a> {
             row(yaw_stride),
             row(yaw_stride + roll_stride),
         ];
-        let weights = places.weights.each(|weight| weight.lane(lane));
+        let weights = poses.weights.each(|weight| weight.lane(lane));
         Self {
             tables,
             rows,
-            weights: places.single_weights(lane),
-            interpenetrations: interpenetrations(places.yaw.simd, &rows, &weights).into(),
-            cells: places.cells.each(|cell| cell.lane(lane)),
-            place: places.place.each(|place| place.lane(lane)),
-            yaw: places.yaw.lane(lane),
-            is_inside: places.outside_squared.lane(lane) == 0.0,
+            weights: poses.single_weights(lane),
+            interpenetrations: interpenetrations(poses.yaw.simd, &rows, &weights).into(),
+            cells: poses.cells.each(|cell| cell.lane(lane)),
+            position: poses.position.each(|position| position.lane(lane)),
+            yaw: poses.yaw.lane(lane),
+            is_inside: poses.outside_squared.lane(lane) == 0.0,
         }
     }
 
-    /// The numbers of patches, each node's weight taken once for all of them.
+    /// Interpolates the numbers of several patches in one pass over the nodes.
     #[inline(always)]
     fn numbers_by<const N: usize, S: Simd>(
         &self,
@@ -158,7 +158,7 @@ fn nodes<'a>([a, b, c, d]: &[&'a [Node; 2]; 4]) -> [&'a Node; 8] {
 }
 
 impl Cell<'_> {
-    /// The numbers of two patches, or of one that is mentioned twice, as it is of most wheels.
+    /// Interpolates the numbers of two patches. Most wheels have one loaded patch, which is then listed twice.
     #[inline(always)]
     fn numbers_of_two<S: Simd>(&self, simd: S, zones: [usize; 2]) -> [Quads<S>; 2] {
         if zones[0] == zones[1] {
@@ -170,10 +170,10 @@ impl Cell<'_> {
     }
 }
 
-/// Eight numbers of a patch, then the other four.
+/// The packed numbers of a patch: the first eight, then the last four.
 type Quads<S> = (f32x8<S>, f32x4<S>);
 
-fn numbers_of<S: Simd>((eight, four): Quads<S>) -> [f64; NUMBERS] {
+fn to_array<S: Simd>((eight, four): Quads<S>) -> [f64; NUMBERS] {
     let ([a, b, c, d, e, f, g, h], [i, j, k, l]) = (eight.to_array(), four.to_array());
     [a, b, c, d, e, f, g, h, i, j, k, l].map(f64::from)
 }
@@ -200,8 +200,11 @@ impl PatchReader for Cell<'_> {
         self.interpenetrations
     }
 
-    fn numbers(&self, zone: usize) -> [f64; NUMBERS] {
-        dispatch!(crate::math::level(), simd => numbers_of(self.numbers_by(simd, &self.weights, [zone])[0]))
+    fn numbers(&self, zone: usize) -> PatchNumbers<f64> {
+        let numbers = dispatch!(crate::math::level(), simd => {
+            to_array(self.numbers_by(simd, &self.weights, [zone])[0])
+        });
+        PatchNumbers::from_array(numbers)
     }
 
     #[inline(always)]
@@ -209,44 +212,50 @@ impl PatchReader for Cell<'_> {
         simd: S,
         [left, right]: [&Self; 2],
         [a, b, c, d]: [usize; 4],
-    ) -> [f64x4<S>; NUMBERS] {
-        let [left_first, left_again] = left.numbers_of_two(simd, [a, c]);
-        let [right_first, right_again] = right.numbers_of_two(simd, [b, d]);
-        let lanes = [left_first, right_first, left_again, right_again];
+    ) -> PatchNumbers<f64x4<S>> {
+        let [left_first, left_second] = left.numbers_of_two(simd, [a, c]);
+        let [right_first, right_second] = right.numbers_of_two(simd, [b, d]);
+        let lanes = [left_first, right_first, left_second, right_second];
         let eight = lanes.each(|(eight, _)| eight.simd.split_f32x8(eight));
         let [p, q, r, s] = transposed(simd, eight.each(|(four, _)| four));
         let [t, u, v, w] = transposed(simd, eight.each(|(_, four)| four));
         let [x, y, z, last] = transposed(simd, lanes.each(|(_, four)| four));
-        [p, q, r, s, t, u, v, w, x, y, z, last]
+        PatchNumbers::from_array([p, q, r, s, t, u, v, w, x, y, z, last])
     }
 
-    fn slopes(&self, zone: usize) -> [Slopes; 3] {
+    fn slopes(&self, zone: usize) -> [PatchSlopes; 3] {
         dispatch!(crate::math::level(), simd => self.slopes_in(simd, zone))
     }
 }
 
 impl Cell<'_> {
     #[inline(always)]
-    fn slopes_in<S: Simd>(&self, simd: S, zone: usize) -> [Slopes; 3] {
-        let mut by_axis = [[0.0; 1 + NUMBERS]; 3];
+    fn slopes_in<S: Simd>(&self, simd: S, zone: usize) -> [PatchSlopes; 3] {
+        let (mut depth, mut numbers) = ([0.0; 3], [[0.0; NUMBERS]; 3]);
         for axis in 0..3 {
             if !self.is_inside {
                 break;
             }
-            let mut ends = ends(self.place);
+            let mut ends = ends(self.position);
             ends[axis] = [-1.0, 1.0];
             let weights = products(ends);
-            let interpenetration = interpenetrations(simd, &self.rows, &weights)[zone];
-            let [numbers] = self.numbers_by(simd, &weights.each(|weight| weight as f32), [zone]);
+            let interpenetrations = interpenetrations(simd, &self.rows, &weights);
+            let weights = weights.each(|weight| weight as f32);
+            let [of_zone] = self.numbers_by(simd, &weights, [zone]);
             let cells_per_unit = self.tables.finder.axes[axis].cells_per_unit(self.cells[axis]);
-            by_axis[axis] = with_interpenetration(interpenetration, numbers_of(numbers))
-                .map(|slope| slope * cells_per_unit);
+            depth[axis] = interpenetrations[zone] * cells_per_unit;
+            numbers[axis] = to_array(of_zone).map(|slope| slope * cells_per_unit);
         }
-        let [by_shift, by_roll, by_yaw_squared] = by_axis;
         // The shift at which the tables are read depends on the yaw too.
         let squared = 2.0 * self.yaw;
         let shift = squared * self.tables.finder.yaw_shift[0];
-        let by_yaw = from_fn(|n| shift * by_shift[n] + squared * by_yaw_squared[n]);
-        [by_shift, by_roll, by_yaw]
+        let by_yaw =
+            |by_shift: f64, by_yaw_squared: f64| shift * by_shift + squared * by_yaw_squared;
+        depth[2] = by_yaw(depth[0], depth[2]);
+        numbers[2] = from_fn(|n| by_yaw(numbers[0][n], numbers[2][n]));
+        [0, 1, 2].map(|axis| PatchSlopes {
+            interpenetration: depth[axis],
+            numbers: PatchNumbers::from_array(numbers[axis]),
+        })
     }
 }

@@ -1,63 +1,65 @@
-//! Whether the force of the contact jumps: from one pose to the next by more than the stiffness of the contact allows.
+//! Detection of jumps: changes of the contact force between neighbouring poses that the contact stiffness does not
+//! explain.
 
 use crate::contact::geometry::ContactGeometry;
 use crate::contact::silhouette::{SilhouettePoint, TurnedWheel, WheelPose};
 use crate::contact::tables::patch::TabulatedPatch;
 use crate::contact::zones::ZONES;
 
-/// Loads at which the force is compared, in nominal loads.
+/// Loads at which the force is compared, as fractions of the nominal load.
 const LOADS: [f64; 2] = [0.5, 1.0];
 
-/// Shift over which the stiffness of the contact allows a change of the force, m: the distance of neighbouring nodes in the fine part of
-/// the default [`Grid`](super::Grid), which blurs a change over as much.
+/// Shift over which the contact stiffness may change the force, m: the node distance in the fine part of the default
+/// [`Grid`](super::Grid), over which interpolation blurs a jump.
 const ALLOWED_SHIFT_M: f64 = 30e-6;
 
-/// Part of the load by which the force of tables may jump beyond what the stiffness allows. docs/contact.md says how it was chosen.
+/// Maximum [`Jump::excess`] of tables, as a fraction of the load; docs/contact.md explains the choice.
 pub const MAX_JUMP: f64 = 0.3;
 
-/// Smallest change between neighbouring nodes, beyond what the stiffness allows, whose cause is looked for, over the load.
+/// Change between neighbouring nodes beyond that explained by the stiffness, as a fraction of the load, above which the
+/// interval is searched for a jump.
 const SUSPECT: f64 = 0.02;
 
-/// Distance of two poses at which a change of the force that is left is a jump, m: the distance of neighbouring nodes is halved until
-/// then.
+/// Interval of the shift at which a remaining change of the force counts as a jump, m. Intervals are halved down to it.
 const NEAR_M: f64 = 0.03e-6;
 
-/// Halvings that bring shifts of a kilometre so near; a wider grid has no contact.
+/// Maximum number of halvings, enough for an interval of a kilometre; a wider grid has no contact.
 const MAX_HALVINGS: usize = 35;
 
-/// Depth below the first touch at which a wheel carries every load, m.
+/// Depth below first contact at which a wheel carries any load, m.
 const DEEPEST_M: f64 = 3e-3;
 
-/// A jump of the force on a wheel that is shifted over its rail at a constant height.
+/// A jump of the force on a wheel that moves laterally over its rail at constant height.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Jump {
-    /// Where it jumps.
+    /// Pose at which the force jumps.
     pub pose: WheelPose,
-    /// Vertical force before it jumps, N.
+    /// Vertical force before the jump, N.
     pub load_n: f64,
-    /// By how much it jumps, N.
+    /// Size of the jump, N.
     pub jump_n: f64,
-    /// By how much it may change there: the stiffness of the contact, times the slope of the surfaces, times a shift of 30 um, N.
+    /// Change explained by the contact stiffness, N: stiffness times slope of the surfaces times a shift of 30 um.
     pub allowed_n: f64,
 }
 
 impl Jump {
-    /// What the jump has beyond what the stiffness allows, over the load; negative for one that is allowed.
+    /// Jump beyond the change explained by the stiffness, as a fraction of the load; negative if the stiffness explains
+    /// it.
     pub fn excess(&self) -> f64 {
         (self.jump_n - self.allowed_n) / self.load_n
     }
 
-    /// The greatest jump along rising shifts, for a wheel that is turned already: `nodes` are shifts with its patches there.
-    /// `None` if the force changes between no two nodes by more than the stiffness allows.
-    pub(super) fn greatest(
+    /// Returns the largest jump of a turned wheel over `nodes`: rising shifts with the patches there. `None` if the
+    /// stiffness explains the change between all neighbouring nodes.
+    pub(super) fn largest(
         geometry: &ContactGeometry,
         wheel: &TurnedWheel<'_>,
         yaw_rad: f64,
         nodes: &[(f64, [TabulatedPatch; ZONES])],
         scratch: &mut Vec<SilhouettePoint>,
     ) -> Option<Self> {
-        let mut greatest: Option<Self> = None;
+        let mut largest: Option<Self> = None;
         for part in LOADS {
             let load_n = part * geometry.nominal_load_n();
             let mut poses = nodes
@@ -83,16 +85,16 @@ impl Jump {
                         jump_n: change.force_n,
                         allowed_n: change.allowed_n(ALLOWED_SHIFT_M),
                     };
-                    greatest = Some(greatest.map_or(found, |greatest| greatest.greater(found)));
+                    largest = Some(largest.map_or(found, |largest| largest.larger(found)));
                 }
                 before = after;
             }
         }
-        greatest
+        largest
     }
 
-    /// The one with the greater excess; the first of equal ones.
-    pub(super) fn greater(self, other: Self) -> Self {
+    /// The jump with the larger excess; `self` if both are equal.
+    pub(super) fn larger(self, other: Self) -> Self {
         if other.excess() > self.excess() {
             other
         } else {
@@ -101,7 +103,8 @@ impl Jump {
     }
 }
 
-/// Halves the distance of two poses again and again, towards the greater change: where it is, and how great it is in the end.
+/// Repeatedly halves the interval between two poses, keeping the half with the larger change. Returns the shift and the
+/// remaining change.
 fn narrowed(
     geometry: &ContactGeometry,
     wheel: &TurnedWheel<'_>,
@@ -128,21 +131,21 @@ fn narrowed(
     (after.lateral_m, change)
 }
 
-/// A wheel at a shift, at the height at which it carries a load.
+/// A wheel at a lateral shift, and the height at which it carries a given load.
 #[derive(Clone)]
 struct Loaded {
     lateral_m: f64,
     patches: [TabulatedPatch; ZONES],
-    /// Depth of the tread datum below the rail's top, m; none where the rail carries the load at no depth.
+    /// Depth of the tread datum below the rail's top, m; `None` if the rail cannot carry the load.
     depth_m: Option<f64>,
 }
 
 /// Change of the vertical force between two poses.
 #[derive(Clone, Copy, Default)]
 struct Change {
-    /// Its magnitude, N.
+    /// Magnitude, N.
     force_n: f64,
-    /// Stiffness times slope: how far the force may change with the shift, N/m.
+    /// Stiffness times slope: the change of the force per shift that the stiffness explains, N/m.
     allowed_n_per_m: f64,
 }
 
@@ -159,7 +162,7 @@ impl Loaded {
         let force = |depth: f64| Vertical::new(&patches, depth).force_n;
         let (mut low, mut high) = (touch, touch + DEEPEST_M);
         let depth_m = (force(high) >= load_n).then(|| {
-            // To a picometre.
+            // Resolves a picometre.
             for _ in 0..32 {
                 let middle = 0.5 * (low + high);
                 if force(middle) < load_n {
@@ -177,7 +180,7 @@ impl Loaded {
         }
     }
 
-    /// The greater change of the force at the height of either pose; none where one of them does not carry the load.
+    /// The larger of the changes of the force at the two heights; zero if one of the poses cannot carry the load.
     fn change_to(&self, other: &Self) -> Change {
         let (Some(here), Some(there)) = (self.depth_m, other.depth_m) else {
             return Change::default();
@@ -185,22 +188,26 @@ impl Loaded {
         let [own, moved] = [self, other].map(|pose| Vertical::new(&pose.patches, here));
         let [back, others] = [self, other].map(|pose| Vertical::new(&pose.patches, there));
         let all = [&own, &moved, &back, &others];
-        let most = |of: fn(&Vertical) -> f64| all.iter().map(|one| of(one)).fold(0.0, f64::max);
+        let max = |field: fn(&Vertical) -> f64| {
+            let values = all.iter().map(|vertical| field(vertical));
+            values.fold(0.0, f64::max)
+        };
         Change {
             force_n: (moved.force_n - own.force_n)
                 .abs()
                 .max((others.force_n - back.force_n).abs()),
-            allowed_n_per_m: most(|one| one.stiffness_n_per_m) * most(|one| one.slope),
+            allowed_n_per_m: max(|vertical| vertical.stiffness_n_per_m)
+                * max(|vertical| vertical.slope),
         }
     }
 }
 
-/// The vertical force of all patches at a depth.
+/// Vertical force of all patches at a depth.
 #[derive(Default)]
 struct Vertical {
     force_n: f64,
     stiffness_n_per_m: f64,
-    /// The steepest of the loaded patches: as much does a patch penetrate more for each metre of shift.
+    /// Maximum slope of the loaded patches: the change of penetration per shift.
     slope: f64,
 }
 

@@ -1,4 +1,4 @@
-//! Contact patches, Hertz and Kalker of one pair, precomputed over lateral shift, roll and yaw.
+//! Contact patches of one pair of profiles, precomputed over lateral shift, roll and yaw.
 
 mod axis;
 mod cache;
@@ -12,12 +12,12 @@ use std::array::from_fn;
 pub use axis::{Axis, Grid};
 use axis::{AxisReader, in_lanes};
 pub use cache::CacheError;
-use cell::{Cell, Places};
+use cell::{Cell, LocatedPoses};
 use fearless_simd::{Simd, dispatch, f64x4};
 pub use jump::{Jump, MAX_JUMP};
 use node::Node;
-pub(super) use patch::{LOAD_FRACTION, NUMBERS};
 pub use patch::{MIN_CURVATURE_PER_M, TabulatedPatch};
+pub(super) use patch::{NUMBERS, PatchNumbers};
 
 use super::geometry::ContactGeometry;
 use super::silhouette::WheelPose;
@@ -25,17 +25,17 @@ use super::source::{PatchReader, sealed};
 use super::zones::ZONES;
 use crate::math::each::Each;
 
-/// Greatest number of nodes of the tables: 224 bytes each, a gigabyte in all.
+/// Maximum number of nodes of the tables; at 224 bytes each, about a gigabyte.
 pub const MAX_NODES: usize = 4_000_000;
 
-/// Why tables cannot be computed.
+/// Errors from computing tables.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum TablesError {
     /// An axis of the grid has no cells, too many, or ends that do not rise.
     #[error(
-        "axis {name}: ends {:?}, cells {:?}; allowed: finite rising ends, cells in exactly the parts that have a width, \
-         fewer than {MAX_NODES} in all, a square of the yaw from 0",
+        "axis {name}: ends {:?}, cells {:?}; allowed: finite rising ends, cells in exactly the parts that have a \
+         width, fewer than {MAX_NODES} cells in all, a squared yaw of 0 or more",
         .axis.ends, .axis.cells
     )]
     Axis {
@@ -50,55 +50,57 @@ pub enum TablesError {
         /// Number of nodes.
         nodes: u128,
     },
-    /// The force of the contact jumps between neighbouring poses.
+    /// The contact force jumps between neighbouring poses.
     #[error(
-        "{wheel} on {rail}: at a lateral shift of {:.6} m of the wheel over its rail (roll {:.4} rad, yaw {:.4} rad) the force jumps \
-         by {:.0} N under a load of {:.0} N, where the stiffness of the contact allows {:.0} N; allowed: profiles whose force jumps \
-         nowhere by more than that and {} % of the load",
-        .jump.pose.lateral_m, .jump.pose.roll_rad, .jump.pose.yaw_rad, .jump.jump_n, .jump.load_n, .jump.allowed_n, 100.0 * MAX_JUMP
+        "{wheel} on {rail}: at a lateral shift of {:.6} m of the wheel over its rail (roll {:.4} rad, yaw {:.4} rad) \
+         the force jumps by {:.0} N under a load of {:.0} N, where the stiffness of the contact explains {:.0} N; \
+         allowed: profiles whose force jumps nowhere by more than that plus {} % of the load",
+        .jump.pose.lateral_m, .jump.pose.roll_rad, .jump.pose.yaw_rad, .jump.jump_n, .jump.load_n,
+        .jump.allowed_n, 100.0 * MAX_JUMP
     )]
     Jump {
         /// Name of the wheel's profile.
         wheel: String,
         /// Name of the rail's profile.
         rail: String,
-        /// The greatest jump.
+        /// The largest jump.
         jump: Jump,
     },
 }
 
-/// The tables of one pair; they serve the right wheel and, mirrored, the left wheel.
+/// The tables of one pair of profiles, for the right wheel and, mirrored, for the left wheel.
 #[derive(Debug, Clone)]
 pub struct Tables {
     geometry: ContactGeometry,
     grid: Grid,
     nodes: Vec<Node>,
-    /// Nodes from one roll to the next and from one yaw to the next.
+    /// Number of nodes from one roll to the next and from one yaw to the next.
     strides: [usize; 2],
     finder: Finder,
 }
 
-/// What finds the cells of poses, in four lanes: in the tables of one wheel, or of two.
+/// Finds the cells of poses in four lanes, in the tables of one wheel or of two.
 #[derive(Debug, Clone, Copy)]
 pub struct Finder {
-    /// Of shift, roll and squared yaw.
+    /// The axes of shift, roll and squared yaw.
     axes: [AxisReader; 3],
-    /// Nodes from one roll to the next and from one yaw to the next.
+    /// Number of nodes from one roll to the next and from one yaw to the next.
     strides: [[f64; 4]; 2],
-    /// Shift by which a squared yaw moves the contact on the flange, m/rad^2.
+    /// Shift of the contact on the flange per squared yaw, m/rad^2.
     yaw_shift: [f64; 4],
 }
 
-/// Slope of the flange whose silhouette, which yaw moves outwards by `r slope yaw^2`, stays at its place on the axis of the
-/// shift: between the root's, where contact jumps, and the face's. Without this a table would need twice as many yaws.
+/// Slope of the part of the flange that stays at the same node while the yaw changes; the yaw moves its silhouette
+/// outwards by `r slope yaw^2`. The value lies between the slopes of the root, where the contact jumps, and of the
+/// face. Without this correction the tables would need twice as many yaw nodes.
 const FLANGE_SLOPE: f64 = 1.8;
 
 impl Tables {
-    /// Computes every node of `grid`, on as many threads as the machine offers.
+    /// Computes every node of `grid`, on all cores.
     ///
     /// # Errors
-    /// An axis that does not rise or has no cells, or more than [`MAX_NODES`] nodes; a pair of profiles whose force jumps between
-    /// neighbouring poses ([`Jump`]).
+    /// An axis does not rise or has no cells; there are more than [`MAX_NODES`] nodes; the contact force of the
+    /// profiles jumps between neighbouring poses ([`Jump`]).
     pub fn new(geometry: ContactGeometry, grid: Grid) -> Result<Self, TablesError> {
         check_grid(&grid)?;
         let mut nodes = vec![Node::default(); grid.nodes()];
@@ -108,15 +110,17 @@ impl Tables {
                 rail: geometry.pair().rail().name().to_owned(),
                 jump,
             }),
-            _ => Ok(Self::of_nodes(geometry, grid, nodes)),
+            _ => Ok(Self::from_nodes(geometry, grid, nodes)),
         }
     }
 
-    /// The greatest jump of the force between neighbouring nodes of `grid`; [`Tables::new`] refuses one whose [`Jump::excess`] is above
-    /// [`MAX_JUMP`]. `None` if the force changes nowhere by more than the stiffness of the contact allows.
+    /// Returns the largest jump of the force between neighbouring nodes of `grid`, or `None` if the stiffness of the
+    /// contact explains every change of the force.
+    ///
+    /// [`Tables::new`] rejects profiles with a [`Jump::excess`] above [`MAX_JUMP`].
     ///
     /// # Errors
-    /// A grid that [`Tables::new`] refuses.
+    /// [`Tables::new`] would reject the grid.
     pub fn greatest_jump(
         geometry: &ContactGeometry,
         grid: &Grid,
@@ -126,8 +130,8 @@ impl Tables {
         Ok(compute(geometry, grid, &mut nodes))
     }
 
-    /// The tables of nodes that are already computed.
-    fn of_nodes(geometry: ContactGeometry, grid: Grid, nodes: Vec<Node>) -> Self {
+    /// Builds the tables from nodes that are already computed.
+    fn from_nodes(geometry: ContactGeometry, grid: Grid, nodes: Vec<Node>) -> Self {
         let shifts = grid.lateral_m.nodes();
         let strides = [shifts, shifts * grid.roll_rad.nodes()];
         let axes = [&grid.lateral_m, &grid.roll_rad, &grid.yaw_squared_rad2];
@@ -144,18 +148,19 @@ impl Tables {
         }
     }
 
-    /// What the tables were computed from.
+    /// The geometry that the tables were computed from.
     pub fn geometry(&self) -> &ContactGeometry {
         &self.geometry
     }
 
-    /// Extent and spacing.
+    /// Extent and spacing of the tables.
     pub fn grid(&self) -> &Grid {
         &self.grid
     }
 
-    /// The patch of each zone at `pose`, linear in shift, roll and squared yaw, and whether `pose` lies within
-    /// the grid; outside it they are those of its nearest edge.
+    /// Interpolates the patch of each zone at `pose`, linearly in shift, roll and squared yaw.
+    ///
+    /// The boolean is true if `pose` lies within the grid. Outside, the patches are those at the nearest edge.
     pub fn at(&self, pose: &WheelPose) -> ([TabulatedPatch; ZONES], bool) {
         let reader = sealed::Source::locate(self, pose);
         let interpenetrations = reader.interpenetrations_m();
@@ -167,9 +172,9 @@ impl Tables {
     }
 }
 
-/// Computes all nodes, and the greatest jump of the force between them.
+/// Computes all nodes and returns the largest jump of the force between them.
 fn compute(geometry: &ContactGeometry, grid: &Grid, nodes: &mut [Node]) -> Option<Jump> {
-    // A row has one roll and one yaw: its wheel is turned once.
+    // All nodes of a row have the same roll and yaw, so the wheel is turned once.
     let shifts = grid.lateral_m.nodes();
     let rows = nodes.len() / shifts;
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
@@ -192,9 +197,9 @@ fn compute(geometry: &ContactGeometry, grid: &Grid, nodes: &mut [Node]) -> Optio
                             *node = Node::new(here);
                             patches.push((lateral_m, here));
                         }
-                        Jump::greatest(geometry, &wheel, turned.yaw_rad, &patches, &mut scratch)
+                        Jump::largest(geometry, &wheel, turned.yaw_rad, &patches, &mut scratch)
                     });
-                    jumps.reduce(Jump::greater)
+                    jumps.reduce(Jump::larger)
                 })
             })
             .collect();
@@ -202,16 +207,16 @@ fn compute(geometry: &ContactGeometry, grid: &Grid, nodes: &mut [Node]) -> Optio
             Ok(jump) => jump,
             Err(panic) => std::panic::resume_unwind(panic),
         });
-        jumps.reduce(Jump::greater)
+        jumps.reduce(Jump::larger)
     })
 }
 
-/// Shift by which a squared yaw moves the contact on the flange, m/rad^2.
+/// Shift of the contact on the flange per squared yaw, m/rad^2.
 fn yaw_shift_m(geometry: &ContactGeometry) -> f64 {
     FLANGE_SLOPE * geometry.pair().installation().wheel_radius_m
 }
 
-/// Pose of a node, counted over the shift first, then the roll, then the yaw.
+/// Pose of a node; the shift varies fastest, then the roll, then the yaw.
 fn pose(geometry: &ContactGeometry, grid: &Grid, node: usize) -> WheelPose {
     let (shifts, rolls) = (grid.lateral_m.nodes(), grid.roll_rad.nodes());
     let yaw_squared = grid.yaw_squared_rad2.value(node / (shifts * rolls));
@@ -250,8 +255,8 @@ impl sealed::Source for Tables {
         [left, right]: [&'a Self; 2],
         pose: [f64x4<S>; 3],
     ) -> [Cell<'a>; 2] {
-        let places = Places::new(finder, pose);
-        [Cell::new(left, &places, 0), Cell::new(right, &places, 1)]
+        let poses = LocatedPoses::new(finder, pose);
+        [Cell::new(left, &poses, 0), Cell::new(right, &poses, 1)]
     }
 }
 
@@ -259,7 +264,7 @@ impl sealed::Source for Tables {
 fn locate<'a, S: Simd>(simd: S, tables: &'a Tables, pose: &WheelPose) -> Cell<'a> {
     let pose = [pose.lateral_m, pose.roll_rad, pose.yaw_rad];
     let pose = pose.each(|number| simd.splat_f64x4(number));
-    Cell::new(tables, &Places::new(&tables.finder, pose), 0)
+    Cell::new(tables, &LocatedPoses::new(&tables.finder, pose), 0)
 }
 
 fn check_grid(grid: &Grid) -> Result<(), TablesError> {

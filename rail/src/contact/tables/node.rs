@@ -1,12 +1,12 @@
-//! One node of the tables: the patches of one pose.
+//! One node of the tables: the patches at one pose.
 
 use super::patch::{NUMBERS, TabulatedPatch};
 use crate::contact::zones::ZONES;
 
-/// Interpenetrations of all patches, which decide what is loaded, then the numbers of each patch.
+/// The interpenetrations of all patches, which decide which of them carry load, and the packed numbers of each patch.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct Node {
-    /// In double precision: a contact of 1e9 N/m answers an error in the seventh digit with a tenth of a newton.
+    /// In double precision: single precision would cause an error of a tenth of a newton in a contact of 1e9 N/m.
     pub interpenetrations: [f64; ZONES],
     pub numbers: [[f32; NUMBERS]; ZONES],
 }
@@ -18,11 +18,11 @@ impl Node {
     pub fn new(patches: [TabulatedPatch; ZONES]) -> Self {
         Self {
             interpenetrations: patches.map(|patch| patch.interpenetration_m),
-            numbers: patches.map(|patch| patch.to_numbers().map(|number| number as f32)),
+            numbers: patches.map(|patch| patch.to_numbers().to_array().map(|number| number as f32)),
         }
     }
 
-    /// Appends the node in little-endian numbers.
+    /// Appends the node to `bytes`, as little-endian numbers.
     pub fn write(&self, bytes: &mut Vec<u8>) {
         for number in self.interpenetrations {
             bytes.extend_from_slice(&number.to_le_bytes());
@@ -32,7 +32,7 @@ impl Node {
         }
     }
 
-    /// The node that [`Node::write`] has written into `bytes`.
+    /// Reads a node that was written by [`Node::write`].
     pub fn read(bytes: &[u8; NODE_BYTES]) -> Self {
         let (doubles, singles) = bytes.split_at(8 * ZONES);
         let (doubles, _) = doubles.as_chunks::<8>();

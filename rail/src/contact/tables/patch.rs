@@ -1,47 +1,118 @@
-//! One patch as the tables hold it: Hertz and Kalker of a contact patch, stored as `f32`.
+//! One patch of the tables: Hertz constants and Kalker coefficients, stored as `f32`.
 
 use crate::contact::hertz::{Hertz, Steel};
 use crate::contact::pair::Pair;
 use crate::contact::patches::Patch;
 use crate::creep::{KalkerCoefficients, KalkerTable};
 
-/// Smallest transverse curvature of a patch, 1/m: a closer fit, as in a flange root, spreads its load over its
-/// whole width, which is that of an ellipse of this curvature.
+/// Minimum transverse curvature of a patch, 1/m. In a closer fit, as in a flange root, the load spreads over the whole
+/// width, which is that of an ellipse of this curvature.
 pub const MIN_CURVATURE_PER_M: f64 = 0.5;
 
-/// Load fraction below which a patch is lifted, by so many m for each factor of e, so that the step need not evaluate it.
+/// Load fraction below which a patch is raised, so that the step need not evaluate it.
 const LIGHT_FRACTION: f64 = 1e-3;
+/// Height by which such a patch is raised for each factor of e in its load fraction, m.
 const LIFT_M: f64 = 0.1e-3;
 
-/// Numbers stored of one patch beside its interpenetration.
+/// Length of a packed [`PatchNumbers`]: three vectors of four.
 pub(in crate::contact) const NUMBERS: usize = 12;
 
-/// Place of the load fraction among them.
-pub(in crate::contact) const LOAD_FRACTION: usize = 3;
+/// Interpolated quantities of one patch apart from its interpenetration, as numbers, vector lanes or with derivatives.
+#[derive(Debug, Clone, Copy)]
+pub struct PatchNumbers<T> {
+    /// Lateral position on the wheel, m.
+    pub wheel_y: T,
+    /// Depth on the wheel, m.
+    pub wheel_z: T,
+    /// `dz/dy` of both surfaces in the rail's axes.
+    pub slope: T,
+    /// Fraction of the Hertzian load that the patch carries.
+    pub load_fraction: T,
+    /// Hertzian stiffness, N/m^1.5.
+    pub stiffness: T,
+    /// Semi-axes over the square root of the penetration, m^0.5.
+    pub a_factor: T,
+    pub b_factor: T,
+    pub kalker: KalkerCoefficients<T>,
+}
 
-/// One patch as read from the tables.
+impl<T> PatchNumbers<T> {
+    /// Unpacks an array; the last element is padding.
+    #[inline(always)]
+    pub fn from_array(packed: [T; NUMBERS]) -> Self {
+        let [
+            wheel_y,
+            wheel_z,
+            slope,
+            load_fraction,
+            stiffness,
+            a_factor,
+            b_factor,
+            c11,
+            c22,
+            c23,
+            c33,
+            _,
+        ] = packed;
+        Self {
+            wheel_y,
+            wheel_z,
+            slope,
+            load_fraction,
+            stiffness,
+            a_factor,
+            b_factor,
+            kalker: KalkerCoefficients { c11, c22, c23, c33 },
+        }
+    }
+}
+
+impl PatchNumbers<f64> {
+    /// Packs the numbers into an array, as a node of the tables stores them.
+    #[inline]
+    pub fn to_array(self) -> [f64; NUMBERS] {
+        let KalkerCoefficients { c11, c22, c23, c33 } = self.kalker;
+        [
+            self.wheel_y,
+            self.wheel_z,
+            self.slope,
+            self.load_fraction,
+            self.stiffness,
+            self.a_factor,
+            self.b_factor,
+            c11,
+            c22,
+            c23,
+            c33,
+            0.0,
+        ]
+    }
+}
+
+/// One patch, as read from the tables.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct TabulatedPatch {
-    /// As [`Patch::interpenetration_m`], m; less where the patch carries under a thousandth of a load.
+    /// Depth of the wheel below the rail's surface, see [`Patch::interpenetration_m`], m; reduced if the load fraction
+    /// is below 0.001.
     pub interpenetration_m: f64,
-    /// As [`Patch::wheel_y_m`], m.
+    /// Lateral position on the wheel from the tread datum, field side positive, m.
     pub wheel_y_m: f64,
-    /// As [`Patch::wheel_z_m`], m.
+    /// Depth on the wheel, m; the rolling radius is the wheel radius plus this depth.
     pub wheel_z_m: f64,
-    /// As [`Patch::slope`].
+    /// `dz/dy` of both surfaces across the track: the tangent of the contact angle.
     pub slope: f64,
-    /// As [`Patch::load_fraction`].
+    /// Fraction of the Hertzian load that the patch carries, 0 to 1.
     pub load_fraction: f64,
-    /// Hertz contact whose load the patch carries a fraction of.
+    /// Hertzian constants of the contact.
     pub hertz: Hertz,
-    /// Kalker's coefficients of the ellipse.
+    /// Kalker's coefficients of the contact ellipse.
     pub kalker: KalkerCoefficients,
 }
 
 impl TabulatedPatch {
-    /// Hertz and Kalker of `patch` on a wheel that is rolled by `roll`, which turns the slope back into the
-    /// wheel's axes.
+    /// Computes the Hertz constants and Kalker coefficients of `patch` on a wheel rolled by `roll`, rad, which is
+    /// subtracted from the contact angle to get that in the wheel's axes.
     pub(in crate::contact) fn new(
         pair: &Pair,
         steel: &Steel,
@@ -69,55 +140,36 @@ impl TabulatedPatch {
         }
     }
 
-    /// Every number but the interpenetration, in the order of [`TabulatedPatch::from_numbers`].
-    pub(in crate::contact) fn to_numbers(self) -> [f64; NUMBERS] {
-        [
-            self.wheel_y_m,
-            self.wheel_z_m,
-            self.slope,
-            self.load_fraction,
-            self.hertz.stiffness_n_per_m_1_5,
-            self.hertz.a_factor_m_0_5,
-            self.hertz.b_factor_m_0_5,
-            self.kalker.c11,
-            self.kalker.c22,
-            self.kalker.c23,
-            self.kalker.c33,
-            0.0,
-        ]
+    /// The quantities apart from the interpenetration.
+    pub(in crate::contact) fn to_numbers(self) -> PatchNumbers<f64> {
+        PatchNumbers {
+            wheel_y: self.wheel_y_m,
+            wheel_z: self.wheel_z_m,
+            slope: self.slope,
+            load_fraction: self.load_fraction,
+            stiffness: self.hertz.stiffness_n_per_m_1_5,
+            a_factor: self.hertz.a_factor_m_0_5,
+            b_factor: self.hertz.b_factor_m_0_5,
+            kalker: self.kalker,
+        }
     }
 
-    #[inline]
     pub(in crate::contact) fn from_numbers(
         interpenetration_m: f64,
-        numbers: [f64; NUMBERS],
+        numbers: PatchNumbers<f64>,
     ) -> Self {
-        let [
-            y,
-            z,
-            slope,
-            load_fraction,
-            stiffness,
-            a,
-            b,
-            c11,
-            c22,
-            c23,
-            c33,
-            _,
-        ] = numbers;
         Self {
             interpenetration_m,
-            wheel_y_m: y,
-            wheel_z_m: z,
-            slope,
-            load_fraction,
+            wheel_y_m: numbers.wheel_y,
+            wheel_z_m: numbers.wheel_z,
+            slope: numbers.slope,
+            load_fraction: numbers.load_fraction,
             hertz: Hertz {
-                stiffness_n_per_m_1_5: stiffness,
-                a_factor_m_0_5: a,
-                b_factor_m_0_5: b,
+                stiffness_n_per_m_1_5: numbers.stiffness,
+                a_factor_m_0_5: numbers.a_factor,
+                b_factor_m_0_5: numbers.b_factor,
             },
-            kalker: KalkerCoefficients { c11, c22, c23, c33 },
+            kalker: numbers.kalker,
         }
     }
 }

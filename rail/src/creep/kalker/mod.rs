@@ -1,32 +1,57 @@
-//! Kalker's creepage coefficients at any ratio of the semi-axes and any Poisson's ratio.
+//! Kalker's creepage coefficients for any ratio of the semi-axes and any Poisson's ratio.
 
 mod table;
 
 use std::f64::consts::PI;
 
 pub use table::KalkerError;
-use table::{COLUMNS, Row, rows};
+use table::{Row, rows};
 
 use crate::math::spline::Spline;
 
-/// Kalker's coefficients of one contact, dimensionless.
+/// Kalker's coefficients of one contact, dimensionless; `T` is a number or a vector of numbers.
+///
+/// The fields are complete; none will be added.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct KalkerCoefficients {
-    /// `C11`: longitudinal force over longitudinal creepage.
-    pub c11: f64,
-    /// `C22`: lateral force over lateral creepage.
-    pub c22: f64,
-    /// `C23 = -C32`: lateral force over spin, and spin moment over lateral creepage.
-    pub c23: f64,
-    /// `C33`: spin moment over spin; known to about 2 %.
-    pub c33: f64,
+pub struct KalkerCoefficients<T = f64> {
+    /// `C11`: longitudinal force per longitudinal creepage.
+    pub c11: T,
+    /// `C22`: lateral force per lateral creepage.
+    pub c22: T,
+    /// `C23 = -C32`: lateral force per spin, and spin moment per lateral creepage.
+    pub c23: T,
+    /// `C33`: spin moment per spin; known to about 2 %.
+    pub c33: T,
+}
+
+impl<T> KalkerCoefficients<T> {
+    /// Applies `function` to each coefficient.
+    fn map<U>(&self, function: impl Fn(&T) -> U) -> KalkerCoefficients<U> {
+        KalkerCoefficients {
+            c11: function(&self.c11),
+            c22: function(&self.c22),
+            c23: function(&self.c23),
+            c33: function(&self.c33),
+        }
+    }
+
+    /// Combines each coefficient with that of `other`.
+    fn zip<U>(&self, other: &Self, function: impl Fn(&T, &T) -> U) -> KalkerCoefficients<U> {
+        KalkerCoefficients {
+            c11: function(&self.c11, &other.c11),
+            c22: function(&self.c22, &other.c22),
+            c23: function(&self.c23, &other.c23),
+            c33: function(&self.c33, &other.c33),
+        }
+    }
 }
 
 /// Kalker's table for one Poisson's ratio.
 ///
-/// Between the rows: a spline of `ln C` over `ln(a/b)`, and a parabola through the table's three Poisson's ratios.
-/// Beyond the rows (0.1 to 10): the end of the table times the growth of Kalker's asymptotic formulas
-/// (Kalker 1967). `C33` of contacts that are long in the rolling direction remains at the end of the table.
+/// Between the rows, a spline interpolates `ln C` over `ln(a/b)`, and a parabola interpolates between the three
+/// Poisson's ratios of the table. Beyond the rows (0.1 to 10), the value at the end of the table grows as in Kalker's
+/// asymptotic formulas (Kalker 1967), except `C33` of contacts that are long in the rolling direction, which stays
+/// constant.
 ///
 /// ```
 /// use dashpot_rail::creep::KalkerTable;
@@ -37,16 +62,16 @@ pub struct KalkerCoefficients {
 #[derive(Debug, Clone)]
 pub struct KalkerTable {
     poisson_ratio: f64,
-    /// Smallest and greatest ratio of the rows.
+    /// Minimum and maximum ratio of the rows.
     ratio_limits: [f64; 2],
-    splines: [Spline; 4],
+    splines: KalkerCoefficients<Spline>,
 }
 
 /// Kalker's table of 1967.
 const TABLE: &str = include_str!("../../../data/kalker.csv");
 
 impl KalkerTable {
-    /// Kalker's own table for `poisson_ratio`.
+    /// Kalker's table of 1967, for `poisson_ratio`.
     ///
     /// # Errors
     /// Poisson's ratio is not within 0 to 0.5.
@@ -54,27 +79,29 @@ impl KalkerTable {
         Self::from_csv(TABLE, poisson_ratio)
     }
 
-    /// Another table for `poisson_ratio`: columns `a_over_b,nu,C11,C22,C23,C33`, each ratio of the semi-axes with the
-    /// same three values of `nu`; lines that begin with `#` are comments.
+    /// Reads another table for `poisson_ratio`.
+    ///
+    /// The columns are `a_over_b,nu,C11,C22,C23,C33`. Each ratio of the semi-axes has the same three values of `nu`.
+    /// Lines that begin with `#` are comments.
     ///
     /// # Errors
-    /// A cell that is not a positive number (`nu`: 0 to 0.5), with its line and column; rows that are incomplete or
-    /// not in order; Poisson's ratio not within 0 to 0.5.
+    /// A cell is not a positive number (`nu`: 0 to 0.5); rows are incomplete or out of order; Poisson's ratio is not
+    /// within 0 to 0.5.
     pub fn from_csv(text: &str, poisson_ratio: f64) -> Result<Self, KalkerError> {
         let rows = rows(text)?;
         if !(0.0..=0.5).contains(&poisson_ratio) {
             return Err(KalkerError::PoissonRatio { poisson_ratio });
         }
-        let ratios: Vec<f64> = rows.iter().step_by(3).map(|row| row[0].ln()).collect();
-        let spline = |column: usize| {
+        let ratios: Vec<f64> = rows.iter().step_by(3).map(|row| row.ratio.ln()).collect();
+        let spline = |column: &'static str, coefficient: fn(&Row) -> f64| {
             let logarithm = |three: &[Row]| {
-                let value = parabola(poisson_ratio, three, column);
+                let value = parabola(poisson_ratio, three, coefficient);
                 if value > 0.0 {
                     Ok(value.ln())
                 } else {
                     Err(KalkerError::NotPositive {
-                        column: COLUMNS[column],
-                        ratio: three[0][0],
+                        column,
+                        ratio: three[0].ratio,
                         poisson_ratio,
                     })
                 }
@@ -84,63 +111,64 @@ impl KalkerTable {
         };
         Ok(Self {
             poisson_ratio,
-            ratio_limits: [rows[0][0], rows[rows.len() - 1][0]],
-            splines: [spline(2)?, spline(3)?, spline(4)?, spline(5)?],
+            ratio_limits: [rows[0].ratio, rows[rows.len() - 1].ratio],
+            splines: KalkerCoefficients {
+                c11: spline("C11", |row| row.coefficients.c11)?,
+                c22: spline("C22", |row| row.coefficients.c22)?,
+                c23: spline("C23", |row| row.coefficients.c23)?,
+                c33: spline("C33", |row| row.coefficients.c33)?,
+            },
         })
     }
 
-    /// Coefficients at `ratio`, the semi-axis in the rolling direction over that across; any positive number.
+    /// Coefficients at `ratio`, the semi-axis in the rolling direction divided by that across; any positive number.
     pub fn at(&self, ratio: f64) -> KalkerCoefficients {
-        let [least, greatest] = self.ratio_limits;
-        let inside = ratio.clamp(least, greatest);
-        let [c11, c22, c23, c33] = [0, 1, 2, 3].map(|k| self.splines[k].at(inside.ln())[0].exp());
-        let growth = if ratio == inside {
-            [1.0; 4]
-        } else {
-            let (here, end) = (self.asymptotic(ratio), self.asymptotic(inside));
-            [0, 1, 2, 3].map(|k| here[k] / end[k])
-        };
-        KalkerCoefficients {
-            c11: c11 * growth[0],
-            c22: c22 * growth[1],
-            c23: c23 * growth[2],
-            c33: c33 * growth[3],
+        let [min, max] = self.ratio_limits;
+        let inside = ratio.clamp(min, max);
+        let at_end = self.splines.map(|spline| spline.at(inside.ln())[0].exp());
+        if ratio == inside {
+            return at_end;
         }
+        let (here, end) = (self.asymptotic(ratio), self.asymptotic(inside));
+        let growth = here.zip(&end, |here, end| here / end);
+        at_end.zip(&growth, |coefficient, growth| coefficient * growth)
     }
 
     /// Kalker's formulas for very slender ellipses.
-    fn asymptotic(&self, ratio: f64) -> [f64; 4] {
+    fn asymptotic(&self, ratio: f64) -> KalkerCoefficients {
         let nu = self.poisson_ratio;
         if ratio < 1.0 {
             let g = ratio;
-            [
-                PI * PI / (4.0 * (1.0 - nu)),
-                PI * PI / 4.0,
-                PI * g.sqrt() / (3.0 * (1.0 - nu)),
-                PI * PI / (16.0 * (1.0 - nu) * g),
-            ]
+            KalkerCoefficients {
+                c11: PI * PI / (4.0 * (1.0 - nu)),
+                c22: PI * PI / 4.0,
+                c23: PI * g.sqrt() / (3.0 * (1.0 - nu)),
+                c33: PI * PI / (16.0 * (1.0 - nu) * g),
+            }
         } else {
             let g = 1.0 / ratio;
             let log = (16.0 / (g * g)).ln();
             let lateral = (1.0 - nu) * log + 2.0 * nu;
             let constant = 3.0 - 4.0_f64.ln();
-            [
-                2.0 * PI / ((log - 2.0 * nu) * g) * (1.0 + constant / (log - 2.0 * nu)),
-                2.0 * PI / (lateral * g) * (1.0 + (1.0 - nu) * constant / lateral),
-                2.0 * PI / (3.0 * g * g.sqrt() * ((1.0 - nu) * log - 2.0 + 4.0 * nu)),
-                1.0,
-            ]
+            KalkerCoefficients {
+                c11: 2.0 * PI / ((log - 2.0 * nu) * g) * (1.0 + constant / (log - 2.0 * nu)),
+                c22: 2.0 * PI / (lateral * g) * (1.0 + (1.0 - nu) * constant / lateral),
+                c23: 2.0 * PI / (3.0 * g * g.sqrt() * ((1.0 - nu) * log - 2.0 + 4.0 * nu)),
+                c33: 1.0,
+            }
         }
     }
 }
 
-/// Value at `nu` of the parabola through a column of three rows with different Poisson's ratios.
-fn parabola(nu: f64, three: &[Row], column: usize) -> f64 {
+/// Value at `nu` of the parabola through a coefficient of three rows with different Poisson's ratios.
+fn parabola(nu: f64, three: &[Row], coefficient: fn(&Row) -> f64) -> f64 {
     let lagrange = |i: usize| {
         (0..3)
             .filter(|&j| j != i)
-            .map(|j| (nu - three[j][1]) / (three[i][1] - three[j][1]))
+            .map(|j| {
+                (nu - three[j].poisson_ratio) / (three[i].poisson_ratio - three[j].poisson_ratio)
+            })
             .product::<f64>()
     };
-    (0..3).map(|i| lagrange(i) * three[i][column]).sum()
+    (0..3).map(|i| lagrange(i) * coefficient(&three[i])).sum()
 }

@@ -1,6 +1,8 @@
-//! Kalker's table as a CSV file: its rows, or the line and column of what is wrong.
+//! Reader of Kalker's table, a file of comma-separated values.
 
-/// Why there are no Kalker coefficients.
+use super::KalkerCoefficients;
+
+/// Errors from reading Kalker's table, or from an invalid Poisson's ratio.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum KalkerError {
@@ -9,12 +11,6 @@ pub enum KalkerError {
     PoissonRatio {
         /// Poisson's ratio.
         poisson_ratio: f64,
-    },
-    /// The text is not CSV.
-    #[error("{message}")]
-    Csv {
-        /// What the CSV reader says.
-        message: String,
     },
     /// The first line does not name the columns.
     #[error("line {line}: columns {found:?}, allowed: {}", COLUMNS.join(","))]
@@ -32,7 +28,7 @@ pub enum KalkerError {
         /// Number of cells found.
         found: usize,
     },
-    /// A cell is not a number of the table.
+    /// A cell is not a number within the bounds of its column.
     #[error("line {line}: column {column}: {text:?}, allowed: {allowed}")]
     Cell {
         /// Line of the text, counted from 1.
@@ -41,7 +37,7 @@ pub enum KalkerError {
         column: &'static str,
         /// Content of the cell.
         text: String,
-        /// What is allowed.
+        /// Allowed content.
         allowed: &'static str,
     },
     /// The rows are not in order.
@@ -52,7 +48,7 @@ pub enum KalkerError {
         /// Line of the text, counted from 1.
         line: u64,
     },
-    /// The parabola through the three values of `nu` is not positive at the Poisson's ratio asked for.
+    /// The parabola through the three values of `nu` is not positive at the requested Poisson's ratio.
     #[error("column {column}: not positive at a_over_b {ratio} and nu {poisson_ratio}")]
     NotPositive {
         /// Name of the column.
@@ -62,7 +58,7 @@ pub enum KalkerError {
         /// Poisson's ratio.
         poisson_ratio: f64,
     },
-    /// There are fewer than three ratios, or the last one is not complete.
+    /// There are fewer than three ratios, or the last one is incomplete.
     #[error("{found} rows, allowed: three for each a_over_b, of which there are three or more")]
     Rows {
         /// Number of rows.
@@ -73,37 +69,32 @@ pub enum KalkerError {
 /// Names of the columns.
 pub(super) const COLUMNS: [&str; 6] = ["a_over_b", "nu", "C11", "C22", "C23", "C33"];
 
-/// One row: ratio of the semi-axes, Poisson's ratio, the four coefficients.
-pub(super) type Row = [f64; 6];
+/// One row of the table.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Row {
+    /// Ratio `a/b` of the semi-axes.
+    pub ratio: f64,
+    pub poisson_ratio: f64,
+    pub coefficients: KalkerCoefficients,
+}
 
-/// The rows of `text`, complete and in order; lines that begin with `#` are comments.
+/// Reads all rows of `text` and checks that they are complete and in order. Lines that begin with `#` are comments.
 pub(super) fn rows(text: &str) -> Result<Vec<Row>, KalkerError> {
-    let mut reader = csv::ReaderBuilder::new()
-        .comment(Some(b'#'))
-        .flexible(true)
-        .has_headers(false)
-        .trim(csv::Trim::All)
-        .from_reader(text.as_bytes());
     let mut rows: Vec<Row> = Vec::new();
     let mut header = false;
-    let mut record = csv::StringRecord::new();
-    while reader
-        .read_record(&mut record)
-        .map_err(|error| KalkerError::Csv {
-            message: error.to_string(),
-        })?
-    {
-        // The record's own position is that of the comments before it.
-        let end = reader.position().byte() as usize;
-        let line = || text[..end].trim_end().lines().count() as u64;
+    for (line, content) in (1..).zip(text.lines()) {
+        if content.trim().is_empty() || content.starts_with('#') {
+            continue;
+        }
+        let cells: Vec<&str> = content.split(',').map(str::trim).collect();
         if !header {
-            check_header(&record, line)?;
+            check_header(line, &cells)?;
             header = true;
             continue;
         }
-        let row = row(&record, line)?;
+        let row = row(line, &cells)?;
         if !in_order(&rows, &row) {
-            return Err(KalkerError::Order { line: line() });
+            return Err(KalkerError::Order { line });
         }
         rows.push(row);
     }
@@ -113,36 +104,41 @@ pub(super) fn rows(text: &str) -> Result<Vec<Row>, KalkerError> {
     Ok(rows)
 }
 
-fn check_header(record: &csv::StringRecord, line: impl Fn() -> u64) -> Result<(), KalkerError> {
-    if record.iter().eq(COLUMNS) {
+fn check_header(line: u64, cells: &[&str]) -> Result<(), KalkerError> {
+    if *cells == COLUMNS {
         return Ok(());
     }
     Err(KalkerError::Header {
-        line: line(),
-        found: record.iter().collect::<Vec<_>>().join(","),
+        line,
+        found: cells.join(","),
     })
 }
 
-fn row(record: &csv::StringRecord, line: impl Fn() -> u64) -> Result<Row, KalkerError> {
-    if record.len() != COLUMNS.len() {
+fn row(line: u64, cells: &[&str]) -> Result<Row, KalkerError> {
+    if cells.len() != COLUMNS.len() {
         return Err(KalkerError::Cells {
-            line: line(),
-            found: record.len(),
+            line,
+            found: cells.len(),
         });
     }
-    let mut row = [0.0; COLUMNS.len()];
-    for ((number, text), column) in row.iter_mut().zip(record).zip(COLUMNS) {
+    let mut numbers = [0.0; COLUMNS.len()];
+    for ((number, text), column) in numbers.iter_mut().zip(cells).zip(COLUMNS) {
         *number = cell(column, text).map_err(|allowed| KalkerError::Cell {
-            line: line(),
+            line,
             column,
-            text: text.to_owned(),
+            text: (*text).to_owned(),
             allowed,
         })?;
     }
-    Ok(row)
+    let [ratio, poisson_ratio, c11, c22, c23, c33] = numbers;
+    Ok(Row {
+        ratio,
+        poisson_ratio,
+        coefficients: KalkerCoefficients { c11, c22, c23, c33 },
+    })
 }
 
-/// The number in a cell, or what is allowed there.
+/// Parses the number in a cell; the error states the allowed values.
 fn cell(column: &str, text: &str) -> Result<f64, &'static str> {
     let number = text.parse().ok().filter(|number: &f64| number.is_finite());
     if column == "nu" {
@@ -156,21 +152,20 @@ fn cell(column: &str, text: &str) -> Result<f64, &'static str> {
     }
 }
 
-/// Whether `row` may follow `rows`: by rising Poisson's ratio within a ratio of the semi-axes, then by a rising ratio
-/// with the Poisson's ratios of the first.
+/// True if `row` may follow `rows`: `nu` rises within a ratio, the ratios rise, and all have the same values of `nu`.
 fn in_order(rows: &[Row], row: &Row) -> bool {
     let Some(previous) = rows.last() else {
         return true;
     };
     let first_of_three = rows.len().is_multiple_of(3);
     let ratio_fits = if first_of_three {
-        row[0] > previous[0]
+        row.ratio > previous.ratio
     } else {
-        row[0] == previous[0]
+        row.ratio == previous.ratio
     };
     let poisson_fits = match rows.get(rows.len() % 3) {
-        Some(first) if rows.len() >= 3 => row[1] == first[1],
-        _ => row[1] > previous[1],
+        Some(first) if rows.len() >= 3 => row.poisson_ratio == first.poisson_ratio,
+        _ => row.poisson_ratio > previous.poisson_ratio,
     };
     ratio_fits && poisson_fits
 }

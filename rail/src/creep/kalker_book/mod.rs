@@ -1,14 +1,14 @@
-//! Exact theory of rolling contact, read from a book of tables.
+//! Exact theory of rolling contact, interpolated from precomputed tables.
 
 mod coordinates;
 mod pages;
 
 use std::ops::Mul;
 
-use coordinates::{Contact, Coordinates, TINY, numbers};
+use coordinates::{Contact, Coordinates, TINY, components};
 use fearless_simd::{Level, Simd, SimdBase, dispatch, f64x4};
 pub use pages::Layout;
-use pages::{Coefficients, Places, pages};
+use pages::{BookPositions, Coefficients, pages};
 
 use super::contact_lanes::ContactLanes;
 use super::creepage::{Creepage, MAX_CREEPAGE};
@@ -18,12 +18,13 @@ use crate::math::dual::Dual;
 use crate::math::each::Each;
 use crate::math::number::{Number, are_within, transposed};
 
-/// Kalker's exact theory of rolling contact from a precomputed book of tables (the idea of his USETAB, Vehicle System
-/// Dynamics 27, 1997): the recommended law, with any spin.
+/// Kalker's exact theory of rolling contact, from a precomputed book of tables. This is the recommended law, for any
+/// spin.
 ///
-/// The tables are those of the solver in `dashpot-reference` for Poisson's ratio 0.28, over `a/b` from 0.04 to 25 (beyond:
-/// the tables at that ratio) and every creepage; small creepages give the linear theory with the contact's own
-/// coefficients. The force has continuous derivatives by every creepage and never exceeds friction.
+/// The idea is that of Kalker's USETAB (Vehicle System Dynamics 27, 1997). The tables were computed with the solver in
+/// `dashpot-reference` for Poisson's ratio 0.28. They cover `a/b` from 0.04 to 25, beyond which `a/b` is limited, and
+/// all creepages. For small creepages the result is the linear theory with the contact's own coefficients. The force
+/// has continuous derivatives with respect to every creepage and never exceeds friction.
 ///
 /// ```
 /// use dashpot_rail::creep::{CreepLaw, Creepage, KalkerBook, KalkerTable, LoadedContact};
@@ -52,7 +53,7 @@ pub struct KalkerBook {
 }
 
 impl KalkerBook {
-    /// The book; its tables are read once in a process and shared.
+    /// Opens the book. Its tables are decoded once per process and shared.
     pub fn new() -> Self {
         Self {
             pages: pages(),
@@ -67,10 +68,10 @@ impl KalkerBook {
         contact: &LoadedContact,
         creepage: &Creepage,
     ) -> [f64; 3] {
-        let contact = Contact::of(contact);
-        let at = Coordinates::new(&contact, numbers(creepage));
-        let places = at.places(simd, &contact);
-        let [x, y, m, _] = places.value(self.pages, 0).to_array();
+        let contact = Contact::from_loaded(contact);
+        let at = Coordinates::new(&contact, components(creepage));
+        let positions = at.positions(simd, &contact);
+        let [x, y, m, _] = positions.value(self.pages, 0).to_array();
         forces([x, y, m].map(f64::from), &at, &contact)
     }
 
@@ -81,16 +82,17 @@ impl KalkerBook {
         contact: &LoadedContact,
         creepage: &Creepage,
     ) -> CreepDerivatives {
-        let of = Contact::of(contact);
-        let here = numbers(creepage);
-        let beside = of.beside_pure_spin(here);
+        let scaled = Contact::from_loaded(contact);
+        let here = components(creepage);
+        let beside = scaled.beside_pure_spin(here);
         let variables = [0, 1, 2].map(|k| Dual::<3>::variable(beside[k], k));
-        let at = Coordinates::new(&of, variables);
-        let places = at.places(simd, &of);
-        let (value, gradient) = (places.value(self.pages, 0), places.gradient(self.pages, 0));
-        let of_book = |k: usize| {
+        let at = Coordinates::new(&scaled, variables);
+        let positions = at.positions(simd, &scaled);
+        let value = positions.value(self.pages, 0);
+        let gradient = positions.gradient(self.pages, 0);
+        let in_book = |k: usize| {
             let [size, spin, direction] = gradient.map(|slopes| f64::from(slopes[k]));
-            // A direction runs over 2.
+            // The direction runs from -1 to 1, the coordinate of the book from 0 to 1.
             let terms = [
                 (size, at.size),
                 (spin, at.spin),
@@ -98,7 +100,7 @@ impl KalkerBook {
             ];
             Dual::function(f64::from(value[k]), terms)
         };
-        let forces = forces([0, 1, 2].map(of_book), &at, &of);
+        let forces = forces([0, 1, 2].map(in_book), &at, &scaled);
         let values = if beside == here {
             forces.map(|force| force.value())
         } else {
@@ -122,7 +124,7 @@ impl CreepLaw for KalkerBook {
         CreepForces::of_components(forces)
     }
 
-    /// The tables are within friction and dissipate energy.
+    /// The tabulated forces are dissipative and within the friction limit.
     fn forces(&self, contact: &LoadedContact, creepage: &Creepage) -> CreepForces {
         if is_loaded(contact) {
             self.unlimited_forces(contact, &creepage.bounded())
@@ -131,36 +133,37 @@ impl CreepLaw for KalkerBook {
         }
     }
 
-    /// All four in one evaluation.
+    /// Evaluates all four contacts in parallel.
     #[inline(always)]
     fn forces_in_lanes<S: Simd>(
         &self,
         contacts: &ContactLanes<S>,
         used: [bool; 4],
     ) -> [f64x4<S>; 3] {
-        let (contact, creepage) = (Contact::of_lanes(contacts), contacts.creepage);
+        let (contact, creepage) = (Contact::from_lanes(contacts), contacts.creepage);
         let [xi, eta, phi] = creepage;
         let square = xi * xi + eta * eta + phi * phi;
         let bounded = are_within(square, -1.0, MAX_CREEPAGE * MAX_CREEPAGE);
         if !(contact.are_loaded(contacts.load) & bounded) {
-            // Copied here, so that in the other case they need not be in memory.
+            // Passed by value, so that the contacts can stay in registers in the other case.
             return self.one_by_one(*contacts, used);
         }
         let simd = square.simd;
         let at = Coordinates::new(&contact, creepage);
         let direction = at.direction * 0.5 + 0.5;
-        let places = Places::new(simd, [contact.ratio, at.size, at.spin, direction]);
+        let coordinates = [contact.ratio, at.size, at.spin, direction];
+        let positions = BookPositions::new(simd, coordinates);
         let mut values = [simd.splat_f32x4(0.0); 4];
         for lane in 0..4 {
             if used[lane] {
-                values[lane] = places.value(self.pages, lane);
+                values[lane] = positions.value(self.pages, lane);
             }
         }
         let [x, y, moment, _] = transposed(simd, values);
         forces([x, y, moment], &at, &contact)
     }
 
-    /// With exact derivatives.
+    /// The derivatives are exact.
     fn forces_with_derivatives(
         &self,
         contact: &LoadedContact,
@@ -182,10 +185,10 @@ impl KalkerBook {
     }
 }
 
-/// Part of friction over which the force is bent to its limit.
+/// Fraction of the friction limit over which the force approaches the limit smoothly.
 const BEND: f64 = 0.005;
 
-/// Forces in N and N m from the numbers of the book.
+/// Converts interpolated values of the book to forces, N, and moment, N m.
 #[inline(always)]
 fn forces<C: Number, R: Number + Mul<C, Output = R>>(
     [x, y, moment]: [R; 3],
@@ -203,8 +206,8 @@ fn forces<C: Number, R: Number + Mul<C, Output = R>>(
     ]
 }
 
-/// Factor that keeps a force with this square within 1, where the spline overshoots, and its slope continuous: from
-/// `1 - BEND` on, the force falls behind by a parabola whose top is 1.
+/// Factor that keeps a force with this square within 1 where the spline overshoots. Above `1 - BEND` the force follows
+/// a parabola with its vertex at 1, so its slope is continuous.
 #[inline(always)]
 fn limited<R: Number>(square: R) -> R {
     let force = (square + TINY).sqrt();

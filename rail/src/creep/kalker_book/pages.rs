@@ -1,4 +1,4 @@
-//! The book's pages: coefficients of a spline, and the sum over those near a place.
+//! Pages of the book: coefficients of a B-spline, and its evaluation.
 
 use std::sync::OnceLock;
 
@@ -7,45 +7,47 @@ use fearless_simd::{Simd, SimdBase, f32x4, f32x8, f64x4};
 use crate::math::each::Each;
 use crate::math::number::Number;
 
-/// Layout of the book's file, for what writes and checks it.
+/// Layout of the file of the book, for programs that write or check it.
 ///
-/// The forces are `f = N(size, spin, direction) / (1 + direction^2)`, where `N` is a quadratic B-spline on equal cells,
-/// linear between the ratios of the semi-axes: at coefficients over the middles of the cells, and one more beyond each end.
-/// Every coefficient is three little-endian `f32`, longitudinal force, lateral force (over `mu N`) and moment (over
-/// `mu N (a^2 + b^2)/(2 sqrt(a b))`); the direction varies fastest, then spin, size and ratio.
+/// The forces are `f = N(size, spin, direction) / (1 + direction^2)`. `N` is a quadratic B-spline on equal cells,
+/// interpolated linearly between the ratios of the semi-axes. Its coefficients belong to the midpoints of the cells,
+/// with one more beyond each end. Each coefficient is three little-endian `f32`: longitudinal and lateral force divided
+/// by `mu N`, and moment divided by `mu N (a^2 + b^2)/(2 sqrt(a b))`. The direction varies fastest, then spin, size and
+/// ratio.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Layout;
 
 impl Layout {
-    /// Number of ratios of the semi-axes, equal steps of `(a^2 - b^2)/(a^2 + 4 a b + b^2)`, which is
-    /// nearly a third of `ln(a/b)`.
+    /// Number of ratios of the semi-axes, in equal steps of `(a^2 - b^2)/(a^2 + 4 a b + b^2)`, which is approximately a
+    /// third of `ln(a/b)`.
     pub const RATIOS: usize = 18;
-    /// Cells of size, spin and direction.
+    /// Number of cells of size, spin and direction.
     pub const CELLS: [usize; 3] = [16, 10, 14];
-    /// Greatest ratio of the semi-axes; the least is its reciprocal.
-    pub const GREATEST_RATIO: f64 = 25.0;
+    /// Maximum ratio of the semi-axes; the minimum is its reciprocal.
+    pub const MAX_RATIO: f64 = 25.0;
 
     /// Ratio `a/b` at an index.
     pub fn a_over_b(index: usize) -> f64 {
         let part = 2.0 * index as f64 / (Self::RATIOS - 1) as f64 - 1.0;
-        let shape = part * GREATEST_SHAPE;
+        let shape = part * MAX_SHAPE;
         (2.0 * shape + (1.0 + 3.0 * shape * shape).sqrt()) / (1.0 - shape)
     }
 }
 
-/// The number that grows in equal steps, at the greatest ratio.
-pub(super) const GREATEST_SHAPE: f64 = {
-    let ratio = Layout::GREATEST_RATIO;
+/// Value of [`shape`] at the maximum ratio.
+pub(super) const MAX_SHAPE: f64 = {
+    let ratio = Layout::MAX_RATIO;
     (ratio * ratio - 1.0) / (ratio * ratio + 4.0 * ratio + 1.0)
 };
 
+/// Shape of an ellipse, `(a^2 - b^2)/(a^2 + 4 a b + b^2)`; the ratios of the book are equidistant in it.
 #[inline(always)]
 pub(super) fn shape<C: Number>(a: C, b: C) -> C {
     let squares = a * a + b * b;
     (a * a - b * b) / (squares + a * b * 4.0)
 }
 
-/// Coefficients from one spin, size and ratio to the next.
+/// Number of coefficients from one spin, size and ratio to the next.
 const STRIDE: [usize; 3] = {
     let [size, spin, direction] = Layout::CELLS;
     let row = direction + 2;
@@ -53,17 +55,17 @@ const STRIDE: [usize; 3] = {
     [row, page, page * (size + 2)]
 };
 
-/// From the first coefficient that a place needs to the last of the same ratio.
+/// Length of the range of coefficients that one evaluation needs.
 const SPAN: usize = 2 * STRIDE[1] + 2 * STRIDE[0] + 3;
 
-/// Coefficients at a ratio and at the next: of each longitudinal force, lateral force, moment, and zero.
+/// Coefficients at one ratio and at the next, each `[longitudinal force, lateral force, moment, 0]`.
 #[derive(Debug, Clone, Copy)]
 #[repr(align(32))]
 pub(super) struct Coefficients([f32; 8]);
 
 const FILE: &[u8] = include_bytes!("../../../data/kalker_book.bin");
 
-/// The book's coefficients, read once.
+/// The coefficients of the book, decoded on first use.
 pub(super) fn pages() -> &'static [Coefficients] {
     static PAGES: OnceLock<Vec<Coefficients>> = OnceLock::new();
     PAGES.get_or_init(|| {
@@ -79,7 +81,7 @@ pub(super) fn pages() -> &'static [Coefficients] {
     })
 }
 
-/// Cells of ratio, size, spin and direction.
+/// Number of cells of ratio, size, spin and direction.
 const CELLS: [f32; 4] = [
     (Layout::RATIOS - 1) as f32,
     Layout::CELLS[0] as f32,
@@ -87,20 +89,20 @@ const CELLS: [f32; 4] = [
     Layout::CELLS[2] as f32,
 ];
 
-/// The cells of four places, and the places in them.
-pub(super) struct Places<S: Simd> {
-    /// Numbers of the first coefficients.
+/// Four positions in the book, one in each lane.
+pub(super) struct BookPositions<S: Simd> {
+    /// Indices of the first coefficients.
     first: [u32; 4],
-    /// Ratios in their cells, from 0 to 1.
+    /// Position of the ratio within its cell, 0 to 1.
     ratio: f32x4<S>,
-    /// Size, spin and direction in their cells, from 0 to 1.
+    /// Positions of size, spin and direction within their cells, 0 to 1.
     at: [f32x4<S>; 3],
-    /// Values of the three B-splines over these cells.
+    /// Values of the three B-splines on each of these cells.
     weights: [[f32x4<S>; 3]; 3],
 }
 
-impl<S: Simd> Places<S> {
-    /// Of the ratio of the semi-axes and the coordinates size, spin and direction, all from 0 to 1.
+impl<S: Simd> BookPositions<S> {
+    /// Locates the coordinates ratio of the semi-axes, size, spin and direction, all from 0 to 1.
     #[inline(always)]
     pub(super) fn new(simd: S, [ratio, size, spin, direction]: [f64x4<S>; 4]) -> Self {
         let (ratio_and_size, spin_and_direction) = (
@@ -131,13 +133,13 @@ impl<S: Simd> Places<S> {
         }
     }
 
-    /// `N` of [`Layout`] in one lane: longitudinal force, lateral force, moment.
+    /// Evaluates `N` of [`Layout`] in one lane: `[longitudinal force, lateral force, moment, 0]`.
     #[inline(always)]
     pub(super) fn value(&self, pages: &[Coefficients], lane: usize) -> f32x4<S> {
         self.sum(pages, &self.weights, lane)
     }
 
-    /// Derivatives of `N` by size, spin and direction in one lane.
+    /// Evaluates the derivatives of `N` with respect to size, spin and direction in one lane.
     #[inline(always)]
     pub(super) fn gradient(&self, pages: &[Coefficients], lane: usize) -> [f32x4<S>; 3] {
         let mut gradient = [self.ratio; 3];
@@ -149,7 +151,7 @@ impl<S: Simd> Places<S> {
         gradient
     }
 
-    /// Coefficients weighted axis by axis, so that opposite ones cancel without rounding.
+    /// Sums the coefficients weighted axis by axis, so that opposite coefficients cancel without rounding.
     #[inline(always)]
     fn sum(&self, pages: &[Coefficients], factors: &[[f32x4<S>; 3]; 3], lane: usize) -> f32x4<S> {
         let simd = self.ratio.simd;
@@ -204,7 +206,8 @@ fn weighted<S: Simd>([a, b, c]: [f32x8<S>; 3], [p, q, r]: &[f32x8<S>; 3]) -> f32
     simd.mul_add_f32x8(c, *r, simd.mul_add_f32x8(b, *q, a * *p))
 }
 
-/// Places, from 0 to 1, of two sets of four coordinates in their `cells`, and the sum of the cells' numbers times `strides`.
+/// Locates two sets of four coordinates. Returns the positions within their cells, 0 to 1, and the sum over both sets
+/// of the cell index times the stride.
 #[inline(always)]
 fn located<S: Simd>(
     simd: S,
@@ -227,13 +230,14 @@ fn halves<S: Simd>(simd: S, [p, q]: [f32; 2]) -> f32x8<S> {
     f32x8::from_slice(simd, &[p, p, p, p, q, q, q, q])
 }
 
+/// Values of the three quadratic B-splines at a position in a cell.
 #[inline(always)]
 fn weights<S: Simd>(at: f32x4<S>) -> [f32x4<S>; 3] {
     let rest = 1.0 - at;
     [rest * rest * 0.5, at * rest + 0.5, at * at * 0.5]
 }
 
-/// Derivatives of [`weights`] by the place in the cell.
+/// Derivatives of [`weights`] with respect to the position in the cell.
 #[inline(always)]
 fn slopes<S: Simd>(at: f32x4<S>) -> [f32x4<S>; 3] {
     [at - 1.0, 1.0 - at * 2.0, at]

@@ -1,23 +1,23 @@
 //! Two columns in mm: lateral position to the field side, depth down.
 
 use super::ProfileError;
-use super::reading::{Laid, Mirror};
+use super::reading::{Mirror, OrientedRows};
 use super::row::{Row, cells, number, numbered};
 
 /// Names of the two columns.
 const COLUMNS: [&str; 2] = ["y_mm", "z_mm"];
 
-/// The points of `text`, whose axes are those of a profile once they are mirrored.
-pub(super) fn read(text: &str, mirror: Option<Mirror>) -> Result<Laid, ProfileError> {
+/// Reads the points of `text`, in the axes of a profile, after mirroring.
+pub(super) fn read(text: &str, mirror: Option<Mirror>) -> Result<OrientedRows, ProfileError> {
     let mut rows = rows(text)?;
     mirror.unwrap_or_default().apply(&mut rows);
-    Ok(Laid {
+    Ok(OrientedRows {
         rows,
         turned: false,
     })
 }
 
-/// The points of two columns; `#` starts a comment, one heading line is allowed.
+/// Reads two columns; `#` starts a comment, and one heading line is allowed.
 pub(super) fn rows(text: &str) -> Result<Vec<Row>, ProfileError> {
     let mut rows = Vec::new();
     let mut heading_allowed = true;

@@ -1,9 +1,9 @@
-//! What can be wrong with the text of a measured profile.
+//! Errors in the text of a measured profile.
 
 use super::{MAX_FOLD_MM, MAX_GAP_MM, MIN_POINTS};
 use crate::profile::CurveError;
 
-/// Why a text is not a profile.
+/// Errors from reading a measured profile.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ProfileError {
@@ -17,7 +17,7 @@ pub enum ProfileError {
         /// Number and names of the columns.
         allowed: String,
     },
-    /// A cell is not a number from -1000 to 1000.
+    /// A cell is not a number within -1000 to 1000.
     #[error("{text:?} is not a number from -1000 to 1000")]
     Number {
         /// Line of the text, counted from 1.
@@ -27,7 +27,7 @@ pub enum ProfileError {
         /// Content of the cell.
         text: String,
     },
-    /// A key of the header has a value it must not have.
+    /// A key of the header has an invalid value.
     #[error("{key} = {text}, allowed: {allowed}")]
     Key {
         /// Line of the text, counted from 1.
@@ -36,26 +36,26 @@ pub enum ProfileError {
         key: &'static str,
         /// Its value.
         text: String,
-        /// What it may be.
+        /// Allowed values.
         allowed: &'static str,
     },
-    /// A line does not belong where it stands.
+    /// A line is unexpected.
     #[error("{text:?}, allowed: {allowed}")]
     Line {
         /// Line of the text, counted from 1.
         line: u64,
         /// Content of the line.
         text: String,
-        /// What may stand there.
+        /// Content that is allowed there.
         allowed: &'static str,
     },
-    /// The text ends before the profile does.
+    /// The text ends too early.
     #[error("cut short: {missing}")]
     CutShort {
-        /// What is missing, and what is allowed.
+        /// The missing part, and the allowed content.
         missing: String,
     },
-    /// The sign of the lateral axis of this kind of file is not known.
+    /// The sign of the lateral axis is ambiguous in this kind of file.
     #[error(
         "side not stated: in a rail of GENSYS y may point to either side; allowed: the option mirror, none where y \
          points to the field side, y where it points to the track centre"
@@ -67,7 +67,7 @@ pub enum ProfileError {
         /// Number of points found.
         found: usize,
     },
-    /// The curve turns back, and comes out again or runs back over the surface.
+    /// The curve folds back, and then emerges again or runs back over the surface.
     #[error(
         "folded back by {fold_mm:.2} mm near y_mm {y_mm:.2}, allowed: {MAX_FOLD_MM} mm, or to the end of the profile \
          on the side of the material"
@@ -75,12 +75,12 @@ pub enum ProfileError {
     FoldedBack {
         /// Line of the text, counted from 1.
         line: u64,
-        /// Lateral position that the curve turns back from, mm.
+        /// Lateral position at which the curve folds back, mm.
         y_mm: f64,
-        /// How far it turns back, mm.
+        /// Width of the fold, mm.
         fold_mm: f64,
     },
-    /// Neighbouring points are further apart than [`MAX_GAP_MM`].
+    /// Neighbouring points are more than [`MAX_GAP_MM`] apart.
     #[error("gap: {gap_mm:.2} mm to its neighbour, allowed: {MAX_GAP_MM} mm")]
     Gap {
         /// Line of the text, counted from 1.
@@ -99,21 +99,21 @@ pub enum ProfileError {
         "wrong side up: the flange must point to positive z_mm (down); the option mirror z turns it over"
     )]
     FlangeUp,
-    /// The flange of the wheel lies on the field side.
+    /// The flange of the wheel is on the field side.
     #[error(
         "wrong side: the flange must lie at negative y_mm (towards the track centre); the option mirror y, or the \
          format gensys for its files, changes sides"
     )]
     FlangeOutside,
-    /// The wheel does not lie about its tread datum.
+    /// The origin of the wheel is not its tread datum.
     #[error(
         "y_mm from {from_mm:.1} to {to_mm:.1} with the flange tip at {tip_mm:.1}: allowed: 0 at the tread datum, the \
          flange tip at negative y_mm (in a SIMPACK file shift.y moves it)"
     )]
     DatumOutside {
-        /// Least lateral position, mm.
+        /// Minimum lateral position, mm.
         from_mm: f64,
-        /// Greatest lateral position, mm.
+        /// Maximum lateral position, mm.
         to_mm: f64,
         /// Lateral position of the flange tip, mm.
         tip_mm: f64,
@@ -124,13 +124,13 @@ pub enum ProfileError {
          turns it over"
     )]
     HeadDown,
-    /// The points do not make a smooth curve.
+    /// No smooth curve fits the points.
     #[error(transparent)]
     Curve(#[from] CurveError),
 }
 
 impl ProfileError {
-    /// Line in error, counted from 1; `None` where the error is not of one line.
+    /// Line of the error, counted from 1; `None` if the error does not concern one line.
     pub fn line(&self) -> Option<u64> {
         match *self {
             Self::Columns { line, .. }
@@ -143,7 +143,7 @@ impl ProfileError {
         }
     }
 
-    /// Column in error; `None` where the error is not of one cell.
+    /// Column of the error; `None` if the error does not concern one cell.
     pub fn column(&self) -> Option<&'static str> {
         match *self {
             Self::Number { column, .. } => Some(column),

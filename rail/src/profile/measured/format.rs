@@ -1,10 +1,11 @@
-//! Formats of profile files, and how they are told apart.
+//! Formats of profile files, and their detection.
 
 use std::fmt;
 use std::str::FromStr;
 
-/// A format of profile files; the module [`measured`](super) has their axes.
+/// A format of profile files; the module [`measured`](super) describes their axes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Format {
     /// Two columns in mm: lateral position and depth.
     Columns,
@@ -12,20 +13,20 @@ pub enum Format {
     MiniProf,
     /// SIMPACK: the sections `header`, `spline` and `point`.
     Simpack,
-    /// GENSYS: two columns in mm with axes of its own.
+    /// GENSYS: two columns in mm, with its own axes.
     Gensys,
 }
 
-/// A name that is no [`Format`]'s.
+/// The name does not denote a [`Format`].
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("{0}: no such format, allowed: columns, miniprof, simpack, gensys")]
+#[error("{0}: unknown format, allowed: columns, miniprof, simpack, gensys")]
 pub struct UnknownFormat(String);
 
 impl Format {
-    /// Every format.
+    /// All formats.
     pub const ALL: [Self; 4] = [Self::Columns, Self::MiniProf, Self::Simpack, Self::Gensys];
 
-    /// Name in lower case, as `FromStr` takes it.
+    /// Name in lower case, as parsed by `FromStr`.
     pub fn name(self) -> &'static str {
         match self {
             Self::Columns => "columns",
@@ -35,9 +36,9 @@ impl Format {
         }
     }
 
-    /// The format of `text`: by its header, or if it has none, by the extension of the file's name.
+    /// Detects the format of `text` from its header or, if it has none, from the file name extension.
     ///
-    /// Two columns with an extension of no program are [`Format::Columns`].
+    /// Text with an unknown extension is [`Format::Columns`].
     ///
     /// ```
     /// use dashpot_rail::profile::measured::Format;

@@ -1,30 +1,37 @@
 //! Files of the profile gauge MiniProf (Greenwood Engineering): `.whl` and `.ban`.
 //!
-//! A header of `Key=Value` or, in old files, free text after `MINIPROF`; an empty line; rows whose columns `ColumnDef`
-//! names (`X,Y` without it), in mm. `XYPoints` is the number of rows.
+//! A file has a header of `Key=Value` lines or, in old files, free text after `MINIPROF`; an empty line; and rows in
+//! mm. `ColumnDef` names the columns (default `X,Y`). `XYPoints` is the number of rows.
 //!
-//! Sources: CONTACT user guide (Vollebregt, Vtech CMCC), "Inputs regarding wheel and rail profiles": rails have the track
-//! centre at positive `X` and the foot at negative `Y`; the wheels and rails of its test bench, measured with several
-//! gauges: wheels have `X` from the flange back to the field side on either side of the vehicle and `Y` down from the
-//! tread at the taper line; rails that have `Y` down have the track centre at negative `X`, which is the same curve by half
-//! a turn. GENSYS, Users Manual for KPF_CONV_MINIPROF2KPF_WHEEL: the running circle is 70 mm from the flange back, data
-//! begin after the empty line, `#` starts a comment. The manufacturer's own description was not at hand, so a rail's
-//! gauge side rests on these two programs.
+//! Sources:
+//! - CONTACT user guide (Vollebregt, Vtech CMCC), "Inputs regarding wheel and rail profiles": rails have the track
+//!   centre at positive `X` and the foot at negative `Y`.
+//! - The wheels and rails of CONTACT's test bench, measured with several gauges: wheels have `X` from the flange back
+//!   to the field side on either side of the vehicle, and `Y` down from the tread at the taper line. Rails with `Y`
+//!   down have the track centre at negative `X`, which is the same curve rotated by 180 degrees.
+//! - GENSYS, Users Manual for KPF_CONV_MINIPROF2KPF_WHEEL: the running circle is 70 mm from the flange back, the data
+//!   start after the empty line, and `#` starts a comment.
+//!
+//! The manufacturer's own description was not available, so the gauge side of a rail is based on these two programs.
 
 use super::orientation::head_up;
-use super::reading::{Laid, Mirror};
+use super::reading::{Mirror, OrientedRows};
 use super::row::{Row, cells, number, numbered};
 use super::{MIN_POINTS, ProfileError};
 use crate::profile::{Body, s1002};
 
-/// The points of `text` in the axes of a profile.
-pub(super) fn read(text: &str, body: Body, mirror: Option<Mirror>) -> Result<Laid, ProfileError> {
+/// Reads the points of `text`, in the axes of a profile.
+pub(super) fn read(
+    text: &str,
+    body: Body,
+    mirror: Option<Mirror>,
+) -> Result<OrientedRows, ProfileError> {
     let header = Header::read(text)?;
     let mut rows = header.rows(text)?;
     mirror.unwrap_or_default().apply(&mut rows);
     let mut turned = false;
     match body {
-        Body::Wheel => lay_wheel(&mut rows, header.taper_line_mm),
+        Body::Wheel => shift_wheel(&mut rows, header.taper_line_mm),
         Body::Rail => {
             turned = rows.len() >= MIN_POINTS && !head_up(&rows);
             if turned {
@@ -32,10 +39,10 @@ pub(super) fn read(text: &str, body: Body, mirror: Option<Mirror>) -> Result<Lai
             }
         }
     }
-    Ok(Laid { rows, turned })
+    Ok(OrientedRows { rows, turned })
 }
 
-/// Whether `text` begins with the header of a MiniProf file.
+/// True if `text` begins with the header of a MiniProf file.
 pub(super) fn has_header(text: &str) -> bool {
     const KEYS: [&str; 4] = ["ColumnDef", "XYPoints", "MPTypeNo", "ProgramName"];
     let header = || text.lines().take_while(|line| !line.trim().is_empty());
@@ -43,16 +50,16 @@ pub(super) fn has_header(text: &str) -> bool {
     header().take(3).any(is_title) || keys.any(|(key, _)| KEYS.contains(&key.trim()))
 }
 
-/// Whether `line` is the title of an old file or of one with several parts.
+/// True if `line` is the title of an old file or of a file with several parts.
 fn is_title(line: &str) -> bool {
     let line = line.trim_start_matches('#');
     line.starts_with("[FileInfo]") || (line.starts_with("MINI") && line.contains("PROF"))
 }
 
-/// What the header says, and the line it ends with.
+/// Content of the header, and its last line.
 struct Header {
     last_line: u64,
-    /// Names of the columns, in their order.
+    /// Names of the columns, in order.
     columns: Vec<String>,
     points: Option<usize>,
     taper_line_mm: f64,
@@ -69,7 +76,7 @@ impl Header {
         let is_old = text.lines().take(3).any(is_title);
         for (line, content) in numbered(text) {
             let content = content.trim();
-            // Data without a header begin with a number.
+            // Without a header, the data begin with a number.
             let first = cells(content).first().map_or("", |cell| *cell);
             if content.is_empty() || (!is_old && first.parse::<f64>().is_ok()) {
                 break;
@@ -79,7 +86,7 @@ impl Header {
                 return Err(ProfileError::Line {
                     line,
                     text: content.to_owned(),
-                    allowed: "one profile a file: export the parts one by one as .whl or .ban",
+                    allowed: "one profile per file: export the parts one by one as .whl or .ban",
                 });
             }
             if is_old || content.starts_with('#') {
@@ -132,8 +139,8 @@ impl Header {
     }
 
     fn rows(&self, text: &str) -> Result<Vec<Row>, ProfileError> {
-        let place = |name: &str| self.columns.iter().position(|column| column == name);
-        let (x, y) = (place("X").unwrap_or(0), place("Y").unwrap_or(1));
+        let index = |name: &str| self.columns.iter().position(|column| column == name);
+        let (x, y) = (index("X").unwrap_or(0), index("Y").unwrap_or(1));
         let mut rows = Vec::new();
         for (line, content) in numbered(text).filter(|(line, _)| *line > self.last_line) {
             let cells = cells(content);
@@ -162,8 +169,9 @@ impl Header {
     }
 }
 
-/// Shifts `rows` from the flange back to the taper line: there the wheel's radius is measured, so there depth is 0.
-fn lay_wheel(rows: &mut [Row], taper_line_mm: f64) {
+/// Moves the origin of `rows` from the flange back to the taper line, where the wheel's radius is measured; the depth
+/// there becomes zero.
+fn shift_wheel(rows: &mut [Row], taper_line_mm: f64) {
     let tread_mm = rows
         .windows(2)
         .map(|pair| (pair[0], pair[1]))

@@ -1,14 +1,15 @@
-//! Measured profiles: the files of profile gauges and of simulation programs, checked, cut and smoothed.
+//! Measured profiles: reads the files of profile gauges and simulation programs, checks, trims and smooths them.
 //!
-//! | [`Format`] | files | axes of the file |
-//! |---|---|---|
-//! | [`Columns`](Format::Columns) | two columns `y_mm`, `z_mm` | `y` to the field side, `z` down |
-//! | [`MiniProf`](Format::MiniProf) | `.whl`, `.ban` | wheel: `X` from the flange back to the field side, `Y` down; rail: the same, or both turned round |
-//! | [`Simpack`](Format::Simpack) | `.prw`, `.prr` | after the file's own shifts, turns and mirrors: `y` to the field side, `z` down |
-//! | [`Gensys`](Format::Gensys) | `.wheel`, `.rail` | `z` down; wheel: `y` to the track centre; rail: must be stated |
+//! - [`Columns`](Format::Columns): two columns `y_mm`, `z_mm`, with `y` to the field side and `z` down.
+//! - [`MiniProf`](Format::MiniProf): `.whl`, `.ban`. A wheel has `X` from the flange back to the field side and `Y`
+//!   down; a rail has the same axes or both reversed.
+//! - [`Simpack`](Format::Simpack): `.prw`, `.prr`. After the file's own shifts, rotations and mirrors, `y` points to
+//!   the field side and `z` down.
+//! - [`Gensys`](Format::Gensys): `.wheel`, `.rail`. `z` points down. A wheel has `y` to the track centre; for a rail
+//!   the side must be stated.
 //!
-//! Points follow one another along the curve, from either end; `y` need not rise. What a wheel or rail cannot touch
-//! with is left out, and [`Reading`] counts it: see [`MAX_FOLD_MM`] and [`REACH_MM`].
+//! Points are in order along the curve, from either end; `y` need not rise. Points that cannot be in contact are
+//! removed, and [`Reading`] counts them; see [`MAX_FOLD_MM`] and [`REACH_MM`].
 
 mod columns;
 mod error;
@@ -29,31 +30,31 @@ pub use format::{Format, UnknownFormat};
 pub use reading::{Mirror, Options, Reading, UnknownMirror};
 
 use super::{Body, Profile};
-use reading::Laid;
+use reading::OrientedRows;
 
-/// Smallest number of points of a usable profile: one each 2 mm over a rail head.
+/// Minimum number of points of a profile: one every 2 mm over a rail head.
 pub const MIN_POINTS: usize = 30;
-/// Greatest distance of neighbouring points, mm; over 5 mm a rail corner of R 13 would lose 0.24 mm.
+/// Maximum distance between neighbouring points, mm. A chord of 5 mm cuts 0.24 mm off a rail corner of R 13.
 pub const MAX_GAP_MM: f64 = 5.0;
-/// Greatest width of a fold or burr that is levelled, mm: some times the noise of a profile gauge. Behind a wider one
-/// the shape of the surface is not known.
+/// Maximum width of a fold or burr that is removed, mm: several times the noise of a profile gauge. Behind a wider fold
+/// the shape of the surface is unknown.
 pub const MAX_FOLD_MM: f64 = 0.3;
-/// Farthest that a point is used from the top of a rail or the tip of a flange, mm in depth: the highest flanges have
-/// 36 mm, and a chamfer ends 9 mm above the tread.
+/// Maximum depth of a point from the top of a rail or the tip of a flange, mm. The highest flanges are 36 mm high, and
+/// a chamfer ends 9 mm above the tread.
 pub const REACH_MM: f64 = 45.0;
-/// Default wavelength whose amplitude the smoothing halves, m: readings rounded to 0.01 mm each
-/// 0.5 mm then give positions within 0.005 mm and curvatures within 2 per m RMS.
+/// Default wavelength whose amplitude the smoothing halves, m. From readings every 0.5 mm, rounded to 0.01 mm, it gives
+/// positions within 0.005 mm and curvatures within 2 per m RMS.
 pub const DEFAULT_SMOOTHING_M: f64 = 0.004;
 
 /// Reads the profile of `body` from the `text` of a file.
 ///
-/// The profile is called as the file, without folder and extension. A wheel's origin is its tread datum.
-/// `#` starts a comment in columns and GENSYS files, `!` in SIMPACK files.
+/// The profile gets the name of the file, without folder and extension. The origin of a wheel is its tread datum. `#`
+/// starts a comment in files of columns and of GENSYS, `!` or `%` in files of SIMPACK.
 ///
 /// # Errors
-/// A text that is not of its format, a number beyond -1000 to 1000, fewer than [`MIN_POINTS`] points, neighbours further
-/// apart than [`MAX_GAP_MM`], a fold wider than [`MAX_FOLD_MM`], a profile upside down or mirrored, a GENSYS rail
-/// without [`Options::mirror`], a negative smoothing length.
+/// The text does not have its format; a number is not within -1000 to 1000; there are fewer than [`MIN_POINTS`] points;
+/// neighbours are more than [`MAX_GAP_MM`] apart; a fold is wider than [`MAX_FOLD_MM`]; the profile is upside down or
+/// mirrored; a GENSYS rail has no [`Options::mirror`]; the smoothing length is negative.
 ///
 /// ```
 /// use dashpot_rail::profile::{Body, measured};
@@ -62,7 +63,7 @@ pub const DEFAULT_SMOOTHING_M: f64 = 0.004;
 ///     let depth_mm = f64::from(y_mm).powi(4) * 2e-5;
 ///     text += &format!("{y_mm},{depth_mm:.2}\n");
 /// }
-/// // Under the head: no wheel reaches there.
+/// // Below the head, where no wheel reaches.
 /// text += "35,36\n34,38\n";
 /// let options = measured::Options::default();
 /// let (rail, reading) = measured::parse("worn.csv", &text, Body::Rail, &options)?;
@@ -85,7 +86,7 @@ pub fn parse(
     let format = options
         .format
         .unwrap_or_else(|| Format::detect(text, extension));
-    let Laid { mut rows, turned } = match format {
+    let OrientedRows { mut rows, turned } = match format {
         Format::Columns => columns::read(text, options.mirror),
         Format::MiniProf => miniprof::read(text, body, options.mirror),
         Format::Simpack => simpack::read(text, body, options.mirror),

@@ -1,12 +1,12 @@
-//! Whether a profile lies as a wheel or a rail must.
+//! Checks of the orientation of a wheel or rail profile.
 
 use super::ProfileError;
 use super::row::Row;
 use crate::profile::Body;
 
-/// Checks that a wheel's flange points down on the negative side of its datum and that a rail's head points up.
+/// Checks that the flange of a wheel points down at negative `y`, and that the head of a rail points up.
 ///
-/// `rows` is not empty and begins at its negative end.
+/// `rows` is not empty and begins at the end with negative `y`.
 pub(super) fn check(body: Body, rows: &[Row]) -> Result<(), ProfileError> {
     match body {
         Body::Wheel => check_wheel(rows),
@@ -15,7 +15,7 @@ pub(super) fn check(body: Body, rows: &[Row]) -> Result<(), ProfileError> {
     }
 }
 
-/// Whether the top of a rail is the least depth and both ends lie deeper.
+/// True if both ends of a rail are at least 0.5 mm deeper than its top.
 pub(super) fn head_up(rows: &[Row]) -> bool {
     let top = rows
         .iter()
@@ -28,17 +28,17 @@ pub(super) fn head_up(rows: &[Row]) -> bool {
 fn check_wheel(rows: &[Row]) -> Result<(), ProfileError> {
     let mut depths: Vec<f64> = rows.iter().map(|row| row.z_mm).collect();
     depths.sort_by(f64::total_cmp);
-    let [least, greatest] = [depths[0], depths[depths.len() - 1]];
-    // More than half of a wheel's width is tread, so the median depth is one of the tread.
+    let [min, max] = [depths[0], depths[depths.len() - 1]];
+    // More than half of a wheel's width is tread, so the median depth lies on the tread.
     let tread = depths[depths.len() / 2];
     let ends = [rows[0], rows[rows.len() - 1]];
-    // Back and face of a wheel may reach further up than its flange down, but only at the ends of the curve.
-    let below_ends = greatest - ends[0].z_mm.max(ends[1].z_mm);
-    let above_ends = ends[0].z_mm.min(ends[1].z_mm) - least;
+    // The back and the face of a wheel may extend further up than the flange extends down, but only at the ends.
+    let below_ends = max - ends[0].z_mm.max(ends[1].z_mm);
+    let above_ends = ends[0].z_mm.min(ends[1].z_mm) - min;
     let height_mm = if above_ends > below_ends {
-        tread - least
+        tread - min
     } else {
-        greatest - tread
+        max - tread
     };
     if height_mm < 15.0 {
         return Err(ProfileError::NoFlange {

@@ -1,56 +1,71 @@
-//! What a reader is told, and what it tells of a file beside the profile.
+//! Options for reading a profile file, and a summary of what was read.
 
 use std::fmt;
 use std::str::FromStr;
 
 use super::row::Row;
 use super::{DEFAULT_SMOOTHING_M, Format};
+use crate::setters::setters;
 
-/// How a file is read.
+/// Options for reading a profile file.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Options {
-    /// Format of the file; `None`: by its content and the extension of its name.
+    /// Format of the file; `None` detects it from the content and the file name extension.
     pub format: Option<Format>,
-    /// Axes of the file whose sign is changed before anything else; `None`: none of them, and for a GENSYS rail an error.
+    /// Axes of the file to mirror first. `None` mirrors none, and is an error for a GENSYS rail.
     pub mirror: Option<Mirror>,
     /// Wavelength whose amplitude the smoothing halves, m: [`Profile::through`](crate::profile::Profile::through).
     pub smoothing_m: f64,
 }
 
-impl Default for Options {
-    fn default() -> Self {
+impl Options {
+    /// Detects the format, mirrors no axis, and smooths by [`DEFAULT_SMOOTHING_M`].
+    pub const fn new() -> Self {
         Self {
             format: None,
             mirror: None,
             smoothing_m: DEFAULT_SMOOTHING_M,
         }
     }
+
+    setters! {
+        with_format sets format: Option<Format>;
+        with_mirror sets mirror: Option<Mirror>;
+        with_smoothing_m sets smoothing_m: f64;
+    }
 }
 
-/// Axes of a file whose sign is changed.
+impl Default for Options {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+/// Axes of a file whose signs are reversed.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Mirror {
     /// No axis.
     #[default]
     None,
-    /// The lateral axis: a profile of the other side.
+    /// The lateral axis, for a profile of the other side.
     Y,
-    /// The vertical axis: a profile with its vertical axis the other way.
+    /// The vertical axis, for a profile that is upside down.
     Z,
-    /// Both axes: a profile turned by half a turn.
+    /// Both axes, for a profile rotated by 180 degrees.
     Yz,
 }
 
-/// A name that is no [`Mirror`]'s.
+/// The name does not denote a [`Mirror`].
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("{0}: no such axes, allowed: none, y, z, yz")]
+#[error("{0}: unknown axes, allowed: none, y, z, yz")]
 pub struct UnknownMirror(String);
 
 impl Mirror {
-    /// Every choice.
+    /// All variants.
     pub const ALL: [Self; 4] = [Self::None, Self::Y, Self::Z, Self::Yz];
 
-    /// Name in lower case, as `FromStr` takes it.
+    /// Name in lower case, as parsed by `FromStr`.
     pub fn name(self) -> &'static str {
         match self {
             Self::None => "none",
@@ -81,28 +96,29 @@ impl FromStr for Mirror {
     }
 }
 
-/// What a reader hands on: the points in the axes of a profile.
-pub(super) struct Laid {
+/// The points of a file in the axes of a profile.
+pub(super) struct OrientedRows {
     pub rows: Vec<Row>,
-    /// Whether the reader turned the profile by half a turn.
+    /// True if the reader rotated the profile by 180 degrees.
     pub turned: bool,
 }
 
-/// What was read and what of it was left out.
+/// Summary of a file that was read, and of the points that were removed.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Reading {
     /// Format of the file.
     pub format: Format,
-    /// Whether the profile lay upside down and was turned by half a turn: MiniProf rails.
+    /// True if the profile was upside down and has been rotated by 180 degrees (MiniProf rails).
     pub turned: bool,
-    /// Points of the file.
+    /// Number of points in the file.
     pub points: usize,
-    /// Points left out at the ends: beyond the widest point of a rail, above the back or the face of a wheel, or beyond
-    /// [`REACH_MM`](super::REACH_MM).
+    /// Number of points removed at the ends: beyond the widest point of a rail, above the back or the face of a wheel,
+    /// or beyond [`REACH_MM`](super::REACH_MM).
     pub overhanging: usize,
-    /// Points left out in between, behind folds and burrs.
+    /// Number of points removed in between, behind folds and burrs.
     pub folded: usize,
-    /// Width of the widest of these folds, mm.
+    /// Width of the widest fold, mm.
     pub widest_fold_mm: f64,
 }
 

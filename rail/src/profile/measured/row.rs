@@ -1,8 +1,8 @@
-//! A point of a file, and the numbers it is made of.
+//! A point of a file, and the parsing of its numbers.
 
 use super::ProfileError;
 
-/// A point, with the line of the file it stands on.
+/// A point, with its line in the file.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Row {
     /// Line of the text, counted from 1.
@@ -11,19 +11,19 @@ pub(super) struct Row {
     pub z_mm: f64,
 }
 
-/// The lines of `text` with their numbers, counted from 1.
+/// The lines of `text` with line numbers, counted from 1.
 pub(super) fn numbered(text: &str) -> impl Iterator<Item = (u64, &str)> {
     (1..).zip(text.lines())
 }
 
-/// The cells of a line, which commas, semicolons or blanks separate.
+/// The cells of a line, separated by commas, semicolons or white space.
 pub(super) fn cells(line: &str) -> Vec<&str> {
     line.split(|c: char| c == ',' || c == ';' || c.is_whitespace())
         .filter(|cell| !cell.is_empty())
         .collect()
 }
 
-/// The number in a cell, from -1000 to 1000.
+/// Parses a number from -1000 to 1000.
 pub(super) fn number(line: u64, column: &'static str, cell: &str) -> Result<f64, ProfileError> {
     match cell.parse::<f64>() {
         Ok(value) if value.abs() <= 1000.0 => Ok(value),

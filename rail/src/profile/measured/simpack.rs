@@ -1,25 +1,29 @@
 //! Profile files of SIMPACK: `.prw` and `.prr`.
 //!
-//! Sections `header.begin` to `header.end`, `spline.begin` to `spline.end` and in it `point.begin` to `point.end`, with rows of
-//! `y`, `z` and an optional weight; `!` or `%` starts a comment. The steps that SIMPACK numbers in its files are carried
-//! out in that order: least distance, shift, rotation, bounds, mirrors, then the units (`units.len.f` is the file's unit
-//! over the metre). The order of the points does not matter here, so neither does `inversion`. Weights and
-//! `approx.smooth` are not used: the smoothing is that of the options.
+//! A file has the sections `header` and `spline`, each from `.begin` to `.end`. Within `spline`, the section `point`
+//! has rows of `y`, `z` and an optional weight. `!` or `%` starts a comment.
 //!
-//! Points beyond bounds are left out; bounds count where the lower is below the upper.
+//! The processing steps are applied in the order in which SIMPACK numbers them in its files: minimum distance, shift,
+//! rotation, bounds, mirrors, and finally units (`units.len.f` is the number of file units per metre). The order of the
+//! points does not matter here, so `inversion` is ignored. Weights and `approx.smooth` are not used; the options set
+//! the smoothing. Points outside the bounds are removed. Bounds are used only if the lower one is below the upper one.
 //!
-//! Sources: the comments that SIMPACK writes into its files, as in the Manchester contact benchmark's
-//! `MBench_S1002_v3.prw`; CONTACT user guide (Vollebregt, Vtech CMCC) and its `read_simpack.m`. After these steps `y` points
-//! to the field side and `z` down. CONTACT sets `z` to the bound instead, which would make a shelf that the surface does
-//! not have.
+//! Sources: the comments that SIMPACK writes into its files, as in `MBench_S1002_v3.prw` of the Manchester contact
+//! benchmark; CONTACT user guide (Vollebregt, Vtech CMCC) and its `read_simpack.m`. After these steps `y` points to the
+//! field side and `z` down. CONTACT sets `z` to the bound instead of removing the point, which creates a shelf that
+//! does not exist.
 
 use super::ProfileError;
-use super::reading::{Laid, Mirror};
+use super::reading::{Mirror, OrientedRows};
 use super::row::{Row, cells, number, numbered};
 use crate::profile::Body;
 
-/// The points of `text` in the axes of a profile.
-pub(super) fn read(text: &str, body: Body, mirror: Option<Mirror>) -> Result<Laid, ProfileError> {
+/// Reads the points of `text`, in the axes of a profile.
+pub(super) fn read(
+    text: &str,
+    body: Body,
+    mirror: Option<Mirror>,
+) -> Result<OrientedRows, ProfileError> {
     let mut rows = Vec::new();
     let mut steps = Steps::default();
     let mut sections: Vec<&str> = Vec::new();
@@ -41,7 +45,7 @@ pub(super) fn read(text: &str, body: Body, mirror: Option<Mirror>) -> Result<Lai
             sections.push(section);
         } else if let Some(section) = content.strip_suffix(".end") {
             if sections.pop() != Some(section) {
-                return Err(misplaced("the end of the section that was begun last"));
+                return Err(misplaced("the end of the current section"));
             }
             complete |= section == "point";
         } else if let Some((key, value)) = content.split_once('=') {
@@ -64,13 +68,13 @@ pub(super) fn read(text: &str, body: Body, mirror: Option<Mirror>) -> Result<Lai
     }
     let mut rows = steps.apply(rows);
     mirror.unwrap_or_default().apply(&mut rows);
-    Ok(Laid {
+    Ok(OrientedRows {
         rows,
         turned: false,
     })
 }
 
-/// `line` without its comment; a comment's mark within apostrophes is text.
+/// Removes the comment from `line`; comment characters within apostrophes are text.
 fn without_comment(line: &str) -> &str {
     let mut quoted = false;
     let end = line.find(|c| {
@@ -112,9 +116,9 @@ fn check_type(line: u64, key: &str, value: &str, body: Body) -> Result<(), Profi
     })
 }
 
-/// What a file says to do with its points, in its own units.
+/// Processing steps that a file defines for its points, in its own units.
 struct Steps {
-    least_distance: f64,
+    min_distance: f64,
     shift: [f64; 2],
     rotation: f64,
     bounds_y: [f64; 2],
@@ -128,7 +132,7 @@ struct Steps {
 impl Default for Steps {
     fn default() -> Self {
         Self {
-            least_distance: 0.0,
+            min_distance: 0.0,
             shift: [0.0; 2],
             rotation: 0.0,
             bounds_y: [0.0; 2],
@@ -166,7 +170,7 @@ impl Steps {
             _ => Err(wrong(key, "0 or 1")),
         };
         match key {
-            "point.dist.min" => self.least_distance = real("point.dist.min")?,
+            "point.dist.min" => self.min_distance = real("point.dist.min")?,
             "shift.y" => self.shift[0] = real("shift.y")?,
             "shift.z" => self.shift[1] = real("shift.z")?,
             "rotate" => self.rotation = real("rotate")?,
@@ -183,10 +187,10 @@ impl Steps {
         Ok(())
     }
 
-    /// The rows after all steps, in mm.
+    /// Applies all steps; the result is in mm.
     fn apply(&self, mut rows: Vec<Row>) -> Vec<Row> {
         let distance = |p: &Row, q: &Row| (q.y_mm - p.y_mm).hypot(q.z_mm - p.z_mm);
-        rows.dedup_by(|row, before| distance(before, row) < self.least_distance);
+        rows.dedup_by(|row, before| distance(before, row) < self.min_distance);
         let (sin, cos) = (self.rotation / self.units_per_rad).sin_cos();
         for row in &mut rows {
             let [y, z] = [row.y_mm + self.shift[0], row.z_mm + self.shift[1]];

@@ -1,4 +1,4 @@
-//! The part of a measured curve that wheel and rail can touch with.
+//! The part of a measured curve that can be in contact.
 
 use std::iter;
 
@@ -6,21 +6,21 @@ use super::row::Row;
 use super::{MAX_FOLD_MM, MAX_GAP_MM, ProfileError, REACH_MM};
 use crate::profile::Body;
 
-/// A curve with rising `y`, and what was left out for it.
+/// A curve with rising `y`, and the numbers of points removed.
 #[derive(Debug, Default)]
 pub(super) struct Touchable {
     pub points_mm: Vec<[f64; 2]>,
-    /// Points left out at the ends.
+    /// Number of points removed at the ends.
     pub overhanging: usize,
-    /// Points left out in between.
+    /// Number of points removed in between.
     pub folded: usize,
     pub widest_fold_mm: f64,
 }
 
-/// The outer envelope of `rows`, which are not empty and begin at their negative end.
+/// Returns the outer envelope of `rows`, which are not empty and begin at the end with negative `y`.
 ///
-/// Seen from the top of a rail or the tip of a flange, a point counts that lies further out than all before it. Those
-/// that do not are hidden: at the end of the curve they overhang, in between they are a fold.
+/// Seen from the top of a rail or the tip of a flange, a point is kept if it lies further out than all previous points.
+/// The other points are hidden: at the end of the curve they overhang, in between they form a fold.
 pub(super) fn touchable(body: Body, rows: &[Row]) -> Result<Touchable, ProfileError> {
     let sign = match body {
         Body::Wheel => -1.0,
@@ -42,7 +42,7 @@ pub(super) fn touchable(body: Body, rows: &[Row]) -> Result<Touchable, ProfileEr
 }
 
 impl Touchable {
-    /// The points of `rows`, from the apex outward, that lie further in `direction` than all before them.
+    /// Returns the points of `rows`, from the apex outwards, that lie further in `direction` than all previous points.
     fn walk<'a>(
         &mut self,
         mut rows: impl ExactSizeIterator<Item = &'a Row> + Clone,
@@ -56,7 +56,7 @@ impl Touchable {
         kept.push([apex.y_mm, apex.z_mm]);
         let in_reach = |row: &Row| into_material(row) - into_material(apex) <= REACH_MM;
         let (mut outermost, mut before) = (apex, apex);
-        // The points since `outermost`, and the furthest that one of them lies behind it.
+        // Number of points since `outermost`, and the maximum distance of one of them behind it.
         let (mut hidden, mut fold_mm) = (0, 0.0_f64);
         while let Some(row) = rows.next() {
             if !in_reach(row) {
@@ -65,7 +65,7 @@ impl Touchable {
             }
             let gap_mm = (row.y_mm - before.y_mm).hypot(row.z_mm - before.z_mm);
             if gap_mm > MAX_GAP_MM {
-                // Down a vertical side nothing lies beyond a gap that the profile could lack.
+                // A gap on a vertical side is harmless: nothing further out is missing.
                 let beyond = iter::once(row)
                     .chain(rows.clone())
                     .take_while(|row| in_reach(row))

@@ -59,7 +59,7 @@ pub const SPEED_M_PER_S: [f64; 2] = [1.0, 150.0];
 /// # let mut grid = Grid::default();
 /// # grid.roll_rad.cells = [1, 2, 1];
 /// # grid.yaw_squared_rad2.cells = [0, 1, 1];
-/// # let pair = Pair::standard(Installation { wheel_radius_m: 0.46, ..Installation::default() })?;
+/// # let pair = Pair::standard(Installation::default().with_wheel_radius_m(0.46))?;
 /// # let tables = Tables::new(ContactGeometry::new(pair, Steel::default(), 75e3)?, grid)?;
 /// # let contact = Arc::new(WheelsetContact::new(Arc::new(tables), KalkerBook::new(), Friction::default())?);
 /// // A wagon of 27 t on two wheelsets of 1.5 t; `contact` is that of its wheels.

@@ -1,4 +1,4 @@
-//! Tables of the default pair, wheelsets that stand and roll on them, and the list of creep laws.
+//! Tables of the default pair, stationary and rolling wheelsets, and the list of creep laws.
 
 use std::sync::{Arc, OnceLock};
 
@@ -10,7 +10,7 @@ use dashpot_rail::creep::{
     CreepLaw, Fastsim, Friction, KalkerBook, KalkerTable, LoadedContact, Polach, ShenHedrickElkins,
 };
 
-/// S1002 on UIC 60 under wheels of 103 kN.
+/// S1002 on UIC 60, with a wheel load of 103 kN.
 pub fn geometry() -> &'static ContactGeometry {
     static GEOMETRY: OnceLock<ContactGeometry> = OnceLock::new();
     GEOMETRY.get_or_init(|| {
@@ -26,7 +26,7 @@ pub fn tables() -> Arc<Tables> {
     Arc::clone(tables)
 }
 
-/// Every creep law, by the name it has in docs/contact.md.
+/// Every creep law, with its name in docs/contact.md.
 pub fn laws() -> [(&'static str, Box<dyn CreepLaw>); 4] {
     [
         ("Kalker's book of tables", Box::new(KalkerBook::new())),
