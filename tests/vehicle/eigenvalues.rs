@@ -33,43 +33,33 @@ fn three(rng: &mut Rng, least: f64) -> [f64; 3] {
     std::array::from_fn(|_| decades(rng, least, 4.0))
 }
 
-fn body(rng: &mut Rng, name: &str, least_kg: f64) -> Body {
-    let mass_kg = decades(rng, least_kg, 2.0);
-    Body {
-        name: name.into(),
-        mass_kg,
-        inertia_kg_m2: [
-            mass_kg * between(rng, 0.3, 3.0),
-            mass_kg * between(rng, 0.5, 30.0),
-            mass_kg * between(rng, 0.5, 30.0),
-        ],
-        x_m: between(rng, -1.0, 1.0),
-        height_m: between(rng, 0.3, 2.5),
-    }
+fn body(rng: &mut Rng, name: &str, min_kg: f64) -> Body {
+    let mass_kg = decades(rng, min_kg, 2.0);
+    let inertia_kg_m2 = [
+        mass_kg * between(rng, 0.3, 3.0),
+        mass_kg * between(rng, 0.5, 30.0),
+        mass_kg * between(rng, 0.5, 30.0),
+    ];
+    let x_m = between(rng, -1.0, 1.0);
+    Body::new(name, mass_kg, inertia_kg_m2, between(rng, 0.3, 2.5)).with_x_m(x_m)
 }
 
 fn spring(name: String, ends: [End; 2], stiffness: [f64; 3], damping: [f64; 3]) -> Element {
-    Element {
-        name,
-        ends,
-        law: Law::SpringDamper {
-            stiffness_n_per_m: stiffness,
-            damping_n_s_per_m: damping,
-        },
-    }
+    let law = Law::SpringDamper {
+        stiffness_n_per_m: stiffness,
+        damping_n_s_per_m: damping,
+    };
+    Element::new(name, ends, law)
 }
 
 fn damper(rng: &mut Rng, name: String, ends: [End; 2], direction: Direction) -> Element {
     let mount = Mount::new(decades(rng, 1e5, 5.0));
     let parameters = DamperParameters::reduced(decades(rng, 1e3, 4.0), 1.0, mount);
-    Element {
-        name,
-        ends,
-        law: Law::Damper {
-            direction,
-            parameters: Box::new(parameters),
-        },
-    }
+    let law = Law::Damper {
+        direction,
+        parameters: Box::new(parameters),
+    };
+    Element::new(name, ends, law)
 }
 
 /// Two bodies on random springs and a damper, at standstill; `None` if they are not held.
@@ -91,13 +81,9 @@ fn standing(rng: &mut Rng) -> Option<Solved> {
     let at = [1.0, 0.5, 0.7];
     let ends = [End::body("lower", at), End::body("upper", at)];
     elements.push(damper(rng, "damper".into(), ends, Direction::Lateral));
-    let vehicle = VehicleParameters {
-        name: "two bodies".into(),
-        bodies: vec![body(rng, "upper", 1e3), body(rng, "lower", 300.0)],
-        wheelsets: vec![],
-        elements,
-        ride_points: vec![],
-    };
+    let vehicle = VehicleParameters::new("two bodies")
+        .with_bodies([body(rng, "upper", 1e3), body(rng, "lower", 300.0)])
+        .with_elements(elements);
     let standstill = Standstill::new(&vehicle).ok()?;
     let values = standstill.eigenvalues_rad_per_s().unwrap();
     Some((standstill.state_matrix(), values))
@@ -106,12 +92,9 @@ fn standing(rng: &mut Rng) -> Option<Solved> {
 /// A body on two wheelsets with springs and yaw dampers, at a speed; `None` if the rails do not carry it.
 fn wagon(rng: &mut Rng) -> Option<Solved> {
     let base_m = between(rng, 1.0, 9.0);
-    let wheelset = |name: &str, x_m: f64, mass_kg: f64| Wheelset {
-        name: name.into(),
-        mass_kg,
-        inertia_kg_m2: [0.5 * mass_kg, 0.06 * mass_kg, 0.5 * mass_kg],
-        x_m,
-        radius_m: 0.625,
+    let wheelset = |name: &str, x_m: f64, mass_kg: f64| {
+        let inertia_kg_m2 = [0.5 * mass_kg, 0.06 * mass_kg, 0.5 * mass_kg];
+        Wheelset::new(name, mass_kg, inertia_kg_m2, 0.625).with_x_m(x_m)
     };
     let mass_kg = between(rng, 900.0, 3500.0);
     let wheelsets = vec![
@@ -135,19 +118,16 @@ fn wagon(rng: &mut Rng) -> Option<Solved> {
         }
     }
     let body_kg = between(rng, 12e3, 60e3);
-    let vehicle = VehicleParameters {
-        name: "wagon".into(),
-        bodies: vec![Body {
-            name: "body".into(),
-            mass_kg: body_kg,
-            inertia_kg_m2: [2.0, 25.0, 25.0].map(|square| square * body_kg),
-            x_m: 0.0,
-            height_m: between(rng, 1.0, 2.0),
-        }],
-        wheelsets,
-        elements,
-        ride_points: vec![],
-    };
+    let inertia_kg_m2 = [2.0, 25.0, 25.0].map(|square| square * body_kg);
+    let vehicle = VehicleParameters::new("wagon")
+        .with_bodies([Body::new(
+            "body",
+            body_kg,
+            inertia_kg_m2,
+            between(rng, 1.0, 2.0),
+        )])
+        .with_wheelsets(wheelsets)
+        .with_elements(elements);
     let speed = between(rng, 1.0, 120.0);
     let running = Running::new(&vehicle, &support::contact(5.0), speed).ok()?;
     let values = running.eigenvalues_rad_per_s().unwrap();

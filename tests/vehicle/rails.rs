@@ -6,13 +6,9 @@ use dashpot_rail::vehicle::{Law, RailSupport, Vehicle};
 
 use crate::support::{contact, curve, locomotive, run};
 
-const SUPPORT: RailSupport = RailSupport {
-    mass_kg: 60.0,
-    lateral_stiffness_n_per_m: 40e6,
-    lateral_damping_n_s_per_m: 60e3,
-    vertical_stiffness_n_per_m: 80e6,
-    vertical_damping_n_s_per_m: 60e3,
-};
+const SUPPORT: RailSupport = RailSupport::new(60.0)
+    .with_lateral(40e6, 60e3)
+    .with_vertical(80e6, 60e3);
 
 /// In a curve each rail has gone by the change of its force over its stiffness.
 #[test]
@@ -66,11 +62,9 @@ fn stiff_rails_are_rigid_ones() {
         (state.coordinates()[3][0], contact.force_n[1])
     };
     let by = |factor: f64| {
-        let support = RailSupport {
-            lateral_stiffness_n_per_m: factor * SUPPORT.lateral_stiffness_n_per_m,
-            vertical_stiffness_n_per_m: factor * SUPPORT.vertical_stiffness_n_per_m,
-            ..SUPPORT
-        };
+        let mut support = SUPPORT;
+        support.lateral_stiffness_n_per_m *= factor;
+        support.vertical_stiffness_n_per_m *= factor;
         lateral(Some(support))
     };
     let (rigid, stiff, soft) = (lateral(None), by(1000.0), by(1.0));
@@ -91,10 +85,8 @@ fn a_wheelset_bounces_on_its_rails_as_two_masses_do() {
             *damping_n_s_per_m = [0.0; 3];
         }
     }
-    let support = RailSupport {
-        vertical_damping_n_s_per_m: 0.0,
-        ..SUPPORT
-    };
+    let mut support = SUPPORT;
+    support.vertical_damping_n_s_per_m = 0.0;
     let step_s = 0.1e-3;
     let vehicle = Vehicle::on_rails(&parameters, contact(0.0), step_s, Some(support)).unwrap();
     let track = Track::default();
@@ -140,10 +132,8 @@ fn a_wheelset_bounces_on_its_rails_as_two_masses_do() {
 
 #[test]
 fn a_support_that_is_none_is_refused() {
-    let support = RailSupport {
-        mass_kg: -1.0,
-        ..SUPPORT
-    };
+    let mut support = SUPPORT;
+    support.mass_kg = -1.0;
     let error = Vehicle::on_rails(&locomotive(), contact(5.0), 1e-3, Some(support)).unwrap_err();
     assert_eq!(
         error.to_string(),

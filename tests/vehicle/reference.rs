@@ -64,11 +64,9 @@ fn track(random: &mut Rng) -> Track {
         },
     ];
     let spectrum = Spectrum::fra(random.u8(5..=6)).unwrap();
-    let irregularity = Generation {
-        length_m: 600.0,
-        seeds: Seeds::from(random.u64(..)),
-        ..Generation::of(spectrum)
-    };
+    let irregularity = Generation::new(spectrum)
+        .with_length_m(600.0)
+        .with_seeds(Seeds::from(random.u64(..)));
     let irregularity: Irregularity = irregularity.irregularity().unwrap();
     Track::new(Layout::new(&parts).unwrap(), irregularity, vec![]).unwrap()
 }

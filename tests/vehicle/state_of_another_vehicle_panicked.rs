@@ -9,13 +9,9 @@ use fastrand::Rng;
 
 use crate::support::{Contact, contact, curve, locomotive, run};
 
-const SUPPORT: RailSupport = RailSupport {
-    mass_kg: 100.0,
-    lateral_stiffness_n_per_m: 20e6,
-    lateral_damping_n_s_per_m: 50e3,
-    vertical_stiffness_n_per_m: 70e6,
-    vertical_damping_n_s_per_m: 70e3,
-};
+const SUPPORT: RailSupport = RailSupport::new(100.0)
+    .with_lateral(20e6, 50e3)
+    .with_vertical(70e6, 70e3);
 
 fn vehicle(name: &str, step_s: f64) -> Vehicle<dashpot_rail::creep::KalkerBook> {
     let parameters = dashpot_hil::files::vehicle::load(name, &[]).unwrap();

@@ -14,7 +14,7 @@ fn wrong_numbers_are_errors_and_change_nothing() {
     let before = state.clone();
 
     let error = vehicle.displace(&mut state, &track, 99, [1e-3; 5]);
-    let expected = VehicleError::NoBodyOfNumber {
+    let expected = VehicleError::NoSuchBodyIndex {
         body: 99,
         bodies: 9,
     };
@@ -37,7 +37,7 @@ fn wrong_numbers_are_errors_and_change_nothing() {
     assert!(state.set_outside_force_n(42, None).is_err());
     for wrong in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
         let error = state.set_outside_force_n(0, Some(wrong)).unwrap_err();
-        let expected = "from outside, allowed: a finite number";
+        let expected = "external force of";
         assert!(error.to_string().contains(expected), "{error}");
     }
     assert_eq!(state, before);

@@ -36,7 +36,7 @@ fn the_reported_one_has_modes() {
     let running = Running::new(&locomotive(4.1e6, 12e6), contact(), 50.0).unwrap();
     let modes = running.modes().unwrap();
     assert!(modes.iter().all(|mode| mode.undamped_hz() > 0.0));
-    assert!(modes.iter().any(|mode| mode.words() == "body bounce"));
+    assert!(modes.iter().any(|mode| mode.description() == "body bounce"));
 }
 
 /// 9 dampings, 2 stiffnesses of the mounts, 15 speeds: all 270 have modes.

@@ -212,7 +212,7 @@ fn what_has_no_spectrum_is_told() {
     let short = sperling(&[0.0; 100], RATE_HZ, 5.0, RideDirection::Lateral).unwrap_err();
     assert_eq!(
         short.to_string(),
-        "100 samples, allowed: at least those of a window, 2500"
+        "100 samples, allowed: at least the 2500 samples of a window"
     );
     let mut signal = sine(1.0, 1.0, 5.0);
     signal[7] = f64::NAN;

@@ -140,15 +140,15 @@ fn a_wrong_layout_says_what_where_and_what_is_allowed() {
         ),
         (
             &[circular(300.0, 0.31)],
-            "cant_m (left rail over the right one) 0.31, allowed: -0.1 to 0.3",
+            "cant_m (left rail above right rail) 0.31, allowed: -0.1 to 0.3",
         ),
         (
             &[circular(-300.0, 0.15)],
-            "cant_m (left rail over the right one) 0.15, allowed: -0.3 to 0.1",
+            "cant_m (left rail above right rail) 0.15, allowed: -0.3 to 0.1",
         ),
         (
             &[STRAIGHT, RIGHT],
-            "part 2 of the layout: cant_m begins with 0.15 where the part before ends with 0, allowed: a transition between them",
+            "part 2 of the layout: cant_m starts at 0.15, but the previous part ends at 0, allowed: a transition between them",
         ),
         (
             &[STRAIGHT, TRANSITION],

@@ -30,10 +30,7 @@ fn table() -> Vec<Row> {
             Row {
                 name: cells[..4].join(" "),
                 spectrum,
-                band: Band {
-                    shortest_m: 1.0 / number(3),
-                    longest_m: 1.0 / number(2),
-                },
+                band: Band::new(1.0 / number(3), 1.0 / number(2)),
                 rms_mm: [4, 5, 6, 7].map(number),
             }
         })
@@ -96,12 +93,10 @@ static REALISATIONS: LazyLock<Vec<Realisations>> = LazyLock::new(|| {
     });
     rows.map(|row| {
         let deviations_m = [1, 2].map(|seed| {
-            let generation = Generation {
-                band: row.band,
-                seeds: Seeds::from(seed),
-                length_m: 10_000.0,
-                ..Generation::of(row.spectrum)
-            };
+            let generation = Generation::new(row.spectrum)
+                .with_band(row.band)
+                .with_seeds(Seeds::from(seed))
+                .with_length_m(10_000.0);
             let irregularity = generation.irregularity().unwrap();
             let between_ramps = (100..19_900).map(|i| SPACING_M * f64::from(i));
             between_ramps

@@ -1,4 +1,4 @@
-//! Which vehicle a state belongs to.
+//! Identity of the vehicle that a state belongs to.
 
 use sha2::{Digest, Sha256};
 
@@ -7,16 +7,18 @@ use crate::vehicle::body::{Body, VehicleParameters};
 use crate::vehicle::element::{Direction, Element, Law};
 use crate::vehicle::standstill::wheelset_bodies;
 
-/// A digest of what a state of a vehicle depends on: its bodies, elements, rails and step. The laws of its dampers are not in it, because
-/// [`Vehicle::set_damper`](super::Vehicle::set_damper) may change them in motion, nor is the contact of its wheels, which a state only
-/// has results of. Equal parameters give an equal digest in every process and on every machine.
+/// A digest of the parameters that a vehicle's state depends on: bodies, elements, rails and step.
+///
+/// Two things are left out: the parameters of dampers, because [`Vehicle::set_damper`](super::Vehicle::set_damper) may change
+/// them in motion, and the wheel-rail contact, because a state stores only its results. Equal parameters give an equal digest
+/// in every process and on every machine.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Identity(u64);
 
 impl Identity {
     pub fn new(parameters: &VehicleParameters, step_s: f64, rails: Option<&RailSupport>) -> Self {
-        let mut digest = Parts(Sha256::new());
+        let mut digest = Hasher(Sha256::new());
         digest.numbers(&[step_s]);
         match rails {
             Some(rails) => digest.numbers(&[
@@ -41,10 +43,10 @@ impl Identity {
     }
 }
 
-/// Texts and numbers, each part with its length before it, so that no two vehicles give the same bytes.
-struct Parts(Sha256);
+/// Hashes texts and numbers, each after its length, so that no two vehicles give the same bytes.
+struct Hasher(Sha256);
 
-impl Parts {
+impl Hasher {
     fn count(&mut self, count: usize) {
         self.0.update((count as u64).to_le_bytes());
     }
