@@ -2,7 +2,7 @@
 
 use realfft::num_complex::Complex;
 
-use super::spectrum::{SpectrumError, Transform, mean, samples_of_window, check_signal};
+use super::spectrum::{SpectrumError, Transform, check_signal, mean, samples_of_window};
 
 /// Direction of an acceleration across the track.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -102,7 +102,11 @@ impl Sperling {
             let square = line.norm_sqr();
             weight * square * square.sqrt()
         };
-        let sum: f64 = lines[self.first..].iter().zip(weights).map(contribution).sum();
+        let sum: f64 = lines[self.first..]
+            .iter()
+            .zip(weights)
+            .map(contribution)
+            .sum();
         3.57 * sum.powf(0.1)
     }
 }

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::spectrum::{SpectrumError, Transform, mean, samples_of_window, check_signal};
+use super::spectrum::{SpectrumError, Transform, check_signal, mean, samples_of_window};
 
 /// Estimates the one-sided power spectral density of a signal sample by sample (Welch 1967): Hann windows with 50 % overlap,
 /// each without its mean. It stores a single window, however long the signal is.

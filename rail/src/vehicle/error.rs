@@ -128,7 +128,9 @@ pub enum VehicleError {
         load_n: f64,
     },
     /// The equations of motion contain a non-finite value, or the eigenvalue iteration does not converge.
-    #[error("the modes cannot be found: the values of stiffness, damping and mass are too far apart")]
+    #[error(
+        "the modes cannot be found: the values of stiffness, damping and mass are too far apart"
+    )]
     NoModes,
     /// No element holds a body in one of its coordinates.
     #[error("{body}: not held in {coordinate}; add an element that holds it")]

@@ -20,7 +20,8 @@ pub struct Running {
 }
 
 /// Index of the field of [`Motion`](crate::contact::Motion) for each coordinate of a wheelset. The spin enters only by its rate.
-const DISPLACEMENT_FIELDS: [Option<usize>; COORDINATES.len()] = [Some(1), Some(2), Some(3), None, Some(4)];
+const DISPLACEMENT_FIELDS: [Option<usize>; COORDINATES.len()] =
+    [Some(1), Some(2), Some(3), None, Some(4)];
 
 /// Index of the field of [`Motion`](crate::contact::Motion) for the rate of each coordinate, and its sign: rolling forward is
 /// nose down.

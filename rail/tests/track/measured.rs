@@ -190,10 +190,7 @@ fn a_wrong_file_says_what_where_and_what_is_allowed() {
             Options::default().with_spacing_m(Some(0.0)),
             "spacing_m 0, allowed: 0.01 to 5",
         ),
-        (
-            Options::default().with_shift_m(f64::NAN),
-            "shift_m NaN",
-        ),
+        (Options::default().with_shift_m(f64::NAN), "shift_m NaN"),
     ] {
         let error = measured::parse(&good, &options).unwrap_err();
         assert!(error.to_string().contains(expected), "{error}");

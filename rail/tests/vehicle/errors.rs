@@ -78,9 +78,12 @@ fn every_error_says_what_where_and_what_is_allowed() {
         ("left: both ends are on body", |v| {
             v.elements[0].ends[0].on = Some("body".into());
         }),
-        ("left: both ends of this element must be at the same point", |v| {
-            v.elements[0].ends[0].at_m[0] = 1.0;
-        }),
+        (
+            "left: both ends of this element must be at the same point",
+            |v| {
+                v.elements[0].ends[0].at_m[0] = 1.0;
+            },
+        ),
         (
             "left: stiffness_n_per_m = -5, allowed: 0 to 1000000000000",
             |v| {
@@ -100,7 +103,9 @@ fn every_error_says_what_where_and_what_is_allowed() {
             "body: used twice; names of bodies, wheelsets, elements and ride points must be unique",
             |v| v.ride_points[0].name = "body".into(),
         ),
-        ("no body: a vehicle needs at least one", |v| v.bodies.clear()),
+        ("no body: a vehicle needs at least one", |v| {
+            v.bodies.clear()
+        }),
         (
             "body: not held in pitch; add an element that holds it",
             |v| {

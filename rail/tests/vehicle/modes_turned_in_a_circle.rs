@@ -15,7 +15,9 @@ fn a_conical_wheelset_has_modes_at_every_speed() {
             .modes()
             .unwrap_or_else(|error| panic!("{speed} m/s: {error}"));
         assert!(
-            modes.iter().any(|mode| mode.description() == "wheelset lateral"),
+            modes
+                .iter()
+                .any(|mode| mode.description() == "wheelset lateral"),
             "{speed} m/s"
         );
     }

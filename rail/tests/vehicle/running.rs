@@ -80,7 +80,9 @@ pub fn free_wheelset() -> VehicleParameters {
 }
 
 fn hunting(modes: &[Mode]) -> &Mode {
-    let found = modes.iter().find(|mode| mode.description() == "wheelset lateral");
+    let found = modes
+        .iter()
+        .find(|mode| mode.description() == "wheelset lateral");
     found.expect("a lateral mode of the wheelset")
 }
 

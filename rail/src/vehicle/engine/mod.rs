@@ -30,8 +30,8 @@ use self::guidance::{BodyPosition, Guidance};
 use self::identity::Identity;
 use self::method::Method;
 pub use self::rails::RailSupport;
-use self::springs::Springs;
 use self::shape::Shape;
+use self::springs::Springs;
 use self::state::Work;
 pub use self::state::{Stop, VehicleState};
 use self::step::MAX_DISPLACEMENT;
@@ -285,7 +285,11 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
     ///
     /// # Errors
     /// An index out of range.
-    pub fn replace_damper(&mut self, damper: usize, replacement: &Damper<f64>) -> Result<(), VehicleError> {
+    pub fn replace_damper(
+        &mut self,
+        damper: usize,
+        replacement: &Damper<f64>,
+    ) -> Result<(), VehicleError> {
         let dampers = self.dampers.len();
         match self.dampers.get_mut(damper) {
             Some(element) => {

@@ -180,7 +180,8 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
             *velocity = from_fn(|i| v[i] + method.to_velocity * change[i]);
             *acceleration = a;
             *force = from_fn(|i| (inertia[i] - method.old_force * old[i]) * to_force);
-            is_bounded &= (0..N).all(|i| (q[i].abs() < MAX_DISPLACEMENT) & (a[i].abs() < MAX_ACCELERATION));
+            is_bounded &=
+                (0..N).all(|i| (q[i].abs() < MAX_DISPLACEMENT) & (a[i].abs() < MAX_ACCELERATION));
         }
         for constants in &self.wheelsets {
             state.coordinates[constants.blocks.wheelset][3] = 0.0;

@@ -71,7 +71,8 @@ pub(super) fn add_contact<S: Simd>(
             let resistance = weights.stiffness * stiffness + weights.damping * normal_damping;
             let damping = weights.damping * damping;
             let three = [(normal, resistance), (across, damping), (along, damping)];
-            for ((direction, weight), (of_wheelset, of_rails)) in three.into_iter().zip(&mut directions)
+            for ((direction, weight), (of_wheelset, of_rails)) in
+                three.into_iter().zip(&mut directions)
             {
                 *of_wheelset = Weighted::new(direction, weight);
                 if blocks.rails.is_some() {
