@@ -1,4 +1,4 @@
-//! The text of `docs/vehicle-validation.md`.
+//! Text of `docs/vehicle-validation.md`.
 
 use crate::claim::{LIMITED_PERCENT, NONE_PERCENT, Verdict};
 use crate::rows::{Kept, percent};
@@ -53,7 +53,7 @@ fluctuation hold {}: easily, for a vehicle whose lateral dampers do little in a 
     )
 }
 
-/// Our change of a row.
+/// Our change of a published row.
 fn of_row(compared: &[Compared], figure: &str, observed: &str) -> String {
     let found = compared
         .iter()
@@ -62,7 +62,7 @@ fn of_row(compared: &[Compared], figure: &str, observed: &str) -> String {
     percent(&row.change)
 }
 
-/// Values at the nominal parameters beside what the paper's axes show.
+/// Table of values at the nominal parameters and of the ranges of the paper's axes.
 fn levels(paper: &Kept) -> String {
     let mut text = String::from(
         "## Values at the nominal parameters
@@ -135,7 +135,7 @@ fn varied(kept: &Kept, sweep: &str, first: Option<&str>, ends: [f64; 2], index: 
     percent(&kept.change(sweep, points, index))
 }
 
-/// What the rows depend on.
+/// Explanation of the differences.
 fn why(compared: &[Compared], paper: &Kept, stand_ins: &Kept) -> String {
     let mut text = String::from(
         "## What the rows depend on
@@ -252,7 +252,7 @@ coefficients more often.
     text
 }
 
-/// The published curve beside one of 600 m.
+/// Comparison of the published curve with a curve of 600 m.
 fn curve(paper: &Kept, wide: &Kept) -> String {
     let mut text = String::from(
         "## In a curve of 600 m
@@ -282,7 +282,7 @@ Range of the means of each sweep over their mean, in percent, at 100 km/h: 200 m
     text
 }
 
-/// What the ride over the bogies and in the middle have in common.
+/// Correlation of the ride indices over the bogies and in the middle.
 fn coupling(paper: &Kept) -> String {
     let [over, middle] = ["sperling_vertical", "sperling_vertical_first"]
         .map(|index| paper.mean(paper.sweep("straight"), 0, index).mean);

@@ -1,4 +1,4 @@
-//! The text of `docs/out-of-service.md`.
+//! Text of `docs/out-of-service.md`.
 
 use dashpot_hil::files::study::{Sweep, Value};
 
@@ -6,10 +6,10 @@ use xtask::vehicle_validation::SEEDS;
 
 use crate::rows::{Kept, percent};
 
-/// How much worse than new the ride may be, %.
+/// Maximum degradation of the ride index from new, %.
 const WORSE_PERCENT: f64 = 5.0;
 
-/// Numbers of the first axis.
+/// Values of the first axis.
 fn abscissas(sweep: &Sweep) -> Vec<f64> {
     let number = |value: &Value| match value {
         Value::Number(number) => *number,
@@ -18,7 +18,7 @@ fn abscissas(sweep: &Sweep) -> Vec<f64> {
     sweep.axes[0].values.iter().map(number).collect()
 }
 
-/// Where a curve first reaches a level on the way from `start`, linear between its points; none where it does not.
+/// Abscissa at which a piecewise linear curve first reaches a level on the way from `start`; `None` if it does not.
 fn crossing(x: &[f64], y: &[f64], start: usize, level: f64) -> Option<f64> {
     let upwards = (start..x.len()).collect::<Vec<_>>();
     let downwards = (0..=start).rev().collect::<Vec<_>>();
@@ -35,7 +35,7 @@ fn crossing(x: &[f64], y: &[f64], start: usize, level: f64) -> Option<f64> {
 struct Wear<'a> {
     kept: &'a Kept,
     sweep: &'a Sweep,
-    /// The point that is as new.
+    /// Index of the point that is as new.
     new: usize,
 }
 
@@ -51,7 +51,8 @@ impl<'a> Wear<'a> {
         self.kept.change(self.sweep, points, index)
     }
 
-    /// Where an index is so much worse than new: by its mean, and by the ends of its confidence interval.
+    /// Parameter values at which an index has degraded by a given amount: for its mean and for the ends of its
+    /// confidence interval.
     fn limit(&self, index: &str) -> [Option<f64>; 3] {
         let x = abscissas(self.sweep);
         [0.0, 1.0, -1.0].map(|side| {
@@ -72,7 +73,7 @@ fn at(limit: Option<f64>, factor: f64, digits: usize, unit: &str) -> String {
     )
 }
 
-/// A limit with those of the interval's ends in the order of their numbers.
+/// Formats a limit with the limits for both ends of the confidence interval, in ascending order.
 fn between([mean, high, low]: [Option<f64>; 3], factor: f64, digits: usize, unit: &str) -> String {
     let ends = match (high, low) {
         (Some(a), Some(b)) => {
@@ -122,7 +123,7 @@ pub fn text(kept: &Kept) -> String {
     let square = |value: &f64| (value - mean).powi(2);
     let variance = new_values.iter().map(square).sum::<f64>() / (new_values.len() - 1) as f64;
     let scatter = 100.0 * variance.sqrt() / mean;
-    // Two means of n windows each differ by 1.96 sd sqrt(2/n) by chance.
+    // The means of two sets of n windows differ by up to 1.96 sd sqrt(2/n) by chance.
     let windows = 2.0 * (1.96 * scatter / WORSE_PERCENT).powi(2);
     let tables: String = [
         ("vertical clearance", 0.5e-3, 1e3, "2a, mm"),

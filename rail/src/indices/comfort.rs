@@ -58,8 +58,8 @@ fn weigh(signal: &[f64], rate_hz: f64, weighting: Weighting) -> Vec<f64> {
 
 /// Returns the mean comfort `N_MV = 6 sqrt(x^2 + y^2 + z^2)` (EN 12299, standard method on the floor).
 ///
-/// `x`, `y` and `z` are the 95th percentiles of the weighted root mean squares of the longitudinal, lateral and vertical
-/// accelerations. The standard requires five minutes; a shorter ride gives an estimate.
+/// `x`, `y` and `z` are the 95th percentiles of the weighted root mean squares of the longitudinal, lateral and
+/// vertical accelerations. The standard requires five minutes; a shorter ride gives an estimate.
 ///
 /// # Errors
 /// The same as for [`weighted_rms`].
@@ -74,8 +74,8 @@ pub fn mean_comfort(
     ]))
 }
 
-/// Returns the [`mean_comfort`] from the weighted root mean squares of the windows, m/s^2. A direction without windows counts as
-/// zero.
+/// Returns the [`mean_comfort`] from the weighted root mean squares of the windows, m/s^2. A direction without windows
+/// counts as zero.
 pub fn mean_comfort_of_windows(weighted_rms_m_per_s2: [&[f64]; 3]) -> f64 {
     let percentiles = weighted_rms_m_per_s2.map(|rms| percentile_95(rms.to_vec()));
     let square: f64 = percentiles.iter().map(|rms| rms * rms).sum();

@@ -52,8 +52,8 @@ pub struct RollingRadiusDifference {
 }
 
 impl RollingRadiusDifference {
-    /// Returns the function through `difference_m` (right minus left rolling radius, m) at the evenly rising shifts `lateral_m`
-    /// (at the top of the rails, positive to the right, m).
+    /// Returns the function through `difference_m` (right minus left rolling radius, m) at the evenly rising shifts
+    /// `lateral_m` (at the top of the rails, positive to the right, m).
     ///
     /// # Errors
     /// Fewer than two samples, vectors of different lengths, a non-finite value, or shifts that do not rise evenly.
@@ -138,12 +138,12 @@ impl RollingRadiusDifference {
             .min_by(|a, b| a.abs().total_cmp(&b.abs()))
     }
 
-    /// Returns the equivalent conicity, dimensionless, of a motion with turning points `2 amplitude_m` apart, for wheels of the
-    /// nominal radius `radius_m`.
+    /// Returns the equivalent conicity, dimensionless, of a motion with turning points `2 amplitude_m` apart, for
+    /// wheels of the nominal radius `radius_m`.
     ///
-    /// The path of the free wheelset obeys `y'' = -difference / (e r)` (EN 15302). Its first integral gives the wavelength `L`,
-    /// and the cone with the same wavelength has `tan g = 2 pi^2 e r / L^2`. Returns `None` if the path does not turn back within
-    /// the samples, or if an argument is not positive.
+    /// The path of the free wheelset obeys `y'' = -difference / (e r)` (EN 15302). Its first integral gives the
+    /// wavelength `L`, and the cone with the same wavelength has `tan g = 2 pi^2 e r / L^2`. Returns `None` if the path
+    /// does not turn back within the samples, or if an argument is not positive.
     pub fn equivalent_conicity(&self, amplitude_m: f64, radius_m: f64) -> Option<f64> {
         if !(amplitude_m > 0.0 && radius_m > 0.0) {
             return None;
@@ -160,7 +160,8 @@ impl RollingRadiusDifference {
         Some(0.5 * CONTACT_DISTANCE_M * radius_m * (tau / wavelength).powi(2))
     }
 
-    /// Finds the left and right turning points of the motion about `centre` whose distance is closest to `distance`, by bisection.
+    /// Finds the left and right turning points of the motion about `centre` whose distance is closest to `distance`, by
+    /// bisection.
     fn turning_points(&self, centre: f64, distance: f64) -> Option<(f64, f64)> {
         let (mut low, mut high) = (0.0, centre - self.lateral[0]);
         let mut turning = None;
@@ -182,8 +183,8 @@ impl RollingRadiusDifference {
         turning
     }
 
-    /// Finds the turning point to the right of `centre` of a motion that turns at `left`. The integral of the difference between
-    /// the two is zero. `None` if it is beyond the samples.
+    /// Finds the turning point to the right of `centre` of a motion that turns at `left`. The integral of the
+    /// difference between the two is zero. `None` if it is beyond the samples.
     fn right_turning_point(&self, centre: f64, left: f64) -> Option<f64> {
         let end = self.lateral[self.lateral.len() - 1];
         if self.integral(left, end) <= 0.0 {
@@ -212,8 +213,8 @@ impl RollingRadiusDifference {
         primitive(to) - primitive(from)
     }
 
-    /// Integral of `dy / sqrt(integral(y, turn))` from `centre` to `turn`. The substitution `y = turn - (turn - centre) p^2` removes
-    /// the singularity at the turning point.
+    /// Integral of `dy / sqrt(integral(y, turn))` from `centre` to `turn`. The substitution
+    /// `y = turn - (turn - centre) p^2` removes the singularity at the turning point.
     fn quarter_wave(&self, centre: f64, turn: f64) -> f64 {
         const POINTS: usize = 2000;
         let span = turn - centre;

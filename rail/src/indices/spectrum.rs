@@ -114,7 +114,8 @@ impl Transform {
         self.plan.len()
     }
 
-    /// Returns the complex amplitudes of the lines from 0 to half the rate, for a window of [`samples`](Self::samples) values.
+    /// Returns the complex amplitudes of the lines from 0 to half the rate, for a window of [`samples`](Self::samples)
+    /// values.
     pub fn lines(&mut self, window: impl Iterator<Item = f64>) -> &[Complex<f64>] {
         for (input, value) in self.input.iter_mut().zip(window) {
             *input = value;

@@ -17,7 +17,8 @@ pub enum RideDirection {
 pub const SPERLING_BAND_HZ: [f64; 2] = [0.5, 40.0];
 
 impl RideDirection {
-    /// Returns the correction `F(f)` for human sensitivity: a rising part, a falling part, and 1 at higher frequencies (GB/T 5599).
+    /// Returns the correction `F(f)` for human sensitivity: a rising part, a falling part, and 1 at higher frequencies
+    /// (GB/T 5599).
     pub fn correction(self, frequency_hz: f64) -> f64 {
         let f = frequency_hz;
         let (rising, falling, edges) = match self {
@@ -111,11 +112,12 @@ impl Sperling {
     }
 }
 
-/// Returns Sperling's ride index `W` of an acceleration, m/s^2, sampled at `rate_hz`, averaged over consecutive windows.
+/// Returns Sperling's ride index `W` of an acceleration, m/s^2, sampled at `rate_hz`, averaged over consecutive
+/// windows.
 ///
 /// In each window of `window_s`, each line from 0.5 to 40 Hz with the amplitude `A_i` has the index
-/// `W_i = 3.57 (A_i^3 F(f_i)/f_i)^0.1`, and `W = (sum W_i^10)^0.1`. The index depends on the length of the window, so state it
-/// with every value; 5 s is usual.
+/// `W_i = 3.57 (A_i^3 F(f_i)/f_i)^0.1`, and `W = (sum W_i^10)^0.1`. The index depends on the length of the window, so
+/// state it with every value; 5 s is usual.
 ///
 /// # Errors
 /// A signal shorter than a window, samples that are not finite, or a rate or window out of bounds.

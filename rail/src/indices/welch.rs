@@ -4,8 +4,8 @@ use std::f64::consts::PI;
 
 use super::spectrum::{SpectrumError, Transform, check_signal, mean, samples_of_window};
 
-/// Estimates the one-sided power spectral density of a signal sample by sample (Welch 1967): Hann windows with 50 % overlap,
-/// each without its mean. It stores a single window, however long the signal is.
+/// Estimates the one-sided power spectral density of a signal sample by sample (Welch 1967): Hann windows with 50 %
+/// overlap, each without its mean. It stores a single window, however long the signal is.
 ///
 /// ```
 /// use dashpot_rail::indices::Welch;
@@ -87,8 +87,8 @@ impl Welch {
 
 /// Returns the one-sided power spectral density of a whole signal, estimated by [`Welch`].
 ///
-/// The pairs are frequency, Hz, and density, in the unit of the signal squared per Hz. The integral is the variance of the
-/// signal.
+/// The pairs are frequency, Hz, and density, in the unit of the signal squared per Hz. The integral is the variance of
+/// the signal.
 ///
 /// # Errors
 /// A signal shorter than a window, samples that are not finite, or a rate or window out of bounds.

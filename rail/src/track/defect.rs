@@ -58,9 +58,9 @@ pub enum Defect {
     },
     /// Lateral triangle of two straight lines with rounded corners.
     ///
-    /// The direction changes by `4 offset_m / length_m` in the middle and by half as much at each end. Each corner is a parabola
-    /// of the length `rounding_m`, which reduces the maximum offset by `offset_m rounding_m / (2 length_m)`. The deviation starts
-    /// `rounding_m / 2` before the first corner and ends `rounding_m / 2` after the last.
+    /// The direction changes by `4 offset_m / length_m` in the middle and by half as much at each end. Each corner is a
+    /// parabola of the length `rounding_m`, which reduces the maximum offset by `offset_m rounding_m / (2 length_m)`.
+    /// The deviation starts `rounding_m / 2` before the first corner and ends `rounding_m / 2` after the last.
     AlignmentKink {
         /// Affected rails.
         rails: Rails,
@@ -73,8 +73,8 @@ pub enum Defect {
         /// Length of each rounding, m.
         rounding_m: f64,
     },
-    /// Cross level that rises linearly over `base_m`, stays constant over `plateau_m` and falls over `base_m`, half of it on each
-    /// rail. Each corner is a parabola of the length `rounding_m`. The twist is `cross_level_m / base_m`.
+    /// Cross level that rises linearly over `base_m`, stays constant over `plateau_m` and falls over `base_m`, half of
+    /// it on each rail. Each corner is a parabola of the length `rounding_m`. The twist is `cross_level_m / base_m`.
     Twist {
         /// First corner, m.
         start_m: f64,
@@ -229,8 +229,8 @@ fn bump(t: f64, length: f64) -> [f64; 2] {
     ]
 }
 
-/// Value and slope at `t` of a polyline with rounded corners. At each corner `(position, change)` the slope changes linearly by
-/// `change` over `rounding`. The changes and their moments must add up to zero.
+/// Value and slope at `t` of a polyline with rounded corners. At each corner `(position, change)` the slope changes
+/// linearly by `change` over `rounding`. The changes and their moments must add up to zero.
 fn rounded(t: f64, rounding: f64, corners: &[(f64, f64)]) -> [f64; 2] {
     let half = 0.5 * rounding;
     let last = corners.last().map_or(0.0, |corner| corner.0);

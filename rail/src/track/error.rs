@@ -61,7 +61,7 @@ pub enum TrackError {
     },
     /// The cant is discontinuous between two parts.
     #[error(
-        "{place}: cant_m starts at {after_m}, but the previous part ends at {before_m}, allowed: a transition between them"
+        "{place}: cant_m starts at {after_m}, but the previous part ends at {before_m}, allowed: a transition between"
     )]
     CantJump {
         /// Location of the second part.

@@ -73,16 +73,17 @@ impl From<u64> for Seeds {
 
 /// Parameters from which an irregularity is generated.
 ///
-/// The band is divided into equal intervals `dW` of at most 1e-3 rad/m. Each interval contributes a cosine with a random phase
-/// and a random wave number `W` within the interval; its amplitude is `sqrt(2 S(W) dW)` (Shinozuka and Jan 1972). The sum is
-/// Gaussian, has the mean square of the band and is not periodic. The random numbers come from PCG64, with one seed per channel.
+/// The band is divided into equal intervals `dW` of at most 1e-3 rad/m. Each interval contributes a cosine with a
+/// random phase and a random wave number `W` within the interval; its amplitude is `sqrt(2 S(W) dW)` (Shinozuka and Jan
+/// 1972). The sum is Gaussian, has the mean square of the band and is not periodic. The random numbers come from PCG64,
+/// with one seed per channel.
 ///
-/// The sum is a function of the distance. Therefore the same spectrum, band and seeds give the same track for every length, up
-/// to the ramp at its end, with the same bits on every machine with IEEE 754 arithmetic. The spacing affects only the
-/// interpolation between samples.
+/// The sum is a function of the distance. Therefore the same spectrum, band and seeds give the same track for every
+/// length, up to the ramp at its end, with the same bits on every machine with IEEE 754 arithmetic. The spacing affects
+/// only the interpolation between samples.
 ///
-/// Deviations start and end at zero: over `ramp_m` at each end they are multiplied by `(1 - cos(pi t / ramp_m)) / 2`, where `t`
-/// is the distance from that end. Beyond the ends they are zero.
+/// Deviations start and end at zero: over `ramp_m` at each end they are multiplied by `(1 - cos(pi t / ramp_m)) / 2`,
+/// where `t` is the distance from that end. Beyond the ends they are zero.
 ///
 /// ```
 /// use dashpot_rail::track::{Generation, Seeds, Spectrum};
@@ -107,7 +108,8 @@ pub struct Generation {
     pub length_m: f64,
     /// Length of the ramp at each end, m.
     pub ramp_m: f64,
-    /// Distance between samples, m. `None` selects 0.25 m or a twelfth of the shortest wavelength, whichever is smaller.
+    /// Distance between samples, m. `None` selects 0.25 m or a twelfth of the shortest wavelength, whichever is
+    /// smaller.
     pub spacing_m: Option<f64>,
 }
 
@@ -172,7 +174,8 @@ impl Generation {
 
     /// Generates the irregularity.
     ///
-    /// A kilometre takes about 30 ms. The time is proportional to the length over the square of the shortest wavelength.
+    /// A kilometre takes about 30 ms. The time is proportional to the length over the square of the shortest
+    /// wavelength.
     ///
     /// # Errors
     /// - a wavelength outside 0.3 to 500 m, or a shortest wavelength above 0.9 times the longest;
@@ -254,8 +257,8 @@ impl Waves {
 
     /// Adds the sum at the distances `0, spacing_m, ...` to a channel of the samples.
     ///
-    /// Within a block each cosine follows from the two before it: `c(n + 1) = 2 cos(W spacing) c(n) - c(n - 1)`. The recurrence
-    /// restarts with each block, so its error stays below 1e-12 of the amplitude.
+    /// Within a block each cosine follows from the two before it: `c(n + 1) = 2 cos(W spacing) c(n) - c(n - 1)`. The
+    /// recurrence restarts with each block, so its error stays below 1e-12 of the amplitude.
     fn add_to(&self, spacing_m: f64, samples: &mut [[f64; 4]], channel: usize) {
         let twice_cos: Vec<[f64; LANES]> = self
             .groups

@@ -3,8 +3,8 @@
 use super::rails::{Channels, RailDeviation};
 use crate::math::spline::Spline;
 
-/// Number of zeros before the first and after the last sample. The overshoot of the spline decreases by a factor of 0.27 per
-/// sample, so it is below rounding at the outermost sample.
+/// Number of zeros before the first and after the last sample. The overshoot of the spline decreases by a factor of
+/// 0.27 per sample, so it is below rounding at the outermost sample.
 const MARGIN: usize = 30;
 
 /// Deviations of the four channels at a node.
@@ -24,8 +24,8 @@ const ZERO: Node = Node {
 /// Deviations of a track from its layout over the distance. They are zero outside [`Irregularity::ends_m`].
 ///
 /// [`Generation::irregularity`](super::Generation::irregularity) creates them from a spectrum,
-/// [`measured::parse`](super::measured::parse) from a file. The cost of an evaluation is constant: it finds the node by index and
-/// evaluates a cubic polynomial between two nodes.
+/// [`measured::parse`](super::measured::parse) from a file. The cost of an evaluation is constant: it finds the node by
+/// index and evaluates a cubic polynomial between two nodes.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Irregularity {
@@ -48,8 +48,8 @@ impl Default for Irregularity {
 }
 
 impl Irregularity {
-    /// Interpolates `samples`, which start at `start_m` and are `spacing_m` apart, with raised-cosine ramps over `ramp_m` at both
-    /// ends.
+    /// Interpolates `samples`, which start at `start_m` and are `spacing_m` apart, with raised-cosine ramps over
+    /// `ramp_m` at both ends.
     pub(super) fn through(start_m: f64, spacing_m: f64, ramp_m: f64, samples: &[[f64; 4]]) -> Self {
         let length_m = spacing_m * samples.len().saturating_sub(1) as f64;
         let mut nodes = vec![ZERO; samples.len() + 2 * MARGIN];

@@ -11,7 +11,8 @@ pub enum Part {
         /// Length, m.
         length_m: f64,
     },
-    /// Clothoid with a linear cant ramp: curvature and cant vary linearly from those of the previous part to those of the next.
+    /// Clothoid with a linear cant ramp: curvature and cant vary linearly from those of the previous part to those of
+    /// the next.
     Transition {
         /// Length, m.
         length_m: f64,
@@ -22,8 +23,8 @@ pub enum Part {
         radius_m: f64,
         /// Length, m.
         length_m: f64,
-        /// Height of the left rail above the right rail, m. It is positive in a right-hand curve, where the left rail is the outer
-        /// rail.
+        /// Height of the left rail above the right rail, m. It is positive in a right-hand curve, where the left rail
+        /// is the outer rail.
         cant_m: f64,
     },
 }
@@ -103,8 +104,8 @@ impl Piece {
 
 /// Curvature and cant as functions of the distance. The first and the last part extend to infinity.
 ///
-/// Curvature may jump between parts without a transition, as in turnouts; cant must be continuous. The layout has no gradient,
-/// and cant does not change the height of the centre line.
+/// Curvature may jump between parts without a transition, as in turnouts; cant must be continuous. The layout has no
+/// gradient, and cant does not change the height of the centre line.
 ///
 /// ```
 /// use dashpot_rail::track::{Layout, Part};
@@ -147,7 +148,8 @@ impl Layout {
     /// - no parts;
     /// - a length outside 0.1 m to 1000 km, or a radius outside 50 m to 1000 km;
     /// - an outer rail more than 0.3 m above or 0.1 m below the inner rail, or a cant that is not continuous;
-    /// - a transition without a straight or circular part on each side, or between parts of the same curvature and cant.
+    /// - a transition without a straight or circular part on each side, or between parts of the same curvature and
+    ///   cant.
     pub fn new(parts: &[Part]) -> Result<Self, TrackError> {
         for (part, number) in parts.iter().zip(1..) {
             part.check(Place::Part(number))?;
@@ -214,7 +216,8 @@ impl Layout {
         self.piece(distance_m).at(distance_m)
     }
 
-    /// Returns the heading of the centre line, positive to the right, rad: the integral of the curvature from the distance 0.
+    /// Returns the heading of the centre line, positive to the right, rad: the integral of the curvature from the
+    /// distance 0.
     pub fn heading_rad(&self, distance_m: f64) -> f64 {
         self.course(distance_m).heading_rad
     }

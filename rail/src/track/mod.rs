@@ -6,8 +6,8 @@
 //! - [`Defect`]: an isolated dip, bump, kink or twist.
 //! - [`Track`]: the combination of all three. [`Track::at`] returns the alignment and the displacements of both rails.
 //!
-//! The axes follow the layout and roll with the cant: x forward, y right, z down. Curvature is positive to the right; cant and
-//! cross level are positive if the left rail is higher. The deviations of the rails do not include the cant.
+//! The axes follow the layout and roll with the cant: x forward, y right, z down. Curvature is positive to the right;
+//! cant and cross level are positive if the left rail is higher. The deviations of the rails do not include the cant.
 //!
 //! ```
 //! use dashpot_rail::track::{Defect, Generation, Layout, Part, Rails, Spectrum, Track};
@@ -67,8 +67,8 @@ impl Track {
     /// Builds a track. The deviations of irregularity and defects add up.
     ///
     /// # Errors
-    /// A defect with a length outside 0.05 to 1000 m, a displacement above 0.2 m, or a rounding shorter than 1 mm or longer than
-    /// one of the straight lines that it joins.
+    /// A defect with a length outside 0.05 to 1000 m, a displacement above 0.2 m, or a rounding shorter than 1 mm or
+    /// longer than one of the straight lines that it joins.
     pub fn new(
         layout: Layout,
         irregularity: Irregularity,

@@ -59,7 +59,8 @@ impl RailDeviation {
         })
     }
 
-    /// Returns the displacement of the rail under a wheel that moves along it. Velocities are the speed times the slopes.
+    /// Returns the displacement of the rail under a wheel that moves along it. Velocities are the speed times the
+    /// slopes.
     #[inline]
     pub fn displacement(&self, speed_m_per_s: f64) -> RailDisplacement {
         RailDisplacement {

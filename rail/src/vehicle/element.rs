@@ -44,7 +44,8 @@ impl Element {
 pub struct End {
     /// Name of the body or wheelset; `None` on the track.
     pub on: Option<String>,
-    /// Longitudinal position, lateral position and height above the top of the rails, m: positive forward, right and up.
+    /// Longitudinal position, lateral position and height above the top of the rails, m: positive forward, right and
+    /// up.
     pub at_m: [f64; 3],
 }
 
@@ -104,7 +105,8 @@ pub enum Law {
         /// Damping along x, y and z, N s/m.
         damping_n_s_per_m: [f64; 3],
     },
-    /// Springs and dashpots in parallel along and about x, y and z, such as a rubber bush. Both ends are at the same point.
+    /// Springs and dashpots in parallel along and about x, y and z, such as a rubber bush. Both ends are at the same
+    /// point.
     Bush {
         /// Stiffness along x, y and z, N/m.
         stiffness_n_per_m: [f64; 3],
@@ -125,8 +127,8 @@ pub enum Law {
         /// The damper. It extends when the second end moves along the axis relative to the first.
         parameters: Box<DamperParameters>,
     },
-    /// A two-sided stop: no force within a gap, linear between points, and extrapolated beyond the last point. Both ends are
-    /// at the same point. In the linear equations it is open.
+    /// A two-sided stop: no force within a gap, linear between points, and extrapolated beyond the last point. Both
+    /// ends are at the same point. In the linear equations it is open.
     BumpStop {
         /// Direction of the axis.
         direction: Direction,
@@ -148,6 +150,35 @@ pub enum Law {
 }
 
 impl Law {
+    /// Names of all laws, as in a vehicle file.
+    pub const NAMES: &[&str] = &[
+        "spring_damper",
+        "bush",
+        "damper",
+        "bump_stop",
+        "anti_roll_bar",
+        "traction_rod",
+    ];
+
+    /// Returns the name of the law, one of [`Law::NAMES`].
+    ///
+    /// ```
+    /// use dashpot_rail::vehicle::Law;
+    /// let bar = Law::AntiRollBar { stiffness_n_m_per_rad: 2e6 };
+    /// assert_eq!(bar.name(), "anti_roll_bar");
+    /// ```
+    pub fn name(&self) -> &'static str {
+        let index = match self {
+            Self::SpringDamper { .. } => 0,
+            Self::Bush { .. } => 1,
+            Self::Damper { .. } => 2,
+            Self::BumpStop { .. } => 3,
+            Self::AntiRollBar { .. } => 4,
+            Self::TractionRod { .. } => 5,
+        };
+        Self::NAMES[index]
+    }
+
     /// Spring force that resists a displacement of the second end, N; zero for dashpots and dampers, which are at rest.
     pub(super) fn spring_force(
         &self,

@@ -119,7 +119,7 @@ pub enum VehicleError {
     },
     /// The rails cannot carry a wheelset's load.
     #[error(
-        "{wheelset}: load of {load_n} N, allowed: above 0 and at most what the rails carry with the wheelset pressed down by 2 mm"
+        "{wheelset}: load of {load_n} N, allowed: above 0 and at most what the rails carry when pressed down by 2 mm"
     )]
     NotCarried {
         /// Name of the wheelset.

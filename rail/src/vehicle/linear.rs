@@ -43,8 +43,8 @@ pub(super) struct Attachment {
 /// Velocity amplitude of the secant that gives a damper's small-motion damping, m/s.
 const SMALL_VELOCITY_M_PER_S: f64 = 1e-4;
 
-/// Damping and series stiffness of a damper in small motion with its clearance taken up: the secant of its characteristic and
-/// the stiffness of its mounts. The parameters must have been checked.
+/// Damping and series stiffness of a damper in small motion with its clearance taken up: the secant of its
+/// characteristic and the stiffness of its mounts. The parameters must have been checked.
 fn small_motion(parameters: &DamperParameters) -> [f64; 2] {
     let stiffness = 1.0 / parameters.mount.compliance_m_per_n();
     let Ok(checked) = parameters.check() else {
@@ -167,8 +167,8 @@ impl Linear {
 
     /// Adds the geometric stiffness of the static `force` on the second end.
     ///
-    /// It is the second-order part of the potential `-F . R^T d`. The axes of the element turn by `R`, the mean rotation of both
-    /// bodies; each end moves by `omega x (omega x r) / 2` beyond its first-order displacement.
+    /// It is the second-order part of the potential `-F . R^T d`. The axes of the element turn by `R`, the mean
+    /// rotation of both bodies; each end moves by `omega x (omega x r) / 2` beyond its first-order displacement.
     pub fn add_preload(&mut self, ends: &[Attachment; 2], force: Vector3<f64>) {
         for (end, sign) in ends.iter().zip([-0.5, 0.5]) {
             let rotation = self.rotation(end);
@@ -183,8 +183,8 @@ impl Linear {
         self.stiffness -= turned;
     }
 
-    /// Matrix of the first-order equations. The states are the velocities, the displacements of the dashpots in series, and the
-    /// coordinates that a force depends on; the spin angle of a wheelset is not one of them.
+    /// Matrix of the first-order equations. The states are the velocities, the displacements of the dashpots in series,
+    /// and the coordinates that a force depends on; the spin angle of a wheelset is not one of them.
     pub fn first_order(&self) -> DMatrix<f64> {
         let n = self.inertia.len();
         let used: Vec<usize> = (0..n).filter(|i| self.is_used(*i)).collect();

@@ -1,11 +1,11 @@
 //! A rail vehicle: rigid bodies connected by elements; its equilibrium, its modes at standstill and at a speed, and its
 //! step along a track.
 //!
-//! The axes are those of the whole crate: x forward, y right, z down; small rotations are roll about x, pitch about y and
-//! yaw about z. The coordinates of a body are lateral, vertical, roll, pitch and yaw, in a frame that follows the track at
-//! constant speed. There is no coordinate along the track. A point `r = (x, y, z)` from the centre of gravity moves by
-//! `(-yaw y, lateral - roll z + yaw x, vertical + roll y - pitch x)`. Pitch does not move it along the track, because a
-//! body is free in that direction; longitudinal stiffness therefore does not resist pitch.
+//! The axes are those of the whole crate: x forward, y right, z down; small rotations are roll about x, pitch about y
+//! and yaw about z. The coordinates of a body are lateral, vertical, roll, pitch and yaw, in a frame that follows the
+//! track at constant speed. There is no coordinate along the track. A point `r = (x, y, z)` from the centre of gravity
+//! moves by `(-yaw y, lateral - roll z + yaw x, vertical + roll y - pitch x)`. Pitch does not move it along the track,
+//! because a body is free in that direction; longitudinal stiffness therefore does not resist pitch.
 //!
 //! ```
 //! use dashpot_rail::vehicle::{Body, Element, End, Law, Standstill, VehicleParameters};

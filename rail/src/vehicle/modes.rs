@@ -30,8 +30,8 @@ struct Share {
 const NAMED: f64 = 0.25;
 
 impl Mode {
-    /// Returns the real and imaginary part of the eigenvalue `lambda`, rad/s. The motion is `exp(lambda t)`; the imaginary part
-    /// is positive.
+    /// Returns the real and imaginary part of the eigenvalue `lambda`, rad/s. The motion is `exp(lambda t)`; the
+    /// imaginary part is positive.
     pub fn eigenvalue_rad_per_s(&self) -> [f64; 2] {
         self.eigenvalue
     }
@@ -69,8 +69,8 @@ impl Mode {
         format!("{} {}{against}", bodies.join(" and "), self.motion())
     }
 
-    /// Motion of the first body. Lateral motion with roll is a lower sway if the centre of rotation is below the body, and an
-    /// upper sway if it is above.
+    /// Motion of the first body. Lateral motion with roll is a lower sway if the centre of rotation is below the body,
+    /// and an upper sway if it is above.
     fn motion(&self) -> &'static str {
         let first = &self.shares[0];
         let other = match first.coordinate {
@@ -130,8 +130,8 @@ pub(super) fn oscillating(linear: &Linear, bodies: &[Body]) -> Result<Vec<Mode>,
     Ok(modes)
 }
 
-/// Eigenvector of an eigenvalue by inverse iteration. The start vector depends on `number`, so that equal eigenvalues get
-/// different eigenvectors.
+/// Eigenvector of an eigenvalue by inverse iteration. The start vector depends on `number`, so that equal eigenvalues
+/// get different eigenvectors.
 fn shape(matrix: &DMatrix<f64>, value: Complex<f64>, number: usize) -> DVector<Complex<f64>> {
     let size = matrix.nrows();
     // Slightly off the eigenvalue, where the matrix would be singular.

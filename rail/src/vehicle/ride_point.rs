@@ -33,10 +33,11 @@ impl RidePoint {
         }
     }
 
-    /// Returns the acceleration of the point to the right and down, m/s^2, from the accelerations of its body's coordinates.
+    /// Returns the acceleration of the point to the right and down, m/s^2, from the accelerations of its body's
+    /// coordinates.
     ///
-    /// They are `lateral - roll z + yaw x` and `vertical + roll y - pitch x`, with `(x, y, z)` from the centre of gravity
-    /// and z downward.
+    /// They are `lateral - roll z + yaw x` and `vertical + roll y - pitch x`, with `(x, y, z)` from the centre of
+    /// gravity and z downward.
     ///
     /// ```
     /// use dashpot_rail::vehicle::{Body, RidePoint};

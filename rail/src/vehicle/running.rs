@@ -11,20 +11,21 @@ use crate::contact::{
 };
 use crate::creep::CreepLaw;
 
-/// A vehicle that runs on straight track at constant speed, linearised about its central position: the contact forces by their
-/// derivatives, the wheelsets with their gyroscopic moments.
+/// A vehicle that runs on straight track at constant speed, linearised about its central position: the contact forces
+/// by their derivatives, the wheelsets with their gyroscopic moments.
 #[derive(Debug, Clone)]
 pub struct Running {
     bodies: Vec<Body>,
     linear: Linear,
 }
 
-/// Index of the field of [`Motion`](crate::contact::Motion) for each coordinate of a wheelset. The spin enters only by its rate.
+/// Index of the field of [`Motion`](crate::contact::Motion) for each coordinate of a wheelset. The spin enters only by
+/// its rate.
 const DISPLACEMENT_FIELDS: [Option<usize>; COORDINATES.len()] =
     [Some(1), Some(2), Some(3), None, Some(4)];
 
-/// Index of the field of [`Motion`](crate::contact::Motion) for the rate of each coordinate, and its sign: rolling forward is
-/// nose down.
+/// Index of the field of [`Motion`](crate::contact::Motion) for the rate of each coordinate, and its sign: rolling
+/// forward is nose down.
 const RATE_FIELDS: [(usize, f64); COORDINATES.len()] =
     [(5, 1.0), (6, 1.0), (7, 1.0), (8, -1.0), (9, 1.0)];
 
@@ -92,8 +93,8 @@ impl Running {
         modes::oscillating(&self.linear, &self.bodies)
     }
 
-    /// Returns the real and imaginary parts of all eigenvalues, rad/s, including those of motion that does not oscillate.
-    /// Conjugate pairs are adjacent.
+    /// Returns the real and imaginary parts of all eigenvalues, rad/s, including those of motion that does not
+    /// oscillate. Conjugate pairs are adjacent.
     ///
     /// # Errors
     /// The same as for [`Self::modes`].
@@ -101,8 +102,9 @@ impl Running {
         modes::eigenvalues_rad_per_s(&self.linear)
     }
 
-    /// Returns the rows of the state matrix `A` of `x' = A x`. The states are the velocities of all bodies, the displacements of
-    /// the dashpots in series with springs, and the coordinates that a force depends on, in m, rad and s.
+    /// Returns the rows of the state matrix `A` of `x' = A x`. The states are the velocities of all bodies, the
+    /// displacements of the dashpots in series with springs, and the coordinates that a force depends on, in m, rad and
+    /// s.
     pub fn state_matrix(&self) -> Vec<Vec<f64>> {
         modes::state_matrix(&self.linear)
     }

@@ -24,8 +24,8 @@ pub struct Standstill {
 const MIN_FREQUENCY_HZ: f64 = 0.01;
 
 impl Standstill {
-    /// Computes the equilibrium under gravity: the displacements of the bodies from their unloaded positions, the forces of the
-    /// elements, and the geometric stiffness due to these forces.
+    /// Computes the equilibrium under gravity: the displacements of the bodies from their unloaded positions, the
+    /// forces of the elements, and the geometric stiffness due to these forces.
     ///
     /// # Errors
     /// A value out of bounds, a duplicate name, an element on a missing body, or a body that no element holds.
@@ -110,8 +110,8 @@ impl Standstill {
         modes::oscillating(&self.linear, &self.bodies)
     }
 
-    /// Returns the real and imaginary parts of all eigenvalues, rad/s, including those of motion that does not oscillate.
-    /// Conjugate pairs are adjacent.
+    /// Returns the real and imaginary parts of all eigenvalues, rad/s, including those of motion that does not
+    /// oscillate. Conjugate pairs are adjacent.
     ///
     /// # Errors
     /// The same as for [`Self::modes`].
@@ -119,8 +119,9 @@ impl Standstill {
         modes::eigenvalues_rad_per_s(&self.linear)
     }
 
-    /// Returns the rows of the state matrix `A` of `x' = A x`. The states are the velocities of all bodies, the displacements of
-    /// the dashpots in series with springs, and the coordinates that a force depends on, in m, rad and s.
+    /// Returns the rows of the state matrix `A` of `x' = A x`. The states are the velocities of all bodies, the
+    /// displacements of the dashpots in series with springs, and the coordinates that a force depends on, in m, rad and
+    /// s.
     pub fn state_matrix(&self) -> Vec<Vec<f64>> {
         modes::state_matrix(&self.linear)
     }
@@ -154,7 +155,8 @@ fn index_of(bodies: &[Body], end: &End) -> Option<usize> {
 /// Both ends of an element, and the line from the first to the second, m.
 pub(super) type AttachedEnds = ([Attachment; 2], Vector3<f64>);
 
-/// Attaches the ends of all elements. Wheelsets are fixed, or they are moving bodies with indices after those of the others.
+/// Attaches the ends of all elements. Wheelsets are fixed, or they are moving bodies with indices after those of the
+/// others.
 pub(super) fn attach(
     vehicle: &VehicleParameters,
     wheelsets_move: bool,

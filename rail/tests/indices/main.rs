@@ -170,7 +170,7 @@ fn comfort_follows_from_the_percentiles_of_windows() {
     assert!((comfort - 150.0).abs() < 1e-9, "{comfort}");
 }
 
-/// Of 12 windows the 95th percentile is at the position 0.95 * 11 = 10.45 from the smallest: `11^2 + 0.45 (12^2 - 11^2)`.
+/// The 95th percentile of 12 windows is at position 0.95 * 11 = 10.45, counted from 0: `11^2 + 0.45 (12^2 - 11^2)`.
 #[test]
 fn percentiles_are_interpolated_between_windows() {
     let squares: Vec<f64> = (1..=12).map(|i| f64::from(i * i)).collect();
@@ -206,8 +206,8 @@ fn the_band_of_the_ride_index_includes_both_ends() {
     }
 }
 
-/// Nadal's limit for a flange angle of 75 degrees and friction 0.5 is 1.13 (TCRP Report 71); Prud'homme's limit for an axle load
-/// of 201 kN is 77 kN.
+/// Nadal's limit for a flange angle of 75 degrees and friction 0.5 is 1.13 (TCRP Report 71); Prud'homme's limit for an
+/// axle load of 201 kN is 77 kN.
 #[test]
 fn limits_equal_the_published_values() {
     let limit = nadal_limit(75_f64.to_radians(), 0.5);
@@ -217,7 +217,8 @@ fn limits_equal_the_published_values() {
     assert!((prudhomme_limit_n(201e3) - 77e3).abs() < 1e-6);
 }
 
-/// White noise of variance `v` has the density `2 v/rate` at every frequency, and the integral of any density is the variance.
+/// White noise of variance `v` has the density `2 v/rate` at every frequency, and the integral of any density is the
+/// variance.
 #[test]
 fn the_density_of_noise_is_flat_and_its_integral_the_variance() {
     // Lehmer generator, uniform between -1 and 1: variance 1/3.

@@ -11,7 +11,7 @@ pub const WHEELS: [(&str, &str); 4] = [
     ("s1002.wheel", include_str!("../data/s1002.wheel")),
 ];
 
-/// UIC 60 in every format: name and text. In the last `y` points to the track centre.
+/// UIC 60 in every format: name and text. In the last file, `y` points toward the track centre.
 pub const RAILS: [(&str, &str); 4] = [
     ("uic60.csv", include_str!("../data/uic60.csv")),
     ("uic60.ban", include_str!("../data/uic60.ban")),
@@ -19,24 +19,24 @@ pub const RAILS: [(&str, &str); 4] = [
     ("uic60.rail", include_str!("../data/uic60.rail")),
 ];
 
-/// Through every point.
+/// Interpolates every point.
 pub const EXACT: Options = Options {
     format: None,
     mirror: None,
     smoothing_m: 0.0,
 };
 
-/// The wheel of two columns, smoothed as by default.
+/// Parses a wheel in two columns with default smoothing.
 pub fn wheel(text: &str) -> Result<(Profile, Reading), ProfileError> {
     measured::parse("wheel.csv", text, Body::Wheel, &Options::default())
 }
 
-/// The rail of two columns, smoothed as by default.
+/// Parses a rail in two columns with default smoothing.
 pub fn rail(text: &str) -> Result<(Profile, Reading), ProfileError> {
     measured::parse("rail.csv", text, Body::Rail, &Options::default())
 }
 
-/// S1002 each 0.5 mm with two decimals, as a profile gauge writes it, mm.
+/// S1002 every 0.5 mm, rounded to two decimals as by a profile gauge, mm.
 pub fn wheel_readings() -> Vec<(f64, f64)> {
     (-138..=120)
         .map(|i| f64::from(i) * 0.5)
@@ -44,7 +44,7 @@ pub fn wheel_readings() -> Vec<(f64, f64)> {
         .collect()
 }
 
-/// UIC 60 each 0.5 mm of arc to 36 mm depth with two decimals, mm.
+/// UIC 60 every 0.5 mm of arc length to a depth of 36 mm, rounded to two decimals, mm.
 pub fn rail_readings() -> Vec<(f64, f64)> {
     let half = |i: i32| {
         let [y, z] = uic60::position_mm(f64::from(i.abs()) * 0.5);
@@ -57,7 +57,7 @@ fn rounded(x: f64) -> f64 {
     (x * 100.0).round() / 100.0
 }
 
-/// `rows` as the text of a profile gauge; the first stands on line 3.
+/// Formats `rows` as the file of a profile gauge. The first row is line 3.
 pub fn text(rows: &[(f64, f64)]) -> String {
     let rows: Vec<String> = rows.iter().map(|(y, z)| format!("{y},{z}")).collect();
     format!("# a gauge\ny_mm,z_mm\n{}\n", rows.join("\n"))

@@ -1,4 +1,4 @@
-//! Damaged texts: each error says what is wrong, where, and what is allowed; no text makes a reader panic.
+//! Damaged files: each error states what is wrong, where, and what is allowed. No text makes a reader panic.
 
 use dashpot_rail::profile::measured::{self, Format, Options, ProfileError};
 use dashpot_rail::profile::{Body, CurveError};
@@ -6,7 +6,7 @@ use proptest::prelude::*;
 
 use crate::common::{EXACT, RAILS, WHEELS, rail, rail_readings, text, wheel, wheel_readings};
 
-/// `error` as the command writes it behind the file's name.
+/// Formats an error as the command does after the name of the file.
 fn message(error: &ProfileError) -> String {
     let line = error.line().map(|line| format!(":{line}"));
     let column = error.column().map(|column| format!(": column {column}"));
@@ -216,12 +216,12 @@ fn simpack_files_say_what_is_wrong_where_and_what_is_allowed() {
         let error = measured::parse(name, &text, Body::Wheel, &EXACT).unwrap_err();
         assert_says(kind, &error, expected);
     }
-    // Any text is no SIMPACK file without its sections.
+    // A SIMPACK file needs its sections.
     let error = measured::parse("a.prw", "1 2\n", Body::Wheel, &EXACT).unwrap_err();
     assert_says("bare", &error, &[":1: \"1 2\", allowed: section.begin"]);
 }
 
-/// What comes out of a reader is a profile that the rest can rely on.
+/// Checks that a profile that is read without error is valid.
 fn read_as_anything(text: &str, mirror: usize) {
     use dashpot_rail::profile::measured::Mirror;
     for format in Format::ALL {

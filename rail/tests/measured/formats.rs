@@ -1,4 +1,4 @@
-//! The same wheel and the same rail in every format are the same profile, which is that of its definition.
+//! Every format gives the same wheel and the same rail, equal to their definitions.
 
 use dashpot_rail::profile::measured::{self, Format, Mirror, Options, ProfileError, Reading};
 use dashpot_rail::profile::{Body, Profile, s1002, uic60};
@@ -40,7 +40,7 @@ fn a_wheel_is_the_same_in_every_format() {
         let (profile, reading) = read_wheel(name, text);
         assert_eq!(profile.name(), "s1002");
         assert_same(name, &profile, &expected);
-        // Back and face of the wheel stand in the MiniProf file only.
+        // Only the MiniProf file contains the back and the face of the wheel.
         let overhanging = if name.ends_with(".whl") { 6 } else { 0 };
         assert_eq!(reading.overhanging, overhanging, "{name}");
         assert_eq!((reading.folded, reading.turned), (0, false), "{name}");
@@ -48,7 +48,7 @@ fn a_wheel_is_the_same_in_every_format() {
     for i in -6800..6000 {
         let y_mm = f64::from(i) * 0.01;
         let off = expected.at(y_mm * 1e-3).z_m * 1e3 - s1002::depth_mm(y_mm);
-        // Section B joins C with a bend, which a spline over 0.8 mm rounds.
+        // Sections B and C meet at a kink, which a spline with 0.8 mm spacing rounds.
         assert!(off.abs() < 5e-3, "{y_mm}: {off} mm");
     }
 }
@@ -59,13 +59,13 @@ fn a_rail_is_the_same_in_every_format() {
     for (name, text) in RAILS {
         let (profile, reading) = read_rail(name, text);
         assert_same(name, &profile, &expected);
-        // Web and foot of the rail stand in the MiniProf file only, which is upside down.
+        // Only the MiniProf file contains the web and the foot of the rail. It is upside down.
         let is_miniprof = name.ends_with(".ban");
         let overhanging = if is_miniprof { 15 } else { 0 };
         assert_eq!(reading.overhanging, overhanging, "{name}");
         assert_eq!((reading.folded, reading.turned), (0, is_miniprof), "{name}");
     }
-    // The gauge side reaches deeper than the field side: no reader changed them.
+    // The gauge side is deeper than the field side, so no reader has swapped them.
     let ends = [
         expected.points()[0],
         expected.points()[expected.points().len() - 1],
@@ -84,7 +84,7 @@ fn a_rail_is_the_same_in_every_format() {
 }
 
 #[test]
-fn a_format_is_told_by_content_before_extension() {
+fn content_identifies_a_format_before_the_extension() {
     let formats = [
         Format::Columns,
         Format::MiniProf,
@@ -115,7 +115,7 @@ fn a_format_is_told_by_content_before_extension() {
 }
 
 #[test]
-fn a_stated_format_counts_before_content() {
+fn an_explicit_format_overrides_content() {
     let gensys = Options {
         format: Some(Format::Gensys),
         ..EXACT
@@ -144,7 +144,7 @@ fn a_mirror_changes_the_side_in_the_axes_of_the_file() {
         assert!(deeper_at(&EXACT, file), "{}", file.0);
         assert!(!deeper_at(&mirrored(Mirror::Y), file), "{}", file.0);
     }
-    // A MiniProf rail has no right way up of its own: half a turn changes nothing, one axis the side.
+    // A MiniProf rail has no fixed orientation: a half turn changes nothing, mirroring one axis changes the side.
     assert!(deeper_at(&mirrored(Mirror::Yz), RAILS[1]));
     assert!(!deeper_at(&mirrored(Mirror::Z), RAILS[1]));
     let over = |mirror| {
@@ -175,19 +175,19 @@ fn an_old_miniprof_header_is_free_text_up_to_the_empty_line() {
     assert_eq!(Format::detect(&old, None), Format::MiniProf);
     let (expected, _) = read_wheel(WHEELS[0].0, WHEELS[0].1);
     assert_same("old", &read_wheel("old.whl", &old).0, &expected);
-    // Without any header, the extension tells.
+    // Without a header, the extension identifies the format.
     assert_same("bare", &read_wheel("bare.whl", rows).0, &expected);
 }
 
 #[test]
-fn the_steps_of_a_simpack_file_are_carried_out_in_their_order() {
+fn the_operations_of_a_simpack_file_are_applied_in_order() {
     let (_, text) = RAILS[2];
     let with = |key: &str, value: &str| {
         let text = text.replace("point.begin", &format!("{key} = {value}\n  point.begin"));
         measured::parse("uic60.prr", &text, Body::Rail, &EXACT).unwrap()
     };
     let points = with("comment", "'none'").1.points;
-    // Bounds are in the units of the file, m, after the rotation: the field side ends at 20 mm.
+    // Bounds apply after the rotation, in the unit of the file, m: the field side ends at 20 mm.
     let text_of_bounds = "-1\n  bound.y.max = 0.020\n  bound.y.min";
     let (cut, reading) = with("bound.y.min", &format!("{text_of_bounds} = -1"));
     let last = cut.points()[cut.points().len() - 1];
@@ -195,10 +195,10 @@ fn the_steps_of_a_simpack_file_are_carried_out_in_their_order() {
         reading.points < points && last.y_m <= 0.020 && last.y_m > 0.019,
         "{last:?}"
     );
-    // Points nearer than 1 mm to the one kept before: every other one of 0.8 mm.
+    // Points less than 1 mm from the last kept point are removed: every other point at 0.8 mm spacing.
     let (_, thinned) = with("point.dist.min", "1e-3");
     assert_eq!(thinned.points, points.div_ceil(2));
-    // z is still up when it is bounded: what lies deeper than 20 mm is left out.
+    // z still points up when its bounds apply: points deeper than 20 mm are removed.
     let (shallow, _) = with("bound.z.max", "1\n  bound.z.min = -0.020");
     let deepest = shallow
         .points()

@@ -1,4 +1,4 @@
-//! Measured profiles: files of every format, overhanging points, and texts of every wrong kind.
+//! Measured profiles: files of every format, overhanging points and damaged files.
 
 mod common;
 mod damaged;

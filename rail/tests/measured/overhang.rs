@@ -1,4 +1,4 @@
-//! Points that overhang and points in folds: what is left out, what is refused.
+//! Overhanging points and folds: which points are removed and which profiles are rejected.
 
 use dashpot_rail::profile::Body;
 use dashpot_rail::profile::measured::{self, MAX_FOLD_MM, ProfileError};
@@ -6,12 +6,12 @@ use dashpot_rail::profile::measured::{self, MAX_FOLD_MM, ProfileError};
 use crate::common::{EXACT, rail, rail_readings, text, wheel, wheel_readings};
 
 #[test]
-fn what_lies_behind_the_widest_point_of_a_rail_is_left_out() {
+fn points_beyond_the_widest_point_of_a_rail_are_removed() {
     let good = rail_readings();
     let (expected, reading) = rail(&text(&good)).unwrap();
     assert_eq!((reading.points, reading.overhanging), (good.len(), 0));
     let widest = good[good.len() - 1].0;
-    // Down to the foot, which is wider than the head, on both sides.
+    // On both sides, points down to the foot, which is wider than the head.
     let mut rows = good.clone();
     for (inward, z) in [
         (0.5, 37.0),
@@ -39,11 +39,11 @@ fn what_lies_behind_the_widest_point_of_a_rail_is_left_out() {
 }
 
 #[test]
-fn back_and_face_of_a_wheel_are_left_out() {
+fn back_and_face_of_a_wheel_are_removed() {
     let good = wheel_readings();
     let (expected, _) = wheel(&text(&good)).unwrap();
     let mut rows = good.clone();
-    // The back reaches further up than the flange down.
+    // The back reaches further up than the flange reaches down.
     for i in 0..12 {
         let up = f64::from(i) * 4.0;
         rows.insert(0, (-69.0 + 1e-3 * up, 12.0 - up));
@@ -55,9 +55,9 @@ fn back_and_face_of_a_wheel_are_left_out() {
 }
 
 #[test]
-fn a_small_fold_is_levelled_to_its_outside() {
+fn a_small_fold_is_replaced_by_its_outer_envelope() {
     let good = rail_readings();
-    // A burr on the field side that sticks out by 0.2 mm, over the points below it.
+    // A burr on the field side that overhangs the points below it by 0.2 mm.
     let burr = good.iter().position(|row| row.0 > 34.0).unwrap();
     let mut rows = good.clone();
     let (y, z) = rows[burr];
@@ -76,7 +76,7 @@ fn position(point: &dashpot_rail::profile::ProfilePoint) -> f64 {
 }
 
 #[test]
-fn a_wide_fold_is_refused_where_the_curve_comes_out_of_it() {
+fn a_wide_fold_is_rejected_at_the_line_where_it_ends() {
     let mut rows = rail_readings();
     let burr = rows.iter().position(|row| row.0 > 34.0).unwrap();
     let (y, z) = rows[burr];
@@ -85,12 +85,12 @@ fn a_wide_fold_is_refused_where_the_curve_comes_out_of_it() {
     let ProfileError::FoldedBack { line, fold_mm, .. } = refused else {
         panic!("{refused}");
     };
-    // The first row stands on line 3; the curve comes out behind the burr.
+    // The first row is line 3; the fold ends after the burr.
     assert!(line > burr as u64 + 4 && fold_mm > MAX_FOLD_MM, "{refused}");
 }
 
 #[test]
-fn a_second_pass_over_the_surface_is_refused() {
+fn a_second_pass_over_the_surface_is_rejected() {
     let good = rail_readings();
     let mut twice = good.clone();
     twice.extend(good.iter().rev().skip(1).take(good.len() / 2));
@@ -105,7 +105,7 @@ fn a_second_pass_over_the_surface_is_refused() {
 #[test]
 fn a_vertical_side_ends_the_profile() {
     let mut rows = rail_readings();
-    // Worn to a vertical gauge face, with the noise of a gauge.
+    // A gauge face worn vertical, with measurement noise.
     rows.retain(|row| row.0 > -35.95);
     let (y, z) = rows[0];
     for i in 1..60 {
@@ -133,13 +133,13 @@ fn a_gap_down_a_vertical_side_ends_the_profile() {
     rows.retain(|row| row.0 > -35.95);
     let (y, z) = rows[0];
     let good = rail(&text(&rows)).unwrap().0;
-    // The gauge touches the side again 12 mm further down, a hundredth further out.
+    // The gauge touches the side again 12 mm further down and 0.01 mm further out.
     for i in 0..10 {
         rows.insert(0, (y - 0.01, z + 12.0 + 0.4 * f64::from(i)));
     }
     let (profile, reading) = rail(&text(&rows)).unwrap();
     assert_eq!((profile.points(), reading.overhanging), (good.points(), 10));
-    // Half a millimetre further out it is a surface that the profile would lack.
+    // Half a millimetre further out it is a surface that the profile would miss.
     rows.iter_mut().take(10).for_each(|row| row.0 -= 0.5);
     let refused = rail(&text(&rows)).unwrap_err();
     assert!(matches!(refused, ProfileError::Gap { .. }), "{refused}");

@@ -1,11 +1,11 @@
-//! A profile gauge's rounded readings give the profile back.
+//! Smoothing recovers a profile from the rounded readings of a gauge.
 
 use dashpot_rail::profile::s1002;
 
 use crate::common::{text, wheel, wheel_readings};
 
 #[test]
-fn a_gauge_s_file_gives_the_profile_back() {
+fn the_file_of_a_gauge_gives_the_profile() {
     let (profile, _) = wheel(&text(&wheel_readings())).unwrap();
     let truth = s1002::profile();
     let (mut worst, mut squares, mut count) = (0.0_f64, 0.0, 0.0);

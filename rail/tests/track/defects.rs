@@ -80,8 +80,8 @@ fn a_kink_is_a_triangle_with_rounded_corners() {
         );
     }
     assert!((slope(32.0) - 1.6e-3).abs() < 1e-16 && (slope(38.0) + 1.6e-3).abs() < 1e-16);
-    // The rounding reduces the offset in the middle by offset x rounding / (2 length). At the ends the deviation is an eighth of
-    // the rounding times the slope, and the slope is halved.
+    // The rounding reduces the offset in the middle by offset x rounding / (2 length). At the ends the deviation is an
+    // eighth of the rounding times the slope, and the slope is halved.
     assert!((lateral(35.0) - (8e-3 - 8e-3 * 0.5 / 20.0)).abs() < 1e-16);
     assert!((lateral(30.0) - 1.6e-3 * 0.5 / 8.0).abs() < 1e-16);
     assert!(slope(35.0).abs() < 1e-16 && (slope(30.0) - 0.8e-3).abs() < 1e-16);
@@ -121,7 +121,8 @@ fn a_twist_raises_the_left_rail_and_lowers_the_right_one() {
     }
 }
 
-/// From each sample to the next the deviation changes by the mean slope times the step, so there is no gap in which it can jump.
+/// Between neighbouring samples the deviation changes by the mean slope times the step. No gap remains in which it
+/// could jump.
 #[test]
 fn deviations_are_continuous_everywhere() {
     let step_m = 1e-3;

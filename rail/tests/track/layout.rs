@@ -78,8 +78,8 @@ fn the_heading_is_the_integral_of_the_curvature() {
     assert_eq!(layout.heading_rad(-100.0), 0.0);
 }
 
-/// A clothoid of the length `L` shifts the circle of the radius `R` away from the straight by `L^2 / (24 R) - L^4 / (2688 R^3)`.
-/// The offset of its own end from the straight is `L^2 / (6 R) - L^4 / (336 R^3)`.
+/// A clothoid of the length `L` shifts the circle of the radius `R` away from the straight by
+/// `L^2 / (24 R) - L^4 / (2688 R^3)`. The offset of its own end from the straight is `L^2 / (6 R) - L^4 / (336 R^3)`.
 #[test]
 fn the_end_of_a_clothoid_has_the_offset_of_its_series() {
     let (length, radius): (f64, f64) = (60.0, 300.0);
@@ -97,7 +97,8 @@ fn the_end_of_a_clothoid_has_the_offset_of_its_series() {
     assert!((shift_m - expected).abs() < 2e-6, "{shift_m} {expected}");
 }
 
-/// Of the heading `s^2/(2 R L)` of a clothoid the integral is `s^3/(6 R L)`; of `h + s/R` in a curve it is `h s + s^2/(2 R)`.
+/// The heading `s^2/(2 R L)` of a clothoid has the integral `s^3/(6 R L)`; the heading `h + s/R` of a curve has
+/// `h s + s^2/(2 R)`.
 #[test]
 fn the_offset_is_the_integral_of_the_heading() {
     let layout = Layout::new(&[STRAIGHT, TRANSITION, LEFT, TRANSITION, RIGHT]).unwrap();
@@ -189,7 +190,7 @@ fn errors_of_layouts_state_location_value_and_bounds() {
         ),
         (
             &[STRAIGHT, RIGHT],
-            "part 2 of the layout: cant_m starts at 0.15, but the previous part ends at 0, allowed: a transition between them",
+            "part 2 of the layout: cant_m starts at 0.15, but the previous part ends at 0, allowed: a transition",
         ),
         (
             &[STRAIGHT, TRANSITION],

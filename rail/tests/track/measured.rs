@@ -1,4 +1,4 @@
-//! Measured tracks: what is read, and texts of every wrong kind.
+//! Measured tracks: valid and damaged files.
 
 use dashpot_rail::track::measured::{self, MeasuredTrackError, Options, Reading};
 use dashpot_rail::track::{Irregularity, RailDeviation};
@@ -14,7 +14,7 @@ fn waves(distance_m: f64) -> [f64; 4] {
     ]
 }
 
-/// A file with rows at these distances.
+/// Returns a file with rows at these distances.
 fn file(distances_m: impl Iterator<Item = f64>) -> String {
     let mut text = String::from("distance_m,vertical_m,lateral_m,cross_level_m,gauge_m\n");
     for distance_m in distances_m {
@@ -70,7 +70,7 @@ fn rows_at_equal_and_unequal_distances_are_read() {
 }
 
 #[test]
-fn columns_may_stand_in_any_order_in_mm_and_be_left_out() {
+fn columns_may_be_in_any_order_in_mm_or_absent() {
     let mut text = String::from("\u{feff}# made\r\n gauge_mm , distance_m\r\n");
     for i in 0..=200 {
         text += &format!("2.5, {}\r\n# between\r\n\r\n", 100.0 + 0.25 * f64::from(i));
@@ -100,7 +100,7 @@ fn the_file_is_ramped_at_its_ends_and_zero_beyond() {
 }
 
 #[test]
-fn a_wrong_file_says_what_where_and_what_is_allowed() {
+fn errors_of_files_state_line_column_and_bounds() {
     let good = even();
     let header = good.lines().next().unwrap();
     let with_header = |text: &str| good.replace(header, text);
@@ -197,7 +197,7 @@ fn a_wrong_file_says_what_where_and_what_is_allowed() {
     }
 }
 
-/// What is read can be relied on.
+/// Checks that a track that is read without error is valid.
 fn read_as_anything(text: &str) {
     if let Ok((irregularity, reading)) = read(text) {
         assert!(reading.rows >= measured::MIN_ROWS);

@@ -1,4 +1,4 @@
-//! A track of all its parts.
+//! A track composed of layout, irregularity and defects.
 
 use dashpot_rail::track::{
     Defect, Generation, Irregularity, Layout, Part, RailDeviation, Rails, Spectrum, Track,

@@ -98,7 +98,8 @@ fn a_bush_resists_and_damps_each_rotation_of_one_body_relative_to_the_other() {
     let rolling = [0.0, 5e-3, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
     let expected = runge_kutta(rolling, rate, 0.25e-3, 4, found.len());
     compare(&found, 2, expected.iter().map(|y| [y[1], y[3]]), 5e-3);
-    // Pitch and yaw of each body are oscillators. Springs 3 m ahead and behind hold both; those 1 m beside hold yaw as well.
+    // Pitch and yaw of each body are oscillators. Springs 3 m ahead and behind hold both; those 1 m beside hold yaw as
+    // well.
     for (coordinate, inertia, springs, stiffness, damping, start) in [
         (3, PITCH_KG_M2, 9.0 * SPRINGS, 30e6, 200e3, 2e-3),
         (4, YAW_KG_M2, 10.0 * SPRINGS, 40e6, 300e3, -3e-3),
@@ -118,7 +119,8 @@ fn a_bush_resists_and_damps_each_rotation_of_one_body_relative_to_the_other() {
     }
 }
 
-/// A vertical spring between the bodies, 1 m behind the centre of the front body and 9 m ahead of that of the rear body.
+/// A vertical spring between the bodies, 1 m behind the centre of the front body and 9 m ahead of that of the rear
+/// body.
 #[test]
 fn a_spring_between_bodies_acts_with_the_lever_arm_on_each() {
     const LINK: f64 = 0.6e6;

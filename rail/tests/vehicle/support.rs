@@ -38,7 +38,8 @@ pub fn free_wheelset() -> Wheelset {
     Wheelset::new("wheelset", 20e3, [2e3, 500.0, 2e3], 0.625)
 }
 
-/// Four springs of `stiffness` per direction between the track and a body, at +-`x_m` and +-`y_m` from (`centre_x_m`, 0).
+/// Four springs of `stiffness` per direction between the track and a body, at +-`x_m` and +-`y_m` from (`centre_x_m`,
+/// 0).
 pub fn four_springs(
     body: &str,
     stiffness_n_per_m: [f64; 3],
@@ -91,7 +92,8 @@ pub fn run(vehicle: &Vehicle<KalkerBook>, state: &mut VehicleState, track: &Trac
     assert_eq!(state.stop(), None);
 }
 
-/// Integrates `y' = rate(y)` by the classical Runge-Kutta method; returns `y` after each of `ticks` ticks of `substeps` steps.
+/// Integrates `y' = rate(y)` by the classical Runge-Kutta method; returns `y` after each of `ticks` ticks of `substeps`
+/// steps.
 pub fn runge_kutta<const N: usize>(
     mut y: [f64; N],
     rate: impl Fn(&[f64; N]) -> [f64; N],

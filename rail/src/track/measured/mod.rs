@@ -1,9 +1,9 @@
 //! Reads measured tracks from CSV files.
 //!
-//! The first row names the columns, in any order: `distance_m`, and one or more of `vertical`, `lateral`, `cross_level` and
-//! `gauge`, each with the unit `_m` or `_mm`. Signs are those of [`Channels`](super::Channels): vertical positive downward,
-//! lateral to the right, cross level with the left rail higher, gauge wider. A line that starts with `#` is a comment. Distances
-//! must rise; intervals need not be equal.
+//! The first row names the columns, in any order: `distance_m`, and one or more of `vertical`, `lateral`, `cross_level`
+//! and `gauge`, each with the unit `_m` or `_mm`. Signs are those of [`Channels`](super::Channels): vertical positive
+//! downward, lateral to the right, cross level with the left rail higher, gauge wider. A line that starts with `#` is a
+//! comment. Distances must rise; intervals need not be equal.
 
 mod error;
 mod rows;
@@ -19,7 +19,8 @@ use crate::math::spline::Spline;
 pub const MIN_ROWS: usize = 8;
 /// Minimum distance between neighbouring rows, m.
 pub const MIN_INTERVAL_M: f64 = 0.01;
-/// Maximum distance between neighbouring rows, m. Rows further apart do not resolve the wavelengths that excite a vehicle.
+/// Maximum distance between neighbouring rows, m. Rows further apart do not resolve the wavelengths that excite a
+/// vehicle.
 pub const MAX_INTERVAL_M: f64 = 5.0;
 
 /// Options for reading a file.
@@ -96,8 +97,8 @@ pub struct ChannelsRead {
 
 /// Reads the deviations of a track from the `text` of a file.
 ///
-/// A natural cubic spline through the rows is sampled at equal distances. The result is ramped at both ends and zero beyond
-/// them.
+/// A natural cubic spline through the rows is sampled at equal distances. The result is ramped at both ends and zero
+/// beyond them.
 ///
 /// # Errors
 /// - a missing, unknown or duplicate column, or a row with the wrong number of cells;

@@ -5,7 +5,8 @@ use dashpot_core::Damper;
 use super::block::{N, Vector};
 use crate::vehicle::linear::{Attachment, Linear};
 
-/// Displacement of an element's second end relative to its first along one axis, as a function of the bodies' coordinates.
+/// Displacement of an element's second end relative to its first along one axis, as a function of the bodies'
+/// coordinates.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Across {
     /// Indices of both bodies; `None` on the track.
@@ -72,8 +73,8 @@ pub(super) struct StopElement {
 }
 
 impl StopElement {
-    /// Force that resists a displacement, with the sign of the displacement: zero in the gap, linear between the points,
-    /// extrapolated with the last slope beyond them.
+    /// Force that resists a displacement, with the sign of the displacement: zero in the gap, linear between the
+    /// points, extrapolated with the last slope beyond them.
     #[inline(always)]
     pub fn force(&self, displacement: f64) -> f64 {
         let reach = displacement.abs();

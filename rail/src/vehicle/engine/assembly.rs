@@ -30,8 +30,8 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
     /// Builds the vehicle with `contact` on all wheelsets, for ticks of `step_s`.
     ///
     /// # Errors
-    /// Those of [`Standstill::new`], a step that is out of bounds or too long for the stiffness of the elements, a wheelset
-    /// that the rails cannot carry, or no wheelset.
+    /// Those of [`Standstill::new`], a step that is out of bounds or too long for the stiffness of the elements, a
+    /// wheelset that the rails cannot carry, or no wheelset.
     pub fn new(
         parameters: &VehicleParameters,
         contact: Arc<WheelsetContact<L, S>>,

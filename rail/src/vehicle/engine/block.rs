@@ -156,8 +156,8 @@ impl Block {
         }
     }
 
-    /// Inverts a symmetric block in place (Gauss-Jordan elimination without row exchange). Returns true if it is positive
-    /// definite, that is, if all pivots are positive.
+    /// Inverts a symmetric block in place (Gauss-Jordan elimination without row exchange). Returns true if it is
+    /// positive definite, that is, if all pivots are positive.
     #[inline(always)]
     pub fn invert<S: Simd>(&mut self, simd: S) -> bool {
         let mut is_positive = true;

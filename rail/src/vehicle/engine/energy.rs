@@ -14,7 +14,8 @@ use crate::vehicle::error::VehicleError;
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[non_exhaustive]
 pub struct Energy {
-    /// Kinetic energy of the bodies' motion relative to the track frame, including wheel rotation beyond free rolling, J.
+    /// Kinetic energy of the bodies' motion relative to the track frame, including wheel rotation beyond free rolling,
+    /// J.
     pub kinetic_j: f64,
     /// Potential energy of springs and weight, J. The mounts of dampers are not included.
     pub potential_j: f64,

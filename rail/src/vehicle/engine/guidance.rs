@@ -7,7 +7,8 @@ use crate::vehicle::GRAVITY_M_PER_S2;
 /// Lateral distance between the contact points of a centred wheelset, over which cant is measured, m.
 pub const CANT_BASE_M: f64 = 1.5;
 
-/// Position of a body: longitudinal from the middle of the vehicle, and height of its centre above the top of the rails, m.
+/// Position of a body: longitudinal from the middle of the vehicle, and height of its centre above the top of the
+/// rails, m.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct BodyPosition {
     pub x_m: f64,

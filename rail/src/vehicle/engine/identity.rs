@@ -9,9 +9,9 @@ use crate::vehicle::standstill::wheelset_bodies;
 
 /// A digest of the parameters that a vehicle's state depends on: bodies, elements, rails and step.
 ///
-/// Two things are left out: the parameters of dampers, because [`Vehicle::set_damper`](super::Vehicle::set_damper) may change
-/// them in motion, and the wheel-rail contact, because a state stores only its results. Equal parameters give an equal digest
-/// in every process and on every machine.
+/// Two things are left out: the parameters of dampers, because [`Vehicle::set_damper`](super::Vehicle::set_damper) may
+/// change them in motion, and the wheel-rail contact, because a state stores only its results. Equal parameters give an
+/// equal digest in every process and on every machine.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Identity(u64);
@@ -83,12 +83,12 @@ impl Hasher {
             self.text(end.on.as_deref().unwrap_or_default());
             self.numbers(&end.at_m);
         }
+        self.text(element.law.name());
         match &element.law {
             Law::SpringDamper {
                 stiffness_n_per_m,
                 damping_n_s_per_m,
             } => {
-                self.text("spring_damper");
                 self.numbers(stiffness_n_per_m);
                 self.numbers(damping_n_s_per_m);
             }
@@ -98,32 +98,27 @@ impl Hasher {
                 stiffness_n_m_per_rad,
                 damping_n_m_s_per_rad,
             } => {
-                self.text("bush");
                 self.numbers(stiffness_n_per_m);
                 self.numbers(damping_n_s_per_m);
                 self.numbers(stiffness_n_m_per_rad);
                 self.numbers(damping_n_m_s_per_rad);
             }
             Law::Damper { direction, .. } => {
-                self.text("damper");
                 self.direction(*direction);
             }
             Law::BumpStop { direction, points } => {
-                self.text("bump_stop");
                 self.direction(*direction);
                 self.numbers(points.as_flattened());
             }
             Law::AntiRollBar {
                 stiffness_n_m_per_rad,
             } => {
-                self.text("anti_roll_bar");
                 self.numbers(&[*stiffness_n_m_per_rad]);
             }
             Law::TractionRod {
                 stiffness_n_per_m,
                 damping_n_s_per_m,
             } => {
-                self.text("traction_rod");
                 self.numbers(&[*stiffness_n_per_m, *damping_n_s_per_m]);
             }
         }

@@ -1,20 +1,20 @@
 //! Constants of the generalised-alpha time integration.
 
-/// Spectral radius at infinite frequency: the fraction of the fastest motion that remains after a step. From 0.5 to 0.9 the
-/// errors of the locomotive on straight and curved track differ little.
+/// Spectral radius at infinite frequency: the fraction of the fastest motion that remains after a step. From 0.5 to 0.9
+/// the errors of the locomotive on straight and curved track differ little.
 const SPECTRAL_RADIUS: f64 = 0.8;
 
 /// Fraction of the last change of acceleration that is extrapolated to predict the next acceleration.
 ///
-/// The single correction of a step overestimates the damping of a sliding contact, which leaves the acceleration too close to
-/// the predicted one. A fraction of one half minimises this error.
+/// The single correction of a step overestimates the damping of a sliding contact, which leaves the acceleration too
+/// close to the predicted one. A fraction of one half minimises this error.
 const EXTRAPOLATION: f64 = 0.5;
 
 /// Maximum length of a step inside a tick, s. Flange impacts take a few milliseconds.
 const MAX_STEP_S: f64 = 0.25e-3;
 
-/// Constants of the generalised-alpha method (Chung and Hulbert, Journal of Applied Mechanics 60, 1993, 371-375) for one step:
-/// `M ((1 - am) a1 + am a0) = (1 - af) f1 + af f0`, with Newmark's `beta` and `gamma`.
+/// Constants of the generalised-alpha method (Chung and Hulbert, Journal of Applied Mechanics 60, 1993, 371-375) for
+/// one step: `M ((1 - am) a1 + am a0) = (1 - af) f1 + af f0`, with Newmark's `beta` and `gamma`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Method {
     /// Steps per tick.

@@ -127,8 +127,8 @@ struct WheelsetConstants {
 }
 
 impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
-    /// Returns the state in which the bodies have their equilibrium positions on straight level track. The vehicle runs at
-    /// `speed_m_per_s`, with its middle at `distance_m`.
+    /// Returns the state in which the bodies have their equilibrium positions on straight level track. The vehicle runs
+    /// at `speed_m_per_s`, with its middle at `distance_m`.
     ///
     /// # Errors
     /// A speed or distance out of bounds.
@@ -189,8 +189,8 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
         }
     }
 
-    /// Returns true if a state belongs to a vehicle with the same bodies, elements, step and rails as this one. The parameters
-    /// of dampers and the contact may differ. A deserialised state may belong to any vehicle, or to none.
+    /// Returns true if a state belongs to a vehicle with the same bodies, elements, step and rails as this one. The
+    /// parameters of dampers and the contact may differ. A deserialised state may belong to any vehicle, or to none.
     #[inline]
     pub fn can_step(&self, state: &VehicleState) -> bool {
         state.identity == self.identity && state.shape() == self.shape
@@ -207,8 +207,8 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
     /// Displaces a body before the first step: adds `displacement` to its coordinates and updates all forces.
     ///
     /// # Errors
-    /// An index out of range, a displacement outside -10 to 10 m or rad, or a state of another vehicle. The state is then
-    /// unchanged.
+    /// An index out of range, a displacement outside -10 to 10 m or rad, or a state of another vehicle. The state is
+    /// then unchanged.
     pub fn displace(
         &self,
         state: &mut VehicleState,
@@ -280,8 +280,8 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
         build(&element.name, parameters, self.step_s)
     }
 
-    /// Replaces a damper as [`set_damper`](Self::set_damper) does, with a damper built by [`build_damper`](Self::build_damper).
-    /// Does not allocate.
+    /// Replaces a damper as [`set_damper`](Self::set_damper) does, with a damper built by
+    /// [`build_damper`](Self::build_damper). Does not allocate.
     ///
     /// # Errors
     /// An index out of range.

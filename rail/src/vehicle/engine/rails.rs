@@ -6,8 +6,8 @@ use super::block::{N, Vector};
 use crate::contact::{RailDisplacement, WheelsetForces};
 use crate::vehicle::error::VehicleError;
 
-/// Elastic support of a rail under a wheel: a mass that moves along the track with the wheel, on a spring and a dashpot in the
-/// lateral and in the vertical direction.
+/// Elastic support of a rail under a wheel: a mass that moves along the track with the wheel, on a spring and a dashpot
+/// in the lateral and in the vertical direction.
 ///
 /// ```
 /// use dashpot_rail::vehicle::RailSupport;

@@ -12,8 +12,8 @@ use crate::vehicle::error::VehicleError;
 
 /// The state of a running vehicle: plain data.
 ///
-/// A clone saves it, [`Clone::clone_from`] restores it without allocation, and stepping the same state again gives the same
-/// bits. A state belongs to the vehicle that created it; no other vehicle steps it ([`Stop::OtherVehicle`]).
+/// A clone saves it, [`Clone::clone_from`] restores it without allocation, and stepping the same state again gives the
+/// same bits. A state belongs to the vehicle that created it; no other vehicle steps it ([`Stop::OtherVehicle`]).
 ///
 /// Bodies are in the order of the parameters, followed by the wheelsets. Coordinates are in the order of
 /// [`COORDINATES`](crate::vehicle::COORDINATES).
@@ -100,26 +100,27 @@ impl VehicleState {
         self.speed_m_per_s
     }
 
-    /// Returns the displacement of each body from its equilibrium on straight track, relative to the track under it, m and rad.
-    /// The pitch of a wheelset is always zero.
+    /// Returns the displacement of each body from its equilibrium on straight track, relative to the track under it, m
+    /// and rad. The pitch of a wheelset is always zero.
     pub fn coordinates(&self) -> &[[f64; N]] {
         &self.coordinates[..self.bodies]
     }
 
-    /// Returns the displacements of elastically supported rails under each wheelset, relative to those at standstill, m: lateral
-    /// and vertical of the left rail, lateral and vertical of the right rail, and zero.
+    /// Returns the displacements of elastically supported rails under each wheelset, relative to those at standstill,
+    /// m: lateral and vertical of the left rail, lateral and vertical of the right rail, and zero.
     pub fn rail_coordinates(&self) -> &[[f64; N]] {
         &self.coordinates[self.bodies..]
     }
 
-    /// Returns the absolute velocity of each body in the same axes, m/s and rad/s; in a curve the yaw rate includes that of the
-    /// curve. The pitch rate of a wheelset is its deficit in rotation from free rolling in the middle of the track.
+    /// Returns the absolute velocity of each body in the same axes, m/s and rad/s; in a curve the yaw rate includes
+    /// that of the curve. The pitch rate of a wheelset is its deficit in rotation from free rolling in the middle of
+    /// the track.
     pub fn velocities(&self) -> &[[f64; N]] {
         &self.velocities[..self.bodies]
     }
 
-    /// Returns the acceleration of a body that an accelerometer on it would measure, in the axes of the track, m/s^2 and
-    /// rad/s^2: force over inertia, without [`track_acceleration`](Self::track_acceleration).
+    /// Returns the acceleration of a body that an accelerometer on it would measure, in the axes of the track, m/s^2
+    /// and rad/s^2: force over inertia, without [`track_acceleration`](Self::track_acceleration).
     ///
     /// # Panics
     /// If the index of the body is out of range.
@@ -128,8 +129,8 @@ impl VehicleState {
         std::array::from_fn(|i| self.forces[body][i] / self.inertia[body][i] - guidance[i])
     }
 
-    /// Returns gravity and centrifugal acceleration of a body in excess of those on straight level track, in the axes of the
-    /// track, m/s^2. For a body at rest in these axes it is minus [`acceleration`](Self::acceleration).
+    /// Returns gravity and centrifugal acceleration of a body in excess of those on straight level track, in the axes
+    /// of the track, m/s^2. For a body at rest in these axes it is minus [`acceleration`](Self::acceleration).
     ///
     /// # Panics
     /// If the index of the body is out of range.
@@ -144,8 +145,8 @@ impl VehicleState {
 
     /// Returns the maximum load of the left and right wheel of each wheelset during the last tick, N.
     ///
-    /// A tick consists of several steps, so an impact may be over before the tick ends. [`contacts`](Self::contacts) returns only
-    /// the forces at the end of the tick.
+    /// A tick consists of several steps, so an impact may be over before the tick ends. [`contacts`](Self::contacts)
+    /// returns only the forces at the end of the tick.
     pub fn greatest_wheel_loads_n(&self) -> &[[f64; 2]] {
         &self.work.greatest_loads_n
     }
@@ -165,7 +166,8 @@ impl VehicleState {
         &self.stop_forces_n
     }
 
-    /// Replaces the force of a damper by an external force from the next tick on; `None` returns to the damper's own model.
+    /// Replaces the force of a damper by an external force from the next tick on; `None` returns to the damper's own
+    /// model.
     ///
     /// An external force computed from the displacement of this tick therefore acts one tick late.
     ///

@@ -23,8 +23,9 @@ const MAX_ACCELERATION: f64 = 1e6;
 impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
     /// Advances the state by one tick along the track.
     ///
-    /// Never fails, whatever the state contains, and does not allocate. The cost varies only with the number of loaded contact
-    /// patches. A diverged state or a state of another vehicle is not stepped; [`VehicleState::stop`] reports the reason.
+    /// Never fails, whatever the state contains, and does not allocate. The cost varies only with the number of loaded
+    /// contact patches. A diverged state or a state of another vehicle is not stepped; [`VehicleState::stop`] reports
+    /// the reason.
     pub fn step(&self, state: &mut VehicleState, track: &Track) {
         if !self.can_step(state) {
             state.met_other_vehicle = true;

@@ -39,8 +39,8 @@ enum Target {
     Coupling(usize),
 }
 
-/// Elimination order of sparsely coupled bodies. The body with the fewest remaining couplings is eliminated first, so that a
-/// tree (wheelsets, bogies, body) has no fill-in.
+/// Elimination order of sparsely coupled bodies. The body with the fewest remaining couplings is eliminated first, so
+/// that a tree (wheelsets, bogies, body) has no fill-in.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Structure {
     bodies: usize,

@@ -39,7 +39,8 @@ pub(super) struct ContactBlocks {
 /// - Normal direction: the stiffness `3/2 N/penetration` of Hertz and the damping `beta N` of Hunt and Crossley.
 /// - Both tangential directions: the damping `f/speed`, where `f` is force over creepage, limited to `4 G a b`.
 ///
-/// An estimate is sufficient if it keeps the correction stable and small: the next step corrects the remaining force error.
+/// An estimate is sufficient if it keeps the correction stable and small: the next step corrects the remaining force
+/// error.
 #[inline(always)]
 pub(super) fn add_contact<S: Simd>(
     simd: S,
