@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use dashpot_rail::indices::{
-    RideDirection, SpectrumError, Weighting, WeightingFilter, mean_comfort,
+    RideDirection, SpectrumError, Sperling, Weighting, WeightingFilter, mean_comfort,
     mean_comfort_of_windows, nadal_limit, prudhomme_limit_n, sperling, weighted_rms, welch,
 };
 
@@ -176,6 +176,49 @@ fn percentiles_are_interpolated_between_windows() {
     let squares: Vec<f64> = (1..=12).map(|i| f64::from(i * i)).collect();
     let comfort = mean_comfort_of_windows([&squares, &[], &[]]);
     assert!((comfort - 6.0 * 131.35).abs() < 1e-9, "{comfort}");
+}
+
+/// The corrections at the edges of their parts are those of the upper part (GB/T 5599).
+#[test]
+fn corrections_of_the_ride_index_change_at_their_edges() {
+    let (lateral, vertical) = (RideDirection::Lateral, RideDirection::Vertical);
+    for (direction, frequency_hz, expected) in [
+        (vertical, 5.89, 0.325 * 5.89 * 5.89),
+        (vertical, 5.9, 400.0 / (5.9 * 5.9)),
+        (vertical, 19.9, 400.0 / (19.9 * 19.9)),
+        (vertical, 20.0, 1.0),
+        (lateral, 5.39, 0.8 * 5.39 * 5.39),
+        (lateral, 5.4, 650.0 / (5.4 * 5.4)),
+        (lateral, 25.9, 650.0 / (25.9 * 25.9)),
+        (lateral, 26.0, 1.0),
+    ] {
+        let found = direction.correction(frequency_hz);
+        assert!(
+            (found - expected).abs() < 1e-12,
+            "{frequency_hz} Hz: {found} for {expected}"
+        );
+    }
+}
+
+/// By Parseval's theorem the integral is the variance, also for a signal at half the rate, whose line has no mirror image.
+#[test]
+fn the_line_at_half_the_rate_counts_once() {
+    let alternating: Vec<f64> = (0..4000)
+        .map(|i| if i % 2 == 0 { 2.0 } else { -2.0 })
+        .collect();
+    let density = welch(&alternating, RATE_HZ, 1.0).unwrap();
+    let variance: f64 = density.iter().map(|[_, density]| density).sum();
+    assert!((variance - 4.0).abs() < 1e-9, "{variance}");
+    assert_eq!(density[density.len() - 1][0], 0.5 * RATE_HZ);
+}
+
+#[test]
+fn a_window_has_at_least_eight_samples() {
+    assert_eq!(Sperling::new(100.0, 0.01).unwrap().samples(), 8);
+    assert_eq!(Sperling::new(100.0, 0.25).unwrap().samples(), 25);
+    assert!(Sperling::new(100.0, 0.0).is_err());
+    assert!(WeightingFilter::new(Weighting::Vertical, 400.0).is_ok());
+    assert!(WeightingFilter::new(Weighting::Vertical, 399.0).is_err());
 }
 
 /// Both ends of the band count, the next lines beyond them do not: `W = 3.57 (A^3 F/f)^0.1`.

@@ -229,6 +229,7 @@ fn errors_of_defects_state_location_value_and_bounds() {
         (kink(0.0), "defect 2: rounding_m 0, allowed: 0.001 to 5"),
         (kink(5.1), "defect 2: rounding_m 5.1, allowed: 0.001 to 5"),
         (twist(-3.0, 1.0, 0.1), "defect 2: base_m -3, allowed"),
+        (twist(3.0, 0.0, 0.1), "defect 2: plateau_m 0, allowed"),
         (
             twist(3.0, 1.0, 1.1),
             "defect 2: rounding_m 1.1, allowed: 0.001 to 1",

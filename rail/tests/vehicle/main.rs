@@ -7,6 +7,7 @@ mod flange;
 mod modes_turned_in_a_circle;
 mod random;
 mod running;
+mod states;
 mod support;
 mod suspended;
 mod track;
