@@ -7,10 +7,7 @@ use libfuzzer_sys::fuzz_target;
 fuzz_target!(|text: &str| {
     // Also adds a header, which random bytes hardly ever contain.
     let headed = format!("distance_m,vertical_m,lateral_m,cross_level_m,gauge_m\n{text}");
-    let options = Options {
-        ramp_m: 1.0,
-        ..Options::default()
-    };
+    let options = Options::default().with_ramp_m(1.0);
     for text in [text, &headed] {
         let Ok((irregularity, reading)) = measured::parse(text, &options) else {
             continue;

@@ -40,7 +40,7 @@ fn forces_are_computed_without_allocating() {
     let tables = Tables::new(geometry, grid).unwrap();
     let contact =
         WheelsetContact::new(Arc::new(tables), KalkerBook::new(), Friction::default()).unwrap();
-    let irregularity = Generation::of(Spectrum::german_low())
+    let irregularity = Generation::new(Spectrum::german_low())
         .irregularity()
         .unwrap();
     let dip = Defect::CosineDip {

@@ -130,6 +130,12 @@ pub enum ReferenceError {
         /// Longitudinal, lateral and spin creepage, scaled.
         creepage: [f64; 3],
     },
+    /// The law of an element is not known to the reference.
+    #[error("reference: {element}: the law of this element is not supported")]
+    UnknownLaw {
+        /// Name of the element.
+        element: String,
+    },
     /// A vehicle that cannot stand or run, or a number out of bounds.
     #[error("reference: {0}")]
     Vehicle(#[from] dashpot_rail::vehicle::VehicleError),

@@ -1,43 +1,43 @@
-//! Curving against balances and an independent quasi-static computation of the same locomotive.
+//! Curving against force balances and an independent quasi-static computation of the same locomotive.
 
 use dashpot_rail::vehicle::Vehicle;
 
 use crate::support::{contact, curve, locomotive, mass_kg, run};
 
-/// Within `part` of a number.
-fn is_near(found: f64, expected: f64, part: f64, what: &str) {
+/// Asserts that the relative error is below `tolerance`.
+fn assert_near(found: f64, expected: f64, tolerance: f64, what: &str) {
     assert!(
-        (found / expected - 1.0).abs() < part,
+        (found / expected - 1.0).abs() < tolerance,
         "{what}: {found} for {expected}"
     );
 }
 
-/// R 300 m, 70 km/h, cant 0.12 m, friction 0.3: an independent, nonlinear quasi-static computation with softness fitted to the load
-/// and spin after the exact theory.
+/// R 300 m, 70 km/h, cant 0.12 m, friction 0.3. The expected values come from an independent nonlinear quasi-static
+/// computation with contact compliance fitted to the load and spin from the exact theory.
 #[test]
-fn the_locomotive_curves_as_an_independent_computation_has_it() {
+fn steady_curving_agrees_with_an_independent_computation() {
     let vehicle = Vehicle::new(&locomotive(), contact(5.0), 1e-3).unwrap();
     let track = curve(300.0);
     let speed = 70.0 / 3.6;
     let mut state = vehicle.at_rest(&track, 0.0, speed).unwrap();
     run(&vehicle, &mut state, &track, 14.0);
     let leading = state.coordinates()[3];
-    is_near(leading[0], -6.12e-3, 0.03, "lateral displacement");
-    is_near(leading[4], -10.0e-3, 0.03, "yaw");
+    assert_near(leading[0], -6.12e-3, 0.03, "lateral displacement");
+    assert_near(leading[4], -10.0e-3, 0.03, "yaw");
     let contact = &state.contacts()[0];
     let [outer, inner] = &contact.wheels;
-    is_near(outer.force_n[1], 71.5e3, 0.03, "Y of the outer wheel");
-    is_near(-outer.force_n[2], 138.6e3, 0.03, "Q of the outer wheel");
-    is_near(contact.derailment_coefficients()[0], 0.516, 0.03, "Y/Q");
-    is_near(-inner.force_n[2], 65.9e3, 0.03, "Q of the inner wheel");
-    is_near(contact.force_n[1], 52.8e3, 0.03, "axle force");
+    assert_near(outer.force_n[1], 71.5e3, 0.03, "Y of the outer wheel");
+    assert_near(-outer.force_n[2], 138.6e3, 0.03, "Q of the outer wheel");
+    assert_near(contact.derailment_coefficients()[0], 0.516, 0.03, "Y/Q");
+    assert_near(-inner.force_n[2], 65.9e3, 0.03, "Q of the inner wheel");
+    assert_near(contact.force_n[1], 52.8e3, 0.03, "axle force");
     let body = state.coordinates()[0];
-    is_near(body[2], -12.5e-3, 0.03, "roll of the body");
+    assert_near(body[2], -12.5e-3, 0.03, "roll of the body");
 }
 
-/// The rails carry weight and centripetal force: in the curve's steady state their forces are the balance's.
+/// In a steady curve the forces of the rails balance weight and centrifugal force.
 #[test]
-fn the_rails_carry_weight_and_centripetal_force() {
+fn the_rails_balance_weight_and_centrifugal_force() {
     let parameters = locomotive();
     let mass = mass_kg(&parameters);
     let vehicle = Vehicle::new(&parameters, contact(5.0), 1e-3).unwrap();
@@ -50,7 +50,7 @@ fn the_rails_carry_weight_and_centripetal_force() {
         let centripetal = speed * speed / radius;
         let outward = 9.81 * sine - centripetal * cosine;
         let down = 9.81 * cosine + centripetal * sine;
-        // Mass, height, and how far the curve has the track aside of its tangent at the middle of the vehicle.
+        // Mass, height, and lateral offset of the track from its tangent at the middle of the vehicle.
         let aside = |x_m: f64| 0.5 * x_m * x_m / radius;
         let bodies: Vec<[f64; 3]> = parameters
             .bodies
@@ -64,7 +64,7 @@ fn the_rails_carry_weight_and_centripetal_force() {
             )
             .collect();
         let wheelset = &parameters.wheelsets[0];
-        // Within the clearance of its dampers the body goes on swaying: means over four swings.
+        // The body keeps swaying within the clearance of its dampers, so forces are averaged over four periods.
         let ticks = 8000;
         let (mut sums, mut moments) = ([0.0; 2], [0.0; 2]);
         for _ in 0..ticks {
@@ -82,13 +82,13 @@ fn the_rails_carry_weight_and_centripetal_force() {
                 moments[1] += moment / f64::from(ticks);
             }
         }
-        is_near(sums[0], -mass * outward, 1e-3, "lateral");
-        is_near(-sums[1], mass * down, 1e-4, "vertical");
-        // About the middle of the track the rails turn back what lateral force and weight, moved to the side, overturn, and the
-        // wheels whose axles the curve turns.
+        assert_near(sums[0], -mass * outward, 1e-3, "lateral");
+        assert_near(-sums[1], mass * down, 1e-4, "vertical");
+        // Moment about the middle of the track: that of the rails balances those of lateral force, of laterally
+        // displaced weight, and the gyroscopic moment of the wheels.
         let spin = wheelset.inertia_kg_m2[1] * speed / wheelset.radius_m;
         let gyroscopic = parameters.wheelsets.len() as f64 * spin * speed / radius;
-        is_near(
+        assert_near(
             moments[0],
             gyroscopic - moments[1],
             2e-3,

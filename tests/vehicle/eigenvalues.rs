@@ -15,64 +15,54 @@ use crate::yaw_dampers_had_no_modes as yaw;
 /// State matrix and eigenvalues of a vehicle.
 type Solved = (Vec<Vec<f64>>, Vec<[f64; 2]>);
 
-/// Standing vehicles of two bodies, running wagons, and locomotives with yaw dampers.
+/// Numbers of standing vehicles with two bodies, running wagons, and locomotives with yaw dampers.
 const STANDING: usize = 6_000;
 const WAGONS: usize = 3_800;
 const LOCOMOTIVES: usize = 200;
 
-/// A number spread evenly over powers of ten.
-fn decades(rng: &mut Rng, least: f64, decades: f64) -> f64 {
-    least * 10_f64.powf(decades * rng.f64())
+/// A random number from `min` over `decades` powers of ten, evenly distributed in the logarithm.
+fn decades(rng: &mut Rng, min: f64, decades: f64) -> f64 {
+    min * 10_f64.powf(decades * rng.f64())
 }
 
-fn between(rng: &mut Rng, least: f64, greatest: f64) -> f64 {
-    least + (greatest - least) * rng.f64()
+fn between(rng: &mut Rng, min: f64, max: f64) -> f64 {
+    min + (max - min) * rng.f64()
 }
 
-fn three(rng: &mut Rng, least: f64) -> [f64; 3] {
-    std::array::from_fn(|_| decades(rng, least, 4.0))
+fn three(rng: &mut Rng, min: f64) -> [f64; 3] {
+    std::array::from_fn(|_| decades(rng, min, 4.0))
 }
 
-fn body(rng: &mut Rng, name: &str, least_kg: f64) -> Body {
-    let mass_kg = decades(rng, least_kg, 2.0);
-    Body {
-        name: name.into(),
-        mass_kg,
-        inertia_kg_m2: [
-            mass_kg * between(rng, 0.3, 3.0),
-            mass_kg * between(rng, 0.5, 30.0),
-            mass_kg * between(rng, 0.5, 30.0),
-        ],
-        x_m: between(rng, -1.0, 1.0),
-        height_m: between(rng, 0.3, 2.5),
-    }
+fn body(rng: &mut Rng, name: &str, min_kg: f64) -> Body {
+    let mass_kg = decades(rng, min_kg, 2.0);
+    let inertia_kg_m2 = [
+        mass_kg * between(rng, 0.3, 3.0),
+        mass_kg * between(rng, 0.5, 30.0),
+        mass_kg * between(rng, 0.5, 30.0),
+    ];
+    let x_m = between(rng, -1.0, 1.0);
+    Body::new(name, mass_kg, inertia_kg_m2, between(rng, 0.3, 2.5)).with_x_m(x_m)
 }
 
 fn spring(name: String, ends: [End; 2], stiffness: [f64; 3], damping: [f64; 3]) -> Element {
-    Element {
-        name,
-        ends,
-        law: Law::SpringDamper {
-            stiffness_n_per_m: stiffness,
-            damping_n_s_per_m: damping,
-        },
-    }
+    let law = Law::SpringDamper {
+        stiffness_n_per_m: stiffness,
+        damping_n_s_per_m: damping,
+    };
+    Element::new(name, ends, law)
 }
 
 fn damper(rng: &mut Rng, name: String, ends: [End; 2], direction: Direction) -> Element {
     let mount = Mount::new(decades(rng, 1e5, 5.0));
     let parameters = DamperParameters::reduced(decades(rng, 1e3, 4.0), 1.0, mount);
-    Element {
-        name,
-        ends,
-        law: Law::Damper {
-            direction,
-            parameters: Box::new(parameters),
-        },
-    }
+    let law = Law::Damper {
+        direction,
+        parameters: Box::new(parameters),
+    };
+    Element::new(name, ends, law)
 }
 
-/// Two bodies on random springs and a damper, at standstill; `None` if they are not held.
+/// Two bodies on random springs with a damper, at standstill; `None` if the springs do not hold them.
 fn standing(rng: &mut Rng) -> Option<Solved> {
     let mut elements = Vec::new();
     for number in 0..6 {
@@ -91,27 +81,20 @@ fn standing(rng: &mut Rng) -> Option<Solved> {
     let at = [1.0, 0.5, 0.7];
     let ends = [End::body("lower", at), End::body("upper", at)];
     elements.push(damper(rng, "damper".into(), ends, Direction::Lateral));
-    let vehicle = VehicleParameters {
-        name: "two bodies".into(),
-        bodies: vec![body(rng, "upper", 1e3), body(rng, "lower", 300.0)],
-        wheelsets: vec![],
-        elements,
-        ride_points: vec![],
-    };
+    let vehicle = VehicleParameters::new("two bodies")
+        .with_bodies([body(rng, "upper", 1e3), body(rng, "lower", 300.0)])
+        .with_elements(elements);
     let standstill = Standstill::new(&vehicle).ok()?;
     let values = standstill.eigenvalues_rad_per_s().unwrap();
     Some((standstill.state_matrix(), values))
 }
 
-/// A body on two wheelsets with springs and yaw dampers, at a speed; `None` if the rails do not carry it.
+/// A body on two wheelsets with springs and yaw dampers, at a speed; `None` if the rails cannot carry it.
 fn wagon(rng: &mut Rng) -> Option<Solved> {
     let base_m = between(rng, 1.0, 9.0);
-    let wheelset = |name: &str, x_m: f64, mass_kg: f64| Wheelset {
-        name: name.into(),
-        mass_kg,
-        inertia_kg_m2: [0.5 * mass_kg, 0.06 * mass_kg, 0.5 * mass_kg],
-        x_m,
-        radius_m: 0.625,
+    let wheelset = |name: &str, x_m: f64, mass_kg: f64| {
+        let inertia_kg_m2 = [0.5 * mass_kg, 0.06 * mass_kg, 0.5 * mass_kg];
+        Wheelset::new(name, mass_kg, inertia_kg_m2, 0.625).with_x_m(x_m)
     };
     let mass_kg = between(rng, 900.0, 3500.0);
     let wheelsets = vec![
@@ -135,19 +118,16 @@ fn wagon(rng: &mut Rng) -> Option<Solved> {
         }
     }
     let body_kg = between(rng, 12e3, 60e3);
-    let vehicle = VehicleParameters {
-        name: "wagon".into(),
-        bodies: vec![Body {
-            name: "body".into(),
-            mass_kg: body_kg,
-            inertia_kg_m2: [2.0, 25.0, 25.0].map(|square| square * body_kg),
-            x_m: 0.0,
-            height_m: between(rng, 1.0, 2.0),
-        }],
-        wheelsets,
-        elements,
-        ride_points: vec![],
-    };
+    let inertia_kg_m2 = [2.0, 25.0, 25.0].map(|square| square * body_kg);
+    let vehicle = VehicleParameters::new("wagon")
+        .with_bodies([Body::new(
+            "body",
+            body_kg,
+            inertia_kg_m2,
+            between(rng, 1.0, 2.0),
+        )])
+        .with_wheelsets(wheelsets)
+        .with_elements(elements);
     let speed = between(rng, 1.0, 120.0);
     let running = Running::new(&vehicle, &support::contact(5.0), speed).ok()?;
     let values = running.eigenvalues_rad_per_s().unwrap();
@@ -163,15 +143,15 @@ fn locomotive(rng: &mut Rng) -> Option<Solved> {
     Some((running.state_matrix(), values))
 }
 
-/// So many vehicles that `make` makes.
-fn some(count: usize, rng: &mut Rng, make: fn(&mut Rng) -> Option<Solved>) -> Vec<Solved> {
+/// Generates `count` vehicles.
+fn repeat(count: usize, rng: &mut Rng, make: fn(&mut Rng) -> Option<Solved>) -> Vec<Solved> {
     std::iter::repeat_with(|| make(rng))
         .flatten()
         .take(count)
         .collect()
 }
 
-/// What LAPACK finds of a matrix: eigenvalues with their sensitivities, as `eigenvalues.py` defines them.
+/// Eigenvalues by LAPACK with their sensitivities, as defined in `eigenvalues.py`.
 type Found = Vec<([f64; 2], f64)>;
 
 fn by_lapack(python: &std::path::Path, solved: &[Solved]) -> Vec<Found> {
@@ -212,15 +192,15 @@ fn magnitude([re, im]: [f64; 2]) -> f64 {
     re.hypot(im)
 }
 
-/// Rounding errors in the matrix that two right solutions may differ by.
+/// Number of rounding errors in the matrix by which two correct solutions may differ.
 const ROUNDINGS: f64 = 5.0;
 
-/// How far the eigenvalues of a vehicle are from LAPACK's.
+/// Distance between the eigenvalues of a vehicle and LAPACK's.
 struct Distance {
-    /// Greatest distance over the magnitude.
+    /// Maximum distance relative to the magnitude.
     relative: f64,
-    /// Greatest distance over what the measure allows: 1e-9 of the magnitude or, where it is greater, what [`ROUNDINGS`] rounding errors
-    /// in the matrix move the eigenvalue by. No method is more exact than that in double precision.
+    /// Maximum distance relative to the allowed distance, which is 1e-9 of the magnitude or, if larger, the effect of
+    /// [`ROUNDINGS`] rounding errors in the matrix. No method is more accurate in double precision.
     of_allowed: f64,
 }
 
@@ -255,9 +235,9 @@ fn ten_thousand_random_vehicles_have_lapacks_eigenvalues() {
         return;
     };
     let mut rng = Rng::with_seed(26);
-    let mut solved = some(STANDING, &mut rng, standing);
-    solved.extend(some(WAGONS, &mut rng, wagon));
-    solved.extend(some(LOCOMOTIVES, &mut rng, locomotive));
+    let mut solved = repeat(STANDING, &mut rng, standing);
+    solved.extend(repeat(WAGONS, &mut rng, wagon));
+    solved.extend(repeat(LOCOMOTIVES, &mut rng, locomotive));
     assert_eq!(solved.len(), 10_000);
     let found = by_lapack(&python, &solved);
     let distances: Vec<Distance> = solved
@@ -265,9 +245,9 @@ fn ten_thousand_random_vehicles_have_lapacks_eigenvalues() {
         .zip(&found)
         .map(|((_, values), found)| Distance::new(values, found))
         .collect();
-    let most = |of: fn(&Distance) -> f64| distances.iter().map(of).fold(0.0, f64::max);
+    let max = |value: fn(&Distance) -> f64| distances.iter().map(value).fold(0.0, f64::max);
     let plain = distances.iter().filter(|one| one.relative <= 1e-9).count();
-    let (relative, of_allowed) = (most(|one| one.relative), most(|one| one.of_allowed));
+    let (relative, of_allowed) = (max(|one| one.relative), max(|one| one.of_allowed));
     println!("{plain} of 10000 within 1e-9 of each eigenvalue, {relative:.1e} at most");
     println!("{of_allowed:.2} of what is allowed at most");
     assert!(of_allowed <= 1.0, "{of_allowed}");

@@ -1,4 +1,4 @@
-//! Energy: what the locomotive loses on ideal track is what dampers, springs' dashpots and creep dissipate.
+//! Energy balance on ideal track: the locomotive loses the energy that dampers, dashpots and creep dissipate.
 
 use dashpot_rail::track::Track;
 use dashpot_rail::vehicle::{Vehicle, VehicleState};
@@ -7,7 +7,7 @@ use crate::support::{contact, locomotive};
 
 const STEP_S: f64 = 0.25e-3;
 
-/// Power dissipated by creep, and that of what keeps the speed against the longitudinal forces, W.
+/// Power dissipated by creep, and driving power that keeps the speed constant, W.
 fn powers(state: &VehicleState) -> [f64; 2] {
     let contacts = state.contacts();
     let wheels = contacts.iter().flat_map(|contact| &contact.wheels);
@@ -20,11 +20,11 @@ fn powers(state: &VehicleState) -> [f64; 2] {
 }
 
 #[test]
-fn energy_is_kept_but_for_what_is_dissipated() {
+fn lost_energy_equals_dissipated_energy() {
     let vehicle = Vehicle::new(&locomotive(), contact(0.0), STEP_S).unwrap();
     let track = Track::default();
     let mut state = vehicle.at_rest(&track, 0.0, 30.0).unwrap();
-    // The body aside, up and turned, and a bogie too: everything moves.
+    // All coordinates of the body and most of a bogie are displaced, so everything moves.
     vehicle
         .displace(&mut state, &track, 0, [8e-3, -12e-3, 4e-3, 2e-3, 1e-3])
         .unwrap();
@@ -33,7 +33,7 @@ fn energy_is_kept_but_for_what_is_dissipated() {
         .unwrap();
     let start = vehicle.energy(&state).unwrap();
     let (mut dissipated, mut driven, mut into_dampers) = (0.0, 0.0, 0.0);
-    // By the trapezoidal rule.
+    // Powers are integrated by the trapezoidal rule.
     let mut before = (powers(&state), start.dissipation_w, state.clone());
     for _ in 0..12_000 {
         vehicle.step(&mut state, &track);

@@ -1,9 +1,8 @@
-//! The locomotive in real time against closed forms, balances, and an independent solution.
+//! Real-time steps of the locomotive against closed forms, balances and an independent solution.
 
 mod curving;
 mod eigenvalues;
 mod energy;
-mod flange;
 mod mirror;
 mod rails;
 mod reference;

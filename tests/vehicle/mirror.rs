@@ -1,4 +1,4 @@
-//! A curve to the left is the mirror image of one to the right.
+//! A left-hand curve is the mirror image of a right-hand curve.
 
 use dashpot_rail::vehicle::Vehicle;
 

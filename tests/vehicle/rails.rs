@@ -1,4 +1,4 @@
-//! Rails that give way under the wheels.
+//! Elastically supported rails.
 
 use dashpot_rail::contact::Status;
 use dashpot_rail::track::Track;
@@ -6,17 +6,13 @@ use dashpot_rail::vehicle::{Law, RailSupport, Vehicle};
 
 use crate::support::{contact, curve, locomotive, run};
 
-const SUPPORT: RailSupport = RailSupport {
-    mass_kg: 60.0,
-    lateral_stiffness_n_per_m: 40e6,
-    lateral_damping_n_s_per_m: 60e3,
-    vertical_stiffness_n_per_m: 80e6,
-    vertical_damping_n_s_per_m: 60e3,
-};
+const SUPPORT: RailSupport = RailSupport::new(60.0)
+    .with_lateral(40e6, 60e3)
+    .with_vertical(80e6, 60e3);
 
-/// In a curve each rail has gone by the change of its force over its stiffness.
+/// In a curve the displacement of each rail is the change of its force over its stiffness.
 #[test]
-fn rails_give_way_by_force_over_stiffness() {
+fn rails_move_by_force_over_stiffness() {
     let parameters = locomotive();
     let vehicle = Vehicle::on_rails(&parameters, contact(5.0), 1e-3, Some(SUPPORT)).unwrap();
     let straight = vehicle.at_rest(&Track::default(), 0.0, 20.0).unwrap();
@@ -50,13 +46,13 @@ fn rails_give_way_by_force_over_stiffness() {
             );
         }
     }
-    // The outer rail of the leading wheelset, pushed outward by some 70 kN.
+    // The outer rail of the leading wheelset is pushed outward by about 70 kN.
     assert!((-2.5e-3..-1e-3).contains(&rails[0][0]), "{:?}", rails[0]);
 }
 
-/// The stiffer the rails, the nearer to rigid ones.
+/// Very stiff supports give the results of rigid rails.
 #[test]
-fn stiff_rails_are_rigid_ones() {
+fn very_stiff_rails_behave_as_rigid_rails() {
     let (parameters, track) = (locomotive(), curve(600.0));
     let lateral = |support: Option<RailSupport>| {
         let vehicle = Vehicle::on_rails(&parameters, contact(5.0), 1e-3, support).unwrap();
@@ -66,11 +62,9 @@ fn stiff_rails_are_rigid_ones() {
         (state.coordinates()[3][0], contact.force_n[1])
     };
     let by = |factor: f64| {
-        let support = RailSupport {
-            lateral_stiffness_n_per_m: factor * SUPPORT.lateral_stiffness_n_per_m,
-            vertical_stiffness_n_per_m: factor * SUPPORT.vertical_stiffness_n_per_m,
-            ..SUPPORT
-        };
+        let mut support = SUPPORT;
+        support.lateral_stiffness_n_per_m *= factor;
+        support.vertical_stiffness_n_per_m *= factor;
         lateral(Some(support))
     };
     let (rigid, stiff, soft) = (lateral(None), by(1000.0), by(1.0));
@@ -79,7 +73,7 @@ fn stiff_rails_are_rigid_ones() {
     assert!((soft.0 - rigid.0).abs() > 0.3e-3, "{soft:?} {rigid:?}");
 }
 
-/// The bounce of a wheelset on its rails: the primary springs and the body above hardly count.
+/// Bounce of a wheelset on its rails. The primary springs and the body above have little effect.
 #[test]
 fn a_wheelset_bounces_on_its_rails_as_two_masses_do() {
     let mut parameters = locomotive();
@@ -91,10 +85,8 @@ fn a_wheelset_bounces_on_its_rails_as_two_masses_do() {
             *damping_n_s_per_m = [0.0; 3];
         }
     }
-    let support = RailSupport {
-        vertical_damping_n_s_per_m: 0.0,
-        ..SUPPORT
-    };
+    let mut support = SUPPORT;
+    support.vertical_damping_n_s_per_m = 0.0;
     let step_s = 0.1e-3;
     let vehicle = Vehicle::on_rails(&parameters, contact(0.0), step_s, Some(support)).unwrap();
     let track = Track::default();
@@ -108,14 +100,15 @@ fn a_wheelset_bounces_on_its_rails_as_two_masses_do() {
             state.coordinates()[3][1]
         })
         .collect();
-    // Zeros of the motion, by which half a period is told.
+    // Crossings of the mean, half a period apart.
     let mean = bounce.iter().sum::<f64>() / bounce.len() as f64;
     let crossings: Vec<usize> = (1..bounce.len())
         .filter(|i| (bounce[i - 1] < mean) != (bounce[*i] < mean))
         .collect();
     let periods = (crossings.len() - 1) as f64 / 2.0;
     let found = periods / (step_s * (crossings.last().unwrap() - crossings[0]) as f64);
-    // Wheelset on the contact (3/2 N/penetration each), on the rails' masses, on their springs; 2.15 MN/m above on each side.
+    // The wheelset stands on the contacts (3/2 N/penetration each), these on the masses of the rails, these on their
+    // springs. The primary springs above have 2.15 MN/m on each side.
     let patches = || {
         state.contacts()[3]
             .wheels
@@ -139,11 +132,9 @@ fn a_wheelset_bounces_on_its_rails_as_two_masses_do() {
 }
 
 #[test]
-fn a_support_that_is_none_is_refused() {
-    let support = RailSupport {
-        mass_kg: -1.0,
-        ..SUPPORT
-    };
+fn an_invalid_support_is_rejected() {
+    let mut support = SUPPORT;
+    support.mass_kg = -1.0;
     let error = Vehicle::on_rails(&locomotive(), contact(5.0), 1e-3, Some(support)).unwrap_err();
     assert_eq!(
         error.to_string(),

@@ -1,4 +1,4 @@
-//! The step against the reference solution, for vehicles, tracks and speeds that nobody chose.
+//! The step against the reference solution for random vehicles, tracks and speeds.
 
 use dashpot_core::DamperParameters;
 use dashpot_core::parameters::Mount;
@@ -9,11 +9,11 @@ use fastrand::Rng;
 
 use crate::support::{contact, locomotive};
 
-fn between(random: &mut Rng, least: f64, greatest: f64) -> f64 {
-    least + random.f64() * (greatest - least)
+fn between(random: &mut Rng, min: f64, max: f64) -> f64 {
+    min + random.f64() * (max - min)
 }
 
-/// The locomotive with every mass, inertia, stiffness, damping and damper another.
+/// The locomotive with random masses, inertias, stiffnesses, dampings and dampers.
 fn vehicle(random: &mut Rng) -> VehicleParameters {
     let mut parameters = locomotive();
     for body in &mut parameters.bodies {
@@ -29,7 +29,7 @@ fn vehicle(random: &mut Rng) -> VehicleParameters {
                 stiffness_n_per_m: [x, y, _],
                 damping_n_s_per_m,
             } => {
-                // The vertical ones carry the weight alike, left and right.
+                // Vertical springs must stay equal on both sides, because they carry the weight.
                 *x *= between(random, 0.7, 1.3);
                 *y *= between(random, 0.7, 1.3);
                 damping_n_s_per_m[2] *= between(random, 0.5, 1.5);
@@ -47,7 +47,7 @@ fn vehicle(random: &mut Rng) -> VehicleParameters {
     parameters
 }
 
-/// A straight lead and a curve to either side, or straight on, with irregularities of a random class.
+/// A straight and a curve of random radius and direction, with irregularities of a random class.
 fn track(random: &mut Rng) -> Track {
     let side = if random.bool() { 1.0 } else { -1.0 };
     let parts = [
@@ -62,17 +62,15 @@ fn track(random: &mut Rng) -> Track {
         },
     ];
     let spectrum = Spectrum::fra(random.u8(5..=6)).unwrap();
-    let irregularity = Generation {
-        length_m: 600.0,
-        seeds: Seeds::from(random.u64(..)),
-        ..Generation::of(spectrum)
-    };
+    let irregularity = Generation::new(spectrum)
+        .with_length_m(600.0)
+        .with_seeds(Seeds::from(random.u64(..)));
     let irregularity: Irregularity = irregularity.irregularity().unwrap();
     Track::new(Layout::new(&parts).unwrap(), irregularity, vec![]).unwrap()
 }
 
 #[test]
-fn random_vehicles_run_as_the_reference_has_them() {
+fn random_vehicles_run_as_in_the_reference() {
     let mut random = Rng::with_seed(20_261_122);
     for case in 0..3 {
         let parameters = vehicle(&mut random);
@@ -126,9 +124,10 @@ fn random_vehicles_run_as_the_reference_has_them() {
     }
 }
 
-/// On ideal straight track nothing moves but the spin, from that of the heaviest patches to that without a moment.
+/// On ideal straight track only the spin changes: it starts with free rolling of the most loaded patches and settles
+/// where the moment is zero.
 #[test]
-fn the_reference_keeps_its_standing_position() {
+fn the_reference_keeps_its_equilibrium() {
     let parameters = locomotive();
     let (contact, track) = (contact(0.0), Track::default());
     let mut reference = VehicleReference::new(&parameters, &contact, &track, 30.0, 0.0).unwrap();

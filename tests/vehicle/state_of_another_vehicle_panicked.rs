@@ -1,5 +1,5 @@
-//! `Vehicle::step` "cannot fail", but panicked on a state of a vehicle with fewer bodies, and stepped that of one with other masses without
-//! a word.
+//! `Vehicle::step` "cannot fail", but it panicked on a state of a vehicle with fewer bodies, and silently stepped a
+//! state of a vehicle with other masses.
 
 use dashpot_core::DamperParameters;
 use dashpot_core::parameters::Mount;
@@ -9,20 +9,16 @@ use fastrand::Rng;
 
 use crate::support::{Contact, contact, curve, locomotive, run};
 
-const SUPPORT: RailSupport = RailSupport {
-    mass_kg: 100.0,
-    lateral_stiffness_n_per_m: 20e6,
-    lateral_damping_n_s_per_m: 50e3,
-    vertical_stiffness_n_per_m: 70e6,
-    vertical_damping_n_s_per_m: 70e3,
-};
+const SUPPORT: RailSupport = RailSupport::new(100.0)
+    .with_lateral(20e6, 50e3)
+    .with_vertical(70e6, 70e3);
 
 fn vehicle(name: &str, step_s: f64) -> Vehicle<dashpot_rail::creep::KalkerBook> {
     let parameters = dashpot_files::vehicle::load(name, &[]).unwrap();
     Vehicle::new(&parameters, contact(5.0), step_s).unwrap()
 }
 
-/// Vehicles that a state of the locomotive does not belong to.
+/// Vehicles to which a state of the locomotive does not belong.
 fn others() -> Vec<Vehicle<dashpot_rail::creep::KalkerBook>> {
     let mut heavier = locomotive();
     heavier.bodies[0].mass_kg += 1.0;
@@ -39,7 +35,7 @@ fn others() -> Vec<Vehicle<dashpot_rail::creep::KalkerBook>> {
 }
 
 #[test]
-fn a_state_of_another_vehicle_stays_as_it_is_and_says_so() {
+fn a_state_of_another_vehicle_is_unchanged_and_reports_it() {
     let own = vehicle("locomotive", 1e-3);
     let track = curve(300.0);
     let mut before = own.at_rest(&track, 0.0, 20.0).unwrap();
@@ -54,7 +50,7 @@ fn a_state_of_another_vehicle_stays_as_it_is_and_says_so() {
         other.step(&mut state, &track);
         assert_eq!(state.stop(), Some(Stop::OtherVehicle));
         assert!(state.is_diverged());
-        // Its own vehicle leaves it there too.
+        // Its own vehicle does not step it any more either.
         own.step(&mut state, &track);
         assert_eq!(state.ticks(), before.ticks());
         assert_eq!(state.coordinates(), before.coordinates());
@@ -62,7 +58,7 @@ fn a_state_of_another_vehicle_stays_as_it_is_and_says_so() {
     }
 }
 
-/// Equal parameters are one vehicle; so is one whose damper is replaced, and one with another contact.
+/// Vehicles with equal parameters share states, also if a damper or the contact differs.
 #[test]
 fn a_state_belongs_to_every_vehicle_of_its_parameters() {
     let own = vehicle("locomotive", 1e-3);
@@ -84,7 +80,7 @@ fn a_state_belongs_to_every_vehicle_of_its_parameters() {
     }
 }
 
-/// States that were saved and then damaged: whatever is read, the step ends, and either has a finite result or says that it diverged.
+/// A saved state with damaged bytes either gives a finite result or reports divergence.
 #[test]
 fn no_number_in_a_state_makes_the_step_panic() {
     let own = vehicle("locomotive", 1e-3);
@@ -128,7 +124,7 @@ fn no_number_in_a_state_makes_the_step_panic() {
 }
 
 #[test]
-fn a_state_of_another_length_is_of_no_vehicle() {
+fn a_state_with_a_wrong_length_belongs_to_no_vehicle() {
     let own = vehicle("locomotive", 1e-3);
     let track = Track::default();
     let state = own.at_rest(&track, 0.0, 20.0).unwrap();

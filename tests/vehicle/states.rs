@@ -1,4 +1,4 @@
-//! States are plain data: saved, restored, stepped again to the same bits.
+//! A saved and restored state steps to the same bits.
 
 use dashpot_core::DamperParameters;
 use dashpot_core::parameters::Mount;
@@ -41,9 +41,9 @@ fn any_number_of_threads_steps_to_the_same_bits() {
     assert!(together.iter().all(|state| *state == alone));
 }
 
-/// A damper that is replaced in motion goes on from its force; one whose force comes from outside takes that one tick later.
+/// A damper that is replaced in motion continues from its force. An external force acts from the next tick on.
 #[test]
-fn a_damper_changes_without_a_jump_and_its_force_can_come_from_outside() {
+fn a_replaced_damper_has_a_continuous_force_and_may_have_an_external_one() {
     let mut vehicle = Vehicle::new(&locomotive(), contact(5.0), 1e-3).unwrap();
     let track = curve(300.0);
     let mut state = vehicle.at_rest(&track, 0.0, 20.0).unwrap();

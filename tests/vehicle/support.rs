@@ -1,4 +1,4 @@
-//! Contacts, tracks and runs that the tests share.
+//! Shared contacts, tracks and vehicles.
 
 use std::sync::{Arc, OnceLock};
 
@@ -11,7 +11,7 @@ use dashpot_rail::vehicle::{Vehicle, VehicleParameters, VehicleState};
 
 pub type Contact = Arc<WheelsetContact<KalkerBook>>;
 
-/// S1002 on UIC 60 under the locomotive's wheel load, friction 0.3, with a normal damping.
+/// S1002 on UIC 60 under the locomotive's wheel load, with friction 0.3 and a normal damping.
 pub fn contact(normal_damping_s_per_m: f64) -> Contact {
     static TABLES: OnceLock<Arc<Tables>> = OnceLock::new();
     let tables = TABLES.get_or_init(|| Arc::new(Tables::new(geometry(), Grid::default()).unwrap()));
@@ -19,7 +19,7 @@ pub fn contact(normal_damping_s_per_m: f64) -> Contact {
     Arc::new(contact.with_normal_damping(normal_damping_s_per_m).unwrap())
 }
 
-/// As [`contact`], from the geometry itself.
+/// The same contact computed from the geometry, without tables and normal damping.
 pub fn contact_without_tables() -> WheelsetContact<KalkerBook, ContactGeometry> {
     WheelsetContact::new(Arc::new(geometry()), KalkerBook::new(), friction()).unwrap()
 }
@@ -38,14 +38,14 @@ pub fn locomotive() -> VehicleParameters {
     dashpot_files::vehicle::load("locomotive", &[]).unwrap()
 }
 
-/// Of all bodies and wheelsets.
+/// Total mass of bodies and wheelsets.
 pub fn mass_kg(parameters: &VehicleParameters) -> f64 {
     let bodies = parameters.bodies.iter().map(|body| body.mass_kg);
     let wheelsets = parameters.wheelsets.iter().map(|wheelset| wheelset.mass_kg);
     bodies.chain(wheelsets).sum()
 }
 
-/// A straight, a transition, and a curve of `radius_m` with 0.12 m of cant, to the right when positive.
+/// A straight, a transition, and a curve with 0.12 m of cant. A positive radius is a right-hand curve.
 pub fn curve(radius_m: f64) -> Track {
     let parts = [
         Part::Straight { length_m: 40.0 },
@@ -64,7 +64,7 @@ pub fn curve(radius_m: f64) -> Track {
     .unwrap()
 }
 
-/// After `seconds`.
+/// Steps for `seconds`.
 pub fn run(vehicle: &Vehicle<KalkerBook>, state: &mut VehicleState, track: &Track, seconds: f64) {
     for _ in 0..(seconds / vehicle.step_s()).round() as usize {
         vehicle.step(state, track);

@@ -1,5 +1,5 @@
-//! A body that there is not was displaced, and a force was set of a damper that there is not, without a word; a force that is not a number
-//! let the damper's own model take over. Replacing a damper with such a number was an error.
+//! Displacing a body and setting the external force of a damper silently ignored an index out of range, and a force of
+//! NaN returned to the damper's own model. Only replacing a damper reported a wrong index.
 
 use dashpot_rail::track::Track;
 use dashpot_rail::vehicle::{Vehicle, VehicleError};
@@ -7,14 +7,14 @@ use dashpot_rail::vehicle::{Vehicle, VehicleError};
 use crate::support::{contact, locomotive};
 
 #[test]
-fn wrong_numbers_are_errors_and_change_nothing() {
+fn wrong_indices_and_forces_are_errors_and_change_nothing() {
     let vehicle = Vehicle::new(&locomotive(), contact(5.0), 1e-3).unwrap();
     let track = Track::default();
     let mut state = vehicle.at_rest(&track, 0.0, 20.0).unwrap();
     let before = state.clone();
 
     let error = vehicle.displace(&mut state, &track, 99, [1e-3; 5]);
-    let expected = VehicleError::NoBodyOfNumber {
+    let expected = VehicleError::NoSuchBodyIndex {
         body: 99,
         bodies: 9,
     };
@@ -37,7 +37,7 @@ fn wrong_numbers_are_errors_and_change_nothing() {
     assert!(state.set_outside_force_n(42, None).is_err());
     for wrong in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
         let error = state.set_outside_force_n(0, Some(wrong)).unwrap_err();
-        let expected = "from outside, allowed: a finite number";
+        let expected = "external force of";
         assert!(error.to_string().contains(expected), "{error}");
     }
     assert_eq!(state, before);

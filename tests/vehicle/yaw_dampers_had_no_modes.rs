@@ -1,5 +1,5 @@
-//! The modes of a locomotive with ordinary yaw dampers were refused as "too far apart" at some speeds: the iteration for the eigenvalues
-//! turned in a circle.
+//! The modes of a locomotive with ordinary yaw dampers were rejected as "too far apart" at some speeds, because the
+//! eigenvalue iteration cycled.
 
 use std::sync::OnceLock;
 
@@ -12,7 +12,7 @@ use crate::support::contact_without_tables;
 /// The shipped locomotive with a yaw damper on each side of each bogie.
 const LOCOMOTIVE: &str = include_str!("locomotive_yaw_dampers.toml");
 
-/// The locomotive with yaw dampers of this damping and stiffness of the mounts.
+/// The locomotive with yaw dampers of this damping and mount stiffness.
 pub fn locomotive(damping_n_s_per_m: f64, stiffness_n_per_m: f64) -> VehicleParameters {
     let text = LOCOMOTIVE
         .replace(
@@ -32,11 +32,11 @@ pub fn contact() -> &'static WheelsetContact<KalkerBook, ContactGeometry> {
 }
 
 #[test]
-fn the_reported_one_has_modes() {
+fn the_reported_locomotive_has_modes() {
     let running = Running::new(&locomotive(4.1e6, 12e6), contact(), 50.0).unwrap();
     let modes = running.modes().unwrap();
     assert!(modes.iter().all(|mode| mode.undamped_hz() > 0.0));
-    assert!(modes.iter().any(|mode| mode.words() == "body bounce"));
+    assert!(modes.iter().any(|mode| mode.description() == "body bounce"));
 }
 
 /// 9 dampings, 2 stiffnesses of the mounts, 15 speeds: all 270 have modes.

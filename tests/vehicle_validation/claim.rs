@@ -1,43 +1,43 @@
-//! What the paper says of an index, and whether ours does so.
+//! Claims of the paper about an index, and their verdicts from our rows.
 
 use dashpot_study::sweep::Estimate;
 
 use crate::rows::interval;
 
-/// What is said of an index over a parameter.
+/// A claim about an index as a function of a parameter.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Claim {
-    /// It rises, by more than counts as none.
+    /// It rises by more than [`NONE_PERCENT`].
     Rises,
-    /// It rises, however little.
+    /// It rises by any amount.
     RisesSlightly,
-    /// It falls, however little.
+    /// It falls by any amount.
     FallsSlightly,
-    /// It changes by so much, %.
+    /// It changes by this amount, %.
     By(f64),
     /// It does not change.
     Keeps,
-    /// It is flat from a value on: its slope there is less than a quarter of the one before, in magnitude.
+    /// It is flat above a value: there, the magnitude of its slope is less than a quarter of that below.
     Flat,
-    /// It changes, whichever way.
+    /// It changes in either direction.
     Changes,
     /// It fluctuates within limits.
     Limited,
 }
 
-/// Whether a claim holds.
+/// Verdict on a claim.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Verdict {
     Holds,
-    /// The interval has both signs.
+    /// The confidence interval includes both signs.
     NotShown,
     DoesNotHold,
 }
 
-/// Greatest slope of what is flat over the slope before.
+/// Maximum ratio of the slope of a flat part to the slope before it.
 pub const FLAT: f64 = 0.25;
 
-/// Whether a curve is flat, by its slopes before and from a place on, and half the interval of the latter.
+/// Verdict on flatness from the slopes before and after a point, and half the confidence interval of the latter.
 pub fn flat(before: f64, after: f64, half: f64) -> Verdict {
     let bound = FLAT * before.abs();
     if after.abs() + half < bound {
@@ -49,13 +49,13 @@ pub fn flat(before: f64, after: f64, half: f64) -> Verdict {
     }
 }
 
-/// Greatest change that counts as none, %.
+/// Maximum change that counts as none, %.
 pub const NONE_PERCENT: f64 = 1.0;
-/// Greatest range of a limited fluctuation over the mean, %.
+/// Maximum range of a limited fluctuation relative to the mean, %.
 pub const LIMITED_PERCENT: f64 = 5.0;
 
 impl Claim {
-    /// The claims in the words of `vehicle_trends.csv`, one for each `and`.
+    /// Parses the claims of a cell of `vehicle_trends.csv`, separated by `and`.
     pub fn parse(words: &str) -> Vec<Self> {
         words.split(" and ").map(Self::one).collect()
     }
@@ -80,11 +80,11 @@ impl Claim {
         } else if starts(&["limited fluctuation"]) {
             Self::Limited
         } else {
-            panic!("no claim: `{words}`")
+            panic!("unknown claim: `{words}`")
         }
     }
 
-    /// Of a change in percent.
+    /// Returns the verdict for a change in percent.
     pub fn verdict(self, change: &Estimate) -> Verdict {
         let [low, high] = interval(change);
         let signed = |sign: f64| {
@@ -164,7 +164,7 @@ fn verdicts_follow_the_interval() {
 }
 
 #[test]
-fn flat_is_a_quarter_of_the_slope_before() {
+fn flat_means_at_most_a_quarter_of_the_slope_before() {
     assert_eq!(flat(-8.0, 1.0, 0.5), Verdict::Holds);
     assert_eq!(flat(-8.0, 1.8, 0.5), Verdict::NotShown);
     assert_eq!(flat(8.0, 3.0, 0.5), Verdict::DoesNotHold);

@@ -1,4 +1,4 @@
-//! The text of `docs/vehicle-validation.md`.
+//! Text of `docs/vehicle-validation.md`.
 
 use crate::claim::{LIMITED_PERCENT, NONE_PERCENT, Verdict};
 use crate::rows::{Kept, percent};
@@ -16,26 +16,32 @@ pub fn text(paper: &Kept, wide: &Kept, stand_ins: &Kept) -> String {
         [Verdict::Holds, Verdict::NotShown, Verdict::DoesNotHold].map(count);
     let limited_hold = limited.iter().filter(|row| row.verdict == Verdict::Holds);
     format!(
-        "# The paper's vehicle studies beside ours
+        "# The paper's vehicle studies compared with ours
 
-Written by `cargo xtask vehicle-validation` from the rows in `data/studies/rows/`; `tests/vehicle_validation` holds this text against the rows, and rows
-drawn from all over them against new runs, bit for bit. The figures themselves, over 8 seeds: `dashpot sweep paper`.
+`cargo xtask vehicle-validation` writes this page from the rows in `data/studies/rows/`. `tests/vehicle_validation` compares the
+page with the rows, and a sample of the rows with new runs, bit for bit. `dashpot sweep paper` draws the figures over 8 seeds.
 
-The paper studies dampers in a model of the SS9 locomotive whose parameters are not published. Ours is a public stand-in
-(`data/vehicles/locomotive.toml`, where each assumed value is marked), so what can be reproduced are directions and sizes of changes, not values.
+The paper studies dampers in a model of the SS9 locomotive, whose parameters are not published. Ours is a public stand-in
+(`data/vehicles/locomotive.toml`, which marks each assumed value). It can reproduce the direction and size of changes, not
+absolute values.
 
-- Straight track at 180 km/h for 5 s, curve of 200 m with 0.12 m of cant at 100 km/h for 10 s, class 6 with wavelengths of 3 to 80 m, seeds 1 to {SEEDS}. The
-  paper does not give its wavelengths, its one realisation, or the points at which it takes the ride.
-- Wzz, Wzy: Sperling's ride index up and down and to the side, 0.5 to 40 Hz, one window of 5 s, greatest of three points at the height of the body's centre of
-  gravity: middle and over both bogies. Of the leading wheelset RMS_Dc, the greater of its wheels' Y/Q, RMS_Wn, its wear number, RMS_Fy, its lateral force;
-  RMS_Ay: lateral acceleration of the body. Root mean squares of the whole run, contact damping 5 s/m.
-- A change is that of one irregularity from one end of the range to the other, the mean over the seeds with its confidence interval of 95 % (Student).
-- **Rises, falls, by so much** holds where the interval is on that side of zero; **rises** or **is influenced** does not where it is within {NONE_PERCENT} %, unless it is said to
-  be slight. **Hardly changes** holds within {NONE_PERCENT} %. **Flat above** holds where the slope there, with its interval, is less than a quarter of the one below. **Limited
-  fluctuation**: range of the means within {LIMITED_PERCENT} % of their mean; no interval belongs to it. *Not shown*: the interval reaches over the bound.
+- Runs: straight track at 180 km/h for 5 s, and a curve of 200 m with 0.12 m of cant at 100 km/h for 10 s. Track of class 6 with
+  wavelengths of 3 to 80 m, seeds 1 to {SEEDS}. The paper states neither its wavelengths, nor its single realisation, nor the points
+  at which it evaluates the ride.
+- Wzz and Wzy are Sperling's vertical and lateral ride indices: 0.5 to 40 Hz, one window of 5 s, maximum of three points at the
+  height of the body's centre of gravity (in the middle and over both bogies).
+- RMS_Dc, RMS_Wn and RMS_Fy belong to the leading wheelset: the larger Y/Q of its wheels, its wear number and its lateral force.
+  RMS_Ay is the lateral acceleration of the body. All are root mean squares of the whole run, with a contact damping of 5 s/m.
+- A change is the difference between both ends of a range on the same irregularity: the mean over the seeds with its 95 %
+  confidence interval (Student).
+- A rise or fall holds if the interval lies on that side of zero. **Rises** and **is influenced** do not hold if the change is
+  within {NONE_PERCENT} %, unless the paper calls it slight. **Hardly changes** holds within {NONE_PERCENT} %. **Flat above** holds if the slope above,
+  including its interval, is less than a quarter of the slope below. **Limited fluctuation** holds if the range of the means is
+  within {LIMITED_PERCENT} % of their mean; it has no interval. *Not shown* means that the interval includes the bound.
 
-Of {} claims with an interval hold {holds}, do not hold {not}, are not shown {not_shown}; one in twenty misses by chance, and all share the same irregularities. Of {} more of limited
-fluctuation hold {}: easily, for a vehicle whose lateral dampers do little in a curve.
+Of {} claims tested with an interval, {holds} hold and {not} do not (not shown: {not_shown}). One in twenty fails by chance, and all
+share the same irregularities. Of {} more claims of limited fluctuation, {} hold. This is an easy test for a vehicle whose
+lateral dampers have little effect in a curve.
 
 {}
 {}
@@ -53,7 +59,7 @@ fluctuation hold {}: easily, for a vehicle whose lateral dampers do little in a 
     )
 }
 
-/// Our change of a row.
+/// Our change of a published row.
 fn of_row(compared: &[Compared], figure: &str, observed: &str) -> String {
     let found = compared
         .iter()
@@ -62,12 +68,12 @@ fn of_row(compared: &[Compared], figure: &str, observed: &str) -> String {
     percent(&row.change)
 }
 
-/// Values at the nominal parameters beside what the paper's axes show.
+/// Table of values at the nominal parameters and of the ranges of the paper's axes.
 fn levels(paper: &Kept) -> String {
     let mut text = String::from(
         "## Values at the nominal parameters
 
-Mean over the seeds with its interval. The paper's figures have axes, not numbers; its curves lie somewhere within these.
+Means over the seeds with their intervals. The paper's figures have axes but no values; its curves lie within these axes.
 
 | index | ours | the paper's axes | |
 |---|---|---|---|
@@ -120,9 +126,11 @@ Mean over the seeds with its interval. The paper's figures have axes, not number
     }
     text.push_str(
         "
-Of the ride the axes of Figs. 12 and 15 have 2.5 to 2.6 in common. Our lateral index is above: the stand-in has no yaw dampers and its flanges strike. The lateral acceleration is that of
-mechanics: 100 km/h on 200 m with 0.12 m of cant leave 3.07 m/s² on the circle (here with the straight and the transition before it), and an accelerometer on the body has them; a value
-near 1 does not go with lateral forces of 60 kN and more. The vehicle is at the edge of overturning there (inner wheels lift), so a curve of 600 m stands beside it below.
+For the ride, the axes of Figs. 12 and 15 share the range from 2.5 to 2.6. Our lateral index is higher, because the stand-in has
+no yaw dampers and its flanges strike the rails. Our lateral acceleration follows from mechanics: at 100 km/h on a curve of 200 m
+with 0.12 m of cant, 3.07 m/s² remain, which an accelerometer on the body measures (here averaged with the straight and the
+transition before the curve). A value near 1 is inconsistent with lateral forces of 60 kN and more. The vehicle is close to
+overturning in this curve (inner wheels lift), so a curve of 600 m is compared below.
 ",
     );
     text
@@ -135,12 +143,12 @@ fn varied(kept: &Kept, sweep: &str, first: Option<&str>, ends: [f64; 2], index: 
     percent(&kept.change(sweep, points, index))
 }
 
-/// What the rows depend on.
+/// Explanation of the differences.
 fn why(compared: &[Compared], paper: &Kept, stand_ins: &Kept) -> String {
     let mut text = String::from(
-        "## What the rows depend on
+        "## Sensitivity of the rows
 
-Each row once more at both ends of its range, with one stand-in value changed. In percent.
+Each row again between both ends of its range, with one stand-in value changed, in percent.
 
 | Fig., index | as above | 3 to 30 m | German low | friction 0.3 | 1 m to the side | to the side, 3 to 30 m |
 |---|---|---|---|---|---|---|
@@ -216,27 +224,32 @@ Each row once more at both ends of its range, with one stand-in value changed. I
         [2e-3, 3e-3].map(|to| varied(paper, "17d", None, [0.5e-3, to], "derailment_greatest"));
     text.push_str(&format!(
         "
-**12a, 12b: long waves.** More damping calms the bounce of the body (1.4 to 1.8 Hz, waves of 28 to 36 m at this speed) and passes on more of
-what is faster. With waves up to 80 m the two nearly cancel for C, and a damper that saturates early lets the body bounce. Without waves over 30 m the index rises
-with C, and in the middle of the body and to its side with Vr, as the paper has it; with the German spectrum, which has less of the long ones, it rises with C too.
+**12a, 12b: long waves.** More damping reduces the bounce of the body (1.4 to 1.8 Hz, waves of 28 to 36 m at this speed) and
+transmits more vibration at higher frequencies. With waves up to 80 m the two effects nearly cancel for C, and a damper that
+saturates early lets the body bounce. Without waves above 30 m the index rises with C, and in the middle of the body and at its
+side also with Vr, as in the paper. With the German spectrum, which has less energy in long waves, it rises with C too.
 
-**12c: the middle of the body has the published size**, the points over the bogies twice as much: pitch is there, which the dampers hold as well.
+**12c: the change in the middle of the body has the published size.** Over the bogies it is twice as large, because the dampers
+also resist pitch.
 
-**12d, above 2.5 mm** the index goes on to rise: in class 6 our dampers move further than that. [Out of service](out-of-service.md) follows it to 12 mm, where a damper is hardly
-better than none.
+**12d: above 2.5 mm** the index keeps rising, because our dampers move further than that on class 6. [Out of
+service](out-of-service.md) continues to 12 mm, where a damper has hardly any effect.
 
-**15a, 15b, vertical index: the point decides.** On the middle line of a symmetrical vehicle lateral dampers do not move it up and down; the coupling that the paper
-reports is roll. At points 1 m to the side of the pivots, as rules for coaches have them, the vertical index rises with C and Vr of the lateral dampers, with long waves and with short ones.
+**15a, 15b, vertical index: the point is decisive.** Lateral dampers cause no vertical motion on the centre line of a symmetric
+vehicle; the coupling that the paper reports is roll. At points 1 m to the side of the pivots, as in the rules for coaches, the
+vertical index rises with C and Vr of the lateral dampers, for long and short waves.
 
-**15b, lateral index** goes on to rise above 0.05 m/s: where flanges strike, the stand-in's lateral dampers move faster than that.
+**15b, lateral index:** it keeps rising above 0.05 m/s, because flange impacts move the stand-in's lateral dampers faster than
+that.
 
-**15d**: what the paper calls a slight fall is a slight rise here, and a slight fall on track of the German spectrum.
+**15d:** the paper reports a slight fall. Here it is a slight rise, and a slight fall on track with the German spectrum.
 
-**17d is not reproduced**: {} % for +9.28 %. Friction 0.2 and 0.4: {} and {}; 80 and 90 km/h: {} and {}; stops 20 mm further: {};
-curves of 300 m and 600 m at 70 km/h: {} and {}. The two lateral dampers of a bogie give it 12.6 kN and, a metre before and behind its middle, 12.6 kN m at most (C Vr is 6.3 kN), and nothing
-on the mean, while the curve asks some 100 kN of it: steering sets Y/Q there. A millimetre and a half of play changes how Y/Q fluctuates, not its root mean square, and the sign of so small a change is set by
-flutter of the flange at 60 to 120 Hz. The published direction is in the greatest values: greatest mean over 2 m of all wheels {} % at 2 mm and {} % at 3 mm, which is what Fig. 18a shows, larger
-coefficients more often.
+**17d is not reproduced:** {} % instead of +9.28 %. With friction 0.2 and 0.4 it is {} and {} %; at 80 and 90 km/h {} and {} %; with the stops 20 mm
+further out {} %; in curves of 300 m and 600 m at 70 km/h {} and {} %. The two lateral dampers of a bogie exert at most 12.6 kN
+and, 1 m ahead of and behind its middle, 12.6 kN m (C Vr is 6.3 kN), with a mean of zero. The curve requires about 100 kN, so
+steering determines Y/Q. A play of 1.5 mm changes the fluctuation of Y/Q, not its root mean square; flutter of the flange at 60 to
+120 Hz decides the sign of such a small change. The maxima change in the published direction: the maximum over all wheels of Y/Q
+averaged over 2 m changes by {} % at 2 mm and {} % at 3 mm. Fig. 18a shows the same, larger coefficients more often.
 ",
         of_row(compared, "17d", "RMS_Dc"),
         of_17d("17d friction", Some("0.2")),
@@ -252,12 +265,12 @@ coefficients more often.
     text
 }
 
-/// The published curve beside one of 600 m.
+/// Comparison of the published curve with a curve of 600 m.
 fn curve(paper: &Kept, wide: &Kept) -> String {
     let mut text = String::from(
         "## In a curve of 600 m
 
-Range of the means of each sweep over their mean, in percent, at 100 km/h: 200 m, and 600 m.
+Range of the means of each sweep relative to their mean, in percent, at 100 km/h: in the curve of 200 m, then of 600 m.
 
 | varied | Y/Q | wear number | lateral force | lateral acceleration |
 |---|---|---|---|---|
@@ -282,16 +295,16 @@ Range of the means of each sweep over their mean, in percent, at 100 km/h: 200 m
     text
 }
 
-/// What the ride over the bogies and in the middle have in common.
+/// Correlation of the ride indices over the bogies and in the middle.
 fn coupling(paper: &Kept) -> String {
     let [over, middle] = ["sperling_vertical", "sperling_vertical_first"]
         .map(|index| paper.mean(paper.sweep("straight"), 0, index).mean);
     format!(
-        "## What else decides
+        "## Other influences
 
-- The vertical index over the bogies is {over:.2}, in the middle {middle:.2}: a published value needs its point.
-- Normal damping of the contact is 5 s/m and the locomotive has no yaw dampers; its flanges strike at 180 km/h on class 6
-  ([vehicle.md](vehicle.md)), which the lateral index contains.
+- The vertical index is {over:.2} over the bogies and {middle:.2} in the middle, so a published value must state its point.
+- The normal damping of the contact is 5 s/m, and the locomotive has no yaw dampers. Its flanges strike the rails at 180 km/h on
+  class 6 ([vehicle.md](vehicle.md)), which raises the lateral index.
 "
     )
 }

@@ -1,4 +1,5 @@
-//! The paper's vehicle studies beside ours, and when a damper should be taken out of service: documents from kept rows, and the rows from runs.
+//! Comparison of the paper's vehicle studies with ours, and limits at which a damper should be taken out of service:
+//! documents against kept rows, and kept rows against new runs.
 
 mod claim;
 mod document;
@@ -11,11 +12,11 @@ use dashpot::document as kept;
 use dashpot_study::sweep::{Arithmetic, Row, RunError, run};
 use rows::Kept;
 
-/// Studies whose rows are kept.
+/// Studies with kept rows.
 const STUDIES: [&str; 4] = ["paper", "curve-r600", "stand-ins", "out-of-service"];
 
 #[test]
-fn the_validation_is_that_of_the_rows() {
+fn the_validation_document_agrees_with_the_rows() {
     let [paper, wide, stand_ins] = ["paper", "curve-r600", "stand-ins"].map(Kept::load);
     kept::compare(
         "docs/vehicle-validation.md",
@@ -24,13 +25,13 @@ fn the_validation_is_that_of_the_rows() {
 }
 
 #[test]
-fn the_limits_of_service_are_those_of_the_rows() {
+fn the_out_of_service_document_agrees_with_the_rows() {
     let rows = Kept::load("out-of-service");
     kept::compare("docs/out-of-service.md", &out_of_service::text(&rows));
 }
 
 #[test]
-fn rows_are_those_of_new_runs() {
+fn rows_agree_with_new_runs() {
     for name in STUDIES {
         let kept = Kept::load(name);
         if kept
@@ -42,7 +43,7 @@ fn rows_are_those_of_new_runs() {
             continue;
         }
         run_some(&kept, |row, old| {
-            // Last digits differ then, and grow where flanges strike.
+            // The last digits differ then, and the differences grow at flange impacts.
             assert_eq!(row.ending, old.ending, "{name}, case {}", row.case);
             for (new, old) in row.observed.iter().zip(&old.observed) {
                 let (Some(new), Some(old)) = (new, old) else {
@@ -56,7 +57,7 @@ fn rows_are_those_of_new_runs() {
     }
 }
 
-/// The first kept row, of every 397th, that a new run on a processor of the same kind has other bits for.
+/// First kept row, out of every 397th, whose bits differ from those of a new run on the same kind of processor.
 fn first_difference(kept: &Kept) -> Option<String> {
     let mut difference = None;
     run_some(kept, |row, old| {
@@ -67,7 +68,7 @@ fn first_difference(kept: &Kept) -> Option<String> {
     difference
 }
 
-/// Runs every 397th case, some of every sweep, and gives each with its kept row.
+/// Runs every 397th case, which includes some of every sweep, and passes each with its kept row to `compare`.
 fn run_some(Kept { study, rows }: &Kept, mut compare: impl FnMut(&Row, &Row)) {
     let numbers: Vec<u64> = (0..study.cases()).step_by(397).collect();
     let mut found = 0;

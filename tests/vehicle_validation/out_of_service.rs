@@ -1,4 +1,4 @@
-//! The text of `docs/out-of-service.md`.
+//! Text of `docs/out-of-service.md`.
 
 use dashpot_files::study::{Sweep, Value};
 
@@ -6,10 +6,10 @@ use xtask::vehicle_validation::SEEDS;
 
 use crate::rows::{Kept, percent};
 
-/// How much worse than new the ride may be, %.
+/// Maximum degradation of the ride index from new, %.
 const WORSE_PERCENT: f64 = 5.0;
 
-/// Numbers of the first axis.
+/// Values of the first axis.
 fn abscissas(sweep: &Sweep) -> Vec<f64> {
     let number = |value: &Value| match value {
         Value::Number(number) => *number,
@@ -18,7 +18,7 @@ fn abscissas(sweep: &Sweep) -> Vec<f64> {
     sweep.axes[0].values.iter().map(number).collect()
 }
 
-/// Where a curve first reaches a level on the way from `start`, linear between its points; none where it does not.
+/// Abscissa at which a piecewise linear curve first reaches a level on the way from `start`; `None` if it does not.
 fn crossing(x: &[f64], y: &[f64], start: usize, level: f64) -> Option<f64> {
     let upwards = (start..x.len()).collect::<Vec<_>>();
     let downwards = (0..=start).rev().collect::<Vec<_>>();
@@ -35,7 +35,7 @@ fn crossing(x: &[f64], y: &[f64], start: usize, level: f64) -> Option<f64> {
 struct Wear<'a> {
     kept: &'a Kept,
     sweep: &'a Sweep,
-    /// The point that is as new.
+    /// Index of the point that is as new.
     new: usize,
 }
 
@@ -51,7 +51,8 @@ impl<'a> Wear<'a> {
         self.kept.change(self.sweep, points, index)
     }
 
-    /// Where an index is so much worse than new: by its mean, and by the ends of its confidence interval.
+    /// Parameter values at which an index has degraded by a given amount: for its mean and for the ends of its
+    /// confidence interval.
     fn limit(&self, index: &str) -> [Option<f64>; 3] {
         let x = abscissas(self.sweep);
         [0.0, 1.0, -1.0].map(|side| {
@@ -72,7 +73,7 @@ fn at(limit: Option<f64>, factor: f64, digits: usize, unit: &str) -> String {
     )
 }
 
-/// A limit with those of the interval's ends in the order of their numbers.
+/// Formats a limit with the limits for both ends of the confidence interval, in ascending order.
 fn between([mean, high, low]: [Option<f64>; 3], factor: f64, digits: usize, unit: &str) -> String {
     let ends = match (high, low) {
         (Some(a), Some(b)) => {
@@ -122,7 +123,7 @@ pub fn text(kept: &Kept) -> String {
     let square = |value: &f64| (value - mean).powi(2);
     let variance = new_values.iter().map(square).sum::<f64>() / (new_values.len() - 1) as f64;
     let scatter = 100.0 * variance.sqrt() / mean;
-    // Two means of n windows each differ by 1.96 sd sqrt(2/n) by chance.
+    // The means of two sets of n windows differ by up to 1.96 sd sqrt(2/n) by chance.
     let windows = 2.0 * (1.96 * scatter / WORSE_PERCENT).powi(2);
     let tables: String = [
         ("vertical clearance", 0.5e-3, 1e3, "2a, mm"),
@@ -142,12 +143,14 @@ pub fn text(kept: &Kept) -> String {
     format!(
         "# When should a damper be taken out of service?
 
-Written by `cargo xtask vehicle-validation` from the rows in `data/studies/rows/out-of-service.csv`, {} runs; the figures, over 8 seeds: `dashpot sweep
-out-of-service`. Straight track of class 6 at 180 km/h for 5 s, seeds 1 to {SEEDS}; hunting on ideal track after a push to the flange. The vehicle is the public
-stand-in of [the validation](vehicle-validation.md): another one has other numbers, so give the study yours (`vehicle = \"...\"`).
+`cargo xtask vehicle-validation` writes this page from the {} runs in `data/studies/rows/out-of-service.csv`. `dashpot sweep
+out-of-service` draws the figures over 8 seeds. Ride: straight track of class 6 at 180 km/h for 5 s, seeds 1 to {SEEDS}. Hunting: ideal
+track after a push to the flange. The vehicle is the public stand-in of [the validation](vehicle-validation.md). Other vehicles
+have other limits, so run the study with yours (`vehicle = \"...\"`).
 
-As new: clearance 2a of 0.5 mm, effective stiffness Ke of 8 MN/m (lateral dampers 7), oil at 20 °C. The criterion is chosen here: **ride** {WORSE_PERCENT} % worse than new (Sperling's index, greatest of
-three points; {WORSE_PERCENT} % of it are 18 % more acceleration), in brackets where the ends of its confidence interval are. Each limit is for one fault alone.
+As new: clearance 2a of 0.5 mm, effective stiffness Ke of 8 MN/m (lateral dampers 7 MN/m), oil at 20 °C. Our criterion is a **ride**
+{WORSE_PERCENT} % worse than new (Sperling's index, maximum of three points; {WORSE_PERCENT} % correspond to 18 % more acceleration). Brackets contain
+the limits for both ends of its confidence interval. Each limit is for a single fault.
 
 | dampers | by | ride {WORSE_PERCENT} % worse |
 |---|---|---|
@@ -160,25 +163,30 @@ three points; {WORSE_PERCENT} % of it are 18 % more acceleration), in brackets w
 | all lateral | clearance above | {} |
 | all lateral | effective stiffness below | {} |
 
-- **Wear of vertical dampers shows in the ride.** A soft damper (air in the oil, a perished rubber) is as much a reason as a loose seat, and the two add up: 3 MN/m alone {} %, 2 mm alone {} %,
-  together {} %. The limits are too wide where both are found.
-- **One worn vertical damper is not felt**: {} % at 12 mm, {} % at 0.25 MN/m. Single dampers are found by inspection or by their own force.
-- **A bogie whose vertical dampers are all loose** changes the greatest of the points by {} % (rear, 12 mm) or {} % (front), the middle by {} and {} %: the front one hides behind the rear,
-  so look at the point over the bogie.
-- **On other track the index scatters**: windows of 5 s by {scatter:.1} % (standard deviation over the seeds). To tell {WORSE_PERCENT} % takes some {windows:.0} windows before and as many after; one
-  5 s record says nothing. The intervals here are narrow only because both runs have the same irregularities.
-- **Wear of lateral dampers shows at the wheels, not in the ride.** At 12 mm the lateral index changes by {} %, the leading wheelset's Y/Q (rms) by {} % and its lateral force (rms) by {} %; at
-  0.25 MN/m by {}, {} and {} %. Greatest Y/Q beyond Nadal's limit in {} runs as new, in {} at 12 mm, in {} at 0.25 MN/m.
-- **Lateral clearance is room to hunt in**: above its critical speed the wheelsets move by about half the clearance, as new too, and the faster the
-  more (table below); at 180 km/h not at all. What of it is allowed is a matter of the speed: choose it for the highest, with a margin.
-- **One worn lateral damper**: lateral ride {} %, Y/Q (rms) {} % at 12 mm.
-- **Cold is no wear.** Below {} the ride is {WORSE_PERCENT} % worse than at 20 °C, and better once the oil has warmed: measure warm.
+- **Wear of vertical dampers affects the ride.** A soft damper (air in the oil, perished rubber) matters as much as a loose mount,
+  and the effects add up: 3 MN/m alone {} %, 2 mm alone {} %, together {} %. If both faults are present, the limits above
+  are too wide.
+- **A single worn vertical damper is not felt:** {} % at 12 mm, {} % at 0.25 MN/m. Inspection or its own force reveals it.
+- **A bogie with all vertical dampers loose** changes the maximum of the points by {} % (rear, 12 mm) or {} % (front), and the
+  middle by {} and {} %. The rougher rear masks a worn front bogie in the maximum, so compare the point above each bogie.
+- **The index scatters from track to track:** by {scatter:.1} % between windows of 5 s (standard deviation over the seeds). Detecting {WORSE_PERCENT} %
+  takes about {windows:.0} windows before and the same number after; a single record of 5 s is not sufficient. The intervals here are
+  narrow only because both runs have the same irregularities.
+- **Wear of lateral dampers affects the wheels, not the ride.** At 12 mm the lateral index changes by {} %, the leading
+  wheelset's Y/Q (rms) by {} % and its lateral force (rms) by {} %; at 0.25 MN/m by {}, {} and {} %. The maximum of
+  Y/Q exceeds Nadal's limit in {} runs as new, in {} at 12 mm, and in {} at 0.25 MN/m.
+- **Lateral clearance permits hunting:** above the critical speed the wheelsets move by about half the clearance, even as new, and
+  more at higher speed (table below); at 180 km/h they do not hunt. Choose the permitted clearance for the maximum speed, with a
+  margin.
+- **A single worn lateral damper** changes the lateral ride by {} % and Y/Q (rms) by {} % at 12 mm.
+- **Cold oil is not wear.** Below {} the ride is {WORSE_PERCENT} % worse than at 20 °C, and it recovers as the oil warms: measure with warm oil.
 
 ## Ride and wheel forces
 
-As new the value; else the change from it in percent with the confidence interval of 95 %. Ride index up and down (greatest of the points; middle) and to the side (greatest); of the leading wheelset rms of Y/Q and
-of the lateral force; greatest means over 2 m of all wheels: Y/Q over Nadal's limit, lateral force over Prud'homme's, unloading. Without yaw dampers this locomotive is beyond Prud'homme's
-limit on this track even as new.
+The row of the new condition gives values; the other rows give changes from it in percent, with 95 % confidence intervals. Columns:
+vertical ride index (maximum of the points; middle) and lateral ride index (maximum); rms of Y/Q and of the lateral force of the
+leading wheelset; maxima over all wheels of means over 2 m: Y/Q relative to Nadal's limit, lateral force relative to Prud'homme's
+limit, unloading. Without yaw dampers this locomotive exceeds Prud'homme's limit on this track even as new.
 
 {tables}
 ## Hunting
@@ -229,7 +237,7 @@ fn table(wear: &Wear<'_>, factor: f64, label: &str) -> String {
         "unloading_greatest",
     ];
     let mut text = format!(
-        "**{}**\n\n| {label} | up and down | middle | to the side | Y/Q, rms | lateral, rms | Y/Q over Nadal | over Prud'homme | unloading |\n|---|---|---|---|---|---|---|---|---|\n",
+        "**{}**\n\n| {label} | vertical | middle | lateral | Y/Q, rms | lateral force, rms | Y/Q over Nadal | over Prud'homme | unloading |\n|---|---|---|---|---|---|---|---|---|\n",
         wear.sweep.title
     );
     for (point, x) in abscissas(wear.sweep).iter().enumerate() {
@@ -252,7 +260,8 @@ fn table(wear: &Wear<'_>, factor: f64, label: &str) -> String {
 
 fn hunting_table(kept: &Kept) -> String {
     let mut text = String::from(
-        "Greatest lateral displacement of a wheelset in the last 3 of 18 s, mm, by speed and by clearance or effective stiffness of the lateral dampers.\n\n",
+        "Maximum lateral displacement of a wheelset in the last 3 s of 18 s, mm, by speed and by clearance or effective stiffness of the
+lateral dampers.\n\n",
     );
     for (name, factor, label) in [
         ("hunting clearance", 1e3, "2a, mm"),

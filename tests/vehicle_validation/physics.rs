@@ -1,12 +1,12 @@
-//! The digest of physics that rows of studies carry: the SHA-256 of the forces of every preset and of the indices of
-//! a few runs, with every element of a vehicle, rails that give way, a damper that changes on the way, both laws of a
-//! damper and every index.
+//! The digest of physics in every row of a study: the SHA-256 of the forces of all presets and of the indices of a few
+//! runs. These cover every element of a vehicle, elastically supported rails, a damper that changes during the run,
+//! both laws of a damper and every index.
 //!
-//! Both digests are those of an x86-64 processor with fused multiply-add, with its own arithmetic and without fusing:
-//! other processors round sines and exponentials of the system's library differently, so only there they repeat.
+//! Both digests, with and without fused multiply-add, are those of an x86-64 processor that has it. Other processors
+//! may round the sines and exponentials of the system library differently.
 //!
-//! `DASHPOT_BLESS=1` writes both digests into `study/src/sweep/physics.rs`, and into the kept rows where new
-//! runs have their bits.
+//! `DASHPOT_BLESS=1` writes both digests into `study/src/sweep/physics.rs`, and into the kept rows that new
+//! runs reproduce bit by bit.
 
 use std::collections::BTreeSet;
 
@@ -27,7 +27,7 @@ use crate::{STUDIES, first_difference};
 const STUDY: &str = "tests/vehicle_validation/physics/study.toml";
 const SOURCE: &str = "study/src/sweep/physics.rs";
 
-/// Ticks of the synthetic ride that every preset is driven with.
+/// Number of ticks of the synthetic ride that drives each preset.
 const TICKS: usize = 3000;
 
 fn study() -> Study {
@@ -36,7 +36,7 @@ fn study() -> Study {
     Study::new(parameters).expect("the study of physics")
 }
 
-/// The bits of what the model computes with the arithmetic of this thread.
+/// Bits of the model's results with the arithmetic of this thread.
 fn results() -> Vec<String> {
     let mut results = Vec::new();
     let bits = |number: f64| format!("{:016x}", number.to_bits());
@@ -67,7 +67,7 @@ fn results() -> Vec<String> {
     results
 }
 
-/// Both digests, each with its arithmetic; none on a processor that they are not of.
+/// Both digests with their arithmetic; empty on processors for which they are not defined.
 fn computed() -> Vec<(Arithmetic, String)> {
     if !cfg!(target_arch = "x86_64") || Arithmetic::here() != Arithmetic::Fused {
         eprintln!(
@@ -85,7 +85,7 @@ fn computed() -> Vec<(Arithmetic, String)> {
     vec![with(), separate]
 }
 
-/// `text` with the digest of an arithmetic in its line.
+/// Replaces the digest of an arithmetic in its line of `text`.
 fn with_digest(text: &str, arithmetic: Arithmetic, digest: &str) -> String {
     let start = format!("const {}: &str = \"", arithmetic.word().to_uppercase());
     let at = text.find(&start).expect("its line") + start.len();
@@ -114,7 +114,7 @@ fn the_digest_of_physics_is_that_of_the_model() {
     bless_kept_rows(&computed);
 }
 
-/// Writes the digests into the kept rows of studies whose runs, every 397th, have the same bits as before.
+/// Writes the digests into the kept rows of those studies whose new runs (every 397th) have the same bits as before.
 fn bless_kept_rows(computed: &[(Arithmetic, String)]) {
     for name in STUDIES {
         let path = format!("data/studies/rows/{name}.csv");
@@ -133,7 +133,7 @@ fn bless_kept_rows(computed: &[(Arithmetic, String)]) {
     }
 }
 
-/// Rows with other digests of physics, and digests of their cells.
+/// Replaces the digests of physics in the rows, and the digests of their cells.
 fn with_physics(text: &str, computed: &[(Arithmetic, String)]) -> String {
     let mut reader = csv::Reader::from_reader(text.as_bytes());
     let header = reader.headers().expect("a header").clone();
@@ -162,19 +162,11 @@ fn the_runs_have_every_element_and_every_index() {
     let study = study();
     let observed: BTreeSet<&str> = study.observed.iter().map(|index| index.name).collect();
     assert_eq!(observed, OBSERVED.iter().map(|index| index.name).collect());
-    let of_study = study.case(0).expect("a case");
-    let case = study.build(&of_study).expect("a case");
-    // The compiler names a law that is missing here; the vehicle then needs one of it.
-    let named = |law: &Law| match law {
-        Law::SpringDamper { .. } => "spring and damper",
-        Law::Bush { .. } => "bush",
-        Law::Damper { .. } => "damper",
-        Law::BumpStop { .. } => "bump stop",
-        Law::AntiRollBar { .. } => "anti-roll bar",
-        Law::TractionRod { .. } => "traction rod",
-    };
+    let parameters = study.case(0).expect("a case");
+    let case = study.build(&parameters).expect("a case");
+    // A new law needs an element in the vehicle of the study.
     let elements = case.vehicle.elements.iter();
-    let laws: BTreeSet<&str> = elements.map(|element| named(&element.law)).collect();
-    assert_eq!(laws.len(), 6, "{laws:?}");
+    let laws: BTreeSet<&str> = elements.map(|element| element.law.name()).collect();
+    assert_eq!(laws, Law::NAMES.iter().copied().collect());
     assert!(case.rails.is_some() && !case.faults.is_empty());
 }

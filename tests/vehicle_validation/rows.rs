@@ -1,4 +1,4 @@
-//! Kept rows of a study, and how indices change from one value to another.
+//! Kept rows of a study, and changes of indices between parameter values.
 
 use dashpot::document;
 use dashpot_files::study::{StudyParameters, Sweep, Value};
@@ -13,17 +13,17 @@ pub struct Kept {
 }
 
 impl Kept {
-    /// A study that ships, with `data/studies/rows/` of its name.
+    /// Loads a shipped study with its rows in `data/studies/rows/`.
     pub fn load(name: &str) -> Self {
         Self::read(name).unwrap_or_else(|error| {
             panic!("{error}\nthe rows are written by `cargo xtask vehicle-validation`")
         })
     }
 
-    /// As [`Self::load`].
+    /// Loads a shipped study with its rows.
     ///
     /// # Errors
-    /// Rows that this program refuses.
+    /// Invalid rows.
     pub fn read(name: &str) -> Result<Self, RowsError> {
         let parameters = StudyParameters::load(name).expect("a shipped study");
         let study = Study::new(parameters.with_seeds(SEEDS)).expect("a shipped study");
@@ -38,7 +38,7 @@ impl Kept {
         sweep.unwrap_or_else(|| panic!("no sweep `{name}`"))
     }
 
-    /// The point of a sweep whose last axis has a value, its first one being at `first` where it has two.
+    /// Point of a sweep at a value of its last axis; `first` is the value of the first axis if there are two.
     pub fn point(&self, sweep: &Sweep, first: Option<&str>, last: f64) -> u64 {
         let is_at = |point: &u64| {
             let values = sweep.values(*point);
@@ -52,7 +52,7 @@ impl Kept {
         found.unwrap_or_else(|| panic!("sweep {}: no value {last}", sweep.name))
     }
 
-    /// Values of an index at a point, one a seed.
+    /// Values of an index at a point, one per seed.
     pub fn values(&self, sweep: &Sweep, point: u64, index: &str) -> Vec<f64> {
         let observed = &self.study.observed;
         let number = observed.iter().position(|observed| observed.name == index);
@@ -70,7 +70,8 @@ impl Kept {
         Estimate::of(&self.values(sweep, point, index)).expect("seeds")
     }
 
-    /// Relative change of an index between two points in percent, of the same irregularities: the mean over seeds of each one's change.
+    /// Relative change of an index between two points in percent: the mean over the seeds, with the same irregularities
+    /// at both.
     pub fn change(&self, sweep: &Sweep, points: [u64; 2], index: &str) -> Estimate {
         let of_seeds = |point| -> Vec<Option<f64>> {
             let values = self.values(sweep, point, index);
@@ -80,7 +81,7 @@ impl Kept {
         Estimate::of_change(&from, &to).expect("seeds")
     }
 
-    /// Greatest less least mean of an index along a sweep, over their mean, in percent.
+    /// Range of the means of an index along a sweep relative to their mean, in percent.
     pub fn range(&self, sweep: &Sweep, index: &str) -> f64 {
         let means: Vec<f64> = (0..sweep.points())
             .map(|point| self.mean(sweep, point, index).mean)
@@ -91,7 +92,7 @@ impl Kept {
     }
 }
 
-/// A change in percent with its confidence.
+/// Formats a change in percent with its confidence interval.
 pub fn percent(change: &Estimate) -> String {
     match change.confidence {
         Some(half) => format!("{:+.2} ± {half:.2}", change.mean),
@@ -99,7 +100,7 @@ pub fn percent(change: &Estimate) -> String {
     }
 }
 
-/// The ends of a change's confidence interval.
+/// Ends of the confidence interval of a change.
 pub fn interval(change: &Estimate) -> [f64; 2] {
     let half = change.confidence.unwrap_or(0.0);
     [change.mean - half, change.mean + half]

@@ -1,4 +1,4 @@
-//! The rows of `vehicle_trends.csv`, each with ours beside it.
+//! Compares each row of `vehicle_trends.csv` with ours.
 
 use dashpot::document;
 use dashpot_study::sweep::Estimate;
@@ -20,12 +20,12 @@ pub struct Trend {
     pub published_change: String,
 }
 
-/// A claim of a trend, with ours.
+/// A claim of a trend, compared with ours.
 pub struct Compared {
     pub trend: Trend,
-    /// The index, by its published name.
+    /// Published name of the index.
     pub observed: String,
-    /// What is claimed of which range.
+    /// The claim and its range.
     pub range: String,
     pub claim: Claim,
     pub change: Estimate,
@@ -42,7 +42,7 @@ pub fn published() -> Vec<Trend> {
         .collect()
 }
 
-/// Our name of a published index.
+/// Our name for a published index.
 pub fn index(published: &str) -> &'static str {
     match published {
         "Wzz" => "sperling_vertical",
@@ -66,12 +66,12 @@ fn in_si(value: f64, unit: &str) -> f64 {
     value * factor
 }
 
-/// Every claim of every row, with the change of ours over the same range.
+/// Compares every claim of every row with our change over the same range.
 pub fn compare(paper: &Kept) -> Vec<Compared> {
     let mut all = Vec::new();
     for trend in published() {
         for observed in trend.observed.split(' ') {
-            // What it says of 15b in the words of 12a and 12b.
+            // The row of 15b repeats the claims of 12a and 12b.
             let words = match trend.published_change.as_str() {
                 "same trend as Fig. 12a" => "rises",
                 "same trend as Fig. 12b" => "rises and is flat above 0.05 m/s",
@@ -95,7 +95,7 @@ fn of_claim(paper: &Kept, trend: &Trend, observed: &str, claim: Claim) -> Compar
     };
     let index = index(observed);
     let sweep = paper.sweep(&trend.figure);
-    // `... above X` splits the range.
+    // `... above X` splits the range at X.
     let above = trend.published_change.split(" above ").nth(1).map(|rest| {
         let number = rest
             .split(' ')
@@ -145,7 +145,7 @@ fn of_claim(paper: &Kept, trend: &Trend, observed: &str, claim: Claim) -> Compar
     }
 }
 
-/// A claim of all parameters of a figure: the greatest range.
+/// Compares a claim about all parameters of a figure by the largest range.
 fn of_all(paper: &Kept, trend: &Trend, observed: &str, claim: Claim) -> Compared {
     let index = index(observed);
     let sweeps = ["a", "b", "c", "d"].map(|part| format!("{}{part}", trend.figure));

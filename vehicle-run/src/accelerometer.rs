@@ -53,10 +53,8 @@ fn usual_points(bodies: &[Body]) -> Vec<RidePoint> {
     let Some((body, others)) = bodies.split_first() else {
         return Vec::new();
     };
-    let point = |name: String, x_m: f64| RidePoint {
-        name,
-        on: body.name.clone(),
-        at_m: [x_m, 0.0, body.height_m],
+    let point = |name: String, x_m: f64| {
+        RidePoint::new(name, body.name.as_str(), [x_m, 0.0, body.height_m])
     };
     let middle = point(format!("{}, middle", body.name), body.x_m);
     let over = |other: &Body| point(format!("{}, over the {}", body.name, other.name), other.x_m);

@@ -49,13 +49,15 @@ struct RailsTable {
 
 impl From<RailsTable> for RailSupport {
     fn from(table: RailsTable) -> Self {
-        Self {
-            mass_kg: table.mass_kg,
-            lateral_stiffness_n_per_m: table.lateral_stiffness_n_per_m,
-            lateral_damping_n_s_per_m: table.lateral_damping_n_s_per_m,
-            vertical_stiffness_n_per_m: table.vertical_stiffness_n_per_m,
-            vertical_damping_n_s_per_m: table.vertical_damping_n_s_per_m,
-        }
+        Self::new(table.mass_kg)
+            .with_lateral(
+                table.lateral_stiffness_n_per_m,
+                table.lateral_damping_n_s_per_m,
+            )
+            .with_vertical(
+                table.vertical_stiffness_n_per_m,
+                table.vertical_damping_n_s_per_m,
+            )
     }
 }
 

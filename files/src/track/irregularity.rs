@@ -98,25 +98,20 @@ impl IrregularityTable {
                 let missing = |key| {
                     format!("missing `{key}`: a spectrum has seed, wavelength_m and length_m")
                 };
-                let generation = Generation::of(spectrum_called(&spectrum)?);
+                let generation = Generation::new(spectrum_called(&spectrum)?);
                 let seed = self.seed.ok_or_else(|| missing("seed"))?;
                 let [shortest_m, longest_m] =
                     self.wavelength_m.ok_or_else(|| missing("wavelength_m"))?;
-                let generation = Box::new(Generation {
-                    band: Band {
-                        shortest_m,
-                        longest_m,
-                    },
-                    seeds: Seeds::from(seed),
-                    length_m: self.length_m.ok_or_else(|| missing("length_m"))?,
-                    ramp_m: self.ramp_m.unwrap_or(generation.ramp_m),
-                    spacing_m: self.spacing_m,
-                    ..generation
-                });
+                let generation = generation
+                    .with_band(Band::new(shortest_m, longest_m))
+                    .with_seeds(Seeds::from(seed))
+                    .with_length_m(self.length_m.ok_or_else(|| missing("length_m"))?)
+                    .with_ramp_m(self.ramp_m.unwrap_or(generation.ramp_m))
+                    .with_spacing_m(self.spacing_m);
                 Ok(IrregularityParameters::Generated {
                     spectrum,
                     seed,
-                    generation,
+                    generation: Box::new(generation),
                 })
             }
             (None, Some(file)) => {
@@ -126,11 +121,10 @@ impl IrregularityTable {
                 let options = Options::default();
                 Ok(IrregularityParameters::Measured {
                     file: named_in(folder, &file).into(),
-                    options: Options {
-                        shift_m: self.shift_m.unwrap_or(options.shift_m),
-                        ramp_m: self.ramp_m.unwrap_or(options.ramp_m),
-                        spacing_m: self.spacing_m,
-                    },
+                    options: options
+                        .with_shift_m(self.shift_m.unwrap_or(options.shift_m))
+                        .with_ramp_m(self.ramp_m.unwrap_or(options.ramp_m))
+                        .with_spacing_m(self.spacing_m),
                 })
             }
             _ => Err("allowed: either `spectrum` or `file`".into()),

@@ -62,7 +62,7 @@ impl TrackTables {
                 | TrackError::CantJump { place, .. } => match *place {
                     Place::Part(number) => start_of(&self.part, number),
                     Place::Defect(number) => start_of(&self.defect, number),
-                    Place::Irregularity => 0,
+                    _ => 0,
                 },
                 _ => 0,
             };

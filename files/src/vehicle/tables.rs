@@ -168,10 +168,9 @@ fn elements(name: &str, between: &[String; 2], at_m: &[[f64; 3]], law: &Law) -> 
     let [from, to] = between;
     at_m.iter()
         .enumerate()
-        .map(|(number, at)| Element {
-            name: format!("{name} {}", number + 1),
-            ends: [end(from, *at), end(to, *at)],
-            law: law.clone(),
+        .map(|(number, at)| {
+            let ends = [end(from, *at), end(to, *at)];
+            Element::new(format!("{name} {}", number + 1), ends, law.clone())
         })
         .collect()
 }
@@ -183,31 +182,26 @@ impl VehicleFile {
         replaced: &[Option<&Replacement>],
         located: impl Fn(&str) -> String,
     ) -> Result<VehicleParameters, VehicleFileError> {
-        let bodies = self.body.into_iter().map(|table| Body {
-            name: table.name,
-            mass_kg: table.mass_kg,
-            inertia_kg_m2: [
+        let bodies = self.body.into_iter().map(|table| {
+            let inertia_kg_m2 = [
                 table.roll_inertia_kg_m2,
                 table.pitch_inertia_kg_m2,
                 table.yaw_inertia_kg_m2,
-            ],
-            x_m: table.x_m,
-            height_m: table.height_m,
+            ];
+            Body::new(table.name, table.mass_kg, inertia_kg_m2, table.height_m).with_x_m(table.x_m)
         });
         let mut wheelsets = Vec::new();
         for table in self.wheelset {
             for (number, x_m) in table.x_m.into_iter().enumerate() {
-                wheelsets.push(Wheelset {
-                    name: format!("{} {}", table.name, number + 1),
-                    mass_kg: table.mass_kg,
-                    inertia_kg_m2: [
-                        table.roll_inertia_kg_m2,
-                        table.spin_inertia_kg_m2,
-                        table.yaw_inertia_kg_m2,
-                    ],
-                    x_m,
-                    radius_m: table.radius_m,
-                });
+                let name = format!("{} {}", table.name, number + 1);
+                let inertia_kg_m2 = [
+                    table.roll_inertia_kg_m2,
+                    table.spin_inertia_kg_m2,
+                    table.yaw_inertia_kg_m2,
+                ];
+                wheelsets.push(
+                    Wheelset::new(name, table.mass_kg, inertia_kg_m2, table.radius_m).with_x_m(x_m),
+                );
             }
         }
         let mut all = Vec::new();
@@ -255,36 +249,28 @@ impl VehicleFile {
         }
         for table in self.anti_roll_bar {
             let [from, to] = &table.between;
-            all.push(Element {
-                name: table.name,
-                ends: [end(from, table.at_m), end(to, table.at_m)],
-                law: Law::AntiRollBar {
-                    stiffness_n_m_per_rad: table.stiffness_n_m_per_rad,
-                },
-            });
+            let ends = [end(from, table.at_m), end(to, table.at_m)];
+            let law = Law::AntiRollBar {
+                stiffness_n_m_per_rad: table.stiffness_n_m_per_rad,
+            };
+            all.push(Element::new(table.name, ends, law));
         }
         for table in self.traction_rod {
             let [from, to] = &table.between;
-            all.push(Element {
-                name: table.name,
-                ends: [end(from, table.from_m), end(to, table.to_m)],
-                law: Law::TractionRod {
-                    stiffness_n_per_m: table.stiffness_n_per_m,
-                    damping_n_s_per_m: table.damping_n_s_per_m,
-                },
-            });
+            let ends = [end(from, table.from_m), end(to, table.to_m)];
+            let law = Law::TractionRod {
+                stiffness_n_per_m: table.stiffness_n_per_m,
+                damping_n_s_per_m: table.damping_n_s_per_m,
+            };
+            all.push(Element::new(table.name, ends, law));
         }
-        let ride_points = self.ride_point.into_iter().map(|table| RidePoint {
-            name: table.name,
-            on: table.body,
-            at_m: table.at_m,
-        });
-        Ok(VehicleParameters {
-            name: self.name,
-            bodies: bodies.collect(),
-            wheelsets,
-            elements: all,
-            ride_points: ride_points.collect(),
-        })
+        let ride_points = self.ride_point.into_iter();
+        let ride_points =
+            ride_points.map(|table| RidePoint::new(table.name, table.body, table.at_m));
+        Ok(VehicleParameters::new(self.name)
+            .with_bodies(bodies)
+            .with_wheelsets(wheelsets)
+            .with_elements(all)
+            .with_ride_points(ride_points))
     }
 }

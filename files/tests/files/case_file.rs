@@ -51,13 +51,11 @@ fn every_key_counts() {
         normal_damping_s_per_m: 0.5,
         step_s: 500e-6,
         push_m: 4e-3,
-        rails: Some(RailSupport {
-            mass_kg: 60.0,
-            lateral_stiffness_n_per_m: 40e6,
-            lateral_damping_n_s_per_m: 50e3,
-            vertical_stiffness_n_per_m: 80e6,
-            vertical_damping_n_s_per_m: 60e3,
-        }),
+        rails: Some(
+            RailSupport::new(60.0)
+                .with_lateral(40e6, 50e3)
+                .with_vertical(80e6, 60e3),
+        ),
         faults: Vec::new(),
     };
     assert_eq!(found, expected);

@@ -112,17 +112,12 @@ fn a_spectrum_has_its_seed_band_and_length() {
         .unwrap()
         .build()
         .unwrap();
-    let expected = Generation {
-        spectrum: Spectrum::german_low(),
-        band: Band {
-            shortest_m: 5.0,
-            longest_m: 60.0,
-        },
-        seeds: Seeds::from(7),
-        length_m: 400.0,
-        ramp_m: 30.0,
-        spacing_m: Some(0.5),
-    };
+    let expected = Generation::new(Spectrum::german_low())
+        .with_band(Band::new(5.0, 60.0))
+        .with_seeds(Seeds::from(7))
+        .with_length_m(400.0)
+        .with_ramp_m(30.0)
+        .with_spacing_m(Some(0.5));
     assert_eq!(track.irregularity(), &expected.irregularity().unwrap());
 }
 
@@ -148,11 +143,7 @@ fn a_measured_file_counts_from_the_track_file() {
         .unwrap()
         .build()
         .unwrap();
-    let options = Options {
-        shift_m: 40.0,
-        ramp_m: 5.0,
-        spacing_m: None,
-    };
+    let options = Options::default().with_shift_m(40.0).with_ramp_m(5.0);
     let (expected, _) = measured::parse(&text, &options).unwrap();
     assert_eq!(track.irregularity(), &expected);
 }

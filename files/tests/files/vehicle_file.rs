@@ -73,7 +73,7 @@ fn errors_have_file_line_and_name() {
         (
             "[\"axle 2\", \"body\"]",
             "[\"axle 3\", \"body\"]",
-            "wagon.toml:38: damper 1: attached to axle 3, which there is not; there are body, axle 1, axle 2",
+            "wagon.toml:38: damper 1: attached to axle 3, which does not exist; allowed: body, axle 1, axle 2",
         ),
         (
             "[\"axle 1\", \"body\"]",
@@ -98,7 +98,7 @@ fn errors_have_file_line_and_name() {
         (
             "body = \"body\"",
             "body = \"axle 1\"",
-            "wagon.toml:45: seat: on axle 1, which is no body; there are body",
+            "wagon.toml:45: seat: on axle 1, which is not a body; allowed: body",
         ),
         (
             "0.5, 1.1]",

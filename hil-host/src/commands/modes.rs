@@ -89,7 +89,7 @@ struct ModeRow {
 impl From<&Mode> for ModeRow {
     fn from(mode: &Mode) -> Self {
         Self {
-            mode: mode.words(),
+            mode: mode.description(),
             undamped_hz: mode.undamped_hz(),
             damped_hz: mode.damped_hz(),
             damping_ratio: mode.damping_ratio(),

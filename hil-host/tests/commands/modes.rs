@@ -34,7 +34,7 @@ fn with_dashpots() -> Vec<Mode> {
 
 /// Frequency and damping ratio of the first mode whose name has these words, within `part` of the expected ones.
 fn check(modes: &[Mode], words: &str, expected: [f64; 2], part: f64) {
-    let names: Vec<String> = modes.iter().map(Mode::words).collect();
+    let names: Vec<String> = modes.iter().map(Mode::description).collect();
     let number = names.iter().position(|name| name.contains(words));
     let mode = &modes[number.unwrap_or_else(|| panic!("no {words} in {names:?}"))];
     for (found, expected) in [mode.undamped_hz(), mode.damping_ratio()]
@@ -61,7 +61,7 @@ fn the_locomotives_modes_are_those_of_an_independent_computation() {
     let bogies = "front bogie and rear bogie";
     let lateral: Vec<&Mode> = modes
         .iter()
-        .filter(|mode| mode.words().contains("lateral"))
+        .filter(|mode| mode.description().contains("lateral"))
         .collect();
     let frequencies: Vec<f64> = lateral.iter().map(|mode| mode.undamped_hz()).collect();
     assert!(
@@ -74,7 +74,7 @@ fn the_locomotives_modes_are_those_of_an_independent_computation() {
     );
     let bounce = modes
         .iter()
-        .find(|mode| mode.words().contains("bounce") && mode.words().contains("bogie"))
+        .find(|mode| mode.description().contains("bounce") && mode.description().contains("bogie"))
         .unwrap_or_else(|| panic!("no bounce of {bogies}"));
     assert!((bounce.undamped_hz() / 4.456 - 1.0).abs() < 0.01);
 }
@@ -96,7 +96,7 @@ fn dampers_stiffen_the_suspension_as_an_independent_computation_has_it() {
     );
     let bounce = modes
         .iter()
-        .find(|mode| mode.words().contains("bogie and body bounce"));
+        .find(|mode| mode.description().contains("bogie and body bounce"));
     let bounce = bounce.unwrap();
     assert!((bounce.undamped_hz() / 9.25 - 1.0).abs() < 0.01);
     assert!((bounce.damping_ratio() / 0.60 - 1.0).abs() < 0.01);

@@ -39,7 +39,7 @@ fn undamped() -> Vec<Mode> {
 }
 
 fn find<'a>(modes: &'a [Mode], words: &str) -> &'a Mode {
-    let found = modes.iter().find(|mode| mode.words() == words);
+    let found = modes.iter().find(|mode| mode.description() == words);
     found.unwrap_or_else(|| panic!("no {words} in {modes:?}"))
 }
 
@@ -65,7 +65,7 @@ fn bounce_and_pitch_are_those_of_two_masses_in_a_row() {
     close(find(&modes, "body bounce").undamped_hz(), lower, 1e-3);
     let bogies = modes
         .iter()
-        .find(|mode| mode.words().contains("bogie bounce"));
+        .find(|mode| mode.description().contains("bogie bounce"));
     close(bogies.unwrap().undamped_hz(), upper, 2e-3);
     // An end of the body that pitches weighs as much as its inertia over the arm squared.
     let [lower, _] = two_masses(0.5 * BODY_INERTIA_KG_M2 / TO_BOGIE_M.powi(2));

@@ -1,23 +1,25 @@
-//! Mean comfort after EN 12299.
+//! Mean comfort index of EN 12299.
 
-use super::spectrum::{SpectrumError, Transform, window_samples};
+use super::spectrum::{SpectrumError, Transform, check_signal};
 use super::weighting::Weighting;
 
-/// Windows of the index, s.
+/// Length of a window, s.
 const WINDOW_S: f64 = 5.0;
 
-/// Weighted root mean squares of the windows of 5 s that follow one another, of an acceleration, m/s^2, sampled at `rate_hz`: weighted by
-/// its spectrum, without a phase. [`WeightingFilter`](super::WeightingFilter) weighs a signal that is still coming.
+/// Returns the weighted root mean squares of consecutive 5 s windows of an acceleration, m/s^2, sampled at `rate_hz`.
+///
+/// The weighting is applied to the spectrum, without phase shift. To weight a signal sample by sample, use
+/// [`WeightingFilter`](super::WeightingFilter).
 ///
 /// # Errors
-/// A signal shorter than a window, numbers that are not finite or out of bounds.
+/// A signal shorter than a window, samples that are not finite, or a rate out of bounds.
 pub fn weighted_rms(
     acceleration_m_per_s2: &[f64],
     rate_hz: f64,
     weighting: Weighting,
 ) -> Result<Vec<f64>, SpectrumError> {
-    let length = window_samples(acceleration_m_per_s2, rate_hz, WINDOW_S)?;
-    // Weighted as a whole, so that windows have no ends of their own.
+    let length = check_signal(acceleration_m_per_s2, rate_hz, WINDOW_S)?;
+    // The signal is weighted as a whole, so windows have no end effects.
     let count = acceleration_m_per_s2.len();
     let mut weighted = Vec::with_capacity(count / length);
     let whole = weigh(acceleration_m_per_s2, rate_hz, weighting);
@@ -38,7 +40,7 @@ fn weigh(signal: &[f64], rate_hz: f64, weighting: Weighting) -> Vec<f64> {
             amplitude * gain
         })
         .collect();
-    // Neither has an imaginary part.
+    // The first and, for an even count, the last line have no imaginary part.
     if let Some(first) = spectrum.first_mut() {
         first.im = 0.0;
     }
@@ -49,16 +51,18 @@ fn weigh(signal: &[f64], rate_hz: f64, weighting: Weighting) -> Vec<f64> {
     }
     let mut weighted = vec![0.0; count];
     let inverse = realfft::RealFftPlanner::<f64>::new().plan_fft_inverse(count);
-    // The lengths are the plan's own.
+    // Cannot fail: the lengths match the plan.
     let _ = inverse.process(&mut spectrum, &mut weighted);
     weighted
 }
 
-/// Mean comfort `N_MV = 6 sqrt(x^2 + y^2 + z^2)` of the 95th percentiles of the weighted root mean squares along, to the side and up and down
-/// (EN 12299, standard method on the floor, which takes five minutes; of a shorter ride it is an estimate).
+/// Returns the mean comfort `N_MV = 6 sqrt(x^2 + y^2 + z^2)` (EN 12299, standard method on the floor).
+///
+/// `x`, `y` and `z` are the 95th percentiles of the weighted root mean squares of the longitudinal, lateral and
+/// vertical accelerations. The standard requires five minutes; a shorter ride gives an estimate.
 ///
 /// # Errors
-/// As [`weighted_rms`].
+/// The same as for [`weighted_rms`].
 pub fn mean_comfort(
     [along, lateral, vertical]: [&[f64]; 3],
     rate_hz: f64,
@@ -70,18 +74,19 @@ pub fn mean_comfort(
     ]))
 }
 
-/// [`mean_comfort`] of the weighted root mean squares of the windows, m/s^2; a direction without windows counts as zero.
+/// Returns the [`mean_comfort`] from the weighted root mean squares of the windows, m/s^2. A direction without windows
+/// counts as zero.
 pub fn mean_comfort_of_windows(weighted_rms_m_per_s2: [&[f64]; 3]) -> f64 {
     let percentiles = weighted_rms_m_per_s2.map(|rms| percentile_95(rms.to_vec()));
     let square: f64 = percentiles.iter().map(|rms| rms * rms).sum();
     6.0 * square.sqrt()
 }
 
-/// Of the sorted values, linear between them.
+/// 95th percentile, with linear interpolation between the sorted values.
 fn percentile_95(mut values: Vec<f64>) -> f64 {
     values.sort_by(f64::total_cmp);
-    let place = 0.95 * (values.len().saturating_sub(1)) as f64;
-    let (low, share) = (place.floor() as usize, place.fract());
+    let position = 0.95 * (values.len().saturating_sub(1)) as f64;
+    let (low, fraction) = (position.floor() as usize, position.fract());
     let at = |i: usize| values.get(i).or(values.last()).copied().unwrap_or(0.0);
-    at(low) + share * (at(low + 1) - at(low))
+    at(low) + fraction * (at(low + 1) - at(low))
 }

@@ -2,16 +2,16 @@
 
 use crate::contact::Pair;
 
-/// Lateral distance of the contact points, by EN 15302 for a gauge of 1435 mm, m.
+/// Lateral distance between the contact points for a gauge of 1435 mm (EN 15302), m.
 pub const CONTACT_DISTANCE_M: f64 = 1.5;
 
-/// Why samples do not make a rolling radius difference function.
+/// Errors of the samples of a rolling radius difference function.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum RollingRadiusError {
-    /// There are fewer than two samples, or not as many differences as shifts.
+    /// There are fewer than two samples, or the numbers of shifts and differences differ.
     #[error(
-        "samples: {shifts} shifts and {differences} differences, allowed: two or more, as many of each"
+        "samples: {shifts} shifts and {differences} differences, allowed: two or more, the same number of each"
     )]
     Length {
         /// Number of shifts.
@@ -19,7 +19,7 @@ pub enum RollingRadiusError {
         /// Number of differences.
         differences: usize,
     },
-    /// A sample is NaN or infinite, or its shift is not where even spacing puts it.
+    /// A sample is not finite, or its shift is not evenly spaced.
     #[error(
         "sample {index}: shift {lateral_m} m, difference {difference_m} m; allowed: finite, shifts rising evenly"
     )]
@@ -52,11 +52,11 @@ pub struct RollingRadiusDifference {
 }
 
 impl RollingRadiusDifference {
-    /// The function through `difference_m` (right less left rolling radius, m) at the evenly rising shifts
-    /// `lateral_m` (at the top of the rails, right positive, m).
+    /// Returns the function through `difference_m` (right minus left rolling radius, m) at the evenly rising shifts
+    /// `lateral_m` (at the top of the rails, positive to the right, m).
     ///
     /// # Errors
-    /// Fewer than two samples, vectors of different lengths, a number that is not finite, shifts that do not rise evenly.
+    /// Fewer than two samples, vectors of different lengths, a non-finite value, or shifts that do not rise evenly.
     pub fn new(lateral_m: Vec<f64>, difference_m: Vec<f64>) -> Result<Self, RollingRadiusError> {
         check(&lateral_m, &difference_m)?;
         let (lateral, difference) = (lateral_m, difference_m);
@@ -73,10 +73,10 @@ impl RollingRadiusDifference {
         })
     }
 
-    /// That of the rigid wheelset of `pair`, without yaw, between the shifts `-reach_m` and `reach_m` in `cells` cells.
+    /// Samples the rigid wheelset of `pair` without yaw, at shifts from `-reach_m` to `reach_m` in `cells` cells.
     ///
     /// # Errors
-    /// As [`RollingRadiusDifference::new`]: `reach_m` is not positive, or there are no cells.
+    /// A `reach_m` that is not positive, or no cells.
     pub fn of(pair: &Pair, reach_m: f64, cells: usize) -> Result<Self, RollingRadiusError> {
         let mut scratch = Vec::new();
         Self::from_fn(reach_m, cells, |lateral_m| {
@@ -85,10 +85,10 @@ impl RollingRadiusDifference {
         })
     }
 
-    /// That of any function of the shift, both in m, sampled between `-reach_m` and `reach_m` in `cells` cells.
+    /// Samples a function of the shift (both in m) from `-reach_m` to `reach_m` in `cells` cells.
     ///
     /// # Errors
-    /// As [`RollingRadiusDifference::new`]: `reach_m` is not positive, or there are no cells.
+    /// A `reach_m` that is not positive, no cells, or a non-finite difference.
     pub fn from_fn(
         reach_m: f64,
         cells: usize,
@@ -101,17 +101,17 @@ impl RollingRadiusDifference {
         Self::new(lateral, difference)
     }
 
-    /// The shifts of the samples, m.
+    /// Returns the shifts of the samples, m.
     pub fn lateral_m(&self) -> &[f64] {
         &self.lateral
     }
 
-    /// The differences of the samples, right less left rolling radius, m.
+    /// Returns the differences of the samples, right minus left rolling radius, m.
     pub fn difference_m(&self) -> &[f64] {
         &self.difference
     }
 
-    /// Cell of `lateral` and the position within it from 0 to 1, limited to the ends.
+    /// Cell that contains `lateral`, and the position in it from 0 to 1, clamped to the ends.
     fn locate(&self, lateral: f64) -> (usize, f64) {
         let last = self.lateral.len() - 1;
         let step = (self.lateral[last] - self.lateral[0]) / last as f64;
@@ -120,13 +120,13 @@ impl RollingRadiusDifference {
         (i, x - i as f64)
     }
 
-    /// Difference at the shift `lateral_m`, m; beyond the ends that of the nearest end.
+    /// Returns the difference at the shift `lateral_m`, m; beyond the ends, the difference at the nearest end.
     pub fn at(&self, lateral_m: f64) -> f64 {
         let (i, t) = self.locate(lateral_m);
         self.difference[i] + t * (self.difference[i + 1] - self.difference[i])
     }
 
-    /// Shift at which the wheelset rolls straight, m, the nearest to the centre; `None` when there is no such shift.
+    /// Returns the shift nearest to the centre at which the wheelset rolls straight, m; `None` if there is none.
     pub fn rolling_line_m(&self) -> Option<f64> {
         (0..self.lateral.len() - 1)
             .filter_map(|i| {
@@ -138,12 +138,12 @@ impl RollingRadiusDifference {
             .min_by(|a, b| a.abs().total_cmp(&b.abs()))
     }
 
-    /// Equivalent conicity, dimensionless, of the motion between two turning points `2 amplitude_m` apart, for wheels
-    /// of the nominal radius `radius_m`.
+    /// Returns the equivalent conicity, dimensionless, of a motion with turning points `2 amplitude_m` apart, for
+    /// wheels of the nominal radius `radius_m`.
     ///
-    /// The path of the free wheelset obeys `y'' = -difference / (e r)` (EN 15302); its first integral gives the
-    /// wavelength `L`, and the cone with the same wavelength has `tan g = 2 pi^2 e r / L^2`.
-    /// `None` when the path does not turn back within the samples, or a number is not positive.
+    /// The path of the free wheelset obeys `y'' = -difference / (e r)` (EN 15302). Its first integral gives the
+    /// wavelength `L`, and the cone with the same wavelength has `tan g = 2 pi^2 e r / L^2`. Returns `None` if the path
+    /// does not turn back within the samples, or if an argument is not positive.
     pub fn equivalent_conicity(&self, amplitude_m: f64, radius_m: f64) -> Option<f64> {
         if !(amplitude_m > 0.0 && radius_m > 0.0) {
             return None;
@@ -160,7 +160,8 @@ impl RollingRadiusDifference {
         Some(0.5 * CONTACT_DISTANCE_M * radius_m * (tau / wavelength).powi(2))
     }
 
-    /// Left and right turning point of the motion about `centre` whose distance is nearest to `distance`, by bisection.
+    /// Finds the left and right turning points of the motion about `centre` whose distance is closest to `distance`, by
+    /// bisection.
     fn turning_points(&self, centre: f64, distance: f64) -> Option<(f64, f64)> {
         let (mut low, mut high) = (0.0, centre - self.lateral[0]);
         let mut turning = None;
@@ -182,8 +183,8 @@ impl RollingRadiusDifference {
         turning
     }
 
-    /// The turning point to the right of `centre` of a motion that turns at `left`: the difference integrates to zero
-    /// between the two. `None` when it lies beyond the samples.
+    /// Finds the turning point to the right of `centre` of a motion that turns at `left`. The integral of the
+    /// difference between the two is zero. `None` if it is beyond the samples.
     fn right_turning_point(&self, centre: f64, left: f64) -> Option<f64> {
         let end = self.lateral[self.lateral.len() - 1];
         if self.integral(left, end) <= 0.0 {
@@ -212,8 +213,8 @@ impl RollingRadiusDifference {
         primitive(to) - primitive(from)
     }
 
-    /// Integral of `dy / sqrt(integral(y, turn))` from `centre` to `turn`;
-    /// the substitution `y = turn - (turn - centre) p^2` removes the singularity at the turning point.
+    /// Integral of `dy / sqrt(integral(y, turn))` from `centre` to `turn`. The substitution
+    /// `y = turn - (turn - centre) p^2` removes the singularity at the turning point.
     fn quarter_wave(&self, centre: f64, turn: f64) -> f64 {
         const POINTS: usize = 2000;
         let span = turn - centre;
@@ -244,7 +245,7 @@ fn check(lateral: &[f64], difference: &[f64]) -> Result<(), RollingRadiusError> 
     let step = (lateral[shifts - 1] - lateral[0]) / (shifts - 1) as f64;
     for (index, (&lateral_m, &difference_m)) in lateral.iter().zip(difference).enumerate() {
         let even = lateral[0] + step * index as f64;
-        // The tolerance is for rounding errors.
+        // The tolerance allows for rounding errors.
         let fits = step > 0.0 && (lateral_m - even).abs() <= 1e-6 * step;
         if !(fits && difference_m.is_finite()) {
             return Err(RollingRadiusError::Sample {

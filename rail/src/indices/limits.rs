@@ -1,6 +1,7 @@
 //! Limits of wheel forces.
 
-/// Limit of `Y/Q` at which a wheel climbs: `(tan d - mu)/(1 + mu tan d)` with the flange angle `d` (Nadal 1896).
+/// Returns Nadal's limit of `Y/Q`, at which a wheel climbs: `(tan d - mu)/(1 + mu tan d)` with the flange angle `d`
+/// (Nadal 1896).
 ///
 /// ```
 /// let limit = dashpot_rail::indices::nadal_limit(70_f64.to_radians(), 0.36);
@@ -11,8 +12,8 @@ pub fn nadal_limit(flange_angle_rad: f64, friction: f64) -> f64 {
     (tan - friction) / (1.0 + friction * tan)
 }
 
-/// Limit of the lateral force of a wheelset on the track, mean over 2 m, N: `10 kN + P/3` with the axle load `P` (Prud'homme 1967), which
-/// track of poor quality does not hold: for it 0.85 times as much counts.
+/// Returns the limit of the lateral force of a wheelset on the track, averaged over 2 m, N: `10 kN + P/3` with the axle
+/// load `P` (Prud'homme 1967). For track of poor quality use 0.85 times this value.
 ///
 /// ```
 /// assert_eq!(dashpot_rail::indices::prudhomme_limit_n(201e3), 77e3);
@@ -21,7 +22,8 @@ pub fn prudhomme_limit_n(axle_load_n: f64) -> f64 {
     10e3 + axle_load_n / 3.0
 }
 
-/// Wheel unloading `(Q0 - Q)/Q0` of a load `Q` from that at standstill `Q0`, N: 1 of a lifted wheel, negative of one that carries more.
+/// Returns the wheel unloading `(Q0 - Q)/Q0` for the load `Q` and the load at standstill `Q0`, N: 1 for a lifted wheel,
+/// negative for a wheel that carries more than at standstill.
 ///
 /// ```
 /// assert_eq!(dashpot_rail::indices::wheel_unloading(100e3, 40e3), 0.6);

@@ -1,16 +1,19 @@
-//! Indices by which a pair of profiles or a ride is judged, one file each.
+//! Indices that assess a pair of profiles or a ride, one file each.
 //!
 //! - [`RollingRadiusDifference`]: rolling radius difference function and equivalent conicity (EN 15302).
-//! - [`sperling`]: ride index of an acceleration; [`mean_comfort`]: that of EN 12299, with its [`Weighting`]; [`welch`]: power spectral density.
-//! - [`Sperling`], [`WeightingFilter`], [`Welch`]: the same of a signal that is still coming.
+//! - [`sperling`]: ride index of an acceleration.
+//! - [`mean_comfort`]: comfort index of EN 12299, with its [`Weighting`].
+//! - [`welch`]: power spectral density.
+//! - [`Sperling`], [`WeightingFilter`], [`Welch`]: the same for a signal that arrives sample by sample or window by
+//!   window.
 //! - [`nadal_limit`], [`prudhomme_limit_n`], [`wheel_unloading`]: limits of wheel forces.
-//! - Derailment coefficients belong to the forces: [`WheelsetForces`](crate::contact::WheelsetForces).
+//! - Derailment coefficients are methods of [`WheelsetForces`](crate::contact::WheelsetForces).
 //!
 //! # To add an index
 //!
-//! Add a file to `rail/src/indices/`, named after the index, that computes it from a
-//! [`Pair`](crate::contact::Pair), from [`WheelsetForces`](crate::contact::WheelsetForces), or from a record over time and its step. Declare and re-export it
-//! here, and test it in `rail/tests/` against a closed form or published values.
+//! Add a file to `rail/src/indices/`, named after the index. Compute the index from a [`Pair`](crate::contact::Pair),
+//! from [`WheelsetForces`](crate::contact::WheelsetForces), or from a time series and its rate. Declare and re-export
+//! it here, and test it in `rail/tests/` against a closed form or published values.
 
 mod comfort;
 mod conicity;

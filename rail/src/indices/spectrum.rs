@@ -1,4 +1,4 @@
-//! Spectra of a signal that was sampled at equal times.
+//! Fourier transforms of uniformly sampled signals.
 
 use std::fmt;
 use std::sync::Arc;
@@ -6,42 +6,42 @@ use std::sync::Arc;
 use realfft::num_complex::Complex;
 use realfft::{RealFftPlanner, RealToComplex};
 
-/// Why there is no spectrum.
+/// Errors of spectra and of the indices based on them.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SpectrumError {
     /// The signal is shorter than one window.
-    #[error("{samples} samples, allowed: at least those of a window, {window}")]
+    #[error("{samples} samples, allowed: at least the {window} samples of a window")]
     Short {
-        /// Samples of the signal.
+        /// Number of samples of the signal.
         samples: usize,
-        /// Samples of a window.
+        /// Number of samples of a window.
         window: usize,
     },
     /// A sample is not finite.
     #[error("sample {sample}: {value}, allowed: finite numbers")]
     NotFinite {
-        /// Number of the sample, from 0.
+        /// Index of the sample, from 0.
         sample: usize,
         /// Its value.
         value: f64,
     },
-    /// A rate, a window or a number of samples is out of bounds.
+    /// A rate or the length of a window is out of bounds.
     #[error("{name}: {value}, allowed: {} to {}", .allowed[0], .allowed[1])]
     OutOfBounds {
-        /// Its name.
+        /// Name of the quantity.
         name: &'static str,
         /// Its value.
         value: f64,
-        /// Smallest and greatest allowed value.
+        /// Smallest and largest allowed value.
         allowed: [f64; 2],
     },
 }
 
-/// Samples of the shortest window.
-const LEAST_SAMPLES: usize = 8;
+/// Minimum number of samples of a window.
+const MIN_SAMPLES: usize = 8;
 
-/// Samples of a window, s, at a rate, Hz.
+/// Number of samples of a window.
 pub(super) fn samples_of_window(rate_hz: f64, window_s: f64) -> Result<usize, SpectrumError> {
     for (name, value, allowed) in [
         ("rate_hz", rate_hz, [1e-3, 1e9]),
@@ -55,11 +55,11 @@ pub(super) fn samples_of_window(rate_hz: f64, window_s: f64) -> Result<usize, Sp
             });
         }
     }
-    Ok((window_s * rate_hz).round().max(LEAST_SAMPLES as f64) as usize)
+    Ok((window_s * rate_hz).round().max(MIN_SAMPLES as f64) as usize)
 }
 
-/// Checks a signal against a window, s, at a rate, Hz; the samples of the window.
-pub(super) fn window_samples(
+/// Checks that a signal is finite and not shorter than a window. Returns the number of samples of the window.
+pub(super) fn check_signal(
     signal: &[f64],
     rate_hz: f64,
     window_s: f64,
@@ -80,7 +80,7 @@ pub(super) fn window_samples(
     Ok(window)
 }
 
-/// Fourier transform of windows of one length: planned once, and nothing is allocated for a window.
+/// Fourier transform of windows of one length. It is planned once and does not allocate per window.
 #[derive(Clone)]
 pub(super) struct Transform {
     plan: Arc<dyn RealToComplex<f64>>,
@@ -91,14 +91,14 @@ pub(super) struct Transform {
 
 impl fmt::Debug for Transform {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let mut shown = f.debug_struct("Transform");
-        shown.field("samples", &self.plan.len());
-        shown.finish_non_exhaustive()
+        let mut debug = f.debug_struct("Transform");
+        debug.field("samples", &self.plan.len());
+        debug.finish_non_exhaustive()
     }
 }
 
 impl Transform {
-    /// For windows of so many samples.
+    /// Plans the transform of windows of `samples` values.
     pub fn new(samples: usize) -> Self {
         let plan = RealFftPlanner::<f64>::new().plan_fft_forward(samples);
         Self {
@@ -109,17 +109,18 @@ impl Transform {
         }
     }
 
-    /// Samples of a window.
+    /// Number of samples of a window.
     pub fn samples(&self) -> usize {
         self.plan.len()
     }
 
-    /// Complex amplitudes of the lines, from 0 to half the rate, of a window of [`samples`](Self::samples) values.
+    /// Returns the complex amplitudes of the lines from 0 to half the rate, for a window of [`samples`](Self::samples)
+    /// values.
     pub fn lines(&mut self, window: impl Iterator<Item = f64>) -> &[Complex<f64>] {
-        for (place, value) in self.input.iter_mut().zip(window) {
-            *place = value;
+        for (input, value) in self.input.iter_mut().zip(window) {
+            *input = value;
         }
-        // The lengths are the plan's own.
+        // Cannot fail: the lengths match the plan.
         let _ = self
             .plan
             .process_with_scratch(&mut self.input, &mut self.lines, &mut self.scratch);
@@ -127,7 +128,7 @@ impl Transform {
     }
 }
 
-/// Mean of a window.
+/// Arithmetic mean.
 pub(super) fn mean(window: &[f64]) -> f64 {
     window.iter().sum::<f64>() / window.len() as f64
 }

@@ -2,22 +2,23 @@
 
 use realfft::num_complex::Complex;
 
-use super::spectrum::{SpectrumError, Transform, mean, samples_of_window, window_samples};
+use super::spectrum::{SpectrumError, Transform, check_signal, mean, samples_of_window};
 
 /// Direction of an acceleration across the track.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum RideDirection {
-    /// To the side.
+    /// Across the track.
     Lateral,
     /// Up and down.
     Vertical,
 }
 
-/// Band whose lines count in Sperling's index, Hz.
+/// Frequency band of Sperling's index, including both ends, Hz.
 pub const SPERLING_BAND_HZ: [f64; 2] = [0.5, 40.0];
 
 impl RideDirection {
-    /// Correction `F(f)` for what people feel: a rising part, a falling part, 1 beyond (GB/T 5599).
+    /// Returns the correction `F(f)` for human sensitivity: a rising part, a falling part, and 1 at higher frequencies
+    /// (GB/T 5599).
     pub fn correction(self, frequency_hz: f64) -> f64 {
         let f = frequency_hz;
         let (rising, falling, edges) = match self {
@@ -34,7 +35,7 @@ impl RideDirection {
     }
 }
 
-/// Sperling's ride index of windows of one length, its transform planned and its band weighted once.
+/// Computes Sperling's ride index of windows of one length.
 ///
 /// ```
 /// use dashpot_rail::indices::{RideDirection, Sperling};
@@ -49,12 +50,14 @@ pub struct Sperling {
     transform: Transform,
     /// First line of the band.
     first: usize,
-    /// What the cube of the magnitude of each line of the band counts, lateral and vertical.
-    weights: [Vec<f64>; 2],
+    /// Weight of the cubed magnitude of each line of the band, lateral.
+    lateral: Vec<f64>,
+    /// Weight of the cubed magnitude of each line of the band, vertical.
+    vertical: Vec<f64>,
 }
 
 impl Sperling {
-    /// Of accelerations sampled at `rate_hz`, in windows of `window_s`.
+    /// Plans the index of accelerations sampled at `rate_hz` in windows of `window_s`.
     ///
     /// # Errors
     /// A rate or a window out of bounds.
@@ -65,49 +68,59 @@ impl Sperling {
             (SPERLING_BAND_HZ[0]..=SPERLING_BAND_HZ[1]).contains(&frequency_hz(*line))
         };
         let band: Vec<usize> = (1..=length / 2).filter(is_in_band).collect();
-        // One-sided: the amplitude is 2/length times the magnitude of the line.
+        // One-sided spectrum: the amplitude is 2/length times the magnitude of a line.
         let scale = (2.0 / length as f64).powi(3);
-        let weights = [RideDirection::Lateral, RideDirection::Vertical].map(|direction| {
-            let of_line = |line: &usize| {
+        let weights = |direction: RideDirection| {
+            let weight = |line: &usize| {
                 let f = frequency_hz(*line);
                 scale * direction.correction(f) / f
             };
-            band.iter().map(of_line).collect()
-        });
+            band.iter().map(weight).collect()
+        };
         Ok(Self {
             transform: Transform::new(length),
             first: band.first().copied().unwrap_or(0),
-            weights,
+            lateral: weights(RideDirection::Lateral),
+            vertical: weights(RideDirection::Vertical),
         })
     }
 
-    /// Samples of a window.
+    /// Returns the number of samples of a window.
     pub fn samples(&self) -> usize {
         self.transform.samples()
     }
 
-    /// The index of a window of [`samples`](Self::samples) accelerations, m/s^2, about their mean.
+    /// Returns the index of a window of [`samples`](Self::samples) accelerations, m/s^2, without their mean.
     pub fn of_window(&mut self, acceleration_m_per_s2: &[f64], direction: RideDirection) -> f64 {
         let mean = mean(acceleration_m_per_s2);
         let about_mean = acceleration_m_per_s2.iter().map(|value| value - mean);
         let lines = self.transform.lines(about_mean);
-        let weights = &self.weights[usize::from(direction == RideDirection::Vertical)];
-        let of_line = |(line, weight): (&Complex<f64>, &f64)| {
+        let weights = match direction {
+            RideDirection::Lateral => &self.lateral,
+            RideDirection::Vertical => &self.vertical,
+        };
+        let contribution = |(line, weight): (&Complex<f64>, &f64)| {
             let square = line.norm_sqr();
             weight * square * square.sqrt()
         };
-        let sum: f64 = lines[self.first..].iter().zip(weights).map(of_line).sum();
+        let sum: f64 = lines[self.first..]
+            .iter()
+            .zip(weights)
+            .map(contribution)
+            .sum();
         3.57 * sum.powf(0.1)
     }
 }
 
-/// Sperling's ride index `W` of an acceleration, m/s^2, sampled at `rate_hz`: `W_i = 3.57 (A_i^3 F(f_i)/f_i)^0.1` of each line of
-/// amplitude `A_i` from 0.5 to 40 Hz, `W = (sum W_i^10)^0.1`; the mean over windows of `window_s` that follow one another.
+/// Returns Sperling's ride index `W` of an acceleration, m/s^2, sampled at `rate_hz`, averaged over consecutive
+/// windows.
 ///
-/// The sum depends on the length of the window, which belongs to every value: 5 s is usual.
+/// In each window of `window_s`, each line from 0.5 to 40 Hz with the amplitude `A_i` has the index
+/// `W_i = 3.57 (A_i^3 F(f_i)/f_i)^0.1`, and `W = (sum W_i^10)^0.1`. The index depends on the length of the window, so
+/// state it with every value; 5 s is usual.
 ///
 /// # Errors
-/// A signal shorter than a window, numbers that are not finite or out of bounds.
+/// A signal shorter than a window, samples that are not finite, or a rate or window out of bounds.
 ///
 /// ```
 /// use dashpot_rail::indices::{RideDirection, sperling};
@@ -123,7 +136,7 @@ pub fn sperling(
     window_s: f64,
     direction: RideDirection,
 ) -> Result<f64, SpectrumError> {
-    window_samples(acceleration_m_per_s2, rate_hz, window_s)?;
+    check_signal(acceleration_m_per_s2, rate_hz, window_s)?;
     let mut ride = Sperling::new(rate_hz, window_s)?;
     let (mut sum, mut windows) = (0.0, 0.0);
     for window in acceleration_m_per_s2.chunks_exact(ride.samples()) {

@@ -2,26 +2,27 @@
 
 use std::f64::consts::PI;
 
-/// Frequency weighting of an acceleration (EN 12299, ISO 2631-4): a band limit and a weighting of second order.
+/// Frequency weighting of an acceleration (EN 12299, ISO 2631-4): band limits and a second-order weighting.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Weighting {
     /// `Wb`: vertical.
     Vertical,
-    /// `Wd`: to the side and along.
+    /// `Wd`: lateral and longitudinal.
     Horizontal,
 }
 
-/// Corners of the band that the weightings are limited to, Hz.
+/// Corner frequencies of the band limits, Hz.
 pub const COMFORT_BAND_HZ: [f64; 2] = [0.4, 100.0];
-/// Quality of both.
+/// Quality factor of both band limits.
 const BAND_QUALITY: f64 = std::f64::consts::FRAC_1_SQRT_2;
 
-/// A factor of the transfer function: polynomials of second order in `s`, the constant first, and the corner it is about.
+/// A factor of the transfer function: quadratic polynomials in `s`, constant term first, and the corner frequency.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Section {
     pub corner_hz: f64,
-    pub over: [f64; 3],
-    pub under: [f64; 3],
+    pub numerator: [f64; 3],
+    pub denominator: [f64; 3],
 }
 
 /// Angular frequency, rad/s.
@@ -35,17 +36,17 @@ fn quadratic(corner_hz: f64, quality: f64) -> [f64; 3] {
     [w * w, w / quality, 1.0]
 }
 
-/// Square of a polynomial's magnitude at `s = i omega`.
+/// Squared magnitude of a polynomial at `s = i omega`.
 fn square(polynomial: &[f64; 3], omega: f64) -> f64 {
     let [constant, linear, quadratic] = polynomial;
     (constant - quadratic * omega * omega).powi(2) + (linear * omega).powi(2)
 }
 
 impl Weighting {
-    /// The factors of the transfer function.
+    /// Factors of the transfer function.
     pub(super) fn sections(self) -> Vec<Section> {
         let [low, high] = COMFORT_BAND_HZ;
-        // (s + w3)/w3 over the quadratic at f4; for the vertical one a step at f5 and f6 beside.
+        // (s + w3)/w3 over the quadratic at f4; the vertical weighting also has a step from f5 to f6.
         let (f3, f4, q4) = match self {
             Self::Vertical => (16.0, 16.0, 0.63),
             Self::Horizontal => (2.0, 2.0, 0.63),
@@ -54,18 +55,18 @@ impl Weighting {
         let mut sections = vec![
             Section {
                 corner_hz: low,
-                over: [0.0, 0.0, 1.0],
-                under: quadratic(low, BAND_QUALITY),
+                numerator: [0.0, 0.0, 1.0],
+                denominator: quadratic(low, BAND_QUALITY),
             },
             Section {
                 corner_hz: high,
-                over: [w_high * w_high, 0.0, 0.0],
-                under: quadratic(high, BAND_QUALITY),
+                numerator: [w_high * w_high, 0.0, 0.0],
+                denominator: quadratic(high, BAND_QUALITY),
             },
             Section {
                 corner_hz: f4,
-                over: [w4 * w4, w4 * w4 / angular(f3), 0.0],
-                under: quadratic(f4, q4),
+                numerator: [w4 * w4, w4 * w4 / angular(f3), 0.0],
+                denominator: quadratic(f4, q4),
             },
         ];
         if self == Self::Vertical {
@@ -74,14 +75,14 @@ impl Weighting {
             let scale = FACTOR * (f6 / f5) * (f6 / f5);
             sections.push(Section {
                 corner_hz: f6,
-                over: quadratic(f5, q5).map(|number| scale * number),
-                under: quadratic(f6, q6),
+                numerator: quadratic(f5, q5).map(|number| scale * number),
+                denominator: quadratic(f6, q6),
             });
         }
         sections
     }
 
-    /// Magnitude of the weighting at a frequency.
+    /// Returns the magnitude of the weighting at a frequency.
     ///
     /// ```
     /// use dashpot_rail::indices::Weighting;
@@ -90,10 +91,10 @@ impl Weighting {
     /// ```
     pub fn gain(self, frequency_hz: f64) -> f64 {
         let omega = angular(frequency_hz);
-        let of_section = |section: &Section| {
-            let [over, under] = [&section.over, &section.under].map(|one| square(one, omega));
-            (over / under).sqrt()
+        let gain = |section: &Section| {
+            let numerator = square(&section.numerator, omega);
+            (numerator / square(&section.denominator, omega)).sqrt()
         };
-        self.sections().iter().map(of_section).product()
+        self.sections().iter().map(gain).product()
     }
 }

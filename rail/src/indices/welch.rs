@@ -1,11 +1,11 @@
-//! Power spectral density after Welch.
+//! Power spectral density by Welch's method.
 
 use std::f64::consts::PI;
 
-use super::spectrum::{SpectrumError, Transform, mean, samples_of_window, window_samples};
+use super::spectrum::{SpectrumError, Transform, check_signal, mean, samples_of_window};
 
-/// Sums up the one-sided power spectral density of a signal sample by sample (Welch 1967): Hann windows that overlap by half, each without
-/// its mean. It keeps one window, however long the signal.
+/// Estimates the one-sided power spectral density of a signal sample by sample (Welch 1967): Hann windows with 50 %
+/// overlap, each without its mean. It stores a single window, however long the signal is.
 ///
 /// ```
 /// use dashpot_rail::indices::Welch;
@@ -30,7 +30,7 @@ pub struct Welch {
 }
 
 impl Welch {
-    /// Of a signal sampled at `rate_hz`, in windows of `window_s`.
+    /// Plans the estimate for a signal sampled at `rate_hz` in windows of `window_s`.
     ///
     /// # Errors
     /// A rate or a window out of bounds.
@@ -64,32 +64,34 @@ impl Welch {
         self.window.drain(..length / 2);
     }
 
-    /// Windows that were full.
+    /// Returns the number of complete windows.
     pub fn windows(&self) -> u64 {
         self.windows
     }
 
-    /// Frequency, Hz, and density, the signal's unit squared per Hz: the mean of the windows, and NaN of none. Its integral is the
-    /// variance of the signal.
+    /// Returns frequencies, Hz, and densities, in the unit of the signal squared per Hz, averaged over the windows.
+    ///
+    /// The integral is the variance of the signal. The densities are NaN before the first complete window.
     pub fn density(&self) -> Vec<[f64; 2]> {
         let length = self.transform.samples();
         let power: f64 = self.hann.iter().map(|weight| weight * weight).sum();
         let is_doubled = |line: usize| line > 0 && 2 * line != length;
-        let of_line = |(line, sum): (usize, &f64)| {
+        let density = |(line, sum): (usize, &f64)| {
             let sides = if is_doubled(line) { 2.0 } else { 1.0 };
             let density = sides * sum / (self.windows as f64 * self.rate_hz * power);
             [line as f64 * self.rate_hz / length as f64, density]
         };
-        self.sums.iter().enumerate().map(of_line).collect()
+        self.sums.iter().enumerate().map(density).collect()
     }
 }
 
-/// One-sided power spectral density of a whole signal by [`Welch`].
+/// Returns the one-sided power spectral density of a whole signal, estimated by [`Welch`].
 ///
-/// Returns frequency, Hz, and density, the signal's unit squared per Hz. Its integral is the variance of the signal.
+/// The pairs are frequency, Hz, and density, in the unit of the signal squared per Hz. The integral is the variance of
+/// the signal.
 ///
 /// # Errors
-/// A signal shorter than a window, numbers that are not finite or out of bounds.
+/// A signal shorter than a window, samples that are not finite, or a rate or window out of bounds.
 ///
 /// ```
 /// use dashpot_rail::indices::welch;
@@ -101,7 +103,7 @@ impl Welch {
 /// # Ok::<(), dashpot_rail::indices::SpectrumError>(())
 /// ```
 pub fn welch(signal: &[f64], rate_hz: f64, window_s: f64) -> Result<Vec<[f64; 2]>, SpectrumError> {
-    window_samples(signal, rate_hz, window_s)?;
+    check_signal(signal, rate_hz, window_s)?;
     let mut sums = Welch::new(rate_hz, window_s)?;
     for value in signal {
         sums.add(*value);

@@ -1,11 +1,11 @@
-//! Single defects: dip, alignment bump and kink, twist.
+//! Isolated defects: dip, alignment bump and kink, twist.
 
 use std::f64::consts::TAU;
 
 use super::error::{Place, TrackError, within};
 use super::rails::{Channels, RailDeviation};
 
-/// Rails that have a defect.
+/// Rails affected by a defect.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Rails {
@@ -18,7 +18,7 @@ pub enum Rails {
 }
 
 impl Rails {
-    /// `deviation` on these rails, left and right.
+    /// Left and right deviation, with `deviation` on these rails.
     fn with(self, deviation: RailDeviation) -> [RailDeviation; 2] {
         let none = RailDeviation::default();
         match self {
@@ -29,50 +29,52 @@ impl Rails {
     }
 }
 
-/// A defect at one place, added to layout and irregularity; zero outside of its length.
+/// An isolated defect, added to layout and irregularity. It is zero outside its length.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub enum Defect {
-    /// Vertical `depth_m (1 - cos(2 pi t / length_m)) / 2`, `t` from its start: `depth_m` in the middle, level ends.
+    /// Vertical deviation `depth_m (1 - cos(2 pi t / length_m)) / 2` at the distance `t` from the start.
     CosineDip {
-        /// Rails that have it.
+        /// Affected rails.
         rails: Rails,
-        /// Distance at which it begins, m.
+        /// Distance at which the defect starts, m.
         start_m: f64,
         /// Length, m.
         length_m: f64,
-        /// Greatest depth, down positive, m.
+        /// Maximum depth, positive downward, m.
         depth_m: f64,
     },
-    /// Lateral `offset_m (1 - cos(2 pi t / length_m)) / 2`.
+    /// Lateral deviation `offset_m (1 - cos(2 pi t / length_m)) / 2` at the distance `t` from the start.
     AlignmentBump {
-        /// Rails that have it.
+        /// Affected rails.
         rails: Rails,
-        /// Distance at which it begins, m.
+        /// Distance at which the defect starts, m.
         start_m: f64,
         /// Length, m.
         length_m: f64,
-        /// Greatest offset, right positive, m.
+        /// Maximum offset, positive to the right, m.
         offset_m: f64,
     },
-    /// Lateral triangle of two straights: the direction changes by `4 offset_m / length_m` in the middle and by half of it at each end,
-    /// over a parabola of the length `rounding_m`, which takes `offset_m rounding_m / (2 length_m)` from the greatest offset.
+    /// Lateral triangle of two straight lines with rounded corners.
     ///
-    /// With its rounding it begins `rounding_m / 2` before `start_m` and ends as much behind.
+    /// The direction changes by `4 offset_m / length_m` in the middle and by half as much at each end. Each corner is a
+    /// parabola of the length `rounding_m`, which reduces the maximum offset by `offset_m rounding_m / (2 length_m)`.
+    /// The deviation starts `rounding_m / 2` before the first corner and ends `rounding_m / 2` after the last.
     AlignmentKink {
-        /// Rails that have it.
+        /// Affected rails.
         rails: Rails,
         /// First corner of the triangle, m.
         start_m: f64,
         /// Distance from the first corner to the last, m.
         length_m: f64,
-        /// Offset of the middle corner, right positive, m.
+        /// Offset of the middle corner, positive to the right, m.
         offset_m: f64,
         /// Length of each rounding, m.
         rounding_m: f64,
     },
-    /// Cross level that rises linearly over `base_m`, stays over `plateau_m` and falls over `base_m`, half on each rail; each corner is a parabola
-    /// of the length `rounding_m`. The twist is `cross_level_m / base_m`.
+    /// Cross level that rises linearly over `base_m`, stays constant over `plateau_m` and falls over `base_m`, half of
+    /// it on each rail. Each corner is a parabola of the length `rounding_m`. The twist is `cross_level_m / base_m`.
     Twist {
         /// First corner, m.
         start_m: f64,
@@ -80,7 +82,7 @@ pub enum Defect {
         base_m: f64,
         /// Length between the ramps, m.
         plateau_m: f64,
-        /// Height of the left rail over the right one on the plateau, m.
+        /// Height of the left rail above the right rail on the plateau, m.
         cross_level_m: f64,
         /// Length of each rounding, m.
         rounding_m: f64,
@@ -95,7 +97,7 @@ const DISPLACEMENT_M: [f64; 2] = [-0.2, 0.2];
 const DISTANCE_M: [f64; 2] = [-1e7, 1e7];
 
 impl Defect {
-    /// Deviations of the left and of the right rail at a distance.
+    /// Returns the deviations of the left and the right rail at a distance.
     pub fn at(&self, distance_m: f64) -> [RailDeviation; 2] {
         match *self {
             Self::CosineDip {
@@ -160,14 +162,14 @@ impl Defect {
                             ..Channels::default()
                         }
                     });
-                RailDeviation::of_rails(&deviation, &change)
+                RailDeviation::left_and_right(&deviation, &change)
             }
         }
     }
 
-    /// Checks that every quantity is in its bounds.
+    /// Checks the bounds of all values.
     pub(super) fn check(&self, place: Place) -> Result<(), TrackError> {
-        // Not longer than a straight: the roundings at its ends take half of it each.
+        // A rounding must not exceed its straight line, of which the roundings at both ends take half each.
         let rounding = |value: f64, straight_m: f64| {
             within(place, "rounding_m", value, [1e-3, straight_m.max(1e-3)])
         };
@@ -215,7 +217,7 @@ impl Defect {
     }
 }
 
-/// `(1 - cos(2 pi t / length)) / 2` and its slope, zero outside of 0 to `length`.
+/// `(1 - cos(2 pi t / length)) / 2` and its slope; zero outside 0 to `length`.
 fn bump(t: f64, length: f64) -> [f64; 2] {
     if t <= 0.0 || t >= length {
         return [0.0; 2];
@@ -227,8 +229,8 @@ fn bump(t: f64, length: f64) -> [f64; 2] {
     ]
 }
 
-/// Value and slope at `t` of a line of straights: the slope changes at each corner `(place, change)` linearly over `rounding`.
-/// The changes and their moments add up to zero.
+/// Value and slope at `t` of a polyline with rounded corners. At each corner `(position, change)` the slope changes
+/// linearly by `change` over `rounding`. The changes and their moments must add up to zero.
 fn rounded(t: f64, rounding: f64, corners: &[(f64, f64)]) -> [f64; 2] {
     let half = 0.5 * rounding;
     let last = corners.last().map_or(0.0, |corner| corner.0);
@@ -237,10 +239,10 @@ fn rounded(t: f64, rounding: f64, corners: &[(f64, f64)]) -> [f64; 2] {
     }
     corners
         .iter()
-        .fold([0.0; 2], |[value, slope], (place, change)| {
-            let behind = t - place;
+        .fold([0.0; 2], |[value, slope], (position, change)| {
+            let behind = t - position;
             let along = (behind + half).clamp(0.0, rounding);
-            // Up to the end of the rounding a parabola, behind it the straight from the corner.
+            // A parabola up to the end of the rounding, then the straight line from the corner.
             let rise = if behind < half {
                 0.5 * along * along / rounding
             } else {

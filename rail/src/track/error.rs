@@ -1,9 +1,10 @@
-//! What can be wrong with a layout, a generated irregularity or a defect.
+//! Errors of layouts, generated irregularities and defects.
 
 use std::fmt;
 
-/// What of a track an error is of; parts and defects are counted from 1.
+/// Location of an error in a track. Parts and defects are counted from 1.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Place {
     /// A part of the layout.
     Part(usize),
@@ -23,31 +24,31 @@ impl fmt::Display for Place {
     }
 }
 
-/// Why a track is refused.
+/// Errors of tracks.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum TrackError {
     /// A quantity is out of bounds.
     #[error("{place}: {name} {value}, allowed: {} to {}", .allowed[0], .allowed[1])]
     OutOfBounds {
-        /// Where it stands.
+        /// Location.
         place: Place,
-        /// Name of the quantity, its unit included.
+        /// Name of the quantity, including its unit.
         name: &'static str,
-        /// Its value.
+        /// Value.
         value: f64,
-        /// Smallest and greatest allowed value.
+        /// Smallest and largest allowed value.
         allowed: [f64; 2],
     },
-    /// A layout has no parts.
+    /// The layout has no parts.
     #[error("layout without parts, allowed: one or more")]
     Empty,
-    /// A transition lacks a straight or a circular part on one side.
+    /// A transition has no straight or circular part on one side.
     #[error(
         "{place}: a transition without neighbours, allowed: between two straight or circular parts"
     )]
     TransitionAtEnd {
-        /// Number of the transition.
+        /// Location of the transition.
         place: Place,
     },
     /// A transition joins parts of the same curvature and cant.
@@ -55,41 +56,41 @@ pub enum TrackError {
         "{place}: a transition between parts of the same curvature and cant, allowed: where one of them changes"
     )]
     NeedlessTransition {
-        /// Number of the transition.
+        /// Location of the transition.
         place: Place,
     },
-    /// The cant jumps between two parts.
+    /// The cant is discontinuous between two parts.
     #[error(
-        "{place}: cant_m begins with {after_m} where the part before ends with {before_m}, allowed: a transition between them"
+        "{place}: cant_m starts at {after_m}, but the previous part ends at {before_m}, allowed: a transition between"
     )]
     CantJump {
-        /// Number of the second part.
+        /// Location of the second part.
         place: Place,
-        /// Cant before, m.
+        /// Cant at the end of the first part, m.
         before_m: f64,
-        /// Cant behind, m.
+        /// Cant at the start of the second part, m.
         after_m: f64,
     },
-    /// There is no such class of track.
+    /// The class of track does not exist.
     #[error("FRA class {class}, allowed: 1 to 6")]
     Class {
-        /// The class asked for.
+        /// The requested class.
         class: u8,
     },
-    /// There would be too many samples.
+    /// The irregularity would have too many samples.
     #[error(
         "{place}: {samples:.0} samples, allowed: {} or fewer: a shorter track or a wider spacing",
         super::MAX_SAMPLES
     )]
     TooManySamples {
-        /// Where they are.
+        /// Location.
         place: Place,
         /// Number of samples.
         samples: f64,
     },
 }
 
-/// Checks that `value` lies in `allowed`; NaN does not.
+/// Checks that `value` is within `allowed`. NaN never is.
 pub(super) fn within(
     place: Place,
     name: &'static str,

@@ -1,4 +1,4 @@
-//! Irregularities from a spectrum: sums of cosines with random phases.
+//! Generates irregularities from a spectrum as sums of cosines with random phases.
 
 use std::f64::consts::TAU;
 
@@ -9,8 +9,9 @@ use super::error::{Place, TrackError, within};
 use super::irregularity::Irregularity;
 use super::spectrum::{Density, Spectrum};
 
-/// Wavelengths that an irregularity has.
+/// Range of wavelengths of an irregularity.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Band {
     /// Shortest wavelength, m.
     pub shortest_m: f64,
@@ -29,27 +30,36 @@ impl Default for Band {
 }
 
 impl Band {
-    /// Wave numbers from the least to the greatest, rad/m.
+    /// Returns the wavelengths from `shortest_m` to `longest_m`.
+    pub const fn new(shortest_m: f64, longest_m: f64) -> Self {
+        Self {
+            shortest_m,
+            longest_m,
+        }
+    }
+
+    /// Smallest and largest wave number, rad/m.
     fn wave_numbers(&self) -> [f64; 2] {
         [TAU / self.longest_m, TAU / self.shortest_m]
     }
 }
 
-/// The seed of each channel.
+/// Seeds of the random numbers of each channel.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Seeds {
-    /// Of the vertical profile.
+    /// Seed of the vertical profile.
     pub vertical: u64,
-    /// Of the alignment.
+    /// Seed of the alignment.
     pub lateral: u64,
-    /// Of the cross level.
+    /// Seed of the cross level.
     pub cross_level: u64,
-    /// Of the gauge.
+    /// Seed of the gauge.
     pub gauge: u64,
 }
 
 impl From<u64> for Seeds {
-    /// The first four numbers of PCG64 with this seed.
+    /// Returns the first four numbers of PCG64 with this seed.
     fn from(seed: u64) -> Self {
         let mut generator = Pcg64::seed_from_u64(seed);
         Self {
@@ -61,61 +71,62 @@ impl From<u64> for Seeds {
     }
 }
 
-/// What an irregularity is generated from.
+/// Parameters from which an irregularity is generated.
 ///
-/// The band is divided into equal intervals `dW` of at most 1e-3 rad/m. Each has a cosine with a phase from 0 to `2 pi` and a
-/// wave number `W` anywhere in the interval, both random, and with the amplitude `sqrt(2 S(W) dW)`
-/// (Shinozuka and Jan 1972): the sum is Gaussian, has the mean square of the band and does not repeat itself. The random
-/// numbers are those of PCG64, one seed a channel.
+/// The band is divided into equal intervals `dW` of at most 1e-3 rad/m. Each interval contributes a cosine with a
+/// random phase and a random wave number `W` within the interval; its amplitude is `sqrt(2 S(W) dW)` (Shinozuka and Jan
+/// 1972). The sum is Gaussian, has the mean square of the band and is not periodic. The random numbers come from PCG64,
+/// with one seed per channel.
 ///
-/// The sum is a function of the distance. With the same spectrum, band and seeds the track is therefore the same for every length
-/// (up to the ramp at its end), and the same bits on every machine with IEEE 754 numbers; the spacing changes what lies between the samples only.
+/// The sum is a function of the distance. Therefore the same spectrum, band and seeds give the same track for every
+/// length, up to the ramp at its end, with the same bits on every machine with IEEE 754 arithmetic. The spacing affects
+/// only the interpolation between samples.
 ///
-/// Deviations begin and end with zero: over `ramp_m` at the start and at the end they are multiplied by `(1 - cos(pi t / ramp_m)) / 2`, `t` being
-/// the distance to the end. Beyond the ends they are zero.
+/// Deviations start and end at zero: over `ramp_m` at each end they are multiplied by `(1 - cos(pi t / ramp_m)) / 2`,
+/// where `t` is the distance from that end. Beyond the ends they are zero.
 ///
 /// ```
 /// use dashpot_rail::track::{Generation, Seeds, Spectrum};
-/// let generation = Generation {
-///     seeds: Seeds::from(7),
-///     length_m: 1000.0,
-///     ..Generation::of(Spectrum::fra(6)?)
-/// };
+/// let generation = Generation::new(Spectrum::fra(6)?)
+///     .with_seeds(Seeds::from(7))
+///     .with_length_m(1000.0);
 /// let irregularity = generation.irregularity()?;
 /// let [left, right] = irregularity.at(500.0);
 /// assert!(left.vertical_m.abs() < 0.010 && left != right);
 /// # Ok::<(), dashpot_rail::track::TrackError>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Generation {
     /// Densities of the four channels.
     pub spectrum: Spectrum,
-    /// Wavelengths; no result is complete without it.
+    /// Wavelengths. State them with every result.
     pub band: Band,
-    /// Seed of each channel.
+    /// Seeds of the channels.
     pub seeds: Seeds,
-    /// Length, from the distance 0 on, m.
+    /// Length, starting at the distance 0, m.
     pub length_m: f64,
-    /// Length of the smooth start, and of the smooth end, m.
+    /// Length of the ramp at each end, m.
     pub ramp_m: f64,
-    /// Distance of the samples, m; `None`: 0.25 m, or a twelfth of the shortest wavelength where that is less.
+    /// Distance between samples, m. `None` selects 0.25 m or a twelfth of the shortest wavelength, whichever is
+    /// smaller.
     pub spacing_m: Option<f64>,
 }
 
-/// Most samples of an irregularity: almost 1000 km of them each 0.25 m, 256 MB.
+/// Maximum number of samples of an irregularity: almost 1000 km at 0.25 m, 256 MB.
 pub const MAX_SAMPLES: usize = 4_000_000;
-/// Greatest interval of the wave numbers, rad/m.
-const INTERVAL: f64 = 1e-3;
-/// Least number of intervals, for a narrow band.
+/// Maximum interval of wave numbers, rad/m.
+const MAX_INTERVAL: f64 = 1e-3;
+/// Minimum number of intervals, for a narrow band.
 const MIN_INTERVALS: f64 = 256.0;
-/// Cosines evaluated side by side.
+/// Number of cosines evaluated together.
 const LANES: usize = 4;
-/// Samples from one evaluation of the cosines to the next; those between follow by recurrence.
+/// Number of samples per evaluation of the cosines; the others follow by recurrence.
 const BLOCK: usize = 64;
 
 impl Generation {
-    /// 1 km of a track with `spectrum`, 3 to 80 m, seed 1, ramps of 50 m.
-    pub fn of(spectrum: Spectrum) -> Self {
+    /// Returns 1 km of track with wavelengths of 3 to 80 m, seed 1 and ramps of 50 m.
+    pub fn new(spectrum: Spectrum) -> Self {
         Self {
             spectrum,
             band: Band::default(),
@@ -126,12 +137,51 @@ impl Generation {
         }
     }
 
-    /// Generates the irregularity. A kilometre takes some 30 ms; the time goes as the length over the square of the shortest wavelength.
+    /// Sets the range of wavelengths.
+    #[must_use]
+    pub const fn with_band(mut self, band: Band) -> Self {
+        self.band = band;
+        self
+    }
+
+    /// Sets the seeds.
+    #[must_use]
+    pub const fn with_seeds(mut self, seeds: Seeds) -> Self {
+        self.seeds = seeds;
+        self
+    }
+
+    /// Sets the length, m.
+    #[must_use]
+    pub const fn with_length_m(mut self, length_m: f64) -> Self {
+        self.length_m = length_m;
+        self
+    }
+
+    /// Sets the length of the ramp at each end, m.
+    #[must_use]
+    pub const fn with_ramp_m(mut self, ramp_m: f64) -> Self {
+        self.ramp_m = ramp_m;
+        self
+    }
+
+    /// Sets the distance between samples, m; `None` selects the default.
+    #[must_use]
+    pub const fn with_spacing_m(mut self, spacing_m: Option<f64>) -> Self {
+        self.spacing_m = spacing_m;
+        self
+    }
+
+    /// Generates the irregularity.
+    ///
+    /// A kilometre takes about 30 ms. The time is proportional to the length over the square of the shortest
+    /// wavelength.
     ///
     /// # Errors
-    /// A wavelength not within 0.3 to 500 m, a shortest one that is not shorter by a tenth than the longest, a ramp shorter than 1 m or
-    /// longer than half the length, a spacing not within a hundredth to a sixth of the shortest wavelength, more than [`MAX_SAMPLES`]
-    /// samples, a density that is not a number from 0 on.
+    /// - a wavelength outside 0.3 to 500 m, or a shortest wavelength above 0.9 times the longest;
+    /// - a ramp shorter than 1 m or longer than half the length;
+    /// - a spacing outside 1/100 to 1/6 of the shortest wavelength, or more than [`MAX_SAMPLES`] samples;
+    /// - a density that is negative or not finite.
     pub fn irregularity(&self) -> Result<Irregularity, TrackError> {
         let place = Place::Irregularity;
         let Band {
@@ -189,14 +239,14 @@ struct Group {
 
 impl Waves {
     fn new(density: &Density, band: Band, seed: u64) -> Self {
-        let [least, greatest] = band.wave_numbers();
-        let intervals = ((greatest - least) / INTERVAL).ceil().max(MIN_INTERVALS);
-        let width = (greatest - least) / intervals;
+        let [min, max] = band.wave_numbers();
+        let intervals = ((max - min) / MAX_INTERVAL).ceil().max(MIN_INTERVALS);
+        let width = (max - min) / intervals;
         let count = intervals as usize;
         let mut generator = Pcg64::seed_from_u64(seed);
         let mut groups = vec![Group::default(); count.div_ceil(LANES)];
         for i in 0..count {
-            let wave_number = least + (i as f64 + from_0_to_1(&mut generator)) * width;
+            let wave_number = min + (i as f64 + from_0_to_1(&mut generator)) * width;
             let (group, lane) = (&mut groups[i / LANES], i % LANES);
             group.wave_number[lane] = wave_number;
             group.phase[lane] = TAU * from_0_to_1(&mut generator);
@@ -207,8 +257,8 @@ impl Waves {
 
     /// Adds the sum at the distances `0, spacing_m, ...` to a channel of the samples.
     ///
-    /// Within a block each cosine follows from the two before it, `c(n + 1) = 2 cos(W spacing) c(n) - c(n - 1)`; begun anew with each
-    /// block, its error stays below 1e-12 of the amplitude.
+    /// Within a block each cosine follows from the two before it: `c(n + 1) = 2 cos(W spacing) c(n) - c(n - 1)`. The
+    /// recurrence restarts with each block, so its error stays below 1e-12 of the amplitude.
     fn add_to(&self, spacing_m: f64, samples: &mut [[f64; 4]], channel: usize) {
         let twice_cos: Vec<[f64; LANES]> = self
             .groups
@@ -237,7 +287,7 @@ impl Waves {
 }
 
 impl Group {
-    /// The cosines by the crate `libm`: those of a system may differ in the last bit.
+    /// Evaluates the cosines with the crate `libm`, because system libraries may differ in the last bit.
     fn at(&self, distance_m: f64) -> [f64; LANES] {
         std::array::from_fn(|k| {
             self.amplitude[k] * libm::cos(self.wave_number[k] * distance_m + self.phase[k])
@@ -245,7 +295,7 @@ impl Group {
     }
 }
 
-/// Uniform from 0 to less than 1, from the upper 53 bits.
+/// Returns a uniform random number in [0, 1) from the upper 53 bits.
 fn from_0_to_1(generator: &mut Pcg64) -> f64 {
     (generator.next_u64() >> 11) as f64 * (1.0 / (1_u64 << 53) as f64)
 }

@@ -1,10 +1,10 @@
-//! Deviations over the distance: a twice differentiable cubic spline on a uniform grid.
+//! Irregularities: cubic splines over the distance on a uniform grid.
 
 use super::rails::{Channels, RailDeviation};
 use crate::math::spline::Spline;
 
-/// Number of zeros before the first and behind the last sample. What the spline overshoots falls by 0.27 from one to the next,
-/// so that at the outermost it is below rounding.
+/// Number of zeros before the first and after the last sample. The overshoot of the spline decreases by a factor of
+/// 0.27 per sample, so it is below rounding at the outermost sample.
 const MARGIN: usize = 30;
 
 /// Deviations of the four channels at a node.
@@ -21,10 +21,11 @@ const ZERO: Node = Node {
     rise_m: [0.0; 4],
 };
 
-/// Deviations of a track from its layout over the distance, zero outside of [`Irregularity::ends_m`].
+/// Deviations of a track from its layout over the distance. They are zero outside [`Irregularity::ends_m`].
 ///
-/// Made by [`Generation::irregularity`](super::Generation::irregularity) from a spectrum or by [`measured::parse`](super::measured::parse)
-/// from a file. Each evaluation costs the same: the node is found by index, a cubic lies between two nodes.
+/// [`Generation::irregularity`](super::Generation::irregularity) creates them from a spectrum,
+/// [`measured::parse`](super::measured::parse) from a file. The cost of an evaluation is constant: it finds the node by
+/// index and evaluates a cubic polynomial between two nodes.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Irregularity {
@@ -35,7 +36,7 @@ pub struct Irregularity {
 }
 
 impl Default for Irregularity {
-    /// No deviation.
+    /// Returns zero deviations.
     fn default() -> Self {
         Self {
             first_node_m: 0.0,
@@ -47,7 +48,8 @@ impl Default for Irregularity {
 }
 
 impl Irregularity {
-    /// Through `samples` from the distance `start_m` on, `spacing_m` apart, each raised-cosine ramped over `ramp_m` at both ends.
+    /// Interpolates `samples`, which start at `start_m` and are `spacing_m` apart, with raised-cosine ramps over
+    /// `ramp_m` at both ends.
     pub(super) fn through(start_m: f64, spacing_m: f64, ramp_m: f64, samples: &[[f64; 4]]) -> Self {
         let length_m = spacing_m * samples.len().saturating_sub(1) as f64;
         let mut nodes = vec![ZERO; samples.len() + 2 * MARGIN];
@@ -75,26 +77,26 @@ impl Irregularity {
         }
     }
 
-    /// First and last sample, m.
+    /// Returns the distances of the first and the last sample, m.
     ///
-    /// Beyond them the spline overshoots over some spacings before it is zero: by 1e-7 m with ramps of 50 m and 20 mm of deviation.
+    /// The spline overshoots for a few spacings beyond them: by 1e-7 m for ramps of 50 m and deviations of 20 mm.
     pub fn ends_m(&self) -> [f64; 2] {
         self.ends_m
     }
 
-    /// Distance of the samples, m.
+    /// Returns the distance between samples, m.
     pub fn spacing_m(&self) -> f64 {
         1.0 / self.nodes_per_m
     }
 
-    /// Deviations of the left and of the right rail at a distance; NaN at a distance that is NaN.
+    /// Returns the deviations of the left and the right rail at a distance; NaN if the distance is NaN.
     #[inline]
     pub fn at(&self, distance_m: f64) -> [RailDeviation; 2] {
         let [deviations, slopes] = self.channels(distance_m);
-        RailDeviation::of_rails(&deviations, &slopes)
+        RailDeviation::left_and_right(&deviations, &slopes)
     }
 
-    /// Deviations of the track at a distance, m, and their slopes, dimensionless.
+    /// Returns the deviations of the track at a distance, m, and their slopes, dimensionless.
     #[inline]
     pub fn channels(&self, distance_m: f64) -> [Channels; 2] {
         let position = (distance_m - self.first_node_m) * self.nodes_per_m;
@@ -102,13 +104,13 @@ impl Irregularity {
         if position < 0.0 || position >= last as f64 {
             return [Channels::default(); 2];
         }
-        // NaN becomes 0 here and stays NaN in the place.
+        // The index of NaN is 0; `t` stays NaN.
         let index = (position as usize).min(last - 1);
         let (from, to) = (&self.nodes[index], &self.nodes[index + 1]);
         let t = position - index as f64;
         let (mut values, mut slopes) = ([0.0; 4], [0.0; 4]);
         for channel in 0..4 {
-            // Hermite's cubic through values and slopes of both nodes.
+            // Cubic Hermite polynomial through the values and slopes of both nodes.
             let (v0, r0) = (from.value_m[channel], from.rise_m[channel]);
             let (chord, r1) = (to.value_m[channel] - v0, to.rise_m[channel]);
             let square = 3.0 * chord - 2.0 * r0 - r1;
@@ -116,11 +118,11 @@ impl Irregularity {
             values[channel] = v0 + t * (r0 + t * (square + t * cube));
             slopes[channel] = (r0 + t * (2.0 * square + t * 3.0 * cube)) * self.nodes_per_m;
         }
-        [Channels::of(values), Channels::of(slopes)]
+        [Channels::from_array(values), Channels::from_array(slopes)]
     }
 }
 
-/// From 0 to 1 as `t` does, with level ends.
+/// Rises from 0 to 1 while `t` does, with zero slope at both ends.
 fn raised_cosine(t: f64) -> f64 {
     0.5 - 0.5 * libm::cos(std::f64::consts::PI * t.clamp(0.0, 1.0))
 }

@@ -4,50 +4,54 @@ use super::error::{Place, TrackError, within};
 
 /// A part of a layout.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub enum Part {
-    /// No curvature, no cant.
+    /// Straight track without cant.
     Straight {
         /// Length, m.
         length_m: f64,
     },
-    /// Clothoid and linear cant ramp: curvature and cant go linearly from those of the part before to those of the part behind.
+    /// Clothoid with a linear cant ramp: curvature and cant vary linearly from those of the previous part to those of
+    /// the next.
     Transition {
         /// Length, m.
         length_m: f64,
     },
     /// Constant curvature and cant.
     Circular {
-        /// Radius of the centre line, m: positive in a curve to the right.
+        /// Radius of the centre line, positive in a right-hand curve, m.
         radius_m: f64,
         /// Length, m.
         length_m: f64,
-        /// Height of the left rail over the right one, m: positive in a curve to the right, where the left rail is the outer one.
+        /// Height of the left rail above the right rail, m. It is positive in a right-hand curve, where the left rail
+        /// is the outer rail.
         cant_m: f64,
     },
 }
 
 /// Bounds of a part's length, m.
 const LENGTH_M: [f64; 2] = [0.1, 1e6];
-/// Bounds of the magnitude of a radius, m: a curve wider than the greatest is straight.
+/// Bounds of the magnitude of a radius, m. A larger radius counts as straight.
 const RADIUS_M: [f64; 2] = [50.0, 1e6];
-/// Bounds of the height of the outer rail over the inner one, m: some turnouts lie with the inner rail higher.
+/// Bounds of the height of the outer rail above the inner rail, m. In some turnouts the inner rail is higher.
 const CANT_M: [f64; 2] = [-0.1, 0.3];
 
-/// What a layout is at one place.
+/// Curvature and cant of a layout at one distance.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub struct Alignment {
-    /// Curvature `k` of the centre line, right positive, 1/m.
+    /// Curvature `k` of the centre line, positive to the right, 1/m.
     pub curvature_per_m: f64,
-    /// `dk/ds`, 1/m^2: not zero in transitions only.
+    /// `dk/ds`, 1/m^2; zero outside transitions.
     pub curvature_rate_per_m2: f64,
-    /// Cant: height of the left rail over the right one, m.
+    /// Cant: height of the left rail above the right rail, m.
     pub cant_m: f64,
-    /// Change of the cant over the distance, dimensionless.
+    /// Change of the cant per distance, dimensionless.
     pub cant_slope: f64,
 }
 
-/// A part as it is evaluated.
+/// A part in the form in which it is evaluated.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 struct Piece {
@@ -59,14 +63,15 @@ struct Piece {
     offset_m: f64,
 }
 
-/// The centre line at one place: what it is, and where it has led.
+/// The centre line at one distance: its curvature and cant, its heading and its lateral offset.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[non_exhaustive]
 pub struct Course {
     /// Curvature and cant.
     pub alignment: Alignment,
-    /// Direction, right positive, 0 at the distance 0, rad: the integral of the curvature.
+    /// Heading, positive to the right, rad: the integral of the curvature from the distance 0.
     pub heading_rad: f64,
-    /// Integral of the direction over the distance, m: for small angles the lateral offset from the tangent at the distance 0.
+    /// Integral of the heading from the distance 0, m. For small angles it is the lateral offset from the tangent at 0.
     pub offset_m: f64,
 }
 
@@ -97,10 +102,10 @@ impl Piece {
     }
 }
 
-/// Curvature and cant over the distance; the first part reaches back and the last part on without end.
+/// Curvature and cant as functions of the distance. The first and the last part extend to infinity.
 ///
-/// Curvature may jump between parts without a transition, as in turnouts; cant may not.
-/// The layout has no gradient, and the cant leaves the height of the centre line as it is.
+/// Curvature may jump between parts without a transition, as in turnouts; cant must be continuous. The layout has no
+/// gradient, and cant does not change the height of the centre line.
 ///
 /// ```
 /// use dashpot_rail::track::{Layout, Part};
@@ -122,7 +127,7 @@ pub struct Layout {
 }
 
 impl Default for Layout {
-    /// Straight without end.
+    /// Returns an infinite straight.
     fn default() -> Self {
         Self {
             pieces: vec![Piece {
@@ -137,11 +142,14 @@ impl Default for Layout {
 }
 
 impl Layout {
-    /// A layout of `parts` in their order, from the distance 0 on.
+    /// Builds a layout from `parts` in order, starting at the distance 0.
     ///
     /// # Errors
-    /// No part, a length not within 0.1 m to 1000 km, a radius not within 50 m to 1000 km, an outer rail more than 0.3 m above
-    /// or 0.1 m below the inner one, a transition without a straight or circular part on each side or between parts that are alike, a cant that jumps.
+    /// - no parts;
+    /// - a length outside 0.1 m to 1000 km, or a radius outside 50 m to 1000 km;
+    /// - an outer rail more than 0.3 m above or 0.1 m below the inner rail, or a cant that is not continuous;
+    /// - a transition without a straight or circular part on each side, or between parts of the same curvature and
+    ///   cant.
     pub fn new(parts: &[Part]) -> Result<Self, TrackError> {
         for (part, number) in parts.iter().zip(1..) {
             part.check(Place::Part(number))?;
@@ -156,7 +164,7 @@ impl Layout {
             let start = match part.constant() {
                 Some(constant) => {
                     let before_m = end.map_or(constant.cant_m, |end| end.cant_m);
-                    // What a transition leads to is met but for rounding.
+                    // The end of a transition differs by rounding only.
                     if (before_m - constant.cant_m).abs() > 1e-9 {
                         return Err(TrackError::CantJump {
                             place,
@@ -202,29 +210,30 @@ impl Layout {
         Ok(layout)
     }
 
-    /// Curvature and cant at a distance, and their changes; at the end of a part those of the next.
+    /// Returns curvature and cant at a distance, and their slopes. Where two parts meet, those of the second part.
     #[inline]
     pub fn at(&self, distance_m: f64) -> Alignment {
         self.piece(distance_m).at(distance_m)
     }
 
-    /// Direction of the centre line, right positive, 0 at the distance 0, rad: the integral of the curvature.
+    /// Returns the heading of the centre line, positive to the right, rad: the integral of the curvature from the
+    /// distance 0.
     pub fn heading_rad(&self, distance_m: f64) -> f64 {
         self.course(distance_m).heading_rad
     }
 
-    /// The centre line at a distance.
+    /// Returns the centre line at a distance.
     #[inline]
     pub fn course(&self, distance_m: f64) -> Course {
         self.piece(distance_m).course(distance_m)
     }
 
-    /// Distances at which the parts begin, m: where curvature, cant or their changes may jump.
+    /// Returns the distances at which parts start, m. There, curvature and the slopes of curvature and cant may jump.
     pub fn starts_m(&self) -> impl Iterator<Item = f64> + '_ {
         self.pieces.iter().map(|piece| piece.start_m)
     }
 
-    /// Sum of the lengths of the parts, m.
+    /// Returns the total length of the parts, m.
     pub fn length_m(&self) -> f64 {
         self.length_m
     }
@@ -247,7 +256,7 @@ impl Part {
         }
     }
 
-    /// Curvature and cant of a part that has them constant.
+    /// Curvature and cant of the part; `None` if they vary.
     fn constant(&self) -> Option<Alignment> {
         match *self {
             Self::Straight { .. } => Some(Alignment::default()),
@@ -277,7 +286,7 @@ impl Part {
             };
             within(
                 place,
-                "cant_m (left rail over the right one)",
+                "cant_m (left rail above right rail)",
                 cant_m,
                 allowed,
             )?;

@@ -1,12 +1,13 @@
-//! The track that a vehicle runs along: its layout, and what deviates from it.
+//! The track: its layout, and the deviations of the rails from it.
 //!
 //! - [`Layout`]: straight, transition and circular [`Part`]s with cant.
-//! - [`Irregularity`]: deviations over the distance, from a published [`Spectrum`] by [`Generation`] or from a measured file by [`measured`].
-//! - [`Defect`]: a dip, a bump, a kink or a twist at one place.
-//! - [`Track`]: all of them; [`Track::at`] gives the alignment and the displacements of both rails.
+//! - [`Irregularity`]: random or measured deviations, from a published [`Spectrum`] by [`Generation`] or from a file by
+//!   [`measured`].
+//! - [`Defect`]: an isolated dip, bump, kink or twist.
+//! - [`Track`]: the combination of all three. [`Track::at`] returns the alignment and the displacements of both rails.
 //!
-//! Axes follow the layout: x forward, y right, z down, turned with the cant. Curvature is positive to the right, cant and cross level are
-//! positive where the left rail is higher. The deviations of the rails do not contain the cant.
+//! The axes follow the layout and roll with the cant: x forward, y right, z down. Curvature is positive to the right;
+//! cant and cross level are positive if the left rail is higher. The deviations of the rails do not include the cant.
 //!
 //! ```
 //! use dashpot_rail::track::{Defect, Generation, Layout, Part, Rails, Spectrum, Track};
@@ -15,7 +16,7 @@
 //!     Part::Transition { length_m: 100.0 },
 //!     Part::Circular { radius_m: 600.0, length_m: 400.0, cant_m: 0.1 },
 //! ])?;
-//! let irregularity = Generation { length_m: 700.0, ..Generation::of(Spectrum::fra(6)?) }.irregularity()?;
+//! let irregularity = Generation::new(Spectrum::fra(6)?).with_length_m(700.0).irregularity()?;
 //! let dip = Defect::CosineDip { rails: Rails::Left, start_m: 100.0, length_m: 1.0, depth_m: 4e-3 };
 //! let track = Track::new(layout, irregularity, vec![dip])?;
 //!
@@ -52,21 +53,22 @@ pub struct Track {
     defects: Vec<Defect>,
 }
 
-/// What a track is at one place.
+/// Alignment and rail displacements of a track at one distance.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[non_exhaustive]
 pub struct TrackPoint {
     /// Curvature and cant.
     pub alignment: Alignment,
-    /// Displacements of the left and of the right rail from the layout.
+    /// Displacements of the left and the right rail from the layout.
     pub rails: [RailDeviation; 2],
 }
 
 impl Track {
-    /// A track of checked parts; deviations of irregularity and defects add up.
+    /// Builds a track. The deviations of irregularity and defects add up.
     ///
     /// # Errors
-    /// A defect with a length not within 0.05 to 1000 m, more than 0.2 m of displacement, or a rounding not within 1 mm to the length
-    /// of the straights it joins.
+    /// A defect with a length outside 0.05 to 1000 m, a displacement above 0.2 m, or a rounding shorter than 1 mm or
+    /// longer than one of the straight lines that it joins.
     pub fn new(
         layout: Layout,
         irregularity: Irregularity,
@@ -82,7 +84,9 @@ impl Track {
         })
     }
 
-    /// Alignment and displacements of the rails at a distance; does not allocate, and costs the same everywhere but for the defects' own formulas.
+    /// Returns the alignment and the displacements of the rails at a distance.
+    ///
+    /// Does not allocate. Apart from the defects, the cost does not depend on the distance.
     #[inline]
     pub fn at(&self, distance_m: f64) -> TrackPoint {
         TrackPoint {
@@ -91,7 +95,7 @@ impl Track {
         }
     }
 
-    /// Displacements of the left and of the right rail at a distance.
+    /// Returns the displacements of the left and the right rail at a distance.
     #[inline]
     pub fn rails(&self, distance_m: f64) -> [RailDeviation; 2] {
         let mut rails = self.irregularity.at(distance_m);
@@ -103,17 +107,17 @@ impl Track {
         rails
     }
 
-    /// The layout.
+    /// Returns the layout.
     pub fn layout(&self) -> &Layout {
         &self.layout
     }
 
-    /// The irregularity.
+    /// Returns the irregularity.
     pub fn irregularity(&self) -> &Irregularity {
         &self.irregularity
     }
 
-    /// The defects.
+    /// Returns the defects.
     pub fn defects(&self) -> &[Defect] {
         &self.defects
     }

@@ -1,4 +1,4 @@
-//! Deviations of both rails, from those of the track as a whole.
+//! Deviations of the track and of its two rails.
 
 use std::ops::{Add, AddAssign};
 
@@ -6,20 +6,21 @@ use crate::contact::RailDisplacement;
 
 /// Deviations of a track from its layout, or their slopes.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[non_exhaustive]
 pub struct Channels {
-    /// Vertical profile: mean of both rails, down positive, m.
+    /// Vertical profile: mean of both rails, positive downward, m.
     pub vertical: f64,
-    /// Alignment: mean of both rails, right positive, m.
+    /// Alignment: mean of both rails, positive to the right, m.
     pub lateral: f64,
-    /// Cross level: height of the left rail over the right one beyond the cant, m.
+    /// Cross level: height of the left rail above the right rail in excess of the cant, m.
     pub cross_level: f64,
-    /// Gauge: distance of the rails beyond the nominal one, m.
+    /// Gauge deviation: distance between the rails in excess of the nominal gauge, m.
     pub gauge: f64,
 }
 
 impl Channels {
-    /// The four in the order vertical, lateral, cross level, gauge.
-    pub(super) fn of([vertical, lateral, cross_level, gauge]: [f64; 4]) -> Self {
+    /// Returns the channels from an array in the order vertical, lateral, cross level, gauge.
+    pub(super) fn from_array([vertical, lateral, cross_level, gauge]: [f64; 4]) -> Self {
         Self {
             vertical,
             lateral,
@@ -29,26 +30,27 @@ impl Channels {
     }
 }
 
-/// Displacement of one rail from the layout, and its change over the distance.
+/// Displacement of one rail from the layout, and its slope.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[non_exhaustive]
 pub struct RailDeviation {
-    /// Lateral displacement, right positive, m.
+    /// Lateral displacement, positive to the right, m.
     pub lateral_m: f64,
-    /// Vertical displacement, down positive, m.
+    /// Vertical displacement, positive downward, m.
     pub vertical_m: f64,
-    /// Change of `lateral_m` over the distance, dimensionless.
+    /// Change of `lateral_m` per distance, dimensionless.
     pub lateral_slope: f64,
-    /// Change of `vertical_m` over the distance, dimensionless.
+    /// Change of `vertical_m` per distance, dimensionless.
     pub vertical_slope: f64,
 }
 
 impl RailDeviation {
-    /// Left and right rail from deviations of the track and their slopes:
+    /// Returns the deviations of the left and the right rail from those of the track and their slopes:
     ///
-    /// - vertical: `vertical - cross_level / 2` left, `vertical + cross_level / 2` right (down is positive);
+    /// - vertical: `vertical - cross_level / 2` left, `vertical + cross_level / 2` right (positive downward);
     /// - lateral: `lateral - gauge / 2` left, `lateral + gauge / 2` right.
     #[inline]
-    pub fn of_rails(deviations: &Channels, slopes: &Channels) -> [Self; 2] {
+    pub fn left_and_right(deviations: &Channels, slopes: &Channels) -> [Self; 2] {
         [-0.5, 0.5].map(|half| Self {
             lateral_m: deviations.lateral + half * deviations.gauge,
             vertical_m: deviations.vertical + half * deviations.cross_level,
@@ -57,7 +59,8 @@ impl RailDeviation {
         })
     }
 
-    /// What the contact is told of the rail under a wheel that moves along it: the rates are the speed times the slopes.
+    /// Returns the displacement of the rail under a wheel that moves along it. Velocities are the speed times the
+    /// slopes.
     #[inline]
     pub fn displacement(&self, speed_m_per_s: f64) -> RailDisplacement {
         RailDisplacement {

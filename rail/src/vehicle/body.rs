@@ -1,74 +1,84 @@
-//! What a vehicle consists of.
+//! Parameters of a vehicle: its bodies and wheelsets.
 
 use super::element::{Element, Law};
 use super::error::VehicleError;
 use super::ride_point::RidePoint;
 
 /// A vehicle: rigid bodies and wheelsets, connected by elements.
+///
+/// ```
+/// use dashpot_rail::vehicle::{Body, VehicleParameters};
+/// let body = Body::new("body", 30e3, [40e3, 900e3, 900e3], 1.5);
+/// let vehicle = VehicleParameters::new("wagon").with_bodies([body]);
+/// assert_eq!(vehicle.bodies[0].mass_kg, 30e3);
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub struct VehicleParameters {
     /// Name.
     pub name: String,
-    /// Car body, bogie frames, and what else is rigid.
+    /// Rigid bodies: the car body, bogie frames and others.
     pub bodies: Vec<Body>,
     /// Wheelsets.
     pub wheelsets: Vec<Wheelset>,
-    /// What connects them.
+    /// Elements that connect bodies, wheelsets and the track.
     pub elements: Vec<Element>,
-    /// Where the ride is told of; nothing moves otherwise for them.
+    /// Points at which ride accelerations are measured. They do not affect the motion.
     pub ride_points: Vec<RidePoint>,
 }
 
 /// A rigid body.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub struct Body {
-    /// Name, by which elements are attached to it.
+    /// Name, by which elements refer to the body.
     pub name: String,
     /// Mass, kg.
     pub mass_kg: f64,
     /// Moments of inertia about the centre of gravity: roll, pitch, yaw, kg m^2.
     pub inertia_kg_m2: [f64; 3],
-    /// Longitudinal position of the centre of gravity from the middle of the vehicle, forward positive, m.
+    /// Longitudinal position of the centre of gravity from the middle of the vehicle, positive forward, m.
     pub x_m: f64,
-    /// Height of the centre of gravity above the rails' top, m.
+    /// Height of the centre of gravity above the top of the rails, m.
     pub height_m: f64,
 }
 
 /// A wheelset.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub struct Wheelset {
-    /// Name, by which elements are attached to it.
+    /// Name, by which elements refer to the wheelset.
     pub name: String,
     /// Mass, kg.
     pub mass_kg: f64,
     /// Moments of inertia about the centre: roll, spin, yaw, kg m^2.
     pub inertia_kg_m2: [f64; 3],
-    /// Longitudinal position from the middle of the vehicle, forward positive, m.
+    /// Longitudinal position from the middle of the vehicle, positive forward, m.
     pub x_m: f64,
-    /// Radius of the wheels and height of the centre, m.
+    /// Radius of the wheels, which is also the height of the centre, m.
     pub radius_m: f64,
 }
 
 /// A coordinate of a body.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Coordinate {
-    /// To the right, m.
+    /// Positive to the right, m.
     Lateral,
-    /// Down, m.
+    /// Positive downward, m.
     Vertical,
-    /// Right side down, rad.
+    /// Positive with the right side down, rad.
     Roll,
-    /// Nose up, rad.
+    /// Positive with the nose up, rad.
     Pitch,
-    /// Nose to the right, rad.
+    /// Positive with the nose to the right, rad.
     Yaw,
 }
 
 impl Coordinate {
-    pub(super) fn word(self) -> &'static str {
+    pub(super) fn name(self) -> &'static str {
         match self {
             Self::Lateral => "lateral",
             Self::Vertical => "vertical",
@@ -79,7 +89,7 @@ impl Coordinate {
     }
 }
 
-/// The coordinates of a body in their order.
+/// Coordinates of a body, in the order used by all arrays.
 pub const COORDINATES: [Coordinate; 5] = [
     Coordinate::Lateral,
     Coordinate::Vertical,
@@ -89,7 +99,46 @@ pub const COORDINATES: [Coordinate; 5] = [
 ];
 
 impl VehicleParameters {
-    /// The hydraulic dampers, in the order in which a [`Vehicle`](super::Vehicle) counts them.
+    /// Returns a vehicle without bodies, wheelsets or elements.
+    pub fn new(name: impl Into<String>) -> Self {
+        Self {
+            name: name.into(),
+            bodies: Vec::new(),
+            wheelsets: Vec::new(),
+            elements: Vec::new(),
+            ride_points: Vec::new(),
+        }
+    }
+
+    /// Adds rigid bodies.
+    #[must_use]
+    pub fn with_bodies(mut self, bodies: impl IntoIterator<Item = Body>) -> Self {
+        self.bodies.extend(bodies);
+        self
+    }
+
+    /// Adds wheelsets.
+    #[must_use]
+    pub fn with_wheelsets(mut self, wheelsets: impl IntoIterator<Item = Wheelset>) -> Self {
+        self.wheelsets.extend(wheelsets);
+        self
+    }
+
+    /// Adds elements.
+    #[must_use]
+    pub fn with_elements(mut self, elements: impl IntoIterator<Item = Element>) -> Self {
+        self.elements.extend(elements);
+        self
+    }
+
+    /// Adds ride points.
+    #[must_use]
+    pub fn with_ride_points(mut self, points: impl IntoIterator<Item = RidePoint>) -> Self {
+        self.ride_points.extend(points);
+        self
+    }
+
+    /// Returns the hydraulic dampers, in the order in which a [`Vehicle`](super::Vehicle) numbers them.
     pub fn dampers(&self) -> impl Iterator<Item = &Element> {
         let elements = self.elements.iter();
         elements.filter(|element| matches!(element.law, Law::Damper { .. }))
@@ -97,6 +146,29 @@ impl VehicleParameters {
 }
 
 impl Body {
+    /// Returns a body in the middle of the vehicle; moments of inertia are roll, pitch and yaw.
+    pub fn new(
+        name: impl Into<String>,
+        mass_kg: f64,
+        inertia_kg_m2: [f64; 3],
+        height_m: f64,
+    ) -> Self {
+        Self {
+            name: name.into(),
+            mass_kg,
+            inertia_kg_m2,
+            x_m: 0.0,
+            height_m,
+        }
+    }
+
+    /// Sets the longitudinal position of the centre of gravity from the middle of the vehicle, positive forward, m.
+    #[must_use]
+    pub fn with_x_m(mut self, x_m: f64) -> Self {
+        self.x_m = x_m;
+        self
+    }
+
     pub(super) fn check(&self) -> Result<(), VehicleError> {
         let owner = &self.name;
         VehicleError::check(owner, "mass_kg", self.mass_kg, [1.0, 1e6])?;
@@ -113,13 +185,36 @@ impl Body {
         [self.mass_kg, self.mass_kg, roll, pitch, yaw]
     }
 
-    /// The centre of gravity: x, y, z.
+    /// Centre of gravity: x, y, z, m.
     pub(super) fn centre_m(&self) -> [f64; 3] {
         [self.x_m, 0.0, -self.height_m]
     }
 }
 
 impl Wheelset {
+    /// Returns a wheelset in the middle of the vehicle; moments of inertia are roll, spin and yaw.
+    pub fn new(
+        name: impl Into<String>,
+        mass_kg: f64,
+        inertia_kg_m2: [f64; 3],
+        radius_m: f64,
+    ) -> Self {
+        Self {
+            name: name.into(),
+            mass_kg,
+            inertia_kg_m2,
+            x_m: 0.0,
+            radius_m,
+        }
+    }
+
+    /// Sets the longitudinal position from the middle of the vehicle, positive forward, m.
+    #[must_use]
+    pub fn with_x_m(mut self, x_m: f64) -> Self {
+        self.x_m = x_m;
+        self
+    }
+
     /// The wheelset as a body.
     pub(super) fn body(&self) -> Body {
         Body {

@@ -3,24 +3,24 @@
 use crate::contact::{Motion, PatchSource, RailDisplacement, WheelsetContact};
 use crate::creep::CreepLaw;
 
-/// Where a centred wheelset stands, and the radius on which it rolls freely.
+/// Equilibrium of a centred wheelset under its load, and the radius on which it rolls freely.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Carried {
     /// Vertical displacement as in [`Motion`], m.
     pub vertical_m: f64,
-    /// Rolling radius of the patch with the most load, m.
+    /// Rolling radius of the patch with the largest load, m.
     pub rolling_radius_m: f64,
-    /// Energy of the patches, `2/5 N penetration` each after Hertz, J.
+    /// Energy of the patches, J: `2/5 N penetration` each (Hertz).
     pub contact_j: f64,
-    /// Forces of the left and the right rail on their wheels, N.
+    /// Forces of the left and right rail on their wheels, N.
     pub wheel_forces_n: [[f64; 3]; 2],
 }
 
-/// Speed at which the vertical part of the creep forces is taken, m/s; they do not depend on it.
+/// Speed at which the contact is evaluated, m/s. Creep forces do not depend on it.
 const SPEED_M_PER_S: f64 = 20.0;
 
 impl Carried {
-    /// The height at which the rails of `contact` carry `load`, by bisection; none where they do not within 2 mm.
+    /// Finds the height at which the rails carry `load`, by bisection; `None` if there is none within 2 mm.
     pub fn new<L: CreepLaw, S: PatchSource>(
         contact: &WheelsetContact<L, S>,
         load: f64,
@@ -36,10 +36,10 @@ impl Carried {
         };
         let radius = |motion: &Motion| {
             let patches = contact.forces(motion, &rails).wheels[1].patches;
-            let most = patches.iter().max_by(|a, b| a.load_n.total_cmp(&b.load_n));
-            most.map(|patch| patch.rolling_radius_m)
+            let main = patches.iter().max_by(|a, b| a.load_n.total_cmp(&b.load_n));
+            main.map(|patch| patch.rolling_radius_m)
         };
-        // Twice: the longitudinal creep of one that does not roll freely tilts the force a little.
+        // Twice, because longitudinal creep tilts the force slightly until the wheelset rolls freely.
         for _ in 0..2 {
             motion.vertical_m = carry(load, |vertical_m| {
                 motion.vertical_m = vertical_m;
@@ -63,7 +63,7 @@ impl Carried {
         })
     }
 
-    /// Rolling freely at a speed.
+    /// Motion of free rolling at a speed.
     pub fn motion(&self, speed_m_per_s: f64) -> Motion {
         Motion {
             speed_m_per_s,
@@ -74,7 +74,7 @@ impl Carried {
     }
 }
 
-/// Down to where the rails carry more, then by halves.
+/// Lowers the wheelset until the rails carry more than `load`, then bisects.
 fn carry(load: f64, mut carried: impl FnMut(f64) -> f64) -> Option<f64> {
     let (mut above, mut below) = (-2e-3, -2e-3);
     while carried(below) <= load {

@@ -6,29 +6,51 @@ use nalgebra::Vector3;
 use super::error::VehicleError;
 
 /// An element between two points.
+///
+/// ```
+/// use dashpot_rail::vehicle::{Element, End, Law};
+/// let ends = [End::track([0.0, 1.0, 0.5]), End::body("body", [0.0, 1.0, 0.5])];
+/// let law = Law::SpringDamper { stiffness_n_per_m: [1e6; 3], damping_n_s_per_m: [0.0; 3] };
+/// let spring = Element::new("spring", ends, law);
+/// assert_eq!(spring.ends[1].on.as_deref(), Some("body"));
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub struct Element {
     /// Name.
     pub name: String,
-    /// Where it is attached.
+    /// First and second end.
     pub ends: [End; 2],
-    /// How its force follows from the displacement of the second end against the first.
+    /// Relation between the force and the displacement of the second end relative to the first.
     pub law: Law,
+}
+
+impl Element {
+    /// Returns an element between two ends.
+    pub fn new(name: impl Into<String>, ends: [End; 2], law: Law) -> Self {
+        Self {
+            name: name.into(),
+            ends,
+            law,
+        }
+    }
 }
 
 /// An end of an element.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub struct End {
-    /// Name of the body or wheelset; of none on the track.
+    /// Name of the body or wheelset; `None` on the track.
     pub on: Option<String>,
-    /// Longitudinal and lateral position and height above the rails' top, m: forward, right and up positive.
+    /// Longitudinal position, lateral position and height above the top of the rails, m: positive forward, right and
+    /// up.
     pub at_m: [f64; 3],
 }
 
 impl End {
-    /// On a body or wheelset.
+    /// Returns an end on a body or wheelset.
     pub fn body(name: &str, at_m: [f64; 3]) -> Self {
         Self {
             on: Some(name.to_owned()),
@@ -36,12 +58,12 @@ impl End {
         }
     }
 
-    /// On the track.
+    /// Returns an end on the track.
     pub fn track(at_m: [f64; 3]) -> Self {
         Self { on: None, at_m }
     }
 
-    /// In axes x, y, z.
+    /// Position in the axes x, y, z (z down), m.
     pub(super) fn position_m(&self) -> [f64; 3] {
         let [x, y, height] = self.at_m;
         [x, y, -height]
@@ -54,14 +76,14 @@ impl End {
 pub enum Direction {
     /// Along the track.
     Longitudinal,
-    /// Across.
+    /// Across the track.
     Lateral,
     /// Up and down.
     Vertical,
 }
 
 impl Direction {
-    /// Number of its axis: x, y, z.
+    /// Index of the axis in x, y, z.
     pub(super) fn axis(self) -> usize {
         match self {
             Self::Longitudinal => 0,
@@ -71,18 +93,20 @@ impl Direction {
     }
 }
 
-/// How the force of an element follows from the displacement of its second end against its first.
+/// Relation between the force of an element and the displacement of its second end relative to its first.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub enum Law {
-    /// Springs and dashpots side by side along x, y and z: a coil spring, a rubber bush. The ends are at one place.
+    /// Springs and dashpots in parallel along x, y and z, such as a coil spring. Both ends are at the same point.
     SpringDamper {
         /// Stiffness along x, y and z, N/m.
         stiffness_n_per_m: [f64; 3],
         /// Damping along x, y and z, N s/m.
         damping_n_s_per_m: [f64; 3],
     },
-    /// Springs and dashpots side by side along and about x, y and z: a rubber bush. The ends are at one place.
+    /// Springs and dashpots in parallel along and about x, y and z, such as a rubber bush. Both ends are at the same
+    /// point.
     Bush {
         /// Stiffness along x, y and z, N/m.
         stiffness_n_per_m: [f64; 3],
@@ -93,25 +117,27 @@ pub enum Law {
         /// Damping about x, y and z, N m s/rad.
         damping_n_m_s_per_rad: [f64; 3],
     },
-    /// A hydraulic damper along one direction. Linear equations have it in small motion, its clearance taken up: the secant of
-    /// its characteristic in series with the stiffness of its mounts (Maxwell). The ends are at one place.
+    /// A hydraulic damper along one direction. Both ends are at the same point.
+    ///
+    /// In the linear equations it is a Maxwell element for small motion with its clearance taken up: the secant of its
+    /// characteristic in series with the stiffness of its mounts.
     Damper {
         /// Direction of the axis.
         direction: Direction,
-        /// The damper; extended where the second end moves along the axis against the first.
+        /// The damper. It extends when the second end moves along the axis relative to the first.
         parameters: Box<DamperParameters>,
     },
-    /// A stop on both sides: no force within a gap, then linear between points and on beyond the last. The ends are at one place.
-    /// Linear equations have it open.
+    /// A two-sided stop: no force within a gap, linear between points, and extrapolated beyond the last point. Both
+    /// ends are at the same point. In the linear equations it is open.
     BumpStop {
         /// Direction of the axis.
         direction: Direction,
-        /// Magnitudes of displacement, m, and force against it, N: the first is the gap with no force.
+        /// Magnitudes of displacement, m, and of the resisting force, N. The first point is the gap, with zero force.
         points: Vec<[f64; 2]>,
     },
-    /// A torsion bar that resists the roll of one body against the other.
+    /// A torsion bar that resists the roll of one body relative to the other.
     AntiRollBar {
-        /// Moment over angle, N m/rad.
+        /// Roll stiffness, N m/rad.
         stiffness_n_m_per_rad: f64,
     },
     /// A rod along the line between its ends.
@@ -124,7 +150,36 @@ pub enum Law {
 }
 
 impl Law {
-    /// Force of the springs against a displacement of the second end, N; dashpots have none at rest, nor has a damper.
+    /// Names of all laws, as in a vehicle file.
+    pub const NAMES: &[&str] = &[
+        "spring_damper",
+        "bush",
+        "damper",
+        "bump_stop",
+        "anti_roll_bar",
+        "traction_rod",
+    ];
+
+    /// Returns the name of the law, one of [`Law::NAMES`].
+    ///
+    /// ```
+    /// use dashpot_rail::vehicle::Law;
+    /// let bar = Law::AntiRollBar { stiffness_n_m_per_rad: 2e6 };
+    /// assert_eq!(bar.name(), "anti_roll_bar");
+    /// ```
+    pub fn name(&self) -> &'static str {
+        let index = match self {
+            Self::SpringDamper { .. } => 0,
+            Self::Bush { .. } => 1,
+            Self::Damper { .. } => 2,
+            Self::BumpStop { .. } => 3,
+            Self::AntiRollBar { .. } => 4,
+            Self::TractionRod { .. } => 5,
+        };
+        Self::NAMES[index]
+    }
+
+    /// Spring force that resists a displacement of the second end, N; zero for dashpots and dampers, which are at rest.
     pub(super) fn spring_force(
         &self,
         displacement: Vector3<f64>,
@@ -153,7 +208,7 @@ impl Law {
 const MAX_STIFFNESS: [f64; 2] = [0.0, 1e12];
 const MAX_DAMPING: [f64; 2] = [0.0, 1e10];
 
-/// Greatest number of points of a stop.
+/// Maximum number of points of a stop.
 pub const MAX_STOP_POINTS: usize = 16;
 
 fn check_three(
@@ -176,14 +231,14 @@ fn check_stop(points: &[[f64; 2]]) -> Result<(), &'static str> {
         .flatten()
         .all(|number| (0.0..=1e8).contains(number))
     {
-        return Err("displacements and forces of 0 to 1e8 m and N");
+        return Err("displacements in m and forces in N, each from 0 to 1e8");
     }
     if points[0][1] != 0.0 {
-        return Err("no force at the first displacement, which is the gap");
+        return Err("a force of 0 at the first displacement, which is the gap");
     }
     let rises = |pair: &[[f64; 2]]| pair[1][0] - pair[0][0] >= 1e-6 && pair[1][1] >= pair[0][1];
     if !points.windows(2).all(rises) {
-        return Err("displacements that rise by 1e-6 m at least, and forces that do not fall");
+        return Err("displacements rising by at least 1e-6 m, and forces that do not decrease");
     }
     Ok(())
 }
@@ -260,12 +315,12 @@ impl Element {
         match (&self.law, apart) {
             (Law::TractionRod { .. }, false) => Err(VehicleError::Ends {
                 element: owner.clone(),
-                reason: "the ends of a traction rod are apart: its line is its direction",
+                reason: "the ends of a traction rod must be apart, because its axis is the line between them",
             }),
             (Law::TractionRod { .. } | Law::AntiRollBar { .. }, _) | (_, false) => Ok(()),
             (_, true) => Err(VehicleError::Ends {
                 element: owner.clone(),
-                reason: "the ends of this element are at one place",
+                reason: "both ends of this element must be at the same point",
             }),
         }
     }

@@ -1,150 +1,152 @@
-//! Why a vehicle is refused.
+//! Errors of vehicles.
 
-/// Why a vehicle is refused.
+/// Errors of vehicle parameters, states and requests.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum VehicleError {
-    /// A number is out of bounds.
+    /// A value is out of bounds.
     #[error("{owner}: {name} = {value}, allowed: {} to {}", .allowed[0], .allowed[1])]
     OutOfBounds {
-        /// Body, wheelset, element or ride point.
+        /// Name of the body, wheelset, element or ride point.
         owner: String,
-        /// The quantity.
+        /// Name of the quantity.
         name: &'static str,
         /// Its value.
         value: f64,
-        /// Smallest and greatest allowed value.
+        /// Smallest and largest allowed value.
         allowed: [f64; 2],
     },
     /// Two parts have the same name.
     #[error(
-        "{name}: used twice; every body, wheelset, element and ride point has a name of its own"
+        "{name}: used twice; names of bodies, wheelsets, elements and ride points must be unique"
     )]
     NameUsedTwice {
-        /// The name.
+        /// The duplicate name.
         name: String,
     },
-    /// An element is attached to something that there is not.
-    #[error("{element}: attached to {to}, which there is not; there are {}", .names.join(", "))]
+    /// An element is attached to a body or wheelset that does not exist.
+    #[error("{element}: attached to {to}, which does not exist; allowed: {}", .names.join(", "))]
     NotThere {
-        /// The element.
+        /// Name of the element.
         element: String,
-        /// What it is attached to.
+        /// Name of the missing body or wheelset.
         to: String,
-        /// What there is.
+        /// Names of all bodies and wheelsets.
         names: Vec<String>,
     },
-    /// A ride point is on a body that there is not.
-    #[error("{point}: on {on}, which is no body; there are {}", .names.join(", "))]
+    /// A ride point is on a body that does not exist.
+    #[error("{point}: on {on}, which is not a body; allowed: {}", .names.join(", "))]
     NoSuchBody {
-        /// The ride point.
+        /// Name of the ride point.
         point: String,
-        /// What it is on.
+        /// Name of the missing body.
         on: String,
-        /// The bodies.
+        /// Names of all bodies.
         names: Vec<String>,
     },
     /// Both ends of an element are on the same body.
     #[error("{element}: both ends are on {on}")]
     SameBody {
-        /// The element.
+        /// Name of the element.
         element: String,
-        /// The body.
+        /// Name of the body.
         on: String,
     },
-    /// The ends of an element do not lie as its law needs them.
+    /// The ends of an element do not suit its law.
     #[error("{element}: {reason}")]
     Ends {
-        /// The element.
+        /// Name of the element.
         element: String,
-        /// What is wrong, and what is allowed.
+        /// Required position of the ends.
         reason: &'static str,
     },
-    /// A damper is refused.
+    /// The parameters of a damper are invalid.
     #[error("{element}: {source}")]
     Damper {
-        /// The element.
+        /// Name of the element.
         element: String,
-        /// What is wrong with its parameters.
+        /// Error of its parameters.
         source: Box<dashpot_core::BuildError>,
     },
-    /// The points of a stop are no stop.
+    /// The points of a stop are invalid.
     #[error("{element}: points of a stop: allowed: {reason}")]
     Stop {
-        /// The element.
+        /// Name of the element.
         element: String,
-        /// What is allowed.
+        /// Requirement that the points violate.
         reason: &'static str,
     },
-    /// There is nothing that could move.
-    #[error("no body: a vehicle has one at least")]
+    /// The vehicle has no bodies.
+    #[error("no body: a vehicle needs at least one")]
     NoBody,
-    /// Nothing rolls.
-    #[error("no wheelset: a vehicle that runs has one at least")]
+    /// The vehicle has no wheelsets.
+    #[error("no wheelset: a running vehicle needs at least one")]
     NoWheelset,
-    /// A step is too long for what softens with the load.
-    #[error("step_s = {step_s}: too long for this vehicle; give a shorter one")]
+    /// The step is too long: the load makes the equations of a step indefinite.
+    #[error("step_s = {step_s}: too long for this vehicle; use a shorter step")]
     StepTooLong {
-        /// The step, s.
+        /// Step, s.
         step_s: f64,
     },
-    /// There are not so many dampers.
+    /// The index of a damper is out of range.
     #[error("damper {damper}: the vehicle has {dampers}, counted from 0")]
     NoSuchDamper {
-        /// The number.
+        /// Index, from 0.
         damper: usize,
-        /// How many there are.
+        /// Number of dampers.
         dampers: usize,
     },
-    /// There are not so many bodies.
+    /// The index of a body is out of range.
     #[error("body {body}: the vehicle has {bodies} bodies and wheelsets, counted from 0")]
-    NoBodyOfNumber {
-        /// The number.
+    NoSuchBodyIndex {
+        /// Index, from 0.
         body: usize,
-        /// How many there are.
+        /// Number of bodies and wheelsets.
         bodies: usize,
     },
-    /// A state belongs to another vehicle.
+    /// The state belongs to another vehicle.
     #[error(
         "the state belongs to another vehicle; allowed: a state of a vehicle with the same parameters, step and rails"
     )]
     OtherVehicle,
-    /// A force from outside is not finite.
-    #[error("damper {damper}: a force of {force_n} N from outside, allowed: a finite number")]
+    /// An external force is not finite.
+    #[error("damper {damper}: external force of {force_n} N, allowed: a finite number")]
     OutsideForce {
-        /// The damper.
+        /// Index of the damper, from 0.
         damper: usize,
         /// The force, N.
         force_n: f64,
     },
-    /// The rails do not carry a wheelset.
+    /// The rails cannot carry a wheelset's load.
     #[error(
-        "{wheelset}: a load of {load_n} N, allowed: above 0 and what wheel and rail carry within 2 mm"
+        "{wheelset}: load of {load_n} N, allowed: above 0 and at most what the rails carry when pressed down by 2 mm"
     )]
     NotCarried {
-        /// The wheelset.
+        /// Name of the wheelset.
         wheelset: String,
         /// Its load, N.
         load_n: f64,
     },
-    /// The equations of motion have a number that is not finite, or the iteration for the eigenvalues does not converge.
-    #[error("the modes cannot be found: stiffnesses, damping and masses are too far apart")]
+    /// The equations of motion contain a non-finite value, or the eigenvalue iteration does not converge.
+    #[error(
+        "the modes cannot be found: the values of stiffness, damping and mass are too far apart"
+    )]
     NoModes,
-    /// A body is not held against its weight or against moving away.
+    /// No element holds a body in one of its coordinates.
     #[error("{body}: not held in {coordinate}; add an element that holds it")]
     NotHeld {
-        /// The body.
+        /// Name of the body.
         body: String,
-        /// The coordinate that nothing holds.
+        /// Name of the coordinate.
         coordinate: &'static str,
     },
 }
 
 impl VehicleError {
-    /// Checks that a number of `owner` is within its bounds; NaN is not.
+    /// Checks that a value of `owner` is within its bounds. NaN never is.
     ///
     /// # Errors
-    /// It is not.
+    /// [`VehicleError::OutOfBounds`].
     pub fn check(
         owner: &str,
         name: &'static str,
@@ -162,7 +164,7 @@ impl VehicleError {
         })
     }
 
-    /// The body, wheelset, element or ride point that is wrong, where it is one.
+    /// Returns the name of the invalid body, wheelset, element or ride point; `None` for errors of the whole vehicle.
     pub fn part(&self) -> Option<&str> {
         match self {
             Self::OutOfBounds { owner: part, .. }
@@ -178,7 +180,7 @@ impl VehicleError {
             Self::NoWheelset
             | Self::StepTooLong { .. }
             | Self::NoSuchDamper { .. }
-            | Self::NoBodyOfNumber { .. }
+            | Self::NoSuchBodyIndex { .. }
             | Self::OtherVehicle
             | Self::OutsideForce { .. }
             | Self::NoBody

@@ -1,4 +1,4 @@
-//! Linear equations of motion: `M q'' + C q' + K q = f`, with a state of its own for every dashpot in series with a spring.
+//! Linear equations of motion `M q'' + C q' + K q = f`, with one more state for each dashpot in series with a spring.
 
 use dashpot_core::DamperParameters;
 use dashpot_core::characteristic::Characteristic;
@@ -7,10 +7,10 @@ use nalgebra::{DMatrix, DVector, Matrix3, RowDVector, Vector3};
 use super::body::{Body, COORDINATES};
 use super::element::{Element, Law};
 
-/// Coordinates of a body.
+/// Number of coordinates of a body.
 const N: usize = COORDINATES.len();
 
-/// Bodies that move, and what acts on them.
+/// Moving bodies and the linear forces on them.
 #[derive(Debug, Clone)]
 pub(super) struct Linear {
     /// Diagonal of `M`.
@@ -20,28 +20,31 @@ pub(super) struct Linear {
     pub series: Vec<Series>,
 }
 
-/// A dashpot in series with a spring, along a displacement that the coordinates make.
+/// A dashpot in series with a spring.
 #[derive(Debug, Clone)]
 pub(super) struct Series {
+    /// Displacement of the pair per unit of each coordinate.
     pub displacement: RowDVector<f64>,
     pub damping: f64,
     pub stiffness: f64,
 }
 
-/// The end of an element: a body that moves, by its number, or what is held; the place from its centre, m; and whether it does
-/// not follow the body's pitch, which is the spin of a wheelset in its axleboxes.
+/// The attachment point of an element's end.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Place {
+pub(super) struct Attachment {
+    /// Index of the moving body; `None` if the end is fixed.
     pub body: Option<usize>,
+    /// Position from the body's centre, m.
     pub from_centre: Vector3<f64>,
+    /// True in an axlebox, which does not follow the body's pitch: that is the spin of the wheelset.
     pub is_axlebox: bool,
 }
 
-/// Velocity at which a damper's force is taken for its damping in small motion, m/s.
+/// Velocity amplitude of the secant that gives a damper's small-motion damping, m/s.
 const SMALL_VELOCITY_M_PER_S: f64 = 1e-4;
 
-/// Damping and stiffness in series of a damper in small motion, its clearance taken up: the secant of its characteristic, and
-/// its mounts. Of parameters that were checked.
+/// Damping and series stiffness of a damper in small motion with its clearance taken up: the secant of its
+/// characteristic and the stiffness of its mounts. The parameters must have been checked.
 fn small_motion(parameters: &DamperParameters) -> [f64; 2] {
     let stiffness = 1.0 / parameters.mount.compliance_m_per_n();
     let Ok(checked) = parameters.check() else {
@@ -54,7 +57,7 @@ fn small_motion(parameters: &DamperParameters) -> [f64; 2] {
 }
 
 impl Linear {
-    /// Bodies without elements.
+    /// Returns the equations of bodies without elements.
     pub fn new(bodies: &[Body]) -> Self {
         let size = N * bodies.len();
         let inertia = bodies.iter().flat_map(Body::inertia);
@@ -66,43 +69,43 @@ impl Linear {
         }
     }
 
-    /// Displacement along x, y and z of the second place against the first, for each coordinate.
-    pub fn displacement(&self, places: &[Place; 2]) -> DMatrix<f64> {
+    /// Displacement of the second end relative to the first along x, y and z, per unit of each coordinate.
+    pub fn displacement(&self, ends: &[Attachment; 2]) -> DMatrix<f64> {
         let mut rows = DMatrix::zeros(3, self.inertia.len());
-        for (place, sign) in places.iter().zip([-1.0, 1.0]) {
-            if let Some(body) = place.body {
+        for (end, sign) in ends.iter().zip([-1.0, 1.0]) {
+            if let Some(body) = end.body {
                 let mut block = rows.fixed_view_mut::<3, N>(0, N * body);
                 block[(1, 0)] += sign;
                 block[(2, 1)] += sign;
-                // The rotation vector times the place: minus the place times it.
+                // rotation x position = -(position x rotation).
                 let mut rotations = block.fixed_columns_mut::<3>(2);
-                rotations -= place.from_centre.cross_matrix() * sign;
-                if place.is_axlebox {
+                rotations -= end.from_centre.cross_matrix() * sign;
+                if end.is_axlebox {
                     block.column_mut(3).fill(0.0);
                 }
-                // Nothing holds a body along the track: it gives way to its pitch there.
+                // A body is free along the track, so its pitch meets no resistance there.
                 block[(0, 3)] = 0.0;
             }
         }
         rows
     }
 
-    /// Rotation about x, y and z of the body of a place, for each coordinate.
-    fn rotation(&self, place: &Place) -> DMatrix<f64> {
+    /// Rotation about x, y and z of the body at an end, per unit of each coordinate.
+    fn rotation(&self, end: &Attachment) -> DMatrix<f64> {
         let mut rows = DMatrix::zeros(3, self.inertia.len());
-        if let Some(body) = place.body {
+        if let Some(body) = end.body {
             rows.fixed_view_mut::<3, 3>(0, N * body + 2)
                 .fill_with_identity();
-            if place.is_axlebox {
+            if end.is_axlebox {
                 rows.column_mut(N * body + 3).fill(0.0);
             }
         }
         rows
     }
 
-    /// Adds an element between `places`, on `line` from one end to the other.
-    pub fn add(&mut self, element: &Element, places: &[Place; 2], line: Vector3<f64>) {
-        let displacement = self.displacement(places);
+    /// Adds an element; `line` leads from its first end to its second.
+    pub fn add(&mut self, element: &Element, ends: &[Attachment; 2], line: Vector3<f64>) {
+        let displacement = self.displacement(ends);
         match &element.law {
             Law::SpringDamper {
                 stiffness_n_per_m,
@@ -115,7 +118,7 @@ impl Linear {
                 damping_n_m_s_per_rad,
             } => {
                 self.add_three(&displacement, stiffness_n_per_m, damping_n_s_per_m);
-                let rotation = self.rotation(&places[1]) - self.rotation(&places[0]);
+                let rotation = self.rotation(&ends[1]) - self.rotation(&ends[0]);
                 self.add_three(&rotation, stiffness_n_m_per_rad, damping_n_m_s_per_rad);
             }
             Law::Damper {
@@ -134,8 +137,8 @@ impl Linear {
                 stiffness_n_m_per_rad,
             } => {
                 let mut roll = RowDVector::zeros(self.inertia.len());
-                for (place, sign) in places.iter().zip([-1.0, 1.0]) {
-                    if let Some(body) = place.body {
+                for (end, sign) in ends.iter().zip([-1.0, 1.0]) {
+                    if let Some(body) = end.body {
                         roll[N * body + 2] += sign;
                     }
                 }
@@ -162,62 +165,63 @@ impl Linear {
         self.damping += displacement.transpose() * displacement * damping;
     }
 
-    /// Adds the geometric stiffness of the static `force` on the second of `places`: the second-order part of the potential
-    /// `-F . R^T d`, where the axes of the element turn by the mean rotation `R` of both bodies, and its ends by
-    /// `omega x (omega x r) / 2` beyond their first-order displacement.
-    pub fn add_preload(&mut self, places: &[Place; 2], force: Vector3<f64>) {
-        for (place, sign) in places.iter().zip([-0.5, 0.5]) {
-            let rotation = self.rotation(place);
-            let r = place.from_centre;
-            let ends = force * r.transpose() + r * force.transpose()
+    /// Adds the geometric stiffness of the static `force` on the second end.
+    ///
+    /// It is the second-order part of the potential `-F . R^T d`. The axes of the element turn by `R`, the mean
+    /// rotation of both bodies; each end moves by `omega x (omega x r) / 2` beyond its first-order displacement.
+    pub fn add_preload(&mut self, ends: &[Attachment; 2], force: Vector3<f64>) {
+        for (end, sign) in ends.iter().zip([-0.5, 0.5]) {
+            let rotation = self.rotation(end);
+            let r = end.from_centre;
+            let arm = force * r.transpose() + r * force.transpose()
                 - Matrix3::identity() * (2.0 * force.dot(&r));
-            self.stiffness -= rotation.transpose() * ends * &rotation * sign;
+            self.stiffness -= rotation.transpose() * arm * &rotation * sign;
         }
-        let mean = (self.rotation(&places[0]) + self.rotation(&places[1])) * 0.5;
-        let turned = mean.transpose() * force.cross_matrix() * self.displacement(places);
+        let mean = (self.rotation(&ends[0]) + self.rotation(&ends[1])) * 0.5;
+        let turned = mean.transpose() * force.cross_matrix() * self.displacement(ends);
         self.stiffness -= turned.transpose();
         self.stiffness -= turned;
     }
 
-    /// Matrix of the first-order equations of the velocities, then of the displacements of the dashpots in series, then of those
-    /// coordinates that something depends on: not of how far a wheelset has spun.
+    /// Matrix of the first-order equations. The states are the velocities, the displacements of the dashpots in series,
+    /// and the coordinates that a force depends on; the spin angle of a wheelset is not one of them.
     pub fn first_order(&self) -> DMatrix<f64> {
         let n = self.inertia.len();
-        let depended_on: Vec<usize> = (0..n).filter(|i| self.is_depended_on(*i)).collect();
+        let used: Vec<usize> = (0..n).filter(|i| self.is_used(*i)).collect();
         let coordinates = n + self.series.len();
-        let size = coordinates + depended_on.len();
+        let size = coordinates + used.len();
         let mut matrix = DMatrix::zeros(size, size);
         for i in 0..n {
             for j in 0..n {
                 matrix[(i, j)] = -self.damping[(i, j)] / self.inertia[i];
             }
-            for (number, j) in depended_on.iter().enumerate() {
+            for (number, j) in used.iter().enumerate() {
                 matrix[(i, coordinates + number)] = -self.stiffness[(i, *j)] / self.inertia[i];
             }
         }
         for (number, series) in self.series.iter().enumerate() {
-            // Force `k (x - e)` of the spring, which moves the dashpot: `c e' = k (x - e)`.
+            // The force `k (x - e)` of the spring moves the dashpot: `c e' = k (x - e)`.
             let dashpot = n + number;
             let rate = series.stiffness / series.damping;
             for i in 0..n {
                 let per_inertia = series.displacement[i] * series.stiffness / self.inertia[i];
                 matrix[(i, dashpot)] += per_inertia;
-                for (number, j) in depended_on.iter().enumerate() {
+                for (number, j) in used.iter().enumerate() {
                     matrix[(i, coordinates + number)] -= per_inertia * series.displacement[*j];
                 }
             }
-            for (number, j) in depended_on.iter().enumerate() {
+            for (number, j) in used.iter().enumerate() {
                 matrix[(dashpot, coordinates + number)] += rate * series.displacement[*j];
             }
             matrix[(dashpot, dashpot)] -= rate;
         }
-        for (number, j) in depended_on.into_iter().enumerate() {
+        for (number, j) in used.into_iter().enumerate() {
             matrix[(coordinates + number, j)] = 1.0;
         }
         matrix
     }
 
-    fn is_depended_on(&self, coordinate: usize) -> bool {
+    fn is_used(&self, coordinate: usize) -> bool {
         let by_springs = self.stiffness.column(coordinate).iter().any(|k| *k != 0.0);
         by_springs
             || self
@@ -241,17 +245,17 @@ mod tests {
             height_m: 1.0,
         };
         let linear = Linear::new(&[body]);
-        let held = Place {
+        let held = Attachment {
             body: None,
             from_centre: Vector3::zeros(),
             is_axlebox: false,
         };
-        let place = Place {
+        let end = Attachment {
             body: Some(0),
             from_centre: Vector3::new(2.0, 3.0, 5.0),
             is_axlebox: false,
         };
-        let rows = linear.displacement(&[held, place]);
+        let rows = linear.displacement(&[held, end]);
         let (roll, pitch, yaw) = (1e-3, 2e-3, -3e-3);
         let moved = rows * DVector::from_vec(vec![0.1, 0.2, roll, pitch, yaw]);
         let expected = [

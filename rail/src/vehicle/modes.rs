@@ -10,10 +10,9 @@ use crate::math::eigenvalues::eigenvalues;
 /// A natural mode.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mode {
-    /// Real and imaginary part of the eigenvalue, rad/s; a motion is `exp(lambda t)`.
+    /// Real and imaginary part of the eigenvalue `lambda`, rad/s; the motion is `exp(lambda t)`.
     eigenvalue: [f64; 2],
-    /// Every body's coordinate with its share of the kinetic energy, the greatest first, and whether it moves with the first or
-    /// against it.
+    /// All coordinates of all bodies, by decreasing share of the kinetic energy.
     shares: Vec<Share>,
 }
 
@@ -21,44 +20,47 @@ pub struct Mode {
 struct Share {
     body: String,
     coordinate: Coordinate,
-    of_energy: f64,
+    /// Fraction of the kinetic energy.
+    energy: f64,
+    /// True if it moves in phase with the coordinate that has the largest share, false if in antiphase.
     moves_with_first: bool,
 }
 
-/// Share of the greatest from which a body, or a coordinate, is named beside it.
+/// A body is named beside the first if its share of the energy exceeds this fraction of the first body's.
 const NAMED: f64 = 0.25;
 
 impl Mode {
-    /// Real and imaginary part of the eigenvalue, rad/s: the motion is `exp(lambda t)`, the imaginary part is positive.
+    /// Returns the real and imaginary part of the eigenvalue `lambda`, rad/s. The motion is `exp(lambda t)`; the
+    /// imaginary part is positive.
     pub fn eigenvalue_rad_per_s(&self) -> [f64; 2] {
         self.eigenvalue
     }
 
-    /// Magnitude of the eigenvalue over a full turn, Hz: the frequency without damping of an oscillator of one mass.
+    /// Returns the magnitude of the eigenvalue over `2 pi`, Hz: the undamped frequency of a single-mass oscillator.
     pub fn undamped_hz(&self) -> f64 {
         let [real, imaginary] = self.eigenvalue;
         real.hypot(imaginary) / (2.0 * std::f64::consts::PI)
     }
 
-    /// Frequency of the motion, Hz.
+    /// Returns the frequency of the motion, Hz.
     pub fn damped_hz(&self) -> f64 {
         self.eigenvalue[1] / (2.0 * std::f64::consts::PI)
     }
 
-    /// Part of critical damping; negative where the motion grows.
+    /// Returns the fraction of critical damping; negative if the motion grows.
     pub fn damping_ratio(&self) -> f64 {
         let [real, imaginary] = self.eigenvalue;
         -real / real.hypot(imaginary)
     }
 
-    /// What moves: the bodies with the most kinetic energy, and how.
-    pub fn words(&self) -> String {
+    /// Names the bodies with the most kinetic energy and their motion, for example `body bounce`.
+    pub fn description(&self) -> String {
         let first = &self.shares[0];
         let coordinate = first.coordinate;
         let mut bodies = vec![first.body.as_str()];
         let mut opposed = false;
         for share in &self.shares[1..] {
-            if share.coordinate == coordinate && share.of_energy > NAMED * first.of_energy {
+            if share.coordinate == coordinate && share.energy > NAMED * first.energy {
                 bodies.push(&share.body);
                 opposed |= !share.moves_with_first;
             }
@@ -67,8 +69,8 @@ impl Mode {
         format!("{} {}{against}", bodies.join(" and "), self.motion())
     }
 
-    /// The motion of the first body. One that moves to the side and rolls about a point below is a lower sway, about one above
-    /// an upper sway.
+    /// Motion of the first body. Lateral motion with roll is a lower sway if the centre of rotation is below the body,
+    /// and an upper sway if it is above.
     fn motion(&self) -> &'static str {
         let first = &self.shares[0];
         let other = match first.coordinate {
@@ -78,13 +80,13 @@ impl Mode {
             Coordinate::Lateral => Coordinate::Roll,
             Coordinate::Roll => Coordinate::Lateral,
         };
-        let beside = self
+        let coupled = self
             .shares
             .iter()
             .find(|share| share.body == first.body && share.coordinate == other);
-        match beside {
-            Some(beside) if beside.of_energy > 0.02 => {
-                if beside.moves_with_first == first.moves_with_first {
+        match coupled {
+            Some(coupled) if coupled.energy > 0.02 => {
+                if coupled.moves_with_first == first.moves_with_first {
                     "lower sway"
                 } else {
                     "upper sway"
@@ -96,14 +98,14 @@ impl Mode {
     }
 }
 
-/// All eigenvalues of the state matrix, rad/s.
-pub(super) fn all(linear: &Linear) -> Result<Vec<[f64; 2]>, VehicleError> {
+/// Real and imaginary parts of all eigenvalues of the state matrix, rad/s.
+pub(super) fn eigenvalues_rad_per_s(linear: &Linear) -> Result<Vec<[f64; 2]>, VehicleError> {
     let values = eigenvalues(&linear.first_order()).ok_or(VehicleError::NoModes)?;
     Ok(values.iter().map(|value| [value.re, value.im]).collect())
 }
 
-/// The rows of the state matrix.
-pub(super) fn rows(linear: &Linear) -> Vec<Vec<f64>> {
+/// Rows of the state matrix.
+pub(super) fn state_matrix(linear: &Linear) -> Vec<Vec<f64>> {
     let matrix = linear.first_order();
     matrix
         .row_iter()
@@ -111,8 +113,8 @@ pub(super) fn rows(linear: &Linear) -> Vec<Vec<f64>> {
         .collect()
 }
 
-/// The oscillating modes by rising frequency.
-pub(super) fn of(linear: &Linear, bodies: &[Body]) -> Result<Vec<Mode>, VehicleError> {
+/// Oscillating modes in order of frequency.
+pub(super) fn oscillating(linear: &Linear, bodies: &[Body]) -> Result<Vec<Mode>, VehicleError> {
     let matrix = linear.first_order();
     let values = eigenvalues(&matrix).ok_or(VehicleError::NoModes)?;
     let mut modes: Vec<Mode> = values
@@ -128,11 +130,11 @@ pub(super) fn of(linear: &Linear, bodies: &[Body]) -> Result<Vec<Mode>, VehicleE
     Ok(modes)
 }
 
-/// The eigenvector of an eigenvalue by inverse iteration, from a start of its own for every `number`, so that equal eigenvalues
-/// have different ones.
+/// Eigenvector of an eigenvalue by inverse iteration. The start vector depends on `number`, so that equal eigenvalues
+/// get different eigenvectors.
 fn shape(matrix: &DMatrix<f64>, value: Complex<f64>, number: usize) -> DVector<Complex<f64>> {
     let size = matrix.nrows();
-    // Beside the eigenvalue, where the matrix is singular.
+    // Slightly off the eigenvalue, where the matrix would be singular.
     let shift = value * (1.0 + 1e-7);
     let shifted = DMatrix::from_fn(size, size, |i, j| {
         Complex::from(matrix[(i, j)]) - if i == j { shift } else { Complex::from(0.0) }
@@ -163,7 +165,7 @@ fn shares(shape: &DVector<Complex<f64>>, linear: &Linear, bodies: &[Body]) -> Ve
         .map(|i| Share {
             body: bodies[i / COORDINATES.len()].name.clone(),
             coordinate: COORDINATES[i % COORDINATES.len()],
-            of_energy: energies[i] / total,
+            energy: energies[i] / total,
             moves_with_first: (shape[i] * first.conj()).re >= 0.0,
         })
         .collect()

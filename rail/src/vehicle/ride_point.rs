@@ -1,50 +1,57 @@
-//! Where on a body the ride is told of.
+//! Points at which ride accelerations are measured.
 
 use super::body::{Body, VehicleParameters};
 use super::error::VehicleError;
 
-/// A point of a body where an accelerometer stands.
+/// An accelerometer position on a body.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub struct RidePoint {
     /// Name.
     pub name: String,
-    /// The body.
+    /// Name of the body.
     pub on: String,
-    /// Place: x forward from the middle of the vehicle, y right, height above the rails' top, m.
+    /// Position: x forward from the middle of the vehicle, y to the right, height above the top of the rails, m.
     pub at_m: [f64; 3],
 }
 
 /// Allowed x, y and height, m.
-const PLACES_M: [(&str, [f64; 2]); 3] = [
+const POSITION_BOUNDS_M: [(&str, [f64; 2]); 3] = [
     ("x_m", [-100.0, 100.0]),
     ("y_m", [-10.0, 10.0]),
     ("height_m", [0.0, 10.0]),
 ];
 
 impl RidePoint {
-    /// Acceleration to the right and down of the point, m/s^2, of that of its body's coordinates: `lateral - roll z + yaw x` and
-    /// `vertical + roll y - pitch x`, with `(x, y, z)` from the centre of gravity, z down.
+    /// Returns a point on the body called `on`, at x forward, y right and height above the top of the rails, m.
+    pub fn new(name: impl Into<String>, on: impl Into<String>, at_m: [f64; 3]) -> Self {
+        Self {
+            name: name.into(),
+            on: on.into(),
+            at_m,
+        }
+    }
+
+    /// Returns the acceleration of the point to the right and down, m/s^2, from the accelerations of its body's
+    /// coordinates.
+    ///
+    /// They are `lateral - roll z + yaw x` and `vertical + roll y - pitch x`, with `(x, y, z)` from the centre of
+    /// gravity and z downward.
     ///
     /// ```
     /// use dashpot_rail::vehicle::{Body, RidePoint};
-    /// let body = Body {
-    ///     name: "body".into(),
-    ///     mass_kg: 30e3,
-    ///     inertia_kg_m2: [40e3, 900e3, 900e3],
-    ///     x_m: 1.0,
-    ///     height_m: 1.5,
-    /// };
-    /// let seat = RidePoint { name: "seat".into(), on: "body".into(), at_m: [5.0, 0.5, 2.0] };
-    /// // 4 m ahead of the centre of gravity, 0.5 m right of it and above it.
+    /// let body = Body::new("body", 30e3, [40e3, 900e3, 900e3], 1.5).with_x_m(1.0);
+    /// let seat = RidePoint::new("seat", "body", [5.0, 0.5, 2.0]);
+    /// // 4 m ahead of the centre of gravity, 0.5 m to its right and 0.5 m above it.
     /// let right_side_down = seat.acceleration(&body, [0.0, 0.0, 1.0, 0.0, 0.0]);
     /// assert_eq!(right_side_down, [0.5, 0.5]);
     /// let nose_up_and_right = seat.acceleration(&body, [0.0, 0.0, 0.0, 1.0, 1.0]);
     /// assert_eq!(nose_up_and_right, [4.0, -4.0]);
     /// ```
     #[inline]
-    pub fn acceleration(&self, body: &Body, of_body: [f64; 5]) -> [f64; 2] {
-        let [lateral, vertical, roll, pitch, yaw] = of_body;
+    pub fn acceleration(&self, body: &Body, body_acceleration: [f64; 5]) -> [f64; 2] {
+        let [lateral, vertical, roll, pitch, yaw] = body_acceleration;
         let [x, y, height] = self.at_m;
         let (ahead, above) = (x - body.x_m, height - body.height_m);
         [
@@ -54,7 +61,7 @@ impl RidePoint {
     }
 
     pub(super) fn check(&self, vehicle: &VehicleParameters) -> Result<(), VehicleError> {
-        for ((name, allowed), value) in PLACES_M.into_iter().zip(self.at_m) {
+        for ((name, allowed), value) in POSITION_BOUNDS_M.into_iter().zip(self.at_m) {
             VehicleError::check(&self.name, name, value, allowed)?;
         }
         if vehicle.bodies.iter().any(|body| body.name == self.on) {

@@ -1,45 +1,48 @@
-//! A vehicle that runs on straight track at constant speed, linear about its central position.
+//! Linear equations of a vehicle that runs on straight track at constant speed.
 
 use super::body::{Body, COORDINATES, VehicleParameters};
 use super::carried::Carried;
 use super::error::VehicleError;
 use super::linear::Linear;
 use super::modes::{self, Mode};
-use super::standstill::{Standstill, places, wheelset_bodies};
+use super::standstill::{Standstill, attach, wheelset_bodies};
 use crate::contact::{
     PatchSource, RailDisplacement, WheelDerivatives, WheelsetContact, WheelsetForces,
 };
 use crate::creep::CreepLaw;
 
-/// A vehicle that runs on straight track at constant speed, linear about its central position: the contact by its derivatives
-/// there, the wheelsets with their gyroscopic moments.
+/// A vehicle that runs on straight track at constant speed, linearised about its central position: the contact forces
+/// by their derivatives, the wheelsets with their gyroscopic moments.
 #[derive(Debug, Clone)]
 pub struct Running {
     bodies: Vec<Body>,
     linear: Linear,
 }
 
-/// Fields of [`Motion`](crate::contact::Motion) by each coordinate of a wheelset, in the order of the coordinates; the spin only by its rate.
-const DISPLACED: [Option<usize>; COORDINATES.len()] = [Some(1), Some(2), Some(3), None, Some(4)];
+/// Index of the field of [`Motion`](crate::contact::Motion) for each coordinate of a wheelset. The spin enters only by
+/// its rate.
+const DISPLACEMENT_FIELDS: [Option<usize>; COORDINATES.len()] =
+    [Some(1), Some(2), Some(3), None, Some(4)];
 
-/// Fields of [`Motion`](crate::contact::Motion) by the rate of each coordinate, and the sign: rolling forward is nose down.
-const RATES: [(usize, f64); COORDINATES.len()] =
+/// Index of the field of [`Motion`](crate::contact::Motion) for the rate of each coordinate, and its sign: rolling
+/// forward is nose down.
+const RATE_FIELDS: [(usize, f64); COORDINATES.len()] =
     [(5, 1.0), (6, 1.0), (7, 1.0), (8, -1.0), (9, 1.0)];
 
 /// Bounds of the speed, m/s.
 const SPEED_M_PER_S: [f64; 2] = [0.1, 200.0];
 
-/// What a centred wheelset has of the contact at the height at which the rails carry its load.
+/// Linearised contact of a centred wheelset at the height at which the rails carry its load.
 struct Central {
     derivatives: [WheelDerivatives; 2],
     rotation_rad_per_s: f64,
 }
 
 impl Running {
-    /// The vehicle at `speed_m_per_s`, all wheelsets with `contact`.
+    /// Linearises the vehicle at `speed_m_per_s` with `contact` on all wheelsets.
     ///
     /// # Errors
-    /// As [`Standstill::new`]; a speed out of bounds; a wheelset that the rails of `contact` do not carry.
+    /// Those of [`Standstill::new`], a speed out of bounds, or a wheelset that the rails cannot carry.
     pub fn new<L: CreepLaw, S: PatchSource>(
         vehicle: &VehicleParameters,
         contact: &WheelsetContact<L, S>,
@@ -50,19 +53,19 @@ impl Running {
         let mut bodies = vehicle.bodies.clone();
         bodies.extend(wheelset_bodies(vehicle));
         let mut linear = Linear::new(&bodies);
-        let ends = places(vehicle, true)?;
-        for (element, (places, line)) in vehicle.elements.iter().zip(&ends) {
-            linear.add(element, places, *line);
+        let ends = attach(vehicle, true)?;
+        for (element, (ends, line)) in vehicle.elements.iter().zip(&ends) {
+            linear.add(element, ends, *line);
         }
-        for ((places, _), force) in ends.iter().zip(standstill.forces()) {
-            linear.add_preload(places, *force);
+        for ((ends, _), force) in ends.iter().zip(standstill.forces()) {
+            linear.add_preload(ends, *force);
         }
-        // Most wheelsets have the load of the one before.
-        let mut last: Option<(f64, Central)> = None;
+        // Most wheelsets carry the same load as the previous one.
+        let mut previous: Option<(f64, Central)> = None;
         for (number, wheelset) in vehicle.wheelsets.iter().enumerate() {
             let load_n = standstill.axle_loads_n()[number];
             let is_same = |(load, _): &(f64, Central)| (load - load_n).abs() < 1e-9 * load;
-            let central = match last.take_if(|last| is_same(last)) {
+            let central = match previous.take_if(|previous| is_same(previous)) {
                 Some((_, central)) => central,
                 None => Central::new(contact, speed_m_per_s, load_n).ok_or_else(|| {
                     VehicleError::NotCarried {
@@ -73,35 +76,37 @@ impl Running {
             };
             let first = COORDINATES.len() * (vehicle.bodies.len() + number);
             central.add_to(&mut linear, first);
-            // The angular momentum about the axle turns with it: roll rate gives yaw moment and the other way round.
+            // The angular momentum about the axle turns with the axle: roll rate causes a yaw moment, and vice versa.
             let momentum = wheelset.inertia_kg_m2[1] * central.rotation_rad_per_s;
             linear.damping[(first + 2, first + 4)] += momentum;
             linear.damping[(first + 4, first + 2)] -= momentum;
-            last = Some((load_n, central));
+            previous = Some((load_n, central));
         }
         Ok(Self { bodies, linear })
     }
 
-    /// Modes of bodies and wheelsets by rising frequency; overdamped motion is none.
+    /// Returns the oscillating modes of bodies and wheelsets in order of frequency. Overdamped motion is not a mode.
     ///
     /// # Errors
-    /// Equations with a number that is not finite; an iteration for the eigenvalues that does not converge, which is not known to happen.
+    /// Equations with a non-finite value, or an eigenvalue iteration that does not converge (no such case is known).
     pub fn modes(&self) -> Result<Vec<Mode>, VehicleError> {
-        modes::of(&self.linear, &self.bodies)
+        modes::oscillating(&self.linear, &self.bodies)
     }
 
-    /// All eigenvalues, real and imaginary part, rad/s: also those of motion that does not oscillate. A pair of conjugates is adjacent.
+    /// Returns the real and imaginary parts of all eigenvalues, rad/s, including those of motion that does not
+    /// oscillate. Conjugate pairs are adjacent.
     ///
     /// # Errors
-    /// As [`Self::modes`].
+    /// The same as for [`Self::modes`].
     pub fn eigenvalues_rad_per_s(&self) -> Result<Vec<[f64; 2]>, VehicleError> {
-        modes::all(&self.linear)
+        modes::eigenvalues_rad_per_s(&self.linear)
     }
 
-    /// Rows of the state matrix `A` of `x' = A x`. The states are the velocities of all bodies, the displacements of the dashpots in
-    /// series with springs, and the coordinates that a force depends on, m, rad and s.
+    /// Returns the rows of the state matrix `A` of `x' = A x`. The states are the velocities of all bodies, the
+    /// displacements of the dashpots in series with springs, and the coordinates that a force depends on, in m, rad and
+    /// s.
     pub fn state_matrix(&self) -> Vec<Vec<f64>> {
-        modes::rows(&self.linear)
+        modes::state_matrix(&self.linear)
     }
 }
 
@@ -122,9 +127,9 @@ impl Central {
         })
     }
 
-    /// Stiffness and damping of the contact on the wheelset whose coordinates begin at `first`.
+    /// Adds the contact's stiffness and damping to the wheelset whose coordinates start at `first`.
     fn add_to(&self, linear: &mut Linear, first: usize) {
-        let by = |component: usize, field: usize| -> f64 {
+        let derivative = |component: usize, field: usize| -> f64 {
             self.derivatives
                 .iter()
                 .map(|wheel| match component {
@@ -136,11 +141,11 @@ impl Central {
         };
         for row in 0..COORDINATES.len() {
             for column in 0..COORDINATES.len() {
-                if let Some(field) = DISPLACED[column] {
-                    linear.stiffness[(first + row, first + column)] -= by(row, field);
+                if let Some(field) = DISPLACEMENT_FIELDS[column] {
+                    linear.stiffness[(first + row, first + column)] -= derivative(row, field);
                 }
-                let (field, sign) = RATES[column];
-                linear.damping[(first + row, first + column)] -= sign * by(row, field);
+                let (field, sign) = RATE_FIELDS[column];
+                linear.damping[(first + row, first + column)] -= sign * derivative(row, field);
             }
         }
     }

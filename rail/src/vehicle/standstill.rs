@@ -6,10 +6,10 @@ use super::GRAVITY_M_PER_S2;
 use super::body::{Body, COORDINATES, Coordinate, VehicleParameters, Wheelset};
 use super::element::{Element, End};
 use super::error::VehicleError;
-use super::linear::{Linear, Place};
+use super::linear::{Attachment, Linear};
 use super::modes::{self, Mode};
 
-/// A vehicle at standstill: its wheelsets are held by the rails, its bodies rest on their elements.
+/// A vehicle at standstill: the rails hold its wheelsets, and its bodies rest on their elements.
 #[derive(Debug, Clone)]
 pub struct Standstill {
     bodies: Vec<Body>,
@@ -20,22 +20,22 @@ pub struct Standstill {
     axle_loads_n: Vec<f64>,
 }
 
-/// Frequency below which nothing holds a body, Hz.
-const LEAST_FREQUENCY_HZ: f64 = 0.01;
+/// A body with a lower natural frequency counts as not held, Hz.
+const MIN_FREQUENCY_HZ: f64 = 0.01;
 
 impl Standstill {
-    /// The equilibrium under gravity: displacements of the bodies from where the unloaded elements have them, forces of the
-    /// elements, and the stiffness that these forces add where they turn with the bodies.
+    /// Computes the equilibrium under gravity: the displacements of the bodies from their unloaded positions, the
+    /// forces of the elements, and the geometric stiffness due to these forces.
     ///
     /// # Errors
-    /// A number out of bounds, a name used twice, an element without a body, a body that nothing holds.
+    /// A value out of bounds, a duplicate name, an element on a missing body, or a body that no element holds.
     pub fn new(vehicle: &VehicleParameters) -> Result<Self, VehicleError> {
         let bodies = &vehicle.bodies;
         check(vehicle)?;
         let mut linear = Linear::new(bodies);
-        let ends = places(vehicle, false)?;
-        for (element, (places, line)) in vehicle.elements.iter().zip(&ends) {
-            linear.add(element, places, *line);
+        let ends = attach(vehicle, false)?;
+        for (element, (ends, line)) in vehicle.elements.iter().zip(&ends) {
+            linear.add(element, ends, *line);
         }
         check_held(&linear, bodies)?;
         let weight = DVector::from_fn(linear.inertia.len(), |i, _| {
@@ -55,15 +55,15 @@ impl Standstill {
             .elements
             .iter()
             .zip(&ends)
-            .map(|(element, (places, line))| {
-                let displacement = linear.displacement(places) * &displacements;
+            .map(|(element, (ends, line))| {
+                let displacement = linear.displacement(ends) * &displacements;
                 -element
                     .law
                     .spring_force(displacement.fixed_rows::<3>(0).into(), *line)
             })
             .collect();
-        for ((places, _), force) in ends.iter().zip(&forces) {
-            linear.add_preload(places, *force);
+        for ((ends, _), force) in ends.iter().zip(&forces) {
+            linear.add_preload(ends, *force);
         }
         let wheelsets = wheelset_bodies(vehicle);
         let mut axle_loads_n: Vec<f64> = wheelsets
@@ -72,8 +72,8 @@ impl Standstill {
             .collect();
         for (element, force) in vehicle.elements.iter().zip(&forces) {
             for (end, sign) in element.ends.iter().zip([-1.0, 1.0]) {
-                if let Some(number) = number_of(&wheelsets, end) {
-                    axle_loads_n[number] += sign * force.z;
+                if let Some(index) = index_of(&wheelsets, end) {
+                    axle_loads_n[index] += sign * force.z;
                 }
             }
         }
@@ -86,7 +86,7 @@ impl Standstill {
         })
     }
 
-    /// Load of each wheelset on the rails, N.
+    /// Returns the load of each wheelset on the rails, N.
     pub fn axle_loads_n(&self) -> &[f64] {
         &self.axle_loads_n
     }
@@ -96,32 +96,34 @@ impl Standstill {
         &self.forces
     }
 
-    /// Displacements of a body in the order of [`COORDINATES`], from where its unloaded elements have it, m and rad.
+    /// Returns the displacements of a body from its unloaded position, in the order of [`COORDINATES`], m and rad.
     pub fn displacements(&self, body: usize) -> [f64; COORDINATES.len()] {
         let first = COORDINATES.len() * body;
         std::array::from_fn(|k| self.displacements[first + k])
     }
 
-    /// Modes of the bodies by rising frequency; overdamped motion is none.
+    /// Returns the oscillating modes of the bodies in order of frequency. Overdamped motion is not a mode.
     ///
     /// # Errors
-    /// Equations with a number that is not finite; an iteration for the eigenvalues that does not converge, which is not known to happen.
+    /// Equations with a non-finite value, or an eigenvalue iteration that does not converge (no such case is known).
     pub fn modes(&self) -> Result<Vec<Mode>, VehicleError> {
-        modes::of(&self.linear, &self.bodies)
+        modes::oscillating(&self.linear, &self.bodies)
     }
 
-    /// All eigenvalues, real and imaginary part, rad/s: also those of motion that does not oscillate. A pair of conjugates is adjacent.
+    /// Returns the real and imaginary parts of all eigenvalues, rad/s, including those of motion that does not
+    /// oscillate. Conjugate pairs are adjacent.
     ///
     /// # Errors
-    /// As [`Self::modes`].
+    /// The same as for [`Self::modes`].
     pub fn eigenvalues_rad_per_s(&self) -> Result<Vec<[f64; 2]>, VehicleError> {
-        modes::all(&self.linear)
+        modes::eigenvalues_rad_per_s(&self.linear)
     }
 
-    /// Rows of the state matrix `A` of `x' = A x`. The states are the velocities of all bodies, the displacements of the dashpots in
-    /// series with springs, and the coordinates that a force depends on, m, rad and s.
+    /// Returns the rows of the state matrix `A` of `x' = A x`. The states are the velocities of all bodies, the
+    /// displacements of the dashpots in series with springs, and the coordinates that a force depends on, in m, rad and
+    /// s.
     pub fn state_matrix(&self) -> Vec<Vec<f64>> {
-        modes::rows(&self.linear)
+        modes::state_matrix(&self.linear)
     }
 }
 
@@ -145,38 +147,38 @@ fn check(vehicle: &VehicleParameters) -> Result<(), VehicleError> {
     check_names(vehicle)
 }
 
-fn number_of(bodies: &[Body], end: &End) -> Option<usize> {
+fn index_of(bodies: &[Body], end: &End) -> Option<usize> {
     let name = end.on.as_ref()?;
     bodies.iter().position(|body| body.name == *name)
 }
 
-/// The places of an element's ends, and the line from the first to the second, m.
-pub(super) type PlacedEnds = ([Place; 2], Vector3<f64>);
+/// Both ends of an element, and the line from the first to the second, m.
+pub(super) type AttachedEnds = ([Attachment; 2], Vector3<f64>);
 
-/// The places of every element's ends, and the line from one to the other; wheelsets are held, or move as bodies that follow the
-/// others in number.
-pub(super) fn places(
+/// Attaches the ends of all elements. Wheelsets are fixed, or they are moving bodies with indices after those of the
+/// others.
+pub(super) fn attach(
     vehicle: &VehicleParameters,
     wheelsets_move: bool,
-) -> Result<Vec<PlacedEnds>, VehicleError> {
+) -> Result<Vec<AttachedEnds>, VehicleError> {
     let wheelsets = wheelset_bodies(vehicle);
-    let of_end = |element: &Element, end: &End| {
+    let attach_end = |element: &Element, end: &End| {
         let at = Vector3::from(end.position_m());
         let Some(name) = &end.on else {
-            return Ok(Place {
+            return Ok(Attachment {
                 body: None,
                 from_centre: at,
                 is_axlebox: false,
             });
         };
-        if let Some(number) = number_of(&vehicle.bodies, end) {
-            return Ok(Place {
-                body: Some(number),
-                from_centre: at - Vector3::from(vehicle.bodies[number].centre_m()),
+        if let Some(index) = index_of(&vehicle.bodies, end) {
+            return Ok(Attachment {
+                body: Some(index),
+                from_centre: at - Vector3::from(vehicle.bodies[index].centre_m()),
                 is_axlebox: false,
             });
         }
-        let Some(number) = number_of(&wheelsets, end) else {
+        let Some(index) = index_of(&wheelsets, end) else {
             let all = vehicle.bodies.iter().chain(&wheelsets);
             return Err(VehicleError::NotThere {
                 element: element.name.clone(),
@@ -184,19 +186,19 @@ pub(super) fn places(
                 names: all.map(|body| body.name.clone()).collect(),
             });
         };
-        Ok(Place {
-            body: wheelsets_move.then_some(vehicle.bodies.len() + number),
-            from_centre: at - Vector3::from(wheelsets[number].centre_m()),
+        Ok(Attachment {
+            body: wheelsets_move.then_some(vehicle.bodies.len() + index),
+            from_centre: at - Vector3::from(wheelsets[index].centre_m()),
             is_axlebox: true,
         })
     };
-    let of_element = |element: &Element| {
+    let attach_element = |element: &Element| {
         let [first, second] = &element.ends;
-        let ends = [of_end(element, first)?, of_end(element, second)?];
+        let ends = [attach_end(element, first)?, attach_end(element, second)?];
         let line = Vector3::from(second.position_m()) - Vector3::from(first.position_m());
         Ok((ends, line))
     };
-    vehicle.elements.iter().map(of_element).collect()
+    vehicle.elements.iter().map(attach_element).collect()
 }
 
 fn check_names(vehicle: &VehicleParameters) -> Result<(), VehicleError> {
@@ -213,19 +215,19 @@ fn check_names(vehicle: &VehicleParameters) -> Result<(), VehicleError> {
     Ok(())
 }
 
-/// The motion that the springs resist least, against the least frequency that is one of a body that is held.
+/// Checks that the lowest natural frequency without preload is that of held bodies.
 fn check_held(linear: &Linear, bodies: &[Body]) -> Result<(), VehicleError> {
     let root = linear.inertia.map(|inertia| 1.0 / inertia.sqrt());
     let scaled = linear.stiffness.component_mul(&(&root * root.transpose()));
     let eigen = SymmetricEigen::new(scaled);
-    let (number, square) = eigen.eigenvalues.argmin();
-    let least = (2.0 * std::f64::consts::PI * LEAST_FREQUENCY_HZ).powi(2);
-    if square >= least {
+    let (mode, square) = eigen.eigenvalues.argmin();
+    let min_square = (2.0 * std::f64::consts::PI * MIN_FREQUENCY_HZ).powi(2);
+    if square >= min_square {
         return Ok(());
     }
-    let (place, _) = eigen.eigenvectors.column(number).abs().argmax();
+    let (largest, _) = eigen.eigenvectors.column(mode).abs().argmax();
     Err(VehicleError::NotHeld {
-        body: bodies[place / COORDINATES.len()].name.clone(),
-        coordinate: COORDINATES[place % COORDINATES.len()].word(),
+        body: bodies[largest / COORDINATES.len()].name.clone(),
+        coordinate: COORDINATES[largest % COORDINATES.len()].name(),
     })
 }

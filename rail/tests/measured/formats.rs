@@ -179,7 +179,7 @@ fn the_steps_of_a_simpack_file_are_applied_in_order() {
         measured::parse("uic60.prr", &text, Body::Rail, &EXACT).unwrap()
     };
     let points = with("comment", "'none'").1.points;
-    // Bounds are in the units of the file, m, after the rotation: the field side ends at 20 mm.
+    // Bounds apply after the rotation, in the unit of the file, m: the field side ends at 20 mm.
     let text_of_bounds = "-1\n  bound.y.max = 0.020\n  bound.y.min";
     let (cut, reading) = with("bound.y.min", &format!("{text_of_bounds} = -1"));
     let last = cut.points()[cut.points().len() - 1];

@@ -1,4 +1,4 @@
-//! Defects against their closed forms, and what is refused.
+//! Defects against closed forms; invalid defects are rejected.
 
 use dashpot_rail::track::{Defect, Irregularity, Layout, RailDeviation, Rails, Track};
 
@@ -34,7 +34,7 @@ const TWIST: Defect = Defect::Twist {
 };
 
 #[test]
-fn a_dip_has_its_depth_in_the_middle_of_its_rail() {
+fn a_dip_has_its_depth_in_the_middle_on_one_rail() {
     let track = track(vec![DIP]);
     for (distance_m, depth_m) in [
         (9.9, 0.0),
@@ -53,7 +53,7 @@ fn a_dip_has_its_depth_in_the_middle_of_its_rail() {
 }
 
 #[test]
-fn a_bump_is_lateral_and_of_its_rail() {
+fn a_bump_is_lateral_and_on_one_rail() {
     let track = track(vec![BUMP]);
     let [left, right] = track.rails(14.0);
     assert_eq!(left, RailDeviation::default());
@@ -66,7 +66,7 @@ fn a_kink_is_a_triangle_with_rounded_corners() {
     let lateral = |distance_m| track.rails(distance_m)[0].lateral_m;
     let slope = |distance_m| track.rails(distance_m)[0].lateral_slope;
     assert_eq!(track.rails(35.3)[0], track.rails(35.3)[1]);
-    // Straights outside of the roundings: 8 mm over 5 m.
+    // Straight lines outside the roundings: 8 mm over 5 m.
     for (distance_m, expected_m) in [
         (29.7, 0.0),
         (32.0, 3.2e-3),
@@ -80,7 +80,8 @@ fn a_kink_is_a_triangle_with_rounded_corners() {
         );
     }
     assert!((slope(32.0) - 1.6e-3).abs() < 1e-16 && (slope(38.0) + 1.6e-3).abs() < 1e-16);
-    // The rounding takes offset x rounding / (2 length) in the middle and gives an eighth of its length at half of the angle at the ends.
+    // The rounding reduces the offset in the middle by offset x rounding / (2 length). At the ends the deviation is an
+    // eighth of the rounding times the slope, and the slope is halved.
     assert!((lateral(35.0) - (8e-3 - 8e-3 * 0.5 / 20.0)).abs() < 1e-16);
     assert!((lateral(30.0) - 1.6e-3 * 0.5 / 8.0).abs() < 1e-16);
     assert!(slope(35.0).abs() < 1e-16 && (slope(30.0) - 0.8e-3).abs() < 1e-16);
@@ -91,31 +92,64 @@ fn a_twist_raises_the_left_rail_and_lowers_the_right_one() {
     let track = track(vec![TWIST]);
     for (distance_m, cross_level_m, twist) in [
         (49.8, 0.0, 0.0),
+        // At a corner: the slope is half the twist, the value an eighth of the rounding times the twist.
+        (50.0, 1e-4, 2e-3),
         (51.5, 6e-3, 4e-3),
+        (53.0, 12e-3 - 1e-4, 2e-3),
         (54.0, 12e-3, 0.0),
         (56.5, 12e-3, 0.0),
+        (57.0, 12e-3 - 1e-4, -2e-3),
         (58.0, 8e-3, -4e-3),
+        (60.0, 1e-4, -2e-3),
+        (60.05, 0.25e-4, -1e-3),
         (60.2, 0.0, 0.0),
     ] {
         let [left, right] = track.rails(distance_m);
         assert!(
-            (left.vertical_m + 0.5 * cross_level_m).abs() < 1e-16,
+            (left.vertical_m + 0.5 * cross_level_m).abs() < 1e-15,
             "{distance_m}"
         );
         assert!(
-            (right.vertical_m - 0.5 * cross_level_m).abs() < 1e-16,
+            (right.vertical_m - 0.5 * cross_level_m).abs() < 1e-15,
             "{distance_m}"
         );
         assert!(
-            (right.vertical_slope - left.vertical_slope - twist).abs() < 1e-16,
+            (right.vertical_slope - left.vertical_slope - twist).abs() < 1e-15,
             "{distance_m}"
         );
         assert_eq!(left.lateral_m, 0.0);
     }
 }
 
+/// Between neighbouring samples the deviation changes by the mean slope times the step. No gap remains in which it
+/// could jump.
 #[test]
-fn slopes_are_those_of_the_deviations_and_nothing_jumps() {
+fn deviations_are_continuous_everywhere() {
+    let step_m = 1e-3;
+    for defect in [DIP, BUMP, KINK, TWIST] {
+        let mut before = defect.at(0.0);
+        for i in 1..=70_000 {
+            let distance_m = f64::from(i) * step_m;
+            let here = defect.at(distance_m);
+            for (a, b) in before.iter().zip(&here) {
+                let vertical = 0.5 * step_m * (a.vertical_slope + b.vertical_slope);
+                let lateral = 0.5 * step_m * (a.lateral_slope + b.lateral_slope);
+                assert!(
+                    (b.vertical_m - a.vertical_m - vertical).abs() < 1e-8,
+                    "{defect:?} {distance_m}"
+                );
+                assert!(
+                    (b.lateral_m - a.lateral_m - lateral).abs() < 1e-8,
+                    "{defect:?} {distance_m}"
+                );
+            }
+            before = here;
+        }
+    }
+}
+
+#[test]
+fn slopes_are_the_derivatives_of_the_deviations() {
     let step_m = 1e-5;
     for defect in [DIP, BUMP, KINK, TWIST] {
         let mut largest: f64 = 0.0;
@@ -127,7 +161,7 @@ fn slopes_are_those_of_the_deviations_and_nothing_jumps() {
                 let (a, b, c) = (&before[side], &here[side], &behind[side]);
                 let vertical = (c.vertical_m - a.vertical_m) / (2.0 * step_m);
                 let lateral = (c.lateral_m - a.lateral_m) / (2.0 * step_m);
-                // At the corner of a rounding the difference is off by a quarter of the step times the bend.
+                // At the end of a rounding the difference quotient is off by a quarter of the step times the bend.
                 assert!(
                     (b.vertical_slope - vertical).abs() < 2e-7,
                     "{defect:?} {distance_m}"
@@ -141,7 +175,7 @@ fn slopes_are_those_of_the_deviations_and_nothing_jumps() {
                     .max(b.lateral_slope.abs());
             }
         }
-        assert!(largest > 1e-3, "{defect:?} is not met");
+        assert!(largest > 1e-3, "{defect:?} is outside the samples");
     }
 }
 
@@ -155,7 +189,7 @@ fn defects_add_up() {
 }
 
 #[test]
-fn a_wrong_defect_says_what_where_and_what_is_allowed() {
+fn errors_of_defects_state_location_value_and_bounds() {
     let dip = |length_m, depth_m| Defect::CosineDip {
         rails: Rails::Both,
         start_m: 0.0,
@@ -195,6 +229,7 @@ fn a_wrong_defect_says_what_where_and_what_is_allowed() {
         (kink(0.0), "defect 2: rounding_m 0, allowed: 0.001 to 5"),
         (kink(5.1), "defect 2: rounding_m 5.1, allowed: 0.001 to 5"),
         (twist(-3.0, 1.0, 0.1), "defect 2: base_m -3, allowed"),
+        (twist(3.0, 0.0, 0.1), "defect 2: plateau_m 0, allowed"),
         (
             twist(3.0, 1.0, 1.1),
             "defect 2: rounding_m 1.1, allowed: 0.001 to 1",

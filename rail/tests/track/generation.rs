@@ -1,15 +1,13 @@
-//! Generated irregularities: reproducible, smooth, zero at their ends, refused where they cannot be.
+//! Generated irregularities: reproducible, smooth, zero at their ends; invalid parameters are rejected.
 
 use dashpot_rail::track::{
     Band, Generation, Irregularity, RailDeviation, Seeds, Spectrum, TrackError,
 };
 
 fn generation() -> Generation {
-    Generation {
-        seeds: Seeds::from(42),
-        length_m: 500.0,
-        ..Generation::of(Spectrum::fra(4).unwrap())
-    }
+    Generation::new(Spectrum::fra(4).unwrap())
+        .with_seeds(Seeds::from(42))
+        .with_length_m(500.0)
 }
 
 fn irregularity() -> Irregularity {
@@ -56,7 +54,7 @@ const BITS: [u64; 4] = [
 ];
 
 #[test]
-fn each_channel_has_a_seed_of_its_own() {
+fn each_channel_has_its_own_seed() {
     let one = irregularity().channels(250.0)[0];
     let mut other = generation();
     other.seeds.cross_level += 1;
@@ -71,14 +69,8 @@ fn each_channel_has_a_seed_of_its_own() {
 #[test]
 fn a_longer_or_finer_track_is_the_same_track() {
     let one = irregularity();
-    let longer = Generation {
-        length_m: 2000.0,
-        ..generation()
-    };
-    let finer = Generation {
-        spacing_m: Some(0.1),
-        ..generation()
-    };
+    let longer = generation().with_length_m(2000.0);
+    let finer = generation().with_spacing_m(Some(0.1));
     let [longer, finer] = [longer, finer].map(|g| g.irregularity().unwrap());
     for i in 0..4000 {
         let distance_m = f64::from(i) * 0.1;
@@ -98,7 +90,7 @@ fn a_longer_or_finer_track_is_the_same_track() {
 }
 
 #[test]
-fn it_begins_and_ends_smoothly_with_zero() {
+fn deviations_start_and_end_smoothly_at_zero() {
     let irregularity = irregularity();
     assert_eq!(irregularity.ends_m(), [0.0, 500.0]);
     for distance_m in [-1e9, -10.0, 510.0, f64::INFINITY] {
@@ -109,7 +101,7 @@ fn it_begins_and_ends_smoothly_with_zero() {
         );
     }
     assert!(irregularity.at(f64::NAN)[0].vertical_m.is_nan());
-    // Class 4 has some 11 mm RMS. Half a metre within the ramp of 50 m a four-thousandth of it has come.
+    // Class 4 has about 11 mm RMS. Half a metre into the ramp of 50 m the weight is 1/4000.
     for end in [0.0, 500.0] {
         for i in -100..=100 {
             let distance_m = end + 0.005 * f64::from(i);
@@ -119,14 +111,8 @@ fn it_begins_and_ends_smoothly_with_zero() {
             }
         }
     }
-    // The stated ramp: a track that is level but for it.
-    let ramped = |ramp_m| {
-        let generation = Generation {
-            ramp_m,
-            ..generation()
-        };
-        generation.irregularity().unwrap()
-    };
+    // The ramp itself, as the ratio of a long to a short one.
+    let ramped = |ramp_m| generation().with_ramp_m(ramp_m).irregularity().unwrap();
     let (short, long) = (ramped(1.0), ramped(200.0));
     for (distance_m, weight) in [
         (20.0, 0.024_471_741_852_423_2),
@@ -147,7 +133,7 @@ fn slopes_are_those_of_the_deviations_and_nothing_jumps() {
     let irregularity = irregularity();
     let step_m = 1e-4;
     for i in 0..50_600 {
-        // Across nodes and between them, and beyond both ends.
+        // At nodes, between nodes and beyond both ends.
         let distance_m = -3.0 + 0.01 * f64::from(i);
         let [before, here, behind] =
             [-1.0, 0.0, 1.0].map(|k| irregularity.at(distance_m + k * step_m));
@@ -157,7 +143,7 @@ fn slopes_are_those_of_the_deviations_and_nothing_jumps() {
             let lateral = (c.lateral_m - a.lateral_m) / (2.0 * step_m);
             assert!((b.vertical_slope - vertical).abs() < 1e-8, "{distance_m}");
             assert!((b.lateral_slope - lateral).abs() < 1e-8, "{distance_m}");
-            // The slope has a slope: curvatures are some 0.05 per m at most, and no step of the slope is more than they give.
+            // The slope is continuous too: curvatures are below 0.05 1/m.
             let bend = (c.vertical_slope - a.vertical_slope).abs() / (2.0 * step_m);
             assert!(bend < 0.05, "{distance_m}: {bend}");
         }
@@ -166,13 +152,9 @@ fn slopes_are_those_of_the_deviations_and_nothing_jumps() {
 
 #[test]
 fn curvature_is_continuous_at_every_node_even_where_a_short_ramp_ends() {
-    let generation = Generation {
-        ramp_m: 1.0,
-        ..generation()
-    };
-    let irregularity = generation.irregularity().unwrap();
+    let irregularity = generation().with_ramp_m(1.0).irregularity().unwrap();
     let step_m = 1e-5;
-    let mut greatest: f64 = 0.0;
+    let mut max: f64 = 0.0;
     for i in -60..=2060 {
         let node_m = irregularity.spacing_m() * f64::from(i);
         let slope = |k: f64| irregularity.channels(node_m + k * step_m)[1].lateral;
@@ -182,9 +164,9 @@ fn curvature_is_continuous_at_every_node_even_where_a_short_ramp_ends() {
             (behind - before).abs() < 2e-5,
             "{node_m}: {before} {behind}"
         );
-        greatest = greatest.max(behind.abs());
+        max = max.max(behind.abs());
     }
-    assert!(greatest > 0.02, "{greatest}");
+    assert!(max > 0.02, "{max}");
 }
 
 #[test]
@@ -192,7 +174,7 @@ fn rails_are_the_track_with_half_of_cross_level_and_gauge() {
     let irregularity = irregularity();
     let [deviations, slopes] = irregularity.channels(321.0);
     let [left, right] = irregularity.at(321.0);
-    // The left rail higher (z down: less), the rails further apart (y right).
+    // With z down, a higher left rail has a smaller z; with y right, a wider gauge moves the right rail to larger y.
     assert!((right.vertical_m - left.vertical_m - deviations.cross_level).abs() < 1e-17);
     assert!((0.5 * (right.vertical_m + left.vertical_m) - deviations.vertical).abs() < 1e-17);
     assert!((right.lateral_m - left.lateral_m - deviations.gauge).abs() < 1e-17);
@@ -209,14 +191,8 @@ fn rails_are_the_track_with_half_of_cross_level_and_gauge() {
 }
 
 #[test]
-fn what_cannot_be_generated_is_refused() {
-    let band = |shortest_m, longest_m| Generation {
-        band: Band {
-            shortest_m,
-            longest_m,
-        },
-        ..generation()
-    };
+fn invalid_parameters_are_rejected() {
+    let band = |shortest_m, longest_m| generation().with_band(Band::new(shortest_m, longest_m));
     let mut negative = generation();
     negative.spectrum.gauge.gain_rad3_per_m = -1.0;
     let cases = [
@@ -227,32 +203,19 @@ fn what_cannot_be_generated_is_refused() {
         (band(80.0, 3.0), "band.shortest_m 80, allowed: 0.3 to 2.7"),
         (band(3.0, f64::NAN), "band.longest_m NaN"),
         (
-            Generation {
-                length_m: -1.0,
-                ..generation()
-            },
+            generation().with_length_m(-1.0),
             "length_m -1, allowed: 2 to 1000000",
         ),
         (
-            Generation {
-                ramp_m: 251.0,
-                ..generation()
-            },
+            generation().with_ramp_m(251.0),
             "ramp_m 251, allowed: 1 to 250",
         ),
         (
-            Generation {
-                spacing_m: Some(1.0),
-                ..generation()
-            },
+            generation().with_spacing_m(Some(1.0)),
             "spacing_m 1, allowed: 0.03 to 0.5",
         ),
         (
-            Generation {
-                spacing_m: Some(0.05),
-                length_m: 1e6,
-                ..generation()
-            },
+            generation().with_spacing_m(Some(0.05)).with_length_m(1e6),
             "20000001 samples, allowed: 4000000 or fewer",
         ),
         (negative, "density in m^2/(rad/m) -"),

@@ -1,4 +1,4 @@
-//! Layouts against closed forms, and what is refused.
+//! Layouts against closed forms; invalid layouts are rejected.
 
 use dashpot_rail::track::{Layout, Part, Place, TrackError};
 
@@ -19,7 +19,7 @@ const RIGHT: Part = Part::Circular {
 fn curvature_and_cant_are_linear_in_transitions_and_constant_elsewhere() {
     let layout = Layout::new(&[STRAIGHT, TRANSITION, LEFT, TRANSITION, RIGHT]).unwrap();
     assert_eq!(layout.length_m(), 370.0);
-    // Distance, curvature times 300 m, cant over 0.15 m, and whether they change from left to right (2), to the left (-1) or not.
+    // Distance, curvature times 300 m (equal to cant over 0.15 m), and its change per 60 m.
     for (distance_m, share, change) in [
         (-1e6, 0.0, 0.0),
         (0.0, 0.0, 0.0),
@@ -53,7 +53,7 @@ fn curvature_and_cant_are_linear_in_transitions_and_constant_elsewhere() {
             );
         }
     }
-    // Nothing jumps where parts meet.
+    // Curvature and cant are continuous where parts meet.
     for joint_m in [50.0, 110.0, 210.0, 270.0] {
         let [before, behind] = [-1e-9, 1e-9].map(|step| layout.at(joint_m + step));
         assert!((before.curvature_per_m - behind.curvature_per_m).abs() < 1e-12);
@@ -72,16 +72,16 @@ fn the_heading_is_the_integral_of_the_curvature() {
         let heading = layout.heading_rad(distance_m + 0.5 * step_m);
         assert!((heading - integral).abs() < 1e-9, "{distance_m}");
     }
-    // A transition turns by half of what a curve of its length does.
+    // A transition turns by half as much as a curve of the same length.
     let heading = layout.heading_rad(110.0);
     assert!((heading + 60.0 / (2.0 * 300.0)).abs() < 1e-15, "{heading}");
     assert_eq!(layout.heading_rad(-100.0), 0.0);
 }
 
-/// The clothoid of the length `L` moves the circle of the radius `R` off the straight by `L^2 / (24 R) - L^4 / (2688 R^3)`, and its own
-/// end lies `L^2 / (6 R) - L^4 / (336 R^3)` beside it.
+/// A clothoid of the length `L` shifts the circle of the radius `R` away from the straight by
+/// `L^2 / (24 R) - L^4 / (2688 R^3)`. The offset of its own end from the straight is `L^2 / (6 R) - L^4 / (336 R^3)`.
 #[test]
-fn a_clothoid_ends_beside_the_straight_as_its_series_says() {
+fn the_end_of_a_clothoid_has_the_offset_of_its_series() {
     let (length, radius): (f64, f64) = (60.0, 300.0);
     let parts = [STRAIGHT, TRANSITION, RIGHT];
     let layout = Layout::new(&parts).unwrap();
@@ -97,8 +97,50 @@ fn a_clothoid_ends_beside_the_straight_as_its_series_says() {
     assert!((shift_m - expected).abs() < 2e-6, "{shift_m} {expected}");
 }
 
+/// The heading `s^2/(2 R L)` of a clothoid has the integral `s^3/(6 R L)`; the heading `h + s/R` of a curve has
+/// `h s + s^2/(2 R)`.
 #[test]
-fn a_curve_without_transition_and_cant_begins_at_once() {
+fn the_offset_is_the_integral_of_the_heading() {
+    let layout = Layout::new(&[STRAIGHT, TRANSITION, LEFT, TRANSITION, RIGHT]).unwrap();
+    let (length, radius) = (60.0, -300.0);
+    let offset = |distance_m: f64| layout.course(distance_m).offset_m;
+    let end_of_transition = length * length / (6.0 * radius);
+    let heading = length / (2.0 * radius);
+    let end_of_curve = end_of_transition + heading * 100.0 + 100.0 * 100.0 / (2.0 * radius);
+    for (distance_m, expected) in [
+        (-200.0, 0.0),
+        (50.0, 0.0),
+        (80.0, 30.0 * 30.0 * 30.0 / (6.0 * radius * length)),
+        (110.0, end_of_transition),
+        (
+            150.0,
+            end_of_transition + heading * 40.0 + 40.0 * 40.0 / (2.0 * radius),
+        ),
+        (210.0, end_of_curve),
+    ] {
+        let found = offset(distance_m);
+        assert!(
+            (found - expected).abs() < 1e-12,
+            "{distance_m}: {found} {expected}"
+        );
+    }
+    // From the left-hand to the right-hand curve and beyond, by the trapezoidal rule.
+    let step_m = 0.01;
+    let mut integral = end_of_curve;
+    for i in 0..30_000 {
+        let from_m = 210.0 + step_m * f64::from(i);
+        let headings = layout.heading_rad(from_m) + layout.heading_rad(from_m + step_m);
+        integral += 0.5 * step_m * headings;
+        let found = offset(from_m + step_m);
+        assert!(
+            (found - integral).abs() < 1e-6,
+            "{from_m}: {found} {integral}"
+        );
+    }
+}
+
+#[test]
+fn a_curve_without_transition_and_cant_starts_abruptly() {
     let turnout = Part::Circular {
         radius_m: 190.0,
         length_m: 20.0,
@@ -113,7 +155,7 @@ fn a_curve_without_transition_and_cant_begins_at_once() {
 }
 
 #[test]
-fn a_wrong_layout_says_what_where_and_what_is_allowed() {
+fn errors_of_layouts_state_location_value_and_bounds() {
     let circular = |radius_m, cant_m| Part::Circular {
         radius_m,
         length_m: 100.0,
@@ -140,15 +182,15 @@ fn a_wrong_layout_says_what_where_and_what_is_allowed() {
         ),
         (
             &[circular(300.0, 0.31)],
-            "cant_m (left rail over the right one) 0.31, allowed: -0.1 to 0.3",
+            "cant_m (left rail above right rail) 0.31, allowed: -0.1 to 0.3",
         ),
         (
             &[circular(-300.0, 0.15)],
-            "cant_m (left rail over the right one) 0.15, allowed: -0.3 to 0.1",
+            "cant_m (left rail above right rail) 0.15, allowed: -0.3 to 0.1",
         ),
         (
             &[STRAIGHT, RIGHT],
-            "part 2 of the layout: cant_m begins with 0.15 where the part before ends with 0, allowed: a transition between them",
+            "part 2 of the layout: cant_m starts at 0.15, but the previous part ends at 0, allowed: a transition",
         ),
         (
             &[STRAIGHT, TRANSITION],

@@ -1,4 +1,4 @@
-//! Spectra against a table of RMS values, and generated track against both.
+//! Spectra against a table of RMS values, and generated track against spectra and table.
 
 use std::f64::consts::TAU;
 use std::ops::Range;
@@ -30,10 +30,7 @@ fn table() -> Vec<Row> {
             Row {
                 name: cells[..4].join(" "),
                 spectrum,
-                band: Band {
-                    shortest_m: 1.0 / number(3),
-                    longest_m: 1.0 / number(2),
-                },
+                band: Band::new(1.0 / number(3), 1.0 / number(2)),
                 rms_mm: [4, 5, 6, 7].map(number),
             }
         })
@@ -80,7 +77,7 @@ fn the_densities_have_the_rms_of_the_table() {
     }
 }
 
-/// Generated track of one row of the table: deviations each half metre between the ramps, from several seeds.
+/// Generated track for one row of the table: deviations every half metre between the ramps, for several seeds.
 struct Realisations {
     row: Row,
     deviations_m: Vec<Vec<[f64; 4]>>,
@@ -96,12 +93,10 @@ static REALISATIONS: LazyLock<Vec<Realisations>> = LazyLock::new(|| {
     });
     rows.map(|row| {
         let deviations_m = [1, 2].map(|seed| {
-            let generation = Generation {
-                band: row.band,
-                seeds: Seeds::from(seed),
-                length_m: 10_000.0,
-                ..Generation::of(row.spectrum)
-            };
+            let generation = Generation::new(row.spectrum)
+                .with_band(row.band)
+                .with_seeds(Seeds::from(seed))
+                .with_length_m(10_000.0);
             let irregularity = generation.irregularity().unwrap();
             let between_ramps = (100..19_900).map(|i| SPACING_M * f64::from(i));
             between_ramps
@@ -134,7 +129,7 @@ fn generated_track_has_the_rms_of_the_table() {
     }
 }
 
-/// Welch's method: periodograms of Hann's window over segments of 512 m that overlap by half, at whole numbers of waves a segment.
+/// Welch's method: periodograms with Hann windows of 512 m that overlap by half, at whole numbers of waves per window.
 fn welch(values: &[f64], waves: Range<usize>) -> Vec<f64> {
     let samples = (512.0 / SPACING_M) as usize;
     let window: Vec<f64> = (0..samples)
@@ -159,7 +154,7 @@ fn welch(values: &[f64], waves: Range<usize>) -> Vec<f64> {
                     re * re + im * im
                 })
                 .sum();
-            // One-sided over rad/m.
+            // One-sided density per rad/m.
             sum / starts.len() as f64 * SPACING_M / (TAU * power) * 2.0
         })
         .collect()
@@ -167,7 +162,7 @@ fn welch(values: &[f64], waves: Range<usize>) -> Vec<f64> {
 
 #[test]
 fn generated_track_has_the_spectrum_of_the_formula() {
-    // Waves of 512 m over these numbers: 39 m to 3.01 m, in six parts.
+    // Wavelengths of 512 m divided by these numbers: 39 m to 3.01 m, in six bands.
     let edges = [13, 19, 28, 44, 70, 110, 170];
     let last = edges.len() - 1;
     for Realisations { row, deviations_m } in &*REALISATIONS {
@@ -189,14 +184,14 @@ fn generated_track_has_the_spectrum_of_the_formula() {
                     .map(|wave| found[wave - edges[0]] / density.at(TAU * wave as f64 / 512.0))
                     .sum();
                 let ratio = ratio / (part[1] - part[0]) as f64;
-                // Six to forty waves of two seeds' segments: 0.945 to 1.023 were found.
+                // Means over 6 to 60 waves and the windows of two seeds; the ratios found are 0.945 to 1.023.
                 assert!(
                     (ratio - 1.0).abs() < 0.08,
                     "{}, channel {channel}, {part:?}: {ratio}",
                     row.name
                 );
             }
-            // Outside of the band, waves over 64 m and under 2.5 m: next to nothing of what its ends have.
+            // Outside the band, wavelengths above 64 m and below 2.5 m have less than 1 % of the density at its ends.
             for (outside, end) in [(5..8, found[0]), (205..209, found[found.len() - 1])] {
                 for value in mean_of_seeds(outside) {
                     assert!(value < 0.01 * end, "{}: {value} {end}", row.name);
@@ -207,7 +202,7 @@ fn generated_track_has_the_spectrum_of_the_formula() {
 }
 
 #[test]
-fn channels_do_not_depend_on_one_another() {
+fn channels_are_uncorrelated() {
     for Realisations { row, deviations_m } in &*REALISATIONS {
         let product = |a: usize, b: usize| -> f64 {
             let values = deviations_m.iter().flatten();
@@ -227,7 +222,7 @@ fn channels_do_not_depend_on_one_another() {
 }
 
 #[test]
-fn another_class_is_refused() {
+fn other_classes_are_rejected() {
     for class in [0, 7, 255] {
         let error = Spectrum::fra(class).unwrap_err().to_string();
         assert_eq!(error, format!("FRA class {class}, allowed: 1 to 6"));

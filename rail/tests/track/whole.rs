@@ -1,4 +1,4 @@
-//! A track of all its parts.
+//! A track composed of layout, irregularity and defects.
 
 use dashpot_rail::track::{
     Defect, Generation, Irregularity, Layout, Part, RailDeviation, Rails, Spectrum, Track,
@@ -17,10 +17,7 @@ fn a_track_is_the_sum_of_its_parts() {
         },
     ])
     .unwrap();
-    let irregularity = Generation {
-        length_m: 300.0,
-        ..Generation::of(Spectrum::german_high())
-    };
+    let irregularity = Generation::new(Spectrum::german_high()).with_length_m(300.0);
     let irregularity = irregularity.irregularity().unwrap();
     let dip = Defect::CosineDip {
         rails: Rails::Both,

@@ -10,27 +10,19 @@ use dashpot_rail::vehicle::{
 };
 
 fn body(name: &str, mass_kg: f64, height_m: f64) -> Body {
-    Body {
-        name: name.into(),
-        mass_kg,
-        inertia_kg_m2: [0.8 * mass_kg, 20.0 * mass_kg, 21.0 * mass_kg],
-        x_m: 0.0,
-        height_m,
-    }
+    let inertia_kg_m2 = [0.8, 20.0, 21.0].map(|square| square * mass_kg);
+    Body::new(name, mass_kg, inertia_kg_m2, height_m)
 }
 
 fn spring(name: &str, ends: [End; 2], stiffness: f64, damping: f64) -> Element {
-    Element {
-        name: name.into(),
-        ends,
-        law: Law::SpringDamper {
-            stiffness_n_per_m: [stiffness; 3],
-            damping_n_s_per_m: [damping; 3],
-        },
-    }
+    let law = Law::SpringDamper {
+        stiffness_n_per_m: [stiffness; 3],
+        damping_n_s_per_m: [damping; 3],
+    };
+    Element::new(name, ends, law)
 }
 
-/// Four springs between `from` (the track for none) and `to`, at +-`x_m`, +-`y_m` and a height.
+/// Four springs between `from` (the track if `None`) and `to`, at +-`x_m`, +-`y_m` and `height_m`.
 fn four_springs(
     from: Option<&str>,
     to: &str,
@@ -54,13 +46,9 @@ fn four_springs(
 }
 
 fn vehicle(bodies: Vec<Body>, elements: Vec<Element>) -> VehicleParameters {
-    VehicleParameters {
-        name: "test".into(),
-        bodies,
-        wheelsets: vec![],
-        elements,
-        ride_points: vec![],
-    }
+    VehicleParameters::new("test")
+        .with_bodies(bodies)
+        .with_elements(elements)
 }
 
 fn modes(vehicle: &VehicleParameters) -> Vec<Mode> {
@@ -68,7 +56,7 @@ fn modes(vehicle: &VehicleParameters) -> Vec<Mode> {
 }
 
 fn named<'a>(modes: &'a [Mode], words: &str) -> &'a Mode {
-    let all: Vec<String> = modes.iter().map(Mode::words).collect();
+    let all: Vec<String> = modes.iter().map(Mode::description).collect();
     let found = all.iter().position(|name| name == words);
     &modes[found.unwrap_or_else(|| panic!("no {words} in {all:?}"))]
 }
@@ -79,7 +67,7 @@ fn a_suspended_body_bounces_pitches_and_yaws_as_in_the_textbook() {
     // Springs at the height of the centre of gravity.
     let mut elements = four_springs(None, "body", [5.0, 1.1, 1.5], stiffness, damping);
     for element in &mut elements {
-        // Half as stiff to the side.
+        // Half the lateral stiffness.
         let Law::SpringDamper {
             stiffness_n_per_m, ..
         } = &mut element.law
@@ -90,7 +78,8 @@ fn a_suspended_body_bounces_pitches_and_yaws_as_in_the_textbook() {
     }
     let modes = modes(&vehicle(vec![body("body", mass, 1.5)], elements));
     assert_eq!(modes.len(), 5);
-    // Arms squared, weighted with stiffness, and with damping. Not lateral and roll, which the load couples: see the pendulum.
+    // Squared lever arms, weighted by stiffness and by damping. The load couples lateral and roll: see the pendulum
+    // below.
     let cases = [
         ("body bounce", mass, 1.0, 1.0),
         ("body pitch", 20.0 * mass, 25.0, 25.0),
@@ -115,9 +104,9 @@ fn a_body_above_its_springs_sways_as_an_inverted_pendulum() {
     let (mass, stiffness, height, y) = (30e3, 1e6, 1.2, 1.0);
     let elements = four_springs(None, "body", [5.0, y, 1.5 - height], stiffness, 0.0);
     let modes = modes(&vehicle(vec![body("body", mass, 1.5)], elements));
-    // The axes of the springs turn by half the roll. Their load m g along z then pushes to the side by m g roll/2, and of the
-    // moment of the load on its displaced end half is taken back: [m 0; 0 I] q'' + [k, -k h - w/2; -k h - w/2, k (y^2 + h^2)] q = 0
-    // with w = m g and h down to the springs.
+    // The axes of the springs turn by half the roll, so their load m g along z has the lateral component m g roll/2. It
+    // also takes back half of the moment of the load on its displaced end: [m 0; 0 I] q'' + [k, -k h - w/2; -k h - w/2,
+    // k (y^2 + h^2)] q = 0, with w = m g and the height h above the springs.
     let k = 4.0 * stiffness;
     let inertia = 0.8 * mass;
     let (a, b) = (k / mass, k * (y * y + height * height) / inertia);
@@ -143,18 +132,16 @@ fn a_dashpot_in_series_with_a_spring_is_a_cubic() {
     let mut elements = four_springs(None, "body", [5.0, 1.0, 1.5], stiffness, 0.0);
     for (number, x) in [5.0, -5.0].into_iter().enumerate() {
         let at = [x, 0.0, 1.5];
-        elements.push(Element {
-            name: format!("damper {number}"),
-            ends: [End::track(at), End::body("body", at)],
-            law: Law::Damper {
-                direction: Direction::Vertical,
-                parameters: Box::new(DamperParameters::reduced(damping, 1.0, Mount::new(series))),
-            },
-        });
+        let law = Law::Damper {
+            direction: Direction::Vertical,
+            parameters: Box::new(DamperParameters::reduced(damping, 1.0, Mount::new(series))),
+        };
+        let ends = [End::track(at), End::body("body", at)];
+        elements.push(Element::new(format!("damper {number}"), ends, law));
     }
     let modes = modes(&vehicle(vec![body("body", mass, 1.5)], elements));
     let bounce = named(&modes, "body bounce");
-    // m s^2 + k + 2 s c K / (K + s c) = 0: the eigenvalue fulfils it.
+    // The eigenvalue s satisfies m s^2 + k + 2 s c K / (K + s c) = 0.
     let (omega, ratio) = (bounce.undamped_hz() * 2.0 * PI, bounce.damping_ratio());
     let s = [-ratio * omega, omega * (1.0 - ratio * ratio).sqrt()];
     let product = |a: [f64; 2], b: [f64; 2]| [a[0] * b[0] - a[1] * b[1], a[0] * b[1] + a[1] * b[0]];
@@ -203,72 +190,66 @@ fn two_masses_on_springs_have_the_frequencies_of_the_quadratic() {
 #[test]
 fn an_anti_roll_bar_and_a_traction_rod_add_their_stiffness() {
     let plain = four_springs(None, "body", [5.0, 1.0, 1.5], 1e6, 0.0);
-    let of = |element: Option<Element>| {
+    let modes_with = |element: Option<Element>| {
         let mut elements = plain.clone();
         elements.extend(element);
         modes(&vehicle(vec![body("body", 30e3, 1.5)], elements))
     };
-    let bar = of(Some(Element {
-        name: "bar".into(),
-        ends: [End::track([0.0; 3]), End::body("body", [0.0; 3])],
-        law: Law::AntiRollBar {
+    let bar = modes_with(Some(Element::new(
+        "bar",
+        [End::track([0.0; 3]), End::body("body", [0.0; 3])],
+        Law::AntiRollBar {
             stiffness_n_m_per_rad: 3e6,
         },
-    }));
-    // The sum of the squares of all frequencies is that of stiffness over inertia, whatever couples.
-    let of_squares = |modes: &[Mode]| -> f64 {
+    )));
+    // The sum of all squared frequencies is the trace of stiffness over inertia, whatever the coupling.
+    let trace = |modes: &[Mode]| -> f64 {
         let square = |mode: &Mode| (2.0 * PI * mode.undamped_hz()).powi(2);
         modes.iter().map(square).sum()
     };
     let added = |modes: &[Mode], expected: f64| {
-        let found = of_squares(modes) - of_squares(&of(None));
+        let found = trace(modes) - trace(&modes_with(None));
         assert!(
             (found / expected - 1.0).abs() < 1e-8,
             "{found} for {expected}"
         );
     };
     added(&bar, 3e6 / (0.8 * 30e3));
-    // A rod along the track, 1 m beside the centre of gravity, resists yaw by its arm squared.
-    let rod = of(Some(Element {
-        name: "rod".into(),
-        ends: [
+    // A rod along the track, 1 m beside the centre of gravity, resists yaw with its squared lever arm.
+    let rod = modes_with(Some(Element::new(
+        "rod",
+        [
             End::track([-1.0, 1.0, 1.5]),
             End::body("body", [0.0, 1.0, 1.5]),
         ],
-        law: Law::TractionRod {
+        Law::TractionRod {
             stiffness_n_per_m: 50e6,
             damping_n_s_per_m: 0.0,
         },
-    }));
+    )));
     added(&rod, 50e6 / (21.0 * 30e3));
-    // A bush resists each rotation by a stiffness of its own.
-    let bush = of(Some(Element {
-        name: "bush".into(),
-        ends: [
+    // A bush has a separate stiffness for each rotation.
+    let bush = modes_with(Some(Element::new(
+        "bush",
+        [
             End::track([0.0, 0.0, 1.5]),
             End::body("body", [0.0, 0.0, 1.5]),
         ],
-        law: Law::Bush {
+        Law::Bush {
             stiffness_n_per_m: [0.0, 0.0, 4e6],
             damping_n_s_per_m: [0.0; 3],
             stiffness_n_m_per_rad: [3e6, 20e6, 30e6],
             damping_n_m_s_per_rad: [0.0; 3],
         },
-    }));
+    )));
     let [mass, roll, pitch, yaw] = [1.0, 0.8, 20.0, 21.0].map(|square| square * 30e3);
     added(&bush, 4e6 / mass + 3e6 / roll + 20e6 / pitch + 30e6 / yaw);
 }
 
 #[test]
 fn springs_give_way_under_the_weight_and_the_axles_carry_it() {
-    let wheelset = |name: &str, x_m: f64| Wheelset {
-        name: name.into(),
-        mass_kg: 1500.0,
-        inertia_kg_m2: [800.0, 100.0, 800.0],
-        x_m,
-        radius_m: 0.46,
-    };
-    // The centre of gravity is a quarter of the way from the front axle to the rear one.
+    let wheelset = |name: &str| Wheelset::new(name, 1500.0, [800.0, 100.0, 800.0], 0.46);
+    // The centre of gravity is a quarter of the way from the front axle to the rear axle.
     let mut wagon = body("body", 30e3, 1.5);
     wagon.x_m = 2.0;
     let mut elements = Vec::new();
@@ -279,21 +260,18 @@ fn springs_give_way_under_the_weight_and_the_axles_carry_it() {
             elements.push(spring(&format!("{axle} {y}"), ends, 1e6, 0.0));
         }
     }
-    let standstill = Standstill::new(&VehicleParameters {
-        name: "wagon".into(),
-        bodies: vec![wagon],
-        wheelsets: vec![wheelset("front", 4.0), wheelset("rear", -4.0)],
-        elements,
-        ride_points: vec![],
-    })
-    .unwrap();
+    let vehicle = vehicle(vec![wagon], elements).with_wheelsets([
+        wheelset("front").with_x_m(4.0),
+        wheelset("rear").with_x_m(-4.0),
+    ]);
+    let standstill = Standstill::new(&vehicle).unwrap();
     let weight = 30e3 * GRAVITY_M_PER_S2;
     let of_axle = 1500.0 * GRAVITY_M_PER_S2;
     for (found, share) in standstill.axle_loads_n().iter().zip([0.75, 0.25]) {
         assert!((found - (share * weight + of_axle)).abs() < 1e-6 * weight);
     }
     let [lateral, vertical, roll, pitch, yaw] = standstill.displacements(0);
-    // Down at the front by 0.75 W / 2 MN/m, at the rear by a third of that, 8 m apart.
+    // The front sinks by 0.75 W / (2 MN/m) and the rear, 8 m behind it, by a third of that.
     let (front, rear) = (0.75 * weight / 2e6, 0.25 * weight / 2e6);
     assert!((pitch - (rear - front) / 8.0).abs() < 1e-12);
     assert!((vertical - (front + 2.0 * pitch)).abs() < 1e-12);

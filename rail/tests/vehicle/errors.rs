@@ -1,4 +1,4 @@
-//! What is wrong with a vehicle, where, and what is allowed.
+//! Error messages of invalid vehicles.
 
 use dashpot_core::DamperParameters;
 use dashpot_core::parameters::Mount;
@@ -8,38 +8,25 @@ use dashpot_rail::vehicle::{
 
 fn vehicle() -> VehicleParameters {
     let at = |x: f64, y: f64| [x, y, 0.5];
-    let spring = |name: &str, x: f64, y: f64| Element {
-        name: name.into(),
-        ends: [End::track(at(x, y)), End::body("body", at(x, y))],
-        law: Law::SpringDamper {
+    let spring = |name: &str, x: f64, y: f64| {
+        let ends = [End::track(at(x, y)), End::body("body", at(x, y))];
+        let law = Law::SpringDamper {
             stiffness_n_per_m: [1e6; 3],
             damping_n_s_per_m: [0.0; 3],
-        },
+        };
+        Element::new(name, ends, law)
     };
-    VehicleParameters {
-        name: "test".into(),
-        bodies: vec![Body {
-            name: "body".into(),
-            mass_kg: 30e3,
-            inertia_kg_m2: [30e3, 600e3, 600e3],
-            x_m: 0.0,
-            height_m: 1.5,
-        }],
-        wheelsets: vec![],
-        elements: vec![
+    VehicleParameters::new("test")
+        .with_bodies([Body::new("body", 30e3, [30e3, 600e3, 600e3], 1.5)])
+        .with_elements([
             spring("left", 3.0, -1.0),
             spring("right", -3.0, 1.0),
             spring("third", 3.0, 1.0),
-        ],
-        ride_points: vec![RidePoint {
-            name: "seat".into(),
-            on: "body".into(),
-            at_m: at(3.0, 1.0),
-        }],
-    }
+        ])
+        .with_ride_points([RidePoint::new("seat", "body", at(3.0, 1.0))])
 }
 
-fn error_of(change: impl FnOnce(&mut VehicleParameters)) -> String {
+fn error_after(change: impl FnOnce(&mut VehicleParameters)) -> String {
     let mut vehicle = vehicle();
     change(&mut vehicle);
     Standstill::new(&vehicle).unwrap_err().to_string()
@@ -52,7 +39,7 @@ fn every_error_says_what_where_and_what_is_allowed() {
     assert!(Standstill::new(&vehicle()).is_ok());
     let cases: [(&str, Change); 14] = [
         (
-            "left: points of a stop: allowed: displacements that rise by 1e-6 m at least, and forces that do not fall",
+            "left: points of a stop: allowed: displacements rising by at least 1e-6 m, and forces that do not decrease",
             |v| {
                 v.elements[0].law = Law::BumpStop {
                     direction: Direction::Lateral,
@@ -77,13 +64,13 @@ fn every_error_says_what_where_and_what_is_allowed() {
             v.bodies[0].inertia_kg_m2[1] = f64::NAN;
         }),
         (
-            "left: used twice; every body, wheelset, element and ride point has a name of its own",
+            "left: used twice; names of bodies, wheelsets, elements and ride points must be unique",
             |v| {
                 v.elements[1].name = "left".into();
             },
         ),
         (
-            "left: attached to bogie, which there is not; there are body",
+            "left: attached to bogie, which does not exist; allowed: body",
             |v| {
                 v.elements[0].ends[0].on = Some("bogie".into());
             },
@@ -91,9 +78,12 @@ fn every_error_says_what_where_and_what_is_allowed() {
         ("left: both ends are on body", |v| {
             v.elements[0].ends[0].on = Some("body".into());
         }),
-        ("left: the ends of this element are at one place", |v| {
-            v.elements[0].ends[0].at_m[0] = 1.0;
-        }),
+        (
+            "left: both ends of this element must be at the same point",
+            |v| {
+                v.elements[0].ends[0].at_m[0] = 1.0;
+            },
+        ),
         (
             "left: stiffness_n_per_m = -5, allowed: 0 to 1000000000000",
             |v| {
@@ -103,17 +93,19 @@ fn every_error_says_what_where_and_what_is_allowed() {
                 };
             },
         ),
-        ("seat: on bogie, which is no body; there are body", |v| {
+        ("seat: on bogie, which is not a body; allowed: body", |v| {
             v.ride_points[0].on = "bogie".into()
         }),
         ("seat: height_m = -1, allowed: 0 to 10", |v| {
             v.ride_points[0].at_m[2] = -1.0
         }),
         (
-            "body: used twice; every body, wheelset, element and ride point has a name of its own",
+            "body: used twice; names of bodies, wheelsets, elements and ride points must be unique",
             |v| v.ride_points[0].name = "body".into(),
         ),
-        ("no body: a vehicle has one at least", |v| v.bodies.clear()),
+        ("no body: a vehicle needs at least one", |v| {
+            v.bodies.clear()
+        }),
         (
             "body: not held in pitch; add an element that holds it",
             |v| {
@@ -128,6 +120,6 @@ fn every_error_says_what_where_and_what_is_allowed() {
         ),
     ];
     for (expected, change) in cases {
-        assert_eq!(error_of(change), expected);
+        assert_eq!(error_after(change), expected);
     }
 }

@@ -1,7 +1,13 @@
-//! A vehicle at standstill against closed forms and independent computations.
+//! Vehicles at standstill, at a speed and stepped in time, against closed forms and first principles.
 
+mod between_bodies;
 mod closed_forms;
 mod errors;
+mod flange;
 mod modes_turned_in_a_circle;
 mod random;
 mod running;
+mod states;
+mod support;
+mod suspended;
+mod track;

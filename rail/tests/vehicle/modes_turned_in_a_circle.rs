@@ -1,5 +1,5 @@
-//! The iteration for the eigenvalues had no exceptional shifts: at some speeds of an ordinary wheelset it turned in a circle, and its
-//! modes were refused as "too far apart".
+//! The eigenvalue iteration had no exceptional shifts: at some speeds of an ordinary wheelset it cycled, and the modes
+//! were rejected as "too far apart".
 
 use dashpot_rail::vehicle::Running;
 
@@ -15,7 +15,9 @@ fn a_conical_wheelset_has_modes_at_every_speed() {
             .modes()
             .unwrap_or_else(|error| panic!("{speed} m/s: {error}"));
         assert!(
-            modes.iter().any(|mode| mode.words() == "wheelset lateral"),
+            modes
+                .iter()
+                .any(|mode| mode.description() == "wheelset lateral"),
             "{speed} m/s"
         );
     }

@@ -1,4 +1,4 @@
-//! Modes at a speed against Klingel's kinematic motion and what speed does to a locomotive.
+//! Modes at a speed against Klingel's kinematic motion, and the effect of speed on stability.
 
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -16,7 +16,7 @@ const CONICITY: f64 = 0.05;
 
 pub type Contact = WheelsetContact<KalkerBook, ContactGeometry>;
 
-/// A cone that ends in the root of an S1002, on UIC 60.
+/// Conical wheels with the flange root of S1002, on UIC 60.
 pub fn cone() -> Contact {
     let points: Vec<[f64; 2]> = s1002::profile()
         .points()
@@ -39,17 +39,14 @@ pub fn cone() -> Contact {
 }
 
 fn spring(name: &str, ends: [End; 2], stiffness_n_per_m: [f64; 3]) -> Element {
-    Element {
-        name: name.into(),
-        ends,
-        law: Law::SpringDamper {
-            stiffness_n_per_m,
-            damping_n_s_per_m: [0.0; 3],
-        },
-    }
+    let law = Law::SpringDamper {
+        stiffness_n_per_m,
+        damping_n_s_per_m: [0.0; 3],
+    };
+    Element::new(name, ends, law)
 }
 
-/// A wheelset that carries a body, which is led along the track, on springs that hold nothing but the load.
+/// A wheelset that carries a body on purely vertical springs; the body is guided along the track.
 pub fn free_wheelset() -> VehicleParameters {
     let mut elements = Vec::new();
     for y in [-1.0, 1.0] {
@@ -67,45 +64,31 @@ pub fn free_wheelset() -> VehicleParameters {
         ));
     }
     let at = [0.0, 0.0, 1.5];
-    elements.push(Element {
-        name: "pitch guide".into(),
-        ends: [End::track(at), End::body("body", at)],
-        law: Law::Bush {
-            stiffness_n_per_m: [0.0; 3],
-            damping_n_s_per_m: [0.0; 3],
-            stiffness_n_m_per_rad: [0.0, 1e7, 0.0],
-            damping_n_m_s_per_rad: [0.0; 3],
-        },
-    });
-    VehicleParameters {
-        name: "one wheelset".into(),
-        bodies: vec![Body {
-            name: "body".into(),
-            mass_kg: 18e3,
-            inertia_kg_m2: [20e3, 100e3, 100e3],
-            x_m: 0.0,
-            height_m: 1.5,
-        }],
-        wheelsets: vec![Wheelset {
-            name: "wheelset".into(),
-            mass_kg: 1800.0,
-            inertia_kg_m2: [900.0, 120.0, 900.0],
-            x_m: 0.0,
-            radius_m: 0.625,
-        }],
-        elements,
-        ride_points: vec![],
-    }
+    let law = Law::Bush {
+        stiffness_n_per_m: [0.0; 3],
+        damping_n_s_per_m: [0.0; 3],
+        stiffness_n_m_per_rad: [0.0, 1e7, 0.0],
+        damping_n_m_s_per_rad: [0.0; 3],
+    };
+    let ends = [End::track(at), End::body("body", at)];
+    elements.push(Element::new("pitch guide", ends, law));
+    let wheelset = Wheelset::new("wheelset", 1800.0, [900.0, 120.0, 900.0], 0.625);
+    VehicleParameters::new("one wheelset")
+        .with_bodies([Body::new("body", 18e3, [20e3, 100e3, 100e3], 1.5)])
+        .with_wheelsets([wheelset])
+        .with_elements(elements)
 }
 
 fn hunting(modes: &[Mode]) -> &Mode {
-    let found = modes.iter().find(|mode| mode.words() == "wheelset lateral");
-    found.expect("the wheelset moves to the side")
+    let found = modes
+        .iter()
+        .find(|mode| mode.description() == "wheelset lateral");
+    found.expect("a lateral mode of the wheelset")
 }
 
-/// Wave length `2 pi sqrt(r b / gamma)` (Klingel 1883) of a wheelset that rolls freely, slowly.
+/// Wavelength `2 pi sqrt(r b / gamma)` (Klingel 1883) of a free wheelset at low speed.
 #[test]
-fn a_free_wheelset_moves_as_klingel_says() {
+fn a_free_wheelset_has_the_wavelength_of_klingel() {
     let contact = cone();
     let speed = 2.0;
     let modes = Running::new(&free_wheelset(), &contact, speed)
@@ -113,7 +96,7 @@ fn a_free_wheelset_moves_as_klingel_says() {
         .modes()
         .unwrap();
     let hunting = hunting(&modes);
-    // Half distance of the contacts, at a load near to it.
+    // Half the distance between the contact points, at a similar load.
     let motion = Motion {
         speed_m_per_s: speed,
         rotation_rad_per_s: speed / 0.625,
@@ -128,7 +111,7 @@ fn a_free_wheelset_moves_as_klingel_says() {
     assert!(
         (found / wave_m - 1.0).abs() < 0.02,
         "{found} m for {wave_m} m: {}",
-        hunting.words()
+        hunting.description()
     );
     assert!(
         hunting.damping_ratio().abs() < 0.05,
@@ -137,9 +120,9 @@ fn a_free_wheelset_moves_as_klingel_says() {
     );
 }
 
-/// A free wheelset is stable at no speed; what grows, grows faster at a higher one.
+/// A free wheelset is never stable, and its hunting grows faster at higher speed.
 #[test]
-fn a_free_wheelset_hunts_the_more_the_faster() {
+fn a_free_wheelset_is_less_stable_at_higher_speed() {
     let contact = cone();
     let ratio = |speed: f64| {
         let running = Running::new(&free_wheelset(), &contact, speed).unwrap();
@@ -151,7 +134,7 @@ fn a_free_wheelset_hunts_the_more_the_faster() {
 }
 
 #[test]
-fn a_speed_out_of_bounds_and_a_load_beyond_the_rails_are_refused() {
+fn a_speed_out_of_bounds_and_a_lifted_wheelset_are_rejected() {
     let contact = cone();
     let error = Running::new(&free_wheelset(), &contact, 1e3).unwrap_err();
     assert_eq!(

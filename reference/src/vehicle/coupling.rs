@@ -49,8 +49,12 @@ fn minus(a: Vector, b: Vector) -> Vector {
 }
 
 impl Coupling {
-    /// An element of a vehicle, without a force yet; `number` is that of a damper or stop.
-    pub(super) fn new(vehicle: &VehicleParameters, element: &Element, number: usize) -> Self {
+    /// Returns an element of a vehicle without force; `number` is the index of a damper or stop. `None` if the law is not known here.
+    pub(super) fn new(
+        vehicle: &VehicleParameters,
+        element: &Element,
+        number: usize,
+    ) -> Option<Self> {
         let [first, second] = &element.ends;
         let action = match &element.law {
             Law::SpringDamper {
@@ -99,12 +103,13 @@ impl Coupling {
                     damping: *damping_n_s_per_m,
                 }
             }
+            _ => return None,
         };
-        Self {
+        Some(Self {
             places: [first, second].map(|end| Place::new(vehicle, end)),
             action,
             standing_force: [0.0; 3],
-        }
+        })
     }
 
     pub(super) fn motion(&self, poses: &[Pose; 2]) -> Motion {

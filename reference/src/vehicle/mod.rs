@@ -99,7 +99,10 @@ impl<'a, L: CreepLaw, S: PatchSource> VehicleReference<'a, L, S> {
         VehicleError::check(&vehicle.name, "start_m", start_m, [-1e7, 1e7])?;
         let (mut couplings, mut ranged, mut dampers) = (Vec::new(), Vec::new(), 0);
         for element in &vehicle.elements {
-            couplings.push(Coupling::new(vehicle, element, ranged.len()));
+            let coupling = Coupling::new(vehicle, element, ranged.len());
+            couplings.push(coupling.ok_or_else(|| ReferenceError::UnknownLaw {
+                element: element.name.clone(),
+            })?);
             match &element.law {
                 Law::Damper { parameters, .. } => {
                     ranged.push(Ranged::Damper(dampers, Box::new(Chain::new(parameters)?)));

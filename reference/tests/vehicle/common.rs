@@ -27,13 +27,7 @@ pub fn contact(static_coefficient: f64) -> Contact {
 }
 
 pub fn body() -> Body {
-    Body {
-        name: "body".into(),
-        mass_kg: 30e3,
-        inertia_kg_m2: [40e3, 900e3, 900e3],
-        x_m: 0.0,
-        height_m: 1.5,
-    }
+    Body::new("body", 30e3, [40e3, 900e3, 900e3], 1.5)
 }
 
 /// A spring at a place given by x, y and height.
@@ -44,24 +38,17 @@ pub fn spring(
     damping_n_s_per_m: [f64; 3],
 ) -> Element {
     let end = |name: Option<&str>| name.map_or(End::track(at), |name| End::body(name, at));
-    Element {
-        name: format!("spring {at:?}"),
-        ends: between.map(end),
-        law: Law::SpringDamper {
-            stiffness_n_per_m,
-            damping_n_s_per_m,
-        },
-    }
+    let law = Law::SpringDamper {
+        stiffness_n_per_m,
+        damping_n_s_per_m,
+    };
+    Element::new(format!("spring {at:?}"), between.map(end), law)
 }
 
 pub fn on_track(elements: Vec<Element>) -> VehicleParameters {
-    VehicleParameters {
-        name: "body on springs".into(),
-        bodies: vec![body()],
-        wheelsets: vec![],
-        elements,
-        ride_points: vec![],
-    }
+    VehicleParameters::new("body on springs")
+        .with_bodies([body()])
+        .with_elements(elements)
 }
 
 /// Two axles, 8 m apart.
@@ -78,20 +65,14 @@ pub fn wagon(damping_n_s_per_m: [f64; 3]) -> VehicleParameters {
             ));
         }
     }
-    let wheelset = |name: &str, x_m: f64| Wheelset {
-        name: name.into(),
-        mass_kg: 1500.0,
-        inertia_kg_m2: [800.0, 100.0, 800.0],
-        x_m,
-        radius_m: 0.625,
-    };
-    VehicleParameters {
-        name: "wagon".into(),
-        bodies: vec![body()],
-        wheelsets: vec![wheelset("front axle", 4.0), wheelset("rear axle", -4.0)],
-        elements,
-        ride_points: vec![],
-    }
+    let wheelset = |name: &str| Wheelset::new(name, 1500.0, [800.0, 100.0, 800.0], 0.625);
+    VehicleParameters::new("wagon")
+        .with_bodies([body()])
+        .with_wheelsets([
+            wheelset("front axle").with_x_m(4.0),
+            wheelset("rear axle").with_x_m(-4.0),
+        ])
+        .with_elements(elements)
 }
 
 pub fn track(parts: &[Part], defects: Vec<Defect>) -> Track {

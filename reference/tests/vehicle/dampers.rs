@@ -12,14 +12,12 @@ use crate::damper_parameters as presets;
 fn deviation(parameters: DamperParameters) -> f64 {
     let mut vehicle = wagon([0.0, 0.0, 5e3]);
     let at = [4.0, 1.2, 0.5];
-    vehicle.elements.push(Element {
-        name: "damper".into(),
-        ends: [End::body("front axle", at), End::body("body", at)],
-        law: Law::Damper {
-            direction: Direction::Vertical,
-            parameters: Box::new(parameters.clone()),
-        },
-    });
+    let ends = [End::body("front axle", at), End::body("body", at)];
+    let law = Law::Damper {
+        direction: Direction::Vertical,
+        parameters: Box::new(parameters.clone()),
+    };
+    vehicle.elements.push(Element::new("damper", ends, law));
     let (contact, track) = (contact(0.3), straight(vec![dip(5.0)]));
     let mut reference = VehicleReference::new(&vehicle, &contact, &track, 20.0, 0.0).unwrap();
     let times = times(2e-5, 20_000);

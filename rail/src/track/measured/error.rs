@@ -1,87 +1,87 @@
-//! What can be wrong with the text of a measured track.
+//! Errors of measured track files.
 
 use super::{MAX_INTERVAL_M, MIN_INTERVAL_M, MIN_ROWS};
 use crate::track::TrackError;
 
-/// Why a text is not a measured track.
+/// Errors of reading a measured track.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum MeasuredTrackError {
-    /// The header has a name that is no column's.
+    /// The header has an unknown column name.
     #[error("column {name:?}, allowed: {allowed}, with commas between them")]
     Header {
-        /// Line of the text, counted from 1.
+        /// Line, counted from 1.
         line: u64,
-        /// The name.
+        /// The unknown name.
         name: String,
-        /// Names that are allowed.
+        /// Allowed names.
         allowed: &'static str,
     },
-    /// The header names a column twice, perhaps in m and in mm.
-    #[error("column {name:?} beside another of {column}, allowed: one")]
+    /// The header has a column twice, possibly once in m and once in mm.
+    #[error("column {name:?}: {column} appears twice, allowed: once")]
     Twice {
-        /// Line of the text, counted from 1.
+        /// Line, counted from 1.
         line: u64,
         /// The second name.
         name: String,
-        /// What it holds.
+        /// Quantity of the column.
         column: &'static str,
     },
-    /// The header has no column of distances, or only that one.
+    /// The header has no distance column, or no other column.
     #[error("columns {found}, allowed: distance_m and one or more of {allowed}")]
     Missing {
-        /// Line of the text, counted from 1.
+        /// Line, counted from 1.
         line: u64,
-        /// Names found.
+        /// Names in the header.
         found: String,
-        /// Names that are allowed.
+        /// Allowed names.
         allowed: &'static str,
     },
     /// A row has too few or too many cells.
-    #[error("{found} cells, allowed: {allowed}, as the header")]
+    #[error("{found} cells, allowed: {allowed}, as in the header")]
     Cells {
-        /// Line of the text, counted from 1.
+        /// Line, counted from 1.
         line: u64,
-        /// Number of cells found.
+        /// Number of cells in the row.
         found: usize,
-        /// Number of columns of the header.
+        /// Number of columns in the header.
         allowed: usize,
     },
-    /// A cell is not a number, or out of bounds.
+    /// A cell is not a number or is out of bounds.
     #[error("{text:?}, allowed: a number from {} to {}", -.limit, .limit)]
     Number {
-        /// Line of the text, counted from 1.
+        /// Line, counted from 1.
         line: u64,
         /// Name of the column.
         column: String,
         /// Content of the cell.
         text: String,
-        /// Greatest magnitude, in the unit of the column.
+        /// Maximum magnitude, in the unit of the column.
         limit: f64,
     },
-    /// A distance is not far enough behind the one before, or too far.
+    /// The interval from the previous row is too short or too long.
     #[error(
-        "{interval_m} m behind the row before, allowed: {MIN_INTERVAL_M} to {MAX_INTERVAL_M} m, rising"
+        "{interval_m} m after the previous row, allowed: {MIN_INTERVAL_M} to {MAX_INTERVAL_M} m, rising"
     )]
     Interval {
-        /// Line of the text, counted from 1.
+        /// Line, counted from 1.
         line: u64,
-        /// Distance from the row before, m.
+        /// Distance from the previous row, m.
         interval_m: f64,
     },
     /// There are fewer than [`MIN_ROWS`] rows.
     #[error("too few rows: {found}, allowed: {MIN_ROWS} or more")]
     TooFewRows {
-        /// Number of rows found.
+        /// Number of rows.
         found: usize,
     },
-    /// Spacing, ramp or number of samples are out of bounds.
+    /// Spacing, ramp or number of samples is out of bounds.
     #[error(transparent)]
     Options(#[from] TrackError),
 }
 
 impl MeasuredTrackError {
-    /// Line in error, counted from 1; `None` where the error is not of one line.
+    /// Returns the line of the error, counted from 1; `None` if it does not concern a single line.
     pub fn line(&self) -> Option<u64> {
         match *self {
             Self::Header { line, .. }
@@ -94,7 +94,7 @@ impl MeasuredTrackError {
         }
     }
 
-    /// Column in error; `None` where the error is not of one cell.
+    /// Returns the column of the error; `None` if it does not concern a single cell.
     pub fn column(&self) -> Option<&str> {
         match self {
             Self::Number { column, .. } => Some(column),

@@ -1,8 +1,9 @@
-//! Measured tracks: deviations over the distance from a CSV file, every error located.
+//! Reads measured tracks from CSV files.
 //!
-//! The first row names the columns, in any order: `distance_m`, and one or more of `vertical`, `lateral`, `cross_level` and `gauge`, each with
-//! the unit `_m` or `_mm`. Signs are those of [`Channels`](super::Channels): vertical down, lateral right, cross level with the left
-//! rail higher, gauge wider. `#` starts a line of comment. Distances rise, at equal intervals or not.
+//! The first row names the columns, in any order: `distance_m`, and one or more of `vertical`, `lateral`, `cross_level`
+//! and `gauge`, each with the unit `_m` or `_mm`. Signs are those of [`Channels`](super::Channels): vertical positive
+//! downward, lateral to the right, cross level with the left rail higher, gauge wider. A line that starts with `#` is a
+//! comment. Distances must rise; intervals need not be equal.
 
 mod error;
 mod rows;
@@ -14,26 +15,28 @@ use super::error::{Place, TrackError, within};
 use super::irregularity::Irregularity;
 use crate::math::spline::Spline;
 
-/// Least number of rows.
+/// Minimum number of rows.
 pub const MIN_ROWS: usize = 8;
-/// Least distance between neighbouring rows, m.
+/// Minimum distance between neighbouring rows, m.
 pub const MIN_INTERVAL_M: f64 = 0.01;
-/// Greatest distance between neighbouring rows, m: between rows further apart nothing is known of the waves that shake a vehicle.
+/// Maximum distance between neighbouring rows, m. Rows further apart do not resolve the wavelengths that excite a
+/// vehicle.
 pub const MAX_INTERVAL_M: f64 = 5.0;
 
-/// How a file is used.
+/// Options for reading a file.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Options {
-    /// Added to every distance of the file, m.
+    /// Distance added to all distances of the file, m.
     pub shift_m: f64,
-    /// Length of the smooth start, and of the smooth end, m: as of [`Generation`](super::Generation).
+    /// Length of the ramp at each end, m, as in [`Generation`](super::Generation).
     pub ramp_m: f64,
-    /// Distance of the samples, m; `None`: the least interval of the file.
+    /// Distance between samples, m. `None` selects the shortest interval of the file.
     pub spacing_m: Option<f64>,
 }
 
 impl Default for Options {
-    /// Distances and intervals of the file, ramps of 10 m.
+    /// Returns the distances and intervals of the file and ramps of 10 m.
     fn default() -> Self {
         Self {
             shift_m: 0.0,
@@ -43,25 +46,65 @@ impl Default for Options {
     }
 }
 
-/// What was read.
+impl Options {
+    /// Sets the distance added to all distances of the file, m.
+    #[must_use]
+    pub const fn with_shift_m(mut self, shift_m: f64) -> Self {
+        self.shift_m = shift_m;
+        self
+    }
+
+    /// Sets the length of the ramp at each end, m.
+    #[must_use]
+    pub const fn with_ramp_m(mut self, ramp_m: f64) -> Self {
+        self.ramp_m = ramp_m;
+        self
+    }
+
+    /// Sets the distance between samples, m; `None` selects the shortest interval of the file.
+    #[must_use]
+    pub const fn with_spacing_m(mut self, spacing_m: Option<f64>) -> Self {
+        self.spacing_m = spacing_m;
+        self
+    }
+}
+
+/// Contents of a file.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Reading {
-    /// Rows of numbers.
+    /// Number of data rows.
     pub rows: usize,
-    /// First and last distance of the file, m.
+    /// First and last distance in the file, m.
     pub distances_m: [f64; 2],
-    /// Whether the file has vertical, lateral, cross level and gauge; what it has not is zero.
-    pub channels: [bool; 4],
+    /// Channels in the file. The others are zero.
+    pub channels: ChannelsRead,
+}
+
+/// Channels that a file contains.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
+pub struct ChannelsRead {
+    /// True if the file has the vertical profile.
+    pub vertical: bool,
+    /// True if the file has the alignment.
+    pub lateral: bool,
+    /// True if the file has the cross level.
+    pub cross_level: bool,
+    /// True if the file has the gauge.
+    pub gauge: bool,
 }
 
 /// Reads the deviations of a track from the `text` of a file.
 ///
-/// A natural cubic spline through the rows is sampled at equal distances; the result is ramped at its ends and zero beyond them.
+/// A natural cubic spline through the rows is sampled at equal distances. The result is ramped at both ends and zero
+/// beyond them.
 ///
 /// # Errors
-/// A column that is missing, unknown or there twice, a row with another number of cells, a cell that is no number, a deviation beyond 0.5 m,
-/// fewer than [`MIN_ROWS`] rows, a row less than [`MIN_INTERVAL_M`] or more than [`MAX_INTERVAL_M`] behind the one before, a ramp shorter than
-/// the spacing or longer than half the file, a spacing not within [`MIN_INTERVAL_M`] to [`MAX_INTERVAL_M`].
+/// - a missing, unknown or duplicate column, or a row with the wrong number of cells;
+/// - a cell that is not a number, or a deviation above 0.5 m;
+/// - fewer than [`MIN_ROWS`] rows, or an interval outside [`MIN_INTERVAL_M`] to [`MAX_INTERVAL_M`];
+/// - a spacing outside these bounds, or a ramp shorter than the spacing or longer than half the file.
 ///
 /// ```
 /// use dashpot_rail::track::measured::{self, Options};
@@ -71,7 +114,8 @@ pub struct Reading {
 ///     text += &format!("{distance_m},{:.3},1.5\n", 4.0 * (0.5 * distance_m).sin());
 /// }
 /// let (irregularity, reading) = measured::parse(&text, &Options::default())?;
-/// assert_eq!((reading.rows, reading.channels), (400, [true, false, true, false]));
+/// assert_eq!(reading.rows, 400);
+/// assert!(reading.channels.cross_level && !reading.channels.gauge);
 /// let [left, right] = irregularity.at(1250.1);
 /// let middle_m = 4e-3 * (0.5_f64 * 1250.1).sin();
 /// assert!((left.vertical_m - (middle_m - 0.75e-3)).abs() < 2e-6);
@@ -83,17 +127,17 @@ pub struct Reading {
 /// ```
 pub fn parse(text: &str, options: &Options) -> Result<(Irregularity, Reading), MeasuredTrackError> {
     let (rows, channels) = rows::read(text.trim_start_matches('\u{feff}'))?;
-    let mut least_m = MAX_INTERVAL_M;
+    let mut min_m = MAX_INTERVAL_M;
     for pair in rows.windows(2) {
         let interval_m = pair[1].distance_m - pair[0].distance_m;
-        // Decimal distances differ from their interval by rounding.
+        // The tolerance allows for the rounding of decimal distances.
         if !(MIN_INTERVAL_M - 1e-8..=MAX_INTERVAL_M + 1e-8).contains(&interval_m) {
             return Err(MeasuredTrackError::Interval {
                 line: pair[1].line,
                 interval_m,
             });
         }
-        least_m = least_m.min(interval_m);
+        min_m = min_m.min(interval_m);
     }
     if rows.len() < MIN_ROWS {
         return Err(MeasuredTrackError::TooFewRows { found: rows.len() });
@@ -102,7 +146,7 @@ pub fn parse(text: &str, options: &Options) -> Result<(Irregularity, Reading), M
     let length_m = rows[rows.len() - 1].distance_m - first_m;
     let place = Place::Irregularity;
     within(place, "shift_m", options.shift_m, [-1e7, 1e7])?;
-    let spacing_m = options.spacing_m.unwrap_or(least_m.max(MIN_INTERVAL_M));
+    let spacing_m = options.spacing_m.unwrap_or(min_m.max(MIN_INTERVAL_M));
     within(
         place,
         "spacing_m",
@@ -128,10 +172,16 @@ pub fn parse(text: &str, options: &Options) -> Result<(Irregularity, Reading), M
     }
     let start_m = first_m + options.shift_m;
     let irregularity = Irregularity::through(start_m, spacing_m, options.ramp_m, &samples);
+    let [vertical, lateral, cross_level, gauge] = channels;
     let reading = Reading {
         rows: rows.len(),
         distances_m: [first_m, first_m + length_m],
-        channels,
+        channels: ChannelsRead {
+            vertical,
+            lateral,
+            cross_level,
+            gauge,
+        },
     };
     Ok((irregularity, reading))
 }

@@ -1,37 +1,37 @@
-//! The rows of a file: which column holds what, and its numbers.
+//! Header and rows of a file.
 
 use super::MeasuredTrackError;
 
-/// Names of the columns beside the distance.
+/// Allowed column names.
 const ALLOWED: &str =
     "distance_m, vertical, lateral, cross_level, gauge, each of the four with _m or _mm";
 const CHANNELS: [&str; 4] = ["vertical", "lateral", "cross_level", "gauge"];
-/// Greatest magnitude of a distance, m.
-const DISTANCE_M: f64 = 1e7;
-/// Greatest magnitude of a deviation, m: beyond it a number in mm stands under a name in m.
-const DEVIATION_M: f64 = 0.5;
+/// Maximum magnitude of a distance, m.
+const MAX_DISTANCE_M: f64 = 1e7;
+/// Maximum magnitude of a deviation, m. A larger value is probably in mm in a column in m.
+const MAX_DEVIATION_M: f64 = 0.5;
 
 /// A row of the file.
 pub(super) struct Row {
-    /// Line of the text, counted from 1.
+    /// Line, counted from 1.
     pub line: u64,
     pub distance_m: f64,
-    /// Deviations in the order vertical, lateral, cross level, gauge; zero for a column that is not there.
+    /// Deviations in the order vertical, lateral, cross level, gauge; zero for missing columns.
     pub deviations_m: [f64; 4],
 }
 
 /// A column of the file.
 struct Column {
     name: String,
-    /// `None`: the distance.
+    /// Index of the channel; `None` for the distance.
     channel: Option<usize>,
     /// Unit, m.
     unit_m: f64,
 }
 
 impl Column {
-    /// The column called `name`.
-    fn of(name: &str) -> Option<Self> {
+    /// Returns the column called `name`.
+    fn parse(name: &str) -> Option<Self> {
         let (stem, unit_m) = match name.strip_suffix("_mm") {
             Some(stem) => (stem, 1e-3),
             None => (name.strip_suffix("_m")?, 1.0),
@@ -48,9 +48,9 @@ impl Column {
     }
 }
 
-/// The rows, and which of the four channels the file has.
+/// Reads all rows. The second result tells which of the four channels the file has.
 ///
-/// Cells are names and numbers, so that no quotes hide commas or line ends; those around a cell are taken off.
+/// Cells contain only names and numbers, so quotes cannot hide commas or line ends. Quotes around a cell are removed.
 pub(super) fn read(text: &str) -> Result<(Vec<Row>, [bool; 4]), MeasuredTrackError> {
     let lines = (1..).zip(text.lines().map(str::trim));
     let lines = lines.filter(|(_, content)| !content.is_empty() && !content.starts_with('#'));
@@ -82,7 +82,7 @@ fn missing(line: u64, found: &str) -> MeasuredTrackError {
 fn header(line: u64, cells: &[&str]) -> Result<Vec<Column>, MeasuredTrackError> {
     let mut columns: Vec<Column> = Vec::new();
     for &name in cells {
-        let column = Column::of(name).ok_or_else(|| MeasuredTrackError::Header {
+        let column = Column::parse(name).ok_or_else(|| MeasuredTrackError::Header {
             line,
             name: name.to_owned(),
             allowed: ALLOWED,
@@ -117,7 +117,7 @@ fn row(line: u64, cells: &[&str], columns: &[Column]) -> Result<Row, MeasuredTra
         deviations_m: [0.0; 4],
     };
     for (column, cell) in columns.iter().zip(cells) {
-        let limit_m = column.channel.map_or(DISTANCE_M, |_| DEVIATION_M);
+        let limit_m = column.channel.map_or(MAX_DISTANCE_M, |_| MAX_DEVIATION_M);
         let limit = limit_m / column.unit_m;
         let number = cell.parse::<f64>().ok();
         let number = number.filter(|number| number.abs() <= limit);

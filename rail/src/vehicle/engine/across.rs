@@ -1,53 +1,56 @@
-//! Elements whose force is not linear: dampers and stops, each along one displacement between two bodies.
+//! Elements with nonlinear forces: dampers and stops, each along one displacement between two bodies.
 
 use dashpot_core::Damper;
 
 use super::block::{N, Vector};
-use crate::vehicle::linear::{Linear, Place};
+use crate::vehicle::linear::{Attachment, Linear};
 
-/// The displacement of the second end of an element against the first along its axis, from the coordinates of its bodies.
+/// Displacement of an element's second end relative to its first along one axis, as a function of the bodies'
+/// coordinates.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Across {
+    /// Indices of both bodies; `None` on the track.
     bodies: [Option<usize>; 2],
-    by: [Vector; 2],
+    /// Displacement per unit of each coordinate of each body.
+    gradients: [Vector; 2],
 }
 
 impl Across {
-    pub fn new(linear: &Linear, places: &[Place; 2], axis: usize) -> Self {
-        let rows = linear.displacement(places);
-        let bodies = [places[0].body, places[1].body];
-        let by = bodies.map(|body| match body {
+    pub fn new(linear: &Linear, ends: &[Attachment; 2], axis: usize) -> Self {
+        let rows = linear.displacement(ends);
+        let bodies = [ends[0].body, ends[1].body];
+        let gradients = bodies.map(|body| match body {
             Some(body) => std::array::from_fn(|i| rows[(axis, N * body + i)]),
             None => [0.0; N],
         });
-        Self { bodies, by }
+        Self { bodies, gradients }
     }
 
-    /// Of the coordinates that `of` gives for a body.
+    /// Displacement when the bodies are at `coordinates(body)`.
     #[inline(always)]
-    pub fn displacement(&self, of: impl Fn(usize) -> Vector) -> f64 {
+    pub fn displacement(&self, coordinates: impl Fn(usize) -> Vector) -> f64 {
         let mut displacement = 0.0;
-        for (body, by) in self.bodies.iter().zip(&self.by) {
+        for (body, gradient) in self.bodies.iter().zip(&self.gradients) {
             if let Some(body) = body {
-                let coordinates = of(*body);
-                displacement += by.iter().zip(&coordinates).map(|(a, b)| a * b).sum::<f64>();
+                let q = coordinates(*body);
+                displacement += gradient.iter().zip(&q).map(|(a, b)| a * b).sum::<f64>();
             }
         }
         displacement
     }
 
-    /// Whether an end is on the track, which the coordinates are relative to.
+    /// True if an end is on the track.
     pub fn is_on_track(&self) -> bool {
         self.bodies.iter().any(Option::is_none)
     }
 
-    /// Adds a force that pulls the ends together to the forces on the bodies.
+    /// Adds a force that pulls both ends together to the forces on the bodies.
     #[inline(always)]
     pub fn pull(&self, force: f64, forces: &mut [Vector]) {
-        for (body, by) in self.bodies.iter().zip(&self.by) {
+        for (body, gradient) in self.bodies.iter().zip(&self.gradients) {
             if let Some(body) = body {
-                for (sum, by) in forces[*body].iter_mut().zip(by) {
-                    *sum -= force * by;
+                for (sum, share) in forces[*body].iter_mut().zip(gradient) {
+                    *sum -= force * share;
                 }
             }
         }
@@ -62,7 +65,7 @@ pub(super) struct DamperElement {
     pub damper: Damper<f64>,
 }
 
-/// A stop on both sides.
+/// A two-sided stop.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct StopElement {
     pub across: Across,
@@ -70,7 +73,8 @@ pub(super) struct StopElement {
 }
 
 impl StopElement {
-    /// Force against a displacement, of its sign: zero in the gap, linear between the points, on with the last slope beyond.
+    /// Force that resists a displacement, with the sign of the displacement: zero in the gap, linear between the
+    /// points, extrapolated with the last slope beyond them.
     #[inline(always)]
     pub fn force(&self, displacement: f64) -> f64 {
         let reach = displacement.abs();
@@ -100,7 +104,7 @@ mod tests {
         let stop = StopElement {
             across: Across {
                 bodies: [None; 2],
-                by: [[0.0; N]; 2],
+                gradients: [[0.0; N]; 2],
             },
             points: vec![[0.02, 0.0], [0.026, 2e3], [0.032, 5e3]],
         };

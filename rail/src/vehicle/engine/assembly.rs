@@ -1,4 +1,4 @@
-//! The constants of a vehicle, from its parameters.
+//! Assembles the constants of a vehicle from its parameters.
 
 use std::sync::Arc;
 
@@ -8,14 +8,14 @@ use nalgebra::DMatrix;
 
 use super::across::{Across, DamperElement, StopElement};
 use super::block::N;
-use super::guidance::Stand;
+use super::guidance::BodyPosition;
 use super::identity::Identity;
 use super::method::Method;
 use super::rails::{self, RailSupport};
+use super::shape::Shape;
 use super::springs::Springs;
-use super::state::Shape;
 use super::structure::Structure;
-use super::tangent::{ContactPlace, SurfaceConstants};
+use super::tangent::{ContactBlocks, SurfaceConstants};
 use super::{STEP_S, Vehicle, WheelsetConstants};
 use crate::contact::{PatchSource, WheelsetContact};
 use crate::creep::CreepLaw;
@@ -24,14 +24,14 @@ use crate::vehicle::carried::Carried;
 use crate::vehicle::element::Law;
 use crate::vehicle::error::VehicleError;
 use crate::vehicle::linear::Linear;
-use crate::vehicle::standstill::{Standstill, places, wheelset_bodies};
+use crate::vehicle::standstill::{Standstill, attach, wheelset_bodies};
 
 impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
-    /// The vehicle of `parameters`, all of its wheelsets with `contact`, for a step of `step_s`.
+    /// Builds the vehicle with `contact` on all wheelsets, for ticks of `step_s`.
     ///
     /// # Errors
-    /// As [`Standstill::new`]; a step out of bounds or too long for the stiffness of the elements; a wheelset that the rails do not
-    /// carry; no wheelset.
+    /// Those of [`Standstill::new`], a step that is out of bounds or too long for the stiffness of the elements, a
+    /// wheelset that the rails cannot carry, or no wheelset.
     pub fn new(
         parameters: &VehicleParameters,
         contact: Arc<WheelsetContact<L, S>>,
@@ -40,10 +40,10 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
         Self::on_rails(parameters, contact, step_s, None)
     }
 
-    /// The vehicle on rails that give way under each wheel, where a support is given.
+    /// Builds the vehicle on elastically supported rails, or on rigid rails if `support` is `None`.
     ///
     /// # Errors
-    /// As [`Vehicle::new`]; a support that is refused.
+    /// Those of [`Vehicle::new`] and [`RailSupport::check`].
     pub fn on_rails(
         parameters: &VehicleParameters,
         contact: Arc<WheelsetContact<L, S>>,
@@ -60,11 +60,11 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
         let mut linear = Linear::new(&bodies);
         let mut on_track = Linear::new(&bodies);
         let (mut dampers, mut stops) = (Vec::new(), Vec::new());
-        let ends = places(parameters, true)?;
-        for ((element, (places, line)), force) in parameters
+        let attached = attach(parameters, true)?;
+        for ((element, (ends, line)), force) in parameters
             .elements
             .iter()
-            .zip(&ends)
+            .zip(&attached)
             .zip(standstill.forces())
         {
             match &element.law {
@@ -73,19 +73,19 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
                     parameters,
                 } => dampers.push(DamperElement {
                     name: element.name.clone(),
-                    across: Across::new(&linear, places, direction.axis()),
+                    across: Across::new(&linear, ends, direction.axis()),
                     damper: build(&element.name, parameters, step_s)?,
                 }),
                 Law::BumpStop { direction, points } => stops.push(StopElement {
-                    across: Across::new(&linear, places, direction.axis()),
+                    across: Across::new(&linear, ends, direction.axis()),
                     points: points.clone(),
                 }),
                 _ => {
-                    linear.add(element, places, *line);
-                    linear.add_preload(places, *force);
-                    if places.iter().any(|place| place.body.is_none()) {
-                        on_track.add(element, places, *line);
-                        on_track.add_preload(places, *force);
+                    linear.add(element, ends, *line);
+                    linear.add_preload(ends, *force);
+                    if ends.iter().any(|end| end.body.is_none()) {
+                        on_track.add(element, ends, *line);
+                        on_track.add_preload(ends, *force);
                     }
                 }
             }
@@ -127,11 +127,11 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
                     load_n,
                 })?;
             let body = first + number;
-            // Rails hang on their wheelset alone, so that they go before it.
+            // Rails are coupled to their wheelset only, so they are eliminated before it.
             let rails = rails_of(number);
             let coupled = rails.and_then(|rails| Some((rails, structure.coupling(rails, body)?)));
             wheelsets.push(WheelsetConstants {
-                place: ContactPlace {
+                blocks: ContactBlocks {
                     wheelset: body,
                     rails: coupled,
                 },
@@ -154,9 +154,9 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
             contact,
             level,
             names: bodies.iter().map(|body| body.name.clone()).collect(),
-            stands: bodies
+            positions: bodies
                 .iter()
-                .map(|body| Stand {
+                .map(|body| BodyPosition {
                     x_m: body.x_m,
                     height_m: body.height_m,
                 })
@@ -172,7 +172,7 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
             dampers,
             stops,
         };
-        vehicle.shape = vehicle.unmoved(0.0, 0.0).shape();
+        vehicle.shape = vehicle.undisplaced(0.0, 0.0).shape();
         Ok(vehicle)
     }
 }

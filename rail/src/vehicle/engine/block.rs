@@ -1,22 +1,22 @@
-//! Numbers for pairs of coordinates of two bodies, each row in one vector of the processor.
+//! Matrix blocks for the coordinates of two bodies, with each row in one SIMD vector.
 
 use fearless_simd::{Simd, SimdBase, f64x8};
 
 use crate::vehicle::body::COORDINATES;
 
-/// Coordinates of a body.
+/// Number of coordinates of a body.
 pub(super) const N: usize = COORDINATES.len();
 
-/// One number for each coordinate of a body.
+/// One value per coordinate of a body.
 pub(super) type Vector = [f64; N];
 
-/// Numbers of a vector of the processor: a row is filled up with zeros.
+/// SIMD lanes per row; unused lanes are zero.
 const WIDTH: usize = 8;
 
-/// The places in a row.
-const PLACES: [f64; WIDTH] = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0];
+/// Index of each lane.
+const LANES: [f64; WIDTH] = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0];
 
-/// A direction in the coordinates of a body, filled up with zeros, and what it weighs.
+/// A weighted direction in the coordinates of a body, padded with zeros.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[repr(align(64))]
 pub(super) struct Weighted {
@@ -39,28 +39,28 @@ impl Weighted {
     }
 }
 
-/// One number for each pair of coordinates of two bodies.
+/// One value for each pair of coordinates of two bodies.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[repr(align(64))]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Block([[f64; WIDTH]; N]);
 
-/// The numbers of the coordinates in a row.
+/// Returns the lanes that hold coordinates.
 #[inline(always)]
 pub(super) fn coordinates<S: Simd>(row: f64x8<S>) -> Vector {
-    let numbers: [f64; WIDTH] = row.into();
-    std::array::from_fn(|i| numbers[i])
+    let lanes: [f64; WIDTH] = row.into();
+    std::array::from_fn(|i| lanes[i])
 }
 
 impl Block {
     pub const ZERO: Self = Self([[0.0; WIDTH]; N]);
 
-    /// Of what `number` is for a row and a column.
-    pub fn new(number: impl Fn(usize, usize) -> f64) -> Self {
+    /// Returns the block with the entries `entry(row, column)`.
+    pub fn new(entry: impl Fn(usize, usize) -> f64) -> Self {
         let mut block = Self::ZERO;
         for (i, row) in block.0.iter_mut().enumerate() {
-            for (j, place) in row.iter_mut().take(N).enumerate() {
-                *place = number(i, j);
+            for (j, value) in row.iter_mut().take(N).enumerate() {
+                *value = entry(i, j);
             }
         }
         block
@@ -72,7 +72,7 @@ impl Block {
 
     #[inline(always)]
     fn load<S: Simd>(&self, simd: S) -> [f64x8<S>; N] {
-        // An array's own map copies it.
+        // `array::map` would copy the array.
         let mut rows = [simd.splat_f64x8(0.0); N];
         for (row, numbers) in rows.iter_mut().zip(&self.0) {
             *row = f64x8::from_slice(simd, numbers);
@@ -87,7 +87,7 @@ impl Block {
         }
     }
 
-    /// `sum + vector * block`: rows, each times one number of the vector.
+    /// Returns `sum + vector * self`: the sum of the rows, each times one entry of the vector.
     #[inline(always)]
     pub fn add_product<S: Simd>(&self, simd: S, vector: &Vector, sum: f64x8<S>) -> f64x8<S> {
         let mut sum = sum;
@@ -98,13 +98,13 @@ impl Block {
         sum
     }
 
-    /// `vector * block`.
+    /// Returns `vector * self`.
     #[inline(always)]
     pub fn product<S: Simd>(&self, simd: S, vector: &Vector) -> f64x8<S> {
         self.add_product(simd, vector, simd.splat_f64x8(0.0))
     }
 
-    /// Adds `weight * direction * direction^T` of each.
+    /// Adds `weight * direction * direction^T` for each element of `all`.
     #[inline(always)]
     pub fn add_along<S: Simd>(&mut self, simd: S, all: &[Weighted]) {
         let mut rows = self.load(simd);
@@ -117,7 +117,7 @@ impl Block {
         self.store(rows);
     }
 
-    /// Adds `weight * row * column^T` of each row with its column, by the weight of the row.
+    /// Adds `weight * row * column^T` for each pair, with the weight of the row.
     #[inline(always)]
     pub fn add_between<S: Simd>(&mut self, simd: S, rows: &[Weighted], columns: &[Weighted]) {
         let mut sums = self.load(simd);
@@ -130,7 +130,7 @@ impl Block {
         self.store(sums);
     }
 
-    /// `self -= left * right`.
+    /// Computes `self -= left * right`.
     #[inline(always)]
     pub fn subtract_product<S: Simd>(&mut self, simd: S, left: &Self, right: &Self) {
         let right = right.load(simd);
@@ -143,7 +143,7 @@ impl Block {
         }
     }
 
-    /// `self = left^T * right`.
+    /// Computes `self = left^T * right`.
     #[inline(always)]
     pub fn set_transposed_product<S: Simd>(&mut self, simd: S, left: &Self, right: &Self) {
         let right = right.load(simd);
@@ -156,16 +156,16 @@ impl Block {
         }
     }
 
-    /// Replaces a symmetric block by its inverse (Gauss and Jordan, in place, without exchange of rows); whether it is positive
-    /// definite: all pivots are positive.
+    /// Inverts a symmetric block in place (Gauss-Jordan elimination without row exchange). Returns true if it is
+    /// positive definite, that is, if all pivots are positive.
     #[inline(always)]
     pub fn invert<S: Simd>(&mut self, simd: S) -> bool {
         let mut is_positive = true;
-        let places = f64x8::from_slice(simd, &PLACES);
+        let lanes = f64x8::from_slice(simd, &LANES);
         let zero = simd.splat_f64x8(0.0);
         let mut rows = self.load(simd);
         for j in 0..N {
-            let at_pivot = simd.simd_eq_f64x8(places, simd.splat_f64x8(PLACES[j]));
+            let at_pivot = simd.simd_eq_f64x8(lanes, simd.splat_f64x8(LANES[j]));
             let pivot = rows[j][j];
             is_positive &= pivot > 0.0;
             let inverse = simd.splat_f64x8(1.0 / pivot);

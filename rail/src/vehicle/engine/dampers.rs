@@ -1,4 +1,4 @@
-//! Dampers and stops, once a tick.
+//! Steps of dampers and stops, once per tick.
 
 use std::array::from_fn;
 
@@ -12,11 +12,11 @@ use crate::contact::PatchSource;
 use crate::creep::CreepLaw;
 use crate::track::Track;
 
-/// Dampers that take a step together; the last one also takes the places left over.
+/// Number of dampers that are stepped together. The last damper also fills the unused lanes.
 const BANK: usize = 8;
 
 impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
-    /// The dampers with the bodies at rest at `coordinates`, in whole banks.
+    /// States of the dampers with the bodies at rest at `coordinates`, padded to whole banks.
     pub(super) fn dampers_at_rest(&self, coordinates: &[Vector]) -> Vec<DamperState<f64>> {
         let at_rest = |element: &DamperElement| {
             let displacement = element.across.displacement(|body| coordinates[body]);
@@ -29,7 +29,7 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
         states
     }
 
-    /// Dampers and stops at the end of the tick, where the bodies are predicted to be.
+    /// Computes the forces of dampers and stops at the end of the tick from the predicted positions of the bodies.
     #[inline(always)]
     pub(super) fn step_dampers(&self, state: &mut VehicleState, track: &Track) {
         let h = self.step_s;
@@ -37,7 +37,7 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
         let distance = state.distance_m + h * speed;
         let work = &mut state.work;
         let guidance = &mut work.guidance;
-        guidance.update(track.layout(), distance, speed, &self.stands);
+        guidance.update(track.layout(), distance, speed, &self.positions);
         let moved = state
             .coordinates
             .as_flattened()
@@ -47,13 +47,13 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
             .zip(guidance.pose.as_flattened())
             .zip(state.pose.as_flattened())
             .zip(guidance.relative.as_flattened());
-        let places = work
+        let targets = work
             .residual
             .as_flattened_mut()
             .iter_mut()
             .zip(work.in_middle.as_flattened_mut());
         for ((predicted, in_middle), (((((q, v), a), pose), last_pose), relative)) in
-            places.zip(moved)
+            targets.zip(moved)
         {
             *predicted = q + h * (v + 0.5 * h * a) - (pose - last_pose);
             *in_middle = *predicted + relative;
@@ -84,7 +84,7 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
             step_bank::<f64, BANK>(&dampers, states, &displacements, &mut own);
             forces.copy_from_slice(&own[..=last]);
         }
-        // A damper whose force comes from outside was stepped too, so that it can take over.
+        // A damper with an external force is stepped too, so that its model can take over again.
         let outside = state.outside_forces_n.iter();
         for (force, outside) in work.target_damper_forces_n.iter_mut().zip(outside) {
             *force = outside.unwrap_or(*force);
@@ -95,7 +95,7 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
         self.pull(state);
     }
 
-    /// Forces of dampers and stops on the bodies at the start of the tick, and their change.
+    /// Sums the forces of dampers and stops on the bodies at the start of the tick, and their change during the tick.
     #[inline(always)]
     fn pull(&self, state: &mut VehicleState) {
         let work = &mut state.work;

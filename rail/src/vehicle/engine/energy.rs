@@ -5,33 +5,35 @@ use fearless_simd::dispatch;
 use super::Vehicle;
 use super::block::Vector;
 use super::state::VehicleState;
-use super::tangent::ContactPlace;
+use super::tangent::ContactBlocks;
 use crate::contact::PatchSource;
 use crate::creep::CreepLaw;
 use crate::vehicle::error::VehicleError;
 
-/// Energy of a vehicle beyond that of its standing on straight level track at the same speed.
+/// Energy of a vehicle relative to its equilibrium on straight level track at the same speed.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[non_exhaustive]
 pub struct Energy {
-    /// Of all bodies in motion across the track, and of the wheels' rotation beyond rolling freely, J.
+    /// Kinetic energy of the bodies' motion relative to the track frame, including wheel rotation beyond free rolling,
+    /// J.
     pub kinetic_j: f64,
-    /// Of springs and weight, J; what dampers store in their mounts is not in it.
+    /// Potential energy of springs and weight, J. The mounts of dampers are not included.
     pub potential_j: f64,
-    /// Of the patches, `2/5 N penetration` each after Hertz, J.
+    /// Energy of the contact patches, J: `2/5 N penetration` each (Hertz).
     pub contact_j: f64,
-    /// Power that the dashpots beside the springs dissipate, W.
+    /// Power dissipated by the dashpots parallel to springs, W.
     pub dissipation_w: f64,
 }
 
 impl Energy {
-    /// All that is stored, J.
+    /// Returns the total stored energy, J.
     pub fn total_j(&self) -> f64 {
         self.kinetic_j + self.potential_j + self.contact_j
     }
 }
 
 impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
-    /// Energy of a state on straight level track.
+    /// Returns the energy of a state on straight level track.
     ///
     /// # Errors
     /// A state of another vehicle.
@@ -56,13 +58,13 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
         }
         for (constants, contact) in self.wheelsets.iter().zip(&state.contacts) {
             let free = state.speed_m_per_s / constants.carried.rolling_radius_m;
-            // Rolling forward is nose down: (free - rate)^2 - free^2 beyond the square above.
-            let rate = state.velocities[constants.place.wheelset][3];
+            // Rolling forward is nose down. Of (free - rate)^2 - free^2 the sum above has rate^2.
+            let rate = state.velocities[constants.blocks.wheelset][3];
             energy.kinetic_j -= constants.spin_inertia_kg_m2 * free * rate;
-            let ContactPlace { wheelset, rails } = constants.place;
+            let ContactBlocks { wheelset, rails } = constants.blocks;
             energy.potential_j -= constants.axle_load_n * state.coordinates[wheelset][1];
             if let Some((rails, _)) = rails {
-                // What the standing wheelset pushes them with, they are held against.
+                // The rail supports balance the force of the wheelset at standstill.
                 let pairs = constants.standing_n.iter().zip(&state.coordinates[rails]);
                 energy.potential_j += pairs.map(|(force, q)| force * q).sum::<f64>();
             }

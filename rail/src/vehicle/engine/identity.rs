@@ -1,4 +1,4 @@
-//! Which vehicle a state belongs to.
+//! Identity of the vehicle that a state belongs to.
 
 use sha2::{Digest, Sha256};
 
@@ -7,16 +7,18 @@ use crate::vehicle::body::{Body, VehicleParameters};
 use crate::vehicle::element::{Direction, Element, Law};
 use crate::vehicle::standstill::wheelset_bodies;
 
-/// A digest of what a state of a vehicle depends on: its bodies, elements, rails and step. The laws of its dampers are not in it, because
-/// [`Vehicle::set_damper`](super::Vehicle::set_damper) may change them in motion, nor is the contact of its wheels, which a state only
-/// has results of. Equal parameters give an equal digest in every process and on every machine.
+/// A digest of the parameters that a vehicle's state depends on: bodies, elements, rails and step.
+///
+/// Two things are left out: the parameters of dampers, because [`Vehicle::set_damper`](super::Vehicle::set_damper) may
+/// change them in motion, and the wheel-rail contact, because a state stores only its results. Equal parameters give an
+/// equal digest in every process and on every machine.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Identity(u64);
 
 impl Identity {
     pub fn new(parameters: &VehicleParameters, step_s: f64, rails: Option<&RailSupport>) -> Self {
-        let mut digest = Parts(Sha256::new());
+        let mut digest = Hasher(Sha256::new());
         digest.numbers(&[step_s]);
         match rails {
             Some(rails) => digest.numbers(&[
@@ -41,10 +43,10 @@ impl Identity {
     }
 }
 
-/// Texts and numbers, each part with its length before it, so that no two vehicles give the same bytes.
-struct Parts(Sha256);
+/// Hashes texts and numbers, each after its length, so that no two vehicles give the same bytes.
+struct Hasher(Sha256);
 
-impl Parts {
+impl Hasher {
     fn count(&mut self, count: usize) {
         self.0.update((count as u64).to_le_bytes());
     }
@@ -81,12 +83,12 @@ impl Parts {
             self.text(end.on.as_deref().unwrap_or_default());
             self.numbers(&end.at_m);
         }
+        self.text(element.law.name());
         match &element.law {
             Law::SpringDamper {
                 stiffness_n_per_m,
                 damping_n_s_per_m,
             } => {
-                self.text("spring_damper");
                 self.numbers(stiffness_n_per_m);
                 self.numbers(damping_n_s_per_m);
             }
@@ -96,32 +98,27 @@ impl Parts {
                 stiffness_n_m_per_rad,
                 damping_n_m_s_per_rad,
             } => {
-                self.text("bush");
                 self.numbers(stiffness_n_per_m);
                 self.numbers(damping_n_s_per_m);
                 self.numbers(stiffness_n_m_per_rad);
                 self.numbers(damping_n_m_s_per_rad);
             }
             Law::Damper { direction, .. } => {
-                self.text("damper");
                 self.direction(*direction);
             }
             Law::BumpStop { direction, points } => {
-                self.text("bump_stop");
                 self.direction(*direction);
                 self.numbers(points.as_flattened());
             }
             Law::AntiRollBar {
                 stiffness_n_m_per_rad,
             } => {
-                self.text("anti_roll_bar");
                 self.numbers(&[*stiffness_n_m_per_rad]);
             }
             Law::TractionRod {
                 stiffness_n_per_m,
                 damping_n_s_per_m,
             } => {
-                self.text("traction_rod");
                 self.numbers(&[*stiffness_n_per_m, *damping_n_s_per_m]);
             }
         }

@@ -1,37 +1,42 @@
-//! The method of the step: generalised alpha.
+//! Constants of the generalised-alpha time integration.
 
-/// Spectral radius at infinite frequency: what a step leaves of the fastest motion. From 1/2 to 9/10 the errors of the locomotive on
-/// straight and curved track differ little.
+/// Spectral radius at infinite frequency: the fraction of the fastest motion that remains after a step. From 0.5 to 0.9
+/// the errors of the locomotive on straight and curved track differ little.
 const SPECTRAL_RADIUS: f64 = 0.8;
 
-/// Part of the last change of the acceleration by which the next one is predicted. The one correction of a step has the damping of creep
-/// too high where it slides, which leaves the acceleration nearer to the predicted one; halfway between none and the whole change this error
-/// is least.
-const CARRIED_ON: f64 = 0.5;
+/// Fraction of the last change of acceleration that is extrapolated to predict the next acceleration.
+///
+/// The single correction of a step overestimates the damping of a sliding contact, which leaves the acceleration too
+/// close to the predicted one. A fraction of one half minimises this error.
+const EXTRAPOLATION: f64 = 0.5;
 
-/// Longest step inside a tick, s: impacts of the flange take some milliseconds.
-const LONGEST_STEP_S: f64 = 0.25e-3;
+/// Maximum length of a step inside a tick, s. Flange impacts take a few milliseconds.
+const MAX_STEP_S: f64 = 0.25e-3;
 
-/// Constants of the generalised alpha method (Chung and Hulbert, Journal of Applied Mechanics 60, 1993, 371-375) for one step:
-/// `M ((1 - am) a1 + am a0) = (1 - af) f1 + af f0`, with Newmark's `beta` and `gamma`.
+/// Constants of the generalised-alpha method (Chung and Hulbert, Journal of Applied Mechanics 60, 1993, 371-375) for
+/// one step: `M ((1 - am) a1 + am a0) = (1 - af) f1 + af f0`, with Newmark's `beta` and `gamma`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Method {
-    /// Steps in a tick.
+    /// Steps per tick.
     pub substeps: usize,
+    /// Length `h` of a step, s.
     pub step_s: f64,
-    /// `(1 - af)/(1 - am)`, `af/(1 - am)`, `am/(1 - am)`.
+    /// `(1 - af)/(1 - am)`.
     pub new_force: f64,
+    /// `af/(1 - am)`.
     pub old_force: f64,
+    /// `am/(1 - am)`.
     pub old_inertia: f64,
-    /// Of a change of the acceleration in velocity and displacement: `gamma h`, `beta h^2`.
+    /// Change of velocity per change of acceleration: `gamma h`.
     pub to_velocity: f64,
+    /// Change of displacement per change of acceleration: `beta h^2`.
     pub to_displacement: f64,
 }
 
 impl Method {
-    /// For ticks of `tick_s`.
+    /// Returns the constants for ticks of `tick_s`.
     pub fn new(tick_s: f64) -> Self {
-        let substeps = (tick_s / LONGEST_STEP_S - 1e-9).ceil().max(1.0);
+        let substeps = (tick_s / MAX_STEP_S - 1e-9).ceil().max(1.0);
         let step_s = tick_s / substeps;
         let rho = SPECTRAL_RADIUS;
         let (am, af) = ((2.0 * rho - 1.0) / (rho + 1.0), rho / (rho + 1.0));
@@ -48,19 +53,19 @@ impl Method {
         }
     }
 
-    /// Weight of damping beside the inertia in the equations of a step.
+    /// Weight of damping in the equations of a step, where inertia has the weight 1.
     pub fn damping_weight(&self) -> f64 {
         self.new_force * self.to_velocity
     }
 
-    /// Weight of stiffness.
+    /// Weight of stiffness in the equations of a step, where inertia has the weight 1.
     pub fn stiffness_weight(&self) -> f64 {
         self.new_force * self.to_displacement
     }
 
-    /// The acceleration at the end of a step as the last two have it.
+    /// Extrapolates the acceleration at the end of a step from the last two values.
     #[inline(always)]
     pub fn predicted(&self, now: f64, before: f64) -> f64 {
-        now + CARRIED_ON * (now - before)
+        now + EXTRAPOLATION * (now - before)
     }
 }

@@ -1,4 +1,4 @@
-//! The vehicle in real time: constants, state, and a step of constant cost.
+//! Real-time simulation of a vehicle: constants, state, and a step of constant cost.
 
 mod across;
 mod assembly;
@@ -9,6 +9,7 @@ mod guidance;
 mod identity;
 mod method;
 mod rails;
+mod shape;
 mod springs;
 mod state;
 mod step;
@@ -25,16 +26,17 @@ use self::assembly::build;
 use self::block::{N, Vector};
 pub use self::energy::Energy;
 pub use self::guidance::CANT_BASE_M;
-use self::guidance::{Guidance, Stand};
+use self::guidance::{BodyPosition, Guidance};
 use self::identity::Identity;
 use self::method::Method;
 pub use self::rails::RailSupport;
+use self::shape::Shape;
 use self::springs::Springs;
-use self::state::{Shape, Work};
+use self::state::Work;
 pub use self::state::{Stop, VehicleState};
-use self::step::DIVERGED;
+use self::step::MAX_DISPLACEMENT;
 use self::structure::{Blocks, Structure};
-use self::tangent::{ContactPlace, SurfaceConstants};
+use self::tangent::{ContactBlocks, SurfaceConstants};
 use super::body::COORDINATES;
 use super::carried::Carried;
 use super::error::VehicleError;
@@ -42,13 +44,13 @@ use crate::contact::{PatchSource, Tables, WheelsetContact, WheelsetForces};
 use crate::creep::CreepLaw;
 use crate::track::Track;
 
-/// Bounds of the step size of a [`Vehicle`], s.
+/// Bounds of the tick of a [`Vehicle`], s.
 pub const STEP_S: [f64; 2] = [0.02e-3, 2e-3];
 
 /// Bounds of the speed of a [`Vehicle`], m/s.
 pub const SPEED_M_PER_S: [f64; 2] = [1.0, 150.0];
 
-/// A vehicle in real time: constants for one step size, shared by any number of states.
+/// A vehicle for real-time simulation: constants for one step size, shared by any number of states.
 ///
 /// ```
 /// # use std::sync::Arc;
@@ -62,35 +64,23 @@ pub const SPEED_M_PER_S: [f64; 2] = [1.0, 150.0];
 /// # let pair = Pair::standard(Installation::default().with_wheel_radius_m(0.46))?;
 /// # let tables = Tables::new(ContactGeometry::new(pair, Steel::default(), 75e3)?, grid)?;
 /// # let contact = Arc::new(WheelsetContact::new(Arc::new(tables), KalkerBook::new(), Friction::default())?);
-/// // A wagon of 27 t on two wheelsets of 1.5 t; `contact` is that of its wheels.
-/// let wheelset = |name: &str, x_m: f64| Wheelset {
-///     name: name.into(),
-///     mass_kg: 1500.0,
-///     inertia_kg_m2: [800.0, 100.0, 800.0],
-///     x_m,
-///     radius_m: 0.46,
+/// // A wagon of 27 t on two wheelsets of 1.5 t; `contact` is the contact of its wheels.
+/// let wheelset = |name: &str| Wheelset::new(name, 1500.0, [800.0, 100.0, 800.0], 0.46);
+/// let spring = |on: &str, x: f64, y: f64| {
+///     let ends = [End::body(on, [x, y, 0.46]), End::body("body", [x, y, 0.46])];
+///     let law = Law::SpringDamper {
+///         stiffness_n_per_m: [5e6, 5e6, 1e6],
+///         damping_n_s_per_m: [0.0, 0.0, 20e3],
+///     };
+///     Element::new(format!("{on} spring {y}"), ends, law)
 /// };
-/// let spring = |on: &str, x: f64, y: f64| Element {
-///     name: format!("{on} spring {y}"),
-///     ends: [End::body(on, [x, y, 0.46]), End::body("body", [x, y, 0.46])],
-///     law: Law::SpringDamper { stiffness_n_per_m: [5e6, 5e6, 1e6], damping_n_s_per_m: [0.0, 0.0, 20e3] },
-/// };
-/// let wagon = VehicleParameters {
-///     name: "wagon".into(),
-///     bodies: vec![Body {
-///         name: "body".into(),
-///         mass_kg: 27e3,
-///         inertia_kg_m2: [40e3, 800e3, 800e3],
-///         x_m: 0.0,
-///         height_m: 1.5,
-///     }],
-///     wheelsets: vec![wheelset("front", 4.0), wheelset("rear", -4.0)],
-///     elements: vec![
+/// let wagon = VehicleParameters::new("wagon")
+///     .with_bodies([Body::new("body", 27e3, [40e3, 800e3, 800e3], 1.5)])
+///     .with_wheelsets([wheelset("front").with_x_m(4.0), wheelset("rear").with_x_m(-4.0)])
+///     .with_elements([
 ///         spring("front", 4.0, 1.0), spring("front", 4.0, -1.0),
 ///         spring("rear", -4.0, 1.0), spring("rear", -4.0, -1.0),
-///     ],
-///     ride_points: vec![],
-/// };
+///     ]);
 /// let vehicle = Vehicle::new(&wagon, contact, 1e-3)?;
 /// let track = Track::default();
 /// let mut state = vehicle.at_rest(&track, 0.0, 20.0)?;
@@ -105,7 +95,7 @@ pub const SPEED_M_PER_S: [f64; 2] = [1.0, 150.0];
 #[derive(Debug, Clone)]
 pub struct Vehicle<L, S: PatchSource = Tables> {
     identity: Identity,
-    /// Of its states.
+    /// Shape of its states.
     shape: Shape,
     step_s: f64,
     method: Method,
@@ -113,14 +103,14 @@ pub struct Vehicle<L, S: PatchSource = Tables> {
     surface: SurfaceConstants,
     level: Level,
     names: Vec<String>,
-    stands: Vec<Stand>,
+    positions: Vec<BodyPosition>,
     wheelsets: Vec<WheelsetConstants>,
     inertia: Vec<Vector>,
     springs: Springs,
     structure: Structure,
-    /// `M + weighted damping and stiffness`: what a step solves without the contact.
+    /// `M` plus weighted damping and stiffness: the equations of a step without the contact.
     system: Blocks,
-    /// Those of the springs that hold a body on the track; none where no element does.
+    /// Springs and dashpots to the track; `None` if there are none.
     on_track: Option<Springs>,
     dampers: Vec<DamperElement>,
     stops: Vec<StopElement>,
@@ -128,8 +118,8 @@ pub struct Vehicle<L, S: PatchSource = Tables> {
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct WheelsetConstants {
-    place: ContactPlace,
-    /// Forces on rails that give way, N.
+    blocks: ContactBlocks,
+    /// Forces on elastically supported rails at standstill, N.
     standing_n: Vector,
     carried: Carried,
     axle_load_n: f64,
@@ -137,7 +127,8 @@ struct WheelsetConstants {
 }
 
 impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
-    /// The vehicle as it stands on straight level track, its middle at `distance_m`, in motion at `speed_m_per_s`.
+    /// Returns the state in which the bodies have their equilibrium positions on straight level track. The vehicle runs
+    /// at `speed_m_per_s`, with its middle at `distance_m`.
     ///
     /// # Errors
     /// A speed or distance out of bounds.
@@ -149,19 +140,19 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
     ) -> Result<VehicleState, VehicleError> {
         VehicleError::check("vehicle", "speed_m_per_s", speed_m_per_s, SPEED_M_PER_S)?;
         VehicleError::check("vehicle", "distance_m", distance_m, [-1e6, 1e6])?;
-        let mut state = self.unmoved(distance_m, speed_m_per_s);
+        let mut state = self.undisplaced(distance_m, speed_m_per_s);
         let guidance = &mut state.work.guidance;
-        guidance.update(track.layout(), distance_m, speed_m_per_s, &self.stands);
+        guidance.update(track.layout(), distance_m, speed_m_per_s, &self.positions);
         state.velocities.clone_from(&guidance.pose_rate);
         state.pose.clone_from(&guidance.pose);
         self.begin(&mut state, track);
         Ok(state)
     }
 
-    /// A state on straight level track without contact.
-    fn unmoved(&self, distance_m: f64, speed_m_per_s: f64) -> VehicleState {
-        let places = self.inertia.len();
-        let zeros = vec![[0.0; N]; places];
+    /// Returns a state on straight level track without contact forces.
+    fn undisplaced(&self, distance_m: f64, speed_m_per_s: f64) -> VehicleState {
+        let count = self.inertia.len();
+        let zeros = vec![[0.0; N]; count];
         VehicleState {
             identity: self.identity,
             bodies: self.names.len(),
@@ -184,7 +175,7 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
             is_diverged: false,
             met_other_vehicle: false,
             work: Work {
-                guidance: Guidance::new(places),
+                guidance: Guidance::new(count),
                 system: self.system.clone(),
                 residual: zeros.clone(),
                 in_middle: zeros.clone(),
@@ -198,8 +189,8 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
         }
     }
 
-    /// Whether a state belongs to this vehicle: to one with the same bodies, elements, step and rails, whatever its dampers' laws and its
-    /// contact. One that was read may belong to any, or to none.
+    /// Returns true if a state belongs to a vehicle with the same bodies, elements, step and rails as this one. The
+    /// parameters of dampers and the contact may differ. A deserialised state may belong to any vehicle, or to none.
     #[inline]
     pub fn can_step(&self, state: &VehicleState) -> bool {
         state.identity == self.identity && state.shape() == self.shape
@@ -213,11 +204,11 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
         }
     }
 
-    /// Moves a body at the start: adds `displacement` to its coordinates, and has the track and the rails act there.
+    /// Displaces a body before the first step: adds `displacement` to its coordinates and updates all forces.
     ///
     /// # Errors
-    /// A body that the vehicle does not have, a displacement not within -10 to 10 m or rad, a state of another vehicle; then nothing
-    /// changes.
+    /// An index out of range, a displacement outside -10 to 10 m or rad, or a state of another vehicle. The state is
+    /// then unchanged.
     pub fn displace(
         &self,
         state: &mut VehicleState,
@@ -228,54 +219,56 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
         self.check_state(state)?;
         let bodies = self.names.len();
         let Some(name) = self.names.get(body) else {
-            return Err(VehicleError::NoBodyOfNumber { body, bodies });
+            return Err(VehicleError::NoSuchBodyIndex { body, bodies });
         };
-        for (coordinate, by) in COORDINATES.iter().zip(displacement) {
-            VehicleError::check(name, coordinate.word(), by, [-DIVERGED, DIVERGED])?;
+        let allowed = [-MAX_DISPLACEMENT, MAX_DISPLACEMENT];
+        for (coordinate, change) in COORDINATES.iter().zip(displacement) {
+            VehicleError::check(name, coordinate.name(), change, allowed)?;
         }
-        for (coordinate, by) in state.coordinates[body].iter_mut().zip(displacement) {
-            *coordinate += by;
+        for (coordinate, change) in state.coordinates[body].iter_mut().zip(displacement) {
+            *coordinate += change;
         }
         state.dampers = self.dampers_at_rest(&state.coordinates);
         self.begin(state, track);
         Ok(())
     }
 
-    /// Step size, s.
+    /// Returns the length of a tick, s.
     pub fn step_s(&self) -> f64 {
         self.step_s
     }
 
-    /// Length of the steps inside a tick, s.
+    /// Returns the length of the steps inside a tick, s.
     pub fn inner_step_s(&self) -> f64 {
         self.method.step_s
     }
 
-    /// Names of the bodies, those of the wheelsets after them.
+    /// Returns the names of the bodies, followed by those of the wheelsets.
     pub fn names(&self) -> &[String] {
         &self.names
     }
 
-    /// Number of wheelsets.
+    /// Returns the number of wheelsets.
     pub fn wheelsets(&self) -> usize {
         self.wheelsets.len()
     }
 
-    /// Names of the dampers.
+    /// Returns the names of the dampers.
     pub fn damper_names(&self) -> impl ExactSizeIterator<Item = &str> {
         self.dampers.iter().map(|element| element.name.as_str())
     }
 
-    /// Load of each wheelset on the rails at standstill, N.
+    /// Returns the load of each wheelset on the rails at standstill, N.
     pub fn axle_loads_n(&self) -> impl ExactSizeIterator<Item = f64> {
         self.wheelsets.iter().map(|wheelset| wheelset.axle_load_n)
     }
 
-    /// The damper that [`set_damper`](Self::set_damper) would build, for [`replace_damper`](Self::replace_damper): building takes far
-    /// longer than a tick and allocates, so that a run in real time builds its dampers before it starts.
+    /// Builds a damper for [`replace_damper`](Self::replace_damper).
+    ///
+    /// Building takes much longer than a tick and allocates, so a real-time run builds its dampers before it starts.
     ///
     /// # Errors
-    /// As [`set_damper`](Self::set_damper).
+    /// The same as for [`set_damper`](Self::set_damper).
     pub fn build_damper(
         &self,
         damper: usize,
@@ -287,25 +280,30 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
         build(&element.name, parameters, self.step_s)
     }
 
-    /// As [`set_damper`](Self::set_damper), with a damper of [`build_damper`](Self::build_damper); does not allocate.
+    /// Replaces a damper as [`set_damper`](Self::set_damper) does, with a damper built by
+    /// [`build_damper`](Self::build_damper). Does not allocate.
     ///
     /// # Errors
-    /// A number that is no damper's.
-    pub fn replace_damper(&mut self, damper: usize, by: &Damper<f64>) -> Result<(), VehicleError> {
+    /// An index out of range.
+    pub fn replace_damper(
+        &mut self,
+        damper: usize,
+        replacement: &Damper<f64>,
+    ) -> Result<(), VehicleError> {
         let dampers = self.dampers.len();
         match self.dampers.get_mut(damper) {
             Some(element) => {
-                element.damper = *by;
+                element.damper = *replacement;
                 Ok(())
             }
             None => Err(VehicleError::NoSuchDamper { damper, dampers }),
         }
     }
 
-    /// Another damper in the place of one: a state goes on with it from its next step, its force carries over.
+    /// Replaces a damper. States use it from their next step on, and the damper's force stays continuous.
     ///
     /// # Errors
-    /// Parameters that are refused; a number that is no damper's.
+    /// Invalid parameters or an index out of range.
     pub fn set_damper(
         &mut self,
         damper: usize,

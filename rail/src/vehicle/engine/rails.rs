@@ -1,4 +1,4 @@
-//! Rails that give way: a mass on springs under each wheel.
+//! Elastically supported rails: a mass on springs under each wheel.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -6,36 +6,76 @@ use super::block::{N, Vector};
 use crate::contact::{RailDisplacement, WheelsetForces};
 use crate::vehicle::error::VehicleError;
 
-/// What carries a rail under a wheel: a mass that moves with the wheel along the track, on a spring and a dashpot each way.
+/// Elastic support of a rail under a wheel: a mass that moves along the track with the wheel, on a spring and a dashpot
+/// in the lateral and in the vertical direction.
+///
+/// ```
+/// use dashpot_rail::vehicle::RailSupport;
+/// const SUPPORT: RailSupport = RailSupport::new(60.0)
+///     .with_lateral(40e6, 60e3)
+///     .with_vertical(80e6, 60e3);
+/// assert!(SUPPORT.check().is_ok());
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub struct RailSupport {
-    /// Mass of rail and sleeper that moves, kg.
+    /// Effective mass of rail and sleeper, kg.
     pub mass_kg: f64,
-    /// Stiffness to the side, N/m.
+    /// Lateral stiffness, N/m.
     pub lateral_stiffness_n_per_m: f64,
-    /// Damping to the side, N s/m.
+    /// Lateral damping, N s/m.
     pub lateral_damping_n_s_per_m: f64,
-    /// Stiffness up and down, N/m.
+    /// Vertical stiffness, N/m.
     pub vertical_stiffness_n_per_m: f64,
-    /// Damping up and down, N s/m.
+    /// Vertical damping, N s/m.
     pub vertical_damping_n_s_per_m: f64,
 }
 
-/// Bounds of the mass, kg, of a stiffness, N/m, and of a damping, N s/m.
+/// Bounds of the mass, kg.
 const MASS_KG: [f64; 2] = [1.0, 1e5];
+/// Bounds of a stiffness, N/m.
 const STIFFNESS: [f64; 2] = [1e5, 1e12];
+/// Bounds of a damping, N s/m.
 const DAMPING: [f64; 2] = [0.0, 1e9];
 
-/// Coordinates of the rails under a wheelset: lateral and vertical of the left one, then of the right one; the fifth rests.
+/// Index of the lateral coordinate of the left and the right rail under a wheelset. The fifth coordinate is unused.
 const LATERAL: [usize; 2] = [0, 2];
+/// Index of the vertical coordinate of the left and the right rail.
 const VERTICAL: [usize; 2] = [1, 3];
 
 impl RailSupport {
-    /// Checks every number.
+    /// Returns a support with this effective mass, kg; its stiffnesses must be set, its dampings are zero.
+    pub const fn new(mass_kg: f64) -> Self {
+        Self {
+            mass_kg,
+            lateral_stiffness_n_per_m: 0.0,
+            lateral_damping_n_s_per_m: 0.0,
+            vertical_stiffness_n_per_m: 0.0,
+            vertical_damping_n_s_per_m: 0.0,
+        }
+    }
+
+    /// Sets lateral stiffness, N/m, and damping, N s/m.
+    #[must_use]
+    pub const fn with_lateral(mut self, stiffness_n_per_m: f64, damping_n_s_per_m: f64) -> Self {
+        self.lateral_stiffness_n_per_m = stiffness_n_per_m;
+        self.lateral_damping_n_s_per_m = damping_n_s_per_m;
+        self
+    }
+
+    /// Sets vertical stiffness, N/m, and damping, N s/m.
+    #[must_use]
+    pub const fn with_vertical(mut self, stiffness_n_per_m: f64, damping_n_s_per_m: f64) -> Self {
+        self.vertical_stiffness_n_per_m = stiffness_n_per_m;
+        self.vertical_damping_n_s_per_m = damping_n_s_per_m;
+        self
+    }
+
+    /// Checks the bounds of all values.
     ///
     /// # Errors
-    /// A mass not within 1 to 1e5 kg, a stiffness not within 1e5 to 1e12 N/m, a damping not within 0 to 1e9 N s/m.
+    /// A mass outside 1 to 1e5 kg, a stiffness outside 1e5 to 1e12 N/m, or a damping outside 0 to 1e9 N s/m.
     pub fn check(&self) -> Result<(), VehicleError> {
         for (name, value, allowed) in [
             ("mass_kg", self.mass_kg, MASS_KG),
@@ -65,7 +105,7 @@ impl RailSupport {
         Ok(())
     }
 
-    /// Appends the rails of so many wheelsets to the equations of the bodies before them.
+    /// Appends the rails under `wheelsets` wheelsets to the equations of the bodies.
     pub(super) fn append(
         &self,
         wheelsets: usize,
@@ -92,17 +132,17 @@ impl RailSupport {
                 ),
             ] {
                 for coordinate in coordinates {
-                    let place = first + N * rails + coordinate;
-                    inertia[place] = self.mass_kg;
-                    stiffness[(place, place)] = k;
-                    damping[(place, place)] = c;
+                    let i = first + N * rails + coordinate;
+                    inertia[i] = self.mass_kg;
+                    stiffness[(i, i)] = k;
+                    damping[(i, i)] = c;
                 }
             }
         }
     }
 }
 
-/// Adds where the rails have gone to what the track has of them.
+/// Adds the motion `q`, `v` of the supported rails to their displacements from the track's irregularity.
 #[inline(always)]
 pub(super) fn displace(rails: &mut [RailDisplacement; 2], q: &Vector, v: &Vector) {
     for (side, rail) in rails.iter_mut().enumerate() {
@@ -113,7 +153,7 @@ pub(super) fn displace(rails: &mut [RailDisplacement; 2], q: &Vector, v: &Vector
     }
 }
 
-/// Forces of a wheelset on its rails, beyond those of the standing one.
+/// Adds the forces of a wheelset on its rails, in excess of those at standstill.
 #[inline(always)]
 pub(super) fn push(contact: &WheelsetForces, standing_n: &Vector, forces: &mut Vector) {
     for (side, wheel) in contact.wheels.iter().enumerate() {
@@ -123,7 +163,7 @@ pub(super) fn push(contact: &WheelsetForces, standing_n: &Vector, forces: &mut V
     }
 }
 
-/// Forces of the standing wheelset on its rails, of those of the rails on its wheels, N.
+/// Forces of the wheelset on its rails at standstill, N, from those of the rails on its wheels.
 pub(super) fn standing_n(wheel_forces_n: &[[f64; 3]; 2]) -> Vector {
     let mut standing = [0.0; N];
     for (side, [_, y, z]) in wheel_forces_n.iter().enumerate() {
@@ -133,7 +173,7 @@ pub(super) fn standing_n(wheel_forces_n: &[[f64; 3]; 2]) -> Vector {
     standing
 }
 
-/// How the rail on a side moves against a direction of the wheelset.
+/// Motion of the rail on one side that is opposite to a motion of the wheelset.
 #[inline(always)]
 pub(super) fn against(direction: &Vector, side: usize) -> Vector {
     let mut rails = [0.0; N];

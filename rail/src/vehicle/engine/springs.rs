@@ -1,22 +1,22 @@
-//! The linear elements: springs and dashpots between all bodies, together.
+//! Forces of all linear elements.
 
 use fearless_simd::Simd;
 use nalgebra::DMatrix;
 
 use super::block::{Block, N, Vector, coordinates};
 
-/// Stiffness and damping of the vehicle, by bodies.
+/// Stiffness and damping matrices of the vehicle, in blocks of bodies.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Springs {
-    /// For each body, what every other one and itself do to it.
-    acting: Vec<Vec<Acting>>,
+    /// Nonzero blocks in the row of each body.
+    rows: Vec<Vec<Acting>>,
 }
 
-/// What a body does to another one.
+/// Forces of a body on another body or on itself.
 #[derive(Debug, Clone, PartialEq)]
 struct Acting {
     body: usize,
-    /// A row for each coordinate of the acting body, a column for each force.
+    /// Transposed: a row for each coordinate of the acting body, a column for each force.
     stiffness: Block,
     damping: Block,
 }
@@ -24,7 +24,7 @@ struct Acting {
 impl Springs {
     pub fn new(stiffness: &DMatrix<f64>, damping: &DMatrix<f64>) -> Self {
         let bodies = stiffness.nrows() / N;
-        let acting = |on: usize| {
+        let row = |on: usize| {
             let between = move |body: usize| {
                 let block =
                     |matrix: &DMatrix<f64>| Block::new(|i, j| matrix[(N * on + j, N * body + i)]);
@@ -38,7 +38,7 @@ impl Springs {
             (0..bodies).map(between).filter(acts).collect()
         };
         Self {
-            acting: (0..bodies).map(acting).collect(),
+            rows: (0..bodies).map(row).collect(),
         }
     }
 
@@ -52,13 +52,13 @@ impl Springs {
         velocities: &[Vector],
         forces: &mut [Vector],
     ) {
-        for (acting, force) in self.acting.iter().zip(forces) {
+        for (row, force) in self.rows.iter().zip(forces) {
             let (mut elastic, mut viscous) = (simd.splat_f64x8(0.0), simd.splat_f64x8(0.0));
             for Acting {
                 body,
                 stiffness,
                 damping,
-            } in acting
+            } in row
             {
                 elastic = stiffness.add_product(simd, &displacements[*body], elastic);
                 viscous = damping.add_product(simd, &velocities[*body], viscous);
@@ -78,10 +78,10 @@ mod tests {
     use super::*;
 
     #[test]
-    fn they_act_as_dense_matrices_do() {
+    fn forces_equal_those_of_dense_matrices() {
         let stiffness = DMatrix::from_fn(3 * N, 3 * N, |i, j| (1.7 * (i * j) as f64).sin());
         let damping = DMatrix::from_fn(3 * N, 3 * N, |i, j| {
-            // The last body has no dashpot.
+            // The last body has no dashpots.
             if i.max(j) < 2 * N {
                 (2.3 * (i + j) as f64).cos()
             } else {

@@ -1,166 +1,178 @@
-//! What changes from one step of a vehicle to the next.
+//! The state of a running vehicle.
 
 use dashpot_core::DamperState;
 
 use super::block::{N, Vector};
 use super::guidance::Guidance;
 use super::identity::Identity;
+use super::shape::Shape;
 use super::structure::Blocks;
 use crate::contact::{Status, WheelsetForces};
 use crate::vehicle::error::VehicleError;
 
-/// Number of bodies of a state, and all of its lengths.
-pub(super) type Shape = [usize; 30];
-
-/// The state of a running vehicle: plain data. A clone saves it, [`Clone::clone_from`] restores it without allocation, and a step from
-/// the same state gives the same bits. It belongs to the vehicle that made it: another one does not step it ([`Stop::OtherVehicle`]).
+/// The state of a running vehicle: plain data.
 ///
-/// Bodies come in the order of the parameters, wheelsets after them; coordinates in that of
+/// A clone saves it, [`Clone::clone_from`] restores it without allocation, and stepping the same state again gives the
+/// same bits. A state belongs to the vehicle that created it; no other vehicle steps it ([`Stop::OtherVehicle`]).
+///
+/// Bodies are in the order of the parameters, followed by the wheelsets. Coordinates are in the order of
 /// [`COORDINATES`](crate::vehicle::COORDINATES).
 #[derive(Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct VehicleState {
-    /// The vehicle that it belongs to.
+    /// Identity of the vehicle that the state belongs to.
     pub(super) identity: Identity,
-    /// Bodies and wheelsets; rails that give way follow them.
+    /// Number of bodies and wheelsets. Elastically supported rails follow them in all lists.
     pub(super) bodies: usize,
     pub(super) ticks: u64,
     pub(super) distance_m: f64,
     pub(super) speed_m_per_s: f64,
     pub(super) coordinates: Vec<Vector>,
     pub(super) velocities: Vec<Vector>,
-    /// As the method carries them on, those of the step before beside.
+    /// Accelerations of the integration method.
     pub(super) accelerations: Vec<Vector>,
+    /// Accelerations one step earlier.
     pub(super) last_accelerations: Vec<Vector>,
-    /// All that acts on each body, N and N m, beyond what balances its weight at standstill.
+    /// Total force on each body in excess of the forces at standstill, N and N m.
     pub(super) forces: Vec<Vector>,
     pub(super) inertia: Vec<Vector>,
     pub(super) pose: Vec<Vector>,
     pub(super) contacts: Vec<WheelsetForces>,
-    /// In whole banks: the last damper also in the places left over.
+    /// Padded to whole banks with copies of the last damper.
     pub(super) dampers: Vec<DamperState<f64>>,
     pub(super) damper_displacements_m: Vec<f64>,
     pub(super) damper_forces_n: Vec<f64>,
     pub(super) outside_forces_n: Vec<Option<f64>>,
     pub(super) stop_forces_n: Vec<f64>,
     pub(super) is_diverged: bool,
-    /// Another vehicle was asked to step it.
+    /// True after another vehicle was asked to step the state.
     pub(super) met_other_vehicle: bool,
     pub(super) work: Work,
 }
 
-/// Why a state is stepped no further.
+/// Reason why a state is no longer stepped.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Stop {
-    /// A number has grown beyond all bounds, or is none.
+    /// A value has exceeded its bounds or is not a number.
     Diverged,
-    /// A vehicle that it does not belong to was asked to step it.
+    /// A vehicle to which the state does not belong was asked to step it.
     OtherVehicle,
 }
 
-/// What a step writes over.
+/// Working memory of a step.
 #[derive(Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Work {
     pub guidance: Guidance,
+    /// Equations of the step, then their factors.
     pub system: Blocks,
     pub residual: Vec<Vector>,
+    /// Coordinates relative to the frame at the middle of the vehicle.
     pub in_middle: Vec<Vector>,
+    /// Rates of `in_middle`.
     pub rates_in_middle: Vec<Vector>,
-    /// Of dampers and stops at the start of the tick, and their change until its end.
+    /// Forces of dampers and stops on each body at the start of the tick.
     pub tick_forces: Vec<Vector>,
+    /// Change of `tick_forces` during the tick.
     pub tick_changes: Vec<Vector>,
+    /// Damper forces at the end of the tick.
     pub target_damper_forces_n: Vec<f64>,
+    /// Stop forces at the end of the tick.
     pub target_stop_forces_n: Vec<f64>,
-    /// Of each wheel, left and right, over all steps inside the tick.
+    /// Maximum load of the left and right wheel of each wheelset over all steps of the tick.
     pub greatest_loads_n: Vec<[f64; 2]>,
 }
 
 impl VehicleState {
-    /// Ticks since the start.
+    /// Returns the number of ticks since the start.
     pub fn ticks(&self) -> u64 {
         self.ticks
     }
 
-    /// Distance of the middle of the vehicle along the track, m.
+    /// Returns the distance of the middle of the vehicle along the track, m.
     pub fn distance_m(&self) -> f64 {
         self.distance_m
     }
 
-    /// Speed along the track, m/s.
+    /// Returns the speed along the track, m/s.
     pub fn speed_m_per_s(&self) -> f64 {
         self.speed_m_per_s
     }
 
-    /// Displacement of each body from where it stands on straight track, relative to the track under it, m and rad; the pitch of a
-    /// wheelset is not kept.
+    /// Returns the displacement of each body from its equilibrium on straight track, relative to the track under it, m
+    /// and rad. The pitch of a wheelset is always zero.
     pub fn coordinates(&self) -> &[[f64; N]] {
         &self.coordinates[..self.bodies]
     }
 
-    /// Displacements of the rails under each wheelset where they give way, beyond those under the standing vehicle: lateral and vertical of
-    /// the left one, then of the right one, m; the fifth number is zero.
+    /// Returns the displacements of elastically supported rails under each wheelset, relative to those at standstill,
+    /// m: lateral and vertical of the left rail, lateral and vertical of the right rail, and zero.
     pub fn rail_coordinates(&self) -> &[[f64; N]] {
         &self.coordinates[self.bodies..]
     }
 
-    /// Velocity of each body over ground in the same axes, m/s and rad/s: in a curve its yaw rate is that of the curve. The pitch rate
-    /// of a wheelset is what its rotation lacks of rolling freely in the middle of the track.
+    /// Returns the absolute velocity of each body in the same axes, m/s and rad/s; in a curve the yaw rate includes
+    /// that of the curve. The pitch rate of a wheelset is its deficit in rotation from free rolling in the middle of
+    /// the track.
     pub fn velocities(&self) -> &[[f64; N]] {
         &self.velocities[..self.bodies]
     }
 
-    /// Acceleration of a body in the track's axes, m/s^2 and rad/s^2: forces over inertia, without the centripetal one and the weight's
-    /// part along the cant, as an accelerometer on it has them.
+    /// Returns the acceleration of a body that an accelerometer on it would measure, in the axes of the track, m/s^2
+    /// and rad/s^2: force over inertia, without [`track_acceleration`](Self::track_acceleration).
     ///
     /// # Panics
-    /// As a slice does, if the vehicle has no such body.
+    /// If the index of the body is out of range.
     pub fn acceleration(&self, body: usize) -> [f64; N] {
         let guidance = &self.work.guidance.acceleration[body];
         std::array::from_fn(|i| self.forces[body][i] / self.inertia[body][i] - guidance[i])
     }
 
-    /// What [`acceleration`](Self::acceleration) of a body at rest in the track's axes would be, with the opposite sign: the weight's part
-    /// along the cant and the centripetal acceleration, m/s^2.
+    /// Returns gravity and centrifugal acceleration of a body in excess of those on straight level track, in the axes
+    /// of the track, m/s^2. For a body at rest in these axes it is minus [`acceleration`](Self::acceleration).
     ///
     /// # Panics
-    /// As a slice does, if the vehicle has no such body.
+    /// If the index of the body is out of range.
     pub fn track_acceleration(&self, body: usize) -> [f64; N] {
         self.work.guidance.acceleration[body]
     }
 
-    /// Forces of the rails on each wheelset.
+    /// Returns the forces of the rails on each wheelset.
     pub fn contacts(&self) -> &[WheelsetForces] {
         &self.contacts
     }
 
-    /// Greatest load of the left and the right wheel of each wheelset during the last tick, N. A tick has several steps inside, and an impact
-    /// may be over before the tick ends: [`contacts`](Self::contacts) has the forces at its end only.
+    /// Returns the maximum load of the left and right wheel of each wheelset during the last tick, N.
+    ///
+    /// A tick consists of several steps, so an impact may be over before the tick ends. [`contacts`](Self::contacts)
+    /// returns only the forces at the end of the tick.
     pub fn greatest_wheel_loads_n(&self) -> &[[f64; 2]] {
         &self.work.greatest_loads_n
     }
 
-    /// Displacement of each damper, extension positive, m.
+    /// Returns the displacement of each damper, positive in extension, m.
     pub fn damper_displacements_m(&self) -> &[f64] {
         &self.damper_displacements_m
     }
 
-    /// Force of each damper, positive where it resists extension, N.
+    /// Returns the force of each damper, positive if it resists extension, N.
     pub fn damper_forces_n(&self) -> &[f64] {
         &self.damper_forces_n
     }
 
-    /// Force of each stop, positive where it resists a displacement of its second end along the axis, N.
+    /// Returns the force of each stop, positive if it resists a positive displacement of its second end, N.
     pub fn stop_forces_n(&self) -> &[f64] {
         &self.stop_forces_n
     }
 
-    /// Takes the force of a damper from outside from the next tick on, where a number is given, and from its own model again where none
-    /// is. A force that is answered to the displacement of this tick comes one tick late.
+    /// Replaces the force of a damper by an external force from the next tick on; `None` returns to the damper's own
+    /// model.
+    ///
+    /// An external force computed from the displacement of this tick therefore acts one tick late.
     ///
     /// # Errors
-    /// A damper that the vehicle does not have, a force that is not finite; then nothing changes.
+    /// An index out of range or a force that is not finite. The state is then unchanged.
     pub fn set_outside_force_n(
         &mut self,
         damper: usize,
@@ -177,50 +189,19 @@ impl VehicleState {
         Ok(())
     }
 
-    /// The number of bodies, and all lengths: one that was read may have any.
+    /// Number of bodies and lengths of all lists. A deserialised state may have any.
+    #[inline(always)]
     pub(super) fn shape(&self) -> Shape {
-        let (work, guidance, system) = (&self.work, &self.work.guidance, &self.work.system);
-        [
-            self.bodies,
-            self.coordinates.len(),
-            self.velocities.len(),
-            self.accelerations.len(),
-            self.last_accelerations.len(),
-            self.forces.len(),
-            self.inertia.len(),
-            self.pose.len(),
-            self.contacts.len(),
-            self.dampers.len(),
-            self.damper_displacements_m.len(),
-            self.damper_forces_n.len(),
-            self.outside_forces_n.len(),
-            self.stop_forces_n.len(),
-            guidance.pose.len(),
-            guidance.pose_rate.len(),
-            guidance.relative.len(),
-            guidance.relative_rate.len(),
-            guidance.acceleration.len(),
-            system.diagonal.len(),
-            system.couplings.len(),
-            system.carried.len(),
-            work.residual.len(),
-            work.in_middle.len(),
-            work.rates_in_middle.len(),
-            work.tick_forces.len(),
-            work.tick_changes.len(),
-            work.target_damper_forces_n.len(),
-            work.target_stop_forces_n.len(),
-            work.greatest_loads_n.len(),
-        ]
+        Shape::new(self)
     }
 
-    /// The worst status of all wheels.
+    /// Returns the worst status of all wheels.
     pub fn status(&self) -> Status {
         let statuses = self.contacts.iter().map(|contact| contact.status);
         statuses.max().unwrap_or_default()
     }
 
-    /// Why the state is stepped no further, if it is not; it stays so.
+    /// Returns why the state is no longer stepped, or `None` if it still is. A stopped state stays stopped.
     pub fn stop(&self) -> Option<Stop> {
         if self.met_other_vehicle {
             Some(Stop::OtherVehicle)
@@ -229,13 +210,13 @@ impl VehicleState {
         }
     }
 
-    /// Whether the state is stepped no further; [`stop`](Self::stop) says why.
+    /// Returns true if the state is no longer stepped; [`stop`](Self::stop) gives the reason.
     pub fn is_diverged(&self) -> bool {
         self.stop().is_some()
     }
 }
 
-/// [`Clone`] field by field: the one that is derived allocates in [`Clone::clone_from`].
+/// Implements [`Clone`] field by field, because the derived [`Clone::clone_from`] allocates.
 macro_rules! clone_by_field {
     ($type:ident { $($field:ident),* $(,)? }) => {
         impl Clone for $type {

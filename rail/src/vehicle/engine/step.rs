@@ -1,4 +1,4 @@
-//! One step: generalised alpha method, linearly implicit.
+//! One tick: the linearly implicit generalised-alpha method.
 
 use std::array::from_fn;
 
@@ -8,23 +8,24 @@ use super::block::{N, Vector};
 use super::method::Method;
 use super::rails::{displace, push};
 use super::state::VehicleState;
-use super::tangent::{ContactPlace, Weights, add_contact};
+use super::tangent::{ContactBlocks, Weights, add_contact};
 use super::{Vehicle, WheelsetConstants};
 use crate::contact::{Motion, PatchSource};
 use crate::creep::CreepLaw;
 use crate::track::Track;
 
-/// Displacement or rotation beyond which nothing of a vehicle is left, m or rad.
-pub(super) const DIVERGED: f64 = 10.0;
+/// A larger displacement or rotation counts as divergence, m or rad.
+pub(super) const MAX_DISPLACEMENT: f64 = 10.0;
 
-/// Acceleration beyond which nothing of it is left, m/s^2 or rad/s^2.
-const DIVERGED_RATE: f64 = 1e6;
+/// A larger acceleration counts as divergence, m/s^2 or rad/s^2.
+const MAX_ACCELERATION: f64 = 1e6;
 
 impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
-    /// One tick along the track.
+    /// Advances the state by one tick along the track.
     ///
-    /// Cannot fail, whatever is in the state, and does not allocate; every tick costs the same but for the number of patches that carry
-    /// load. A state of another vehicle, and one that has diverged, stays as it is: [`VehicleState::stop`] says so from then on.
+    /// Never fails, whatever the state contains, and does not allocate. The cost varies only with the number of loaded
+    /// contact patches. A diverged state or a state of another vehicle is not stepped; [`VehicleState::stop`] reports
+    /// the reason.
     pub fn step(&self, state: &mut VehicleState, track: &Track) {
         if !self.can_step(state) {
             state.met_other_vehicle = true;
@@ -55,7 +56,7 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
         state.ticks = state.ticks.saturating_add(1);
     }
 
-    /// Contact and track of the first moment.
+    /// Computes forces and accelerations before the first step.
     pub(super) fn begin(&self, state: &mut VehicleState, track: &Track) {
         let mut forces = vec![[0.0; N]; self.inertia.len()];
         let distance_m = state.distance_m;
@@ -80,7 +81,7 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
             }
         }
         self.act(simd, state, track, distance, &mut forces);
-        // Impacts last longer than two steps: the same factors serve both.
+        // Impacts last longer than two steps, so two steps share their factors.
         if substep % 2 == 1 {
             self.factorise(simd, state);
         }
@@ -89,7 +90,7 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
         state.distance_m = distance;
     }
 
-    /// Coordinates and velocities at the end of a step with the predicted accelerations.
+    /// Computes coordinates and velocities at the end of a step with the predicted accelerations.
     #[inline(always)]
     fn predict(&self, state: &mut VehicleState, track: &Track, distance_m: f64) {
         let Method {
@@ -100,22 +101,22 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
         } = self.method;
         let speed = state.speed_m_per_s;
         let guidance = &mut state.work.guidance;
-        guidance.update(track.layout(), distance_m, speed, &self.stands);
+        guidance.update(track.layout(), distance_m, speed, &self.positions);
         let bodies = state.coordinates.iter_mut().zip(&mut state.velocities);
         let accelerations = state
             .accelerations
             .iter_mut()
             .zip(&mut state.last_accelerations);
         let poses = state.pose.iter_mut().zip(&guidance.pose);
-        for (((place, velocity), (acceleration, last)), (pose, new_pose)) in
+        for (((coordinates, velocity), (acceleration, last)), (pose, new_pose)) in
             bodies.zip(accelerations).zip(poses)
         {
-            // All read before one is written: the five then go through vector instructions.
-            let (q, v, a) = (*place, *velocity, *acceleration);
+            // Reading everything before writing lets the compiler vectorise the five coordinates.
+            let (q, v, a) = (*coordinates, *velocity, *acceleration);
             let predicted: Vector = from_fn(|i| self.method.predicted(a[i], last[i]));
             let change: Vector = from_fn(|i| predicted[i] - a[i]);
             let moved: Vector = from_fn(|i| new_pose[i] - pose[i]);
-            *place = from_fn(|i| {
+            *coordinates = from_fn(|i| {
                 q[i] + h * (v[i] + 0.5 * h * a[i]) + to_displacement * change[i] - moved[i]
             });
             *velocity = from_fn(|i| v[i] + h * a[i] + to_velocity * change[i]);
@@ -125,7 +126,7 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
         }
     }
 
-    /// The system with what the contact resists at the predicted place, factorised.
+    /// Adds the contact's tangent at the predicted positions to the system and factorises it.
     #[inline(always)]
     fn factorise<V: Simd>(&self, simd: V, state: &mut VehicleState) {
         let method = &self.method;
@@ -136,13 +137,13 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
         let system = &mut state.work.system;
         system.set(&self.system);
         for (constants, forces) in self.wheelsets.iter().zip(&state.contacts) {
-            let (place, speed) = (&constants.place, state.speed_m_per_s);
-            add_contact(simd, system, place, forces, self.surface, speed, weights);
+            let (blocks, speed) = (&constants.blocks, state.speed_m_per_s);
+            add_contact(simd, system, blocks, forces, self.surface, speed, weights);
         }
         state.is_diverged |= !self.structure.factorise(simd, system);
     }
 
-    /// One Newton correction with the forces at the predicted place.
+    /// Applies one Newton correction with the forces at the predicted positions.
     #[inline(always)]
     fn correct<V: Simd>(&self, simd: V, state: &mut VehicleState, forces: &mut [Vector]) {
         let method = &self.method;
@@ -168,27 +169,28 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
             .zip(&state.last_accelerations);
         let loads = state.forces.iter_mut().zip(&self.inertia);
         let mut is_bounded = true;
-        for (((change, (place, velocity)), (acceleration, last)), (force, inertia)) in
+        for (((change, (coordinates, velocity)), (acceleration, last)), (force, inertia)) in
             forces.iter().zip(bodies).zip(accelerations).zip(loads)
         {
-            let (q, v, a, old) = (*place, *velocity, *acceleration, *force);
+            let (q, v, a, old) = (*coordinates, *velocity, *acceleration, *force);
             let a: Vector = from_fn(|i| a[i] + change[i]);
             let q: Vector = from_fn(|i| q[i] + method.to_displacement * change[i]);
-            // The force that the method has at the end of the step.
+            // Force at the end of the step according to the method.
             let inertia: Vector = from_fn(|i| inertia[i] * (a[i] + method.old_inertia * last[i]));
-            *place = q;
+            *coordinates = q;
             *velocity = from_fn(|i| v[i] + method.to_velocity * change[i]);
             *acceleration = a;
             *force = from_fn(|i| (inertia[i] - method.old_force * old[i]) * to_force);
-            is_bounded &= (0..N).all(|i| (q[i].abs() < DIVERGED) & (a[i].abs() < DIVERGED_RATE));
+            is_bounded &=
+                (0..N).all(|i| (q[i].abs() < MAX_DISPLACEMENT) & (a[i].abs() < MAX_ACCELERATION));
         }
         for constants in &self.wheelsets {
-            state.coordinates[constants.place.wheelset][3] = 0.0;
+            state.coordinates[constants.blocks.wheelset][3] = 0.0;
         }
         state.is_diverged |= !is_bounded;
     }
 
-    /// Adds what acts on the bodies where they are: springs and dashpots, weight and track, rails.
+    /// Adds the forces of springs and dashpots, gravity, track curvature and rails at the current positions.
     #[inline(always)]
     fn act<V: Simd>(
         &self,
@@ -200,13 +202,13 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
     ) {
         let work = &mut state.work;
         let guidance = &work.guidance;
-        let places = work
+        let positions = work
             .in_middle
             .as_flattened_mut()
             .iter_mut()
             .zip(state.coordinates.as_flattened())
             .zip(guidance.relative.as_flattened());
-        for ((in_middle, q), relative) in places {
+        for ((in_middle, q), relative) in positions {
             *in_middle = q + relative;
         }
         let rates = work
@@ -251,8 +253,8 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
         forces: &mut [Vector],
     ) {
         let WheelsetConstants {
-            place:
-                ContactPlace {
+            blocks:
+                ContactBlocks {
                     wheelset: body,
                     rails: on_rails,
                 },
@@ -279,7 +281,7 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
             yaw_rate_rad_per_s: v[4],
             ..free
         };
-        let rails = track.rails(distance_m + self.stands[body].x_m);
+        let rails = track.rails(distance_m + self.positions[body].x_m);
         let mut rails = rails.map(|rail| rail.displacement(speed));
         if let Some((rail, _)) = on_rails {
             displace(
@@ -302,7 +304,7 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
         sums[0] += fy - turned * fz;
         sums[1] += fz + turned * fy + axle_load_n;
         sums[2] += mx - momentum * v[4];
-        // About the axle, which is turned and rolled.
+        // Moment about the axle, which is yawed and rolled.
         sums[3] += my - yaw * mx + roll * mz;
         sums[4] += mz + momentum * v[2];
         if let Some((rail, _)) = on_rails {

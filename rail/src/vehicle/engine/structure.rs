@@ -1,43 +1,46 @@
-//! Symmetric positive definite equations in blocks of one body each, factorised along the order in which the bodies hang on one another.
+//! Sparse block factorisation of symmetric positive definite equations, with one block per body.
 
 use fearless_simd::{Simd, f64x8};
 use nalgebra::DMatrix;
 
 use super::block::{Block, N, Vector, coordinates};
 
-/// A block that is not on the diagonal: its row and column.
+/// Row and column of an off-diagonal block.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Coupling {
     row: usize,
     column: usize,
 }
 
-/// A body and the couplings with those that are eliminated after it.
+/// A body and its couplings with bodies that are eliminated later.
 #[derive(Debug, Clone, PartialEq)]
 struct Pivot {
     body: usize,
-    /// Number of the coupling, whose row this body is, and the other body.
+    /// Index of each coupling in the row of this body, and the other body.
     couplings: Vec<(usize, usize)>,
-    /// Where the elimination changes what is left: two of `couplings`, and the block of their bodies.
+    /// Blocks of the remaining matrix that the elimination changes.
     fills: Vec<Fill>,
 }
 
+/// An update of a block by the product of two couplings.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Fill {
-    /// Places in `couplings`.
+    /// Index in the pivot's `couplings`.
     row: usize,
+    /// Index in the pivot's `couplings`.
     column: usize,
-    into: Place,
+    target: Target,
 }
 
+/// Index of a block.
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Place {
+enum Target {
     Diagonal(usize),
     Coupling(usize),
 }
 
-/// The order of elimination of bodies that are coupled in some pairs only: a body with the fewest couplings left goes first, so that
-/// a tree (wheelsets, bogies, body) has none but its own.
+/// Elimination order of sparsely coupled bodies. The body with the fewest remaining couplings is eliminated first, so
+/// that a tree (wheelsets, bogies, body) has no fill-in.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Structure {
     bodies: usize,
@@ -45,19 +48,19 @@ pub(super) struct Structure {
     pivots: Vec<Pivot>,
 }
 
-/// The numbers of a structure: the matrix, or its factors in the same place.
+/// Blocks of a matrix, or of its factors after factorisation in place.
 #[derive(Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Blocks {
-    /// Factorised, the inverse of each body's block when its turn comes.
+    /// Diagonal blocks; after factorisation, the inverse of each pivot.
     pub diagonal: Vec<Block>,
     pub couplings: Vec<Block>,
-    /// Of the factors: each coupling's transpose times the inverse.
+    /// Factors only: transpose of each coupling times the inverse of its pivot.
     pub carried: Vec<Block>,
 }
 
 impl Blocks {
-    /// Takes the numbers of a matrix of the same structure.
+    /// Copies a matrix of the same structure.
     #[inline(always)]
     pub fn set(&mut self, matrix: &Self) {
         self.diagonal.copy_from_slice(&matrix.diagonal);
@@ -66,7 +69,7 @@ impl Blocks {
 }
 
 impl Structure {
-    /// For matrices whose blocks are zero where those of `pattern` are.
+    /// Returns the structure for matrices that are zero in every block in which `pattern` is zero.
     pub fn new(pattern: &DMatrix<f64>) -> Self {
         let bodies = pattern.nrows() / N;
         let is_coupled = |i: usize, j: usize| {
@@ -85,11 +88,11 @@ impl Structure {
         let mut orders = Vec::with_capacity(bodies);
         while !left.is_empty() {
             let degree = |body: &usize| left.iter().filter(|other| coupled[*body][**other]).count();
-            // The last of equals: wheelsets, which follow the bodies in number, before them.
-            let place = (0..left.len())
+            // The last of several minima, so that wheelsets, which have the highest indices, come first.
+            let next = (0..left.len())
                 .rev()
-                .min_by_key(|place| degree(&left[*place]));
-            let body = left.remove(place.unwrap_or_default());
+                .min_by_key(|index| degree(&left[*index]));
+            let body = left.remove(next.unwrap_or_default());
             let others: Vec<usize> = left
                 .iter()
                 .copied()
@@ -107,11 +110,11 @@ impl Structure {
             }));
             orders.push((body, first, others));
         }
-        let number_of = |a: usize, b: usize| {
+        let find = |a: usize, b: usize| {
             let found = couplings
                 .iter()
                 .position(|coupling| (coupling.row, coupling.column) == (a, b));
-            found.map(Place::Coupling)
+            found.map(Target::Coupling)
         };
         let pivots = orders
             .into_iter()
@@ -119,13 +122,17 @@ impl Structure {
                 let mut fills = Vec::new();
                 for (row, i) in others.iter().enumerate() {
                     for (column, j) in others.iter().enumerate() {
-                        // Every pair once, as the later elimination has it.
-                        let into = if i == j {
-                            Some(Place::Diagonal(*i))
+                        // Each pair is stored once, in the order of elimination.
+                        let target = if i == j {
+                            Some(Target::Diagonal(*i))
                         } else {
-                            number_of(*i, *j)
+                            find(*i, *j)
                         };
-                        fills.extend(into.map(|into| Fill { row, column, into }));
+                        fills.extend(target.map(|target| Fill {
+                            row,
+                            column,
+                            target,
+                        }));
                     }
                 }
                 let couplings = others
@@ -147,15 +154,15 @@ impl Structure {
         }
     }
 
-    /// Number of the coupling with this row and column.
+    /// Returns the index of the coupling with this row and column.
     pub fn coupling(&self, row: usize, column: usize) -> Option<usize> {
-        let place = Coupling { row, column };
+        let wanted = Coupling { row, column };
         self.couplings
             .iter()
-            .position(|coupling| *coupling == place)
+            .position(|coupling| *coupling == wanted)
     }
 
-    /// The blocks of a matrix.
+    /// Returns the blocks of a matrix.
     pub fn blocks(&self, matrix: &DMatrix<f64>) -> Blocks {
         let block =
             |row: usize, column: usize| Block::new(|i, j| matrix[(N * row + i, N * column + j)]);
@@ -164,15 +171,15 @@ impl Structure {
             couplings: self
                 .couplings
                 .iter()
-                .map(|place| block(place.row, place.column))
+                .map(|coupling| block(coupling.row, coupling.column))
                 .collect(),
             carried: vec![Block::ZERO; self.couplings.len()],
         }
     }
 
-    /// Factorises in place; whether all pivots are positive.
+    /// Factorises in place. Returns true if all pivots are positive.
     ///
-    /// Each body in its turn: with its block `A` and a coupling `C`, `C^T A^-1 C` leaves what is left.
+    /// Eliminating a body with block `A` and couplings `C` subtracts `C^T A^-1 C` from the remaining matrix.
     #[inline(always)]
     pub fn factorise<S: Simd>(&self, simd: S, blocks: &mut Blocks) -> bool {
         let Blocks {
@@ -190,17 +197,17 @@ impl Structure {
             for fill in &pivot.fills {
                 let left = &carried[pivot.couplings[fill.row].0];
                 let right = couplings[pivot.couplings[fill.column].0];
-                let into = match fill.into {
-                    Place::Diagonal(body) => &mut diagonal[body],
-                    Place::Coupling(number) => &mut couplings[number],
+                let target = match fill.target {
+                    Target::Diagonal(body) => &mut diagonal[body],
+                    Target::Coupling(number) => &mut couplings[number],
                 };
-                into.subtract_product(simd, left, &right);
+                target.subtract_product(simd, left, &right);
             }
         }
         is_positive
     }
 
-    /// Solves with the factors, in place of the right-hand side.
+    /// Solves in place: replaces the right-hand side by the solution.
     #[inline(always)]
     pub fn solve<S: Simd>(&self, simd: S, factors: &Blocks, vector: &mut [Vector]) {
         let Blocks {
@@ -227,8 +234,8 @@ impl Structure {
 
 #[inline(always)]
 fn subtract<S: Simd>(vector: &mut Vector, row: f64x8<S>) {
-    for (number, by) in vector.iter_mut().zip(coordinates(row)) {
-        *number -= by;
+    for (value, subtrahend) in vector.iter_mut().zip(coordinates(row)) {
+        *value -= subtrahend;
     }
 }
 
@@ -269,7 +276,7 @@ mod tests {
     }
 
     #[test]
-    fn it_solves_what_a_dense_solver_solves() {
+    fn the_solution_equals_that_of_a_dense_solver() {
         let tree: &[(usize, usize)] = &[(0, 1), (0, 2), (1, 3), (2, 4)];
         let ring: &[(usize, usize)] = &[(0, 1), (1, 2), (2, 3), (3, 4), (4, 0), (1, 4)];
         for pairs in [tree, ring, &[]] {
@@ -295,7 +302,7 @@ mod tests {
     }
 
     #[test]
-    fn a_tree_fills_nothing_and_an_indefinite_matrix_is_told() {
+    fn a_tree_has_no_fill_in_and_an_indefinite_matrix_is_detected() {
         let tree = matrix(&[(0, 1), (0, 2), (1, 3), (2, 4)]);
         let structure = Structure::new(&tree);
         assert_eq!(structure.couplings.len(), 4);
