@@ -8,7 +8,9 @@
 pub mod damper;
 pub mod deviation;
 mod error;
+mod esdirk;
 pub mod kalker_book;
+mod linear;
 pub mod probing;
 pub mod rolling_contact;
 pub mod vehicle;

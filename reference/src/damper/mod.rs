@@ -7,7 +7,7 @@
 
 mod bracket;
 mod chambers;
-mod esdirk;
+mod integrator;
 mod motion;
 mod oil;
 mod passage;
@@ -20,6 +20,7 @@ use std::rc::Rc;
 
 use dashpot_core::DamperParameters;
 
+use self::integrator::EsdirkIntegrator;
 pub use self::motion::Statistics;
 use self::motion::{Mode, Motion, Piece};
 use self::segment::Scales;
@@ -81,15 +82,8 @@ impl Reference {
         displacements_m: &[f64],
         is_unwanted: &dyn Fn() -> bool,
     ) -> Result<Vec<f64>, ReferenceError> {
-        check_samples(times_s, displacements_m)?;
-        let Some((motion, first)) = self.prepare(times_s, displacements_m) else {
-            return Ok(vec![0.0; times_s.len()]);
-        };
-        let (forces, statistics) = esdirk::with_esdirk(first, |solver| {
-            run(motion, times_s, displacements_m, solver, is_unwanted)
-        })?;
-        self.statistics = statistics;
-        Ok(forces)
+        let mut solver = EsdirkIntegrator::default();
+        self.forces_by(&mut solver, times_s, displacements_m, is_unwanted)
     }
 
     /// As [`Self::forces`], with another solver of the same segments.
@@ -102,11 +96,29 @@ impl Reference {
         times_s: &[f64],
         displacements_m: &[f64],
     ) -> Result<Vec<f64>, ReferenceError> {
-        check_samples(times_s, displacements_m)?;
-        let Some((motion, _)) = self.prepare(times_s, displacements_m) else {
-            return Ok(vec![0.0; times_s.len()]);
+        self.forces_by(solver, times_s, displacements_m, &|| false)
+    }
+
+    fn forces_by(
+        &mut self,
+        solver: &mut dyn Integrator,
+        times: &[f64],
+        x: &[f64],
+        is_unwanted: &dyn Fn() -> bool,
+    ) -> Result<Vec<f64>, ReferenceError> {
+        check_samples(times, x)?;
+        self.statistics = Statistics::default();
+        let Some(scales) = scales(&self.sides, times, x) else {
+            return Ok(vec![0.0; times.len()]);
         };
-        let (forces, statistics) = run(motion, times_s, displacements_m, solver, &|| false)?;
+        let motion = Motion {
+            sides: Rc::clone(&self.sides),
+            scales,
+            half_clearance: self.half_clearance,
+            mode: Mode::Clearance { piston: x[0] },
+            statistics: Statistics::default(),
+        };
+        let (forces, statistics) = run(motion, times, x, solver, is_unwanted)?;
         self.statistics = statistics;
         Ok(forces)
     }
@@ -136,30 +148,6 @@ impl Reference {
         let side = &self.sides[usize::from(velocity_m_per_s < 0.0)];
         let coordinate = side.coordinate_at(velocity_m_per_s.abs());
         side.force(coordinate).copysign(velocity_m_per_s)
-    }
-
-    /// The chain at rest and a segment to set a solver up with; `None` when nothing moves.
-    fn prepare(&mut self, times: &[f64], x: &[f64]) -> Option<(Motion, Segment)> {
-        self.statistics = Statistics::default();
-        let scales = scales(&self.sides, times, x)?;
-        let motion = Motion {
-            sides: Rc::clone(&self.sides),
-            scales,
-            half_clearance: self.half_clearance,
-            mode: Mode::Clearance { piston: x[0] },
-            statistics: Statistics::default(),
-        };
-        let first = Segment {
-            sides: Rc::clone(&self.sides),
-            scales,
-            side: 0,
-            speed: scales.velocity,
-            start: 0.0,
-            bound: self.sides[0].yield_coordinate,
-            duration: scales.time,
-            knee: scales.coordinate[0],
-        };
-        Some((motion, first))
     }
 }
 

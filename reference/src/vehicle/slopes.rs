@@ -6,44 +6,11 @@ use dashpot_rail::creep::CreepLaw;
 use super::coupling::Coupling;
 use super::equations::{Equations, N, Ranged, Situation};
 use super::place::{Coordinates, Pose};
+use crate::linear::Matrix;
 
 /// Fields of a contact's motion by each coordinate of a wheelset, and by each velocity with its sign.
 const BY_COORDINATE: [Option<usize>; N] = [Some(1), Some(2), Some(3), None, Some(4)];
 const BY_VELOCITY: [(usize, f64); N] = [(5, 1.0), (6, 1.0), (7, 1.0), (8, -1.0), (9, 1.0)];
-
-/// A square matrix, row by row.
-#[derive(Clone, Debug)]
-pub(super) struct Matrix {
-    size: usize,
-    entries: Vec<f64>,
-}
-
-impl Matrix {
-    fn zeros(size: usize) -> Self {
-        Self {
-            size,
-            entries: vec![0.0; size * size],
-        }
-    }
-
-    fn add(&mut self, row: usize, column: usize, entry: f64) {
-        self.entries[row * self.size + column] += entry;
-    }
-
-    /// Product with a vector of few entries.
-    pub(super) fn times(&self, vector: &[f64], product: &mut [f64]) {
-        product.fill(0.0);
-        for (column, factor) in vector
-            .iter()
-            .enumerate()
-            .filter(|(_, factor)| **factor != 0.0)
-        {
-            for (row, sum) in product.iter_mut().enumerate() {
-                *sum += self.entries[row * self.size + column] * factor;
-            }
-        }
-    }
-}
 
 impl<L: CreepLaw, S: PatchSource> Equations<'_, L, S> {
     /// What does not change: springs, dashpots, standing forces, gyroscopic moments, and that velocities move.

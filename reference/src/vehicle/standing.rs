@@ -6,6 +6,7 @@ use dashpot_rail::vehicle::{GRAVITY_M_PER_S2, VehicleError, VehicleParameters};
 
 use super::coupling::Coupling;
 use super::place::{Coordinates, Pose};
+use crate::linear::{Factors, Matrix};
 
 /// Coordinates of a body.
 const N: usize = 5;
@@ -55,19 +56,24 @@ pub(super) fn load_elements(
         }
         all
     };
-    // Columns of the forces by unit displacements, and the weight that they carry.
-    let mut rows = vec![vec![0.0; size + 1]; size];
+    // The forces of unit displacements carry the weights.
+    let mut stiffness = Matrix::zeros(size);
     for column in 0..size {
         let mut unit = vec![0.0; size];
         unit[column] = 1.0;
-        for (row, load) in rows.iter_mut().zip(loads(couplings, &unit)) {
-            row[column] = -load;
+        for (row, load) in loads(couplings, &unit)[..size].iter().enumerate() {
+            stiffness.add(row, column, -load);
         }
     }
-    for (body, rows) in vehicle.bodies.iter().zip(rows.chunks_mut(N)) {
-        rows[1][size] = body.mass_kg * GRAVITY_M_PER_S2;
+    let factors = Factors::new(stiffness);
+    if factors.is_singular() {
+        return Err(VehicleError::NoModes);
     }
-    let displacements = solved(rows).ok_or(VehicleError::NoModes)?;
+    let mut displacements = vec![0.0; size];
+    for (body, weights) in vehicle.bodies.iter().zip(displacements.chunks_mut(N)) {
+        weights[1] = body.mass_kg * GRAVITY_M_PER_S2;
+    }
+    factors.solve(&mut displacements);
     let on_wheelsets = loads(couplings, &displacements)[size..]
         .chunks(N)
         .map(|load| std::array::from_fn(|k| load[k]))
@@ -78,32 +84,6 @@ pub(super) fn load_elements(
         coupling.standing_force = force;
     }
     Ok(on_wheelsets)
-}
-
-/// Solution of linear equations by elimination with the greatest pivots; the last column is the right side.
-fn solved(mut rows: Vec<Vec<f64>>) -> Option<Vec<f64>> {
-    let size = rows.len();
-    for k in 0..size {
-        let pivot = (k..size).max_by(|a, b| rows[*a][k].abs().total_cmp(&rows[*b][k].abs()))?;
-        rows.swap(k, pivot);
-        let (head, tail) = rows.split_at_mut(k + 1);
-        let top = head.last()?;
-        if top[k] == 0.0 {
-            return None;
-        }
-        for row in tail {
-            let factor = row[k] / top[k];
-            for (number, of_top) in row.iter_mut().zip(top).skip(k) {
-                *number -= factor * of_top;
-            }
-        }
-    }
-    let mut solution = vec![0.0; size];
-    for k in (0..size).rev() {
-        let known: f64 = (k + 1..size).map(|j| rows[k][j] * solution[j]).sum();
-        solution[k] = (rows[k][size] - known) / rows[k][k];
-    }
-    Some(solution)
 }
 
 impl Standing {
