@@ -1,7 +1,7 @@
 //! Independent solutions that the fixed steps and the creep laws are checked against, to a stated tolerance.
 //!
-//! They share the parameters with what they check, and a [`vehicle`] the contact; nothing else. [`kalker_book`] computes the tables that the
-//! recommended creep law reads.
+//! A reference shares only the parameters with the code that it checks; a [`vehicle`] also shares the contact.
+//! [`kalker_book`] computes the tables that the recommended creep law reads.
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
 

@@ -39,10 +39,13 @@ impl Matrix {
         }
     }
 
-    /// Two rows, `upper` above `lower`.
+    /// Two rows; `upper` is above `lower`.
     fn two_rows(&mut self, upper: usize, lower: usize) -> (&mut [f64], &mut [f64]) {
         let (head, tail) = self.entries.split_at_mut(lower * self.size);
-        (&mut head[upper * self.size..][..self.size], &mut tail[..self.size])
+        (
+            &mut head[upper * self.size..][..self.size],
+            &mut tail[..self.size],
+        )
     }
 }
 
@@ -51,12 +54,12 @@ impl Matrix {
 pub(crate) struct Factors {
     /// `L` below the diagonal, `U` on it and above.
     matrix: Matrix,
-    /// Row exchanged with each row, in order.
+    /// Row that was exchanged with each row, in order.
     exchanges: Vec<usize>,
 }
 
 impl Factors {
-    /// Factors of a matrix.
+    /// Factorises a matrix.
     pub(crate) fn new(matrix: Matrix) -> Self {
         let mut factors = Self {
             exchanges: vec![0; matrix.size],
@@ -66,13 +69,13 @@ impl Factors {
         factors
     }
 
-    /// Replaces the factors by those of the matrix that `fill` writes over the old ones.
+    /// Factorises the matrix that `fill` writes, in the memory of the old factors.
     pub(crate) fn replace(&mut self, fill: impl FnOnce(&mut Matrix)) {
         fill(&mut self.matrix);
         self.eliminate();
     }
 
-    /// True if the matrix has no inverse; [`Self::solve`] then returns infinities or NaN.
+    /// True if the matrix has no inverse. [`Self::solve`] then returns infinities or NaN.
     pub(crate) fn is_singular(&self) -> bool {
         (0..self.matrix.size).any(|k| self.matrix.row(k)[k] == 0.0)
     }
@@ -82,7 +85,11 @@ impl Factors {
         for k in 0..size {
             let magnitude = |row: usize| self.matrix.row(row)[k].abs();
             let pivot = (k..size).fold(k, |best, row| {
-                if magnitude(row) >= magnitude(best) { row } else { best }
+                if magnitude(row) >= magnitude(best) {
+                    row
+                } else {
+                    best
+                }
             });
             self.exchanges[k] = pivot;
             if pivot != k {
@@ -91,7 +98,7 @@ impl Factors {
             }
             for row in k + 1..size {
                 let (top, below) = self.matrix.two_rows(k, row);
-                // Most entries of a chain of bodies are zero.
+                // Most entries of a vehicle's matrix are zero.
                 if below[k] == 0.0 {
                     continue;
                 }

@@ -1,26 +1,26 @@
-//! Segments by the solver of this crate, ESDIRK 3/4.
+//! Integration of segments by this crate's solver, ESDIRK 3/4.
 
 use super::segment::{Arrival, Integrator, STATES, Segment};
 use crate::error::ReferenceError;
 use crate::esdirk::{Equations, Esdirk, StepEnd, Tolerances};
 use crate::linear::Matrix;
 
-/// Tolerance per step, relative and absolute to the scales of a segment.
+/// Tolerance per step, relative to the states and to the scales of a segment.
 const TOLERANCE: f64 = 1e-12;
 
-/// First step of the first segment, over its time scale.
+/// First step of the first segment, relative to its time scale.
 const FIRST_STEP: f64 = 1e-3;
 
-/// Step, over the time scale, below which the solver gives up.
+/// Minimum step, relative to the time scale.
 const MIN_STEP: f64 = 1e-18;
 
-/// Index of the event function that is the distance to the bound.
+/// Index of the event function for the distance to the bound.
 const BOUND: usize = 0;
 
-/// The solver that the reference uses.
+/// Default integrator of the reference.
 pub(super) struct EsdirkIntegrator {
     solver: Esdirk,
-    /// Step the error control last wanted, not shortened by the end of a segment.
+    /// Last step length by the error control, not shortened by the end of a segment.
     natural_step: f64,
 }
 
@@ -38,7 +38,7 @@ impl Default for EsdirkIntegrator {
     }
 }
 
-/// A state of the solver as that of a segment.
+/// Converts a state of the solver to a state of a segment.
 fn fixed(state: &[f64]) -> [f64; STATES] {
     std::array::from_fn(|k| state[k])
 }
@@ -64,11 +64,15 @@ impl Equations for SegmentEquations<'_> {
 impl Integrator for EsdirkIntegrator {
     fn advance(&mut self, segment: &Segment) -> Result<Arrival, ReferenceError> {
         let mut equations = SegmentEquations(segment);
-        self.solver.restart(&mut equations, 0.0, &segment.initial(), self.natural_step);
+        self.solver
+            .restart(&mut equations, 0.0, &segment.initial(), self.natural_step);
         loop {
             let end = self.solver.step(&mut equations, f64::INFINITY);
             let end = end.map_err(|error| ReferenceError::Solver {
-                place: format!(" (side {}, seat velocity {} m/s)", segment.side, segment.speed),
+                place: format!(
+                    " (side {}, seat velocity {} m/s)",
+                    segment.side, segment.speed
+                ),
                 source: error.into(),
             })?;
             self.natural_step = self.solver.wanted_length();

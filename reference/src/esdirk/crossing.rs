@@ -1,6 +1,6 @@
-//! Location of an event within a step: the first point where one of several functions is no longer positive.
+//! Location of an event within a step: the first time at which one of several functions is no longer positive.
 
-/// Width of the located interval over the magnitude of its times.
+/// Width of the final interval, relative to the magnitude of its times.
 const RELATIVE_WIDTH: f64 = 100.0 * f64::EPSILON;
 
 /// Event functions at both ends of an interval of time.
@@ -32,9 +32,10 @@ impl Bracket {
         std::mem::swap(&mut self.low, &mut self.high);
     }
 
-    /// The first event between two times, if there is one; its time is that of the upper end of an interval as wide as
-    /// rounding. `evaluate` writes the functions at a time. Secants, Illinois variant, on the function that a straight
-    /// line sees cross first (as CVODE, Hindmarsh and others 2005).
+    /// Finds the first event between two times. Its time is the upper end of an interval as narrow as rounding allows.
+    ///
+    /// `evaluate` writes the functions at a time. The search uses secants (Illinois variant) on the function that crosses
+    /// first by linear interpolation, as CVODE does (Hindmarsh et al. 2005).
     pub(super) fn locate(
         &mut self,
         (mut start, mut end): (f64, f64),
@@ -42,7 +43,7 @@ impl Bracket {
     ) -> Option<Crossing> {
         let mut index = first_crossing(&self.low, &self.high)?;
         let width = RELATIVE_WIDTH * (end.abs() + (end - start).abs());
-        // Weight of the function at the start; changes when one end has moved twice in succession.
+        // Weight of the function at the start; it changes if the same end moves twice in succession.
         let mut weight = 1.0;
         let mut end_moved = None;
         while end - start > width && self.high[index] < 0.0 {
@@ -69,7 +70,7 @@ impl Bracket {
     }
 }
 
-/// A point between two times, away from both by a part of their distance.
+/// Moves a point between two times away from both ends.
 fn inside(point: f64, start: f64, end: f64, width: f64) -> f64 {
     let distance = end - start;
     let away = if distance > 5.0 * width {
@@ -86,7 +87,7 @@ fn inside(point: f64, start: f64, end: f64, width: f64) -> f64 {
     }
 }
 
-/// The function that crosses first, were all linear in between.
+/// Index of the function that crosses first by linear interpolation.
 fn first_crossing(low: &[f64], high: &[f64]) -> Option<usize> {
     let mut first = None;
     let mut largest_share = 0.0;
@@ -116,7 +117,7 @@ mod tests {
 
     #[test]
     fn the_first_of_two_events_is_found() {
-        // Both cross; a straight line would have the second one first.
+        // By linear interpolation the second function would cross first.
         let crossing = located(|t| [2.0 - t * t, (1.5 - t) * t.powi(8)]).expect("an event");
         assert_eq!(crossing.index, 0);
         let past = crossing.time - 2f64.sqrt();

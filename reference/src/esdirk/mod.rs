@@ -19,23 +19,23 @@ const SAFETY: f64 = 0.9;
 /// Smallest and largest change of the step length after a step.
 const LENGTH_CHANGE: [f64; 2] = [0.5, 2.0];
 
-/// Changes of the step length between these are not made: the factors stay valid.
+/// Range of proposed changes of the step length that are not made, so that the factors stay valid.
 const UNCHANGED: [f64; 2] = [0.9, 2.0];
 
-/// Change of the step length where an iteration does not converge with a new Jacobian.
+/// Change of the step length if an iteration diverges with a new Jacobian.
 const CHANGE_AFTER_DIVERGENCE: f64 = 0.3;
 
-/// Steps after which the Jacobian is evaluated again, and after which the matrix is factorised again.
+/// Maximum age of the Jacobian and of the factors, in steps.
 const JACOBIAN_STEPS: u32 = 50;
 const FACTOR_STEPS: u32 = 20;
 
 /// Relative change of the step length since the last factorisation above which the matrix is factorised again.
 const MAX_LENGTH_DRIFT: f64 = 0.3;
 
-/// The same, below which divergence is blamed on the Jacobian.
+/// Relative change of the step length below which divergence is attributed to an old Jacobian.
 const JACOBIAN_LENGTH_DRIFT: f64 = 0.2;
 
-/// Part of a step that is appended to a step to reach a stop time, so that no tiny step is left.
+/// Fraction by which a step may be lengthened to reach a stop time, so that no tiny step remains.
 const APPENDED: f64 = 1e-3;
 
 /// Differential equations with events.
@@ -50,25 +50,27 @@ pub(crate) trait Equations {
     fn events(&mut self, time: f64, state: &[f64], values: &mut [f64]);
 }
 
-/// Where a step ended.
+/// End of a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum StepEnd {
-    /// Where the error control chose.
+    /// At a time chosen by the error control.
     Free,
     /// At the stop time.
     Stop,
-    /// Beyond an event, which happened within the step.
+    /// Beyond an event within the step.
     Event {
-        /// Its time.
+        /// Time of the event.
         time: f64,
-        /// Index of its function.
+        /// Index of the event function.
         index: usize,
     },
 }
 
 /// The tolerance cannot be reached.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[error("step length {length} at {time} is below the minimum of {min_length}; the tolerance cannot be reached")]
+#[error(
+    "step length {length} at {time} is below the minimum of {min_length}; the tolerance cannot be reached"
+)]
 pub(crate) struct StepTooSmall {
     length: f64,
     time: f64,
@@ -89,15 +91,15 @@ pub(crate) struct Counts {
 /// Tolerances of a solver.
 #[derive(Clone, Debug)]
 pub(crate) struct Tolerances {
-    /// Relative to each state.
+    /// Tolerance relative to each state.
     pub(crate) relative: f64,
-    /// Added for each state.
+    /// Absolute tolerance of each state, added to the relative one.
     pub(crate) absolute: Vec<f64>,
-    /// Step length below which the solver gives up.
+    /// Minimum step length; an error below it.
     pub(crate) min_length: f64,
 }
 
-/// Why the matrix of the iteration may be out of date.
+/// Reason why the matrix of the iteration may be out of date.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Cause {
     Restart,
@@ -107,17 +109,17 @@ enum Cause {
     FurtherDivergence,
 }
 
-/// The solver with the state at the end of its last step, and the stages of that step.
+/// Solver with the state at the end of its last step and the stages of that step.
 pub(crate) struct Esdirk {
     tolerances: Tolerances,
     time: f64,
     state: Vec<f64>,
     rates: Vec<f64>,
-    /// Length that the error control wants for the next step.
+    /// Length of the next step by the error control.
     wanted: f64,
     start_time: f64,
     start: Vec<f64>,
-    /// Stage derivatives times the step length; the first and last are those of the ends of the step.
+    /// Derivatives at the stages times the step length; the first and last stage are the ends of the step.
     increments: [Vec<f64>; STAGES],
     known: Vec<f64>,
     stage: Vec<f64>,
@@ -134,7 +136,7 @@ pub(crate) struct Esdirk {
 }
 
 impl Esdirk {
-    /// A solver of as many states as there are absolute tolerances; [`Self::restart`] sets its start.
+    /// Builds a solver with one state per absolute tolerance. Call [`Self::restart`] before the first step.
     pub(crate) fn new(tolerances: Tolerances, events: usize) -> Self {
         let size = tolerances.absolute.len();
         let zeros = || vec![0.0; size];
@@ -172,7 +174,7 @@ impl Esdirk {
         &self.state
     }
 
-    /// Length that the error control wants for the next step, not shortened by a stop time.
+    /// Length of the next step by the error control, not shortened by a stop time.
     pub(crate) fn wanted_length(&self) -> f64 {
         self.wanted
     }
@@ -181,7 +183,7 @@ impl Esdirk {
         self.counts
     }
 
-    /// Starts from a state, with a first step of at most `length`.
+    /// Starts at a state, with a first step of at most `length`.
     pub(crate) fn restart(
         &mut self,
         equations: &mut impl Equations,
@@ -270,7 +272,7 @@ impl Esdirk {
         })
     }
 
-    /// First guess of a stage by a straight line through those before it.
+    /// Predicts a stage by linear extrapolation from the two stages before it.
     fn predict(&self, stage: usize, increment: &mut [f64]) {
         let before = &self.increments[stage - 1];
         if stage == 1 {
@@ -334,7 +336,9 @@ impl Esdirk {
 
     /// Mean square over the tolerances at the state.
     fn mean_square(&self, vector: &[f64]) -> f64 {
-        let Tolerances { relative, absolute, .. } = &self.tolerances;
+        let Tolerances {
+            relative, absolute, ..
+        } = &self.tolerances;
         let squares = vector.iter().zip(self.state.iter().zip(absolute));
         let sum: f64 = squares
             .map(|(x, (state, absolute))| (x / (state.abs() * relative + absolute)).powi(2))
@@ -344,7 +348,10 @@ impl Esdirk {
 
     /// Change of the step length by the mean square error of a step; smaller where the iterations were many.
     fn change(&self, error: f64) -> f64 {
-        let (most, used) = (f64::from(MAX_ITERATIONS), f64::from(self.convergence.iterations()));
+        let (most, used) = (
+            f64::from(MAX_ITERATIONS),
+            f64::from(self.convergence.iterations()),
+        );
         let safety = SAFETY * (2.0 * most + 1.0) / (2.0 * most + used);
         let change = safety * error.powf(-0.5 / f64::from(ORDER + 1));
         let [smallest, largest] = LENGTH_CHANGE;
@@ -357,7 +364,7 @@ impl Esdirk {
         }
     }
 
-    /// Takes over a step; the last stage is its end.
+    /// Completes an accepted step; the last stage is its end.
     fn accept(&mut self, length: f64, change: f64, is_shortened: bool) {
         self.start_time = self.time;
         self.time += length;
@@ -377,7 +384,7 @@ impl Esdirk {
         self.counts.steps += 1;
     }
 
-    /// The first event within the last step.
+    /// Finds the first event within the last step.
     fn event(&mut self, equations: &mut impl Equations) -> Option<StepEnd> {
         equations.events(self.time, &self.state, &mut self.bracket.high);
         let mut bracket = std::mem::take(&mut self.bracket);
@@ -396,7 +403,7 @@ impl Esdirk {
         })
     }
 
-    /// State at a time within the last step: the cubic through the states and rates at both ends.
+    /// Writes the state at a time within the last step: a cubic through the states and rates at both ends.
     pub(crate) fn interpolate(&self, time: f64, state: &mut [f64]) {
         let share = (time - self.start_time) / (self.time - self.start_time);
         let left = 1.0 - share;
@@ -408,7 +415,7 @@ impl Esdirk {
         }
     }
 
-    /// Evaluates the Jacobian at the state and factorises the matrix `I - gamma h J` where that is due.
+    /// Evaluates the Jacobian at the state and factorises the matrix `I - gamma h J`, if either is due.
     fn update_factors(&mut self, equations: &mut impl Equations, length: f64, cause: Cause) {
         let drift = (length / self.factored_length - 1.0).abs();
         let is_jacobian_due = match cause {

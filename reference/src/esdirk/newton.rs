@@ -1,25 +1,25 @@
 //! Convergence of the simplified Newton iteration of a stage (Hairer and Wanner, Solving Ordinary Differential
 //! Equations II, IV.8).
 
-/// Iterations of a stage at most.
+/// Maximum number of iterations per stage.
 pub(super) const MAX_ITERATIONS: i32 = 10;
 
-/// Error of the iteration over the tolerance of a step, at most.
+/// Maximum error of the iteration, relative to the tolerance of a step.
 const ERROR_RATIO: f64 = 0.2;
 
-/// Rate of convergence above which an iteration is given up.
+/// Rate of convergence above which an iteration counts as divergent.
 const MAX_RATE: f64 = 0.9;
 
-/// Error over the last change, assumed before a rate is known with new factors.
+/// Ratio of error to last change that is assumed with new factors, before a rate is known.
 const NEW_FACTORS: f64 = 20.0;
 
-/// Error over the last change, assumed before a rate is known with a new step length.
+/// Ratio of error to last change that is assumed with a new step length, before a rate is known.
 const NEW_LENGTH: f64 = 100.0;
 
-/// The assumed error over the last change shrinks from one iteration to the next by this power.
+/// Exponent by which the assumed ratio shrinks from one stage to the next.
 const TRUST: f64 = 0.8;
 
-/// Smallest error over the last change that a converged iteration hands on to the next.
+/// Smallest assumed ratio of error to last change.
 const MIN_ERROR_OVER_CHANGE: f64 = 1e4 * f64::EPSILON;
 
 /// Result of one iteration.
@@ -35,7 +35,7 @@ pub(super) enum Verdict {
 pub(super) struct Convergence {
     first_change: f64,
     iterations: i32,
-    /// Estimated error over the last change: `rate / (1 - rate)`.
+    /// Estimated ratio of error to last change, `rate / (1 - rate)`.
     error_over_change: f64,
 }
 
@@ -63,17 +63,20 @@ impl Convergence {
         self.iterations = 0;
     }
 
-    /// Iterations of the last stage.
+    /// Number of iterations of the last stage.
     pub(super) fn iterations(&self) -> i32 {
         self.iterations
     }
 
-    /// Judges an iteration by its change over the tolerance of a step; NaN has diverged.
+    /// Judges an iteration by its change relative to the tolerance of a step. NaN is divergent.
     pub(super) fn judge(&mut self, change: f64) -> Verdict {
         self.iterations += 1;
         if self.iterations == 1 {
             self.first_change = change;
-            self.error_over_change = self.error_over_change.max(MIN_ERROR_OVER_CHANGE).powf(TRUST);
+            self.error_over_change = self
+                .error_over_change
+                .max(MIN_ERROR_OVER_CHANGE)
+                .powf(TRUST);
         } else {
             let rate = (change / self.first_change).powf(1.0 / f64::from(self.iterations - 1));
             let left = MAX_ITERATIONS - self.iterations;
@@ -117,7 +120,11 @@ mod tests {
             let mut convergence = Convergence::new();
             convergence.start();
             assert_eq!(convergence.judge(changes[0]), Verdict::Continue);
-            assert_eq!(convergence.judge(changes[1]), Verdict::Diverged, "{changes:?}");
+            assert_eq!(
+                convergence.judge(changes[1]),
+                Verdict::Diverged,
+                "{changes:?}"
+            );
         }
         assert_eq!(Convergence::new().judge(f64::NAN), Verdict::Diverged);
     }

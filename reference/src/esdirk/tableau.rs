@@ -51,7 +51,9 @@ mod tests {
     }
 
     fn sum(weights: &[f64; STAGES], of_stage: impl Fn(usize) -> f64) -> f64 {
-        (0..STAGES).map(|stage| weights[stage] * of_stage(stage)).sum()
+        (0..STAGES)
+            .map(|stage| weights[stage] * of_stage(stage))
+            .sum()
     }
 
     fn assert_close(actual: f64, expected: f64) {
@@ -67,7 +69,10 @@ mod tests {
         for stage in 1..STAGES {
             assert_close(sum(&a[stage], |j| TIMES[j]), 0.5 * TIMES[stage].powi(2));
         }
-        assert_close(6.0 * GAMMA.powi(3) - 18.0 * GAMMA.powi(2) + 9.0 * GAMMA, 1.0);
+        assert_close(
+            6.0 * GAMMA.powi(3) - 18.0 * GAMMA.powi(2) + 9.0 * GAMMA,
+            1.0,
+        );
     }
 
     /// Order conditions by rooted trees: up to order 3 for the solution, up to order 4 for the embedded one.

@@ -39,7 +39,7 @@ fn solver(tolerance: f64) -> Esdirk {
     Esdirk::new(tolerances, 1)
 }
 
-/// Prothero and Robinson's equation `dx/dt = -rate (x - cos t) - sin t`, with a quadrature beside it.
+/// Prothero and Robinson's equation `dx/dt = -rate (x - cos t) - sin t`, and a quadrature.
 fn prothero_robinson(rate: f64) -> impl Equations {
     Problem {
         rates: move |t: f64, x: &[f64]| [-rate * (x[0] - t.cos()) - t.sin(), x[0]],
@@ -68,8 +68,10 @@ fn a_stiff_solution_follows_the_tolerance() {
             let end = run(&mut solver, &mut equations, 2.0);
             assert_eq!(solver.time(), 2.0);
             let error = (end[0] - 2f64.cos()).abs().max((end[1] - 2f64.sin()).abs());
+            // The tolerance bounds the estimated error of each step; the order is reduced if the equation is stiff.
             let counts = solver.counts();
-            assert!(error < 200.0 * tolerance, "{rate} {tolerance}: {error:e}, {counts:?}");
+            let allowed = 50.0 * tolerance * counts.steps as f64;
+            assert!(error < allowed, "{rate} {tolerance}: {error:e}, {counts:?}");
         }
     }
 }
@@ -115,14 +117,20 @@ fn an_event_is_located_to_the_tolerance() {
             }
         };
         let error = (time - std::f64::consts::FRAC_PI_2).abs();
-        assert!(error < 200.0 * tolerance, "{tolerance}: {error:e}");
+        // The tolerance bounds the estimated error of each step, as a root mean square of relative and absolute parts.
+        let allowed = 4.0 * tolerance * solver.counts().steps as f64;
+        assert!(error < allowed, "{tolerance}: {error:e}");
         let mut state = [0.0; 2];
         solver.interpolate(time, &mut state);
-        assert!(state[0] <= 0.0 && (state[1] + 1.0).abs() < 200.0 * tolerance, "{state:?}");
+        let past = -state[0];
+        assert!(
+            (0.0..1e-12).contains(&past) && (state[1] + 1.0).abs() < allowed,
+            "{state:?}"
+        );
     }
 }
 
-/// `dx/dt = x^2` leaves every bound at the time 1.
+/// The solution of `dx/dt = x^2` is infinite at time 1.
 #[test]
 fn a_solution_that_ends_is_an_error() {
     let mut equations = Problem {

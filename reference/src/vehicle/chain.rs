@@ -1,7 +1,8 @@
-//! A damper between two bodies: clearance, springs and velocity law of the reference damper, with its piston's place as state.
+//! A damper between two bodies: clearance, springs and velocity law of the reference damper. Its state is the position of
+//! its piston.
 //!
-//! Displacement and force are positive in extension. Ranges of the displacement beyond the piston's place: yielding, flowing and
-//! held in compression, clearance, and the same in extension.
+//! Displacement and force are positive in extension. The displacement from the piston has seven ranges: yielding, flowing
+//! and held in compression, clearance, then held, flowing and yielding in extension.
 
 use dashpot_core::DamperParameters;
 
@@ -9,21 +10,21 @@ use super::ranges::Ranges;
 use crate::damper::side::Side;
 use crate::error::ReferenceError;
 
-/// Range of the clearance.
+/// Index of the clearance range.
 pub(super) const CLEARANCE: usize = 3;
 
-/// Overlap at the end of yielding (m/s).
+/// Overlap of the velocity ranges at the end of yielding (m/s).
 const OVERLAP_M_PER_S: f64 = 1e-10;
 
-/// Step of differences (m).
+/// Step of central differences (m).
 const STEP_M: f64 = 1e-9;
 
-/// One direction, and where it yields.
+/// One direction of the damper, with its yield point.
 #[derive(Clone, Debug)]
 struct Direction {
     side: Side,
     yield_stretch: f64,
-    /// Change of force and velocity over the stretch at the force at which it yields (N/m, 1/s).
+    /// Slopes of force and velocity over stretch at the yield force (N/m, 1/s).
     slopes: [f64; 2],
 }
 
@@ -66,7 +67,7 @@ impl Chain {
         })
     }
 
-    /// The direction that works in a range, and its sign.
+    /// Working direction of a range, and its sign.
     fn working(&self, range: usize) -> (&Direction, f64) {
         if range > CLEARANCE {
             (&self.directions[0], 1.0)
@@ -87,7 +88,7 @@ impl Chain {
         }
     }
 
-    /// Velocity of the piston (m/s), the ends parting at `velocity`.
+    /// Velocity of the piston (m/s) while the ends separate at `velocity` (m/s).
     pub(super) fn piston_velocity(&self, range: usize, from_piston: f64, velocity: f64) -> f64 {
         let (of, sign) = self.working(range);
         match range.abs_diff(CLEARANCE) {
@@ -97,8 +98,9 @@ impl Chain {
         }
     }
 
-    /// Force over the displacement from the piston (N/m), and velocity of the piston over it (1/s) and over that of the ends; by
-    /// differences, good for an iteration.
+    /// Derivatives of the force (N/m) and of the piston velocity (1/s) with respect to the displacement from the piston, and
+    /// of the piston velocity with respect to the velocity of the ends (1). Central differences, accurate enough for an
+    /// iteration.
     pub(super) fn slopes(&self, range: usize, from_piston: f64) -> [f64; 3] {
         match range.abs_diff(CLEARANCE) {
             0 => [0.0; 3],
@@ -112,7 +114,7 @@ impl Chain {
         }
     }
 
-    /// Distances to both ends of a range, positive within: yielding ends by the velocity, not by the displacement.
+    /// Distances to both ends of a range, positive inside. Yielding ends by the velocity, not by the displacement.
     pub(super) fn margins(&self, range: usize, from_piston: f64, velocity: f64) -> [f64; 2] {
         let (of, sign) = self.working(range);
         if range.abs_diff(CLEARANCE) == 3 {
@@ -122,7 +124,7 @@ impl Chain {
         self.ranges.margins(range, from_piston)
     }
 
-    /// Range and displacement from the piston of a damper that was in `range` before.
+    /// New range, and displacement from the piston, of a damper that was in `range`.
     pub(super) fn settled(&self, range: usize, from_piston: f64, velocity: f64) -> (usize, f64) {
         let yields = |range: usize| {
             let (of, sign) = self.working(range);
@@ -146,20 +148,20 @@ impl Chain {
 }
 
 impl Direction {
-    /// Force of the still piston at a stretch, continued beyond its range by straight lines.
+    /// Force with the piston at rest, extrapolated linearly beyond its range of stretch.
     fn held_force(&self, stretch: f64) -> f64 {
-        let (force, most) = (self.side.closed_force, self.side.closed_stretch);
-        if most > 0.0 {
-            let within = stretch.clamp(0.0, most);
-            self.side.held_force(within) + (stretch - within) * force / most
+        let (force, max) = (self.side.closed_force, self.side.closed_stretch);
+        if max > 0.0 {
+            let within = stretch.clamp(0.0, max);
+            self.side.held_force(within) + (stretch - within) * force / max
         } else {
             0.0
         }
     }
 
-    /// Force and velocity of the flowing oil at a stretch: mirrored below the range, straight on beyond it.
+    /// Force and piston velocity of flow at a stretch: an odd continuation below the range, a linear one above it.
     fn flow(&self, stretch: f64) -> [f64; 2] {
-        let least = self.side.closed_stretch;
+        let closed = self.side.closed_stretch;
         let beyond = stretch - self.yield_stretch;
         if beyond > 0.0 {
             return [
@@ -169,12 +171,12 @@ impl Direction {
         }
         let y = self
             .side
-            .coordinate_stretched(least + (stretch - least).abs());
+            .coordinate_stretched(closed + (stretch - closed).abs());
         let (above, velocity) = (
             self.side.force(y) - self.side.closed_force,
             self.side.velocity(y),
         );
-        let sign = if stretch < least { -1.0 } else { 1.0 };
+        let sign = if stretch < closed { -1.0 } else { 1.0 };
         [self.side.closed_force + sign * above, sign * velocity]
     }
 }

@@ -1,4 +1,4 @@
-//! Equations of motion, body by body: what every element, the rails and the track do to each.
+//! Equations of motion of each body under the loads of all elements, the rails and the track.
 
 use dashpot_rail::contact::{
     Motion, PatchSource, RailDisplacement, WheelsetContact, WheelsetForces,
@@ -15,10 +15,10 @@ use super::stop::Stop;
 /// Coordinates of a body.
 pub(super) const N: usize = 5;
 
-/// A damper or a stop: what has ranges.
+/// An element whose law has ranges: a damper or a stop.
 #[derive(Clone, Debug)]
 pub(super) enum Ranged {
-    /// Number among the dampers, and the damper.
+    /// Damper index, and the damper.
     Damper(usize, Box<Chain>),
     Stop(Stop),
 }
@@ -29,32 +29,33 @@ pub(super) struct Rolling {
     pub(super) standing: Standing,
     /// Angular momentum about the axle (kg m^2/s).
     pub(super) momentum: f64,
-    /// What the elements do to it in the standing vehicle but for their load.
+    /// Loads of the elements on the wheelset at rest, without the vertical load.
     pub(super) constant: Coordinates,
 }
 
-/// The vehicle; the state is the coordinates of bodies and wheelsets, their velocities, and the places of the dampers' pistons.
+/// The vehicle. Its state consists of the coordinates of bodies and wheelsets, their velocities, and the positions of the
+/// dampers' pistons.
 pub(super) struct Equations<'a, L, S: PatchSource> {
     pub(super) contact: &'a WheelsetContact<L, S>,
     pub(super) inertia: Vec<Coordinates>,
-    /// The wheelsets, behind the bodies in number.
+    /// Wheelsets; their body indices follow those of the bodies.
     pub(super) wheelsets: Vec<Rolling>,
     pub(super) couplings: Vec<Coupling>,
     pub(super) ranged: Vec<Ranged>,
     pub(super) dampers: usize,
 }
 
-/// What a solver holds constant from one event to the next.
+/// Data that stays constant between two events.
 #[derive(Clone, Debug)]
 pub(super) struct Situation<'a> {
     pub(super) path: Path<'a>,
-    /// Range of every damper and stop.
+    /// Range of each damper and stop.
     pub(super) ranges: Vec<usize>,
-    /// What the track did last, and when: stages of a step share it.
+    /// Motion of the track frames at the time of the last evaluation; iterations of a stage share it.
     following: (f64, Vec<Following>),
 }
 
-/// What follows from a state.
+/// Rates and forces at a state.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Outcome {
     /// Rates of the coordinates.
@@ -66,7 +67,7 @@ pub(super) struct Outcome {
     pub(super) damper_forces: Vec<f64>,
 }
 
-/// A damper's or stop's displacement and velocity.
+/// Displacement and velocity of a damper or stop.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Extension {
     pub(super) displacement: f64,
@@ -82,7 +83,7 @@ impl<'a> Situation<'a> {
         }
     }
 
-    /// Take the track as it is around `time`.
+    /// Selects the parts of the track around `time`.
     pub(super) fn enter(&mut self, time: f64) {
         self.path.enter(time);
         self.following.0 = f64::NAN;
@@ -120,7 +121,8 @@ impl<L: CreepLaw, S: PatchSource> Equations<'_, L, S> {
         &state[2 * N * self.bodies()..]
     }
 
-    /// Poses of the bodies at the ends of an element: in the frame of the middle, or in the body's own frame against the track.
+    /// Poses of the bodies at the ends of an element: in the frame of the vehicle's middle, or in the body's own frame if one
+    /// end is on the track.
     fn poses(&self, following: &[Following], state: &[f64], coupling: &Coupling) -> [Pose; 2] {
         let on_track = coupling.places.iter().any(|place| place.body.is_none());
         std::array::from_fn(|end| {
@@ -143,7 +145,8 @@ impl<L: CreepLaw, S: PatchSource> Equations<'_, L, S> {
         })
     }
 
-    /// Displacement and velocity of every damper and stop; dampers from the middle of their ends, not from their pistons.
+    /// Displacement and velocity of each damper and stop. The displacement of a damper is relative to the vehicle at rest,
+    /// not to its piston.
     pub(super) fn extensions(&self, following: &[Following], state: &[f64]) -> Vec<Extension> {
         let mut extensions = vec![Extension::default(); self.ranged.len()];
         for coupling in &self.couplings {
@@ -158,7 +161,7 @@ impl<L: CreepLaw, S: PatchSource> Equations<'_, L, S> {
         extensions
     }
 
-    /// Motion of a wheelset's contact and of its rails.
+    /// Motion of a wheelset's contact, and displacements of its rails.
     pub(super) fn contact_motion(
         &self,
         situation: &Situation<'_>,
@@ -191,7 +194,7 @@ impl<L: CreepLaw, S: PatchSource> Equations<'_, L, S> {
         (motion, rails)
     }
 
-    /// All rates and forces at a state.
+    /// Computes all rates and forces at a state.
     pub(super) fn outcome(
         &self,
         situation: &mut Situation<'_>,
@@ -258,7 +261,7 @@ impl<L: CreepLaw, S: PatchSource> Equations<'_, L, S> {
         }
     }
 
-    /// Forces of the rails and gyroscopic moments.
+    /// Adds forces of the rails and gyroscopic moments.
     fn add_contacts(
         &self,
         situation: &Situation<'_>,
@@ -283,7 +286,7 @@ impl<L: CreepLaw, S: PatchSource> Equations<'_, L, S> {
                 y - roll * z,
                 z + roll * y + rolling.standing.load,
                 about_x - rolling.momentum * v[4],
-                // About the axle, which is turned and rolled.
+                // About the axle, which has yawed and rolled.
                 about_y - motion.yaw_rad * about_x + motion.roll_rad * about_z,
                 about_z + rolling.momentum * v[2],
             ];

@@ -1,11 +1,11 @@
-//! Where an element is attached: how its end moves with a body, and what a force there does to the body.
+//! Attachment of an element's end to a body: its motion with the body, and the loads on the body.
 
 use dashpot_rail::vehicle::{End, VehicleParameters};
 
 /// Lateral, vertical, roll, pitch and yaw of a body.
 pub(super) type Coordinates = [f64; 5];
 
-/// Along or about x, y and z.
+/// Components along or about x, y and z.
 pub(super) type Vector = [f64; 3];
 
 /// Displacement of a body and its rate.
@@ -15,19 +15,19 @@ pub(super) struct Pose {
     pub(super) rate: Coordinates,
 }
 
-/// An end of an element.
+/// Attachment of an element's end.
 #[derive(Clone, Debug)]
 pub(super) struct Place {
-    /// Number of the body, wheelsets behind the bodies; none on the track.
+    /// Index of the body, where wheelsets follow the bodies; `None` on the track.
     pub(super) body: Option<usize>,
-    /// From the body's centre (m).
+    /// Position relative to the body's centre (m).
     pub(super) arm: Vector,
-    /// In an axlebox, which does not spin with its wheelset.
+    /// True in an axlebox, which does not rotate with its wheelset.
     pub(super) is_axlebox: bool,
 }
 
 impl Place {
-    /// Of an end in a vehicle that has what the end is on.
+    /// Builds the attachment of an end; its body must exist in the vehicle.
     pub(super) fn new(vehicle: &VehicleParameters, end: &End) -> Self {
         let name = end.on.as_ref();
         let of_body = vehicle
@@ -58,7 +58,7 @@ impl Place {
         }
     }
 
-    /// How far the place is moved: `u + omega x r`, but nothing moves along the track by its pitch.
+    /// Displacement of the attachment, `u + omega x r`, without the longitudinal part of pitch.
     pub(super) fn shift(&self, of_body: &Coordinates) -> Vector {
         let [roll, pitch, yaw] = self.turn(of_body);
         let [x, y, z] = self.arm;
@@ -69,13 +69,13 @@ impl Place {
         ]
     }
 
-    /// How far the place is turned about x, y and z.
+    /// Rotation of the attachment about x, y and z.
     pub(super) fn turn(&self, of_body: &Coordinates) -> Vector {
         let pitch = if self.is_axlebox { 0.0 } else { of_body[3] };
         [of_body[2], pitch, of_body[4]]
     }
 
-    /// Force and moments about the body's centre of `force` and `moment` at the place.
+    /// Force, and moments about the body's centre, by `force` and `moment` at the attachment.
     pub(super) fn load(&self, force: &Vector, moment: &Vector) -> Coordinates {
         let [x, y, z] = self.arm;
         let pitching = moment[1] - x * force[2];

@@ -1,4 +1,4 @@
-//! Jacobian matrix of the equations, for the solver's iteration: what is linear once, the rest at each state.
+//! Jacobian matrix of the equations for the solver's iteration. The linear part is computed once, the rest at each state.
 
 use dashpot_rail::contact::{PatchSource, WheelsetForces};
 use dashpot_rail::creep::CreepLaw;
@@ -8,12 +8,12 @@ use super::equations::{Equations, N, Ranged, Situation};
 use super::place::{Coordinates, Pose};
 use crate::linear::Matrix;
 
-/// Fields of a contact's motion by each coordinate of a wheelset, and by each velocity with its sign.
+/// Field of a contact's motion for each coordinate of a wheelset, and field with sign for each velocity.
 const BY_COORDINATE: [Option<usize>; N] = [Some(1), Some(2), Some(3), None, Some(4)];
 const BY_VELOCITY: [(usize, f64); N] = [(5, 1.0), (6, 1.0), (7, 1.0), (8, -1.0), (9, 1.0)];
 
 impl<L: CreepLaw, S: PatchSource> Equations<'_, L, S> {
-    /// What does not change: springs, dashpots, standing forces, gyroscopic moments, and that velocities move.
+    /// Constant part of the matrix: springs, dashpots, standing forces, gyroscopic moments, and rates of the coordinates.
     pub(super) fn linear_slopes(&self) -> Matrix {
         let coordinates = N * self.bodies();
         let mut matrix = Matrix::zeros(self.size());
@@ -74,7 +74,7 @@ impl<L: CreepLaw, S: PatchSource> Equations<'_, L, S> {
         }
     }
 
-    /// The whole matrix at a state.
+    /// Complete matrix at a state.
     pub(super) fn slopes(
         &self,
         linear: &Matrix,
@@ -94,7 +94,7 @@ impl<L: CreepLaw, S: PatchSource> Equations<'_, L, S> {
             let per_newton = coupling.loads_along();
             let range = situation.ranges[number];
             let displacement = extensions[number].displacement;
-            // The loads of a unit force are the displacement by unit coordinates.
+            // The loads of a unit force equal the displacements by unit coordinates (virtual work).
             let (slope, damper) = match &self.ranged[number] {
                 Ranged::Stop(stop) => (stop.slope(range), None),
                 Ranged::Damper(damper, chain) => {
@@ -146,7 +146,7 @@ impl<L: CreepLaw, S: PatchSource> Equations<'_, L, S> {
                 let by = |field: usize| -> f64 {
                     let of_wheel = |wheel: &dashpot_rail::contact::WheelDerivatives| match k {
                         0 | 1 => wheel.force[k + 1][field],
-                        // About the axle, which is turned and rolled.
+                        // About the axle, which has yawed and rolled.
                         3 => {
                             wheel.moment[1][field] - motion.yaw_rad * wheel.moment[0][field]
                                 + motion.roll_rad * wheel.moment[2][field]

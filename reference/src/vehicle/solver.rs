@@ -12,19 +12,19 @@ use crate::linear::Matrix;
 /// Displacements (m or rad) and velocities (m/s or rad/s) below which the tolerance is absolute.
 const SCALES: [f64; 2] = [1e-3, 0.05];
 
-/// Change of state, over the tolerance, within which the rates are taken as linear.
+/// Change of state, relative to the tolerance, within which the rates are linearised.
 const LINEAR_RATIO: f64 = 0.02;
 
 /// First step (s).
 const FIRST_STEP_S: f64 = 1e-6;
 
-/// Step below which the solver gives up (s).
+/// Minimum step (s).
 const MIN_STEP_S: f64 = 1e-16;
 
 /// Minimum time between two restarts at edges of the track (s).
 const MIN_EDGE_INTERVAL_S: f64 = 1e-9;
 
-/// The equations as the solver sees them, with what they remember between evaluations.
+/// Equations for the solver, with data kept between evaluations.
 struct Problem<'e, 'a, L, S: PatchSource> {
     equations: &'e Equations<'a, L, S>,
     /// Constant part of the Jacobian.
@@ -43,7 +43,8 @@ impl<L: CreepLaw, S: PatchSource> Problem<'_, '_, L, S> {
     fn evaluate(&mut self, time: f64, state: &[f64], rates: &mut [f64]) {
         self.evaluations += 1;
         let outcome = &mut self.outcome;
-        self.equations.outcome(&mut self.situation, time, state, outcome);
+        self.equations
+            .outcome(&mut self.situation, time, state, outcome);
         let bodies = self.equations.bodies();
         for body in 0..bodies {
             for k in 0..N {
@@ -68,7 +69,11 @@ impl<L: CreepLaw, S: PatchSource> esdirk::Equations for Problem<'_, '_, L, S> {
             && let Some(jacobian) = &self.jacobian
             && self.equations.distance(last_state, state, self.tolerance) < LINEAR_RATIO
         {
-            let step: Vec<f64> = state.iter().zip(last_state).map(|(to, from)| to - from).collect();
+            let step: Vec<f64> = state
+                .iter()
+                .zip(last_state)
+                .map(|(to, from)| to - from)
+                .collect();
             jacobian.times(&step, rates);
             for (rate, last) in rates.iter_mut().zip(last_rates) {
                 *rate += last;
@@ -80,7 +85,9 @@ impl<L: CreepLaw, S: PatchSource> esdirk::Equations for Problem<'_, '_, L, S> {
     }
 
     fn jacobian(&mut self, time: f64, state: &[f64], jacobian: &mut Matrix) {
-        let slopes = self.equations.slopes(&self.linear, &mut self.situation, time, state);
+        let slopes = self
+            .equations
+            .slopes(&self.linear, &mut self.situation, time, state);
         jacobian.clone_from(&slopes);
         self.jacobian = Some(slopes);
     }
@@ -132,7 +139,9 @@ pub(super) fn run<'a, L: CreepLaw, S: PatchSource>(
     };
     let tolerances = Tolerances {
         relative: tolerance,
-        absolute: (0..equations.size()).map(|k| tolerance * equations.scale(k)).collect(),
+        absolute: (0..equations.size())
+            .map(|k| tolerance * equations.scale(k))
+            .collect(),
         min_length: MIN_STEP_S,
     };
     let mut solver = Esdirk::new(tolerances, 2 * equations.ranged.len());
@@ -160,7 +169,9 @@ pub(super) fn run<'a, L: CreepLaw, S: PatchSource>(
             problem.jacobian = None;
             solver.restart(&mut problem, now, &state, step);
             let step_end = loop {
-                let step_end = solver.step(&mut problem, edge).map_err(|error| failed(now, error))?;
+                let step_end = solver
+                    .step(&mut problem, edge)
+                    .map_err(|error| failed(now, error))?;
                 now = match step_end {
                     StepEnd::Event { time, .. } => time,
                     StepEnd::Free | StepEnd::Stop => solver.time(),

@@ -1,4 +1,4 @@
-//! The vehicle as it stands: forces of its elements under its weight, and its wheelsets on the rails.
+//! The vehicle at rest: forces of its elements under its weight, and position of its wheelsets on the rails.
 
 use dashpot_rail::contact::{Motion, PatchSource, RailDisplacement, WheelsetContact};
 use dashpot_rail::creep::CreepLaw;
@@ -11,13 +11,13 @@ use crate::linear::{Factors, Matrix};
 /// Coordinates of a body.
 const N: usize = 5;
 
-/// Depth below the first touch to which a wheelset is looked for (m).
+/// Half the range of heights that is searched for a wheelset (m).
 const DEEPEST_M: f64 = 2e-3;
 
-/// A wheelset on the rails.
+/// Equilibrium of a wheelset on the rails.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Standing {
-    /// Place of the centre that carries the load (m).
+    /// Vertical position of the centre at which the rails carry the load (m).
     pub(super) vertical: f64,
     /// Load on the rails (N).
     pub(super) load: f64,
@@ -25,7 +25,8 @@ pub(super) struct Standing {
     pub(super) rotation: f64,
 }
 
-/// Sets the force of every element in the standing vehicle, the wheelsets held; gives what the elements then do to every wheelset.
+/// Sets the force of each element with the vehicle at rest and the wheelsets fixed; returns the loads of the elements on
+/// each wheelset.
 pub(super) fn load_elements(
     vehicle: &VehicleParameters,
     couplings: &mut [Coupling],
@@ -56,7 +57,7 @@ pub(super) fn load_elements(
         }
         all
     };
-    // The forces of unit displacements carry the weights.
+    // Column by column, minus the loads by unit displacements.
     let mut stiffness = Matrix::zeros(size);
     for column in 0..size {
         let mut unit = vec![0.0; size];
@@ -87,7 +88,8 @@ pub(super) fn load_elements(
 }
 
 impl Standing {
-    /// A centred wheelset of `contact` that rolls freely under `load` (N) at `speed` (m/s); none where the rails do not carry it.
+    /// Finds the equilibrium of a centred wheelset that rolls freely under `load` (N) at `speed` (m/s); `None` if the rails do
+    /// not carry it.
     pub(super) fn new<L: CreepLaw, S: PatchSource>(
         contact: &WheelsetContact<L, S>,
         speed: f64,
@@ -99,7 +101,7 @@ impl Standing {
         let rails = [RailDisplacement::default(); 2];
         let mut rotation = speed / 0.5;
         let mut vertical = 0.0;
-        // The height depends on the creep a little, the radius on the height.
+        // The height depends slightly on the creep, and the rolling radius on the height.
         for _ in 0..4 {
             let at = |vertical: f64| Motion {
                 speed_m_per_s: speed,

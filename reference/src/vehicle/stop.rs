@@ -1,17 +1,17 @@
-//! A bump stop: force by the straight line between two points of its law.
+//! A bump stop with a piecewise linear law.
 
 use super::ranges::Ranges;
 
-/// Ranges and lines of a stop.
+/// Ranges of a stop, and the line of each.
 #[derive(Clone, Debug)]
 pub(super) struct Stop {
     pub(super) ranges: Ranges,
-    /// Place on, force at it and slope of the line of each range (m, N, N/m).
+    /// A displacement, the force there and the slope of the line of each range (m, N, N/m).
     lines: Vec<[f64; 3]>,
 }
 
 impl Stop {
-    /// Of the points displacement and force of one side.
+    /// Builds a stop from points (displacement, force) of one side.
     pub(super) fn new(points: &[[f64; 2]]) -> Self {
         let line = |pair: &[[f64; 2]]| {
             let slope = (pair[1][1] - pair[0][1]) / (pair[1][0] - pair[0][0]);
@@ -32,7 +32,7 @@ impl Stop {
         }
     }
 
-    /// Force against a displacement (N).
+    /// Force that resists a displacement (N).
     pub(super) fn force(&self, range: usize, displacement: f64) -> f64 {
         let [place, force, slope] = self.lines[range];
         force + slope * (displacement - place)

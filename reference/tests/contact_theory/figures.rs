@@ -1,4 +1,4 @@
-//! The figures of docs/contact.md: curves of exact theory beside those found here, as SVG.
+//! Figures of docs/contact.md: curves of exact theory and of this project, as SVG.
 
 use std::ops::Range;
 
@@ -19,7 +19,7 @@ const COLOURS: [RGBColor; 5] = [
     RGBColor(198, 40, 40),
     RGBColor(46, 125, 50),
 ];
-/// The backend rounds to whole units; drawn this much larger, curves stay smooth.
+/// Enlargement of the drawing, because the backend rounds to whole units; curves stay smooth.
 const FINE: u32 = 4;
 
 /// One curve: its name, its colour, whether its points are marked, its points.
@@ -30,12 +30,12 @@ struct Curve {
     points: Vec<(f64, f64)>,
 }
 
-/// What a panel shows.
+/// A panel of a figure.
 struct Panel {
     title: &'static str,
     x: &'static str,
     y: &'static str,
-    /// Where no curve is.
+    /// Position of the legend, in a corner without curves.
     legend: SeriesLabelPosition,
     curves: Vec<Curve>,
 }
@@ -119,7 +119,7 @@ fn over_the_yaw() -> Vec<Panel> {
         .collect()
 }
 
-/// Lateral force over the lateral creepage with spin, where the laws differ most.
+/// Lateral force over lateral creepage with spin, the case in which the laws differ most.
 fn over_the_creepage() -> Vec<Panel> {
     let contact = LoadedContact {
         load_n: 100e3,
@@ -276,12 +276,12 @@ fn draw_panel(area: &DrawingArea<SVGBackend<'_>, plotters::coord::Shift>, panel:
         .unwrap();
 }
 
-/// A number without superfluous digits; zero without a sign.
+/// Formats a number without superfluous digits, and zero without a sign.
 fn short(number: &f64) -> String {
     format!("{}", (number * 1e3).round() / 1e3 + 0.0)
 }
 
-/// From the least to the greatest number, with a margin.
+/// Range of the numbers, with a margin.
 fn extent(numbers: impl Iterator<Item = f64> + Clone) -> Range<f64> {
     let least = numbers.clone().fold(f64::MAX, f64::min);
     let greatest = numbers.fold(f64::MIN, f64::max);

@@ -20,7 +20,7 @@ fn cross(a: Vector, b: Vector) -> Vector {
     ]
 }
 
-/// Number of what an end is on, its place from the centre, and what turns there.
+/// Displacement and rotation of an end.
 fn place(vehicle: &VehicleParameters, end: &End, of: &[f64; 5]) -> (Vector, Vector) {
     let [x, y, height] = end.at_m;
     let body = vehicle
@@ -56,7 +56,7 @@ fn number(vehicle: &VehicleParameters, end: &End) -> usize {
         .unwrap()
 }
 
-/// Energy of motion, of springs, and of their static force as they turn; and the power that goes into dashpots and rails.
+/// Returns the energy of motion, of springs and of their rotating static forces, and the power lost to dashpots and rails.
 fn energy(vehicle: &VehicleParameters, sample: &VehicleSample) -> (f64, f64) {
     let inertia = |mass: f64, [x, y, z]: Vector| [mass, mass, x, y, z];
     let of_bodies = vehicle
@@ -115,9 +115,9 @@ fn energy(vehicle: &VehicleParameters, sample: &VehicleSample) -> (f64, f64) {
     (stored, power)
 }
 
-/// After a dip, on ideal track: what is stored goes into the dashpots and to the rails.
+/// On ideal track after a dip, the stored energy goes into the dashpots and the rails.
 #[test]
-fn energy_is_kept_or_given_away() {
+fn energy_is_conserved_or_dissipated() {
     let vehicle = wagon([2e3, 2e3, 20e3]);
     let (contact, track) = (contact(0.3), straight(vec![dip(5.0)]));
     let mut reference = VehicleReference::new(&vehicle, &contact, &track, 25.0, 0.0).unwrap();
@@ -138,7 +138,7 @@ fn energy_is_kept_or_given_away() {
     assert!(given > 0.2 * stored, "{given} of {stored}");
 }
 
-/// Steady in a curve: the rails push with the centripetal force but for the share of gravity, and hold the moment of it.
+/// In a steady curve the rails provide the centripetal force minus the share of gravity, and its moment.
 #[test]
 fn the_rails_balance_a_curve() {
     let (speed, radius, cant) = (22.0, 400.0, 0.08);
@@ -176,7 +176,7 @@ fn the_rails_balance_a_curve() {
     let expected = mass * (GRAVITY_M_PER_S2 * angle.cos() + centripetal * angle.sin());
     assert!((load / expected - 1.0).abs() < 1e-4, "{load} {expected}");
 
-    // About the middle of the track on the rails' top at the body; the rails at the axles are off it by the curve's versine.
+    // About the middle of the track on the top of the rails at the body; the rails at the axles are offset by the versine.
     let versine = 4.0f64.powi(2) / (2.0 * radius);
     let mut moment = 0.0;
     for ((mass, height, off), q) in [
@@ -193,7 +193,7 @@ fn the_rails_balance_a_curve() {
     for (contact, q) in last.contacts.iter().zip(&last.coordinates[1..]) {
         let [_, y, z] = contact.force_n;
         moment += contact.moment_n_m[0] + 0.625 * y + (q[0] + versine) * z;
-        // Gyroscopic, of the axle that is led around.
+        // Gyroscopic moment of an axle that yaws with the curve.
         moment -= 100.0 * speed / 0.625 * speed / radius;
     }
     assert!(

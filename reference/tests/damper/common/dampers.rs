@@ -60,7 +60,7 @@ fn mount(stiffness: f64, clearance: f64) -> Mount {
     }
 }
 
-/// The paper's damper, literally.
+/// The damper exactly as published.
 pub fn paper() -> DamperParameters {
     DamperParameters {
         element: Element::Physical(paper_hydraulics()),
@@ -98,7 +98,7 @@ pub fn reduced(damping: f64, saturation: f64, stiffness: f64, clearance: f64) ->
     }
 }
 
-/// Every in-service term on.
+/// A damper with all in-service terms.
 pub fn in_service(two_chamber: bool) -> DamperParameters {
     let mut hydraulics = paper_hydraulics();
     hydraulics.orifice.transition_reynolds = 100.0;
