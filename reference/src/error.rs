@@ -103,7 +103,7 @@ pub enum ReferenceError {
     },
     /// The caller cancelled the solution.
     #[error("reference: cancelled")]
-    Unwanted,
+    Cancelled,
     /// Invalid parameters of a rolling contact.
     #[error(
         "reference: a/b {a_over_b} must be above 0, Poisson's ratio {poisson_ratio} within 0 to 0.5, and the mesh \

@@ -104,8 +104,8 @@ impl Factors {
                 }
                 let factor = below[k] / top[k];
                 below[k] = factor;
-                for (entry, of_top) in below[k + 1..].iter_mut().zip(&top[k + 1..]) {
-                    *entry -= factor * of_top;
+                for (entry, top_entry) in below[k + 1..].iter_mut().zip(&top[k + 1..]) {
+                    *entry -= factor * top_entry;
                 }
             }
         }

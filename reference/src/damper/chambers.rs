@@ -97,8 +97,8 @@ impl TwoChambers {
             .piston
             .openings()
             .map(|drop| {
-                let most = limit * compression / rod;
-                let over = increasing_root(0.0, most, |over| self.imbalance(drop, base, over));
+                let max = limit * compression / rod;
+                let over = increasing_root(0.0, max, |over| self.imbalance(drop, base, over));
                 let upstream = (base + over).max(drop + self.vapour);
                 (upstream * compression - (upstream - drop).max(self.vapour) * extension)
                     / compression

@@ -58,8 +58,8 @@ impl Reference {
         })
     }
 
-    /// Returns the force (N) at each time (s). The displacement (m) is linear between samples; the damper starts at rest
-    /// in the middle of its clearance. The rate of the input is not limited.
+    /// Returns the force (N) at each time (s). The displacement (m) is linear between samples; the damper starts at
+    /// rest in the middle of its clearance. The rate of the input is not limited.
     ///
     /// # Errors
     /// Times that do not increase, values that are not finite, unequal lengths, or a tolerance that the solver cannot
@@ -72,18 +72,18 @@ impl Reference {
         self.forces_unless(times_s, displacements_m, &|| false)
     }
 
-    /// Returns the forces as [`Self::forces`] does, unless `is_unwanted` returns true before.
+    /// Returns the forces as [`Self::forces`] does, unless `is_cancelled` returns true before.
     ///
     /// # Errors
-    /// The errors of [`Self::forces`], and [`ReferenceError::Unwanted`] after a cancellation.
+    /// The errors of [`Self::forces`], and [`ReferenceError::Cancelled`] after a cancellation.
     pub fn forces_unless(
         &mut self,
         times_s: &[f64],
         displacements_m: &[f64],
-        is_unwanted: &dyn Fn() -> bool,
+        is_cancelled: &dyn Fn() -> bool,
     ) -> Result<Vec<f64>, ReferenceError> {
         let mut solver = EsdirkIntegrator::default();
-        self.forces_by(&mut solver, times_s, displacements_m, is_unwanted)
+        self.forces_by(&mut solver, times_s, displacements_m, is_cancelled)
     }
 
     /// Returns the forces as [`Self::forces`] does, by another solver of the segments.
@@ -104,7 +104,7 @@ impl Reference {
         solver: &mut dyn Integrator,
         times: &[f64],
         x: &[f64],
-        is_unwanted: &dyn Fn() -> bool,
+        is_cancelled: &dyn Fn() -> bool,
     ) -> Result<Vec<f64>, ReferenceError> {
         check_samples(times, x)?;
         self.statistics = Statistics::default();
@@ -118,7 +118,7 @@ impl Reference {
             mode: Mode::Clearance { piston: x[0] },
             statistics: Statistics::default(),
         };
-        let (forces, statistics) = run(motion, times, x, solver, is_unwanted)?;
+        let (forces, statistics) = run(motion, times, x, solver, is_cancelled)?;
         self.statistics = statistics;
         Ok(forces)
     }
@@ -138,9 +138,9 @@ impl Reference {
         self.statistics
     }
 
-    /// Returns the force (N) at a constant velocity (m/s) after the springs have settled, both signed: seal friction plus
-    /// `A P` with `v(P)` the velocity, limited to the force at which the damper yields. Returns 0 at velocity 0, although
-    /// any force up to the one that starts the piston is possible there.
+    /// Returns the force (N) at a constant velocity (m/s) after the springs have settled, both signed: seal friction
+    /// plus `A P` with `v(P)` the velocity, limited to the force at which the damper yields. Returns 0 at velocity 0,
+    /// although any force up to the one that starts the piston is possible there.
     pub fn static_force(&self, velocity_m_per_s: f64) -> f64 {
         if velocity_m_per_s == 0.0 {
             return 0.0;
@@ -157,13 +157,13 @@ fn run(
     times: &[f64],
     x: &[f64],
     solver: &mut dyn Integrator,
-    is_unwanted: &dyn Fn() -> bool,
+    is_cancelled: &dyn Fn() -> bool,
 ) -> Result<(Vec<f64>, Statistics), ReferenceError> {
     let mut forces = Vec::with_capacity(times.len());
     forces.push(motion.force(x[0]));
     for i in 1..times.len() {
-        if i % PIECES_PER_CHECK == 0 && is_unwanted() {
-            return Err(ReferenceError::Unwanted);
+        if i % PIECES_PER_CHECK == 0 && is_cancelled() {
+            return Err(ReferenceError::Cancelled);
         }
         let piece = Piece {
             start: x[i - 1],

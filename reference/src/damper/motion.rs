@@ -1,8 +1,8 @@
 //! The chain through its modes over a piecewise linear motion of the seats.
 //!
 //! While the damper crosses its clearance, is held by a piston at rest, or yields, the force follows from the geometry;
-//! only flow through the valves is integrated. Within one linear piece the pressure coordinate changes in one direction,
-//! so the next bound that it can reach is known in advance.
+//! only flow through the valves is integrated. Within one linear piece the pressure coordinate changes in one
+//! direction, so the next bound that it can reach is known in advance.
 
 use std::rc::Rc;
 

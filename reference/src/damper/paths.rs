@@ -130,8 +130,8 @@ impl PistonPaths {
         }
         self.relief
             .iter()
-            .fold(self.shims.opens_at, |least, relief| {
-                least.min(relief.opens_at)
+            .fold(self.shims.opens_at, |lowest, relief| {
+                lowest.min(relief.opens_at)
             })
     }
 

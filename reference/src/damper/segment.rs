@@ -62,8 +62,8 @@ impl Segment {
         ]
     }
 
-    /// Derivative of [`Self::rates`] with respect to the first state, the only one that they depend on. Central differences,
-    /// accurate enough for a Newton iteration.
+    /// Derivative of [`Self::rates`] with respect to the first state, the only one that they depend on. Central
+    /// differences, accurate enough for a Newton iteration.
     pub fn slopes(&self, state: &[f64; STATES]) -> [f64; STATES] {
         let floor = self.knee / self.scales.coordinate[self.side];
         let step = 1e-6 * state[0].abs().max(floor).max(1e-9);

@@ -1,5 +1,5 @@
-//! One direction of the chain: force, piston velocity and stretch of the springs while the damper is in contact with the
-//! seat of that direction.
+//! One direction of the chain: force, piston velocity and stretch of the springs while the damper is in contact with
+//! the seat of that direction.
 
 use dashpot_core::parameters::{DamperParameters, Element, Hydraulics, Mount, Reduced};
 

@@ -34,8 +34,8 @@ impl Bracket {
 
     /// Finds the first event between two times. Its time is the upper end of an interval as narrow as rounding allows.
     ///
-    /// `evaluate` writes the functions at a time. The search uses secants (Illinois variant) on the function that crosses
-    /// first by linear interpolation, as CVODE does (Hindmarsh et al. 2005).
+    /// `evaluate` writes the functions at a time. The search uses secants (Illinois variant) on the function that
+    /// crosses first by linear interpolation, as CVODE does (Hindmarsh et al. 2005).
     pub(super) fn locate(
         &mut self,
         (mut start, mut end): (f64, f64),

@@ -348,11 +348,11 @@ impl Esdirk {
 
     /// Change of the step length by the mean square error of a step; smaller where the iterations were many.
     fn change(&self, error: f64) -> f64 {
-        let (most, used) = (
+        let (max, used) = (
             f64::from(MAX_ITERATIONS),
             f64::from(self.convergence.iterations()),
         );
-        let safety = SAFETY * (2.0 * most + 1.0) / (2.0 * most + used);
+        let safety = SAFETY * (2.0 * max + 1.0) / (2.0 * max + used);
         let change = safety * error.powf(-0.5 / f64::from(ORDER + 1));
         let [smallest, largest] = LENGTH_CHANGE;
         if change > UNCHANGED[0] && change < UNCHANGED[1] {

@@ -50,10 +50,8 @@ mod tests {
         })
     }
 
-    fn sum(weights: &[f64; STAGES], of_stage: impl Fn(usize) -> f64) -> f64 {
-        (0..STAGES)
-            .map(|stage| weights[stage] * of_stage(stage))
-            .sum()
+    fn sum(weights: &[f64; STAGES], term: impl Fn(usize) -> f64) -> f64 {
+        (0..STAGES).map(|stage| weights[stage] * term(stage)).sum()
     }
 
     fn assert_close(actual: f64, expected: f64) {

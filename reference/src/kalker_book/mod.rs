@@ -1,18 +1,18 @@
 //! Computes the tables of [`dashpot_rail::creep::KalkerBook`] from exact theory.
 
+mod cells;
 mod fit;
-mod places;
 
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+use cells::{
+    Direction, creepage, direction, direction_coordinate, magnitude, moment_arm, spin_arm,
+};
 use dashpot_core::crc_32;
 use dashpot_rail::creep::kalker_book::Layout;
 use dashpot_rail::creep::{KalkerCoefficients, KalkerTable};
 use fit::{End, fit};
-use places::{
-    Direction, creepage, direction, direction_coordinate, magnitude, moment_arm, spin_arm,
-};
 
 use crate::error::ReferenceError;
 use crate::rolling_contact::{RollingContact, ScaledForces, TOLERANCE, Tractions, full_sliding};
@@ -149,9 +149,9 @@ fn spline(lines: &[Line]) -> Vec<[f32; 3]> {
         .map(|level| [0, 1, 2].map(|force| layer(lines, level, force)))
         .collect();
     let columns: Vec<[Vec<f64>; 3]> = (0..LAYER)
-        .map(|place| {
+        .map(|index| {
             [0, 1, 2].map(|force| {
-                let values: Vec<f64> = layers.iter().map(|layer| layer[force][place]).collect();
+                let values: Vec<f64> = layers.iter().map(|layer| layer[force][index]).collect();
                 over_size(&values)
             })
         })

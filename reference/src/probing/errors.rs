@@ -13,7 +13,8 @@ pub struct MotionErrors {
     /// Tick of the largest error.
     pub tick: usize,
     /// Root mean square error over root mean square force, but not less than [`MIN_RMS_FORCE_RATIO`] of the force limit
-    /// (1). For a motion in parts, the largest NRMSE of any part: no motion that joins and repeats these parts exceeds it.
+    /// (1). For a motion in parts, the largest NRMSE of any part: no motion that joins and repeats these parts exceeds
+    /// it.
     pub nrmse: f64,
     /// Largest force of the reference in extension and in compression (N).
     pub reference_peak_n: [f64; 2],

@@ -22,8 +22,8 @@ use crate::error::ReferenceError;
 /// Default top speed of the motions (m/s); a lower limit of the damper's input rate reduces it.
 pub const TOP_SPEED_M_PER_S: f64 = 0.6;
 
-/// Safety factor from [`Probing::largest_errors`] to the promised errors, valid for every motion of the class defined in
-/// docs/numerics.md. The search for the worst motion (`cargo xtask search`) stays below it.
+/// Safety factor from [`Probing::largest_errors`] to the promised errors, valid for every motion of the class defined
+/// in docs/numerics.md. The search for the worst motion (`cargo xtask search`) stays below it.
 pub const PROMISED_FACTOR: f64 = 3.0;
 
 /// Smallest promised error at a tick as a fraction of the force limit (1), in double and in single precision.

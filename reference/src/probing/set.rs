@@ -1,5 +1,5 @@
-//! The fixed set of motions, scaled by the damper's clearance, friction and springs, and by the speeds at which its force
-//! is small, medium and at the limit.
+//! The fixed set of motions, scaled by the damper's clearance, friction and springs, and by the speeds at which its
+//! force is small, medium and at the limit.
 
 use std::f64::consts::TAU;
 
@@ -59,14 +59,14 @@ impl Scale<'_> {
     fn speeds(&self) -> Vec<f64> {
         let top = self.top_m_per_s;
         let halvings = (0..OCTAVES).map(|octave| top * 0.5_f64.powi(octave));
-        let of_forces = self.sides.iter().flat_map(|side| {
+        let force_speeds = self.sides.iter().flat_map(|side| {
             FORCE_SHARES.map(|share| {
                 let force = side.closed_force + share * (side.yield_force - side.closed_force);
                 1.02 * side.velocity(side.coordinate(force))
             })
         });
         let mut speeds: Vec<f64> = halvings
-            .chain(of_forces.filter(|speed| (1e-4 * top..top).contains(speed)))
+            .chain(force_speeds.filter(|speed| (1e-4 * top..top).contains(speed)))
             .collect();
         speeds.sort_by(|a, b| b.total_cmp(a));
         speeds.dedup_by(|lower, upper| *lower > 0.85 * *upper);

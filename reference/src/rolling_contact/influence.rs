@@ -7,8 +7,8 @@ use super::mesh::Element;
 /// `[-du_x/dx by px, -du_y/dx by py, -du_x/dx by py]`, where the last one is also `-du_y/dx by px`; shear modulus 1.
 pub(super) type Slip = [f64; 3];
 
-/// Slip at each element of the strip `to` by a unit traction on each element of the strip `from`, ordered by elements of
-/// `to`, then of `from`. The slip is the mean from an element's middle to the middle of the next element ahead.
+/// Slip at each element of the strip `to` by a unit traction on each element of the strip `from`, ordered by elements
+/// of `to`, then of `from`. The slip is the mean from an element's middle to the middle of the next element ahead.
 ///
 /// Tractions on the wheel and their opposites on the rail displace the two surfaces relative to each other by
 /// (Cerruti; Johnson 1985, 3.75)

@@ -2,10 +2,10 @@
 //! steady rolling, under Hertz pressure and Coulomb friction (Kalker, Three-Dimensional Elastic Bodies in Rolling
 //! Contact, 1990).
 //!
-//! The slip of the wheel's surface on the rail, over the speed, is `s = w - du/dx`, where
-//! `w = (xi - phi y, eta + phi x)` is the rigid slip and `u` the elastic displacement of the wheel's surface relative to
-//! the rail's. Without slip the traction is within the friction limit; with slip it has the magnitude of friction and
-//! opposes `s`. Axes and signs are those of [`dashpot_rail::creep`].
+//! The slip of the wheel's surface on the rail, over the speed, is `s = w - du/dx`, where `w = (xi - phi y, eta + phi
+//! x)` is the rigid slip and `u` the elastic displacement of the wheel's surface relative to the rail's. Without slip
+//! the traction is within the friction limit; with slip it has the magnitude of friction and opposes `s`. Axes and
+//! signs are those of [`dashpot_rail::creep`].
 //!
 //! It shares no law with the code that it checks: neither Kalker's coefficients nor a simplified elasticity.
 
@@ -56,8 +56,8 @@ pub struct RollingContact {
 }
 
 impl RollingContact {
-    /// Builds contacts with the semi-axes `a` in the rolling direction and `b` across, on a mesh whose forces are accurate
-    /// to about half a percent of `mu N`.
+    /// Builds contacts with the semi-axes `a` in the rolling direction and `b` across, on a mesh whose forces are
+    /// accurate to about half a percent of `mu N`.
     ///
     /// # Errors
     /// The ratio is not positive, or Poisson's ratio not within 0 to 0.5.
@@ -66,8 +66,8 @@ impl RollingContact {
         Self::with_mesh(a_over_b, poisson_ratio, along, strips)
     }
 
-    /// Elements along and number of strips of [`Self::new`]. A strip must not be much wider than the contact is long, or
-    /// the pole of spin jumps from strip to strip; an element of a long contact is longer than its strip is wide.
+    /// Elements along and number of strips of [`Self::new`]. A strip must not be much wider than the contact is long,
+    /// or the pole of spin jumps from strip to strip; an element of a long contact is longer than its strip is wide.
     pub fn usual_mesh(a_over_b: f64) -> [usize; 2] {
         let min_strips = 12.0 * (0.5 * a_over_b).max(1.0).powf(0.22);
         let strips = (10.0 / a_over_b).clamp(min_strips, 40.0).ceil();
@@ -105,10 +105,10 @@ impl RollingContact {
                 .map(|from| slip_by_strip(to, from, poisson_ratio))
                 .collect();
             for row in 0..along {
-                let of_row = blocks
+                let row_slips = blocks
                     .iter()
                     .flat_map(|block| &block[row * along..(row + 1) * along]);
-                for by_element in of_row {
+                for by_element in row_slips {
                     for (slip, by_element) in slip.iter_mut().zip(by_element) {
                         slip.push(*by_element);
                     }
@@ -213,7 +213,7 @@ impl RollingContact {
     }
 
     /// Largest traction relative to the friction limit of its element; 1 if any element slides.
-    pub fn greatest_utilisation(&self, tractions: &Tractions) -> f64 {
+    pub fn max_utilisation(&self, tractions: &Tractions) -> f64 {
         let both = tractions.along.iter().zip(&tractions.across);
         let used = both.map(|(px, py)| px.hypot(*py));
         used.zip(&self.elements)

@@ -1,8 +1,8 @@
-//! A damper between two bodies: clearance, springs and velocity law of the reference damper. Its state is the position of
-//! its piston.
+//! A damper between two bodies: clearance, springs and velocity law of the reference damper. Its state is the position
+//! of its piston.
 //!
-//! Displacement and force are positive in extension. The displacement from the piston has seven ranges: yielding, flowing
-//! and held in compression, clearance, then held, flowing and yielding in extension.
+//! Displacement and force are positive in extension. The displacement from the piston has seven ranges: yielding,
+//! flowing and held in compression, clearance, then held, flowing and yielding in extension.
 
 use dashpot_core::DamperParameters;
 
@@ -53,8 +53,9 @@ impl Chain {
             }
         });
         let half_clearance = 0.5 * parameters.mount.clearance_m;
-        let edges = |of: &Direction| {
-            [0.0, of.side.closed_stretch, of.yield_stretch].map(|x| x + half_clearance)
+        let edges = |direction: &Direction| {
+            [0.0, direction.side.closed_stretch, direction.yield_stretch]
+                .map(|x| x + half_clearance)
         };
         let [extension, compression] = &directions;
         let inward = edges(compression).into_iter().rev().map(|edge| -edge);
@@ -78,29 +79,29 @@ impl Chain {
 
     /// Force (N) at a displacement from the piston (m).
     pub(super) fn force(&self, range: usize, from_piston: f64) -> f64 {
-        let (of, sign) = self.working(range);
+        let (direction, sign) = self.working(range);
         let stretch = sign * from_piston - self.half_clearance;
         sign * match range.abs_diff(CLEARANCE) {
             0 => 0.0,
-            1 => of.held_force(stretch),
-            2 => of.flow(stretch)[0],
-            _ => of.side.yield_force,
+            1 => direction.held_force(stretch),
+            2 => direction.flow(stretch)[0],
+            _ => direction.side.yield_force,
         }
     }
 
     /// Velocity of the piston (m/s) while the ends separate at `velocity` (m/s).
     pub(super) fn piston_velocity(&self, range: usize, from_piston: f64, velocity: f64) -> f64 {
-        let (of, sign) = self.working(range);
+        let (direction, sign) = self.working(range);
         match range.abs_diff(CLEARANCE) {
             0 | 1 => 0.0,
-            2 => sign * of.flow(sign * from_piston - self.half_clearance)[1],
+            2 => sign * direction.flow(sign * from_piston - self.half_clearance)[1],
             _ => velocity,
         }
     }
 
-    /// Derivatives of the force (N/m) and of the piston velocity (1/s) with respect to the displacement from the piston, and
-    /// of the piston velocity with respect to the velocity of the ends (1). Central differences, accurate enough for an
-    /// iteration.
+    /// Derivatives of the force (N/m) and of the piston velocity (1/s) with respect to the displacement from the
+    /// piston, and of the piston velocity with respect to the velocity of the ends (1). Central differences, accurate
+    /// enough for an iteration.
     pub(super) fn slopes(&self, range: usize, from_piston: f64) -> [f64; 3] {
         match range.abs_diff(CLEARANCE) {
             0 => [0.0; 3],
@@ -108,7 +109,7 @@ impl Chain {
             _ => {
                 let at = |x: f64| [self.force(range, x), self.piston_velocity(range, x, 0.0)];
                 let (behind, ahead) = (at(from_piston - STEP_M), at(from_piston + STEP_M));
-                let slope = |of: usize| (ahead[of] - behind[of]) / (2.0 * STEP_M);
+                let slope = |output: usize| (ahead[output] - behind[output]) / (2.0 * STEP_M);
                 [slope(0), slope(1), 0.0]
             }
         }
@@ -116,10 +117,10 @@ impl Chain {
 
     /// Distances to both ends of a range, positive inside. Yielding ends by the velocity, not by the displacement.
     pub(super) fn margins(&self, range: usize, from_piston: f64, velocity: f64) -> [f64; 2] {
-        let (of, sign) = self.working(range);
+        let (direction, sign) = self.working(range);
         if range.abs_diff(CLEARANCE) == 3 {
             let speed = sign * velocity;
-            return [speed - of.side.yield_velocity + OVERLAP_M_PER_S, 1.0];
+            return [speed - direction.side.yield_velocity + OVERLAP_M_PER_S, 1.0];
         }
         self.ranges.margins(range, from_piston)
     }
@@ -127,16 +128,16 @@ impl Chain {
     /// New range, and displacement from the piston, of a damper that was in `range`.
     pub(super) fn settled(&self, range: usize, from_piston: f64, velocity: f64) -> (usize, f64) {
         let yields = |range: usize| {
-            let (of, sign) = self.working(range);
+            let (direction, sign) = self.working(range);
             range.abs_diff(CLEARANCE) == 3
-                && sign * velocity - of.side.yield_velocity > -0.5 * OVERLAP_M_PER_S
+                && sign * velocity - direction.side.yield_velocity > -0.5 * OVERLAP_M_PER_S
         };
         if range.abs_diff(CLEARANCE) == 3 {
             if yields(range) {
                 return (range, from_piston);
             }
-            let (of, sign) = self.working(range);
-            let at_edge = sign * (self.half_clearance + of.yield_stretch);
+            let (direction, sign) = self.working(range);
+            let at_edge = sign * (self.half_clearance + direction.yield_stretch);
             return (if range == 0 { 1 } else { 5 }, at_edge);
         }
         let settled = self.ranges.settled(range, from_piston);

@@ -2,7 +2,7 @@
 
 use dashpot_rail::vehicle::{Direction, Element, Law, VehicleParameters};
 
-use super::place::{Coordinates, Place, Pose, Vector, cross, dot};
+use super::attachment::{Attachment, Coordinates, Pose, Vector, cross, dot};
 
 /// Law of an element.
 #[derive(Clone, Debug)]
@@ -29,7 +29,7 @@ pub(super) enum Action {
 /// An element with its attachments.
 #[derive(Clone, Debug)]
 pub(super) struct Coupling {
-    pub(super) places: [Place; 2],
+    pub(super) attachments: [Attachment; 2],
     pub(super) action: Action,
     /// Force on the second end while the vehicle is at rest (N).
     pub(super) standing_force: Vector,
@@ -101,14 +101,14 @@ impl Coupling {
             }
         };
         Self {
-            places: [first, second].map(|end| Place::new(vehicle, end)),
+            attachments: [first, second].map(|end| Attachment::new(vehicle, end)),
             action,
             standing_force: [0.0; 3],
         }
     }
 
     pub(super) fn motion(&self, poses: &[Pose; 2]) -> Motion {
-        let [first, second] = &self.places;
+        let [first, second] = &self.attachments;
         let [from, to] = poses;
         Motion {
             shift: minus(
@@ -172,8 +172,8 @@ impl Coupling {
     pub(super) fn loads(&self, [force, moment]: &[Vector; 2]) -> [Coordinates; 2] {
         let opposite = |vector: &Vector| vector.map(|component| -component);
         [
-            self.places[0].load(&opposite(force), &opposite(moment)),
-            self.places[1].load(force, moment),
+            self.attachments[0].load(&opposite(force), &opposite(moment)),
+            self.attachments[1].load(force, moment),
         ]
     }
 
@@ -188,28 +188,28 @@ impl Coupling {
 
     /// Additional loads by the standing force as the bodies rotate.
     ///
-    /// The potential is `U = -F . R^T (u2 - u1)`: the ends are displaced by `u = u_c + omega x r + omega x (omega x r)/2`,
-    /// and the axes rotate by the mean `m` of both rotations. To first order `-dU` consists of the force `m x F` on the
-    /// second end and its opposite on the first; half of the moment `F x (u2 - u1)` on each body; and, from
-    /// `omega x (omega x r)/2`, the moment `(F (r . omega) + r (F . omega))/2 - (F . r) omega` on the second body and its
-    /// opposite, with the first body's `r`, on the first.
+    /// The potential is `U = -F . R^T (u2 - u1)`: the ends are displaced by `u = u_c + omega x r + omega x (omega x
+    /// r)/2`, and the axes rotate by the mean `m` of both rotations. To first order `-dU` consists of the force `m x F`
+    /// on the second end and its opposite on the first; half of the moment `F x (u2 - u1)` on each body; and, from
+    /// `omega x (omega x r)/2`, the moment `(F (r . omega) + r (F . omega))/2 - (F . r) omega` on the second body and
+    /// its opposite, with the first body's `r`, on the first.
     pub(super) fn turned_loads(&self, poses: &[Pose; 2], motion: &Motion) -> [Coordinates; 2] {
         let f = &self.standing_force;
         let turns: [Vector; 2] =
-            std::array::from_fn(|end| self.places[end].turn(&poses[end].displacement));
+            std::array::from_fn(|end| self.attachments[end].turn(&poses[end].displacement));
         let mean = std::array::from_fn(|i| 0.5 * (turns[0][i] + turns[1][i]));
         let force = cross(&mean, f);
         let couple = cross(f, &motion.shift);
         std::array::from_fn(|end| {
             let sign = if end == 0 { -1.0 } else { 1.0 };
-            let (place, turn) = (&self.places[end], &turns[end]);
-            let r = &place.arm;
+            let (attachment, turn) = (&self.attachments[end], &turns[end]);
+            let r = &attachment.arm;
             let (along_arm, along_force) = (0.5 * dot(r, turn), 0.5 * dot(f, turn));
             let moment: Vector = std::array::from_fn(|i| {
-                let of_end = f[i] * along_arm + r[i] * along_force - dot(f, r) * turn[i];
-                0.5 * couple[i] + sign * of_end
+                let end_moment = f[i] * along_arm + r[i] * along_force - dot(f, r) * turn[i];
+                0.5 * couple[i] + sign * end_moment
             });
-            place.load(&force.map(|component| sign * component), &moment)
+            attachment.load(&force.map(|component| sign * component), &moment)
         })
     }
 }

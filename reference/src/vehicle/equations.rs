@@ -5,10 +5,10 @@ use dashpot_rail::contact::{
 };
 use dashpot_rail::creep::CreepLaw;
 
+use super::attachment::{Coordinates, Pose};
 use super::chain::Chain;
 use super::coupling::Coupling;
 use super::frame::{Following, Path};
-use super::place::{Coordinates, Pose};
 use super::standing::Standing;
 use super::stop::Stop;
 
@@ -33,8 +33,8 @@ pub(super) struct Rolling {
     pub(super) constant: Coordinates,
 }
 
-/// The vehicle. Its state consists of the coordinates of bodies and wheelsets, their velocities, and the positions of the
-/// dampers' pistons.
+/// The vehicle. Its state consists of the coordinates of bodies and wheelsets, their velocities, and the positions of
+/// the dampers' pistons.
 pub(super) struct Equations<'a, L, S: PatchSource> {
     pub(super) contact: &'a WheelsetContact<L, S>,
     pub(super) inertia: Vec<Coordinates>,
@@ -121,32 +121,35 @@ impl<L: CreepLaw, S: PatchSource> Equations<'_, L, S> {
         &state[2 * N * self.bodies()..]
     }
 
-    /// Poses of the bodies at the ends of an element: in the frame of the vehicle's middle, or in the body's own frame if one
-    /// end is on the track.
+    /// Poses of the bodies at the ends of an element: in the frame of the vehicle's middle, or in the body's own frame
+    /// if one end is on the track.
     fn poses(&self, following: &[Following], state: &[f64], coupling: &Coupling) -> [Pose; 2] {
-        let on_track = coupling.places.iter().any(|place| place.body.is_none());
+        let on_track = coupling
+            .attachments
+            .iter()
+            .any(|attachment| attachment.body.is_none());
         std::array::from_fn(|end| {
-            let Some(body) = coupling.places[end].body else {
+            let Some(body) = coupling.attachments[end].body else {
                 return Pose::default();
             };
             let (q, v) = (self.coordinates(state, body), self.velocities(state, body));
-            let of = &following[body];
+            let frame = &following[body];
             if on_track {
                 Pose {
                     displacement: q,
-                    rate: std::array::from_fn(|k| v[k] - of.frame_velocity[k]),
+                    rate: std::array::from_fn(|k| v[k] - frame.frame_velocity[k]),
                 }
             } else {
                 Pose {
-                    displacement: std::array::from_fn(|k| q[k] + of.offset[k]),
-                    rate: std::array::from_fn(|k| v[k] + of.offset_rate[k]),
+                    displacement: std::array::from_fn(|k| q[k] + frame.offset[k]),
+                    rate: std::array::from_fn(|k| v[k] + frame.offset_rate[k]),
                 }
             }
         })
     }
 
-    /// Displacement and velocity of each damper and stop. The displacement of a damper is relative to the vehicle at rest,
-    /// not to its piston.
+    /// Displacement and velocity of each damper and stop. The displacement of a damper is relative to the vehicle at
+    /// rest, not to its piston.
     pub(super) fn extensions(&self, following: &[Following], state: &[f64]) -> Vec<Extension> {
         let mut extensions = vec![Extension::default(); self.ranged.len()];
         for coupling in &self.couplings {
@@ -207,8 +210,8 @@ impl<L: CreepLaw, S: PatchSource> Equations<'_, L, S> {
         let bodies = self.bodies();
         let mut loads = vec![[0.0; N]; bodies];
         let mut add = |coupling: &Coupling, on_ends: &[Coordinates; 2]| {
-            for (place, load) in coupling.places.iter().zip(on_ends) {
-                if let Some(body) = place.body {
+            for (attachment, load) in coupling.attachments.iter().zip(on_ends) {
+                if let Some(body) = attachment.body {
                     for (sum, load) in loads[body].iter_mut().zip(load) {
                         *sum += load;
                     }
@@ -249,15 +252,15 @@ impl<L: CreepLaw, S: PatchSource> Equations<'_, L, S> {
         outcome.rates.clear();
         outcome.accelerations.clear();
         for (body, load) in loads.iter().enumerate() {
-            let of = &following[body];
+            let frame = &following[body];
             let v = self.velocities(state, body);
             let mut rate: Coordinates = std::array::from_fn(|k| load[k] / self.inertia[body][k]);
-            rate[0] += of.acceleration[0];
-            rate[1] += of.acceleration[1];
+            rate[0] += frame.acceleration[0];
+            rate[1] += frame.acceleration[1];
             outcome.accelerations.push(rate);
             outcome
                 .rates
-                .push(std::array::from_fn(|k| v[k] - of.frame_velocity[k]));
+                .push(std::array::from_fn(|k| v[k] - frame.frame_velocity[k]));
         }
     }
 
@@ -282,7 +285,7 @@ impl<L: CreepLaw, S: PatchSource> Equations<'_, L, S> {
             let [_, y, z] = contact.force_n;
             let [about_x, about_y, about_z] = contact.moment_n_m;
             let v = self.velocities(state, body);
-            let of_rails = [
+            let rail_loads = [
                 y - roll * z,
                 z + roll * y + rolling.standing.load,
                 about_x - rolling.momentum * v[4],
@@ -291,7 +294,7 @@ impl<L: CreepLaw, S: PatchSource> Equations<'_, L, S> {
                 about_z + rolling.momentum * v[2],
             ];
             for (k, sum) in loads[body].iter_mut().enumerate() {
-                *sum += of_rails[k] + rolling.constant[k];
+                *sum += rail_loads[k] + rolling.constant[k];
             }
         }
     }

@@ -15,7 +15,7 @@ impl<L: CreepLaw, S: PatchSource> Equations<'_, L, S> {
     ) -> Vec<f64> {
         situation.follow(time);
         let extensions = self.extensions(situation.following(), state);
-        let of = |number: usize| {
+        let margins = |number: usize| {
             let (range, at) = (situation.ranges[number], extensions[number]);
             match &self.ranged[number] {
                 Ranged::Damper(damper, chain) => {
@@ -25,7 +25,7 @@ impl<L: CreepLaw, S: PatchSource> Equations<'_, L, S> {
                 Ranged::Stop(stop) => stop.ranges.margins(range, at.displacement),
             }
         };
-        (0..self.ranged.len()).flat_map(of).collect()
+        (0..self.ranged.len()).flat_map(margins).collect()
     }
 
     /// Updates the range of each damper and stop, and returns the number of changes. The piston of a damper that stops

@@ -3,7 +3,7 @@
 use dashpot_rail::track::{Alignment, Defect, Layout, Track};
 use dashpot_rail::vehicle::GRAVITY_M_PER_S2;
 
-use super::place::Coordinates;
+use super::attachment::Coordinates;
 
 /// Distance between the middles of both rails, the base of the cant (m).
 const RAILS_APART_M: f64 = 1.5;
@@ -47,7 +47,8 @@ pub(super) struct Following {
     pub(super) offset_rate: Coordinates,
     /// Absolute velocity of the body's own frame: `e` in `dq/dt = v - e`.
     pub(super) frame_velocity: Coordinates,
-    /// Lateral and vertical acceleration by gravity and centrifugal force (m/s^2), minus the acceleration on straight track.
+    /// Lateral and vertical acceleration by gravity and centrifugal force (m/s^2), minus the acceleration on straight
+    /// track.
     pub(super) acceleration: [f64; 2],
 }
 
@@ -94,13 +95,13 @@ impl<'a> Path<'a> {
     pub(super) fn edges(&self, end: f64) -> Vec<f64> {
         let layout = self.track.layout().starts_m();
         let defects = self.track.defects().iter().flat_map(ends);
-        let places: Vec<f64> = layout.chain(defects).collect();
+        let edges: Vec<f64> = layout.chain(defects).collect();
         let mut times: Vec<f64> = self
             .runners
             .iter()
             .flat_map(|runner| {
                 let start = self.start + runner.x;
-                places.iter().map(move |place| (place - start) / self.speed)
+                edges.iter().map(move |edge| (edge - start) / self.speed)
             })
             .filter(|time| (0.0..end).contains(time) && *time > 0.0)
             .collect();
@@ -138,7 +139,7 @@ impl<'a> Path<'a> {
         let middle = self.line(0, time);
         let s = self.distance(time, 0.0);
         let heading = layout.heading_rad(s);
-        let of_body = |number: usize| {
+        let motion_of_body = |number: usize| {
             let Runner { x, height } = self.runners[number];
             let own = self.line(number, time);
             let roll = own.angle - middle.angle;
@@ -154,7 +155,7 @@ impl<'a> Path<'a> {
                 0.0,
                 self.speed * own.curvature,
             ];
-            let of_frame = [
+            let relative_velocity = [
                 lateral_rate + height * roll_rate,
                 0.0,
                 roll_rate,
@@ -164,7 +165,7 @@ impl<'a> Path<'a> {
             let centripetal = self.speed * self.speed * own.curvature;
             Following {
                 offset: [lateral + height * roll, 0.0, roll, 0.0, yaw],
-                offset_rate: std::array::from_fn(|k| of_frame[k] - frame_velocity[k]),
+                offset_rate: std::array::from_fn(|k| relative_velocity[k] - frame_velocity[k]),
                 frame_velocity,
                 acceleration: [
                     GRAVITY_M_PER_S2 * middle.angle.sin() - centripetal * own.angle.cos(),
@@ -172,7 +173,7 @@ impl<'a> Path<'a> {
                 ],
             }
         };
-        (1..self.runners.len()).map(of_body).collect()
+        (1..self.runners.len()).map(motion_of_body).collect()
     }
 }
 

@@ -1,21 +1,21 @@
 //! Reference solution of a vehicle that runs along a track.
 //!
-//! The Newton-Euler equations of each body are integrated by an adaptive stiff solver to a stated tolerance. The forces of
-//! elements follow from the motion of their ends; dampers use the laws of the [reference damper](crate::damper) with
+//! The Newton-Euler equations of each body are integrated by an adaptive stiff solver to a stated tolerance. The forces
+//! of elements follow from the motion of their ends; dampers use the laws of the [reference damper](crate::damper) with
 //! clearance, held piston, flow and yielding. The solver restarts where a damper or stop passes an edge of its law, and
-//! where a body passes an edge of the track. Only the wheel-rail contact, [`dashpot_rail::contact`], and the description
-//! of the vehicle are shared with the real-time model.
+//! where a body passes an edge of the track. Only the wheel-rail contact, [`dashpot_rail::contact`], and the
+//! description of the vehicle are shared with the real-time model.
 //!
-//! Coordinates of each body are lateral, vertical (m), roll, pitch and yaw (rad), relative to the vehicle at rest, in the
-//! frame that follows the track at the body. Velocities are absolute, in the same axes. The pitch of a wheelset is its
-//! rotation relative to free rolling.
+//! Coordinates of each body are lateral, vertical (m), roll, pitch and yaw (rad), relative to the vehicle at rest, in
+//! the frame that follows the track at the body. Velocities are absolute, in the same axes. The pitch of a wheelset is
+//! its rotation relative to free rolling.
 
+mod attachment;
 mod chain;
 mod coupling;
 mod equations;
 mod events;
 mod frame;
-mod place;
 mod ranges;
 mod slopes;
 mod solver;
@@ -86,8 +86,8 @@ impl<'a, L: CreepLaw, S: PatchSource> VehicleReference<'a, L, S> {
     /// Builds a freely rolling vehicle in its rest position, with its middle at the distance `start_m` along `track`.
     ///
     /// # Errors
-    /// The vehicle has no equilibrium, the speed is not within 0.1 to 200 m/s, the rails do not carry a wheelset, or the law of
-    /// a damper has no solution.
+    /// The vehicle has no equilibrium, the speed is not within 0.1 to 200 m/s, the rails do not carry a wheelset, or
+    /// the law of a damper has no solution.
     pub fn new(
         vehicle: &VehicleParameters,
         contact: &'a WheelsetContact<L, S>,
@@ -141,7 +141,7 @@ impl<'a, L: CreepLaw, S: PatchSource> VehicleReference<'a, L, S> {
                 constant,
             });
         }
-        let ranges = ranged.iter().map(|of| match of {
+        let ranges = ranged.iter().map(|element| match element {
             Ranged::Damper(..) => CLEARANCE,
             Ranged::Stop(stop) => stop.ranges.edges.len() / 2,
         });
@@ -158,12 +158,12 @@ impl<'a, L: CreepLaw, S: PatchSource> VehicleReference<'a, L, S> {
         situation.follow(0.0);
         let coordinates = N * equations.bodies();
         let mut start = vec![0.0; equations.size()];
-        for (k, of) in situation.following().iter().enumerate() {
-            start[coordinates + N * k..][..N].copy_from_slice(&of.frame_velocity);
+        for (k, frame) in situation.following().iter().enumerate() {
+            start[coordinates + N * k..][..N].copy_from_slice(&frame.frame_velocity);
         }
         let extensions = equations.extensions(situation.following(), &start);
-        for (of, at) in equations.ranged.iter().zip(extensions) {
-            if let Ranged::Damper(damper, _) = of {
+        for (element, at) in equations.ranged.iter().zip(extensions) {
+            if let Ranged::Damper(damper, _) = element {
                 start[2 * coordinates + damper] = at.displacement;
             }
         }
@@ -175,10 +175,12 @@ impl<'a, L: CreepLaw, S: PatchSource> VehicleReference<'a, L, S> {
         })
     }
 
-    /// Runs the vehicle from time 0 and returns it at each of the increasing times (s). `tolerance` is relative, per step.
+    /// Runs the vehicle from time 0 and returns it at each of the increasing times (s). `tolerance` is relative, per
+    /// step.
     ///
     /// # Errors
-    /// Times that are negative or do not increase, or a tolerance that is not within 1e-12 to 0.01 or cannot be reached.
+    /// Times that are negative or do not increase, or a tolerance that is not within 1e-12 to 0.01 or cannot be
+    /// reached.
     pub fn run(
         &mut self,
         times_s: &[f64],

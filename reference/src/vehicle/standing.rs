@@ -4,8 +4,8 @@ use dashpot_rail::contact::{Motion, PatchSource, RailDisplacement, WheelsetConta
 use dashpot_rail::creep::CreepLaw;
 use dashpot_rail::vehicle::{GRAVITY_M_PER_S2, VehicleError, VehicleParameters};
 
+use super::attachment::{Coordinates, Pose};
 use super::coupling::Coupling;
-use super::place::{Coordinates, Pose};
 use crate::linear::{Factors, Matrix};
 
 /// Coordinates of a body.
@@ -25,8 +25,8 @@ pub(super) struct Standing {
     pub(super) rotation: f64,
 }
 
-/// Sets the force of each element with the vehicle at rest and the wheelsets fixed; returns the loads of the elements on
-/// each wheelset.
+/// Sets the force of each element with the vehicle at rest and the wheelsets fixed; returns the loads of the elements
+/// on each wheelset.
 pub(super) fn load_elements(
     vehicle: &VehicleParameters,
     couplings: &mut [Coupling],
@@ -34,7 +34,7 @@ pub(super) fn load_elements(
     let bodies = vehicle.bodies.len();
     let size = N * bodies;
     let poses = |coupling: &Coupling, displacements: &[f64]| {
-        std::array::from_fn(|end| match coupling.places[end].body {
+        std::array::from_fn(|end| match coupling.attachments[end].body {
             Some(body) if body < bodies => Pose {
                 displacement: std::array::from_fn(|k| displacements[N * body + k]),
                 rate: [0.0; N],
@@ -47,8 +47,8 @@ pub(super) fn load_elements(
         for coupling in couplings {
             let motion = coupling.motion(&poses(coupling, displacements));
             let loads = coupling.loads(&coupling.spring_wrench(&motion));
-            for (place, load) in coupling.places.iter().zip(loads) {
-                if let Some(body) = place.body {
+            for (attachment, load) in coupling.attachments.iter().zip(loads) {
+                if let Some(body) = attachment.body {
                     for (k, load) in load.into_iter().enumerate() {
                         all[N * body + k] += load;
                     }
@@ -88,8 +88,8 @@ pub(super) fn load_elements(
 }
 
 impl Standing {
-    /// Finds the equilibrium of a centred wheelset that rolls freely under `load` (N) at `speed` (m/s); `None` if the rails do
-    /// not carry it.
+    /// Finds the equilibrium of a centred wheelset that rolls freely under `load` (N) at `speed` (m/s); `None` if the
+    /// rails do not carry it.
     pub(super) fn new<L: CreepLaw, S: PatchSource>(
         contact: &WheelsetContact<L, S>,
         speed: f64,

@@ -18,14 +18,14 @@ impl Stop {
             [pair[0][0], pair[0][1], slope]
         };
         let outward: Vec<[f64; 3]> = points.windows(2).map(line).collect();
-        let edges = outward.iter().map(|[place, ..]| *place);
+        let edges = outward.iter().map(|[corner, ..]| *corner);
         let inward = outward.iter().rev();
         Self {
             ranges: Ranges {
                 edges: edges.clone().rev().map(|edge| -edge).chain(edges).collect(),
             },
             lines: inward
-                .map(|[place, force, slope]| [-place, -force, *slope])
+                .map(|[corner, force, slope]| [-corner, -force, *slope])
                 .chain([[0.0; 3]])
                 .chain(outward.iter().copied())
                 .collect(),
@@ -34,8 +34,8 @@ impl Stop {
 
     /// Force that resists a displacement (N).
     pub(super) fn force(&self, range: usize, displacement: f64) -> f64 {
-        let [place, force, slope] = self.lines[range];
-        force + slope * (displacement - place)
+        let [corner, force, slope] = self.lines[range];
+        force + slope * (displacement - corner)
     }
 
     pub(super) fn slope(&self, range: usize) -> f64 {

@@ -54,7 +54,7 @@ fn quotients(coefficient: f64, yaw_mrad: f64) -> [f64; 4] {
     let friction = friction(coefficient);
     let book = WheelsetContact::new(geometry(), KalkerBook::new(), friction).unwrap();
     // Shifted until the flange carries the wheel. All laws use the height found with the book, and so the same patches.
-    let (motion, of_book) = (50..90)
+    let (motion, book_wheel) = (50..90)
         .map(|tenths| Motion {
             speed_m_per_s: 20.0,
             rotation_rad_per_s: 32.0,
@@ -81,7 +81,7 @@ fn quotients(coefficient: f64, yaw_mrad: f64) -> [f64; 4] {
     }
     [
         of(Exact, &motion, coefficient),
-        quotient(&of_book),
+        quotient(&book_wheel),
         of(Polach, &motion, coefficient),
         of(ShenHedrickElkins, &motion, coefficient),
     ]

@@ -54,11 +54,11 @@ fn measured() -> String {
         let _ = write!(text, "| {name} |");
         for by_yaw in climbing() {
             let off = by_yaw.map(|quotients| quotients[law] / quotients[0] - 1.0);
-            let greatest = off
+            let largest = off
                 .into_iter()
                 .max_by(|a, b| a.abs().total_cmp(&b.abs()))
                 .unwrap_or(0.0);
-            let _ = write!(text, " {:+.1} % |", 100.0 * greatest);
+            let _ = write!(text, " {:+.1} % |", 100.0 * largest);
         }
         text.push('\n');
     }

@@ -50,11 +50,11 @@ pub fn figures() -> Vec<(&'static str, String)> {
 }
 
 fn over_the_shift() -> Vec<Panel> {
-    let panel = |title, y, legend, of: fn(&Wheel) -> f64| {
+    let panel = |title, y, legend, value: fn(&Wheel) -> f64| {
         let points = |side: fn(&Shift) -> &Wheel| {
             let shifts = shifts().iter().filter(|shift| shift.lateral_mm < 6.6);
             shifts
-                .map(|shift| (shift.lateral_mm, of(side(shift))))
+                .map(|shift| (shift.lateral_mm, value(side(shift))))
                 .collect()
         };
         Panel {
@@ -66,7 +66,7 @@ fn over_the_shift() -> Vec<Panel> {
         }
     };
     let steering = steering();
-    let of = |k: usize| steering.iter().map(|(x, y)| (*x, 1e-3 * y[k])).collect();
+    let curve = |k: usize| steering.iter().map(|(x, y)| (*x, 1e-3 * y[k])).collect();
     vec![
         panel(
             "Place of contact from the track centre",
@@ -82,7 +82,7 @@ fn over_the_shift() -> Vec<Panel> {
             x: "lateral shift, mm",
             y: "kN",
             legend: UpperLeft,
-            curves: exact_and_found(of(0), of(1)),
+            curves: exact_and_found(curve(0), curve(1)),
         },
         panel("Lateral force on the rail", "kN", UpperLeft, |wheel| {
             1e-3 * wheel.lateral_n
@@ -283,8 +283,8 @@ fn short(number: &f64) -> String {
 
 /// Range of the numbers, with a margin.
 fn extent(numbers: impl Iterator<Item = f64> + Clone) -> Range<f64> {
-    let least = numbers.clone().fold(f64::MAX, f64::min);
-    let greatest = numbers.fold(f64::MIN, f64::max);
-    let margin = 0.04 * (greatest - least);
-    least - margin..greatest + margin
+    let min = numbers.clone().fold(f64::MAX, f64::min);
+    let max = numbers.fold(f64::MIN, f64::max);
+    let margin = 0.04 * (max - min);
+    min - margin..max + margin
 }

@@ -1,5 +1,5 @@
-//! One wheel under 100 kN over its lateral shift: position, angle and forces of the contact compared with an independent
-//! half-space solver.
+//! One wheel under 100 kN over its lateral shift: position, angle and forces of the contact compared with an
+//! independent half-space solver.
 
 use std::sync::{Arc, OnceLock};
 
@@ -107,9 +107,12 @@ fn wheel<S: PatchSource>(contact: &WheelsetContact<KalkerBook, S>, lateral_mm: f
     let (motion, forces) = loaded(contact, &motion);
     // Position and angle of several patches are means weighted by load.
     let load: f64 = forces.loaded_patches().map(|patch| patch.load_n).sum();
-    let mean = |of: &dyn Fn(&dashpot_rail::contact::PatchForces) -> f64| {
+    let mean = |value: &dyn Fn(&dashpot_rail::contact::PatchForces) -> f64| {
         let patches = forces.loaded_patches();
-        patches.map(|patch| patch.load_n * of(patch)).sum::<f64>() / load
+        patches
+            .map(|patch| patch.load_n * value(patch))
+            .sum::<f64>()
+            / load
     };
     Wheel {
         place_mm: 1e3 * (motion.lateral_m + mean(&|patch| patch.position_m[1])),
@@ -119,8 +122,8 @@ fn wheel<S: PatchSource>(contact: &WheelsetContact<KalkerBook, S>, lateral_mm: f
     }
 }
 
-/// Steering force for each shift, exact and computed (N): longitudinal force of the left wheel minus that of the right one,
-/// from the right wheel shifted in both directions.
+/// Steering force for each shift, exact and computed (N): longitudinal force of the left wheel minus that of the right
+/// one, from the right wheel shifted in both directions.
 pub fn steering() -> Vec<(f64, [f64; 2])> {
     let shifts = shifts();
     let at = |lateral_mm: f64| {
@@ -132,8 +135,9 @@ pub fn steering() -> Vec<(f64, [f64; 2])> {
     to_right
         .filter_map(|right| {
             let left = at(-right.lateral_mm)?;
-            let difference =
-                |of: fn(&Shift) -> Wheel| of(left).longitudinal_n - of(right).longitudinal_n;
+            let difference = |wheel: fn(&Shift) -> Wheel| {
+                wheel(left).longitudinal_n - wheel(right).longitudinal_n
+            };
             let both = [
                 difference(|shift| shift.exact),
                 difference(|shift| shift.found),

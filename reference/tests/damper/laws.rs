@@ -48,8 +48,8 @@ fn paper_forces_at_constant_velocity() {
     }
 }
 
-/// All in-service terms against values of the same laws computed independently in another language, by bisection of flow
-/// against velocity.
+/// All in-service terms against values of the same laws computed independently in another language, by bisection of
+/// flow against velocity.
 #[test]
 fn in_service_forces_at_constant_velocity() {
     for (two_chamber, velocity, force) in [
@@ -151,8 +151,8 @@ fn maxwell_element_under_harmonic_motion() {
         let ratio = (omega * tau).powi(2);
         let in_phase = stiffness * ratio / (1.0 + ratio);
         let dynamic = damping / (1.0 + ratio);
-        // Linear interpolation at w dt = 2 pi/5000 weakens the harmonic by (w dt)^2/12 and aliases as much from beyond the
-        // sampling rate, where the element is a spring.
+        // Linear interpolation at w dt = 2 pi/5000 weakens the harmonic by (w dt)^2/12 and aliases as much from beyond
+        // the sampling rate, where the element is a spring.
         let allowed = stiffness * (2.0 * PI / per_cycle as f64).powi(2) / 6.0;
         let (k, c) = (scale * sine, scale * cosine / omega);
         assert!((k - in_phase).abs() < allowed, "{frequency} Hz: {k} N/m");

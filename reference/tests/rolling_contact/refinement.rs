@@ -26,11 +26,11 @@ fn a_finer_mesh_changes_less() {
         let finest = all[3];
         let errors: Vec<f64> = all.iter().map(|&f| distance(f, finest)).collect();
         let usual = forces(a_over_b, creepage, RollingContact::usual_mesh(a_over_b));
-        let of_usual = distance(usual, finest);
-        println!("a/b {a_over_b} {creepage:?}: {errors:.4?}, usual {of_usual:.4}");
+        let usual_error = distance(usual, finest);
+        println!("a/b {a_over_b} {creepage:?}: {errors:.4?}, usual {usual_error:.4}");
         // At least of first order.
         assert!(errors[2] < 0.5 * errors[0], "{errors:?}");
-        assert!(of_usual < 0.006, "{of_usual}");
+        assert!(usual_error < 0.006, "{usual_error}");
     }
 }
 

@@ -24,7 +24,7 @@ fn large_creepages_slide_fully() {
             for (rolling, sliding) in rolling.iter().zip(sliding) {
                 assert!((rolling - sliding).abs() < 0.01, "{a_over_b} {creepage:?}");
             }
-            let used = contact.greatest_utilisation(&tractions);
+            let used = contact.max_utilisation(&tractions);
             assert!(used <= 1.0 + 1e-9, "{used}");
         }
     }

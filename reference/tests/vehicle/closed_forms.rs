@@ -15,12 +15,12 @@ const Y: f64 = 1.0;
 /// Springs at the height of the centre of gravity.
 fn body_on_springs() -> VehicleParameters {
     let places = [(X, Y), (X, -Y), (-X, Y), (-X, -Y)];
-    let of_place = |(x, y)| spring([None, Some("body")], [x, y, 1.5], SPRINGS, [0.0; 3]);
-    on_track(places.into_iter().map(of_place).collect())
+    let spring_at = |(x, y)| spring([None, Some("body")], [x, y, 1.5], SPRINGS, [0.0; 3]);
+    on_track(places.into_iter().map(spring_at).collect())
 }
 
-/// Yaw: the frame rotates at `V/R`, so `psi = -V/(R w) sin w t`. Lateral and roll: a step of `-m V^2/R`; both motions are
-/// coupled by `-m g/2`, because the weight rotates by half the roll.
+/// Yaw: the frame rotates at `V/R`, so `psi = -V/(R w) sin w t`. Lateral and roll: a step of `-m V^2/R`; both motions
+/// are coupled by `-m g/2`, because the weight rotates by half the roll.
 #[test]
 fn free_oscillations_after_an_abrupt_curve() {
     let vehicle = body_on_springs();

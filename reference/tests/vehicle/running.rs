@@ -51,13 +51,13 @@ fn the_solution_converges_with_the_tolerance() {
             sample.contacts[0].wheels[0].force_n[2]
         }),
     ];
-    for (name, of) in quantities {
-        let start = of(&fine[0]);
+    for (name, quantity) in quantities {
+        let start = quantity(&fine[0]);
         let sum = |squares: &mut dyn Iterator<Item = f64>| squares.sum::<f64>().sqrt();
-        let all = sum(&mut fine.iter().map(|sample| (of(sample) - start).powi(2)));
+        let all = sum(&mut fine.iter().map(|sample| (quantity(sample) - start).powi(2)));
         let deviation = |other: &[VehicleSample]| {
             let pairs = fine.iter().zip(other);
-            sum(&mut pairs.map(|(a, b)| (of(a) - of(b)).powi(2))) / all
+            sum(&mut pairs.map(|(a, b)| (quantity(a) - quantity(b)).powi(2))) / all
         };
         let (usual, loose) = (deviation(&usual), deviation(&loose));
         assert!(usual < 1e-3, "{name}: {usual}");

@@ -7,7 +7,8 @@ use differential_equations::prelude::*;
 
 type State = [f64; STATES];
 
-/// Requested tolerance. The method keeps an error estimate of lower order than its result below `0.1 tol^(2/3)` per step.
+/// Requested tolerance. The method keeps an error estimate of lower order than its result below `0.1 tol^(2/3)` per
+/// step.
 const TOLERANCE: f64 = 1e-14;
 
 /// Remaining error of the Newton iteration, relative to the tolerance.
@@ -33,8 +34,8 @@ impl ODE<f64, State> for Equations<'_> {
 }
 
 /// Radau5, created for each step: if reused, it keeps the factorisation of another step size, and its error estimate is
-/// wrong. A step passes an event, which is then located by Newton's method on the length of that step; dense output is not
-/// used.
+/// wrong. A step passes an event, which is then located by Newton's method on the length of that step; dense output is
+/// not used.
 pub struct Radau {
     steps: usize,
     natural_step: f64,

@@ -17,7 +17,7 @@ pub(super) struct Pose {
 
 /// Attachment of an element's end.
 #[derive(Clone, Debug)]
-pub(super) struct Place {
+pub(super) struct Attachment {
     /// Index of the body, where wheelsets follow the bodies; `None` on the track.
     pub(super) body: Option<usize>,
     /// Position relative to the body's centre (m).
@@ -26,19 +26,20 @@ pub(super) struct Place {
     pub(super) is_axlebox: bool,
 }
 
-impl Place {
+impl Attachment {
     /// Builds the attachment of an end; its body must exist in the vehicle.
     pub(super) fn new(vehicle: &VehicleParameters, end: &End) -> Self {
         let name = end.on.as_ref();
-        let of_body = vehicle
+        let body = vehicle
             .bodies
             .iter()
             .position(|body| Some(&body.name) == name);
-        let of_wheelset = vehicle
+        let wheelset = vehicle
             .wheelsets
             .iter()
             .position(|wheelset| Some(&wheelset.name) == name);
-        let (body, centre) = match (of_body, of_wheelset) {
+        let is_axlebox = body.is_none() && wheelset.is_some();
+        let (body, centre) = match (body, wheelset) {
             (Some(number), _) => {
                 let body = &vehicle.bodies[number];
                 (Some(number), [body.x_m, body.height_m])
@@ -54,25 +55,25 @@ impl Place {
         Self {
             body,
             arm: [x - centre[0], y, centre[1] - height],
-            is_axlebox: of_body.is_none() && of_wheelset.is_some(),
+            is_axlebox,
         }
     }
 
     /// Displacement of the attachment, `u + omega x r`, without the longitudinal part of pitch.
-    pub(super) fn shift(&self, of_body: &Coordinates) -> Vector {
-        let [roll, pitch, yaw] = self.turn(of_body);
+    pub(super) fn shift(&self, motion: &Coordinates) -> Vector {
+        let [roll, pitch, yaw] = self.turn(motion);
         let [x, y, z] = self.arm;
         [
             -yaw * y,
-            of_body[0] - roll * z + yaw * x,
-            of_body[1] + roll * y - pitch * x,
+            motion[0] - roll * z + yaw * x,
+            motion[1] + roll * y - pitch * x,
         ]
     }
 
     /// Rotation of the attachment about x, y and z.
-    pub(super) fn turn(&self, of_body: &Coordinates) -> Vector {
-        let pitch = if self.is_axlebox { 0.0 } else { of_body[3] };
-        [of_body[2], pitch, of_body[4]]
+    pub(super) fn turn(&self, motion: &Coordinates) -> Vector {
+        let pitch = if self.is_axlebox { 0.0 } else { motion[3] };
+        [motion[2], pitch, motion[4]]
     }
 
     /// Force, and moments about the body's centre, by `force` and `moment` at the attachment.
