@@ -1,6 +1,6 @@
-//! How far forces are from those of a reference.
+//! Deviation of forces from a reference.
 
-/// Root mean square of `values`; 0 where there are none.
+/// Root mean square of `values`; 0 if empty.
 ///
 /// ```
 /// use dashpot_reference::deviation::root_mean_square;
@@ -15,7 +15,7 @@ pub fn root_mean_square(values: impl IntoIterator<Item = f64>) -> f64 {
     (sum / count.max(1) as f64).sqrt()
 }
 
-/// Largest magnitude of `values`; 0 where there are none.
+/// Largest magnitude of `values`; 0 if empty.
 pub fn largest_magnitude(values: impl IntoIterator<Item = f64>) -> f64 {
     values
         .into_iter()
@@ -33,7 +33,7 @@ pub fn errors(actual: &[f64], expected: &[f64]) -> impl Iterator<Item = f64> {
 
 /// NRMSE (1): root mean square of [`errors`] over root mean square of `expected`.
 ///
-/// NaN where both roots are zero.
+/// NaN if both are zero.
 ///
 /// # Panics
 /// The lengths differ.
@@ -46,12 +46,13 @@ pub fn nrmse(actual: &[f64], expected: &[f64]) -> f64 {
     nrmse_above(actual, expected, 0.0)
 }
 
-/// As [`nrmse`], with `least_rms` in place of a smaller root mean square of `expected`: where there is nearly
-/// no force, an error is judged by the force that the damper is made for.
+/// NRMSE (1) with a lower bound on the divisor: the root mean square of `expected` counts as at least `min_rms`.
+///
+/// If the damper hardly works, its error is thus compared with the force that it is designed for.
 ///
 /// # Panics
 /// The lengths differ.
-pub fn nrmse_above(actual: &[f64], expected: &[f64], least_rms: f64) -> f64 {
+pub fn nrmse_above(actual: &[f64], expected: &[f64], min_rms: f64) -> f64 {
     let rms = root_mean_square(expected.iter().copied());
-    root_mean_square(errors(actual, expected)) / rms.max(least_rms)
+    root_mean_square(errors(actual, expected)) / rms.max(min_rms)
 }

@@ -1,8 +1,8 @@
-//! Why a reference solution does not exist or was not reached.
+//! Errors of the reference solvers.
 
 use std::error::Error;
 
-/// A law without a solution, a motion that is not one, or a tolerance that was not reached.
+/// Invalid laws, motions or vehicles, and tolerances that were not reached.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ReferenceError {
@@ -15,7 +15,7 @@ pub enum ReferenceError {
         /// 2a (m).
         clearance_m: f64,
     },
-    /// The force limit leaves no range of forces, or the mount no stiffness.
+    /// The force limit is not above the closed force, or the mount has no stiffness.
     #[error(
         "reference: the force limit {force_limit_n} N must be finite and above the {closed_force_n} N at \
          which the piston starts, over a mount stiffness above 0 (here {stiffness_n_per_m} N/m)"
@@ -23,12 +23,12 @@ pub enum ReferenceError {
     ForceLimit {
         /// Force at which the damper yields (N).
         force_limit_n: f64,
-        /// Force up to which the piston stands still (N).
+        /// Force up to which the piston does not move (N).
         closed_force_n: f64,
         /// Mount springs in series (N/m).
         stiffness_n_per_m: f64,
     },
-    /// Nothing flows at the force limit.
+    /// No oil flows at the force limit.
     #[error(
         "reference: piston velocity {velocity_m_per_s} m/s at the force limit {force_limit_n} N must be \
          above 0: a flow path has no width or the oil no density"
@@ -39,7 +39,7 @@ pub enum ReferenceError {
         /// Force at which the damper yields (N).
         force_limit_n: f64,
     },
-    /// Not one displacement for each time.
+    /// The numbers of times and displacements differ, or both are zero.
     #[error(
         "reference: {times} times and {displacements} displacements; one displacement per time, at least one"
     )]
@@ -54,66 +54,66 @@ pub enum ReferenceError {
         "reference: sample {sample} (time {time_s} s, displacement {displacement_m} m) must be finite"
     )]
     Sample {
-        /// Its index.
+        /// Index of the sample.
         sample: usize,
-        /// Its time (s).
+        /// Time of the sample (s).
         time_s: f64,
-        /// Its displacement (m).
+        /// Displacement of the sample (m).
         displacement_m: f64,
     },
-    /// Times do not increase.
+    /// The times do not increase.
     #[error("reference: times must increase; sample {sample} at {time_s} s follows {before_s} s")]
     Times {
         /// Index of the later sample.
         sample: usize,
-        /// Its time (s).
+        /// Time of the later sample (s).
         time_s: f64,
-        /// The time before it (s).
+        /// Time of the earlier sample (s).
         before_s: f64,
     },
-    /// Contact changes without end within one linear piece of the motion.
+    /// The contact changes too often within one linear piece of the motion.
     #[error(
-        "reference: more than {most} changes of contact in one piece of motion from {start_m} m to {end_m} m"
+        "reference: more than {max} changes of contact in one piece of motion from {start_m} m to {end_m} m"
     )]
     Changes {
-        /// Changes allowed.
-        most: usize,
+        /// Maximum number of changes.
+        max: usize,
         /// Displacement at the start of the piece (m).
         start_m: f64,
         /// Displacement at its end (m).
         end_m: f64,
     },
-    /// The solver of differential equations gave up.
+    /// The solver of differential equations failed.
     #[error("reference solver: {source}{place}")]
     Solver {
-        /// Where, for a person; empty while the solver was set up.
+        /// Description of the point of failure; may be empty.
         place: String,
-        /// Its own reason.
+        /// Error of the solver.
         source: Box<dyn Error + Send + Sync>,
     },
-    /// The solver stopped without having met an event.
+    /// The solver stopped before an event.
     #[error("reference solver: stopped without an event")]
     NoEvent,
-    /// A failure, and the piece of the motion it happened in.
+    /// A failure within one piece of the motion.
     #[error("{source}, between {start_s} s and {end_s} s")]
     Piece {
         /// Start of the piece (s).
         start_s: f64,
         /// End of the piece (s).
         end_s: f64,
-        /// What failed.
+        /// The failure.
         source: Box<ReferenceError>,
     },
-    /// Nobody wants the solution any more.
-    #[error("reference: ended before its end, as was asked")]
-    Unwanted,
-    /// A rolling contact that has no solution.
+    /// The caller cancelled the solution.
+    #[error("reference: cancelled")]
+    Cancelled,
+    /// Invalid parameters of a rolling contact.
     #[error(
         "reference: a/b {a_over_b} must be above 0, Poisson's ratio {poisson_ratio} within 0 to 0.5, and the mesh \
          {along} x {strips} not empty"
     )]
     RollingContact {
-        /// Semi-axis in the rolling direction over that across.
+        /// Semi-axis in the rolling direction over the lateral semi-axis.
         a_over_b: f64,
         /// Poisson's ratio.
         poisson_ratio: f64,
@@ -136,7 +136,7 @@ pub enum ReferenceError {
         /// Name of the element.
         element: String,
     },
-    /// A vehicle that cannot stand or run, or a number out of bounds.
+    /// A vehicle without equilibrium, or a value out of bounds.
     #[error("reference: {0}")]
     Vehicle(#[from] dashpot_rail::vehicle::VehicleError),
 }

@@ -1,7 +1,7 @@
 //! The largest errors of the fixed step for one damper, over the fixed set of motions of `dashpot_reference::probing`.
 
 use dashpot_core::{CheckedParameters, Damper, Real};
-use dashpot_reference::probing::{LEAST_ERROR_RATIO, LargestErrors, Motion, MotionErrors, Probing};
+use dashpot_reference::probing::{MIN_ERROR_RATIO, LargestErrors, Motion, MotionErrors, Probing};
 
 use super::TestbenchError;
 use dashpot_files::Scalar;
@@ -71,7 +71,7 @@ impl<'a> StepErrors<'a> {
     /// the largest NRMSE (1).
     pub fn promised(&self, largest: &[LargestErrors; 2]) -> [(f64, f64); 2] {
         let limit_n = self.force_limit_n();
-        [0, 1].map(|scalar| largest[scalar].promised(limit_n, LEAST_ERROR_RATIO[scalar]))
+        [0, 1].map(|scalar| largest[scalar].promised(limit_n, MIN_ERROR_RATIO[scalar]))
     }
 
     fn steppers(&self) -> [Stepper<'_>; 2] {

@@ -1,8 +1,7 @@
 //! Root of an increasing function between two bounds.
 
-/// Point of `[low, high]` where the increasing `function` passes zero, to rounding; the nearer
-/// bound when it does not pass zero in between. Regula falsi, Illinois variant, with bisection
-/// whenever three trials have not halved the bracket.
+/// Returns the point of `[low, high]` where the increasing `function` crosses zero, to rounding, or the nearer bound if
+/// it does not. Regula falsi, Illinois variant, with bisection after three trials that have not halved the bracket.
 pub(super) fn increasing_root(low: f64, high: f64, function: impl Fn(f64) -> f64) -> f64 {
     let (mut a, mut b) = (low, high);
     let (mut fa, mut fb) = (function(a), function(b));

@@ -1,7 +1,7 @@
 //! Compression with the pressures of both chambers.
 //!
 //! Pressures are gauge (Pa), flows (m^3/s), velocities (m/s), positive in compression. The working
-//! pressure is `F/A_comp`, seal friction taken off the force.
+//! pressure is `F/A_comp` with the seal friction subtracted from the force.
 
 use super::bracket::increasing_root;
 use super::paths::{Areas, Foot, PistonPaths};
@@ -19,7 +19,7 @@ pub(super) struct TwoChambers {
 }
 
 impl TwoChambers {
-    /// Force up to which neither foot valve nor piston passes oil, the rod side not boiling (N).
+    /// Force up to which neither the foot valve nor the piston passes oil, if the rod side does not boil (N).
     fn closed_force(&self) -> f64 {
         self.areas.rod * self.foot.closed_up_to()
             + self.areas.extension * self.piston.closed_up_to()
@@ -30,14 +30,14 @@ impl TwoChambers {
         let force = if foot - piston >= self.vapour {
             self.closed_force()
         } else {
-            // the rod side boils first and the piston paths open against it
+            // The rod side boils first; the piston paths open against its vapour pressure.
             let upstream = self.vapour + piston;
             upstream * self.areas.compression - self.vapour * self.areas.extension
         };
         force.max(0.0) / self.areas.compression
     }
 
-    /// Piston velocity at working pressure `closed + above`.
+    /// Piston velocity (m/s) at the working pressure `closed + above` (Pa).
     pub(super) fn velocity(&self, closed: f64, above: f64) -> f64 {
         match self.split(closed, above) {
             Some((foot_excess, drop)) => self.through(drop, self.foot.closed_up_to(), foot_excess),
@@ -49,15 +49,15 @@ impl TwoChambers {
         }
     }
 
-    /// Velocity from both flows, at piston-side pressure `base + over`.
+    /// Piston velocity (m/s) from both flows at the piston-side pressure `base + over` (Pa).
     fn through(&self, drop: f64, base: f64, over: f64) -> f64 {
         let density = self.piston.fluid.density(base + over);
         (self.piston.flow(drop, base + over) + self.foot.flow(base, over, density))
             / self.areas.compression
     }
 
-    /// How a working pressure is shared between the foot valve (excess over its opening) and the
-    /// piston (drop); `None` when the rod side boils.
+    /// Pressure above the opening of the foot valve and pressure drop over the piston at a working pressure; `None` if
+    /// the rod side boils.
     fn split(&self, closed: f64, above: f64) -> Option<(f64, f64)> {
         let Areas {
             extension,
@@ -69,7 +69,7 @@ impl TwoChambers {
         if excess < 0.0 {
             return None;
         }
-        // in the root of the excess both flows are smooth where the foot valve opens
+        // Both flows are smooth functions of the square root of the excess where the foot valve opens.
         let drop = |root: f64| piston + ((excess - rod * root * root) / extension).max(0.0);
         let root = increasing_root(0.0, (excess / rod).sqrt(), |root| {
             self.imbalance(drop(root), foot, root * root)
@@ -78,15 +78,14 @@ impl TwoChambers {
         (foot + over - drop >= self.vapour).then_some((over, drop))
     }
 
-    /// Flow the foot valve passes beyond what the rod displaces, times `A_ext`.
+    /// Flow through the foot valve minus the flow that the rod displaces, times `A_ext`.
     fn imbalance(&self, drop: f64, base: f64, over: f64) -> f64 {
         let density = self.piston.fluid.density(base + over);
         self.areas.extension * self.foot.flow(base, over, density)
             - self.areas.rod * self.piston.flow(drop, base + over)
     }
 
-    /// Working pressures up to `limit` at which a piston valve opens or the rod side starts or
-    /// ceases to boil.
+    /// Working pressures up to `limit` at which a piston valve opens, or the rod side starts or stops boiling.
     pub(super) fn kinks(&self, limit: f64) -> Vec<f64> {
         let Areas {
             extension,
@@ -98,8 +97,8 @@ impl TwoChambers {
             .piston
             .openings()
             .map(|drop| {
-                let most = limit * compression / rod;
-                let over = increasing_root(0.0, most, |over| self.imbalance(drop, base, over));
+                let max = limit * compression / rod;
+                let over = increasing_root(0.0, max, |over| self.imbalance(drop, base, over));
                 let upstream = (base + over).max(drop + self.vapour);
                 (upstream * compression - (upstream - drop).max(self.vapour) * extension)
                     / compression

@@ -1,13 +1,13 @@
-//! Reference solution of the damper: the physics of the parameters' documentation, written from
-//! the laws and integrated by an adaptive stiff solver to a tolerance of 1e-12 a step.
+//! Reference solution of the damper: the physics in the documentation of the parameters, written from the laws and
+//! integrated by an adaptive stiff solver with a tolerance of 1e-12 per step.
 //!
-//! It shares nothing with the fixed step but the parameters: chamber pressure and piston position
-//! are states, clearance, opening valves, release and yielding are events. Signs as everywhere:
-//! displacement positive in extension, force positive when it resists extension.
+//! It shares only the parameters with the fixed step. Chamber pressure and piston position are states; contact at the
+//! clearance, opening valves, release and yielding are events. Displacement is positive in extension; force is positive
+//! if it resists extension.
 
 mod bracket;
 mod chambers;
-mod esdirk;
+mod integrator;
 mod motion;
 mod oil;
 mod passage;
@@ -20,6 +20,7 @@ use std::rc::Rc;
 
 use dashpot_core::DamperParameters;
 
+use self::integrator::EsdirkIntegrator;
 pub use self::motion::Statistics;
 use self::motion::{Mode, Motion, Piece};
 use self::segment::Scales;
@@ -27,8 +28,8 @@ pub use self::segment::{Arrival, Integrator, STATES, Segment};
 use self::side::Side;
 use crate::error::ReferenceError;
 
-/// Pieces of a motion between two looks whether its forces are still wanted.
-const PIECES_A_LOOK: usize = 64;
+/// Linear pieces of a motion between two checks for cancellation.
+const PIECES_PER_CHECK: usize = 64;
 
 /// Reference solver of one damper.
 pub struct Reference {
@@ -38,11 +39,11 @@ pub struct Reference {
 }
 
 impl Reference {
-    /// The laws of a damper.
+    /// Builds the laws of a damper.
     ///
     /// # Errors
-    /// A law has no solution: force limit below the force at which the piston starts, no
-    /// flow path, no stiffness, negative clearance.
+    /// A law has no solution: the force limit is below the force at which the piston starts, there is no flow path or
+    /// no stiffness, or the clearance is negative.
     pub fn new(parameters: &DamperParameters) -> Result<Self, ReferenceError> {
         let clearance = parameters.mount.clearance_m;
         if !(clearance >= 0.0 && clearance.is_finite()) {
@@ -57,12 +58,12 @@ impl Reference {
         })
     }
 
-    /// Force (N) at each time (s), the displacement (m) linear in between, from rest in the middle
-    /// of the clearance at the first sample. The input is taken as it is: no rate limit.
+    /// Returns the force (N) at each time (s). The displacement (m) is linear between samples; the damper starts at
+    /// rest in the middle of its clearance. The rate of the input is not limited.
     ///
     /// # Errors
-    /// Times that do not increase, values that are not finite, unequal lengths, and a tolerance that the
-    /// solver cannot reach.
+    /// Times that do not increase, values that are not finite, unequal lengths, or a tolerance that the solver cannot
+    /// reach.
     pub fn forces(
         &mut self,
         times_s: &[f64],
@@ -71,64 +72,75 @@ impl Reference {
         self.forces_unless(times_s, displacements_m, &|| false)
     }
 
-    /// As [`Self::forces`], until they are unwanted.
+    /// Returns the forces as [`Self::forces`] does, unless `is_cancelled` returns true before.
     ///
     /// # Errors
-    /// As [`Self::forces`]; [`ReferenceError::Unwanted`].
+    /// The errors of [`Self::forces`], and [`ReferenceError::Cancelled`] after a cancellation.
     pub fn forces_unless(
         &mut self,
         times_s: &[f64],
         displacements_m: &[f64],
-        is_unwanted: &dyn Fn() -> bool,
+        is_cancelled: &dyn Fn() -> bool,
     ) -> Result<Vec<f64>, ReferenceError> {
-        check_samples(times_s, displacements_m)?;
-        let Some((motion, first)) = self.prepare(times_s, displacements_m) else {
-            return Ok(vec![0.0; times_s.len()]);
-        };
-        let (forces, statistics) = esdirk::with_esdirk(first, |solver| {
-            run(motion, times_s, displacements_m, solver, is_unwanted)
-        })?;
-        self.statistics = statistics;
-        Ok(forces)
+        let mut solver = EsdirkIntegrator::default();
+        self.forces_by(&mut solver, times_s, displacements_m, is_cancelled)
     }
 
-    /// As [`Self::forces`], with another solver of the same segments.
+    /// Returns the forces as [`Self::forces`] does, by another solver of the segments.
     ///
     /// # Errors
-    /// As [`Self::forces`].
+    /// The errors of [`Self::forces`].
     pub fn forces_with(
         &mut self,
         solver: &mut dyn Integrator,
         times_s: &[f64],
         displacements_m: &[f64],
     ) -> Result<Vec<f64>, ReferenceError> {
-        check_samples(times_s, displacements_m)?;
-        let Some((motion, _)) = self.prepare(times_s, displacements_m) else {
-            return Ok(vec![0.0; times_s.len()]);
+        self.forces_by(solver, times_s, displacements_m, &|| false)
+    }
+
+    fn forces_by(
+        &mut self,
+        solver: &mut dyn Integrator,
+        times: &[f64],
+        x: &[f64],
+        is_cancelled: &dyn Fn() -> bool,
+    ) -> Result<Vec<f64>, ReferenceError> {
+        check_samples(times, x)?;
+        self.statistics = Statistics::default();
+        let Some(scales) = scales(&self.sides, times, x) else {
+            return Ok(vec![0.0; times.len()]);
         };
-        let (forces, statistics) = run(motion, times_s, displacements_m, solver, &|| false)?;
+        let motion = Motion {
+            sides: Rc::clone(&self.sides),
+            scales,
+            half_clearance: self.half_clearance,
+            mode: Mode::Clearance { piston: x[0] },
+            statistics: Statistics::default(),
+        };
+        let (forces, statistics) = run(motion, times, x, solver, is_cancelled)?;
         self.statistics = statistics;
         Ok(forces)
     }
 
-    /// The laws of extension and compression.
+    /// Laws of extension and compression.
     pub(crate) fn sides(&self) -> &[Side; 2] {
         &self.sides
     }
 
-    /// Force at which the damper yields, of the stronger side (N).
+    /// Force at which the stronger side yields (N).
     pub(crate) fn force_limit_n(&self) -> f64 {
         self.sides[0].yield_force.max(self.sides[1].yield_force)
     }
 
-    /// What the last run counted.
+    /// Statistics of the last run.
     pub fn statistics(&self) -> Statistics {
         self.statistics
     }
 
-    /// Force (N) at a constant velocity (m/s) once the springs have settled, both signed: seal
-    /// friction plus `A P` with `v(P)` the velocity, at most the force at which the damper yields.
-    /// 0 at velocity 0, where any force up to the one that starts the piston is possible.
+    /// Returns the force (N) at a constant velocity (m/s) after the springs have settled, both signed: seal friction
+    /// plus `A P` with `v(P)` the velocity, limited to the force at which the damper yields. Returns 0 at velocity 0,
+    /// although any force up to the one that starts the piston is possible there.
     pub fn static_force(&self, velocity_m_per_s: f64) -> f64 {
         if velocity_m_per_s == 0.0 {
             return 0.0;
@@ -137,45 +149,21 @@ impl Reference {
         let coordinate = side.coordinate_at(velocity_m_per_s.abs());
         side.force(coordinate).copysign(velocity_m_per_s)
     }
-
-    /// The chain at rest and a segment to set a solver up with; `None` when nothing moves.
-    fn prepare(&mut self, times: &[f64], x: &[f64]) -> Option<(Motion, Segment)> {
-        self.statistics = Statistics::default();
-        let scales = scales(&self.sides, times, x)?;
-        let motion = Motion {
-            sides: Rc::clone(&self.sides),
-            scales,
-            half_clearance: self.half_clearance,
-            mode: Mode::Clearance { piston: x[0] },
-            statistics: Statistics::default(),
-        };
-        let first = Segment {
-            sides: Rc::clone(&self.sides),
-            scales,
-            side: 0,
-            speed: scales.velocity,
-            start: 0.0,
-            bound: self.sides[0].yield_coordinate,
-            duration: scales.time,
-            knee: scales.coordinate[0],
-        };
-        Some((motion, first))
-    }
 }
 
-/// Run the chain over the whole motion, until it is unwanted.
+/// Runs the chain over the whole motion unless it is cancelled.
 fn run(
     mut motion: Motion,
     times: &[f64],
     x: &[f64],
     solver: &mut dyn Integrator,
-    is_unwanted: &dyn Fn() -> bool,
+    is_cancelled: &dyn Fn() -> bool,
 ) -> Result<(Vec<f64>, Statistics), ReferenceError> {
     let mut forces = Vec::with_capacity(times.len());
     forces.push(motion.force(x[0]));
     for i in 1..times.len() {
-        if i % PIECES_A_LOOK == 0 && is_unwanted() {
-            return Err(ReferenceError::Unwanted);
+        if i % PIECES_PER_CHECK == 0 && is_cancelled() {
+            return Err(ReferenceError::Cancelled);
         }
         let piece = Piece {
             start: x[i - 1],
@@ -195,8 +183,8 @@ fn run(
     Ok((forces, motion.statistics))
 }
 
-/// Scales from the motion: its effective velocity, and the force that velocity or, if less, the
-/// effective displacement over the springs makes. `None` when nothing moves.
+/// Scales of a motion: its effective velocity, and the smaller of the forces that this velocity and the effective
+/// displacement of the springs cause. `None` if nothing moves.
 fn scales(sides: &[Side; 2], times: &[f64], x: &[f64]) -> Option<Scales> {
     let duration = times[times.len() - 1] - times[0];
     let (mut velocity, mut amplitude) = (0.0, 0.0);

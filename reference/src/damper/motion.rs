@@ -1,8 +1,8 @@
 //! The chain through its modes over a piecewise linear motion of the seats.
 //!
-//! In the clearance, held by a still piston and yielding, the force follows from the geometry; only
-//! flow through the valves is integrated. Within one linear piece the coordinate of the pressure
-//! moves one way, so the next bound it can meet is known beforehand.
+//! While the damper crosses its clearance, is held by a piston at rest, or yields, the force follows from the geometry;
+//! only flow through the valves is integrated. Within one linear piece the pressure coordinate changes in one
+//! direction, so the next bound that it can reach is known in advance.
 
 use std::rc::Rc;
 
@@ -10,21 +10,21 @@ use super::segment::{Integrator, Scales, Segment};
 use super::side::Side;
 use crate::error::ReferenceError;
 
-/// Seat velocity over the typical one below which it counts as rest: the equilibrium force then
-/// is below any tolerance, and so is the stretch missed.
+/// Seat velocity, relative to the typical velocity, below which the seats count as at rest: both the equilibrium force
+/// and the neglected stretch are then below any tolerance.
 const REST: f64 = 1e-8;
 
-/// Mode changes allowed within one linear piece; each side has at most two and its kinks.
+/// Maximum number of mode changes within one linear piece; each side has at most two, plus one per kink.
 const MAX_CHANGES: usize = 1000;
 
-/// Where the chain is.
+/// Mode of the chain.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Mode {
-    /// Damper between its seats, no force.
+    /// Between the seats, without force.
     Clearance { piston: f64 },
-    /// In contact, the piston held by friction or closed valves.
+    /// In contact; friction or closed valves hold the piston.
     Held { side: usize, piston: f64 },
-    /// In contact, oil flowing.
+    /// In contact; oil flows.
     Flow { side: usize, coordinate: f64 },
     /// Yielding at the force limit.
     Yield { side: usize },
@@ -33,23 +33,23 @@ pub(super) enum Mode {
 /// A linear piece of motion.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Piece {
-    /// Displacement at its start (m).
+    /// Displacement at the start (m).
     pub(super) start: f64,
-    /// Displacement at its end (m).
+    /// Displacement at the end (m).
     pub(super) end: f64,
-    /// How long it takes (s).
+    /// Duration (s).
     pub(super) duration: f64,
 }
 
-/// What a run counted.
+/// Statistics of a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Statistics {
-    /// Steps the solver accepted.
+    /// Accepted steps of the solver.
     pub steps: usize,
     /// Changes of mode.
     pub events: usize,
-    /// Largest difference between the piston travel integrated over a segment and the one the
-    /// chain's geometry leaves to it (m).
+    /// Largest difference over a segment between the integrated piston travel and the travel that follows from the
+    /// geometry of the chain (m).
     pub closure_m: f64,
 }
 
@@ -69,7 +69,7 @@ fn sign(side: usize) -> f64 {
 }
 
 impl Motion {
-    /// Force (N), positive when it resists extension, at displacement `x` of the seats.
+    /// Force (N) at the displacement `x` (m) of the seats, positive if it resists extension.
     pub(super) fn force(&self, x: f64) -> f64 {
         match self.mode {
             Mode::Clearance { .. } => 0.0,
@@ -82,7 +82,7 @@ impl Motion {
         }
     }
 
-    /// Move the seats along one linear piece.
+    /// Moves the seats along one linear piece.
     pub(super) fn follow(
         &mut self,
         piece: &Piece,
@@ -106,7 +106,7 @@ impl Motion {
                 }
                 Mode::Yield { side } => self.give(side, velocity),
             };
-            // flow has been integrated to where it is; the others wait for their event
+            // Flow has been integrated up to its event or end; the other modes last until their event.
             let flowed = matches!(self.mode, Mode::Flow { .. });
             if spent >= left && !flowed {
                 return Ok(());
@@ -121,7 +121,7 @@ impl Motion {
             }
         }
         Err(ReferenceError::Changes {
-            most: MAX_CHANGES,
+            max: MAX_CHANGES,
             start_m: piece.start,
             end_m: piece.end,
         })
@@ -165,7 +165,7 @@ impl Motion {
         }
     }
 
-    /// Flow from a coordinate at displacement `x` of the seats until the next event.
+    /// Integrates flow from a coordinate at the displacement `x` of the seats until the next event.
     fn flow(
         &mut self,
         side: usize,
@@ -234,7 +234,7 @@ impl Motion {
                 },
             )
         } else if speed > 0.0 {
-            // zero is met within the tolerance around an equilibrium above it
+            // The tolerance around an equilibrium just above zero contains zero.
             stay(laws.coordinate_at(speed))
         } else {
             (spent, released(x + velocity * spent))

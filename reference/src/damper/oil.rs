@@ -1,4 +1,4 @@
-//! The oil at its working temperature: density, viscosity, shortening of its column.
+//! Density and viscosity of the oil at its working temperature, and shortening of an oil column.
 
 use dashpot_core::parameters::{ATMOSPHERIC_PRESSURE_PA, DENSITY_TEMPERATURE_C, Oil, OilColumn};
 
@@ -12,8 +12,8 @@ pub(super) fn kelvin(celsius: f64) -> f64 {
     celsius + ZERO_CELSIUS_K
 }
 
-/// Least volume of oil and air over that at atmospheric pressure (1).
-const LEAST_VOLUME: f64 = 0.05;
+/// Minimum volume of oil and air, relative to the volume at atmospheric pressure (1).
+const MIN_VOLUME: f64 = 0.05;
 
 /// Density and viscosity as functions of gauge pressure at one temperature.
 #[derive(Clone, Debug)]
@@ -38,8 +38,8 @@ impl Fluid {
         }
     }
 
-    /// Density of oil and entrained air (kg/m^3) at gauge pressure (Pa): the mass of a unit volume
-    /// at atmospheric pressure over the volume it takes at `pressure`.
+    /// Density of oil and entrained air (kg/m^3) at a gauge pressure (Pa): the mass of a unit volume at atmospheric
+    /// pressure, divided by its volume at `pressure`.
     pub(super) fn density(&self, pressure: f64) -> f64 {
         let Some(column) = &self.column else {
             return self.oil_density;
@@ -48,8 +48,8 @@ impl Fluid {
         let mass = (1.0 - air) * self.oil_density + air * self.air_density;
         let volume = (1.0 - air) * (1.0 - pressure / column.bulk_modulus_pa)
             + air * air_volume_ratio(column, pressure);
-        // Only trials of a search for a pressure come to the bound: checked parameters keep above it.
-        mass / volume.max(LEAST_VOLUME)
+        // Valid parameters stay above the bound; only trial pressures of a root search reach it.
+        mass / volume.max(MIN_VOLUME)
     }
 }
 
@@ -122,7 +122,7 @@ mod tests {
             .column(OilColumn::new(1.5e9, 0.5e-3, 0.6e-3).air_fraction(0.005))
     }
 
-    /// Both data points, and the D341 line through them worked out separately at 45 and 60 degC.
+    /// Both data points, and independently computed values of the D341 line at 45 and 60 degC.
     #[test]
     fn viscosity_follows_the_d341_line() {
         for (temperature, expected) in [
@@ -139,7 +139,7 @@ mod tests {
         }
     }
 
-    /// Values of the mass balance worked out separately at 45 degC.
+    /// Independently computed values of the mass balance at 45 degC.
     #[test]
     fn density_follows_the_mass_balance() {
         let fluid = Fluid::new(&oil(45.0));
@@ -149,8 +149,8 @@ mod tests {
         }
     }
 
-    /// `E` of an oil with air under absolute pressure p, in the form usual for the tangent
-    /// modulus, with the air ratio referred to the oil's volume.
+    /// Tangent modulus `E` of oil with air at the absolute pressure p, in its usual form with the air ratio relative to
+    /// the volume of the oil.
     #[test]
     fn column_compliance_is_the_tangent_modulus() {
         let column = oil(45.0).column.expect("a column");
@@ -159,7 +159,7 @@ mod tests {
         let (modulus, atmosphere) = (column.bulk_modulus_pa, ATMOSPHERIC_PRESSURE_PA);
         for gauge in [0.0, 1e5, 1e6, 1e7] {
             let p = gauge + atmosphere;
-            // volume lost per pressure, over the volume at atmospheric pressure
+            // Loss of volume per pressure, relative to the volume at atmospheric pressure.
             let lost = (1.0 + ratio * atmosphere * modulus / (p * p)) / modulus / (1.0 + ratio);
             let ours = spring.compliance(gauge) * 3.2e-3 / 0.5e-3;
             assert!((ours / lost - 1.0).abs() < 1e-12, "{gauge}: {ours} {lost}");

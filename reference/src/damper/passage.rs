@@ -1,6 +1,6 @@
 //! Piston velocity under the working pressure of one direction.
 //!
-//! Pressures are gauge (Pa), velocities (m/s), all positive in the direction that works.
+//! Pressures are gauge (Pa); velocities (m/s) are positive in the working direction.
 
 use dashpot_core::parameters::Hydraulics;
 
@@ -10,18 +10,18 @@ use super::paths::{Areas, Foot, PistonPaths};
 /// Velocity as a function of the working pressure `P = (|F| - F_c)+/A` of one direction.
 #[derive(Clone, Debug)]
 pub(super) enum Passage {
-    /// Rod side to piston side.
+    /// Extension: from the rod side to the piston side.
     Extension { piston: PistonPaths, area: f64 },
-    /// Piston and foot valve under the same pressure.
+    /// Compression with one pressure for piston and foot valve.
     Lumped {
         piston: PistonPaths,
         foot: Box<FootLumped>,
     },
-    /// Compression with the pressures of both chambers.
+    /// Compression with separate pressures in both chambers.
     TwoChamber(Box<TwoChambers>),
 }
 
-/// Foot valve and piston area of the lumped compression.
+/// Foot valve and piston area for compression with one pressure.
 #[derive(Clone, Debug)]
 pub(super) struct FootLumped {
     foot: Foot,
@@ -56,7 +56,7 @@ impl Passage {
         }
     }
 
-    /// Working pressure up to which the piston stands still (Pa).
+    /// Working pressure up to which the piston does not move (Pa).
     pub(super) fn closed_up_to(&self) -> f64 {
         match self {
             Self::Extension { piston, .. } => piston.closed_up_to(),
@@ -65,7 +65,7 @@ impl Passage {
         }
     }
 
-    /// Working pressures up to `limit` (Pa) at which a valve opens: the velocity has a kink there.
+    /// Working pressures up to `limit` (Pa) at which a valve opens and the velocity has a kink.
     pub(super) fn kinks(&self, limit: f64) -> Vec<f64> {
         match self {
             Self::Extension { piston, .. } => piston.openings().collect(),
@@ -76,7 +76,7 @@ impl Passage {
         }
     }
 
-    /// Piston velocity (m/s) at working pressure `closed + above`, `closed` as `closed_up_to`.
+    /// Piston velocity (m/s) at the working pressure `closed + above` (Pa), with `closed` from [`Self::closed_up_to`].
     pub(super) fn velocity(&self, closed: f64, above: f64) -> f64 {
         let pressure = closed + above;
         match self {

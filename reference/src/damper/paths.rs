@@ -1,7 +1,6 @@
-//! Flow paths of the physical damper: what passes piston and foot valve under their pressures.
+//! Flow paths of the physical damper: flows through piston and foot valve under pressure.
 //!
-//! Pressures are gauge (Pa), flows (m^3/s), velocities (m/s), all positive in the direction that
-//! works.
+//! Pressures are gauge (Pa); flows (m^3/s) and velocities (m/s) are positive in the working direction.
 
 use std::f64::consts::PI;
 
@@ -68,16 +67,16 @@ impl Opening {
     }
 }
 
-/// Everything that passes the piston in one direction: orifice, shims, leakage, relief.
+/// All flow paths through the piston in one direction: orifice, shims, leakage, relief.
 #[derive(Clone, Debug)]
 pub(super) struct PistonPaths {
     /// `Cd A` of the orifice (m^2).
     orifice: f64,
-    /// Flow `Q_t` at which laminar and turbulent drop of the orifice are equal (m^3/s).
+    /// Flow `Q_t` at which the laminar and the turbulent pressure drop of the orifice are equal (m^3/s).
     transition: f64,
     shims: Opening,
     relief: Option<Opening>,
-    /// Leakage flow per pressure, times dynamic viscosity (m^3).
+    /// Leakage flow per pressure times dynamic viscosity (m^3).
     leakage: f64,
     pub(super) fluid: Fluid,
 }
@@ -106,7 +105,7 @@ impl PistonPaths {
         }
     }
 
-    /// Flow under pressure drop `drop`, `upstream` the gauge pressure the oil comes from.
+    /// Flow under the pressure drop `drop`; `upstream` is the gauge pressure ahead of the piston.
     pub(super) fn flow(&self, drop: f64, upstream: f64) -> f64 {
         let density = self.fluid.density(upstream);
         let mut flow = self.shims.flow(drop - self.shims.opens_at, drop, density);
@@ -124,15 +123,15 @@ impl PistonPaths {
         flow + self.leakage * drop / (self.fluid.viscosity * density)
     }
 
-    /// Pressure drop up to which nothing flows.
+    /// Pressure drop up to which no oil flows.
     pub(super) fn closed_up_to(&self) -> f64 {
         if self.orifice > 0.0 || self.leakage > 0.0 {
             return 0.0;
         }
         self.relief
             .iter()
-            .fold(self.shims.opens_at, |least, relief| {
-                least.min(relief.opens_at)
+            .fold(self.shims.opens_at, |lowest, relief| {
+                lowest.min(relief.opens_at)
             })
     }
 
@@ -174,17 +173,17 @@ impl Foot {
         }
     }
 
-    /// Chamber pressure up to which nothing flows.
+    /// Chamber pressure up to which no oil flows.
     pub(super) fn closed_up_to(&self) -> f64 {
         self.shims.opens_at.max(self.back_pressure).max(0.0)
     }
 
-    /// Chamber pressures at which its law has a corner.
+    /// Chamber pressures at which the law has a corner.
     pub(super) fn openings(&self) -> [f64; 2] {
         [self.shims.opens_at, self.back_pressure]
     }
 
-    /// Flow at chamber pressure `base + above`, split so that a small excess keeps its digits.
+    /// Flow at the chamber pressure `base + above`; the sum is split so that a small excess keeps its digits.
     pub(super) fn flow(&self, base: f64, above: f64, density: f64) -> f64 {
         self.shims.flow(
             (base - self.shims.opens_at) + above,

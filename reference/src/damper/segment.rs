@@ -1,9 +1,8 @@
-//! The smooth problem a stiff solver gets: one direction, one velocity of the seats, one range
-//! between valve openings.
+//! A smooth problem for the stiff solver: one direction, one velocity of the seats, one range between valve openings.
 //!
-//! State: coordinate of the chamber pressure, time since the start, piston travel since the start,
-//! each over its scale. Independent variable: a clock that runs with time but slows where the
-//! pressure meets zero, so that the square root of the flow laws is never met as a singularity.
+//! The states are the coordinate of the chamber pressure, the time since the start and the piston travel since the
+//! start, each divided by its scale. The independent variable is a clock that slows as the pressure approaches zero;
+//! this removes the singularity of the square root in the flow laws.
 
 use std::rc::Rc;
 
@@ -13,12 +12,12 @@ use crate::error::ReferenceError;
 /// Number of states.
 pub const STATES: usize = 3;
 
-/// Magnitudes that make the states of order one.
+/// Magnitudes that scale the states to order one.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Scales {
     /// Typical velocity of the seats (m/s).
     pub(super) velocity: f64,
-    /// Coordinate of the typical force, each side.
+    /// Coordinate of the typical force of each side.
     pub(super) coordinate: [f64; 2],
     /// Relaxation time of the chain at that force (s).
     pub(super) time: f64,
@@ -26,27 +25,27 @@ pub(super) struct Scales {
     pub(super) stretch: f64,
 }
 
-/// One smooth piece of motion, to be integrated until its time is over or a bound is met.
+/// One smooth piece of motion. It ends when its time is over or a bound is reached.
 #[derive(Clone, Debug)]
 pub struct Segment {
     pub(super) sides: Rc<[Side; 2]>,
     pub(super) scales: Scales,
-    /// 0 extension, 1 compression.
+    /// 0 for extension, 1 for compression.
     pub(super) side: usize,
     /// Velocity of the seats in the working direction (m/s).
     pub(super) speed: f64,
     /// Coordinate at the start.
     pub(super) start: f64,
-    /// Coordinate of the next opening, of zero or of yielding, in the direction of motion.
+    /// Next coordinate in the direction of motion at which a valve opens, the pressure is zero or the damper yields.
     pub(super) bound: f64,
-    /// Time left in the piece (s).
+    /// Remaining time of the piece (s).
     pub(super) duration: f64,
-    /// Coordinate at which the clock has slowed.
+    /// Coordinate below which the clock slows.
     pub(super) knee: f64,
 }
 
 impl Segment {
-    /// Start of the scaled state.
+    /// Scaled state at the start.
     pub fn initial(&self) -> [f64; STATES] {
         [self.start / self.scales.coordinate[self.side], 0.0, 0.0]
     }
@@ -63,8 +62,8 @@ impl Segment {
         ]
     }
 
-    /// Derivative of `rates` with respect to the first state, the only one they depend on; by
-    /// central differences, good for a Newton iteration.
+    /// Derivative of [`Self::rates`] with respect to the first state, the only one that they depend on. Central
+    /// differences, accurate enough for a Newton iteration.
     pub fn slopes(&self, state: &[f64; STATES]) -> [f64; STATES] {
         let floor = self.knee / self.scales.coordinate[self.side];
         let step = 1e-6 * state[0].abs().max(floor).max(1e-9);
@@ -73,31 +72,31 @@ impl Segment {
         std::array::from_fn(|i| (ahead[i] - behind[i]) / (2.0 * step))
     }
 
-    /// Event functions, both positive at the start: distance to the bound and time left.
+    /// Event functions, both positive at the start: the distance to the bound and the remaining time.
     pub fn events(&self, state: &[f64; STATES]) -> [f64; 2] {
         let scale = self.scales.coordinate[self.side];
         let distance = (self.bound - self.start).signum() * (self.bound / scale - state[0]);
         [distance, self.scaled_duration() - state[1]]
     }
 
-    /// Time left over its scale: the least the clock advances.
+    /// Remaining time over its scale, a lower bound of the change of the clock.
     pub fn scaled_duration(&self) -> f64 {
         self.duration / self.scales.time
     }
 }
 
-/// Where a segment ended.
+/// End of a segment.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Arrival {
     /// Scaled state at the end.
     pub state: [f64; STATES],
-    /// True when the bound was met before the time was over.
+    /// True if the bound was reached before the time was over.
     pub at_bound: bool,
 }
 
 /// A stiff solver of segments.
 pub trait Integrator {
-    /// Integrate `segment` from its start to the first of its events.
+    /// Integrates `segment` from its start to its first event.
     ///
     /// # Errors
     /// The solver cannot reach the tolerance.

@@ -2,9 +2,9 @@
 
 use dashpot_core::parameters::Valve;
 
-/// Edge lift per pressure `k_w` (m/Pa), the equivalent-pressure factor included.
+/// Edge lift per pressure `k_w` (m/Pa), including the equivalent-pressure factor.
 ///
-/// `k_w = w' Ce` with `w'` given, else `Cw(r_w)/h_e^3`, `h_e^3 = sum h_i^3` (frictionless stack).
+/// `k_w = w' Ce`, where `w'` is given or is `Cw(r_w)/h_e^3` with `h_e^3 = sum h_i^3` (frictionless stack).
 pub(super) fn edge_compliance_m_per_pa(valve: &Valve) -> f64 {
     let uniform = valve.edge_compliance_m_per_pa.unwrap_or_else(|| {
         let cube_sum: f64 = valve.shims_m.iter().map(|h| h.powi(3)).sum();
@@ -21,8 +21,8 @@ pub(super) fn edge_compliance_m_per_pa(valve: &Valve) -> f64 {
 /// Deflection coefficient at the free edge `Cw(r_w) = w(r_w) h^3/P` (m^6/N) of a disc clamped at
 /// `inner` and free at `outer` under uniform pressure.
 ///
-/// `w = C1 ln r + C2 r^2 + C3 r^2 ln r + C4 + P r^4/(64 D)`, the constants from zero deflection
-/// and slope at the clamp, zero moment and shear at the edge.
+/// `w = C1 ln r + C2 r^2 + C3 r^2 ln r + C4 + P r^4/(64 D)`; the constants follow from zero deflection and slope at the
+/// clamp, and zero moment and shear at the edge.
 fn edge_coefficient(inner: f64, outer: f64, modulus: f64, poisson: f64) -> f64 {
     let (rn2, rw2) = (inner * inner, outer * outer);
     // D/h^3 of the plate, so 1/(64 D) -> 12 (1 - nu^2)/(64 E)
@@ -60,14 +60,14 @@ mod tests {
         ] {
             let ours = edge_coefficient(ratio * outer, outer, modulus, poisson) * flexural
                 / f64::powi(outer, 4);
-            // half a unit in the last printed digit
+            // Half a unit of the last printed digit.
             let printed = if ratio < 0.2 { 5e-6 } else { 5e-4 * roark };
             let printed = if ratio > 0.8 { 5e-8 } else { printed };
             assert!((ours - roark).abs() <= printed, "{ratio}: {ours} {roark}");
         }
     }
 
-    /// Discs of the source paper, Table 1; `Cw(r_w)` (m^6/N) worked out separately to five digits.
+    /// Discs of Table 1 of the source paper; `Cw(r_w)` (m^6/N) was computed independently to five digits.
     #[test]
     fn coefficients_of_the_papers_discs() {
         for (inner, outer, expected) in [(0.016, 0.029, 2.1427e-19), (0.005, 0.011, 9.6981e-21)] {

@@ -1,5 +1,5 @@
-//! One direction of the chain: force, piston velocity and stretch of the springs while the damper
-//! is in contact with that seat.
+//! One direction of the chain: force, piston velocity and stretch of the springs while the damper is in contact with
+//! the seat of that direction.
 
 use dashpot_core::parameters::{DamperParameters, Element, Hydraulics, Mount, Reduced};
 
@@ -9,23 +9,22 @@ use super::passage::Passage;
 use super::paths::Areas;
 use crate::error::ReferenceError;
 
-/// The velocity law and the coordinate in which it is smooth.
+/// Velocity law, and the coordinate in which it is smooth.
 #[derive(Clone, Debug)]
 enum Law {
     /// `F = C v`; coordinate `F` (N).
     Reduced { damping: f64 },
-    /// `F = F_closed + A s^2`, `v = v(P)`; coordinate `s` (Pa^1/2), which tames the square roots.
+    /// `F = F_closed + A s^2`, `v = v(P)`; the coordinate `s` (Pa^1/2) removes the square roots.
     Hydraulic {
         passage: Passage,
         /// Working area (m^2).
         area: f64,
-        /// Working pressure up to which the piston stands still (Pa).
+        /// Working pressure up to which the piston does not move (Pa).
         closed: f64,
     },
 }
 
-/// One direction of the element with its springs. Force, stretch and velocity are positive in the
-/// direction that works.
+/// One direction of the element with its springs. Force, stretch and velocity are positive in the working direction.
 #[derive(Clone, Debug)]
 pub(crate) struct Side {
     law: Law,
@@ -34,15 +33,15 @@ pub(crate) struct Side {
     /// Mount springs in series (N/m).
     stiffness: f64,
     column: Option<ColumnSpring>,
-    /// Force up to which the piston stands still (N).
+    /// Force up to which the piston does not move (N).
     pub(crate) closed_force: f64,
-    /// Stretch at that force (m).
+    /// Stretch at the closed force (m).
     pub(crate) closed_stretch: f64,
     /// Force at which the damper yields (N).
     pub(crate) yield_force: f64,
-    /// Coordinate at that force.
+    /// Coordinate at the yield force.
     pub(crate) yield_coordinate: f64,
-    /// Velocity through the valves at that force (m/s).
+    /// Piston velocity through the valves at the yield force (m/s).
     pub(crate) yield_velocity: f64,
     /// Coordinates at which a valve opens.
     pub(crate) kinks: Vec<f64>,
@@ -135,7 +134,7 @@ impl Side {
         .completed()
     }
 
-    /// The side with what follows from its laws filled in.
+    /// Fills in the values that follow from the laws.
     fn completed(mut self) -> Result<Self, ReferenceError> {
         let sound = self.stiffness > 0.0 && self.yield_force > self.closed_force;
         if !(sound && self.yield_force.is_finite()) {
@@ -169,7 +168,7 @@ impl Side {
         }
     }
 
-    /// Coordinate of a force of at least the closed one.
+    /// Coordinate of a force not below the closed force.
     pub(crate) fn coordinate(&self, force: f64) -> f64 {
         match &self.law {
             Law::Reduced { .. } => force,
@@ -177,7 +176,7 @@ impl Side {
         }
     }
 
-    /// Piston velocity (m/s) at a coordinate; odd, so that a trial stage below 0 stays smooth.
+    /// Piston velocity (m/s) at a coordinate; an odd function, smooth also for trial stages below 0.
     pub(crate) fn velocity(&self, y: f64) -> f64 {
         match &self.law {
             Law::Reduced { damping } => y / damping,
@@ -204,7 +203,7 @@ impl Side {
         }
     }
 
-    /// Force (N) of the still piston at a stretch (m) between 0 and `closed_stretch`.
+    /// Force (N) while the piston is at rest, at a stretch (m) between 0 and `closed_stretch`.
     pub(crate) fn held_force(&self, stretch: f64) -> f64 {
         if stretch <= 0.0 {
             0.0
@@ -217,23 +216,23 @@ impl Side {
         }
     }
 
-    /// Coordinate at which the piston moves at `velocity` (m/s), at most the yield coordinate.
+    /// Coordinate at which the piston moves at `velocity` (m/s), limited to the yield coordinate.
     pub(crate) fn coordinate_at(&self, velocity: f64) -> f64 {
         increasing_root(0.0, self.yield_coordinate, |y| self.velocity(y) - velocity)
     }
 
-    /// Coordinate at which the springs are stretched by `stretch` (m), at most the yield one.
+    /// Coordinate at which the springs are stretched by `stretch` (m), limited to the yield coordinate.
     pub(crate) fn coordinate_stretched(&self, stretch: f64) -> f64 {
         increasing_root(0.0, self.yield_coordinate, |y| {
             self.stretch(self.force(y)) - stretch
         })
     }
 
-    /// Rates of coordinate, time and piston position along the clock of [`super::segment`], the
-    /// seats parting at `speed` (m/s); `knee` is the coordinate at which `speed` is balanced.
+    /// Rates of coordinate, time and piston position along the clock of [`super::segment`] while the seats separate at
+    /// `speed` (m/s); `knee` is the coordinate of the equilibrium at `speed`.
     ///
-    /// `d delta/dt = speed - v`. In `s`, `d delta/ds` vanishes with `s`: the clock
-    /// `dt/d tau = s/sqrt(s^2 + knee^2)` takes that zero out, so `s` passes 0 at a finite rate.
+    /// `d delta/dt = speed - v`. As `d delta/ds` vanishes with `s`, the clock `dt/d tau = s/sqrt(s^2 + knee^2)` cancels
+    /// this zero, and `s` passes 0 at a finite rate.
     pub(crate) fn rates(&self, y: f64, speed: f64, knee: f64) -> [f64; 3] {
         match &self.law {
             Law::Reduced { .. } => {
@@ -247,7 +246,7 @@ impl Side {
                         .as_ref()
                         .map_or(0.0, |column| column.compliance(closed + y * y));
                 if speed == 0.0 {
-                    // v/s has a limit at 0, taken close to it
+                    // v/s at 0 is its limit, evaluated close to 0.
                     let magnitude = y.abs().max(1e-100);
                     let slope = self.velocity(magnitude) / magnitude;
                     [-slope / (2.0 * compliance), 1.0, self.velocity(y)]

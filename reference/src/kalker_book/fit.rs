@@ -1,6 +1,6 @@
-//! Quadratic B-splines through values in the middles of equal cells.
+//! Quadratic B-splines through values at the middles of equal cells.
 
-/// What holds at an end: the coefficient beyond it is `factor` times the one before it, plus `offset`.
+/// End condition: the coefficient beyond the end is `factor` times the one before it, plus `offset`.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct End {
     factor: f64,
@@ -8,7 +8,7 @@ pub(super) struct End {
 }
 
 impl End {
-    /// The coefficient beyond the end is this multiple of the one before it.
+    /// The coefficient beyond the end is `factor` times the one before it.
     pub(super) fn multiple(factor: f64) -> Self {
         Self {
             factor,
@@ -24,7 +24,7 @@ impl End {
         }
     }
 
-    /// The coefficient beyond the end is this one.
+    /// The coefficient beyond the end is `offset`.
     pub(super) fn coefficient(offset: f64) -> Self {
         Self {
             factor: 0.0,
@@ -33,10 +33,9 @@ impl End {
     }
 }
 
-/// Coefficients of the spline through `values` in the middles of the cells, with that beyond each end: two more than
-/// values.
+/// Coefficients of the spline through `values` at the middles of the cells, including one beyond each end.
 pub(super) fn fit(values: &[f64], [first, last]: [End; 2]) -> Vec<f64> {
-    // In a middle the three splines are 1/8, 6/8, 1/8: a tridiagonal system, solved from both ends inwards in one pass.
+    // At the middle of a cell the three splines are 1/8, 6/8 and 1/8, so the system is tridiagonal.
     let count = values.len();
     let mut pivots = Vec::with_capacity(count);
     let mut rights = Vec::with_capacity(count);

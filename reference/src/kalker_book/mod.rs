@@ -1,18 +1,18 @@
 //! Computes the tables of [`dashpot_rail::creep::KalkerBook`] from exact theory.
 
+mod cells;
 mod fit;
-mod places;
 
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+use cells::{
+    Direction, creepage, direction, direction_coordinate, magnitude, moment_arm, spin_arm,
+};
 use dashpot_core::crc_32;
 use dashpot_rail::creep::kalker_book::Layout;
 use dashpot_rail::creep::{KalkerCoefficients, KalkerTable};
 use fit::{End, fit};
-use places::{
-    Direction, creepage, direction, direction_coordinate, magnitude, moment_arm, spin_arm,
-};
 
 use crate::error::ReferenceError;
 use crate::rolling_contact::{RollingContact, ScaledForces, TOLERANCE, Tractions, full_sliding};
@@ -20,25 +20,25 @@ use crate::rolling_contact::{RollingContact, ScaledForces, TOLERANCE, Tractions,
 /// Poisson's ratio of the tables, that of steel.
 pub const POISSON_RATIO: f64 = 0.28;
 
-/// Revision of the method; a change of solver, mesh, coordinates or fit raises it.
+/// Revision of the method; increment it after a change of solver, mesh, coordinates or fit.
 pub const REVISION: u32 = 2;
 
 const SIZES: usize = Layout::CELLS[0];
 const SPINS: usize = Layout::CELLS[1];
 const DIRECTIONS: usize = Layout::CELLS[2];
 
-/// Coefficients of a size: those of all spins and directions.
+/// Number of coefficients per size, over all spins and directions.
 const LAYER: usize = (SPINS + 2) * (DIRECTIONS + 2);
 
-/// Directions of a ratio: those of the cells, then pure spin.
+/// Number of directions per ratio: one per cell, then pure spin.
 const LINES: usize = SPINS * DIRECTIONS + 1;
 
-/// Forces along one direction of creepage: their growth with the size where it is zero, their values in the middles of
-/// all cells of size but the first, and full sliding.
+/// Forces along one direction of creepage: their slope at size zero, their values at the middles of all cells of size
+/// except the first, and full sliding.
 type Line = [ScaledForces; SIZES + 1];
 
-/// All coefficients in the order of [`Layout`]. Every processor takes part; the numbers do not depend on how many.
-/// `progress` is told the parts done, of how many.
+/// Computes all coefficients in the order of [`Layout`] on all processors; the result does not depend on their number.
+/// Calls `progress` with the number of finished parts and the total.
 ///
 /// # Errors
 /// A contact does not converge.
@@ -89,7 +89,7 @@ pub fn coefficients(
     Ok(lines.chunks(LINES).flat_map(spline).collect())
 }
 
-/// What the file beside tables of these bytes says of them.
+/// Text of the file that describes tables with these bytes.
 pub fn provenance(bytes: &[u8]) -> String {
     let meshes: Vec<String> = (0..Layout::RATIOS)
         .map(|index| {
@@ -135,7 +135,7 @@ fn line(
     line[SIZES] = full_sliding(a_over_b, [x, y, z / spin_arm(a_over_b)]);
     for forces in &mut line {
         forces[2] /= moment_arm(a_over_b);
-        // Spin alone causes no longitudinal force; the iteration leaves one within its tolerance.
+        // Spin alone causes no longitudinal force; the iteration leaves a small one within its tolerance.
         if x == 0.0 {
             forces[0] = 0.0;
         }
@@ -143,15 +143,15 @@ fn line(
     Ok(line)
 }
 
-/// Coefficients of one ratio from its lines.
+/// Coefficients of one ratio, computed from its lines.
 fn spline(lines: &[Line]) -> Vec<[f32; 3]> {
     let layers: Vec<[Vec<f64>; 3]> = (0..=SIZES)
         .map(|level| [0, 1, 2].map(|force| layer(lines, level, force)))
         .collect();
     let columns: Vec<[Vec<f64>; 3]> = (0..LAYER)
-        .map(|place| {
+        .map(|index| {
             [0, 1, 2].map(|force| {
-                let values: Vec<f64> = layers.iter().map(|layer| layer[force][place]).collect();
+                let values: Vec<f64> = layers.iter().map(|layer| layer[force][index]).collect();
                 over_size(&values)
             })
         })
@@ -162,19 +162,19 @@ fn spline(lines: &[Line]) -> Vec<[f32; 3]> {
         .collect()
 }
 
-/// Coefficients over size from those of all levels at one place of a layer.
+/// Coefficients over size from the values of all levels at one index of a layer.
 fn over_size(levels: &[f64]) -> Vec<f64> {
-    // Zero at size zero, with the slope there: the coefficient before it is the opposite of that after it.
+    // The spline is zero with a given slope at size zero: the coefficients on both sides are opposite.
     let first = 0.5 * levels[0] / SIZES as f64;
     let ends = [End::coefficient(first), End::value(levels[SIZES])];
     let rest = fit(&levels[1..SIZES], ends);
     std::iter::once(-first).chain(rest).collect()
 }
 
-/// Coefficients over spin and direction of one force at one level of size, by spin, then direction.
+/// Coefficients of one force over spin and direction at one level of size, ordered by spin, then direction.
 fn layer(lines: &[Line], level: usize, force: usize) -> Vec<f64> {
     let square = |cell: usize| 1.0 + direction_coordinate(cell).powi(2);
-    // The longitudinal force is odd in x, which is zero at both ends; where f = N / (1 + v^2) is even, N' = N at v = 1.
+    // The longitudinal force is odd in x, which is zero at both ends. For an even f = N / (1 + v^2), N' = N at v = 1.
     let half = 1.0 / DIRECTIONS as f64;
     let end = End::multiple(if force == 0 {
         -1.0
@@ -191,7 +191,7 @@ fn layer(lines: &[Line], level: usize, force: usize) -> Vec<f64> {
         .map(|spin| along(&|cell| lines[spin * DIRECTIONS + cell][level][force]))
         .collect();
     let pole = along(&|_| lines[LINES - 1][level][force]);
-    // Negative spin is the mirror image: the spline runs from pole to pole, and one half of it is kept.
+    // Negative spin is the mirror image. The spline runs from pole to pole; one half of it is kept.
     let mirror = if force == 0 { 1.0 } else { -1.0 };
     let columns: Vec<Vec<f64>> = (0..DIRECTIONS + 2)
         .map(|direction| {

@@ -1,29 +1,29 @@
-//! How far a fixed step is from the reference on one motion.
+//! Errors of a fixed step against the reference on one motion.
 
 use super::motion::Motion;
 
-/// Fraction of the force limit: a smaller root mean square of the force counts as this in an NRMSE.
-pub const LEAST_RMS_FORCE_RATIO: f64 = 0.01;
+/// Lower bound on the root mean square force in an NRMSE, as a fraction of the force limit.
+pub const MIN_RMS_FORCE_RATIO: f64 = 0.01;
 
 /// Errors of one fixed step on one motion.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct MotionErrors {
     /// Largest error at a tick (N).
     pub largest_n: f64,
-    /// The tick of the largest error.
+    /// Tick of the largest error.
     pub tick: usize,
-    /// Root mean square error over root mean square force, or over [`LEAST_RMS_FORCE_RATIO`] of the force limit where
-    /// that is more (1). Of a motion of the fixed set the largest of its parts: whatever repeats and joins parts has no
-    /// larger one.
+    /// Root mean square error over root mean square force, but not less than [`MIN_RMS_FORCE_RATIO`] of the force limit
+    /// (1). For a motion in parts, the largest NRMSE of any part: no motion that joins and repeats these parts exceeds
+    /// it.
     pub nrmse: f64,
     /// Largest force of the reference in extension and in compression (N).
     pub reference_peak_n: [f64; 2],
-    /// Largest force at a tick where the reference has a force of the other sign, or none (N).
+    /// Largest force at a tick where the reference force is zero or has the opposite sign (N).
     pub wrong_sign_n: f64,
 }
 
 impl MotionErrors {
-    /// Errors of `forces` (N), one a tick, against the reference at the compared ticks.
+    /// Errors of `forces` (N), one per tick, against the reference at the compared ticks.
     pub(super) fn new(motion: &Motion, forces: &[f64], reference: &[f64], limit_n: f64) -> Self {
         let mut found = Self::default();
         let mut part = Part::default();
@@ -41,7 +41,7 @@ impl MotionErrors {
             if actual * expected <= 0.0 {
                 found.wrong_sign_n = found.wrong_sign_n.max(actual.abs());
             }
-            // A tick of a rest stands for those before it that were not compared.
+            // A compared tick of a rest also represents the skipped ticks before it.
             let weight = (tick - before).max(1) as f64;
             part.squares += weight * error * error;
             part.force_squares += weight * expected * expected;
@@ -56,11 +56,11 @@ impl MotionErrors {
         found
     }
 
-    /// The larger NRMSE of what there is and a part.
+    /// Raises the NRMSE to that of a part.
     fn add(&mut self, part: &Part, limit_n: f64) {
         let rms = |sum: f64| (sum / f64::max(part.ticks, 1.0)).sqrt();
-        let least = LEAST_RMS_FORCE_RATIO * limit_n;
-        let nrmse = rms(part.squares) / rms(part.force_squares).max(least);
+        let min_rms = MIN_RMS_FORCE_RATIO * limit_n;
+        let nrmse = rms(part.squares) / rms(part.force_squares).max(min_rms);
         if self.nrmse.total_cmp(&nrmse).is_lt() {
             self.nrmse = nrmse;
         }

@@ -1,8 +1,8 @@
-//! What a fixed step errs by with one damper: the largest errors over a fixed set of motions.
+//! Largest errors of a fixed step with one damper over a fixed set of motions.
 //!
-//! The damper scales the set, so that it meets the damper's own worst: motions pass its clearance, its friction and the
-//! corners of its law at speeds from those of its smallest forces to the top speed. The forces of the fixed step come
-//! from outside: this crate knows parameters, not the step.
+//! The set is scaled by the damper to include its worst cases: motions pass its clearance, its friction and the corners
+//! of its law at speeds from those of its smallest forces up to the top speed. The caller supplies the forces of the
+//! fixed step, because this crate knows parameters, not the step.
 
 mod errors;
 mod motion;
@@ -13,23 +13,23 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use dashpot_core::DamperParameters;
 
-pub use self::errors::{LEAST_RMS_FORCE_RATIO, MotionErrors};
+pub use self::errors::{MIN_RMS_FORCE_RATIO, MotionErrors};
 pub use self::motion::{Kind, Motion};
 use self::set::Scale;
 use crate::damper::Reference;
 use crate::error::ReferenceError;
 
-/// Top speed of the motions (m/s), unless another is asked for or the damper's input rate is limited to less.
+/// Default top speed of the motions (m/s); a lower limit of the damper's input rate reduces it.
 pub const TOP_SPEED_M_PER_S: f64 = 0.6;
 
-/// What the figures of [`Probing::largest_errors`] are multiplied by to hold for every motion of the class that
-/// docs/numerics.md states: the search for the worst motion (`cargo xtask search`) stays below it.
+/// Safety factor from [`Probing::largest_errors`] to the promised errors, valid for every motion of the class defined
+/// in docs/numerics.md. The search for the worst motion (`cargo xtask search`) stays below it.
 pub const PROMISED_FACTOR: f64 = 3.0;
 
-/// Fraction of the force limit below which no error at a tick is promised (1), in double precision and in single.
-pub const LEAST_ERROR_RATIO: [f64; 2] = [1e-6, 1e-5];
+/// Smallest promised error at a tick as a fraction of the force limit (1), in double and in single precision.
+pub const MIN_ERROR_RATIO: [f64; 2] = [1e-6, 1e-5];
 
-/// The forces of a fixed step (N) at each displacement (m), from rest at the first one.
+/// Computes the forces of a fixed step (N) at each displacement (m), from rest at the first one.
 pub type Stepper<'a> = &'a (dyn Fn(&[f64]) -> Vec<f64> + Sync);
 
 /// One damper at one step size.
@@ -39,14 +39,14 @@ pub struct Probing<'a> {
     top_m_per_s: f64,
 }
 
-/// A figure, and the motion that had it.
+/// A figure, and the motion that caused it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Worst {
-    /// The figure.
+    /// Value of the figure.
     pub value: f64,
-    /// What the motion does.
+    /// Kind of the motion.
     pub kind: Kind,
-    /// Its largest or effective speed (m/s).
+    /// Largest or effective speed of the motion (m/s).
     pub speed_m_per_s: f64,
 }
 
@@ -55,14 +55,14 @@ pub struct Worst {
 pub struct LargestErrors {
     /// Largest error at a tick (N).
     pub largest_n: Worst,
-    /// Largest NRMSE of a motion (1), as [`MotionErrors::nrmse`].
+    /// Largest [`MotionErrors::nrmse`] of a motion (1).
     pub nrmse: Worst,
-    /// Largest force where the reference has one of the other sign, or none (N).
+    /// Largest force where the reference force is zero or has the opposite sign (N).
     pub wrong_sign_n: Worst,
 }
 
 impl<'a> Probing<'a> {
-    /// A damper with steps of `step_s` (s), moved at [`TOP_SPEED_M_PER_S`] at most.
+    /// Probes a damper with steps of `step_s` (s) at up to [`TOP_SPEED_M_PER_S`].
     pub fn new(parameters: &'a DamperParameters, step_s: f64) -> Self {
         let top_m_per_s = TOP_SPEED_M_PER_S.min(highest_speed(parameters));
         Self {
@@ -72,7 +72,7 @@ impl<'a> Probing<'a> {
         }
     }
 
-    /// With another top speed (m/s), which stays below the damper's limit of the input's rate.
+    /// Sets another top speed (m/s), reduced if necessary to stay below the damper's limit of the input rate.
     pub fn with_top_speed(self, speed_m_per_s: f64) -> Self {
         Self {
             top_m_per_s: speed_m_per_s.min(highest_speed(self.parameters)),
@@ -85,10 +85,10 @@ impl<'a> Probing<'a> {
         self.top_m_per_s
     }
 
-    /// The fixed set of motions.
+    /// Builds the fixed set of motions.
     ///
     /// # Errors
-    /// As [`Reference::new`].
+    /// The errors of [`Reference::new`].
     pub fn motions(&self) -> Result<Vec<Motion>, ReferenceError> {
         let reference = Reference::new(self.parameters)?;
         Ok(Scale {
@@ -100,10 +100,10 @@ impl<'a> Probing<'a> {
         .motions())
     }
 
-    /// Errors of each stepper on a motion.
+    /// Computes the errors of each stepper on a motion.
     ///
     /// # Errors
-    /// What the reference reports.
+    /// The errors of the reference.
     pub fn errors(
         &self,
         motion: &Motion,
@@ -123,10 +123,10 @@ impl<'a> Probing<'a> {
         Ok(errors.collect())
     }
 
-    /// The largest errors of each stepper over the fixed set, found by several threads.
+    /// Computes the largest errors of each stepper over the fixed set on several threads.
     ///
     /// # Errors
-    /// What the reference reports, for the first motion that it cannot solve.
+    /// The error of the reference for the first motion that it cannot solve.
     pub fn largest_errors(
         &self,
         steppers: &[Stepper<'_>],
@@ -163,24 +163,24 @@ impl<'a> Probing<'a> {
     }
 }
 
-/// Speed (m/s) that a damper follows with room for rounding.
+/// Highest speed (m/s) that the damper's rate limit accepts, with a margin for rounding.
 fn highest_speed(parameters: &DamperParameters) -> f64 {
     0.999 * parameters.limits.rate_m_per_s
 }
 
 impl LargestErrors {
-    /// What is promised for any motion of the class: the largest error at a tick (N) and the largest NRMSE (1).
-    /// `least_ratio` is that of [`LEAST_ERROR_RATIO`] for the scalar, `force_limit_n` the damper's limit (N).
-    pub fn promised(&self, force_limit_n: f64, least_ratio: f64) -> (f64, f64) {
+    /// Returns the promised largest error at a tick (N) and largest NRMSE (1) for any motion of the class.
+    /// `force_limit_n` is the damper's limit (N); `min_ratio` is the entry of [`MIN_ERROR_RATIO`] for the scalar type.
+    pub fn promised(&self, force_limit_n: f64, min_ratio: f64) -> (f64, f64) {
         let largest_n = PROMISED_FACTOR * self.largest_n.value;
         (
-            largest_n.max(least_ratio * force_limit_n),
-            (PROMISED_FACTOR * self.nrmse.value).max(least_ratio),
+            largest_n.max(min_ratio * force_limit_n),
+            (PROMISED_FACTOR * self.nrmse.value).max(min_ratio),
         )
     }
 
-    /// The larger of what there is and the errors of a motion; NaN is the largest of all. Of equal figures that of the
-    /// slower motion, so that the order in which threads end changes nothing.
+    /// Combines the largest errors so far with the errors of a motion; NaN counts as the largest. Ties keep the slower
+    /// motion, so that the result does not depend on the order in which threads finish.
     fn with(found: Option<Self>, motion: &Motion, errors: &MotionErrors) -> Self {
         let worst = |value: f64| Worst {
             value,

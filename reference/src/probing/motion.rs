@@ -1,34 +1,34 @@
-//! A motion at ticks, and the ticks at which the reference is solved for it.
+//! A motion sampled at ticks, and the ticks at which forces are compared.
 
 use std::fmt;
 
-/// Ticks of a rest that are all compared; beyond them the gaps grow.
+/// Number of ticks at the start of a rest that are all compared; the gaps grow afterwards.
 const CLOSE_TICKS: usize = 16;
 
-/// What a probing motion does.
+/// Kind of a probing motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Kind {
-    /// Constant speed to and fro, the force settling each way.
+    /// Constant speed to and fro; the force settles in each direction.
     Saw,
     /// Constant speed, a sudden stop, rest, back.
     MoveAndStop,
-    /// Constant speed across the clearance and little beyond, to and fro.
+    /// Constant speed to and fro, across the clearance and slightly beyond.
     Crossing,
-    /// Speeds that change suddenly, after a few ticks each: reversals among them.
+    /// Sudden changes of speed after a few ticks, including reversals.
     ChangingSpeed,
-    /// Random to 20 Hz.
+    /// Random, up to 20 Hz.
     Ride,
-    /// Speed rising and falling evenly, out and back.
+    /// Linearly rising and falling speed, out and back.
     Ramp,
     /// A rest of a minute under force.
     Hold,
-    /// Given from outside.
+    /// Supplied by the caller.
     Other,
 }
 
 impl Kind {
-    /// Its name in words.
+    /// Readable name.
     pub fn name(self) -> &'static str {
         match self {
             Self::Saw => "saw",
@@ -49,24 +49,24 @@ impl fmt::Display for Kind {
     }
 }
 
-/// A motion at ticks, linear between them, every displacement a number of `f32`: step in either scalar and reference
-/// follow the same motion.
+/// A motion sampled at ticks and linear between them. Each displacement is an `f32` value, so that steps in both
+/// precisions and the reference follow the same motion.
 #[derive(Clone, Debug)]
 pub struct Motion {
-    /// What it does.
+    /// Kind of the motion.
     pub kind: Kind,
-    /// Its largest or effective speed (m/s).
+    /// Largest or effective speed (m/s).
     pub speed_m_per_s: f64,
     /// Displacement at each tick (m).
     pub displacements_m: Vec<f64>,
-    /// Ticks at which forces are compared, rising from 0; between two of them the motion is linear.
+    /// Ticks at which forces are compared, increasing from 0; the motion is linear between two of them.
     pub(super) compared: Vec<usize>,
-    /// Ticks at which parts end that have an NRMSE each, rising; the motion's is the largest of them.
+    /// Ticks at which parts end, increasing. The NRMSE of the motion is the largest of its parts.
     pub(super) part_ends: Vec<usize>,
 }
 
 impl Motion {
-    /// The motion through these displacements (m), each rounded to `f32`.
+    /// Builds the motion through the displacements (m), each rounded to `f32`.
     pub fn new(kind: Kind, speed_m_per_s: f64, displacements_m: Vec<f64>) -> Self {
         let displacements_m: Vec<f64> = displacements_m
             .into_iter()
@@ -82,7 +82,7 @@ impl Motion {
     }
 }
 
-/// Every tick, but of a long rest only some: there the reference needs no more of them, and a minute has many.
+/// Ticks to compare: all, except within a long rest, where a growing gap keeps their number small.
 fn compared(displacements_m: &[f64]) -> Vec<usize> {
     let mut compared = Vec::new();
     let (mut rested, mut next) = (0, 0);
@@ -107,7 +107,7 @@ fn compared(displacements_m: &[f64]) -> Vec<usize> {
     compared
 }
 
-/// Pieces of constant speed, one after the other.
+/// Builder of a motion from pieces of constant speed.
 pub(super) struct Path {
     step_s: f64,
     x: f64,
@@ -125,12 +125,12 @@ impl Path {
         }
     }
 
-    /// Where it has come to (m).
+    /// Current displacement (m).
     pub(super) fn x(&self) -> f64 {
         self.x
     }
 
-    /// Goes on at a speed (m/s), 0 for a rest.
+    /// Adds a piece at a speed (m/s), 0 for a rest.
     pub(super) fn go(&mut self, speed_m_per_s: f64, ticks: usize) {
         for _ in 0..ticks {
             self.x += speed_m_per_s * self.step_s;
@@ -138,7 +138,7 @@ impl Path {
         }
     }
 
-    /// Ends a part that might be repeated for as long as one likes: its NRMSE counts by itself.
+    /// Ends a part. Its NRMSE counts separately, because a motion may repeat it any number of times.
     pub(super) fn end_part(&mut self) {
         self.part_ends.push(self.displacements_m.len() - 1);
     }

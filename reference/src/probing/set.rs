@@ -1,28 +1,28 @@
-//! The fixed set of motions, scaled by the damper: its clearance, its friction, its springs, and the speeds at which
-//! its force is small, middling and at the limit.
+//! The fixed set of motions, scaled by the damper's clearance, friction and springs, and by the speeds at which its
+//! force is small, medium and at the limit.
 
 use std::f64::consts::TAU;
 
 use super::motion::{Kind, Motion, Path};
 use crate::damper::side::Side;
 
-/// Halvings of the top speed.
+/// Number of halvings of the top speed.
 const OCTAVES: i32 = 11;
-/// Shares of the force between the piston's start and the limit, whose steady speeds are taken too.
+/// Fractions of the range from the closed force to the force limit; the set includes the steady speeds at these forces.
 const FORCE_SHARES: [f64; 6] = [0.003, 0.03, 0.15, 0.4, 0.8, 1.0];
-/// Shares of the ticks in which a force settles, after which a saw turns.
+/// Ticks between two turns of a saw, as fractions of the settling time of the force.
 const SAW_SHARES: [f64; 3] = [1.0, 0.35, 0.12];
-/// Ticks within which a force settles, at most; where it takes longer, the faster motions come as far.
+/// Maximum settling time in ticks; faster motions of the set reach forces that take longer.
 const MAX_SETTLING_TICKS: usize = 150;
-/// Ticks of a passage through the clearance, at most.
+/// Maximum ticks of a passage through the clearance.
 const MAX_CROSSING_TICKS: usize = 20_000;
 /// Largest displacement of one piece (m).
 const MAX_PIECE_M: f64 = 0.2;
-/// Longest rest (s) and its ticks, at most.
+/// Longest rest (s), and its maximum number of ticks.
 const HOLD_S: f64 = 60.0;
 const MAX_HOLD_TICKS: f64 = 1.2e6;
 
-/// A damper as its motions see it.
+/// Properties of a damper that scale the motions.
 pub(super) struct Scale<'a> {
     pub(super) sides: &'a [Side; 2],
     pub(super) clearance_m: f64,
@@ -32,7 +32,7 @@ pub(super) struct Scale<'a> {
 }
 
 impl Scale<'_> {
-    /// The set.
+    /// Builds the set.
     pub(super) fn motions(&self) -> Vec<Motion> {
         let speeds = self.speeds();
         let mut motions: Vec<Motion> = Vec::new();
@@ -50,35 +50,35 @@ impl Scale<'_> {
             motions.push(self.ride(speed / 3.0, 101 + number as u64));
         }
         motions.push(self.ramp());
-        // The longest first: threads that share them end together.
+        // Longest first, so that all threads finish at about the same time.
         motions.sort_by_key(|motion| std::cmp::Reverse(motion.compared.len()));
         motions
     }
 
-    /// Speeds (m/s), falling: halvings of the top speed, and those of the damper's own forces.
+    /// Speeds (m/s), decreasing: halvings of the top speed, and the steady speeds at fractions of the force.
     fn speeds(&self) -> Vec<f64> {
         let top = self.top_m_per_s;
         let halvings = (0..OCTAVES).map(|octave| top * 0.5_f64.powi(octave));
-        let of_forces = self.sides.iter().flat_map(|side| {
+        let force_speeds = self.sides.iter().flat_map(|side| {
             FORCE_SHARES.map(|share| {
                 let force = side.closed_force + share * (side.yield_force - side.closed_force);
                 1.02 * side.velocity(side.coordinate(force))
             })
         });
         let mut speeds: Vec<f64> = halvings
-            .chain(of_forces.filter(|speed| (1e-4 * top..top).contains(speed)))
+            .chain(force_speeds.filter(|speed| (1e-4 * top..top).contains(speed)))
             .collect();
         speeds.sort_by(|a, b| b.total_cmp(a));
         speeds.dedup_by(|lower, upper| *lower > 0.85 * *upper);
         speeds
     }
 
-    /// Ticks at a speed (m/s) over a distance (m).
+    /// Number of ticks to cover a distance (m) at a speed (m/s).
     fn ticks(&self, distance_m: f64, speed: f64) -> usize {
         (distance_m / (speed * self.step_s)).ceil() as usize
     }
 
-    /// Ticks at a speed (m/s) until its force has settled, of the slower side.
+    /// Number of ticks at a speed (m/s) until the force of the slower side has settled.
     fn settling(&self, speed: f64) -> usize {
         let stretch = self.sides.each_ref().map(|side| {
             let force = side.force(side.coordinate_at(speed));
@@ -93,14 +93,14 @@ impl Scale<'_> {
         self.ticks(self.clearance_m, speed).min(MAX_CROSSING_TICKS)
     }
 
-    /// Way by way, each of so much of the ticks in which the force settles.
+    /// A saw whose legs last a share of the settling time.
     fn saw(&self, speed: f64, share: f64) -> Motion {
         let mut path = Path::new(self.step_s);
         let settling = (share * self.settling(speed) as f64) as usize;
         let ticks = self.across(speed) + settling.max(3);
         path.go(speed, ticks / 2);
         for piece in 0..6 {
-            // Slightly different speeds meet the edges of the clearance elsewhere in their ticks.
+            // Slightly different speeds reach the edges of the clearance at different phases of a tick.
             let speed = speed * (1.0 - 0.013 * f64::from(piece));
             path.go(if piece % 2 == 0 { -speed } else { speed }, ticks + 1);
             path.end_part();
@@ -114,7 +114,7 @@ impl Scale<'_> {
         path.go(speed, across / 2);
         for piece in 0..8 {
             let speed = speed * (1.0 - 0.017 * f64::from(piece));
-            // Stops under forces that have settled, and before.
+            // Stops after the force has settled, and earlier.
             let share = [1.0, 0.6, 0.35, 0.2][piece as usize % 4];
             let ticks = across + (share * settling as f64) as usize + 2;
             path.go(if piece % 2 == 0 { speed } else { -speed }, ticks);
@@ -124,7 +124,7 @@ impl Scale<'_> {
         path.end(Kind::MoveAndStop, speed)
     }
 
-    /// `None` where a passage takes too many ticks.
+    /// `None` if a passage takes too many ticks.
     fn crossing(&self, speed: f64) -> Option<Motion> {
         let held = self.sides.each_ref().map(|side| side.closed_stretch);
         let held = self.ticks(2.0 * held[0].max(held[1]), speed).min(60);
@@ -168,7 +168,7 @@ impl Scale<'_> {
         path.end(Kind::ChangingSpeed, top)
     }
 
-    /// Random to 20 Hz, of an effective speed (m/s).
+    /// Random motion up to 20 Hz with an effective speed (m/s).
     fn ride(&self, speed: f64, seed: u64) -> Motion {
         let mut numbers = Numbers(seed);
         let lines: Vec<[f64; 3]> = (0..30)
@@ -187,7 +187,7 @@ impl Scale<'_> {
             };
             scale * lines.iter().map(line).sum::<f64>()
         };
-        // Lines in phase may be faster than the top speed; then the whole ride is slowed.
+        // The ride is slowed if lines in phase exceed the top speed.
         let largest = (1..=ticks)
             .map(|tick| (at(tick) - at(tick - 1)).abs() / self.step_s)
             .fold(0.0, f64::max);
@@ -221,11 +221,11 @@ impl Scale<'_> {
     }
 }
 
-/// Numbers that look random: SplitMix64 (Steele, Lea, Flood 2014).
+/// Pseudorandom numbers: SplitMix64 (Steele, Lea, Flood 2014).
 struct Numbers(u64);
 
 impl Numbers {
-    /// In [0, 1).
+    /// Next number in [0, 1).
     fn unit(&mut self) -> f64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.0;

@@ -4,16 +4,16 @@ use std::f64::consts::PI;
 
 use super::mesh::Element;
 
-/// `[-du_x/dx by px, -du_y/dx by py, -du_x/dx by py]`, the last one also `-du_y/dx by px`; shear modulus 1.
+/// `[-du_x/dx by px, -du_y/dx by py, -du_x/dx by py]`, where the last one is also `-du_y/dx by px`; shear modulus 1.
 pub(super) type Slip = [f64; 3];
 
-/// Slip at each element of the strip `to` by a unit traction on each of the strip `from`, by element of `to`, then of
-/// `from`: the mean from an element's middle to that of the one ahead.
+/// Slip at each element of the strip `to` by a unit traction on each element of the strip `from`, ordered by elements
+/// of `to`, then of `from`. The slip is the mean from an element's middle to the middle of the next element ahead.
 ///
-/// Tractions on the wheel and their opposites on the rail displace the two surfaces against each other by
+/// Tractions on the wheel and their opposites on the rail displace the two surfaces relative to each other by
 /// (Cerruti; Johnson 1985, 3.75)
-/// `u_x = 1/(pi G) ∫∫ ((1 - nu)/R + nu X^2/R^3) px + nu X Y/R^3 py dx dy`, likewise `u_y` with `Y^2`, where
-/// `(X, Y)` leads from the load to the point and `R` is its length.
+/// `u_x = 1/(pi G) ∫∫ ((1 - nu)/R + nu X^2/R^3) px + nu X Y/R^3 py dx dy`, and the same for `u_y` with `Y^2`,
+/// where the vector `(X, Y)` of length `R` leads from the load to the point.
 pub(super) fn slip_by_strip(to: &[Element], from: &[Element], poisson_ratio: f64) -> Vec<Slip> {
     let (size, from_size) = (to[0].length(), from[0].length());
     let distance = to[0].y - from[0].y;

@@ -2,12 +2,12 @@
 //! steady rolling, under Hertz pressure and Coulomb friction (Kalker, Three-Dimensional Elastic Bodies in Rolling
 //! Contact, 1990).
 //!
-//! The surface of the wheel slips against the rail by `s = w - du/dx` over the speed, where
-//! `w = (xi - phi y, eta + phi x)` is the rigid slip and `u` the elastic displacement of the wheel's surface against
-//! the rail's. Where `s` is zero the traction is within friction; elsewhere it has the magnitude of friction and
-//! opposes `s`. Axes and signs are those of [`dashpot_rail::creep`].
+//! The slip of the wheel's surface on the rail, over the speed, is `s = w - du/dx`, where `w = (xi - phi y, eta + phi
+//! x)` is the rigid slip and `u` the elastic displacement of the wheel's surface relative to the rail's. Without slip
+//! the traction is within the friction limit; with slip it has the magnitude of friction and opposes `s`. Axes and
+//! signs are those of [`dashpot_rail::creep`].
 //!
-//! It shares no law with what it checks: neither Kalker's coefficients nor a simplified elasticity.
+//! It shares no law with the code that it checks: neither Kalker's coefficients nor a simplified elasticity.
 
 mod influence;
 mod mesh;
@@ -28,14 +28,14 @@ pub type ScaledCreepage = [f64; 3];
 /// Longitudinal and lateral force over `mu N`, spin moment over `mu N sqrt(a b)`.
 pub type ScaledForces = [f64; 3];
 
-/// Change of all tractions in a sweep, over `mu N`, at which they are taken as converged.
+/// Change of all tractions in a sweep, over `mu N`, below which the iteration has converged.
 pub const TOLERANCE: f64 = 1e-5;
 
-/// Part of the way to the solution of one element that its traction goes in a sweep. The slip depends on the
-/// tractions before and behind by a kernel without definite sign, so that the whole way diverges.
+/// Relaxation factor of a sweep. The slip depends on the tractions ahead and behind through a kernel without definite
+/// sign, so full steps diverge.
 const RELAXATION: f64 = 0.3;
 
-/// Sweeps after which the iteration is given up; 30 to 200 are usual.
+/// Maximum number of sweeps; 30 to 200 are usual.
 const MAX_SWEEPS: usize = 1000;
 
 /// Rolling contacts with one ratio of semi-axes and one Poisson's ratio, on one mesh.
@@ -51,13 +51,13 @@ const MAX_SWEEPS: usize = 1000;
 /// ```
 pub struct RollingContact {
     elements: Vec<Element>,
-    /// Slip at each element by the traction of each: along by along, across by across, one by the other.
+    /// Slip at each element by the traction of each element: along by along, across by across, along by across.
     slip: [Vec<f64>; 3],
 }
 
 impl RollingContact {
-    /// Contacts with the semi-axis in the rolling direction `a_over_b` times that across, on a mesh that gives the
-    /// force within about half a percent of `mu N`.
+    /// Builds contacts with the semi-axes `a` in the rolling direction and `b` across, on a mesh whose forces are
+    /// accurate to about half a percent of `mu N`.
     ///
     /// # Errors
     /// The ratio is not positive, or Poisson's ratio not within 0 to 0.5.
@@ -66,11 +66,11 @@ impl RollingContact {
         Self::with_mesh(a_over_b, poisson_ratio, along, strips)
     }
 
-    /// Elements along and strips of [`Self::new`]: a strip must not be much wider than the contact is long, or the pole of
-    /// spin steps from strip to strip; an element of a long contact is longer than its strip is wide.
+    /// Elements along and number of strips of [`Self::new`]. A strip must not be much wider than the contact is long,
+    /// or the pole of spin jumps from strip to strip; an element of a long contact is longer than its strip is wide.
     pub fn usual_mesh(a_over_b: f64) -> [usize; 2] {
-        let least = 12.0 * (0.5 * a_over_b).max(1.0).powf(0.22);
-        let strips = (10.0 / a_over_b).clamp(least, 40.0).ceil();
+        let min_strips = 12.0 * (0.5 * a_over_b).max(1.0).powf(0.22);
+        let strips = (10.0 / a_over_b).clamp(min_strips, 40.0).ceil();
         let along = (24.0 * a_over_b.powf(0.22))
             .max(400.0 / strips)
             .max(20.0)
@@ -78,10 +78,10 @@ impl RollingContact {
         [along as usize, strips as usize]
     }
 
-    /// As [`Self::new`], with a number of elements along each of a number of strips.
+    /// Builds contacts as [`Self::new`] does, with `strips` strips of `along` elements.
     ///
     /// # Errors
-    /// As [`Self::new`], or without elements.
+    /// The errors of [`Self::new`], or a mesh without elements.
     pub fn with_mesh(
         a_over_b: f64,
         poisson_ratio: f64,
@@ -105,10 +105,10 @@ impl RollingContact {
                 .map(|from| slip_by_strip(to, from, poisson_ratio))
                 .collect();
             for row in 0..along {
-                let of_row = blocks
+                let row_slips = blocks
                     .iter()
                     .flat_map(|block| &block[row * along..(row + 1) * along]);
-                for by_element in of_row {
+                for by_element in row_slips {
                     for (slip, by_element) in slip.iter_mut().zip(by_element) {
                         slip.push(*by_element);
                     }
@@ -118,7 +118,7 @@ impl RollingContact {
         Ok(Self { elements, slip })
     }
 
-    /// Forces at a creepage.
+    /// Returns the forces at a creepage.
     ///
     /// # Errors
     /// The tractions do not converge.
@@ -126,11 +126,10 @@ impl RollingContact {
         self.solve_from(creepage, &mut Tractions::default())
     }
 
-    /// As [`Self::solve`], with the iteration started from `tractions` (zero where there are none), which become those
-    /// of this creepage.
+    /// Solves as [`Self::solve`] does, starting from `tractions` (zero if empty) and replacing them by the solution.
     ///
     /// # Errors
-    /// As [`Self::solve`].
+    /// The errors of [`Self::solve`].
     pub fn solve_from(
         &self,
         creepage: ScaledCreepage,
@@ -151,11 +150,11 @@ impl RollingContact {
         Err(ReferenceError::RollingDiverges { creepage })
     }
 
-    /// Forces on a contact, in SI units. Its ratio of semi-axes and its Poisson's ratio must be those of `self`;
-    /// its Kalker coefficients are not used.
+    /// Forces on a contact in SI units. The ratio of its semi-axes and its Poisson's ratio must be equal to those of
+    /// `self`; its Kalker coefficients are not used.
     ///
     /// # Errors
-    /// As [`Self::solve`].
+    /// The errors of [`Self::solve`].
     pub fn creep_forces(
         &self,
         contact: &LoadedContact,
@@ -177,7 +176,7 @@ impl RollingContact {
         })
     }
 
-    /// One pass of Gauss and Seidel from the leading to the trailing edge of each strip; the sum of the changes.
+    /// Runs one Gauss-Seidel sweep from the leading to the trailing edge of each strip; returns the sum of the changes.
     fn sweep(&self, [xi, eta, phi]: ScaledCreepage, tractions: &mut Tractions) -> f64 {
         let count = self.elements.len();
         let mut change = 0.0;
@@ -191,7 +190,7 @@ impl RollingContact {
                 xi - phi * element.y + elastic[0] - own[0] * old[0],
                 eta + phi * element.slip_x + elastic[1] - own[1] * old[1],
             ];
-            // Sliding counts where the traction is.
+            // Sliding is evaluated at the position of the traction.
             let shift = [0.0, phi * (element.x - element.slip_x)];
             let solved = traction(others, own, shift, element.pressure);
             let step = [0, 1].map(|k| RELAXATION * (solved[k] - old[k]));
@@ -213,8 +212,8 @@ impl RollingContact {
         sum
     }
 
-    /// Greatest traction over what friction can carry at its element; 1 where anything slides.
-    pub fn greatest_utilisation(&self, tractions: &Tractions) -> f64 {
+    /// Largest traction relative to the friction limit of its element; 1 if any element slides.
+    pub fn max_utilisation(&self, tractions: &Tractions) -> f64 {
         let both = tractions.along.iter().zip(&tractions.across);
         let used = both.map(|(px, py)| px.hypot(*py));
         used.zip(&self.elements)
@@ -233,7 +232,7 @@ pub struct Tractions {
 /// Slip along and across by all tractions.
 #[inline]
 fn slip_of(xx: &[f64], yy: &[f64], xy: &[f64], tractions: &Tractions) -> [f64; 2] {
-    // Several sums side by side, for the processor's vectors.
+    // Several partial sums, so that the compiler uses vector instructions.
     const LANES: usize = 4;
     let mut sums = [[0.0; LANES]; 2];
     let mut add = |from: usize, lanes: usize| {

@@ -1,15 +1,15 @@
-//! Forces where everything slides, by direct quadrature.
+//! Forces in full sliding, by direct quadrature.
 
 use std::f64::consts::{PI, TAU};
 
 use super::{ScaledCreepage, ScaledForces};
 
-/// Forces of rigid bodies that slide: friction of Hertz pressure against the rigid slip everywhere, to which rolling
-/// tends as the creepage grows; zero without creepage.
+/// Forces of sliding rigid bodies: friction under Hertz pressure opposes the rigid slip everywhere. Rolling contact
+/// approaches these forces as the creepage grows. Zero without creepage.
 ///
 /// ```
 /// use dashpot_reference::rolling_contact::full_sliding;
-/// // A turning circle carries no force, and the moment 3 pi / 16.
+/// // A spinning circular contact has no force, and the moment 3 pi / 16.
 /// let [x, y, moment] = full_sliding(1.0, [0.0, 0.0, 1.0]);
 /// assert!(x.hypot(y) < 1e-12 && (moment + 3.0 * std::f64::consts::PI / 16.0).abs() < 1e-4);
 /// ```

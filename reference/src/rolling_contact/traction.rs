@@ -1,8 +1,8 @@
 //! Stick or slip of one element.
 
-/// The traction `p` of an element with the slip `s = others + own p`, where `others` is that by everything else:
-/// `s = 0` if `|p|` is then within `limit`; else `|p| = limit` and `p` opposes `s + shift`, all of the shift deep in
-/// sliding and none of it where sliding begins.
+/// Traction `p` of an element whose slip is `s = others + own p`. The element sticks (`s = 0`) if this keeps `|p|`
+/// within `limit`; otherwise `|p| = limit`, and `p` opposes `s + shift`. The shift acts fully in deep sliding and
+/// vanishes at the onset of sliding.
 pub(super) fn traction(others: [f64; 2], own: [f64; 2], shift: [f64; 2], limit: f64) -> [f64; 2] {
     // In sliding `(own + resistance) p = -others` with a resistance `|s| / limit` of zero or more.
     let at = |resistance: f64| {

@@ -1,7 +1,8 @@
-//! A damper between two bodies: clearance, springs and velocity law of the reference damper, with its piston's place as state.
+//! A damper between two bodies: clearance, springs and velocity law of the reference damper. Its state is the position
+//! of its piston.
 //!
-//! Displacement and force are positive in extension. Ranges of the displacement beyond the piston's place: yielding, flowing and
-//! held in compression, clearance, and the same in extension.
+//! Displacement and force are positive in extension. The displacement from the piston has seven ranges: yielding,
+//! flowing and held in compression, clearance, then held, flowing and yielding in extension.
 
 use dashpot_core::DamperParameters;
 
@@ -9,21 +10,21 @@ use super::ranges::Ranges;
 use crate::damper::side::Side;
 use crate::error::ReferenceError;
 
-/// Range of the clearance.
+/// Index of the clearance range.
 pub(super) const CLEARANCE: usize = 3;
 
-/// Overlap at the end of yielding (m/s).
+/// Overlap of the velocity ranges at the end of yielding (m/s).
 const OVERLAP_M_PER_S: f64 = 1e-10;
 
-/// Step of differences (m).
+/// Step of central differences (m).
 const STEP_M: f64 = 1e-9;
 
-/// One direction, and where it yields.
+/// One direction of the damper, with its yield point.
 #[derive(Clone, Debug)]
 struct Direction {
     side: Side,
     yield_stretch: f64,
-    /// Change of force and velocity over the stretch at the force at which it yields (N/m, 1/s).
+    /// Slopes of force and velocity over stretch at the yield force (N/m, 1/s).
     slopes: [f64; 2],
 }
 
@@ -52,8 +53,9 @@ impl Chain {
             }
         });
         let half_clearance = 0.5 * parameters.mount.clearance_m;
-        let edges = |of: &Direction| {
-            [0.0, of.side.closed_stretch, of.yield_stretch].map(|x| x + half_clearance)
+        let edges = |direction: &Direction| {
+            [0.0, direction.side.closed_stretch, direction.yield_stretch]
+                .map(|x| x + half_clearance)
         };
         let [extension, compression] = &directions;
         let inward = edges(compression).into_iter().rev().map(|edge| -edge);
@@ -66,7 +68,7 @@ impl Chain {
         })
     }
 
-    /// The direction that works in a range, and its sign.
+    /// Working direction of a range, and its sign.
     fn working(&self, range: usize) -> (&Direction, f64) {
         if range > CLEARANCE {
             (&self.directions[0], 1.0)
@@ -77,28 +79,29 @@ impl Chain {
 
     /// Force (N) at a displacement from the piston (m).
     pub(super) fn force(&self, range: usize, from_piston: f64) -> f64 {
-        let (of, sign) = self.working(range);
+        let (direction, sign) = self.working(range);
         let stretch = sign * from_piston - self.half_clearance;
         sign * match range.abs_diff(CLEARANCE) {
             0 => 0.0,
-            1 => of.held_force(stretch),
-            2 => of.flow(stretch)[0],
-            _ => of.side.yield_force,
+            1 => direction.held_force(stretch),
+            2 => direction.flow(stretch)[0],
+            _ => direction.side.yield_force,
         }
     }
 
-    /// Velocity of the piston (m/s), the ends parting at `velocity`.
+    /// Velocity of the piston (m/s) while the ends separate at `velocity` (m/s).
     pub(super) fn piston_velocity(&self, range: usize, from_piston: f64, velocity: f64) -> f64 {
-        let (of, sign) = self.working(range);
+        let (direction, sign) = self.working(range);
         match range.abs_diff(CLEARANCE) {
             0 | 1 => 0.0,
-            2 => sign * of.flow(sign * from_piston - self.half_clearance)[1],
+            2 => sign * direction.flow(sign * from_piston - self.half_clearance)[1],
             _ => velocity,
         }
     }
 
-    /// Force over the displacement from the piston (N/m), and velocity of the piston over it (1/s) and over that of the ends; by
-    /// differences, good for an iteration.
+    /// Derivatives of the force (N/m) and of the piston velocity (1/s) with respect to the displacement from the
+    /// piston, and of the piston velocity with respect to the velocity of the ends (1). Central differences, accurate
+    /// enough for an iteration.
     pub(super) fn slopes(&self, range: usize, from_piston: f64) -> [f64; 3] {
         match range.abs_diff(CLEARANCE) {
             0 => [0.0; 3],
@@ -106,35 +109,35 @@ impl Chain {
             _ => {
                 let at = |x: f64| [self.force(range, x), self.piston_velocity(range, x, 0.0)];
                 let (behind, ahead) = (at(from_piston - STEP_M), at(from_piston + STEP_M));
-                let slope = |of: usize| (ahead[of] - behind[of]) / (2.0 * STEP_M);
+                let slope = |output: usize| (ahead[output] - behind[output]) / (2.0 * STEP_M);
                 [slope(0), slope(1), 0.0]
             }
         }
     }
 
-    /// Distances to both ends of a range, positive within: yielding ends by the velocity, not by the displacement.
+    /// Distances to both ends of a range, positive inside. Yielding ends by the velocity, not by the displacement.
     pub(super) fn margins(&self, range: usize, from_piston: f64, velocity: f64) -> [f64; 2] {
-        let (of, sign) = self.working(range);
+        let (direction, sign) = self.working(range);
         if range.abs_diff(CLEARANCE) == 3 {
             let speed = sign * velocity;
-            return [speed - of.side.yield_velocity + OVERLAP_M_PER_S, 1.0];
+            return [speed - direction.side.yield_velocity + OVERLAP_M_PER_S, 1.0];
         }
         self.ranges.margins(range, from_piston)
     }
 
-    /// Range and displacement from the piston of a damper that was in `range` before.
+    /// New range, and displacement from the piston, of a damper that was in `range`.
     pub(super) fn settled(&self, range: usize, from_piston: f64, velocity: f64) -> (usize, f64) {
         let yields = |range: usize| {
-            let (of, sign) = self.working(range);
+            let (direction, sign) = self.working(range);
             range.abs_diff(CLEARANCE) == 3
-                && sign * velocity - of.side.yield_velocity > -0.5 * OVERLAP_M_PER_S
+                && sign * velocity - direction.side.yield_velocity > -0.5 * OVERLAP_M_PER_S
         };
         if range.abs_diff(CLEARANCE) == 3 {
             if yields(range) {
                 return (range, from_piston);
             }
-            let (of, sign) = self.working(range);
-            let at_edge = sign * (self.half_clearance + of.yield_stretch);
+            let (direction, sign) = self.working(range);
+            let at_edge = sign * (self.half_clearance + direction.yield_stretch);
             return (if range == 0 { 1 } else { 5 }, at_edge);
         }
         let settled = self.ranges.settled(range, from_piston);
@@ -146,20 +149,20 @@ impl Chain {
 }
 
 impl Direction {
-    /// Force of the still piston at a stretch, continued beyond its range by straight lines.
+    /// Force with the piston at rest, extrapolated linearly beyond its range of stretch.
     fn held_force(&self, stretch: f64) -> f64 {
-        let (force, most) = (self.side.closed_force, self.side.closed_stretch);
-        if most > 0.0 {
-            let within = stretch.clamp(0.0, most);
-            self.side.held_force(within) + (stretch - within) * force / most
+        let (force, max) = (self.side.closed_force, self.side.closed_stretch);
+        if max > 0.0 {
+            let within = stretch.clamp(0.0, max);
+            self.side.held_force(within) + (stretch - within) * force / max
         } else {
             0.0
         }
     }
 
-    /// Force and velocity of the flowing oil at a stretch: mirrored below the range, straight on beyond it.
+    /// Force and piston velocity of flow at a stretch: an odd continuation below the range, a linear one above it.
     fn flow(&self, stretch: f64) -> [f64; 2] {
-        let least = self.side.closed_stretch;
+        let closed = self.side.closed_stretch;
         let beyond = stretch - self.yield_stretch;
         if beyond > 0.0 {
             return [
@@ -169,12 +172,12 @@ impl Direction {
         }
         let y = self
             .side
-            .coordinate_stretched(least + (stretch - least).abs());
+            .coordinate_stretched(closed + (stretch - closed).abs());
         let (above, velocity) = (
             self.side.force(y) - self.side.closed_force,
             self.side.velocity(y),
         );
-        let sign = if stretch < least { -1.0 } else { 1.0 };
+        let sign = if stretch < closed { -1.0 } else { 1.0 };
         [self.side.closed_force + sign * above, sign * velocity]
     }
 }

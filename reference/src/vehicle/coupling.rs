@@ -1,10 +1,10 @@
-//! An element between two bodies: the motion of its ends, its force, and what that does to both bodies.
+//! An element between two bodies: motion of its ends, its force, and the loads on both bodies.
 
 use dashpot_rail::vehicle::{Direction, Element, Law, VehicleParameters};
 
-use super::place::{Coordinates, Place, Pose, Vector, cross, dot};
+use super::attachment::{Attachment, Coordinates, Pose, Vector, cross, dot};
 
-/// What an element does.
+/// Law of an element.
 #[derive(Clone, Debug)]
 pub(super) enum Action {
     /// Springs and dashpots along and about x, y and z.
@@ -22,20 +22,20 @@ pub(super) enum Action {
     },
     /// Spring about x.
     Bar { stiffness: f64 },
-    /// Force along an axis by the damper or the stop of this number.
+    /// Force along an axis by the damper or stop with this index.
     Nonlinear { axis: usize, number: usize },
 }
 
-/// An element with its places.
+/// An element with its attachments.
 #[derive(Clone, Debug)]
 pub(super) struct Coupling {
-    pub(super) places: [Place; 2],
+    pub(super) attachments: [Attachment; 2],
     pub(super) action: Action,
-    /// Force on the second end in the standing vehicle (N).
+    /// Force on the second end while the vehicle is at rest (N).
     pub(super) standing_force: Vector,
 }
 
-/// Second end against the first.
+/// Motion of the second end relative to the first.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Motion {
     pub(super) shift: Vector,
@@ -49,7 +49,7 @@ fn minus(a: Vector, b: Vector) -> Vector {
 }
 
 impl Coupling {
-    /// Returns an element of a vehicle without force; `number` is the index of a damper or stop. `None` if the law is not known here.
+    /// Builds an element without a standing force; `number` is the index of a damper or stop. `None` if its law is unknown.
     pub(super) fn new(
         vehicle: &VehicleParameters,
         element: &Element,
@@ -97,7 +97,7 @@ impl Coupling {
                 let line = minus(second.at_m, first.at_m);
                 let length = dot(&line, &line).sqrt();
                 Action::Rod {
-                    // heights are upward
+                    // Heights are positive upwards, z is positive downwards.
                     along: [line[0] / length, line[1] / length, -line[2] / length],
                     stiffness: *stiffness_n_per_m,
                     damping: *damping_n_s_per_m,
@@ -106,14 +106,14 @@ impl Coupling {
             _ => return None,
         };
         Some(Self {
-            places: [first, second].map(|end| Place::new(vehicle, end)),
+            attachments: [first, second].map(|end| Attachment::new(vehicle, end)),
             action,
             standing_force: [0.0; 3],
         })
     }
 
     pub(super) fn motion(&self, poses: &[Pose; 2]) -> Motion {
-        let [first, second] = &self.places;
+        let [first, second] = &self.attachments;
         let [from, to] = poses;
         Motion {
             shift: minus(
@@ -129,7 +129,7 @@ impl Coupling {
         }
     }
 
-    /// Displacement and velocity along the axis of a damper or stop, and its number.
+    /// Index of a damper or stop, and displacement and velocity along its axis.
     pub(super) fn along(&self, motion: &Motion) -> Option<(usize, f64, f64)> {
         match self.action {
             Action::Nonlinear { axis, number } => {
@@ -173,16 +173,16 @@ impl Coupling {
         }
     }
 
-    /// What `force` and `moment` on the second end, and the opposite on the first, do to the first and the second body.
+    /// Loads on the first and second body by `force` and `moment` on the second end and their opposites on the first.
     pub(super) fn loads(&self, [force, moment]: &[Vector; 2]) -> [Coordinates; 2] {
         let opposite = |vector: &Vector| vector.map(|component| -component);
         [
-            self.places[0].load(&opposite(force), &opposite(moment)),
-            self.places[1].load(force, moment),
+            self.attachments[0].load(&opposite(force), &opposite(moment)),
+            self.attachments[1].load(force, moment),
         ]
     }
 
-    /// What a force along the axis of a damper or stop does to the bodies, per newton on the second end.
+    /// Loads on both bodies by a force of 1 N on the second end along the axis of a damper or stop.
     pub(super) fn loads_along(&self) -> [Coordinates; 2] {
         let mut force = [0.0; 3];
         if let Action::Nonlinear { axis, .. } = self.action {
@@ -191,29 +191,30 @@ impl Coupling {
         self.loads(&[force, [0.0; 3]])
     }
 
-    /// What the standing force does more as the bodies turn.
+    /// Additional loads by the standing force as the bodies rotate.
     ///
-    /// Its potential is `U = -F . R^T (u2 - u1)`, the ends displaced by `u = u_c + omega x r + omega x (omega x r)/2` and the axes
-    /// turned by the mean `m` of both rotations. To first order `-dU` is: the force `m x F` on the second end and its opposite on
-    /// the first; half of the moment `F x (u2 - u1)` on either body; and, for `omega x (omega x r)/2`, the moment
-    /// `(F (r . omega) + r (F . omega))/2 - (F . r) omega` on the second body, its opposite with its own `r` on the first.
+    /// The potential is `U = -F . R^T (u2 - u1)`: the ends are displaced by `u = u_c + omega x r + omega x (omega x
+    /// r)/2`, and the axes rotate by the mean `m` of both rotations. To first order `-dU` consists of the force `m x F`
+    /// on the second end and its opposite on the first; half of the moment `F x (u2 - u1)` on each body; and, from
+    /// `omega x (omega x r)/2`, the moment `(F (r . omega) + r (F . omega))/2 - (F . r) omega` on the second body and
+    /// its opposite, with the first body's `r`, on the first.
     pub(super) fn turned_loads(&self, poses: &[Pose; 2], motion: &Motion) -> [Coordinates; 2] {
         let f = &self.standing_force;
         let turns: [Vector; 2] =
-            std::array::from_fn(|end| self.places[end].turn(&poses[end].displacement));
+            std::array::from_fn(|end| self.attachments[end].turn(&poses[end].displacement));
         let mean = std::array::from_fn(|i| 0.5 * (turns[0][i] + turns[1][i]));
         let force = cross(&mean, f);
         let couple = cross(f, &motion.shift);
         std::array::from_fn(|end| {
             let sign = if end == 0 { -1.0 } else { 1.0 };
-            let (place, turn) = (&self.places[end], &turns[end]);
-            let r = &place.arm;
+            let (attachment, turn) = (&self.attachments[end], &turns[end]);
+            let r = &attachment.arm;
             let (along_arm, along_force) = (0.5 * dot(r, turn), 0.5 * dot(f, turn));
             let moment: Vector = std::array::from_fn(|i| {
-                let of_end = f[i] * along_arm + r[i] * along_force - dot(f, r) * turn[i];
-                0.5 * couple[i] + sign * of_end
+                let end_moment = f[i] * along_arm + r[i] * along_force - dot(f, r) * turn[i];
+                0.5 * couple[i] + sign * end_moment
             });
-            place.load(&force.map(|component| sign * component), &moment)
+            attachment.load(&force.map(|component| sign * component), &moment)
         })
     }
 }

@@ -1,24 +1,24 @@
-//! Equations of motion, body by body: what every element, the rails and the track do to each.
+//! Equations of motion of each body under the loads of all elements, the rails and the track.
 
 use dashpot_rail::contact::{
     Motion, PatchSource, RailDisplacement, WheelsetContact, WheelsetForces,
 };
 use dashpot_rail::creep::CreepLaw;
 
+use super::attachment::{Coordinates, Pose};
 use super::chain::Chain;
 use super::coupling::Coupling;
 use super::frame::{Following, Path};
-use super::place::{Coordinates, Pose};
 use super::standing::Standing;
 use super::stop::Stop;
 
 /// Coordinates of a body.
 pub(super) const N: usize = 5;
 
-/// A damper or a stop: what has ranges.
+/// An element whose law has ranges: a damper or a stop.
 #[derive(Clone, Debug)]
 pub(super) enum Ranged {
-    /// Number among the dampers, and the damper.
+    /// Damper index, and the damper.
     Damper(usize, Box<Chain>),
     Stop(Stop),
 }
@@ -29,32 +29,33 @@ pub(super) struct Rolling {
     pub(super) standing: Standing,
     /// Angular momentum about the axle (kg m^2/s).
     pub(super) momentum: f64,
-    /// What the elements do to it in the standing vehicle but for their load.
+    /// Loads of the elements on the wheelset at rest, without the vertical load.
     pub(super) constant: Coordinates,
 }
 
-/// The vehicle; the state is the coordinates of bodies and wheelsets, their velocities, and the places of the dampers' pistons.
+/// The vehicle. Its state consists of the coordinates of bodies and wheelsets, their velocities, and the positions of
+/// the dampers' pistons.
 pub(super) struct Equations<'a, L, S: PatchSource> {
     pub(super) contact: &'a WheelsetContact<L, S>,
     pub(super) inertia: Vec<Coordinates>,
-    /// The wheelsets, behind the bodies in number.
+    /// Wheelsets; their body indices follow those of the bodies.
     pub(super) wheelsets: Vec<Rolling>,
     pub(super) couplings: Vec<Coupling>,
     pub(super) ranged: Vec<Ranged>,
     pub(super) dampers: usize,
 }
 
-/// What a solver holds constant from one event to the next.
+/// Data that stays constant between two events.
 #[derive(Clone, Debug)]
 pub(super) struct Situation<'a> {
     pub(super) path: Path<'a>,
-    /// Range of every damper and stop.
+    /// Range of each damper and stop.
     pub(super) ranges: Vec<usize>,
-    /// What the track did last, and when: stages of a step share it.
+    /// Motion of the track frames at the time of the last evaluation; iterations of a stage share it.
     following: (f64, Vec<Following>),
 }
 
-/// What follows from a state.
+/// Rates and forces at a state.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Outcome {
     /// Rates of the coordinates.
@@ -66,7 +67,7 @@ pub(super) struct Outcome {
     pub(super) damper_forces: Vec<f64>,
 }
 
-/// A damper's or stop's displacement and velocity.
+/// Displacement and velocity of a damper or stop.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Extension {
     pub(super) displacement: f64,
@@ -82,7 +83,7 @@ impl<'a> Situation<'a> {
         }
     }
 
-    /// Take the track as it is around `time`.
+    /// Selects the parts of the track around `time`.
     pub(super) fn enter(&mut self, time: f64) {
         self.path.enter(time);
         self.following.0 = f64::NAN;
@@ -120,30 +121,35 @@ impl<L: CreepLaw, S: PatchSource> Equations<'_, L, S> {
         &state[2 * N * self.bodies()..]
     }
 
-    /// Poses of the bodies at the ends of an element: in the frame of the middle, or in the body's own frame against the track.
+    /// Poses of the bodies at the ends of an element: in the frame of the vehicle's middle, or in the body's own frame
+    /// if one end is on the track.
     fn poses(&self, following: &[Following], state: &[f64], coupling: &Coupling) -> [Pose; 2] {
-        let on_track = coupling.places.iter().any(|place| place.body.is_none());
+        let on_track = coupling
+            .attachments
+            .iter()
+            .any(|attachment| attachment.body.is_none());
         std::array::from_fn(|end| {
-            let Some(body) = coupling.places[end].body else {
+            let Some(body) = coupling.attachments[end].body else {
                 return Pose::default();
             };
             let (q, v) = (self.coordinates(state, body), self.velocities(state, body));
-            let of = &following[body];
+            let frame = &following[body];
             if on_track {
                 Pose {
                     displacement: q,
-                    rate: std::array::from_fn(|k| v[k] - of.frame_velocity[k]),
+                    rate: std::array::from_fn(|k| v[k] - frame.frame_velocity[k]),
                 }
             } else {
                 Pose {
-                    displacement: std::array::from_fn(|k| q[k] + of.offset[k]),
-                    rate: std::array::from_fn(|k| v[k] + of.offset_rate[k]),
+                    displacement: std::array::from_fn(|k| q[k] + frame.offset[k]),
+                    rate: std::array::from_fn(|k| v[k] + frame.offset_rate[k]),
                 }
             }
         })
     }
 
-    /// Displacement and velocity of every damper and stop; dampers from the middle of their ends, not from their pistons.
+    /// Displacement and velocity of each damper and stop. The displacement of a damper is relative to the vehicle at
+    /// rest, not to its piston.
     pub(super) fn extensions(&self, following: &[Following], state: &[f64]) -> Vec<Extension> {
         let mut extensions = vec![Extension::default(); self.ranged.len()];
         for coupling in &self.couplings {
@@ -158,7 +164,7 @@ impl<L: CreepLaw, S: PatchSource> Equations<'_, L, S> {
         extensions
     }
 
-    /// Motion of a wheelset's contact and of its rails.
+    /// Motion of a wheelset's contact, and displacements of its rails.
     pub(super) fn contact_motion(
         &self,
         situation: &Situation<'_>,
@@ -191,7 +197,7 @@ impl<L: CreepLaw, S: PatchSource> Equations<'_, L, S> {
         (motion, rails)
     }
 
-    /// All rates and forces at a state.
+    /// Computes all rates and forces at a state.
     pub(super) fn outcome(
         &self,
         situation: &mut Situation<'_>,
@@ -204,8 +210,8 @@ impl<L: CreepLaw, S: PatchSource> Equations<'_, L, S> {
         let bodies = self.bodies();
         let mut loads = vec![[0.0; N]; bodies];
         let mut add = |coupling: &Coupling, on_ends: &[Coordinates; 2]| {
-            for (place, load) in coupling.places.iter().zip(on_ends) {
-                if let Some(body) = place.body {
+            for (attachment, load) in coupling.attachments.iter().zip(on_ends) {
+                if let Some(body) = attachment.body {
                     for (sum, load) in loads[body].iter_mut().zip(load) {
                         *sum += load;
                     }
@@ -246,19 +252,19 @@ impl<L: CreepLaw, S: PatchSource> Equations<'_, L, S> {
         outcome.rates.clear();
         outcome.accelerations.clear();
         for (body, load) in loads.iter().enumerate() {
-            let of = &following[body];
+            let frame = &following[body];
             let v = self.velocities(state, body);
             let mut rate: Coordinates = std::array::from_fn(|k| load[k] / self.inertia[body][k]);
-            rate[0] += of.acceleration[0];
-            rate[1] += of.acceleration[1];
+            rate[0] += frame.acceleration[0];
+            rate[1] += frame.acceleration[1];
             outcome.accelerations.push(rate);
             outcome
                 .rates
-                .push(std::array::from_fn(|k| v[k] - of.frame_velocity[k]));
+                .push(std::array::from_fn(|k| v[k] - frame.frame_velocity[k]));
         }
     }
 
-    /// Forces of the rails and gyroscopic moments.
+    /// Adds forces of the rails and gyroscopic moments.
     fn add_contacts(
         &self,
         situation: &Situation<'_>,
@@ -279,16 +285,16 @@ impl<L: CreepLaw, S: PatchSource> Equations<'_, L, S> {
             let [_, y, z] = contact.force_n;
             let [about_x, about_y, about_z] = contact.moment_n_m;
             let v = self.velocities(state, body);
-            let of_rails = [
+            let rail_loads = [
                 y - roll * z,
                 z + roll * y + rolling.standing.load,
                 about_x - rolling.momentum * v[4],
-                // About the axle, which is turned and rolled.
+                // About the axle, which has yawed and rolled.
                 about_y - motion.yaw_rad * about_x + motion.roll_rad * about_z,
                 about_z + rolling.momentum * v[2],
             ];
             for (k, sum) in loads[body].iter_mut().enumerate() {
-                *sum += of_rails[k] + rolling.constant[k];
+                *sum += rail_loads[k] + rolling.constant[k];
             }
         }
     }

@@ -1,4 +1,4 @@
-//! Where a damper or stop leaves the range of its law.
+//! Events: a damper or stop leaves a range of its law.
 
 use dashpot_rail::contact::PatchSource;
 use dashpot_rail::creep::CreepLaw;
@@ -6,7 +6,7 @@ use dashpot_rail::creep::CreepLaw;
 use super::equations::{Equations, N, Ranged, Situation};
 
 impl<L: CreepLaw, S: PatchSource> Equations<'_, L, S> {
-    /// Distances of every damper and stop to the ends of its range, two each.
+    /// Distances of each damper and stop to the two ends of its range.
     pub(super) fn margins(
         &self,
         situation: &mut Situation<'_>,
@@ -15,7 +15,7 @@ impl<L: CreepLaw, S: PatchSource> Equations<'_, L, S> {
     ) -> Vec<f64> {
         situation.follow(time);
         let extensions = self.extensions(situation.following(), state);
-        let of = |number: usize| {
+        let margins = |number: usize| {
             let (range, at) = (situation.ranges[number], extensions[number]);
             match &self.ranged[number] {
                 Ranged::Damper(damper, chain) => {
@@ -25,11 +25,11 @@ impl<L: CreepLaw, S: PatchSource> Equations<'_, L, S> {
                 Ranged::Stop(stop) => stop.ranges.margins(range, at.displacement),
             }
         };
-        (0..self.ranged.len()).flat_map(of).collect()
+        (0..self.ranged.len()).flat_map(margins).collect()
     }
 
-    /// Put every damper and stop into the range it is in; a piston whose damper ceases to yield is where the force is that at which it
-    /// yields. How many changed.
+    /// Updates the range of each damper and stop, and returns the number of changes. The piston of a damper that stops
+    /// yielding is set to the position of the yield force.
     pub(super) fn settle(
         &self,
         situation: &mut Situation<'_>,

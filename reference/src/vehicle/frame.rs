@@ -1,36 +1,36 @@
-//! The track as the bodies of a vehicle meet it: frames that follow it, and what their motion does.
+//! Frames that follow the track at each body of a vehicle, and the effects of their motion.
 
 use dashpot_rail::track::{Alignment, Defect, Layout, Track};
 use dashpot_rail::vehicle::GRAVITY_M_PER_S2;
 
-use super::place::Coordinates;
+use super::attachment::Coordinates;
 
-/// Distance of the middles of both rails, over which the cant is measured (m).
+/// Distance between the middles of both rails, the base of the cant (m).
 const RAILS_APART_M: f64 = 1.5;
 
-/// Abscissae on -1 to 1 and weights of Gauss's quadrature, exact for the cubes of a heading over a transition.
+/// Abscissae from -1 to 1 and weights of Gaussian quadrature, exact for the cubic integrals over a transition.
 const GAUSS: [[f64; 2]; 2] = [
     [-0.577_350_269_189_625_8, 1.0],
     [0.577_350_269_189_625_8, 1.0],
 ];
 
-/// A place that runs along the track: the middle of the vehicle or a body.
+/// A point that runs along the track: the middle of the vehicle, or a body.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Runner {
-    /// From the middle (m).
+    /// Distance ahead of the middle (m).
     pub(super) x: f64,
-    /// Above the rails' top (m).
+    /// Height above the top of the rails (m).
     pub(super) height: f64,
 }
 
-/// Part of the track that a runner is on, continued beyond its ends so that it is smooth for a solver that looks ahead.
+/// Part of the track under a runner, extrapolated beyond its ends so that the solver's trial stages are smooth.
 #[derive(Clone, Copy, Debug)]
 struct Stretch {
     from: f64,
     alignment: Alignment,
 }
 
-/// Cant angle with its rate, and curvature, at a runner.
+/// Cant angle, its rate, and curvature at a runner.
 #[derive(Clone, Copy, Debug, Default)]
 struct Line {
     angle: f64,
@@ -38,26 +38,27 @@ struct Line {
     curvature: f64,
 }
 
-/// What the track does to a body.
+/// Effects of the track's course on a body.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Following {
-    /// Displacement of the body's own frame against that of the middle: `c` of `Q = q + c`.
+    /// Displacement of the body's own frame from the frame of the middle: `c` in `Q = q + c`.
     pub(super) offset: Coordinates,
-    /// `dc/dt - e`: rate of `Q` beyond the absolute velocity.
+    /// `dc/dt - e`: rate of `Q` minus the absolute velocity.
     pub(super) offset_rate: Coordinates,
-    /// Absolute velocity of the body's own frame: `e` of `dq/dt = v - e`.
+    /// Absolute velocity of the body's own frame: `e` in `dq/dt = v - e`.
     pub(super) frame_velocity: Coordinates,
-    /// Lateral and vertical acceleration by gravity and centrifugal force (m/s^2), beyond that on straight track.
+    /// Lateral and vertical acceleration by gravity and centrifugal force (m/s^2), minus the acceleration on straight
+    /// track.
     pub(super) acceleration: [f64; 2],
 }
 
-/// A track that is run along at constant speed from a start.
+/// A run along a track at constant speed.
 #[derive(Clone, Debug)]
 pub(super) struct Path<'a> {
     pub(super) track: &'a Track,
     pub(super) speed: f64,
     pub(super) start: f64,
-    /// The middle, then the bodies.
+    /// The middle, followed by the bodies.
     runners: Vec<Runner>,
     stretches: Vec<Stretch>,
 }
@@ -80,27 +81,27 @@ impl<'a> Path<'a> {
         path
     }
 
-    /// Distance of a place `x` ahead of the middle (m).
+    /// Distance along the track of a point `x` ahead of the middle (m).
     fn distance(&self, time: f64, x: f64) -> f64 {
         self.start + self.speed * time + x
     }
 
-    /// Distance of a body (m).
+    /// Distance along the track of a body (m).
     pub(super) fn distance_of(&self, body: usize, time: f64) -> f64 {
         self.distance(time, self.runners[body + 1].x)
     }
 
-    /// Times at which something meets an edge of the layout or of a defect, up to `end`, rising.
+    /// Times up to `end` at which a runner reaches an edge of the layout or of a defect, in increasing order.
     pub(super) fn edges(&self, end: f64) -> Vec<f64> {
         let layout = self.track.layout().starts_m();
         let defects = self.track.defects().iter().flat_map(ends);
-        let places: Vec<f64> = layout.chain(defects).collect();
+        let edges: Vec<f64> = layout.chain(defects).collect();
         let mut times: Vec<f64> = self
             .runners
             .iter()
             .flat_map(|runner| {
                 let start = self.start + runner.x;
-                places.iter().map(move |place| (place - start) / self.speed)
+                edges.iter().map(move |edge| (edge - start) / self.speed)
             })
             .filter(|time| (0.0..end).contains(time) && *time > 0.0)
             .collect();
@@ -108,7 +109,7 @@ impl<'a> Path<'a> {
         times
     }
 
-    /// Take the parts of the layout that the runners are on at `time`, which no edge is near to.
+    /// Selects the part of the layout under each runner at `time`, which must not be close to an edge.
     pub(super) fn enter(&mut self, time: f64) {
         let at = |runner: &Runner| {
             let from = self.distance(time, runner.x);
@@ -132,13 +133,13 @@ impl<'a> Path<'a> {
         }
     }
 
-    /// What the track does to every body at `time`.
+    /// Effects of the track's course on each body at `time`.
     pub(super) fn following(&self, time: f64) -> Vec<Following> {
         let layout = self.track.layout();
         let middle = self.line(0, time);
         let s = self.distance(time, 0.0);
         let heading = layout.heading_rad(s);
-        let of_body = |number: usize| {
+        let motion_of_body = |number: usize| {
             let Runner { x, height } = self.runners[number];
             let own = self.line(number, time);
             let roll = own.angle - middle.angle;
@@ -154,7 +155,7 @@ impl<'a> Path<'a> {
                 0.0,
                 self.speed * own.curvature,
             ];
-            let of_frame = [
+            let relative_velocity = [
                 lateral_rate + height * roll_rate,
                 0.0,
                 roll_rate,
@@ -164,7 +165,7 @@ impl<'a> Path<'a> {
             let centripetal = self.speed * self.speed * own.curvature;
             Following {
                 offset: [lateral + height * roll, 0.0, roll, 0.0, yaw],
-                offset_rate: std::array::from_fn(|k| of_frame[k] - frame_velocity[k]),
+                offset_rate: std::array::from_fn(|k| relative_velocity[k] - frame_velocity[k]),
                 frame_velocity,
                 acceleration: [
                     GRAVITY_M_PER_S2 * middle.angle.sin() - centripetal * own.angle.cos(),
@@ -172,7 +173,7 @@ impl<'a> Path<'a> {
                 ],
             }
         };
-        (1..self.runners.len()).map(of_body).collect()
+        (1..self.runners.len()).map(motion_of_body).collect()
     }
 }
 
@@ -199,7 +200,7 @@ fn sideways(layout: &Layout, from: f64, to: f64) -> f64 {
     if to < from { -integral } else { integral }
 }
 
-/// Where the formula of a defect changes.
+/// Distances at which the formula of a defect changes.
 fn ends(defect: &Defect) -> Vec<f64> {
     match *defect {
         Defect::CosineDip {

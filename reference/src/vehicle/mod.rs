@@ -1,19 +1,21 @@
 //! Reference solution of a vehicle that runs along a track.
 //!
-//! Newton's and Euler's equations, body by body, each element by the motion of its ends, dampers by the laws of the
-//! [reference damper](crate::damper) with clearance, held piston, flow and yielding, integrated by an adaptive stiff solver to a stated
-//! tolerance. The solver stops where a damper or stop passes an edge of its law and where a body passes an edge of the track. The
-//! contact, a model of its own, is that of [`dashpot_rail::contact`]; nothing else is shared but the description of the vehicle.
+//! The Newton-Euler equations of each body are integrated by an adaptive stiff solver to a stated tolerance. The forces
+//! of elements follow from the motion of their ends; dampers use the laws of the [reference damper](crate::damper) with
+//! clearance, held piston, flow and yielding. The solver restarts where a damper or stop passes an edge of its law, and
+//! where a body passes an edge of the track. Only the wheel-rail contact, [`dashpot_rail::contact`], and the
+//! description of the vehicle are shared with the real-time model.
 //!
-//! Coordinates of each body: lateral, vertical (m), roll, pitch, yaw (rad) in the frame that follows the track at the body, from where the
-//! vehicle stands; velocities are absolute, in the same axes; the pitch of a wheelset is its spin against free rolling.
+//! Coordinates of each body are lateral, vertical (m), roll, pitch and yaw (rad), relative to the vehicle at rest, in
+//! the frame that follows the track at the body. Velocities are absolute, in the same axes. The pitch of a wheelset is
+//! its rotation relative to free rolling.
 
+mod attachment;
 mod chain;
 mod coupling;
 mod equations;
 mod events;
 mod frame;
-mod place;
 mod ranges;
 mod slopes;
 mod solver;
@@ -46,12 +48,12 @@ pub struct VehicleReference<'a, L, S: PatchSource> {
     statistics: Statistics,
 }
 
-/// A vehicle at a time; bodies are followed by wheelsets.
+/// Motion and forces of a vehicle at one time; wheelsets follow the bodies.
 #[derive(Clone, Debug, Default)]
 pub struct VehicleSample {
     /// Time since the start (s).
     pub time_s: f64,
-    /// Lateral, vertical (m), roll, pitch and yaw (rad) against the track at the body.
+    /// Lateral, vertical (m), roll, pitch and yaw (rad) relative to the track at the body.
     pub coordinates: Vec<[f64; 5]>,
     /// Absolute velocities (m/s, rad/s).
     pub velocities: Vec<[f64; 5]>,
@@ -59,33 +61,33 @@ pub struct VehicleSample {
     pub accelerations: Vec<[f64; 5]>,
     /// Forces of the rails on each wheelset.
     pub contacts: Vec<WheelsetForces>,
-    /// Displacement of each damper, in the order of the elements, positive in extension (m).
+    /// Displacement of each damper in the order of the elements, positive in extension (m).
     pub damper_displacements_m: Vec<f64>,
-    /// Force of each damper, positive against extension (N).
+    /// Force of each damper, positive if it resists extension (N).
     pub damper_forces_n: Vec<f64>,
 }
 
-/// What the last run counted.
+/// Statistics of a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Statistics {
-    /// Steps the solver accepted.
+    /// Accepted steps of the solver.
     pub steps: usize,
-    /// Steps it took back for their error.
+    /// Steps rejected for their error.
     pub rejected: usize,
     /// Evaluations of the equations.
     pub evaluations: usize,
-    /// Factorisations of the matrix of its iteration.
+    /// Factorisations of the matrix of the Newton iteration.
     pub factorisations: usize,
-    /// Changes of range of dampers and stops.
+    /// Changes of the range of a damper or stop.
     pub events: usize,
 }
 
 impl<'a, L: CreepLaw, S: PatchSource> VehicleReference<'a, L, S> {
-    /// A vehicle that starts where it would stand, in free rolling, its middle `start_m` along `track`.
+    /// Builds a freely rolling vehicle in its rest position, with its middle at the distance `start_m` along `track`.
     ///
     /// # Errors
-    /// A vehicle that cannot stand, a speed not within 0.1 to 200 m/s, a wheelset that the rails do not carry, a damper whose law has
-    /// no solution.
+    /// The vehicle has no equilibrium, the speed is not within 0.1 to 200 m/s, the rails do not carry a wheelset, or
+    /// the law of a damper has no solution.
     pub fn new(
         vehicle: &VehicleParameters,
         contact: &'a WheelsetContact<L, S>,
@@ -93,7 +95,7 @@ impl<'a, L: CreepLaw, S: PatchSource> VehicleReference<'a, L, S> {
         speed_m_per_s: f64,
         start_m: f64,
     ) -> Result<Self, ReferenceError> {
-        // Checks names and numbers; its solution is not used.
+        // Only checks names and values; the solution is not used.
         Standstill::new(vehicle)?;
         VehicleError::check(&vehicle.name, "speed_m_per_s", speed_m_per_s, SPEED_M_PER_S)?;
         VehicleError::check(&vehicle.name, "start_m", start_m, [-1e7, 1e7])?;
@@ -142,7 +144,7 @@ impl<'a, L: CreepLaw, S: PatchSource> VehicleReference<'a, L, S> {
                 constant,
             });
         }
-        let ranges = ranged.iter().map(|of| match of {
+        let ranges = ranged.iter().map(|element| match element {
             Ranged::Damper(..) => CLEARANCE,
             Ranged::Stop(stop) => stop.ranges.edges.len() / 2,
         });
@@ -159,12 +161,12 @@ impl<'a, L: CreepLaw, S: PatchSource> VehicleReference<'a, L, S> {
         situation.follow(0.0);
         let coordinates = N * equations.bodies();
         let mut start = vec![0.0; equations.size()];
-        for (k, of) in situation.following().iter().enumerate() {
-            start[coordinates + N * k..][..N].copy_from_slice(&of.frame_velocity);
+        for (k, frame) in situation.following().iter().enumerate() {
+            start[coordinates + N * k..][..N].copy_from_slice(&frame.frame_velocity);
         }
         let extensions = equations.extensions(situation.following(), &start);
-        for (of, at) in equations.ranged.iter().zip(extensions) {
-            if let Ranged::Damper(damper, _) = of {
+        for (element, at) in equations.ranged.iter().zip(extensions) {
+            if let Ranged::Damper(damper, _) = element {
                 start[2 * coordinates + damper] = at.displacement;
             }
         }
@@ -176,10 +178,12 @@ impl<'a, L: CreepLaw, S: PatchSource> VehicleReference<'a, L, S> {
         })
     }
 
-    /// The vehicle at each of the rising times (s) from the start at 0 on, to a relative tolerance a step.
+    /// Runs the vehicle from time 0 and returns it at each of the increasing times (s). `tolerance` is relative, per
+    /// step.
     ///
     /// # Errors
-    /// Times that are negative or do not increase; a tolerance not within 1e-12 to 0.01 or one that the solver cannot reach.
+    /// Times that are negative or do not increase, or a tolerance that is not within 1e-12 to 0.01 or cannot be
+    /// reached.
     pub fn run(
         &mut self,
         times_s: &[f64],
@@ -199,7 +203,7 @@ impl<'a, L: CreepLaw, S: PatchSource> VehicleReference<'a, L, S> {
         }
         let equations = &self.equations;
         let mut samples = Vec::with_capacity(times_s.len());
-        let told = |situation: &mut Situation<'a>, time: f64, state: &[f64]| {
+        let on_sample = |situation: &mut Situation<'a>, time: f64, state: &[f64]| {
             samples.push(sample(equations, situation, time, state));
         };
         self.statistics = solver::run(
@@ -208,12 +212,12 @@ impl<'a, L: CreepLaw, S: PatchSource> VehicleReference<'a, L, S> {
             &self.start,
             times_s,
             tolerance,
-            told,
+            on_sample,
         )?;
         Ok(samples)
     }
 
-    /// What the last run counted.
+    /// Statistics of the last run.
     pub fn statistics(&self) -> Statistics {
         self.statistics
     }

@@ -1,17 +1,17 @@
-//! The ranges between the edges of a law: within one the law is smooth, and the solver stops where it is left.
+//! Ranges between the edges of a law. The law is smooth within a range; the solver restarts at its ends.
 
-/// Overlap of neighbouring ranges (m), so that a motion that has just entered a range is well within it. Its force, at a
-/// stiffness of 1e9 N/m, is 10 mN.
+/// Overlap of neighbouring ranges (m), so that a motion that has just entered a range is well within it. At a stiffness
+/// of 1e9 N/m it corresponds to 10 mN.
 pub(super) const OVERLAP_M: f64 = 1e-11;
 
-/// Rising edges; range `i` is below edge `i`, the last one above all.
+/// Increasing edges. Range `i` is below edge `i`; the last range is above all edges.
 #[derive(Clone, Debug)]
 pub(super) struct Ranges {
     pub(super) edges: Vec<f64>,
 }
 
 impl Ranges {
-    /// Distances to the lower and the upper end of a range, positive within.
+    /// Distances to the lower and the upper end of a range, positive inside.
     pub(super) fn margins(&self, range: usize, x: f64) -> [f64; 2] {
         let below = range
             .checked_sub(1)
@@ -23,7 +23,7 @@ impl Ranges {
         [below, above]
     }
 
-    /// The range of `x`, which was in `range` before.
+    /// New range of a motion at `x` that was in `range`.
     pub(super) fn settled(&self, range: usize, x: f64) -> usize {
         let mut settled = range;
         while settled < self.edges.len() && self.margins(settled, x)[1] < 0.5 * OVERLAP_M {
@@ -41,7 +41,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_has_left_a_range_is_well_within_the_next() {
+    fn a_motion_that_leaves_a_range_is_well_within_the_next() {
         let ranges = Ranges {
             edges: vec![-1e-3, -1e-3, 1e-3],
         };
@@ -50,7 +50,7 @@ mod tests {
         assert!(ranges.margins(3, past)[0] > OVERLAP_M);
         assert_eq!(ranges.settled(3, 1e-3), 3);
         assert_eq!(ranges.settled(3, 1e-3 - OVERLAP_M), 2);
-        // an empty range is passed
+        // An empty range is skipped.
         assert_eq!(ranges.settled(2, -1e-3 - OVERLAP_M), 0);
         assert_eq!(ranges.settled(0, -1e-3 + OVERLAP_M), 2);
     }

@@ -1,52 +1,21 @@
-//! Jacobian matrix of the equations, for the solver's iteration: what is linear once, the rest at each state.
+//! Jacobian matrix of the equations for the solver's iteration. The linear part is computed once, the rest at each
+//! state.
 
 use dashpot_rail::contact::{PatchSource, WheelsetForces};
 use dashpot_rail::creep::CreepLaw;
 
+use super::attachment::{Coordinates, Pose};
 use super::coupling::Coupling;
 use super::equations::{Equations, N, Ranged, Situation};
-use super::place::{Coordinates, Pose};
+use crate::linear::Matrix;
 
-/// Fields of a contact's motion by each coordinate of a wheelset, and by each velocity with its sign.
+/// Field of a contact's motion for each coordinate of a wheelset, and field with sign for each velocity.
 const BY_COORDINATE: [Option<usize>; N] = [Some(1), Some(2), Some(3), None, Some(4)];
 const BY_VELOCITY: [(usize, f64); N] = [(5, 1.0), (6, 1.0), (7, 1.0), (8, -1.0), (9, 1.0)];
 
-/// A square matrix, row by row.
-#[derive(Clone, Debug)]
-pub(super) struct Matrix {
-    size: usize,
-    entries: Vec<f64>,
-}
-
-impl Matrix {
-    fn zeros(size: usize) -> Self {
-        Self {
-            size,
-            entries: vec![0.0; size * size],
-        }
-    }
-
-    fn add(&mut self, row: usize, column: usize, entry: f64) {
-        self.entries[row * self.size + column] += entry;
-    }
-
-    /// Product with a vector of few entries.
-    pub(super) fn times(&self, vector: &[f64], product: &mut [f64]) {
-        product.fill(0.0);
-        for (column, factor) in vector
-            .iter()
-            .enumerate()
-            .filter(|(_, factor)| **factor != 0.0)
-        {
-            for (row, sum) in product.iter_mut().enumerate() {
-                *sum += self.entries[row * self.size + column] * factor;
-            }
-        }
-    }
-}
-
 impl<L: CreepLaw, S: PatchSource> Equations<'_, L, S> {
-    /// What does not change: springs, dashpots, standing forces, gyroscopic moments, and that velocities move.
+    /// Constant part of the matrix: springs, dashpots, standing forces, gyroscopic moments, and rates of the
+    /// coordinates.
     pub(super) fn linear_slopes(&self) -> Matrix {
         let coordinates = N * self.bodies();
         let mut matrix = Matrix::zeros(self.size());
@@ -54,8 +23,10 @@ impl<L: CreepLaw, S: PatchSource> Equations<'_, L, S> {
             matrix.add(k, coordinates + k, 1.0);
         }
         for coupling in &self.couplings {
-            for (end, place) in coupling.places.iter().enumerate() {
-                let Some(body) = place.body else { continue };
+            for (end, attachment) in coupling.attachments.iter().enumerate() {
+                let Some(body) = attachment.body else {
+                    continue;
+                };
                 for k in 0..N {
                     let mut unit = [0.0; N];
                     unit[k] = 1.0;
@@ -97,8 +68,8 @@ impl<L: CreepLaw, S: PatchSource> Equations<'_, L, S> {
         loads: &[Coordinates; 2],
         column: usize,
     ) {
-        for (place, load) in coupling.places.iter().zip(loads) {
-            if let Some(body) = place.body {
+        for (attachment, load) in coupling.attachments.iter().zip(loads) {
+            if let Some(body) = attachment.body {
                 for (k, load) in load.iter().enumerate() {
                     let row = N * (self.bodies() + body) + k;
                     matrix.add(row, column, load / self.inertia[body][k]);
@@ -107,7 +78,7 @@ impl<L: CreepLaw, S: PatchSource> Equations<'_, L, S> {
         }
     }
 
-    /// The whole matrix at a state.
+    /// Complete matrix at a state.
     pub(super) fn slopes(
         &self,
         linear: &Matrix,
@@ -127,33 +98,35 @@ impl<L: CreepLaw, S: PatchSource> Equations<'_, L, S> {
             let per_newton = coupling.loads_along();
             let range = situation.ranges[number];
             let displacement = extensions[number].displacement;
-            // The loads of a unit force are the displacement by unit coordinates.
+            // The loads of a unit force equal the displacements by unit coordinates (virtual work).
             let (slope, damper) = match &self.ranged[number] {
                 Ranged::Stop(stop) => (stop.slope(range), None),
                 Ranged::Damper(damper, chain) => {
-                    let place = 2 * coordinates + damper;
-                    let from_piston = displacement - state[place];
-                    let [slope, of_piston, yields] = chain.slopes(range, from_piston);
-                    matrix.add(place, place, -of_piston);
-                    (slope, Some((place, of_piston, yields)))
+                    let piston = 2 * coordinates + damper;
+                    let from_piston = displacement - state[piston];
+                    let [slope, piston_slope, yields] = chain.slopes(range, from_piston);
+                    matrix.add(piston, piston, -piston_slope);
+                    (slope, Some((piston, piston_slope, yields)))
                 }
             };
             let resisting = per_newton.map(|load| load.map(|per| -per * slope));
-            for (end, place) in coupling.places.iter().enumerate() {
-                let Some(body) = place.body else { continue };
+            for (end, attachment) in coupling.attachments.iter().enumerate() {
+                let Some(body) = attachment.body else {
+                    continue;
+                };
                 for (k, moved) in per_newton[end].iter().enumerate() {
                     let column = N * body + k;
                     let loads = resisting.map(|load| load.map(|load| load * moved));
                     self.add_column(&mut matrix, coupling, &loads, column);
-                    if let Some((place, of_piston, yields)) = damper {
-                        matrix.add(place, column, of_piston * moved);
-                        matrix.add(place, coordinates + column, yields * moved);
+                    if let Some((piston, piston_slope, yields)) = damper {
+                        matrix.add(piston, column, piston_slope * moved);
+                        matrix.add(piston, coordinates + column, yields * moved);
                     }
                 }
             }
-            if let Some((place, ..)) = damper {
+            if let Some((piston, ..)) = damper {
                 let loads = resisting.map(|load| load.map(|load| -load));
-                self.add_column(&mut matrix, coupling, &loads, place);
+                self.add_column(&mut matrix, coupling, &loads, piston);
             }
         }
         self.add_contact_slopes(&mut matrix, situation, time, state);
@@ -177,25 +150,25 @@ impl<L: CreepLaw, S: PatchSource> Equations<'_, L, S> {
                 .update_with_derivatives(&motion, &rails, &mut forces);
             for k in 0..N {
                 let by = |field: usize| -> f64 {
-                    let of_wheel = |wheel: &dashpot_rail::contact::WheelDerivatives| match k {
+                    let derivative = |wheel: &dashpot_rail::contact::WheelDerivatives| match k {
                         0 | 1 => wheel.force[k + 1][field],
-                        // About the axle, which is turned and rolled.
+                        // About the axle, which has yawed and rolled.
                         3 => {
                             wheel.moment[1][field] - motion.yaw_rad * wheel.moment[0][field]
                                 + motion.roll_rad * wheel.moment[2][field]
                         }
                         _ => wheel.moment[k - 2][field],
                     };
-                    wheels.iter().map(of_wheel).sum::<f64>() / self.inertia[body][k]
+                    wheels.iter().map(derivative).sum::<f64>() / self.inertia[body][k]
                 };
                 let row = coordinates + N * body + k;
                 for column in 0..N {
-                    let place = N * body + column;
+                    let coordinate = N * body + column;
                     if let Some(field) = BY_COORDINATE[column] {
-                        matrix.add(row, place, by(field));
+                        matrix.add(row, coordinate, by(field));
                     }
                     let (field, sign) = BY_VELOCITY[column];
-                    matrix.add(row, coordinates + place, sign * by(field));
+                    matrix.add(row, coordinates + coordinate, sign * by(field));
                 }
                 if k == 3 {
                     let [about_x, _, about_z] = forces.moment_n_m;

@@ -1,72 +1,45 @@
-//! The equations by ESDIRK34 of diffsol: adaptive, L-stable, restarted at the edges of the elements' laws and of the track.
-
-use std::cell::RefCell;
-
-use diffsol::error::DiffsolError;
-use diffsol::{
-    NalgebraContext, NalgebraLU, NalgebraMat, NalgebraVec, OdeBuilder, OdeEquationsImplicit,
-    OdeSolverMethod, OdeSolverProblem, OdeSolverState, OdeSolverStopReason,
-};
+//! Integration of a vehicle's equations, restarted at the edges of the elements' laws and of the track.
 
 use dashpot_rail::contact::PatchSource;
 use dashpot_rail::creep::CreepLaw;
 
 use super::Statistics;
 use super::equations::{Equations, N, Outcome, Situation};
-use super::slopes::Matrix;
 use crate::error::ReferenceError;
+use crate::esdirk::{self, Esdirk, StepEnd, StepTooSmall, Tolerances};
+use crate::linear::Matrix;
 
 /// Displacements (m or rad) and velocities (m/s or rad/s) below which the tolerance is absolute.
 const SCALES: [f64; 2] = [1e-3, 0.05];
 
-/// Share of the tolerance over which the rates are taken as linear.
-const LINEAR_SHARE: f64 = 0.02;
+/// Change of state, relative to the tolerance, within which the rates are linearised.
+const LINEAR_RATIO: f64 = 0.02;
 
 /// First step (s).
 const FIRST_STEP_S: f64 = 1e-6;
 
-/// Least time between two restarts at edges of the track (s).
-const LEAST_APART_S: f64 = 1e-9;
+/// Minimum step (s).
+const MIN_STEP_S: f64 = 1e-16;
 
-type Vector = NalgebraVec<f64>;
-type Dense = NalgebraMat<f64>;
+/// Minimum time between two restarts at edges of the track (s).
+const MIN_EDGE_INTERVAL_S: f64 = 1e-9;
 
-/// What the closures of a problem look at.
-struct Shared<'e, 'a, L, S: PatchSource> {
+/// Equations for the solver, with data kept between evaluations.
+struct Problem<'e, 'a, L, S: PatchSource> {
     equations: &'e Equations<'a, L, S>,
+    /// Constant part of the Jacobian.
     linear: Matrix,
     situation: Situation<'a>,
     outcome: Outcome,
-    /// Matrix with the state it is of: the solver asks for its columns one by one.
-    slopes: Option<(f64, Vec<f64>, Matrix)>,
+    /// Last Jacobian since the restart.
+    jacobian: Option<Matrix>,
     /// Time, state and rates of the last evaluation.
     last: (f64, Vec<f64>, Vec<f64>),
     tolerance: f64,
     evaluations: usize,
 }
 
-impl<L: CreepLaw, S: PatchSource> Shared<'_, '_, L, S> {
-    /// Rates at a state; within [`LINEAR_SHARE`] of the tolerance from the state before, by the slopes from there.
-    ///
-    /// The tables of the contact jump by the rounding of their numbers (1e-7 of a force) at the borders of their cells, one of which is at
-    /// the track's centre. An iteration that comes to rest upon one would jump to and fro for ever.
-    fn rates(&mut self, time: f64, state: &[f64], rates: &mut [f64]) {
-        let (at, of, known) = &self.last;
-        if *at == time
-            && let Some((.., slopes)) = &self.slopes
-            && self.equations.distance(of, state, self.tolerance) < LINEAR_SHARE
-        {
-            let step: Vec<f64> = state.iter().zip(of).map(|(to, from)| to - from).collect();
-            slopes.times(&step, rates);
-            for (rate, known) in rates.iter_mut().zip(known) {
-                *rate += known;
-            }
-            return;
-        }
-        self.evaluate(time, state, rates);
-        self.last = (time, state.to_vec(), rates.to_vec());
-    }
-
+impl<L: CreepLaw, S: PatchSource> Problem<'_, '_, L, S> {
     fn evaluate(&mut self, time: f64, state: &[f64], rates: &mut [f64]) {
         self.evaluations += 1;
         let outcome = &mut self.outcome;
@@ -81,21 +54,47 @@ impl<L: CreepLaw, S: PatchSource> Shared<'_, '_, L, S> {
         }
         rates[2 * N * bodies..].copy_from_slice(&outcome.piston_velocities);
     }
+}
 
-    fn slopes_times(&mut self, time: f64, state: &[f64], vector: &[f64], product: &mut [f64]) {
-        let is_known = self
-            .slopes
-            .as_ref()
-            .is_some_and(|(at, of, _)| *at == time && of == state);
-        if !is_known {
-            let matrix = self
-                .equations
-                .slopes(&self.linear, &mut self.situation, time, state);
-            self.slopes = Some((time, state.to_vec(), matrix));
+impl<L: CreepLaw, S: PatchSource> esdirk::Equations for Problem<'_, '_, L, S> {
+    /// Rates at a state. Within [`LINEAR_RATIO`] of the tolerance from the last evaluated state, they are extrapolated
+    /// from there by the Jacobian.
+    ///
+    /// The contact tables are rounded to `f32`, so forces jump by about 1e-7 of their magnitude at the borders of
+    /// their cells; one border is at the track's centre. An iteration that converges to a border would otherwise jump
+    /// between both sides forever.
+    fn rates(&mut self, time: f64, state: &[f64], rates: &mut [f64]) {
+        let (last_time, last_state, last_rates) = &self.last;
+        if *last_time == time
+            && let Some(jacobian) = &self.jacobian
+            && self.equations.distance(last_state, state, self.tolerance) < LINEAR_RATIO
+        {
+            let step: Vec<f64> = state
+                .iter()
+                .zip(last_state)
+                .map(|(to, from)| to - from)
+                .collect();
+            jacobian.times(&step, rates);
+            for (rate, last) in rates.iter_mut().zip(last_rates) {
+                *rate += last;
+            }
+            return;
         }
-        if let Some((.., matrix)) = &self.slopes {
-            matrix.times(vector, product);
-        }
+        self.evaluate(time, state, rates);
+        self.last = (time, state.to_vec(), rates.to_vec());
+    }
+
+    fn jacobian(&mut self, time: f64, state: &[f64], jacobian: &mut Matrix) {
+        let slopes = self
+            .equations
+            .slopes(&self.linear, &mut self.situation, time, state);
+        jacobian.clone_from(&slopes);
+        self.jacobian = Some(slopes);
+    }
+
+    fn events(&mut self, time: f64, state: &[f64], values: &mut [f64]) {
+        let margins = self.equations.margins(&mut self.situation, time, state);
+        values.copy_from_slice(&margins);
     }
 }
 
@@ -107,7 +106,7 @@ impl<L: CreepLaw, S: PatchSource> Equations<'_, L, S> {
         SCALES[usize::from(is_velocity)]
     }
 
-    /// Distance of two states over the tolerance: root mean square.
+    /// Root mean square distance of two states over the tolerance.
     fn distance(&self, from: &[f64], to: &[f64], tolerance: f64) -> f64 {
         let over = |(k, (from, to)): (usize, (&f64, &f64))| {
             let allowed = tolerance * (from.abs() + self.scale(k));
@@ -118,154 +117,97 @@ impl<L: CreepLaw, S: PatchSource> Equations<'_, L, S> {
     }
 }
 
-fn problem<'p, L: CreepLaw, S: PatchSource>(
-    shared: &'p RefCell<Shared<'_, '_, L, S>>,
-    start: &'p [f64],
-    tolerance: f64,
-) -> Result<
-    OdeSolverProblem<
-        impl OdeEquationsImplicit<M = Dense, V = Vector, T = f64, C = NalgebraContext> + 'p,
-    >,
-    DiffsolError,
-> {
-    let equations = shared.borrow().equations;
-    let absolute = (0..equations.size()).map(|k| tolerance * equations.scale(k));
-    let roots = 2 * equations.ranged.len();
-    OdeBuilder::<Dense>::new()
-        .rtol(tolerance)
-        .atol(absolute.collect::<Vec<f64>>())
-        .h0(FIRST_STEP_S)
-        .rhs_implicit(
-            move |x: &[f64], _p: &[f64], t: f64, y: &mut [f64]| {
-                shared.borrow_mut().rates(t, x, y);
-            },
-            move |x: &[f64], _p: &[f64], t: f64, v: &[f64], y: &mut [f64]| {
-                shared.borrow_mut().slopes_times(t, x, v, y);
-            },
-        )
-        .init(
-            move |_p: &[f64], _t: f64, y: &mut [f64]| y.copy_from_slice(start),
-            start.len(),
-        )
-        .root(
-            move |x: &[f64], _p: &[f64], t: f64, y: &mut [f64]| {
-                let shared = &mut *shared.borrow_mut();
-                let margins = shared.equations.margins(&mut shared.situation, t, x);
-                // one at least, which is never met
-                y.fill(1.0);
-                y[..margins.len()].copy_from_slice(&margins);
-            },
-            roots.max(1),
-        )
-        .build()
-}
-
-/// Runs from `start` at the time 0 and tells `told` of the situation, time and state at each of the rising `times`.
+/// Runs from `start` at time 0 and calls `on_sample` with the situation, time and state at each of the increasing
+/// `times`.
 pub(super) fn run<'a, L: CreepLaw, S: PatchSource>(
     equations: &Equations<'a, L, S>,
     situation: Situation<'a>,
     start: &[f64],
     times: &[f64],
     tolerance: f64,
-    mut told: impl FnMut(&mut Situation<'a>, f64, &[f64]),
+    mut on_sample: impl FnMut(&mut Situation<'a>, f64, &[f64]),
 ) -> Result<Statistics, ReferenceError> {
-    let failed = |place: String| {
-        move |source: DiffsolError| ReferenceError::Solver {
-            place,
-            source: source.into(),
-        }
-    };
-    let shared = RefCell::new(Shared {
+    let mut problem = Problem {
         equations,
         linear: equations.linear_slopes(),
         situation,
         outcome: Outcome::default(),
-        slopes: None,
+        jacobian: None,
         last: (f64::NAN, vec![], vec![]),
         tolerance,
         evaluations: 0,
-    });
-    let mut problem = problem(&shared, start, tolerance).map_err(failed(String::new()))?;
-    problem.ode_options.max_nonlinear_solver_failures = usize::MAX;
-    problem.ode_options.min_timestep = 1e-16;
-    let mut solver = problem
-        .esdirk34::<NalgebraLU<f64>>()
-        .map_err(failed(String::new()))?;
+    };
+    let tolerances = Tolerances {
+        relative: tolerance,
+        absolute: (0..equations.size())
+            .map(|k| tolerance * equations.scale(k))
+            .collect(),
+        min_length: MIN_STEP_S,
+    };
+    let mut solver = Esdirk::new(tolerances, 2 * equations.ranged.len());
     let mut statistics = Statistics::default();
     let mut waiting = times.iter().copied().peekable();
     while let Some(time) = waiting.next_if(|time| *time <= 0.0) {
-        told(&mut shared.borrow_mut().situation, time, start);
+        on_sample(&mut problem.situation, time, start);
     }
     let Some(end) = times.last().copied().filter(|end| *end > 0.0) else {
         return Ok(statistics);
     };
-    let edges = shared.borrow().situation.path.edges(end);
+    let edges = problem.situation.path.edges(end);
     let mut state = start.to_vec();
-    let mut rates = vec![0.0; start.len()];
+    let mut sample = state.clone();
     let (mut now, mut step) = (0.0, FIRST_STEP_S);
     for edge in edges.into_iter().chain([end]) {
-        if edge < now + LEAST_APART_S {
+        if edge < now + MIN_EDGE_INTERVAL_S {
             continue;
         }
-        shared.borrow_mut().situation.enter(0.5 * (now + edge));
-        let at = |time: f64| format!(" (at {time} s)");
-        // Restarts, until the edge is met.
-        loop {
-            {
-                let shared = &mut *shared.borrow_mut();
-                statistics.events += equations.settle(&mut shared.situation, now, &mut state);
-                shared.slopes = None;
-                shared.rates(now, &state, &mut rates);
-            }
-            let mut restart = solver.state_clone();
-            {
-                let restart = restart.as_mut();
-                for k in 0..state.len() {
-                    restart.y[k] = state[k];
-                    restart.dy[k] = rates[k];
-                }
-                *restart.t = now;
-                *restart.h = step;
-            }
-            solver.set_state(restart);
-            solver.set_stop_time(edge).map_err(failed(at(now)))?;
-            let is_at_edge = loop {
-                let reason = solver.step().map_err(failed(at(now)))?;
-                let met = match reason {
-                    OdeSolverStopReason::RootFound(time, _) => Some(time),
-                    _ => None,
+        problem.situation.enter(0.5 * (now + edge));
+        // Restarts at each event until the edge is reached.
+        let mut is_at_edge = false;
+        while !is_at_edge {
+            statistics.events += equations.settle(&mut problem.situation, now, &mut state);
+            problem.jacobian = None;
+            solver.restart(&mut problem, now, &state, step);
+            let step_end = loop {
+                let step_end = solver
+                    .step(&mut problem, edge)
+                    .map_err(|error| failed(now, error))?;
+                now = match step_end {
+                    StepEnd::Event { time, .. } => time,
+                    StepEnd::Free | StepEnd::Stop => solver.time(),
                 };
-                now = met.unwrap_or(solver.state().t);
                 while let Some(time) = waiting.next_if(|time| *time <= now) {
-                    let at_time = solver.interpolate(time).map_err(failed(at(time)))?;
-                    let at_time: Vec<f64> = (0..state.len()).map(|k| at_time[k]).collect();
-                    told(&mut shared.borrow_mut().situation, time, &at_time);
+                    solver.interpolate(time, &mut sample);
+                    on_sample(&mut problem.situation, time, &sample);
                 }
-                if let Some(time) = met {
-                    let there = solver.interpolate(time).map_err(failed(at(time)))?;
-                    (0..state.len()).for_each(|k| state[k] = there[k]);
-                    step = solver.state().h;
-                    break edge - now < LEAST_APART_S;
+                if step_end != StepEnd::Free {
+                    break step_end;
                 }
-                if matches!(reason, OdeSolverStopReason::TstopReached) {
-                    let there = solver.state();
-                    (0..state.len()).for_each(|k| state[k] = there.y[k]);
-                    break true;
-                }
-                step = solver.state().h;
             };
-            if is_at_edge {
-                break;
+            step = solver.wanted_length();
+            if step_end == StepEnd::Stop {
+                state.copy_from_slice(solver.state());
+                is_at_edge = true;
+            } else {
+                solver.interpolate(now, &mut state);
+                is_at_edge = edge - now < MIN_EDGE_INTERVAL_S;
             }
         }
     }
     for time in waiting {
-        told(&mut shared.borrow_mut().situation, time, &state);
+        on_sample(&mut problem.situation, time, &state);
     }
-    let counted = solver.get_statistics();
-    statistics.steps = counted.number_of_steps;
-    statistics.rejected = counted.number_of_error_test_failures;
-    statistics.factorisations = counted.number_of_linear_solver_setups;
-    statistics.evaluations = shared.borrow().evaluations;
+    let counts = solver.counts();
+    statistics.steps = counts.steps;
+    statistics.rejected = counts.rejected;
+    statistics.factorisations = counts.factorisations;
+    statistics.evaluations = problem.evaluations;
     Ok(statistics)
+}
+
+fn failed(time: f64, error: StepTooSmall) -> ReferenceError {
+    ReferenceError::Solver {
+        place: format!(" (at {time} s)"),
+        source: error.into(),
+    }
 }

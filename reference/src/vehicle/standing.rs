@@ -1,22 +1,23 @@
-//! The vehicle as it stands: forces of its elements under its weight, and its wheelsets on the rails.
+//! The vehicle at rest: forces of its elements under its weight, and position of its wheelsets on the rails.
 
 use dashpot_rail::contact::{Motion, PatchSource, RailDisplacement, WheelsetContact};
 use dashpot_rail::creep::CreepLaw;
 use dashpot_rail::vehicle::{GRAVITY_M_PER_S2, VehicleError, VehicleParameters};
 
+use super::attachment::{Coordinates, Pose};
 use super::coupling::Coupling;
-use super::place::{Coordinates, Pose};
+use crate::linear::{Factors, Matrix};
 
 /// Coordinates of a body.
 const N: usize = 5;
 
-/// Depth below the first touch to which a wheelset is looked for (m).
+/// Half the range of heights that is searched for a wheelset (m).
 const DEEPEST_M: f64 = 2e-3;
 
-/// A wheelset on the rails.
+/// Equilibrium of a wheelset on the rails.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Standing {
-    /// Place of the centre that carries the load (m).
+    /// Vertical position of the centre at which the rails carry the load (m).
     pub(super) vertical: f64,
     /// Load on the rails (N).
     pub(super) load: f64,
@@ -24,7 +25,8 @@ pub(super) struct Standing {
     pub(super) rotation: f64,
 }
 
-/// Sets the force of every element in the standing vehicle, the wheelsets held; gives what the elements then do to every wheelset.
+/// Sets the force of each element with the vehicle at rest and the wheelsets fixed; returns the loads of the elements
+/// on each wheelset.
 pub(super) fn load_elements(
     vehicle: &VehicleParameters,
     couplings: &mut [Coupling],
@@ -32,7 +34,7 @@ pub(super) fn load_elements(
     let bodies = vehicle.bodies.len();
     let size = N * bodies;
     let poses = |coupling: &Coupling, displacements: &[f64]| {
-        std::array::from_fn(|end| match coupling.places[end].body {
+        std::array::from_fn(|end| match coupling.attachments[end].body {
             Some(body) if body < bodies => Pose {
                 displacement: std::array::from_fn(|k| displacements[N * body + k]),
                 rate: [0.0; N],
@@ -45,8 +47,8 @@ pub(super) fn load_elements(
         for coupling in couplings {
             let motion = coupling.motion(&poses(coupling, displacements));
             let loads = coupling.loads(&coupling.spring_wrench(&motion));
-            for (place, load) in coupling.places.iter().zip(loads) {
-                if let Some(body) = place.body {
+            for (attachment, load) in coupling.attachments.iter().zip(loads) {
+                if let Some(body) = attachment.body {
                     for (k, load) in load.into_iter().enumerate() {
                         all[N * body + k] += load;
                     }
@@ -55,19 +57,24 @@ pub(super) fn load_elements(
         }
         all
     };
-    // Columns of the forces by unit displacements, and the weight that they carry.
-    let mut rows = vec![vec![0.0; size + 1]; size];
+    // Column by column, minus the loads by unit displacements.
+    let mut stiffness = Matrix::zeros(size);
     for column in 0..size {
         let mut unit = vec![0.0; size];
         unit[column] = 1.0;
-        for (row, load) in rows.iter_mut().zip(loads(couplings, &unit)) {
-            row[column] = -load;
+        for (row, load) in loads(couplings, &unit)[..size].iter().enumerate() {
+            stiffness.add(row, column, -load);
         }
     }
-    for (body, rows) in vehicle.bodies.iter().zip(rows.chunks_mut(N)) {
-        rows[1][size] = body.mass_kg * GRAVITY_M_PER_S2;
+    let factors = Factors::new(stiffness);
+    if factors.is_singular() {
+        return Err(VehicleError::NoModes);
     }
-    let displacements = solved(rows).ok_or(VehicleError::NoModes)?;
+    let mut displacements = vec![0.0; size];
+    for (body, weights) in vehicle.bodies.iter().zip(displacements.chunks_mut(N)) {
+        weights[1] = body.mass_kg * GRAVITY_M_PER_S2;
+    }
+    factors.solve(&mut displacements);
     let on_wheelsets = loads(couplings, &displacements)[size..]
         .chunks(N)
         .map(|load| std::array::from_fn(|k| load[k]))
@@ -80,34 +87,9 @@ pub(super) fn load_elements(
     Ok(on_wheelsets)
 }
 
-/// Solution of linear equations by elimination with the greatest pivots; the last column is the right side.
-fn solved(mut rows: Vec<Vec<f64>>) -> Option<Vec<f64>> {
-    let size = rows.len();
-    for k in 0..size {
-        let pivot = (k..size).max_by(|a, b| rows[*a][k].abs().total_cmp(&rows[*b][k].abs()))?;
-        rows.swap(k, pivot);
-        let (head, tail) = rows.split_at_mut(k + 1);
-        let top = head.last()?;
-        if top[k] == 0.0 {
-            return None;
-        }
-        for row in tail {
-            let factor = row[k] / top[k];
-            for (number, of_top) in row.iter_mut().zip(top).skip(k) {
-                *number -= factor * of_top;
-            }
-        }
-    }
-    let mut solution = vec![0.0; size];
-    for k in (0..size).rev() {
-        let known: f64 = (k + 1..size).map(|j| rows[k][j] * solution[j]).sum();
-        solution[k] = (rows[k][size] - known) / rows[k][k];
-    }
-    Some(solution)
-}
-
 impl Standing {
-    /// A centred wheelset of `contact` that rolls freely under `load` (N) at `speed` (m/s); none where the rails do not carry it.
+    /// Finds the equilibrium of a centred wheelset that rolls freely under `load` (N) at `speed` (m/s); `None` if the
+    /// rails do not carry it.
     pub(super) fn new<L: CreepLaw, S: PatchSource>(
         contact: &WheelsetContact<L, S>,
         speed: f64,
@@ -119,7 +101,7 @@ impl Standing {
         let rails = [RailDisplacement::default(); 2];
         let mut rotation = speed / 0.5;
         let mut vertical = 0.0;
-        // The height depends on the creep a little, the radius on the height.
+        // The height depends slightly on the creep, and the rolling radius on the height.
         for _ in 0..4 {
             let at = |vertical: f64| Motion {
                 speed_m_per_s: speed,

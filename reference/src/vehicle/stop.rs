@@ -1,41 +1,41 @@
-//! A bump stop: force by the straight line between two points of its law.
+//! A bump stop with a piecewise linear law.
 
 use super::ranges::Ranges;
 
-/// Ranges and lines of a stop.
+/// Ranges of a stop, and the line of each.
 #[derive(Clone, Debug)]
 pub(super) struct Stop {
     pub(super) ranges: Ranges,
-    /// Place on, force at it and slope of the line of each range (m, N, N/m).
+    /// A displacement, the force there and the slope of the line of each range (m, N, N/m).
     lines: Vec<[f64; 3]>,
 }
 
 impl Stop {
-    /// Of the points displacement and force of one side.
+    /// Builds a stop from points (displacement, force) of one side.
     pub(super) fn new(points: &[[f64; 2]]) -> Self {
         let line = |pair: &[[f64; 2]]| {
             let slope = (pair[1][1] - pair[0][1]) / (pair[1][0] - pair[0][0]);
             [pair[0][0], pair[0][1], slope]
         };
         let outward: Vec<[f64; 3]> = points.windows(2).map(line).collect();
-        let edges = outward.iter().map(|[place, ..]| *place);
+        let edges = outward.iter().map(|[corner, ..]| *corner);
         let inward = outward.iter().rev();
         Self {
             ranges: Ranges {
                 edges: edges.clone().rev().map(|edge| -edge).chain(edges).collect(),
             },
             lines: inward
-                .map(|[place, force, slope]| [-place, -force, *slope])
+                .map(|[corner, force, slope]| [-corner, -force, *slope])
                 .chain([[0.0; 3]])
                 .chain(outward.iter().copied())
                 .collect(),
         }
     }
 
-    /// Force against a displacement (N).
+    /// Force that resists a displacement (N).
     pub(super) fn force(&self, range: usize, displacement: f64) -> f64 {
-        let [place, force, slope] = self.lines[range];
-        force + slope * (displacement - place)
+        let [corner, force, slope] = self.lines[range];
+        force + slope * (displacement - corner)
     }
 
     pub(super) fn slope(&self, range: usize) -> f64 {

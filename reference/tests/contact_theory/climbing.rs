@@ -1,4 +1,4 @@
-//! Y/Q of a wheel on its flange: the real-time law beside the exact solver on the same patches.
+//! Y/Q of a wheel on its flange: the real-time law compared with the exact solver on the same patches.
 
 use std::sync::OnceLock;
 
@@ -10,7 +10,7 @@ use dashpot_reference::rolling_contact::RollingContact;
 
 use crate::shifts::{friction, geometry, loaded};
 
-/// The solver of the reference as a creep law, for Poisson's ratio 0.28.
+/// The reference solver as a creep law, for a Poisson's ratio of 0.28.
 struct Exact;
 
 impl CreepLaw for Exact {
@@ -42,7 +42,7 @@ pub const LAWS: [&str; 4] = [
     "Shen-Hedrick-Elkins",
 ];
 
-/// Y/Q of the right wheel by each of [`LAWS`], for each friction and yaw.
+/// Y/Q of the right wheel for each friction and yaw by each of [`LAWS`].
 pub fn climbing() -> &'static [[[f64; 4]; YAWS_MRAD.len()]; FRICTIONS.len()] {
     static CLIMBING: OnceLock<[[[f64; 4]; YAWS_MRAD.len()]; FRICTIONS.len()]> = OnceLock::new();
     CLIMBING.get_or_init(|| {
@@ -53,8 +53,8 @@ pub fn climbing() -> &'static [[[f64; 4]; YAWS_MRAD.len()]; FRICTIONS.len()] {
 fn quotients(coefficient: f64, yaw_mrad: f64) -> [f64; 4] {
     let friction = friction(coefficient);
     let book = WheelsetContact::new(geometry(), KalkerBook::new(), friction).unwrap();
-    // Shifted until the flange carries the wheel; the height is that of the book, so that all laws have the same patches.
-    let (motion, of_book) = (50..90)
+    // Shifted until the flange carries the wheel. All laws use the height found with the book, and so the same patches.
+    let (motion, book_wheel) = (50..90)
         .map(|tenths| Motion {
             speed_m_per_s: 20.0,
             rotation_rad_per_s: 32.0,
@@ -71,7 +71,7 @@ fn quotients(coefficient: f64, yaw_mrad: f64) -> [f64; 4] {
     fn of<L: CreepLaw>(law: L, motion: &Motion, coefficient: f64) -> f64 {
         let friction = crate::shifts::friction(coefficient);
         let contact = WheelsetContact::new(geometry(), law, friction).unwrap();
-        // The left wheel is lifted: what is told is of the right one, and the exact law is slow.
+        // The left wheel is lifted to save time: only the right wheel is evaluated, and the exact law is slow.
         let lifted = RailDisplacement {
             vertical_m: 20e-3,
             ..RailDisplacement::default()
@@ -81,7 +81,7 @@ fn quotients(coefficient: f64, yaw_mrad: f64) -> [f64; 4] {
     }
     [
         of(Exact, &motion, coefficient),
-        quotient(&of_book),
+        quotient(&book_wheel),
         of(Polach, &motion, coefficient),
         of(ShenHedrickElkins, &motion, coefficient),
     ]

@@ -1,4 +1,4 @@
-//! The figures and the table of docs/contact.md against what is measured.
+//! Checks that docs/contact.md shows the measured figures and table.
 
 use std::fmt::Write;
 use std::fs;
@@ -54,11 +54,11 @@ fn measured() -> String {
         let _ = write!(text, "| {name} |");
         for by_yaw in climbing() {
             let off = by_yaw.map(|quotients| quotients[law] / quotients[0] - 1.0);
-            let greatest = off
+            let largest = off
                 .into_iter()
                 .max_by(|a, b| a.abs().total_cmp(&b.abs()))
                 .unwrap_or(0.0);
-            let _ = write!(text, " {:+.1} % |", 100.0 * greatest);
+            let _ = write!(text, " {:+.1} % |", 100.0 * largest);
         }
         text.push('\n');
     }
@@ -72,7 +72,7 @@ fn measured() -> String {
 }
 
 #[test]
-fn the_document_shows_what_is_measured() {
+fn the_document_shows_the_measured_values() {
     let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs");
     let bless = std::env::var_os("DASHPOT_BLESS").is_some();
     for (name, drawn) in figures() {

@@ -1,4 +1,4 @@
-//! The figures of docs/contact.md: curves of exact theory beside those found here, as SVG.
+//! Figures of docs/contact.md: curves of exact theory and of this project, as SVG.
 
 use std::ops::Range;
 
@@ -19,7 +19,7 @@ const COLOURS: [RGBColor; 5] = [
     RGBColor(198, 40, 40),
     RGBColor(46, 125, 50),
 ];
-/// The backend rounds to whole units; drawn this much larger, curves stay smooth.
+/// Enlargement of the drawing, because the backend rounds to whole units; curves stay smooth.
 const FINE: u32 = 4;
 
 /// One curve: its name, its colour, whether its points are marked, its points.
@@ -30,12 +30,12 @@ struct Curve {
     points: Vec<(f64, f64)>,
 }
 
-/// What a panel shows.
+/// A panel of a figure.
 struct Panel {
     title: &'static str,
     x: &'static str,
     y: &'static str,
-    /// Where no curve is.
+    /// Position of the legend, in a corner without curves.
     legend: SeriesLabelPosition,
     curves: Vec<Curve>,
 }
@@ -50,11 +50,11 @@ pub fn figures() -> Vec<(&'static str, String)> {
 }
 
 fn over_the_shift() -> Vec<Panel> {
-    let panel = |title, y, legend, of: fn(&Wheel) -> f64| {
+    let panel = |title, y, legend, value: fn(&Wheel) -> f64| {
         let points = |side: fn(&Shift) -> &Wheel| {
             let shifts = shifts().iter().filter(|shift| shift.lateral_mm < 6.6);
             shifts
-                .map(|shift| (shift.lateral_mm, of(side(shift))))
+                .map(|shift| (shift.lateral_mm, value(side(shift))))
                 .collect()
         };
         Panel {
@@ -66,7 +66,7 @@ fn over_the_shift() -> Vec<Panel> {
         }
     };
     let steering = steering();
-    let of = |k: usize| steering.iter().map(|(x, y)| (*x, 1e-3 * y[k])).collect();
+    let curve = |k: usize| steering.iter().map(|(x, y)| (*x, 1e-3 * y[k])).collect();
     vec![
         panel(
             "Place of contact from the track centre",
@@ -82,7 +82,7 @@ fn over_the_shift() -> Vec<Panel> {
             x: "lateral shift, mm",
             y: "kN",
             legend: UpperLeft,
-            curves: exact_and_found(of(0), of(1)),
+            curves: exact_and_found(curve(0), curve(1)),
         },
         panel("Lateral force on the rail", "kN", UpperLeft, |wheel| {
             1e-3 * wheel.lateral_n
@@ -119,7 +119,7 @@ fn over_the_yaw() -> Vec<Panel> {
         .collect()
 }
 
-/// Lateral force over the lateral creepage with spin, where the laws differ most.
+/// Lateral force over lateral creepage with spin, the case in which the laws differ most.
 fn over_the_creepage() -> Vec<Panel> {
     let contact = LoadedContact {
         load_n: 100e3,
@@ -276,15 +276,15 @@ fn draw_panel(area: &DrawingArea<SVGBackend<'_>, plotters::coord::Shift>, panel:
         .unwrap();
 }
 
-/// A number without superfluous digits; zero without a sign.
+/// Formats a number without superfluous digits, and zero without a sign.
 fn short(number: &f64) -> String {
     format!("{}", (number * 1e3).round() / 1e3 + 0.0)
 }
 
-/// From the least to the greatest number, with a margin.
+/// Range of the numbers, with a margin.
 fn extent(numbers: impl Iterator<Item = f64> + Clone) -> Range<f64> {
-    let least = numbers.clone().fold(f64::MAX, f64::min);
-    let greatest = numbers.fold(f64::MIN, f64::max);
-    let margin = 0.04 * (greatest - least);
-    least - margin..greatest + margin
+    let min = numbers.clone().fold(f64::MAX, f64::min);
+    let max = numbers.fold(f64::MIN, f64::max);
+    let margin = 0.04 * (max - min);
+    min - margin..max + margin
 }

@@ -1,6 +1,6 @@
-//! The contact of a wheel beside exact theory, in figures and a table of docs/contact.md.
+//! The contact of a wheel compared with exact theory, in figures and a table of docs/contact.md.
 //!
-//! `DASHPOT_BLESS=1 cargo test -p dashpot-reference --test contact_theory` redraws and restates them.
+//! `DASHPOT_BLESS=1 cargo test -p dashpot-reference --test contact_theory` updates them.
 
 mod climbing;
 mod document;

@@ -1,4 +1,5 @@
-//! One wheel under 100 kN over its lateral shift, beside an independent half-space solver's place, angle and forces.
+//! One wheel under 100 kN over its lateral shift: position, angle and forces of the contact compared with an
+//! independent half-space solver.
 
 use std::sync::{Arc, OnceLock};
 
@@ -12,7 +13,7 @@ const EXACT: &str = include_str!("../../../rail/data/contact_exact_100kn.csv");
 
 pub const LOAD_N: f64 = 100e3;
 
-/// One lateral shift of the wheelset: what exact theory says of the right wheel, and what the contact here does.
+/// One lateral shift of the wheelset, with the right wheel by exact theory and by this project.
 #[derive(Clone, Copy)]
 pub struct Shift {
     pub lateral_mm: f64,
@@ -46,7 +47,7 @@ pub fn friction(static_coefficient: f64) -> Friction {
     Friction::constant(static_coefficient)
 }
 
-/// The right wheel in `motion`, at the height at which it carries [`LOAD_N`], by bisection.
+/// The right wheel in `motion`, at the height where it carries [`LOAD_N`], by bisection.
 pub fn loaded<L: CreepLaw, S: PatchSource>(
     contact: &WheelsetContact<L, S>,
     motion: &Motion,
@@ -68,7 +69,7 @@ pub fn loaded<L: CreepLaw, S: PatchSource>(
     (motion, forces)
 }
 
-/// Every shift of the data.
+/// All shifts of the data.
 pub fn shifts() -> &'static [Shift] {
     static SHIFTS: OnceLock<Vec<Shift>> = OnceLock::new();
     SHIFTS.get_or_init(|| {
@@ -100,11 +101,14 @@ fn wheel<S: PatchSource>(contact: &WheelsetContact<KalkerBook, S>, lateral_mm: f
         ..Motion::default()
     };
     let (motion, forces) = loaded(contact, &motion);
-    // Place and angle of several patches are those of their loads' mean.
+    // Position and angle of several patches are means weighted by load.
     let load: f64 = forces.loaded_patches().map(|patch| patch.load_n).sum();
-    let mean = |of: &dyn Fn(&dashpot_rail::contact::PatchForces) -> f64| {
+    let mean = |value: &dyn Fn(&dashpot_rail::contact::PatchForces) -> f64| {
         let patches = forces.loaded_patches();
-        patches.map(|patch| patch.load_n * of(patch)).sum::<f64>() / load
+        patches
+            .map(|patch| patch.load_n * value(patch))
+            .sum::<f64>()
+            / load
     };
     Wheel {
         place_mm: 1e3 * (motion.lateral_m + mean(&|patch| patch.position_m[1])),
@@ -114,8 +118,8 @@ fn wheel<S: PatchSource>(contact: &WheelsetContact<KalkerBook, S>, lateral_mm: f
     }
 }
 
-/// Steering: longitudinal force of the left wheel less that of the right, by the right wheel shifted either way, exact and
-/// found, N.
+/// Steering force for each shift, exact and computed (N): longitudinal force of the left wheel minus that of the right
+/// one, from the right wheel shifted in both directions.
 pub fn steering() -> Vec<(f64, [f64; 2])> {
     let shifts = shifts();
     let at = |lateral_mm: f64| {
@@ -127,8 +131,9 @@ pub fn steering() -> Vec<(f64, [f64; 2])> {
     to_right
         .filter_map(|right| {
             let left = at(-right.lateral_mm)?;
-            let difference =
-                |of: fn(&Shift) -> Wheel| of(left).longitudinal_n - of(right).longitudinal_n;
+            let difference = |wheel: fn(&Shift) -> Wheel| {
+                wheel(left).longitudinal_n - wheel(right).longitudinal_n
+            };
             let both = [
                 difference(|shift| shift.exact),
                 difference(|shift| shift.found),
@@ -138,8 +143,8 @@ pub fn steering() -> Vec<(f64, [f64; 2])> {
         .collect()
 }
 
-/// RMS distance of the place of contact from exact theory from 0.5 to 6 mm, mm.
-pub fn place_error_mm() -> f64 {
+/// RMS deviation of the contact's position from exact theory, for shifts from 0.5 to 6 mm (mm).
+pub fn position_error_mm() -> f64 {
     let within = shifts()
         .iter()
         .filter(|shift| (0.5..=6.0).contains(&shift.lateral_mm));
@@ -150,12 +155,12 @@ pub fn place_error_mm() -> f64 {
 }
 
 #[test]
-fn contact_is_where_exact_theory_has_it() {
-    assert!(place_error_mm() < 0.2, "{} mm", place_error_mm());
+fn the_contact_position_agrees_with_exact_theory() {
+    assert!(position_error_mm() < 0.2, "{} mm", position_error_mm());
 }
 
 #[test]
-fn a_shifted_wheelset_is_steered_as_exact_theory_says() {
+fn the_steering_force_agrees_with_exact_theory() {
     let steering = steering();
     assert!(steering.len() >= 11);
     for (lateral_mm, [exact, found]) in steering {
@@ -167,7 +172,7 @@ fn a_shifted_wheelset_is_steered_as_exact_theory_says() {
 }
 
 #[test]
-fn the_root_pushes_as_exact_theory_says() {
+fn the_flange_root_force_agrees_with_exact_theory() {
     let mut seen = 0;
     for shift in shifts() {
         if !(5.0..=6.0).contains(&shift.lateral_mm) {

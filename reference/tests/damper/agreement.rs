@@ -33,7 +33,7 @@ fn agree(parameters: &DamperParameters) {
             started.elapsed() - first
         );
         assert!(difference < AGREEMENT, "{name}: {difference:e}");
-        // over 6 MN/m this is 6 uN
+        // At 6 MN/m this corresponds to 6 uN.
         assert!(statistics.closure_m < 1e-12, "{name}: {statistics:?}");
     }
 }

@@ -48,8 +48,8 @@ fn paper_forces_at_constant_velocity() {
     }
 }
 
-/// Every in-service term: values of the same laws worked out separately, by bisection of flow
-/// against velocity, in another language.
+/// All in-service terms against values of the same laws computed independently in another language, by bisection of
+/// flow against velocity.
 #[test]
 fn in_service_forces_at_constant_velocity() {
     for (two_chamber, velocity, force) in [
@@ -72,8 +72,8 @@ fn in_service_forces_at_constant_velocity() {
     }
 }
 
-/// Two chambers without preload: `P_1 = (A_rod v/kappa)^(2/3)`, the drop from the piston's flow;
-/// with a wide foot valve the rod side boils and `F = P_1 A_comp - p_vap A_ext`.
+/// Two chambers without preload: `P_1 = (A_rod v/kappa)^(2/3)`, and the drop follows from the
+/// piston's flow. With a wide foot valve the rod side boils and `F = P_1 A_comp - p_vap A_ext`.
 #[test]
 fn two_chambers_balance() {
     let (rod, whole) = (PI * 0.028_f64.powi(2) / 4.0, PI * 0.0698_f64.powi(2) / 4.0);
@@ -108,11 +108,11 @@ fn two_chambers_balance() {
     }
 }
 
-/// A saw at constant speed brings both static forces, leg by leg.
+/// A saw at constant speed alternates between both static forces.
 #[test]
 fn saw_settles_on_each_leg() {
     let velocity = 0.05;
-    // legs of 0.5 s; the springs take up at most 2 mm of the 25 mm
+    // Legs of 0.5 s; the springs take up at most 2 mm of the 25 mm.
     let motion = motions::sampled(1e3, 2.0, |t| {
         let phase = t.fract();
         velocity * if phase < 0.5 { phase } else { 1.0 - phase }
@@ -135,7 +135,7 @@ fn maxwell_element_under_harmonic_motion() {
     for frequency in [1.0, 10.0, 50.0] {
         let (omega, per_cycle, amplitude) = (2.0 * PI * frequency, 5000, 1e-3);
         let rate = per_cycle as f64 * frequency;
-        // settled to 1e-9 of the first transient
+        // The first transient has decayed to 1e-9.
         let cycles = (20.7 * tau * frequency).ceil() + 1.0;
         let (times, x) =
             motions::sampled(rate, cycles / frequency, |t| amplitude * (omega * t).sin());
@@ -149,8 +149,8 @@ fn maxwell_element_under_harmonic_motion() {
         let ratio = (omega * tau).powi(2);
         let in_phase = stiffness * ratio / (1.0 + ratio);
         let dynamic = damping / (1.0 + ratio);
-        // corners at w dt = 2 pi/5000 weaken the harmonic by (w dt)^2/12 and fold as much back
-        // from beyond the sampling rate, where the element is a spring
+        // Linear interpolation at w dt = 2 pi/5000 weakens the harmonic by (w dt)^2/12 and aliases as much from beyond
+        // the sampling rate, where the element is a spring.
         let allowed = stiffness * (2.0 * PI / per_cycle as f64).powi(2) / 6.0;
         let (k, c) = (scale * sine, scale * cosine / omega);
         assert!((k - in_phase).abs() < allowed, "{frequency} Hz: {k} N/m");
@@ -161,7 +161,7 @@ fn maxwell_element_under_harmonic_motion() {
     }
 }
 
-/// The same element on a piecewise linear motion: exponentials from corner to corner.
+/// Spring and damper in series on a piecewise linear motion: the force is exponential between corners.
 #[test]
 fn maxwell_element_between_corners() {
     let (damping, stiffness) = (90e3, 7e6);
@@ -178,7 +178,7 @@ fn maxwell_element_between_corners() {
     assert!(difference < 1e-9, "{difference:e}");
 }
 
-/// Beyond saturation the force is `C V_r`; held still it fades as `exp(-K t/C)`.
+/// The force saturates at `C V_r`; at rest it decays as `exp(-K t/C)`.
 #[test]
 fn reduced_element_saturates_and_fades() {
     let parameters = dampers::reduced(120e3, 0.03, 8e6, 0.0);
@@ -193,8 +193,7 @@ fn reduced_element_saturates_and_fades() {
     }
 }
 
-/// The force limit of a physical damper: constant force while the seats part faster than the
-/// valves let through.
+/// At the force limit of a physical damper the force is constant while the seats separate faster than the valves allow.
 #[test]
 fn physical_damper_yields_at_the_limit() {
     let mut parameters = dampers::paper();
@@ -204,8 +203,8 @@ fn physical_damper_yields_at_the_limit() {
     assert!((settled(&parameters, 0.05) - 4_724.0).abs() < 0.5);
 }
 
-/// An orifice alone against a spring: `s = sqrt(P)` falls linearly, the force as a parabola that
-/// touches zero at `t* = 2 (A/K) s_0/q` and stays there.
+/// An orifice and a spring alone: `s = sqrt(P)` falls linearly, so the force is a parabola that reaches zero at
+/// `t* = 2 (A/K) s_0/q` and stays there.
 #[test]
 fn orifice_decays_to_exact_rest() {
     let mut parameters = dampers::paper();
@@ -236,7 +235,7 @@ fn orifice_decays_to_exact_rest() {
 #[test]
 fn seal_friction_holds_the_piston() {
     let parameters = dampers::in_service(false);
-    // 0.5 mm to the seat, then springs of 8 and 40 MN/m in series up to 140 N
+    // 0.5 mm to the seat, then springs of 8 and 40 MN/m in series up to 140 N.
     let stiffness = 1.0 / (1.0 / 8e6 + 1.0 / 40e6);
     let peak = 0.5e-3 + 140.0 / stiffness;
     let motion = motions::sampled(1e3, 1.0, |t| peak * (2.0 * PI * t).sin());
@@ -246,7 +245,7 @@ fn seal_friction_holds_the_piston() {
     }
 }
 
-/// A closed piston under preload keeps the pressure at which its valve shuts.
+/// A piston whose valves are closed by preload keeps the pressure at which they closed.
 #[test]
 fn closed_valves_hold_their_opening_pressure() {
     let mut parameters = dampers::paper();

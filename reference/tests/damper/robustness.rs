@@ -1,5 +1,5 @@
-//! Hard motions: noise, jumps, near rest, stiff and soft chains. The second solver must agree and
-//! no energy may come out.
+//! Difficult motions: noise, jumps, nearly at rest, with stiff and soft springs. The second solver must agree, and the
+//! damper must not generate energy.
 
 use dashpot_core::DamperParameters;
 use dashpot_reference::damper::Reference;
@@ -9,7 +9,7 @@ use crate::common::motions::Motion;
 use crate::common::radau::Radau;
 use crate::common::{dampers, motions};
 
-/// Deviates in [0, 1) from a fixed sequence.
+/// Fixed sequence of pseudorandom numbers in [0, 1).
 struct Sequence(u64);
 
 impl Sequence {
@@ -104,8 +104,7 @@ fn in_service_two_chamber() {
     survives(&dampers::in_service(true));
 }
 
-/// Springs and valves are passive: the work put in since rest is never negative, and over a
-/// ride most of it stays.
+/// Springs and valves are passive: the work done on them since rest is never negative, and most of it is dissipated.
 #[test]
 fn work_is_dissipated() {
     for parameters in [
@@ -125,7 +124,7 @@ fn work_is_dissipated() {
             let step = 0.5 * (force[i] + force[i - 1]) * (x[i] - x[i - 1]);
             work += step;
             moved += step.abs();
-            // the trapezoid of a force linear to 1e-3 within 0.1 ms
+            // Within 0.1 ms the force is linear to 1e-3, the error of the trapezoidal rule.
             assert!(work >= -1e-6 * moved, "{} s: {work} J", times[i]);
         }
         assert!(work > 0.5 * moved, "{work} J of {moved} J");

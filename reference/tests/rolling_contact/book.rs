@@ -1,4 +1,4 @@
-//! The shipped tables of `KalkerBook` against the solver that made them.
+//! The shipped tables of `KalkerBook` against the solver that computed them.
 
 use dashpot_rail::creep::{CreepLaw, Creepage, KalkerBook, KalkerTable, LoadedContact};
 use dashpot_reference::kalker_book::provenance;
@@ -6,13 +6,13 @@ use dashpot_reference::rolling_contact::RollingContact;
 
 const MEAN_AXIS_M: f64 = 5e-3;
 
-/// A contact with `a/b` between two limits, a creepage up to ten times sliding with spin up to four times, and Poisson's
-/// ratio; `n` is its member of a sequence that fills their ranges evenly.
-fn case(n: u32, [least, greatest]: [f64; 2]) -> (LoadedContact, Creepage, f64) {
+/// Returns a contact with `a/b` between two limits, a creepage up to ten times that of sliding (spin up to four times),
+/// and Poisson's ratio: member `n` of a sequence that fills these ranges evenly.
+fn case(n: u32, [min, max]: [f64; 2]) -> (LoadedContact, Creepage, f64) {
     let between = |from: f64, to: f64, irrational: f64| {
         from + (to - from) * (f64::from(n) * irrational).fract()
     };
-    let a_over_b = between(least.ln(), greatest.ln(), 0.618_033_988).exp();
+    let a_over_b = between(min.ln(), max.ln(), 0.618_033_988).exp();
     let poisson_ratio = between(0.25, 0.30, 0.259_921_05);
     let contact = LoadedContact {
         load_n: 80e3,
@@ -34,7 +34,7 @@ fn case(n: u32, [least, greatest]: [f64; 2]) -> (LoadedContact, Creepage, f64) {
     (contact, creepage, poisson_ratio)
 }
 
-/// RMS and greatest error of the book over these cases with `a/b` between limits: of the force over `mu N`, of the moment
+/// RMS and largest error of the book over cases with `a/b` between limits: of the force over `mu N`, and of the moment
 /// over `mu N sqrt(a b)`.
 fn errors(cases: impl Iterator<Item = u32>, limits: [f64; 2]) -> [[f64; 2]; 2] {
     let book = KalkerBook::new();
@@ -79,8 +79,8 @@ fn the_book_is_exact_theory_of_slender_contacts() {
     for limits in [[0.04, 0.1], [10.0, 25.0]] {
         let [force, moment] = errors(1..=40, limits);
         println!("a/b {limits:?}: force {force:.4?}, moment {moment:.4?}");
-        // Worst where nearly everything slides about a pole of spin near an end of the ellipse. Moments have an arm of up to
-        // 5 `sqrt(a b)`, the longer semi-axis.
+        // The worst cases slide nearly everywhere, with the pole of spin near an end of the ellipse. Moments have an
+        // arm of up to 5 `sqrt(a b)`, the longer semi-axis.
         assert!(force[0] < 0.01 && force[1] < 0.03, "{force:?}");
         assert!(moment[0] < 0.03 && moment[1] < 0.15, "{moment:?}");
     }

@@ -6,12 +6,12 @@ use dashpot_reference::rolling_contact::RollingContact;
 
 const POISSON_RATIO: f64 = 0.28;
 
-/// Force over `mu N` of independent strips, each by `F/(mu P) = 1 - (1 - xi G/(2 mu p f))^2`, where `p` is the pressure in
-/// the strip's middle and `f` is `1 - nu` for longitudinal and 1 for lateral creepage.
+/// Force over `mu N` of independent strips with `F/(mu P) = 1 - (1 - xi G/(2 mu p f))^2`, where `p` is the pressure at
+/// the middle of the strip and `f` is `1 - nu` for longitudinal and 1 for lateral creepage.
 fn carter(creepage: f64, flexibility: f64) -> f64 {
     let peak = 1.5 / PI;
     let count = 4000;
-    // With y = b sin q a strip's load is 3/4 cos^2 q, of its width cos q dq.
+    // With y = b sin q, the load of a strip is 3/4 cos^2 q times its width cos q dq.
     (0..count)
         .map(|index| {
             let angle = -FRAC_PI_2 + (f64::from(index) + 0.5) * PI / f64::from(count);

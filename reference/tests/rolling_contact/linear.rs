@@ -1,4 +1,4 @@
-//! Small creepages against Kalker's table of 1967.
+//! Small creepages compared with Kalker's table of 1967.
 
 use dashpot_reference::rolling_contact::{RollingContact, Tractions};
 
@@ -8,7 +8,7 @@ const TABLE: &str = include_str!("../../../rail/data/kalker.csv");
 fn coefficients(a_over_b: f64, poisson_ratio: f64) -> [f64; 5] {
     let [along, strips] = if a_over_b > 2.0 { [60, 24] } else { [60, 20] };
     let contact = RollingContact::with_mesh(a_over_b, poisson_ratio, along, strips).unwrap();
-    // The slip at the trailing edge takes a part of the force that is as small as the creepage.
+    // Slip at the trailing edge reduces the force by a fraction proportional to the creepage.
     let small = 1e-3;
     let solve = |creepage| contact.solve(creepage).unwrap().map(|force| force / small);
     let [along, across, spin] = [
@@ -38,7 +38,7 @@ fn small_creepages_give_kalkers_coefficients() {
             .map(|(c, t)| c / t - 1.0)
             .collect();
         println!("a/b {ratio}: {off:.4?}");
-        // Kalker's C33 is known to about 2 %; that of the longest contact differs by 2.6 % and is not compared.
+        // Kalker's C33 is accurate to about 2 %; the value of the longest contact differs by 2.6 % and is not compared.
         let c33 = if ratio > 5.0 { f64::INFINITY } else { 0.02 };
         let bounds = [0.01, 0.01, 0.01, 0.01, c33];
         for (off, bound) in off.iter().zip(bounds) {
@@ -54,6 +54,6 @@ fn a_small_creepage_sticks() {
     let [force, ..] = contact
         .solve_from([1e-2, 0.0, 0.0], &mut tractions)
         .unwrap();
-    // Only the trailing edge slides, where the traction has no bound in linear theory.
-    assert!(force.abs() < 0.05 && contact.greatest_utilisation(&tractions) <= 1.0 + 1e-9);
+    // Only the trailing edge slides, where linear theory has an unbounded traction.
+    assert!(force.abs() < 0.05 && contact.max_utilisation(&tractions) <= 1.0 + 1e-9);
 }

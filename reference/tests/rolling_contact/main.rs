@@ -1,4 +1,5 @@
-//! Exact theory of rolling contact against tables, closed forms and another solver; the book of tables against it.
+//! Exact theory of rolling contact against tables, closed forms and another solver, and the book of tables against
+//! exact theory.
 
 mod book;
 mod carter;

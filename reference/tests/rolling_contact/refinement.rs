@@ -1,4 +1,4 @@
-//! The solution over its mesh.
+//! Convergence of the solution with its mesh.
 
 use dashpot_reference::ReferenceError;
 use dashpot_reference::rolling_contact::{RollingContact, ScaledForces};
@@ -26,17 +26,17 @@ fn a_finer_mesh_changes_less() {
         let finest = all[3];
         let errors: Vec<f64> = all.iter().map(|&f| distance(f, finest)).collect();
         let usual = forces(a_over_b, creepage, RollingContact::usual_mesh(a_over_b));
-        let of_usual = distance(usual, finest);
-        println!("a/b {a_over_b} {creepage:?}: {errors:.4?}, usual {of_usual:.4}");
+        let usual_error = distance(usual, finest);
+        println!("a/b {a_over_b} {creepage:?}: {errors:.4?}, usual {usual_error:.4}");
         // At least of first order.
         assert!(errors[2] < 0.5 * errors[0], "{errors:?}");
-        assert!(of_usual < 0.006, "{of_usual}");
+        assert!(usual_error < 0.006, "{usual_error}");
     }
 }
 
 #[test]
 fn a_long_contact_has_the_forces_of_a_finer_mesh() {
-    // Spin against lateral creepage, where the number of strips tells most.
+    // Spin opposite to lateral creepage, the case that is most sensitive to the number of strips.
     for (a_over_b, creepage) in [
         (6.0, [0.01, 0.03, 0.06]),
         (12.0, [0.006, 0.02, 0.025]),
@@ -48,13 +48,13 @@ fn a_long_contact_has_the_forces_of_a_finer_mesh() {
         let finer = forces(a_over_b, creepage, [along * 3 / 2, strips * 3 / 2]);
         println!("a/b {a_over_b} {creepage:?}: {usual:.4?} {finer:.4?}");
         let off = (usual[0] - finer[0]).hypot(usual[1] - finer[1]);
-        // At second order by the strips the usual mesh is off by 1.8 times this: within 1 %.
+        // Second order in the strips: the error of the usual mesh is 1.8 times this difference, thus within 1 %.
         assert!(off < 0.005, "{a_over_b}: {off}");
     }
 }
 
 #[test]
-fn what_is_no_contact_is_refused() {
+fn invalid_contacts_are_refused() {
     for (a_over_b, poisson_ratio) in [(0.0, 0.3), (f64::NAN, 0.3), (1.0, 0.6), (-1.0, 0.3)] {
         let error = RollingContact::new(a_over_b, poisson_ratio).err();
         assert!(matches!(error, Some(ReferenceError::RollingContact { .. })));

@@ -1,4 +1,4 @@
-//! Creepages at which everything slides, against direct quadrature of friction, with the pole of spin anywhere.
+//! Full sliding compared with direct quadrature of friction, for any position of the pole of spin.
 
 use std::f64::consts::PI;
 
@@ -7,7 +7,7 @@ use dashpot_reference::rolling_contact::{RollingContact, Tractions, full_sliding
 #[test]
 fn large_creepages_slide_fully() {
     for a_over_b in [0.2, 1.0, 3.0] {
-        // Strips enough to place the pole of spin, where the traction turns round.
+        // Enough strips to resolve the pole of spin, where the traction reverses.
         let contact = RollingContact::with_mesh(a_over_b, 0.28, 30, 40).unwrap();
         for creepage in [
             [300.0, 0.0, 0.0],
@@ -24,18 +24,18 @@ fn large_creepages_slide_fully() {
             for (rolling, sliding) in rolling.iter().zip(sliding) {
                 assert!((rolling - sliding).abs() < 0.01, "{a_over_b} {creepage:?}");
             }
-            let used = contact.greatest_utilisation(&tractions);
+            let used = contact.max_utilisation(&tractions);
             assert!(used <= 1.0 + 1e-9, "{used}");
         }
     }
 }
 
 #[test]
-fn a_turning_ellipse_has_the_moment_of_its_quadrature_and_a_sliding_one_all_of_friction() {
-    // 3 pi / 16 of a circle's radius.
+fn full_sliding_has_known_moments_and_forces() {
+    // A circle: 3 pi / 16 of its radius.
     let [x, y, moment] = full_sliding(1.0, [0.0, 0.0, -2.0]);
     assert!(x.hypot(y) < 1e-9 && (moment - 3.0 * PI / 16.0).abs() < 1e-4);
-    // A very long one: the mean distance from its middle, 3/8 of the longer semi-axis.
+    // A very long ellipse: the mean distance from its middle, 3/8 of the longer semi-axis.
     let [.., moment] = full_sliding(1e-4, [0.0, 0.0, 1.0]);
     assert!((moment / -100.0 - 0.375).abs() < 1e-3, "{moment}");
     let [x, y, moment] = full_sliding(0.3, [3.0, -4.0, 0.0]);

@@ -20,8 +20,8 @@ fn cross(a: Vector, b: Vector) -> Vector {
     ]
 }
 
-/// Number of what an end is on, its place from the centre, and what turns there.
-fn place(vehicle: &VehicleParameters, end: &End, of: &[f64; 5]) -> (Vector, Vector) {
+/// Displacement and rotation of an end.
+fn place(vehicle: &VehicleParameters, end: &End, motion: &[f64; 5]) -> (Vector, Vector) {
     let [x, y, height] = end.at_m;
     let body = vehicle
         .bodies
@@ -30,7 +30,7 @@ fn place(vehicle: &VehicleParameters, end: &End, of: &[f64; 5]) -> (Vector, Vect
     match body {
         Some(body) => (
             [x - body.x_m, y, body.height_m - height],
-            [of[2], of[3], of[4]],
+            [motion[2], motion[3], motion[4]],
         ),
         None => {
             let found = vehicle.wheelsets.iter();
@@ -40,7 +40,7 @@ fn place(vehicle: &VehicleParameters, end: &End, of: &[f64; 5]) -> (Vector, Vect
                 .unwrap();
             (
                 [x - wheelset.x_m, y, wheelset.radius_m - height],
-                [of[2], 0.0, of[4]],
+                [motion[2], 0.0, motion[4]],
             )
         }
     }
@@ -56,19 +56,20 @@ fn number(vehicle: &VehicleParameters, end: &End) -> usize {
         .unwrap()
 }
 
-/// Energy of motion, of springs, and of their static force as they turn; and the power that goes into dashpots and rails.
+/// Returns the energy of motion, of springs and of their rotating static forces, and the power lost to dashpots and
+/// rails.
 fn energy(vehicle: &VehicleParameters, sample: &VehicleSample) -> (f64, f64) {
     let inertia = |mass: f64, [x, y, z]: Vector| [mass, mass, x, y, z];
-    let of_bodies = vehicle
+    let bodies = vehicle
         .bodies
         .iter()
         .map(|body| inertia(body.mass_kg, body.inertia_kg_m2));
-    let of_wheelsets = vehicle
+    let wheelsets = vehicle
         .wheelsets
         .iter()
         .map(|wheelset| inertia(wheelset.mass_kg, wheelset.inertia_kg_m2));
     let (mut stored, mut power) = (0.0, 0.0);
-    for (inertia, v) in of_bodies.chain(of_wheelsets).zip(&sample.velocities) {
+    for (inertia, v) in bodies.chain(wheelsets).zip(&sample.velocities) {
         stored += (0..5).map(|k| 0.5 * inertia[k] * v[k] * v[k]).sum::<f64>();
     }
     let load = -vehicle.bodies[0].mass_kg * GRAVITY_M_PER_S2 / vehicle.elements.len() as f64;
@@ -85,10 +86,14 @@ fn energy(vehicle: &VehicleParameters, sample: &VehicleSample) -> (f64, f64) {
         for (end, sign) in element.ends.iter().zip([-1.0, 1.0]) {
             let number = number(vehicle, end);
             let (q, v) = (&sample.coordinates[number], &sample.velocities[number]);
-            let moved = |of: &[f64; 5]| {
-                let (r, turn) = place(vehicle, end, of);
+            let moved = |motion: &[f64; 5]| {
+                let (r, turn) = place(vehicle, end, motion);
                 let by_turn = cross(turn, r);
-                [-turn[2] * r[1], of[0] + by_turn[1], of[1] + by_turn[2]]
+                [
+                    -turn[2] * r[1],
+                    motion[0] + by_turn[1],
+                    motion[1] + by_turn[2],
+                ]
             };
             let (r, turn) = place(vehicle, end, q);
             shifts.push(moved(q));
@@ -96,7 +101,7 @@ fn energy(vehicle: &VehicleParameters, sample: &VehicleSample) -> (f64, f64) {
             stored -= 0.5 * sign * dot(standing, cross(turn, cross(turn, r)));
             turns.push(turn);
         }
-        let between = |of: &[Vector]| std::array::from_fn(|i| of[1][i] - of[0][i]);
+        let between = |ends: &[Vector]| std::array::from_fn(|i| ends[1][i] - ends[0][i]);
         let (d, rate): (Vector, Vector) = (between(&shifts), between(&rates));
         let mean = std::array::from_fn(|i| 0.5 * (turns[0][i] + turns[1][i]));
         stored += dot(standing, cross(mean, d));
@@ -115,9 +120,9 @@ fn energy(vehicle: &VehicleParameters, sample: &VehicleSample) -> (f64, f64) {
     (stored, power)
 }
 
-/// After a dip, on ideal track: what is stored goes into the dashpots and to the rails.
+/// On ideal track after a dip, the stored energy goes into the dashpots and the rails.
 #[test]
-fn energy_is_kept_or_given_away() {
+fn energy_is_conserved_or_dissipated() {
     let vehicle = wagon([2e3, 2e3, 20e3]);
     let (contact, track) = (contact(0.3), straight(vec![dip(5.0)]));
     let mut reference = VehicleReference::new(&vehicle, &contact, &track, 25.0, 0.0).unwrap();
@@ -138,7 +143,7 @@ fn energy_is_kept_or_given_away() {
     assert!(given > 0.2 * stored, "{given} of {stored}");
 }
 
-/// Steady in a curve: the rails push with the centripetal force but for the share of gravity, and hold the moment of it.
+/// In a steady curve the rails provide the centripetal force minus the share of gravity, and its moment.
 #[test]
 fn the_rails_balance_a_curve() {
     let (speed, radius, cant) = (22.0, 400.0, 0.08);
@@ -176,7 +181,8 @@ fn the_rails_balance_a_curve() {
     let expected = mass * (GRAVITY_M_PER_S2 * angle.cos() + centripetal * angle.sin());
     assert!((load / expected - 1.0).abs() < 1e-4, "{load} {expected}");
 
-    // About the middle of the track on the rails' top at the body; the rails at the axles are off it by the curve's versine.
+    // About the middle of the track on the top of the rails at the body; the rails at the axles are offset by the
+    // versine.
     let versine = 4.0f64.powi(2) / (2.0 * radius);
     let mut moment = 0.0;
     for ((mass, height, off), q) in [
@@ -193,7 +199,7 @@ fn the_rails_balance_a_curve() {
     for (contact, q) in last.contacts.iter().zip(&last.coordinates[1..]) {
         let [_, y, z] = contact.force_n;
         moment += contact.moment_n_m[0] + 0.625 * y + (q[0] + versine) * z;
-        // Gyroscopic, of the axle that is led around.
+        // Gyroscopic moment of an axle that yaws with the curve.
         moment -= 100.0 * speed / 0.625 * speed / radius;
     }
     assert!(

@@ -1,4 +1,4 @@
-//! A body on springs that is set in motion by a curve which begins abruptly.
+//! A body on springs that is excited by a curve without a transition.
 
 use dashpot_rail::track::Part;
 use dashpot_rail::vehicle::{GRAVITY_M_PER_S2, VehicleParameters};
@@ -15,12 +15,12 @@ const Y: f64 = 1.0;
 /// Springs at the height of the centre of gravity.
 fn body_on_springs() -> VehicleParameters {
     let places = [(X, Y), (X, -Y), (-X, Y), (-X, -Y)];
-    let of_place = |(x, y)| spring([None, Some("body")], [x, y, 1.5], SPRINGS, [0.0; 3]);
-    on_track(places.into_iter().map(of_place).collect())
+    let spring_at = |(x, y)| spring([None, Some("body")], [x, y, 1.5], SPRINGS, [0.0; 3]);
+    on_track(places.into_iter().map(spring_at).collect())
 }
 
-/// Yaw: the frame turns away with `V/R`, `psi = -V/(R w) sin w t`. Lateral and roll: the step `-m V^2/R`, coupled by the weight, which
-/// turns with half the roll: `-m g/2` between both.
+/// Yaw: the frame rotates at `V/R`, so `psi = -V/(R w) sin w t`. Lateral and roll: a step of `-m V^2/R`; both motions
+/// are coupled by `-m g/2`, because the weight rotates by half the roll.
 #[test]
 fn free_oscillations_after_an_abrupt_curve() {
     let vehicle = body_on_springs();
@@ -53,7 +53,7 @@ fn free_oscillations_after_an_abrupt_curve() {
         let yaw = -SPEED / RADIUS / yaw_rate * (yaw_rate * t).sin();
         let part = |square: f64| (1.0 - (square.sqrt() * t).cos()) / square;
         let (slow, fast) = (part(mean - root), part(mean + root));
-        // Shares of both modes in the lateral motion, and the roll that goes with them.
+        // Shares of both modes in the lateral motion, and their roll.
         let share = 0.5 * (1.0 - half / root);
         let lateral = step * (share * slow + (1.0 - share) * fast);
         let roll = step * coupling / ix * (fast - slow) / (2.0 * root);
@@ -68,7 +68,7 @@ fn free_oscillations_after_an_abrupt_curve() {
 }
 
 #[test]
-fn what_is_no_time_or_tolerance_is_refused() {
+fn invalid_times_and_tolerances_are_refused() {
     let (vehicle, contact) = (body_on_springs(), contact(0.4));
     let track = crate::common::straight(vec![]);
     let mut reference = VehicleReference::new(&vehicle, &contact, &track, 20.0, 0.0).unwrap();

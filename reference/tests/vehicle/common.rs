@@ -30,7 +30,7 @@ pub fn body() -> Body {
     Body::new("body", 30e3, [40e3, 900e3, 900e3], 1.5)
 }
 
-/// A spring at a place given by x, y and height.
+/// A spring at the point (x, y, height).
 pub fn spring(
     between: [Option<&str>; 2],
     at: [f64; 3],
@@ -98,7 +98,7 @@ pub fn dip(start_m: f64) -> Defect {
     }
 }
 
-/// Times from 0 on, `step` apart.
+/// Times from 0 at intervals of `step`.
 pub fn times(step: f64, count: usize) -> Vec<f64> {
     (0..=count).map(|k| step * k as f64).collect()
 }

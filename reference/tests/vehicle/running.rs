@@ -1,11 +1,11 @@
-//! A wagon at rest on ideal track, and two tolerances.
+//! A wagon on ideal track, and convergence with the tolerance.
 
 use dashpot_reference::vehicle::{VehicleReference, VehicleSample};
 
 use crate::common::{contact, dip, straight, times, wagon};
 
 #[test]
-fn nothing_moves_where_nothing_disturbs() {
+fn an_undisturbed_wagon_does_not_move() {
     let vehicle = wagon([0.0, 0.0, 20e3]);
     let (contact, track) = (contact(0.4), straight(vec![]));
     let mut reference = VehicleReference::new(&vehicle, &contact, &track, 30.0, 0.0).unwrap();
@@ -17,19 +17,23 @@ fn nothing_moves_where_nothing_disturbs() {
             .enumerate()
         {
             for k in 0..5 {
-                // The axles begin at the speed of their heaviest patches, and find that of no moment.
+                // The axles start with the rotation of their most loaded patches and settle without moment.
                 let allowed = if body > 0 && k == 3 { 1e-5 } else { 1e-8 };
-                let most = q[k].abs().max(v[k].abs());
-                assert!(most < allowed, "{body} {k}: {most} at {} s", sample.time_s);
+                let largest = q[k].abs().max(v[k].abs());
+                assert!(
+                    largest < allowed,
+                    "{body} {k}: {largest} at {} s",
+                    sample.time_s
+                );
             }
         }
     }
 }
 
-/// What is compared of a sample.
+/// Extracts a compared quantity from a sample.
 type Quantity = fn(&VehicleSample) -> f64;
 
-/// Deviations from a finer solution are small at the tolerance of 1e-8 and greater at a looser one.
+/// Deviations from a finer solution are small at a tolerance of 1e-8 and larger at a looser one.
 #[test]
 fn the_solution_converges_with_the_tolerance() {
     let vehicle = wagon([0.0, 0.0, 20e3]);
@@ -47,13 +51,13 @@ fn the_solution_converges_with_the_tolerance() {
             sample.contacts[0].wheels[0].force_n[2]
         }),
     ];
-    for (name, of) in quantities {
-        let start = of(&fine[0]);
+    for (name, quantity) in quantities {
+        let start = quantity(&fine[0]);
         let sum = |squares: &mut dyn Iterator<Item = f64>| squares.sum::<f64>().sqrt();
-        let all = sum(&mut fine.iter().map(|sample| (of(sample) - start).powi(2)));
+        let all = sum(&mut fine.iter().map(|sample| (quantity(sample) - start).powi(2)));
         let deviation = |other: &[VehicleSample]| {
             let pairs = fine.iter().zip(other);
-            sum(&mut pairs.map(|(a, b)| (of(a) - of(b)).powi(2))) / all
+            sum(&mut pairs.map(|(a, b)| (quantity(a) - quantity(b)).powi(2))) / all
         };
         let (usual, loose) = (deviation(&usual), deviation(&loose));
         assert!(usual < 1e-3, "{name}: {usual}");

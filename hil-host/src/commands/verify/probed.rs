@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 
-use dashpot_reference::probing::{LEAST_RMS_FORCE_RATIO, LargestErrors, PROMISED_FACTOR, Worst};
+use dashpot_reference::probing::{MIN_RMS_FORCE_RATIO, LargestErrors, PROMISED_FACTOR, Worst};
 use serde::Serialize;
 
 use super::VerifyArguments;
@@ -161,7 +161,7 @@ fn print(out: &mut dyn Write, report: &Report, damper: &str) -> io::Result<()> {
         "\nNRMSE: rms error over rms force, or over {} % of the force limit where that is more, of the worst motion. \
          Largest: of one\ntick. Wrong sign: the largest force at a tick where the reference has one of the other sign, \
          or none.\nPromised for every motion of the class in docs/numerics.md: {} times NRMSE and largest.",
-        100.0 * LEAST_RMS_FORCE_RATIO,
+        100.0 * MIN_RMS_FORCE_RATIO,
         report.promised_factor
     )
 }

@@ -26,7 +26,7 @@ fn paper_hydraulics() -> Hydraulics {
     )
 }
 
-/// The literal damper of the paper.
+/// The damper exactly as published.
 pub fn paper() -> DamperParameters {
     DamperParameters::new(Element::Physical(paper_hydraulics()), Mount::new(6e6))
 }
@@ -50,7 +50,7 @@ pub fn reduced(damping: f64, saturation: f64, stiffness: f64, clearance: f64) ->
         .limits(Limits::DEFAULT.force_n(1e6).rate_m_per_s(100.0))
 }
 
-/// A damper with every in-service term.
+/// A damper with all in-service terms.
 pub fn in_service(two_chamber: bool) -> DamperParameters {
     let mut hydraulics = paper_hydraulics();
     hydraulics.orifice.transition_reynolds = 100.0;

@@ -1,4 +1,4 @@
-//! Motions of the seats, sampled at 1 kHz unless said otherwise.
+//! Motions of the seats.
 
 use std::f64::consts::PI;
 

@@ -1,4 +1,4 @@
-//! The second solver: Radau IIA of order 5 by the `differential-equations` library.
+//! Second solver: Radau IIA of order 5 from the `differential-equations` library.
 
 use dashpot_reference::ReferenceError;
 use dashpot_reference::damper::{Arrival, Integrator, STATES, Segment};
@@ -7,14 +7,14 @@ use differential_equations::prelude::*;
 
 type State = [f64; STATES];
 
-/// The requested tolerance; the method works to `0.1 tol^(2/3)` a step, of an estimate of lower order
-/// than its result.
+/// Requested tolerance. The method keeps an error estimate of lower order than its result below `0.1 tol^(2/3)` per
+/// step.
 const TOLERANCE: f64 = 1e-14;
 
-/// Newton's remainder over the tolerance.
+/// Remaining error of the Newton iteration, relative to the tolerance.
 const NEWTON_TOLERANCE: f64 = 1e-3;
 
-/// End of the clock, past any event.
+/// End of the clock, later than any event.
 const HORIZON: f64 = 1e9;
 
 struct Equations<'a>(&'a Segment);
@@ -33,9 +33,9 @@ impl ODE<f64, State> for Equations<'_> {
     }
 }
 
-/// Radau5, set up afresh for each step: used for several, it goes on with the factorisation of
-/// another step size and so with a false estimate of its error. An event is stepped over, then
-/// located by Newton's method on the length of that step; dense output is not used.
+/// Radau5, created for each step: if reused, it keeps the factorisation of another step size, and its error estimate is
+/// wrong. A step passes an event, which is then located by Newton's method on the length of that step; dense output is
+/// not used.
 pub struct Radau {
     steps: usize,
     natural_step: f64,
@@ -51,7 +51,7 @@ impl Default for Radau {
 }
 
 impl Radau {
-    /// One accepted step of at most `length`; its length and the state there.
+    /// Takes one accepted step of at most `length`; returns its length and the state at its end.
     fn step(
         &mut self,
         segment: &Segment,
@@ -77,7 +77,7 @@ impl Radau {
         }
     }
 
-    /// The state `length` further on.
+    /// Returns the state after `length`.
     fn march(
         &mut self,
         segment: &Segment,
@@ -105,7 +105,7 @@ impl Integrator for Radau {
             before = after;
         };
         let natural_step = self.natural_step;
-        // the event met first, judged by the fraction of the step at which it is met
+        // The first event, by the fraction of the step at which it is reached.
         let (from, to) = (segment.events(&before), segment.events(&passed));
         let fraction = |i: usize| from[i] / (from[i] - to[i]);
         let mut event = usize::from(to[0] > 0.0 || (to[1] <= 0.0 && fraction(1) < fraction(0)));
@@ -122,7 +122,7 @@ impl Integrator for Radau {
             if left.abs() < 1e-14 || high - low < 1e-14 * high || tries > 40 {
                 let other = segment.events(&state)[1 - event];
                 if other < -1e-13 {
-                    // the other one comes before
+                    // The other event comes first.
                     (event, tries, low, high) = (1 - event, 0, 0.0, length);
                     continue;
                 }

@@ -1,11 +1,11 @@
-//! Where an element is attached: how its end moves with a body, and what a force there does to the body.
+//! Attachment of an element's end to a body: its motion with the body, and the loads on the body.
 
 use dashpot_rail::vehicle::{End, VehicleParameters};
 
 /// Lateral, vertical, roll, pitch and yaw of a body.
 pub(super) type Coordinates = [f64; 5];
 
-/// Along or about x, y and z.
+/// Components along or about x, y and z.
 pub(super) type Vector = [f64; 3];
 
 /// Displacement of a body and its rate.
@@ -15,30 +15,31 @@ pub(super) struct Pose {
     pub(super) rate: Coordinates,
 }
 
-/// An end of an element.
+/// Attachment of an element's end.
 #[derive(Clone, Debug)]
-pub(super) struct Place {
-    /// Number of the body, wheelsets behind the bodies; none on the track.
+pub(super) struct Attachment {
+    /// Index of the body, where wheelsets follow the bodies; `None` on the track.
     pub(super) body: Option<usize>,
-    /// From the body's centre (m).
+    /// Position relative to the body's centre (m).
     pub(super) arm: Vector,
-    /// In an axlebox, which does not spin with its wheelset.
+    /// True in an axlebox, which does not rotate with its wheelset.
     pub(super) is_axlebox: bool,
 }
 
-impl Place {
-    /// Of an end in a vehicle that has what the end is on.
+impl Attachment {
+    /// Builds the attachment of an end; its body must exist in the vehicle.
     pub(super) fn new(vehicle: &VehicleParameters, end: &End) -> Self {
         let name = end.on.as_ref();
-        let of_body = vehicle
+        let body = vehicle
             .bodies
             .iter()
             .position(|body| Some(&body.name) == name);
-        let of_wheelset = vehicle
+        let wheelset = vehicle
             .wheelsets
             .iter()
             .position(|wheelset| Some(&wheelset.name) == name);
-        let (body, centre) = match (of_body, of_wheelset) {
+        let is_axlebox = body.is_none() && wheelset.is_some();
+        let (body, centre) = match (body, wheelset) {
             (Some(number), _) => {
                 let body = &vehicle.bodies[number];
                 (Some(number), [body.x_m, body.height_m])
@@ -54,28 +55,28 @@ impl Place {
         Self {
             body,
             arm: [x - centre[0], y, centre[1] - height],
-            is_axlebox: of_body.is_none() && of_wheelset.is_some(),
+            is_axlebox,
         }
     }
 
-    /// How far the place is moved: `u + omega x r`, but nothing moves along the track by its pitch.
-    pub(super) fn shift(&self, of_body: &Coordinates) -> Vector {
-        let [roll, pitch, yaw] = self.turn(of_body);
+    /// Displacement of the attachment, `u + omega x r`, without the longitudinal part of pitch.
+    pub(super) fn shift(&self, motion: &Coordinates) -> Vector {
+        let [roll, pitch, yaw] = self.turn(motion);
         let [x, y, z] = self.arm;
         [
             -yaw * y,
-            of_body[0] - roll * z + yaw * x,
-            of_body[1] + roll * y - pitch * x,
+            motion[0] - roll * z + yaw * x,
+            motion[1] + roll * y - pitch * x,
         ]
     }
 
-    /// How far the place is turned about x, y and z.
-    pub(super) fn turn(&self, of_body: &Coordinates) -> Vector {
-        let pitch = if self.is_axlebox { 0.0 } else { of_body[3] };
-        [of_body[2], pitch, of_body[4]]
+    /// Rotation of the attachment about x, y and z.
+    pub(super) fn turn(&self, motion: &Coordinates) -> Vector {
+        let pitch = if self.is_axlebox { 0.0 } else { motion[3] };
+        [motion[2], pitch, motion[4]]
     }
 
-    /// Force and moments about the body's centre of `force` and `moment` at the place.
+    /// Force, and moments about the body's centre, by `force` and `moment` at the attachment.
     pub(super) fn load(&self, force: &Vector, moment: &Vector) -> Coordinates {
         let [x, y, z] = self.arm;
         let pitching = moment[1] - x * force[2];

@@ -1,11 +1,11 @@
-//! Where the book is computed: coordinates of its cells and the creepages there.
+//! Coordinates of the book's cells, and their creepages.
 
 use dashpot_rail::creep::KalkerCoefficients;
 use dashpot_rail::creep::kalker_book::Layout;
 
 use crate::rolling_contact::ScaledCreepage;
 
-/// A direction of creepage: `(x, y, z)` of length 1 in the book's creepages.
+/// A direction of creepage: `(x, y, z)` of length 1 in the coordinates of the book.
 pub(super) type Direction = [f64; 3];
 
 /// Middle of cell `index` of `cells` between 0 and 1.
@@ -13,18 +13,18 @@ fn middle(index: usize, cells: usize) -> f64 {
     (index as f64 + 0.5) / cells as f64
 }
 
-/// The book's coordinate "direction" in the middle of a cell, -1 to 1.
+/// The coordinate "direction" at the middle of a cell, -1 to 1.
 pub(super) fn direction_coordinate(cell: usize) -> f64 {
     2.0 * middle(cell, Layout::CELLS[2]) - 1.0
 }
 
-/// Magnitude of the book's creepages in the middle of a cell of sizes.
+/// Magnitude of the book's creepages at the middle of a cell of size.
 pub(super) fn magnitude(cell: usize) -> f64 {
     let size = middle(cell, Layout::CELLS[0]);
     size / (1.0 - size)
 }
 
-/// Direction in the middle of a cell of spin and one of direction.
+/// Direction at the middle of a cell of spin and a cell of direction.
 pub(super) fn direction(spin: usize, direction: usize) -> Direction {
     let coordinate = middle(spin, Layout::CELLS[1]);
     // The inverse of h (9 - h^2) / 8.
@@ -37,17 +37,17 @@ pub(super) fn direction(spin: usize, direction: usize) -> Direction {
     [cos_spin * cos, cos_spin * sin, sin_spin]
 }
 
-/// `(a + b)/2` over `sqrt(a b)`: the length that large spin is multiplied by.
+/// `(a + b)/2` over `sqrt(a b)`, the arm of large spin.
 pub(super) fn spin_arm(a_over_b: f64) -> f64 {
     0.5 * (a_over_b.sqrt() + 1.0 / a_over_b.sqrt())
 }
 
-/// `(a^2 + b^2)/2` over `a b`: the length that the book's moments are divided by, over `sqrt(a b)`.
+/// `(a^2 + b^2)/2` over `a b`, the divisor of the book's moments over `sqrt(a b)`.
 pub(super) fn moment_arm(a_over_b: f64) -> f64 {
     0.5 * (a_over_b + 1.0 / a_over_b)
 }
 
-/// Creepage with the book's creepages `[x, y, z]`.
+/// Scaled creepage from the book's creepages `[x, y, z]`.
 pub(super) fn creepage(
     book: [f64; 3],
     a_over_b: f64,

@@ -1,0 +1,466 @@
+//! Adaptive solver of stiff differential equations `dx/dt = f(t, x)` with events: ESDIRK 3/4 with simplified Newton
+//! iterations, cubic Hermite interpolation and located events.
+//!
+//! A step is accepted if the root mean square of its error estimate over the tolerances is below 1. The estimate is
+//! filtered by the matrix of the iteration, so that stiff components do not dominate it (Shampine 1984).
+
+mod crossing;
+mod newton;
+mod tableau;
+
+use self::crossing::Bracket;
+use self::newton::{Convergence, MAX_ITERATIONS, Verdict};
+use self::tableau::{COEFFICIENTS, ERROR_WEIGHTS, GAMMA, ORDER, STAGES, TIMES};
+use crate::linear::{Factors, Matrix};
+
+/// Safety factor of a new step length.
+const SAFETY: f64 = 0.9;
+
+/// Smallest and largest change of the step length after a step.
+const LENGTH_CHANGE: [f64; 2] = [0.5, 2.0];
+
+/// Range of proposed changes of the step length that are not made, so that the factors stay valid.
+const UNCHANGED: [f64; 2] = [0.9, 2.0];
+
+/// Change of the step length if an iteration diverges with a new Jacobian.
+const CHANGE_AFTER_DIVERGENCE: f64 = 0.3;
+
+/// Maximum age of the Jacobian and of the factors, in steps.
+const JACOBIAN_STEPS: u32 = 50;
+const FACTOR_STEPS: u32 = 20;
+
+/// Relative change of the step length since the last factorisation above which the matrix is factorised again.
+const MAX_LENGTH_DRIFT: f64 = 0.3;
+
+/// Relative change of the step length below which divergence is attributed to an old Jacobian.
+const JACOBIAN_LENGTH_DRIFT: f64 = 0.2;
+
+/// Fraction by which a step may be lengthened to reach a stop time, so that no tiny step remains.
+const APPENDED: f64 = 1e-3;
+
+/// Differential equations with events.
+pub(crate) trait Equations {
+    /// Writes the time derivative of a state.
+    fn rates(&mut self, time: f64, state: &[f64], rates: &mut [f64]);
+
+    /// Writes the derivative of the rates with respect to the state. An approximation costs iterations, not accuracy.
+    fn jacobian(&mut self, time: f64, state: &[f64], jacobian: &mut Matrix);
+
+    /// Writes the event functions. An event is a function that falls to zero or below.
+    fn events(&mut self, time: f64, state: &[f64], values: &mut [f64]);
+}
+
+/// End of a step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum StepEnd {
+    /// At a time chosen by the error control.
+    Free,
+    /// At the stop time.
+    Stop,
+    /// Beyond an event within the step.
+    Event {
+        /// Time of the event.
+        time: f64,
+        /// Index of the event function.
+        index: usize,
+    },
+}
+
+/// The tolerance cannot be reached.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[error(
+    "step length {length} at {time} is below the minimum of {min_length}; the tolerance cannot be reached"
+)]
+pub(crate) struct StepTooSmall {
+    length: f64,
+    time: f64,
+    min_length: f64,
+}
+
+/// Counts since the solver was created.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Counts {
+    /// Accepted steps.
+    pub(crate) steps: usize,
+    /// Steps rejected for their error.
+    pub(crate) rejected: usize,
+    /// Factorisations of the iteration's matrix.
+    pub(crate) factorisations: usize,
+}
+
+/// Tolerances of a solver.
+#[derive(Clone, Debug)]
+pub(crate) struct Tolerances {
+    /// Tolerance relative to each state.
+    pub(crate) relative: f64,
+    /// Absolute tolerance of each state, added to the relative one.
+    pub(crate) absolute: Vec<f64>,
+    /// Minimum step length; an error below it.
+    pub(crate) min_length: f64,
+}
+
+/// Reason why the matrix of the iteration may be out of date.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Cause {
+    Restart,
+    Accepted,
+    ErrorTooLarge,
+    FirstDivergence,
+    FurtherDivergence,
+}
+
+/// Solver with the state at the end of its last step and the stages of that step.
+pub(crate) struct Esdirk {
+    tolerances: Tolerances,
+    time: f64,
+    state: Vec<f64>,
+    rates: Vec<f64>,
+    /// Length of the next step by the error control.
+    wanted: f64,
+    start_time: f64,
+    start: Vec<f64>,
+    /// Derivatives at the stages times the step length; the first and last stage are the ends of the step.
+    increments: [Vec<f64>; STAGES],
+    known: Vec<f64>,
+    stage: Vec<f64>,
+    residual: Vec<f64>,
+    bracket: Bracket,
+    interpolated: Vec<f64>,
+    jacobian: Matrix,
+    factors: Factors,
+    convergence: Convergence,
+    jacobian_age: u32,
+    factors_age: u32,
+    factored_length: f64,
+    counts: Counts,
+}
+
+impl Esdirk {
+    /// Builds a solver with one state per absolute tolerance. Call [`Self::restart`] before the first step.
+    pub(crate) fn new(tolerances: Tolerances, events: usize) -> Self {
+        let size = tolerances.absolute.len();
+        let zeros = || vec![0.0; size];
+        Self {
+            tolerances,
+            time: 0.0,
+            state: zeros(),
+            rates: zeros(),
+            wanted: 0.0,
+            start_time: 0.0,
+            start: zeros(),
+            increments: std::array::from_fn(|_| zeros()),
+            known: zeros(),
+            stage: zeros(),
+            residual: zeros(),
+            bracket: Bracket::new(events),
+            interpolated: zeros(),
+            jacobian: Matrix::zeros(size),
+            factors: Factors::new(Matrix::zeros(size)),
+            convergence: Convergence::new(),
+            jacobian_age: 0,
+            factors_age: 0,
+            factored_length: 0.0,
+            counts: Counts::default(),
+        }
+    }
+
+    /// Time at the end of the last step.
+    pub(crate) fn time(&self) -> f64 {
+        self.time
+    }
+
+    /// State at the end of the last step.
+    pub(crate) fn state(&self) -> &[f64] {
+        &self.state
+    }
+
+    /// Length of the next step by the error control, not shortened by a stop time.
+    pub(crate) fn wanted_length(&self) -> f64 {
+        self.wanted
+    }
+
+    pub(crate) fn counts(&self) -> Counts {
+        self.counts
+    }
+
+    /// Starts at a state, with a first step of at most `length`.
+    pub(crate) fn restart(
+        &mut self,
+        equations: &mut impl Equations,
+        time: f64,
+        state: &[f64],
+        length: f64,
+    ) {
+        self.time = time;
+        self.state.copy_from_slice(state);
+        self.wanted = length;
+        equations.rates(time, &self.state, &mut self.rates);
+        equations.events(time, &self.state, &mut self.bracket.low);
+        self.update_factors(equations, length, Cause::Restart);
+    }
+
+    /// Takes one step, up to `stop_time` at most. After an event, only [`Self::restart`] continues the solution.
+    pub(crate) fn step(
+        &mut self,
+        equations: &mut impl Equations,
+        stop_time: f64,
+    ) -> Result<StepEnd, StepTooSmall> {
+        let left = stop_time - self.time;
+        let mut length = self.wanted;
+        let mut to_stop = length * (1.0 + APPENDED) >= left;
+        if to_stop {
+            length = left;
+        }
+        let is_shortened = length < self.wanted;
+        let mut has_diverged = false;
+        let change = loop {
+            if !(length >= self.tolerances.min_length || to_stop) {
+                return Err(StepTooSmall {
+                    length,
+                    time: self.time,
+                    min_length: self.tolerances.min_length,
+                });
+            }
+            if !self.solve_stages(equations, length) {
+                if has_diverged {
+                    length *= CHANGE_AFTER_DIVERGENCE;
+                    to_stop = false;
+                    self.convergence.reset_for_length();
+                    self.update_factors(equations, length, Cause::FurtherDivergence);
+                } else {
+                    has_diverged = true;
+                    self.update_factors(equations, length, Cause::FirstDivergence);
+                }
+                continue;
+            }
+            let error = self.error();
+            let change = self.change(error);
+            if error < 1.0 {
+                break change;
+            }
+            length *= change;
+            to_stop = false;
+            self.counts.rejected += 1;
+            self.convergence.reset_for_length();
+            self.update_factors(equations, length, Cause::ErrorTooLarge);
+        };
+        self.accept(length, change, is_shortened);
+        if to_stop {
+            self.time = stop_time;
+        }
+        self.update_factors(equations, self.wanted, Cause::Accepted);
+        self.jacobian_age += 1;
+        self.factors_age += 1;
+        Ok(match self.event(equations) {
+            Some(event) => event,
+            None if to_stop => StepEnd::Stop,
+            None => StepEnd::Free,
+        })
+    }
+
+    /// Solves all stages; false if an iteration diverges.
+    fn solve_stages(&mut self, equations: &mut impl Equations, length: f64) -> bool {
+        for (increment, rate) in self.increments[0].iter_mut().zip(&self.rates) {
+            *increment = length * rate;
+        }
+        (1..STAGES).all(|stage| {
+            let mut increment = std::mem::take(&mut self.increments[stage]);
+            self.predict(stage, &mut increment);
+            let converged = self.solve_stage(equations, length, stage, &mut increment);
+            self.increments[stage] = increment;
+            converged
+        })
+    }
+
+    /// Predicts a stage by linear extrapolation from the two stages before it.
+    fn predict(&self, stage: usize, increment: &mut [f64]) {
+        let before = &self.increments[stage - 1];
+        if stage == 1 {
+            increment.copy_from_slice(before);
+            return;
+        }
+        let (last, first) = (TIMES[stage - 1], TIMES[stage - 2]);
+        let share = (TIMES[stage] - first) / (last - first);
+        let earlier = &self.increments[stage - 2];
+        for (guess, (earlier, before)) in increment.iter_mut().zip(earlier.iter().zip(before)) {
+            *guess = (1.0 - share) * earlier + share * before;
+        }
+    }
+
+    /// Solves `k = h f(known + gamma k)` for one stage; false if the iteration diverges.
+    fn solve_stage(
+        &mut self,
+        equations: &mut impl Equations,
+        length: f64,
+        stage: usize,
+        increment: &mut [f64],
+    ) -> bool {
+        self.known.copy_from_slice(&self.state);
+        for (earlier, coefficient) in self.increments.iter().zip(&COEFFICIENTS[stage][..stage]) {
+            add_multiple(&mut self.known, *coefficient, earlier);
+        }
+        let time = self.time + TIMES[stage] * length;
+        self.convergence.start();
+        loop {
+            self.stage.copy_from_slice(&self.known);
+            add_multiple(&mut self.stage, GAMMA, increment);
+            equations.rates(time, &self.stage, &mut self.residual);
+            for (residual, increment) in self.residual.iter_mut().zip(increment.iter()) {
+                *residual = increment - length * *residual;
+            }
+            self.factors.solve(&mut self.residual);
+            for (increment, change) in increment.iter_mut().zip(&self.residual) {
+                *increment -= change;
+            }
+            let change = self.mean_square(&self.residual).sqrt();
+            match self.convergence.judge(change) {
+                Verdict::Converged => break,
+                Verdict::Diverged => return false,
+                Verdict::Continue => {}
+            }
+        }
+        self.stage.copy_from_slice(&self.known);
+        add_multiple(&mut self.stage, GAMMA, increment);
+        true
+    }
+
+    /// Mean square of the estimated error over the tolerances.
+    fn error(&mut self) -> f64 {
+        self.residual.fill(0.0);
+        for (increment, weight) in self.increments.iter().zip(ERROR_WEIGHTS) {
+            add_multiple(&mut self.residual, weight, increment);
+        }
+        self.factors.solve(&mut self.residual);
+        self.mean_square(&self.residual)
+    }
+
+    /// Mean square over the tolerances at the state.
+    fn mean_square(&self, vector: &[f64]) -> f64 {
+        let Tolerances {
+            relative, absolute, ..
+        } = &self.tolerances;
+        let squares = vector.iter().zip(self.state.iter().zip(absolute));
+        let sum: f64 = squares
+            .map(|(x, (state, absolute))| (x / (state.abs() * relative + absolute)).powi(2))
+            .sum();
+        sum / vector.len() as f64
+    }
+
+    /// Change of the step length by the mean square error of a step; smaller where the iterations were many.
+    fn change(&self, error: f64) -> f64 {
+        let (max, used) = (
+            f64::from(MAX_ITERATIONS),
+            f64::from(self.convergence.iterations()),
+        );
+        let safety = SAFETY * (2.0 * max + 1.0) / (2.0 * max + used);
+        let change = safety * error.powf(-0.5 / f64::from(ORDER + 1));
+        let [smallest, largest] = LENGTH_CHANGE;
+        if change > UNCHANGED[0] && change < UNCHANGED[1] {
+            1.0
+        } else if change.is_nan() {
+            smallest
+        } else {
+            change.clamp(smallest, largest)
+        }
+    }
+
+    /// Completes an accepted step; the last stage is its end.
+    fn accept(&mut self, length: f64, change: f64, is_shortened: bool) {
+        self.start_time = self.time;
+        self.time += length;
+        std::mem::swap(&mut self.start, &mut self.state);
+        self.state.copy_from_slice(&self.stage);
+        for (rate, increment) in self.rates.iter_mut().zip(&self.increments[STAGES - 1]) {
+            *rate = increment / length;
+        }
+        let before = self.wanted;
+        self.wanted = length * change;
+        if is_shortened && change >= 1.0 {
+            self.wanted = self.wanted.max(before);
+        }
+        if self.wanted != length {
+            self.convergence.reset_for_length();
+        }
+        self.counts.steps += 1;
+    }
+
+    /// Finds the first event within the last step.
+    fn event(&mut self, equations: &mut impl Equations) -> Option<StepEnd> {
+        equations.events(self.time, &self.state, &mut self.bracket.high);
+        let mut bracket = std::mem::take(&mut self.bracket);
+        let mut state = std::mem::take(&mut self.interpolated);
+        let crossing = bracket.locate((self.start_time, self.time), |time, values| {
+            self.interpolate(time, &mut state);
+            equations.events(time, &state, values);
+        });
+        if crossing.is_none() {
+            bracket.advance();
+        }
+        (self.bracket, self.interpolated) = (bracket, state);
+        crossing.map(|crossing| StepEnd::Event {
+            time: crossing.time,
+            index: crossing.index,
+        })
+    }
+
+    /// Writes the state at a time within the last step: a cubic through the states and rates at both ends.
+    pub(crate) fn interpolate(&self, time: f64, state: &mut [f64]) {
+        let share = (time - self.start_time) / (self.time - self.start_time);
+        let left = 1.0 - share;
+        let [first, .., last] = &self.increments;
+        for (k, state) in state.iter_mut().enumerate() {
+            let (start, end) = (self.start[k], self.state[k]);
+            let bend = (left - share) * (end - start) - left * first[k] + share * last[k];
+            *state = left * start + share * end - share * left * bend;
+        }
+    }
+
+    /// Evaluates the Jacobian at the state and factorises the matrix `I - gamma h J`, if either is due.
+    fn update_factors(&mut self, equations: &mut impl Equations, length: f64, cause: Cause) {
+        let drift = (length / self.factored_length - 1.0).abs();
+        let is_jacobian_due = match cause {
+            Cause::Restart => true,
+            Cause::Accepted => self.jacobian_age >= JACOBIAN_STEPS,
+            Cause::FirstDivergence => drift < JACOBIAN_LENGTH_DRIFT,
+            Cause::FurtherDivergence => self.jacobian_age > 0,
+            Cause::ErrorTooLarge => false,
+        };
+        let is_due = is_jacobian_due
+            || match cause {
+                Cause::Restart | Cause::ErrorTooLarge => true,
+                Cause::Accepted => self.factors_age >= FACTOR_STEPS || drift > MAX_LENGTH_DRIFT,
+                Cause::FirstDivergence | Cause::FurtherDivergence => drift != 0.0,
+            };
+        if is_jacobian_due {
+            equations.jacobian(self.time, &self.state, &mut self.jacobian);
+            self.jacobian_age = 0;
+        }
+        if !is_due {
+            return;
+        }
+        let factor = GAMMA * length;
+        let jacobian = &self.jacobian;
+        self.factors.replace(|matrix| {
+            for row in 0..jacobian.size() {
+                let entries = matrix.row_mut(row);
+                for (entry, slope) in entries.iter_mut().zip(jacobian.row(row)) {
+                    *entry = -factor * slope;
+                }
+                entries[row] += 1.0;
+            }
+        });
+        self.factors_age = 0;
+        self.factored_length = length;
+        self.convergence.reset_for_factors();
+        self.counts.factorisations += 1;
+    }
+}
+
+fn add_multiple(sum: &mut [f64], factor: f64, vector: &[f64]) {
+    for (sum, x) in sum.iter_mut().zip(vector) {
+        *sum += factor * x;
+    }
+}
+
+#[cfg(test)]
+mod tests;

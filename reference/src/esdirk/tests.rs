@@ -1,0 +1,162 @@
+//! The solver against equations with known solutions.
+
+use super::*;
+
+/// Equations of two states with one event function.
+struct Problem<R, J, E> {
+    rates: R,
+    jacobian: J,
+    event: E,
+}
+
+impl<R, J, E> Equations for Problem<R, J, E>
+where
+    R: Fn(f64, &[f64]) -> [f64; 2],
+    J: Fn(&[f64]) -> [[f64; 2]; 2],
+    E: Fn(f64, &[f64]) -> f64,
+{
+    fn rates(&mut self, time: f64, state: &[f64], rates: &mut [f64]) {
+        rates.copy_from_slice(&(self.rates)(time, state));
+    }
+
+    fn jacobian(&mut self, _time: f64, state: &[f64], jacobian: &mut Matrix) {
+        for (row, entries) in (self.jacobian)(state).iter().enumerate() {
+            jacobian.row_mut(row).copy_from_slice(entries);
+        }
+    }
+
+    fn events(&mut self, time: f64, state: &[f64], values: &mut [f64]) {
+        values[0] = (self.event)(time, state);
+    }
+}
+
+fn solver(tolerance: f64) -> Esdirk {
+    let tolerances = Tolerances {
+        relative: tolerance,
+        absolute: vec![tolerance; 2],
+        min_length: 1e-15,
+    };
+    Esdirk::new(tolerances, 1)
+}
+
+/// Prothero and Robinson's equation `dx/dt = -rate (x - cos t) - sin t`, and a quadrature.
+fn prothero_robinson(rate: f64) -> impl Equations {
+    Problem {
+        rates: move |t: f64, x: &[f64]| [-rate * (x[0] - t.cos()) - t.sin(), x[0]],
+        jacobian: move |_: &[f64]| [[-rate, 0.0], [1.0, 0.0]],
+        event: |_: f64, _: &[f64]| 1.0,
+    }
+}
+
+fn run(solver: &mut Esdirk, equations: &mut impl Equations, end: f64) -> Vec<f64> {
+    loop {
+        match solver.step(equations, end).expect("a step") {
+            StepEnd::Stop => return solver.state().to_vec(),
+            StepEnd::Free => {}
+            StepEnd::Event { .. } => unreachable!("no event"),
+        }
+    }
+}
+
+#[test]
+fn a_stiff_solution_follows_the_tolerance() {
+    for rate in [1.0, 1e3, 1e6] {
+        for tolerance in [1e-6, 1e-9, 1e-12] {
+            let mut equations = prothero_robinson(rate);
+            let mut solver = solver(tolerance);
+            solver.restart(&mut equations, 0.0, &[1.0, 0.0], 1e-4);
+            let end = run(&mut solver, &mut equations, 2.0);
+            assert_eq!(solver.time(), 2.0);
+            let error = (end[0] - 2f64.cos()).abs().max((end[1] - 2f64.sin()).abs());
+            // The tolerance bounds the estimated error of each step; the order is reduced if the equation is stiff.
+            let counts = solver.counts();
+            let allowed = 50.0 * tolerance * counts.steps as f64;
+            assert!(error < allowed, "{rate} {tolerance}: {error:e}, {counts:?}");
+        }
+    }
+}
+
+/// Without error control, half the step length makes an eighth of the error.
+#[test]
+fn the_order_is_three() {
+    let error = |steps: u32| {
+        let mut equations = prothero_robinson(1.0);
+        let mut solver = solver(1e-13);
+        let mut state = vec![1.0, 0.0];
+        let length = 1.0 / f64::from(steps);
+        for step in 0..steps {
+            solver.restart(&mut equations, f64::from(step) * length, &state, length);
+            assert!(solver.solve_stages(&mut equations, length));
+            state.copy_from_slice(&solver.stage);
+        }
+        (state[0] - 1f64.cos()).abs()
+    };
+    let ratio = error(20) / error(40);
+    assert!((ratio - 8.0).abs() < 0.5, "{ratio}");
+}
+
+/// A pendulum of period 2 pi passes zero at pi/2.
+#[test]
+fn an_event_is_located_to_the_tolerance() {
+    for tolerance in [1e-6, 1e-9, 1e-12] {
+        let mut equations = Problem {
+            rates: |_: f64, x: &[f64]| [x[1], -x[0]],
+            jacobian: |_: &[f64]| [[0.0, 1.0], [-1.0, 0.0]],
+            event: |_: f64, x: &[f64]| x[0],
+        };
+        let mut solver = solver(tolerance);
+        solver.restart(&mut equations, 0.0, &[1.0, 0.0], 1e-3);
+        let time = loop {
+            match solver.step(&mut equations, 10.0).expect("a step") {
+                StepEnd::Free => {}
+                StepEnd::Event { time, index } => {
+                    assert_eq!(index, 0);
+                    break time;
+                }
+                StepEnd::Stop => unreachable!("the event comes first"),
+            }
+        };
+        let error = (time - std::f64::consts::FRAC_PI_2).abs();
+        // The tolerance bounds the estimated error of each step, as a root mean square of relative and absolute parts.
+        let allowed = 4.0 * tolerance * solver.counts().steps as f64;
+        assert!(error < allowed, "{tolerance}: {error:e}");
+        let mut state = [0.0; 2];
+        solver.interpolate(time, &mut state);
+        let past = -state[0];
+        assert!(
+            (0.0..1e-12).contains(&past) && (state[1] + 1.0).abs() < allowed,
+            "{state:?}"
+        );
+    }
+}
+
+/// The solution of `dx/dt = x^2` is infinite at time 1.
+#[test]
+fn a_solution_that_ends_is_an_error() {
+    let mut equations = Problem {
+        rates: |_: f64, x: &[f64]| [x[0] * x[0], 0.0],
+        jacobian: |x: &[f64]| [[2.0 * x[0], 0.0], [0.0, 0.0]],
+        event: |_: f64, _: &[f64]| 1.0,
+    };
+    let mut solver = solver(1e-9);
+    solver.restart(&mut equations, 0.0, &[1.0, 0.0], 1e-3);
+    let error = loop {
+        match solver.step(&mut equations, 2.0) {
+            Ok(end) => assert_eq!(end, StepEnd::Free),
+            Err(error) => break error,
+        }
+    };
+    assert!((error.time - 1.0).abs() < 1e-6, "{error}");
+}
+
+#[test]
+fn rates_that_are_no_numbers_are_an_error() {
+    let mut equations = Problem {
+        rates: |_: f64, _: &[f64]| [f64::NAN, 0.0],
+        jacobian: |_: &[f64]| [[0.0; 2]; 2],
+        event: |_: f64, _: &[f64]| 1.0,
+    };
+    let mut solver = solver(1e-9);
+    solver.restart(&mut equations, 0.0, &[1.0, 0.0], 1e-3);
+    assert!(solver.step(&mut equations, 2.0).is_err());
+}
