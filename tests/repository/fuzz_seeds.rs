@@ -263,10 +263,7 @@ fn tracks_are_in_m_and_mm_with_and_without_header() {
     let one = (0..9).map(|i| format!("-{i}.5 , {}\r\n", 30 + i));
     let one: String = one.collect();
     let millimetres = format!("# made\r\ngauge_mm,distance_m\r\n{one}");
-    let options = track::measured::Options {
-        ramp_m: 1.0,
-        ..Default::default()
-    };
+    let options = track::measured::Options::default().with_ramp_m(1.0);
     for text in [&headed, &millimetres] {
         let read = track::measured::parse(text, &options);
         assert!(read.is_ok(), "{:?}", read.err());

@@ -1,7 +1,7 @@
 //! Lists of bounded length in messages.
 
 use core::fmt;
-use core::ops::Deref;
+use core::ops::{Deref, DerefMut};
 
 use heapless::Vec;
 use serde::{Deserialize, Serialize};
@@ -67,6 +67,12 @@ macro_rules! list {
 
             fn deref(&self) -> &[$item] {
                 &self.0
+            }
+        }
+
+        impl<$($parameter)?> DerefMut for $list {
+            fn deref_mut(&mut self) -> &mut [$item] {
+                &mut self.0
             }
         }
 

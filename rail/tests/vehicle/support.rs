@@ -17,18 +17,12 @@ pub type Contact = Arc<WheelsetContact<KalkerBook>>;
 pub fn contact(normal_damping_s_per_m: f64) -> Contact {
     static TABLES: OnceLock<Arc<Tables>> = OnceLock::new();
     let tables = TABLES.get_or_init(|| {
-        let installation = Installation {
-            wheel_radius_m: 0.625,
-            ..Installation::default()
-        };
+        let installation = Installation::STANDARD.with_wheel_radius_m(0.625);
         let pair = Pair::standard(installation).unwrap();
         let geometry = ContactGeometry::new(pair, Steel::default(), 101.3e3).unwrap();
         Arc::new(Tables::new(geometry, Grid::default()).unwrap())
     });
-    let friction = Friction {
-        static_coefficient: 0.3,
-        ..Friction::default()
-    };
+    let friction = Friction::default().with_static_coefficient(0.3);
     let contact = WheelsetContact::new(Arc::clone(tables), KalkerBook::new(), friction).unwrap();
     Arc::new(contact.with_normal_damping(normal_damping_s_per_m).unwrap())
 }

@@ -6,7 +6,7 @@ use std::path::Path;
 
 use crate::climbing::{FRICTIONS, LAWS, YAWS_MRAD, climbing};
 use crate::figures::figures;
-use crate::shifts::{place_error_mm, shifts, steering};
+use crate::shifts::{position_error_mm, shifts, steering};
 
 const BEGIN: &str = "<!-- exact: begin -->";
 const END: &str = "<!-- exact: end -->";
@@ -16,7 +16,7 @@ fn measured() -> String {
         "\nPlace of contact from 0.5 to 6 mm: {:.2} mm RMS from exact theory.\n\n\
          | shift, mm | place, mm: exact | here | angle, mrad: exact | here | steering, kN: exact | here | lateral, kN: exact | here |\n\
          |---|---|---|---|---|---|---|---|---|\n",
-        place_error_mm()
+        position_error_mm()
     );
     let steering = steering();
     for shift in shifts() {
