@@ -1,4 +1,4 @@
-//! The drawing of docs/architecture.md shows the manifests and folders as they are; its table names every folder.
+//! The drawing of docs/architecture.md matches the manifests and folders; the table names every folder.
 //! `DASHPOT_BLESS=1 cargo test -p dashpot --test repository architecture` updates the drawing.
 
 use std::collections::BTreeSet;
@@ -50,7 +50,7 @@ fn drawing() -> String {
             arrows.insert((node(folder), arrow, node(&folder_of(Some(path)))));
         }
     }
-    // A dashed arrow for tests adds nothing where there is a solid one.
+    // A dashed arrow for tests adds nothing to a solid one.
     let solid: BTreeSet<_> = arrows
         .iter()
         .filter(|(_, arrow, _)| *arrow == "-->")

@@ -8,7 +8,7 @@ use dashpot::document::in_repository;
 /// Columns of a line.
 const MAX_COLUMNS: usize = 120;
 
-/// Returns the Rust files of a folder and its subfolders; none if there is no such folder.
+/// Returns the Rust files of a folder and its subfolders; empty if the folder does not exist.
 pub fn rust_files(folder: &Path) -> Vec<PathBuf> {
     let mut files = Vec::new();
     let Ok(entries) = fs::read_dir(folder) else {
@@ -44,7 +44,7 @@ pub fn read(file: &Path) -> String {
     fs::read_to_string(file).unwrap_or_else(|error| panic!("{}: {error}", file.display()))
 }
 
-/// rustfmt leaves comments and strings as they are.
+/// rustfmt does not break comments and strings.
 #[test]
 fn no_line_is_too_long() {
     let files = rust_files(&in_repository(""));

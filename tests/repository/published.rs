@@ -28,7 +28,16 @@ fn published_packages_contain_licences_and_readme() {
 fn published_packages_say_what_they_are() {
     for (folder, package) in published() {
         assert!(package.description.is_some(), "{folder}: no description");
-        assert!(package.repository.is_some(), "{folder}: no repository");
+        for address in [
+            &package.repository,
+            &package.homepage,
+            &package.documentation,
+        ] {
+            let is_invented = address
+                .as_ref()
+                .is_some_and(|address| address.contains(".invalid"));
+            assert!(!is_invented, "{folder}: {address:?} does not exist");
+        }
         let readme = package.readme.as_ref().map(|readme| readme.as_str());
         assert_eq!(readme, Some("README.md"), "{folder}");
     }

@@ -57,7 +57,7 @@ fn each_feature() -> Outcome {
         "hack",
         "clippy",
         "--workspace",
-        // In the top folder, cargo would check the default members instead; the package's one feature is for a bench.
+        // For the package in the top folder, cargo would check the default members. Its only feature is for a bench.
         "--exclude",
         "dashpot",
         "--each-feature",

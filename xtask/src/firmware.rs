@@ -39,7 +39,7 @@ pub fn build(toolchain: &TargetToolchain, processor: &Processor) -> Outcome<Path
 /// Builds the firmware's images for its own processor.
 ///
 /// # Errors
-/// As [`build`], or no compiler supports the target.
+/// The build fails, or no compiler supports the target.
 pub fn build_default() -> Outcome<PathBuf> {
     build(&TargetToolchain::find(CORTEX_M7.target)?, &CORTEX_M7)
 }

@@ -12,7 +12,7 @@ pub struct Area {
     pub name: &'static str,
     /// Package of the code.
     pub package: &'static str,
-    /// Paths from the repository's folder; `*` stands for a name and `**` for folders.
+    /// Paths from the repository's folder; `*` matches a name and `**` any folders.
     pub files: &'static [&'static str],
     /// Packages whose tests are run.
     pub tested: &'static [&'static str],
@@ -79,7 +79,7 @@ pub const AREAS: [Area; 6] = [
         package: "dashpot-recording",
         files: &["recording/src/**/*.rs"],
         tested: &["dashpot-recording", "dashpot-hil"],
-        tests: &["--lib", "--test", "library", "--test", "recordings"],
+        tests: &["--lib", "--test", "recordings"],
     },
 ];
 

@@ -10,7 +10,7 @@ const NIGHTLY: &str = "nightly";
 /// Has four-byte pointers like the firmware's processors. Miri cannot run x86-64, for which `libm` has assembly.
 const MIRI_TARGET: &str = "armv7-unknown-linux-gnueabihf";
 
-/// All tests that cross the C interface, except that of its header. The core, which they call, has no unsafe code.
+/// Tests that cross the C interface, except the test of its header. The core, which they call, has no unsafe code.
 const MIRI_ARGUMENTS: [&str; 14] = [
     "miri",
     "test",

@@ -5,19 +5,19 @@ use std::fs;
 
 use crate::run::{Outcome, cargo, cargo_output, repository};
 
-/// Files that each package must contain, besides its sources.
+/// Files that each package must contain in addition to its sources.
 const REQUIRED: [&str; 4] = ["Cargo.toml", "LICENSE-MIT", "LICENSE-APACHE", "README.md"];
 
-/// The package that is also compiled from its packed files. All packages would take as long as the workspace itself;
-/// the tests check that none includes a file from outside its folder.
+/// The package that is also compiled from its packed files. To compile all would take as long as the workspace itself;
+/// `tests/repository/published.rs` checks that no package includes a file from outside its folder.
 const COMPILED: &str = "dashpot-core";
 
 /// A package of the workspace.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Package {
-    /// Its name.
+    /// Name of the package.
     pub name: String,
-    /// Its folder in the repository.
+    /// Folder in the repository.
     pub folder: String,
 }
 

@@ -35,7 +35,7 @@ pub const CORTEX_M7: Processor = Processor {
     emulated_cpu: "cortex-m7",
 };
 
-/// Its code is for every processor of the target, so it also runs on a Cortex-M7.
+/// The code is compiled for every processor of the target, so it also runs on a Cortex-M7.
 pub const CORTEX_M4F: Processor = Processor {
     name: "cortex_m4f",
     title: "Cortex-M4F",

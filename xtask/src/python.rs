@@ -19,7 +19,7 @@ const TEST_PACKAGES: [&str; 6] = [
 /// Packages that build wheels.
 const WHEEL_PACKAGES: [&str; 1] = ["maturin==1.16.0"];
 
-/// The only dependency of the package `dashpot`. Its wheel is kept, so that a test can install both without a network.
+/// The only dependency of the package `dashpot`. We keep the wheel, so that a test can install both without a network.
 const DEPENDENCY: &str = "numpy==2.4.6";
 
 /// Debian package that lets Python create environments.

@@ -11,7 +11,7 @@ pub struct Promise {
     pub version: &'static str,
     /// Arguments of `cargo check` that select the code.
     pub code: &'static [&'static str],
-    /// Target besides the machine's own.
+    /// Target; `None` for the machine's own.
     pub target: Option<&'static str>,
 }
 
@@ -22,7 +22,7 @@ pub const CORE: &str = "1.88";
 /// `rust-version` of the workspace: the highest among its dependencies.
 pub const WORKSPACE: &str = env!("CARGO_PKG_RUST_VERSION");
 
-/// All promises, the lowest version first.
+/// Promises in ascending order of versions.
 const PROMISES: [Promise; 2] = [
     Promise {
         version: CORE,
@@ -42,7 +42,7 @@ const PROMISES: [Promise; 2] = [
     },
 ];
 
-/// What to do about a promised version.
+/// Action for a promised version.
 #[derive(Debug, PartialEq, Eq)]
 enum Check {
     /// Nothing: it is the version that runs all other checks.

@@ -1,4 +1,4 @@
-//! Installs what tests need: targets of the compiler, packages of Debian, and packages of Python.
+//! Installs compiler targets, Debian packages and Python packages that tests need.
 
 use std::process::Command;
 
@@ -14,8 +14,7 @@ const TOOLCHAIN_PACKAGES: [&str; 3] = ["rustc-web", "cargo-web", "rust-web-src"]
 /// Tools of the tests that measure the core on emulated processors.
 const TARGET_TOOLS: [Tool; 3] = [ARM_GCC, ARM_LIBC, QEMU];
 
-/// Installs what all tests need. What cannot be installed is printed with the command that would, and its tests are
-/// skipped.
+/// Installs what all tests need. If that fails, prints the command to run by hand; the tests that need it are skipped.
 pub fn install_for_tests() {
     let mut packages = Vec::new();
     if python::lacks_environments() {

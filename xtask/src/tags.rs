@@ -53,7 +53,7 @@ fn git(arguments: &[&str]) -> Outcome<String> {
     output_of(git, &format!("git {}", arguments.join(" ")))
 }
 
-/// Returns the newest tag of a version from a list in falling order; `None` if there is none.
+/// Returns the newest version's tag from a list in descending order; `None` if no tag is of a version.
 fn last_tag(tags: &str) -> Option<String> {
     let is_version = |tag: &&str| {
         let version = tag.strip_prefix(PREFIX);

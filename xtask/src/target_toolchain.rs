@@ -20,9 +20,9 @@ pub enum TargetToolchain {
     Installed,
     /// A compiler that compiles `core` from source first.
     FromSource {
-        /// Its cargo.
+        /// Path of cargo.
         cargo: PathBuf,
-        /// Its rustc.
+        /// Path of rustc.
         rustc: PathBuf,
     },
 }
@@ -120,7 +120,7 @@ impl TargetToolchain {
     }
 }
 
-/// Returns the folder of a compiler's libraries; `None` if there is no such compiler.
+/// Returns the folder of a compiler's libraries; `None` if the compiler does not run.
 fn sysroot(rustc: &Path) -> Option<PathBuf> {
     let mut command = Command::new(rustc);
     command.args(["--print", "sysroot"]);

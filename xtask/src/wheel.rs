@@ -9,7 +9,7 @@ use crate::run::{Outcome, repository, run};
 /// Builds the wheel into `output`, removes older wheels of the package from it, and returns the wheel's path.
 ///
 /// # Errors
-/// As [`builder`], or the package does not build.
+/// There is no Python with the module `venv`, maturin cannot be installed, or the package does not build.
 pub fn wheel(profile: &str, output: &Path) -> Outcome<PathBuf> {
     let interpreter = builder()?;
     let failed = |error: std::io::Error| format!("{}: {error}", output.display());

@@ -116,7 +116,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// Reads a string literal of any kind; `None` if there is none here.
+    /// Reads a string literal of any kind; `None` if the text does not start with one.
     fn string(&mut self) -> Option<String> {
         let prefix = ["br", "cr", "r", "b", "c", ""].into_iter().find(|prefix| {
             let rest = self.rest.strip_prefix(prefix);

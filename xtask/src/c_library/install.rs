@@ -9,7 +9,7 @@ use crate::run::Outcome;
 
 const VERSION: &str = env!("CARGO_PKG_VERSION");
 
-/// Templates in which `@NAME@` stands for what differs between the trees.
+/// Templates in which `@NAME@` marks the parts that differ between trees.
 const PKG_CONFIG: &str = include_str!("../../../capi/install/dashpot.pc.in");
 const CMAKE: &str = include_str!("../../../capi/install/DashpotConfig.cmake.in");
 const CMAKE_VERSION: &str = include_str!("../../../capi/install/DashpotConfigVersion.cmake.in");

@@ -29,7 +29,7 @@ pub struct Built {
 }
 
 impl Platform {
-    /// All platforms.
+    /// List of all platforms.
     pub const ALL: [Self; 5] = [
         Self::Bare(CORTEX_M4F),
         Self::Bare(CORTEX_M7),

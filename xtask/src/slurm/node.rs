@@ -26,7 +26,7 @@ impl Node {
     /// Starts Slurm with `xtask/slurm_node.sh` on free ports.
     ///
     /// # Errors
-    /// A daemon does not start. Its output is on standard error.
+    /// A daemon does not start; standard error has its output.
     pub fn start() -> Outcome<Self> {
         let name = format!("dashpot-slurm-{}", std::process::id());
         let folder = std::env::temp_dir().join(name);

@@ -8,7 +8,7 @@ use crate::run::{Outcome, repository};
 
 const RESULTS: &str = "parallel";
 
-/// Shard 2 cannot write at first. The same command, run again, runs only that shard.
+/// Shard 2 cannot write at first. When repeated, the command runs only this shard.
 pub fn one_failed(trial: &Trial) -> Outcome<String> {
     let results = trial.results(RESULTS, &[])?;
     let barrier = results.join(format!("{}.partial", rows_of(2)));

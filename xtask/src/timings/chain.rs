@@ -9,7 +9,7 @@ use super::unit::Unit;
 pub struct Chain<'a> {
     /// Processor time of all its units, in seconds.
     pub processor_s: f64,
-    /// Its units in the order of compilation.
+    /// Units in the order of compilation.
     pub units: Vec<&'a Unit>,
 }
 

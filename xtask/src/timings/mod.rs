@@ -19,7 +19,7 @@ use crate::run::{Outcome, output_of, repository, run};
 use unit::Unit;
 use wrapper::child_processor_seconds;
 
-/// What to build.
+/// Target of the build.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Build {
     /// The command, as `cargo run --release` builds it.
@@ -37,7 +37,7 @@ impl Build {
     }
 }
 
-/// Builds into an empty folder, prints what each crate took, and checks the bounds of the command's build.
+/// Builds into an empty folder, prints the processor time of each package, and checks the bound of the command's build.
 ///
 /// # Errors
 /// The build fails, this is not Linux, or the command takes more than its bound.
@@ -55,7 +55,7 @@ pub fn timings(build: Build) -> Outcome {
     let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
     cargo.args(build.arguments()).current_dir(repository());
     cargo.env("CARGO_TARGET_DIR", target_folder());
-    // In place of any wrapper that is set: a cache would hide the time it saves.
+    // This replaces any other wrapper: a cache would hide the time it saves.
     cargo.env("RUSTC_WRAPPER", std::env::current_exe().map_err(failed)?);
     cargo.env_remove("RUSTC_WORKSPACE_WRAPPER").env(LOG, &log);
     run(cargo, &format!("cargo {}", build.arguments().join(" ")))?;
@@ -74,7 +74,7 @@ pub fn timings(build: Build) -> Outcome {
 /// Builds the command with [`timings`], then runs its demonstration: README's first command.
 ///
 /// # Errors
-/// As [`timings`], or the demonstration fails.
+/// The build or the demonstration fails, this is not Linux, or the command takes more than its bound.
 pub fn build_and_demonstrate() -> Outcome {
     timings(Build::Command)?;
     let program = target_folder().join("release/dashpot");
@@ -85,7 +85,7 @@ fn target_folder() -> PathBuf {
     repository().join("target/timings/build")
 }
 
-/// True if this program was started by cargo in place of rustc, to measure it.
+/// True if cargo started this program as a wrapper of rustc.
 pub fn is_compiler() -> bool {
     std::env::var_os(LOG).is_some_and(|log| log != OsStr::new(""))
 }

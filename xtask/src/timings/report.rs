@@ -9,7 +9,7 @@ use super::unit::Unit;
 /// Packages below this are summed in one row, in seconds.
 const MIN_LISTED_S: f64 = 0.5;
 
-/// What all crates of a package took.
+/// Processor time of all crates of a package.
 #[derive(Clone, Copy, Default)]
 struct PackageTime {
     processor_s: f64,

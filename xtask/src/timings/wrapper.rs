@@ -1,4 +1,4 @@
-//! Runs rustc in cargo's place and records the processor time it took.
+//! A wrapper of rustc that records the processor time of each run.
 
 use std::fs;
 use std::io::Write;

@@ -53,7 +53,7 @@ pub const PYTHON: Tool = program("python3", "python3");
 
 /// Daemon that signs the messages of Slurm's daemons.
 pub const MUNGED: Tool = program("munged", "munge");
-/// Slurm's controller, which keeps the queue. Its package also has the daemon of a node and the users' commands.
+/// Slurm's controller, which keeps the queue. The package also has the daemon of a node and the users' commands.
 pub const SLURMCTLD: Tool = program("slurmctld", "slurm-wlm");
 /// Slurm's daemon on a compute node.
 pub const SLURMD: Tool = program("slurmd", "slurm-wlm");

@@ -25,20 +25,20 @@ pub fn have(tools: &[Tool], skipped: &str) -> bool {
     missing.is_empty()
 }
 
-/// Returns the toolchain of a target; `None` if there is none, as [`have`] returns `false`.
+/// Returns the toolchain of a target. A test that gets `None` returns, as with [`have`].
 ///
 /// # Panics
-/// As [`have`].
+/// The test is skipped and the variable `CI` is set.
 pub fn have_target(target: &str, skipped: &str) -> Option<TargetToolchain> {
     TargetToolchain::find(target)
         .inspect_err(|message| skip(skipped, message))
         .ok()
 }
 
-/// Returns true if the default compiler has the library of a target; otherwise as [`have`].
+/// Returns true if the default compiler has the library of a target. A test that gets `false` returns, as with [`have`].
 ///
 /// # Panics
-/// As [`have`].
+/// The test is skipped and the variable `CI` is set.
 pub fn have_library(target: &str, skipped: &str) -> bool {
     let is_installed = TargetToolchain::installed(target).is_some();
     if !is_installed {
@@ -50,7 +50,7 @@ pub fn have_library(target: &str, skipped: &str) -> bool {
 /// Reports a skipped test with the command that would let it run.
 ///
 /// # Panics
-/// As [`have`].
+/// The test is skipped and the variable `CI` is set.
 pub fn skip(skipped: &str, remedy: &str) {
     let thread = std::thread::current();
     let line = format!(
