@@ -1,5 +1,7 @@
 //! Packages that a user may depend on contain all that they need: licences, a README, and the files they include.
 
+use std::collections::BTreeSet;
+
 use dashpot::document::{in_repository, read};
 
 use crate::files::{self, rust_files};
@@ -23,7 +25,20 @@ fn published_packages_contain_licences_and_readme() {
     assert!(missing.is_empty(), "{missing:#?}");
 }
 
-/// A registry refuses a package without these.
+#[test]
+fn ci_rehearses_publishing_every_package() {
+    let rehearsed = xtask::packages::published().expect("the manifests");
+    let rehearsed: BTreeSet<_> = rehearsed
+        .into_iter()
+        .map(|package| (package.folder, package.name))
+        .collect();
+    let published = published()
+        .into_iter()
+        .map(|(folder, package)| (folder, package.name.to_string()));
+    assert_eq!(rehearsed, published.collect());
+}
+
+/// A registry requires a description and shows the README.
 #[test]
 fn published_packages_say_what_they_are() {
     for (folder, package) in published() {

@@ -27,7 +27,7 @@ Commands:
                          package and check the bounds of the command's build
   firmware               build the images for the target
   target [--format json] measure the core on emulated processors against its budget
-  bench                  measure time per step, next to that of the yardstick and an empty step
+  bench                  measure time per step, next to that of the yardstick and of a bare table look-up
   bench --instructions   count instructions per step (needs Valgrind and gungraun-runner)
   c-library [--target NAME]... [--output FOLDER]
                          build the C library into an install tree for each target: cortex-m4f, cortex-m7, cortex-m33,
@@ -43,7 +43,8 @@ Commands:
   wheel                  build the Python package `dashpot`: a wheel in target/wheels, for pip install
   python                 install the Python packages that tests need in target/python, and maturin in target/maturin
   miri                   run the tests of the C interface under Miri (needs a nightly compiler)
-  fuzz [--seconds N]     run each fuzz target from its kept seeds for N seconds, 60 by default (needs a nightly compiler)
+  fuzz [--seconds N]     run each fuzz target from its kept seeds for N seconds, 60 by default (needs a nightly
+                         compiler)
   slurm                  run shards of a study on a real Slurm, started for this with one node, and on GNU parallel (two
                          minutes; installs Debian's slurm-wlm, munge and parallel, or prints how to)
   help                   print this text

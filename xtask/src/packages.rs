@@ -126,7 +126,8 @@ mod tests {
 
     #[test]
     fn manifests_are_read() {
-        let manifest = "[package]\nname = \"top\"\n\n[workspace]\nmembers = [\n    \"core\", \"rail\",\n    \"xtask\",\n]\n";
+        let manifest = "[package]\nname = \"top\"\n\n[workspace]\n\
+                        members = [\n    \"core\", \"rail\",\n    \"xtask\",\n]\n";
         assert_eq!(members(manifest), ["core", "rail", "xtask"]);
         assert_eq!(name(manifest).as_deref(), Some("top"));
     }

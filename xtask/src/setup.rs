@@ -2,7 +2,7 @@
 
 use std::process::Command;
 
-use crate::processor::{CORTEX_M7, TARGETS};
+use crate::processor::{CORTEX_M7, CORTEX_M33, TARGETS};
 use crate::python;
 use crate::run::Outcome;
 use crate::target_toolchain::TargetToolchain;
@@ -20,12 +20,14 @@ pub fn install_for_tests() {
     if python::lacks_environments() {
         packages.push(python::ENVIRONMENTS);
     }
+    install_targets(&TARGETS);
     report(install_tools(&TEST_TOOLS, &packages));
     report(python::install());
 }
 
 /// Installs what the tests on emulated Cortex-M processors need, as [`install_for_tests`].
 pub fn install_for_target() {
+    install_targets(&[CORTEX_M7.target, CORTEX_M33.target]);
     report(install_tools(&TARGET_TOOLS, &[]));
 }
 
@@ -35,9 +37,8 @@ fn report(outcome: Outcome) {
     }
 }
 
-/// Installs the compiler's targets, the missing tools, and other packages.
+/// Installs the missing tools and other packages, and a compiler for the firmware's processor if there is none.
 fn install_tools(tools: &[Tool], others: &[&'static str]) -> Outcome {
-    install_targets();
     let mut packages = missing(tools);
     packages.extend(others);
     if TargetToolchain::find(CORTEX_M7.target).is_err() {
@@ -49,10 +50,10 @@ fn install_tools(tools: &[Tool], others: &[&'static str]) -> Outcome {
     }
 }
 
-/// Installs the libraries of the targets if there is a rustup.
-fn install_targets() {
+/// Installs the libraries of targets if there is a rustup.
+fn install_targets(targets: &[&str]) {
     let lacks = |target: &&str| TargetToolchain::installed(target).is_none();
-    let missing: Vec<&str> = TARGETS.into_iter().filter(lacks).collect();
+    let missing: Vec<&str> = targets.iter().copied().filter(lacks).collect();
     if missing.is_empty() || Command::new("rustup").arg("--version").output().is_err() {
         return;
     }

@@ -28,8 +28,8 @@ pub enum TargetToolchain {
 }
 
 impl TargetToolchain {
-    /// Returns this machine's first choice for a target. A distribution's compiler serves only targets without an operating
-    /// system, because it compiles only `core`.
+    /// Returns this machine's first choice for a target. A distribution's compiler serves only targets without an
+    /// operating system, because it compiles only `core`.
     ///
     /// # Errors
     /// There is none. The message has the command that installs one.

@@ -14,8 +14,8 @@ const PKG_CONFIG: &str = include_str!("../../../capi/install/dashpot.pc.in");
 const CMAKE: &str = include_str!("../../../capi/install/DashpotConfig.cmake.in");
 const CMAKE_VERSION: &str = include_str!("../../../capi/install/DashpotConfigVersion.cmake.in");
 
-/// Builds the library for a platform, installs it in its own folder in `output`, and returns that folder. The tree may be
-/// moved as a whole.
+/// Builds the library for a platform, installs it in its own folder in `output`, and returns that folder. The tree may
+/// be moved as a whole.
 ///
 /// # Errors
 /// The build fails, or a file cannot be written.

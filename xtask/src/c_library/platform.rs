@@ -51,8 +51,8 @@ impl Platform {
         matches!(self, Self::Linux(processor) if OS == "linux" && *processor == ARCH)
     }
 
-    /// Returns the library's name, which includes the platform so that no wrong library is linked. This machine's library
-    /// is `dashpot`.
+    /// Returns the library's name, which includes the platform so that no wrong library is linked. On this machine's
+    /// own platform it is `dashpot`.
     pub fn library(&self) -> String {
         if self.is_host() {
             "dashpot".into()

@@ -14,7 +14,8 @@ pub const LOG: &str = "DASHPOT_COMPILER_LOG";
 /// Ticks per second in which Linux reports processor time to programs, on all of its platforms that we build on.
 const TICKS_PER_S: f64 = 100.0;
 
-/// Runs the compiler named by the first argument with the others, and records its processor time. Returns its exit code.
+/// Runs the compiler that the first argument names, with the other arguments, and records its processor time. Returns
+/// the compiler's exit code.
 pub fn compile(arguments: &[String]) -> ExitCode {
     match compile_and_record(arguments) {
         Ok(code) => code,

@@ -35,7 +35,8 @@ pub fn have_target(target: &str, skipped: &str) -> Option<TargetToolchain> {
         .ok()
 }
 
-/// Returns true if the default compiler has the library of a target. A test that gets `false` returns, as with [`have`].
+/// Returns true if the default compiler has the library of a target. A test that gets `false` returns, as with
+/// [`have`].
 ///
 /// # Panics
 /// The test is skipped and the variable `CI` is set.
