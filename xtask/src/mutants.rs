@@ -2,6 +2,9 @@
 //!
 //! Survivors that were judged harmless are listed in `.cargo/mutants.toml`, each with its reason.
 
+use std::fs;
+use std::path::PathBuf;
+
 use crate::run::{Outcome, cargo, repository};
 use crate::tools::CARGO_MUTANTS;
 
@@ -91,11 +94,13 @@ pub fn mutants(names: &[&str]) -> Outcome {
     let areas = select(names)?;
     CARGO_MUTANTS.install()?;
     let run = |area: &&Area| {
+        let folder = output(area);
+        let created =
+            fs::create_dir_all(&folder).map_err(|error| format!("{}: {error}", folder.display()));
         let arguments = arguments(area);
         let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
-        cargo(&arguments)
-            .err()
-            .map(|error| format!("{}: {error}", area.name))
+        let outcome = created.and_then(|()| cargo(&arguments));
+        outcome.err().map(|error| format!("{}: {error}", area.name))
     };
     let failures: Vec<String> = areas.iter().filter_map(run).collect();
     if failures.is_empty() {
@@ -122,15 +127,22 @@ pub fn select(names: &[&str]) -> Outcome<Vec<&'static Area>> {
     names.iter().map(find).collect()
 }
 
+/// Returns the folder for the results of an area.
+fn output(area: &Area) -> PathBuf {
+    repository().join("target/mutants").join(area.name)
+}
+
 fn arguments(area: &Area) -> Vec<String> {
-    let output = repository().join("target/mutants").join(area.name);
     let mut arguments = vec![
         "mutants".to_owned(),
         "--no-shuffle".into(),
         "--package".into(),
         area.package.into(),
     ];
-    arguments.extend(["--output".into(), output.to_string_lossy().into_owned()]);
+    arguments.extend([
+        "--output".into(),
+        output(area).to_string_lossy().into_owned(),
+    ]);
     for file in area.files {
         arguments.extend(["--file".into(), (*file).to_owned()]);
     }
