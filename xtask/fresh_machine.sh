@@ -1,11 +1,11 @@
 #!/bin/sh
-# Runs the README's two commands on a machine that has Rust and a linker and nothing else: a bare Debian in
-# a folder, with a copy of this machine's default Rust toolchain, from which the targets are removed.
+# Runs the README's two commands on a machine with only Rust and a linker: a minimal Debian in a folder, with a copy of
+# this machine's default Rust toolchain without additional targets.
 #
 #   sudo xtask/fresh_machine.sh FOLDER [COMMAND]
 #
-# FOLDER is made, takes 10 GB, and is kept; one made before is used again. COMMAND is run in the repository's
-# copy instead of the two. What is tested is the last commit. Needs Debian's debootstrap, rustup, the network.
+# Creates FOLDER (10 GB) and keeps it; an existing one is reused. COMMAND replaces the two commands and runs in a copy of the
+# last commit. Needs Debian's debootstrap, rustup and a network.
 set -eu
 
 folder=${1:?"usage: sudo xtask/fresh_machine.sh FOLDER [COMMAND]"}
@@ -18,7 +18,7 @@ name=$(basename "$toolchain")
 if [ ! -d "$folder/root/.rustup" ]; then
     debootstrap --variant=minbase --include=ca-certificates,gcc,libc6-dev "$suite" "$folder"
     mkdir -p "$folder/root/.rustup/toolchains" "$folder/root/.cargo/bin"
-    # Without documentation, which is most of it.
+    # The documentation is most of a toolchain and is not needed.
     tar --create --directory "$(dirname "$toolchain")" --exclude "$name/share" "$name" |
         tar --extract --directory "$folder/root/.rustup/toolchains"
     cp -a "$(command -v rustup)" "$folder/root/.cargo/bin/rustup"
@@ -28,14 +28,14 @@ if [ ! -d "$folder/root/.rustup" ]; then
     fresh=yes
 fi
 
-# What is not committed may be missing on another machine.
+# Only committed files: others would be missing on another machine.
 mkdir -p "$folder/dashpot"
 git -C "$repository" archive HEAD | tar --extract --directory "$folder/dashpot"
-# The network's name servers, and its certificate authorities if it has its own.
+# Name servers, and certificate authorities in case the network has its own.
 cp /etc/resolv.conf "$folder/etc/resolv.conf"
 cp /etc/ssl/certs/ca-certificates.crt "$folder/etc/ssl/certs/ca-certificates.crt"
 
-# In a mount namespace of its own: nothing stays mounted.
+# A separate mount namespace leaves nothing mounted.
 in_folder() {
     unshare --mount --pid --fork sh -c '
         mount -t proc proc "$1/proc" && mount --rbind /dev "$1/dev" &&

@@ -1,17 +1,17 @@
 #!/bin/sh
-# A Slurm of one node on this machine, of Debian's packages slurm-wlm and munge, without systemd, as root or any user.
+# Runs a Slurm of one node on this machine from Debian's packages slurm-wlm and munge, without systemd, as any user.
 #
 #   xtask/slurm_node.sh FOLDER [SLURMCTLD_PORT SLURMD_PORT]
 #
-# Keeps everything in FOLDER, which must not exist; /etc/slurm and a Slurm that runs already stay as they are. Says `ready`
-# when it takes jobs: SLURM_CONF=FOLDER/slurm.conf sbatch ... When its standard input closes, or at SIGINT, SIGTERM or SIGHUP,
-# it ends jobs and daemons and removes FOLDER; so it does not outlive who started it.
+# Keeps everything in FOLDER, which must not exist, and leaves /etc/slurm and a running Slurm alone. Prints `ready` when it
+# accepts jobs: SLURM_CONF=FOLDER/slurm.conf sbatch ... When its standard input closes, and at SIGINT, SIGTERM or SIGHUP, it
+# stops jobs and daemons and removes FOLDER, so it does not outlive the process that started it.
 set -eu
 
 folder=${1:?"usage: xtask/slurm_node.sh FOLDER [SLURMCTLD_PORT SLURMD_PORT]"}
 slurmctld_port=${2:-26817}
 slurmd_port=${3:-26818}
-# Daemons are where not every user's path goes.
+# Not every user's path has the folders of daemons.
 PATH=$PATH:/usr/sbin:/sbin
 SLURM_CONF=$folder/slurm.conf
 export PATH SLURM_CONF
@@ -19,15 +19,15 @@ export PATH SLURM_CONF
 mkdir "$folder"
 folder=$(cd "$folder" && pwd)
 SLURM_CONF=$folder/slurm.conf
-# Who sends a job passes the folder of the socket.
+# Users who submit jobs must reach the socket in this folder.
 chmod 755 "$folder"
 mkdir "$folder/state" "$folder/spool"
 (umask 077 && dd if=/dev/urandom of="$folder/munge.key" bs=128 count=1 2>"$folder/dd.log")
 
 node=$(uname -n)
 user=$(id -un)
-# Four processors and 4 GB are stated wherever it runs, so that four shards run at once. No accounting, no cgroups, no prolog.
-# A job that is ended has 5 s for it; one that is queued again waits as long.
+# The node claims four processors and 4 GB on any machine, so that four shards run at once. There is no accounting, no
+# cgroup and no prolog. A job has 5 s to stop when it is cancelled or requeued.
 cat >"$SLURM_CONF" <<END
 ClusterName=dashpot
 SlurmctldHost=$node(127.0.0.1)
@@ -56,7 +56,7 @@ NodeName=$node NodeAddr=127.0.0.1 CPUs=4 RealMemory=4000 State=UNKNOWN
 PartitionName=main Nodes=$node Default=YES MaxTime=INFINITE State=UP
 END
 
-# Runs a daemon in a session of its own: an interruption at the terminal is for this script, which ends jobs first.
+# Runs a daemon in its own session: Ctrl-C must reach only this script, which stops jobs first.
 daemons=
 reader=
 start() {
@@ -69,7 +69,7 @@ start() {
 end() {
     trap '' INT TERM HUP
     trap - EXIT
-    # A daemon of the node leaves running jobs alone when it ends.
+    # The node's daemon would leave jobs running.
     if scancel --me 2>/dev/null; then
         tries=0
         while [ -n "$(squeue --noheader 2>/dev/null)" ] && [ $tries -lt 100 ]; do
@@ -78,7 +78,7 @@ end() {
         done
     fi
     [ -z "$reader" ] || kill "$reader" 2>/dev/null || :
-    # Slurm's daemons before the one that they sign with.
+    # munge, which Slurm's daemons use, stops last.
     for daemon in $daemons; do
         kill "$daemon" 2>/dev/null || :
         wait "$daemon" 2>/dev/null || :
@@ -88,13 +88,13 @@ end() {
 trap end EXIT
 trap 'exit 1' INT TERM HUP
 
-# Waits until a command succeeds, at most half a minute.
+# Waits up to 30 s until a command succeeds.
 wait_until() {
     tries=0
     until "$@" >/dev/null 2>&1; do
         tries=$((tries + 1))
         if [ $tries -ge 300 ]; then
-            echo "slurm_node.sh: \`$*\` fails still after 30 s:" >&2
+            echo "slurm_node.sh: \`$*\` still fails after 30 s:" >&2
             tail -n 5 "$folder"/*.out "$folder"/*.log >&2
             exit 1
         fi
@@ -110,7 +110,7 @@ start slurmd slurmd -D -f "$SLURM_CONF" -L "$folder/slurmd.log"
 idle() { [ "$(sinfo --noheader --format=%T)" = idle ]; }
 wait_until idle
 echo ready
-# What runs in the background has no standard input unless by another name; a trap does not wait for `wait`.
+# Background commands get standard input only through another descriptor. Signals interrupt `wait`, but not `cat`.
 exec 3<&0
 cat <&3 >/dev/null &
 reader=$!

@@ -1,42 +1,21 @@
-//! The drawing of docs/architecture.md is made from the manifests and folders; its table names every folder.
-//! `DASHPOT_BLESS=1 cargo test -p dashpot --test repository architecture` draws it anew.
+//! The drawing of docs/architecture.md matches the manifests and folders; the table names every folder.
+//! `DASHPOT_BLESS=1 cargo test -p dashpot --test repository architecture` updates the drawing.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
-use cargo_metadata::{DependencyKind, Package};
+use cargo_metadata::DependencyKind;
 use dashpot::document::{compare_part, in_repository, read};
 
-use crate::workspaces::WORKSPACES;
+use crate::workspaces::{folder_of, packages};
 
 const DOCUMENT: &str = "docs/architecture.md";
 
 /// Crates whose folders the document names.
 const WITH_FOLDERS: [&str; 4] = ["core", "rail", "reference", "hil-host"];
 
-/// Our packages by their folders; the tests across the crates, whose manifest is at the top, by `tests`.
-fn packages() -> BTreeMap<String, &'static Package> {
-    let all = WORKSPACES.iter().flat_map(|workspace| &workspace.packages);
-    all.filter(|package| package.source.is_none())
-        .map(|package| (folder_of(package.manifest_path.parent()), package))
-        .collect()
-}
-
-fn folder_of(path: Option<&cargo_metadata::camino::Utf8Path>) -> String {
-    let path = path.expect("a folder").as_std_path();
-    let repository = in_repository("").canonicalize().expect("the repository");
-    let path = path.canonicalize().expect("a folder");
-    let folder = path
-        .strip_prefix(repository)
-        .expect("within the repository");
-    match folder.to_string_lossy().replace('\\', "/") {
-        top if top.is_empty() => "tests".into(),
-        folder => folder,
-    }
-}
-
-/// Folders right within the sources of a crate.
+/// Returns the top folders of a crate's sources.
 fn folders_of(package: &str) -> Vec<String> {
     let sources = in_repository(package).join("src");
     let mut names: Vec<String> = fs::read_dir(sources)
@@ -62,7 +41,7 @@ fn drawing() -> String {
         boxes += &format!("    {}[\"<b>{folder}/</b>{within}\"]\n", node(folder));
         for dependency in &package.dependencies {
             let Some(path) = dependency.path.as_deref() else {
-                continue; // another's package
+                continue; // a package from a registry
             };
             let arrow = match dependency.kind {
                 DependencyKind::Development => "-.->",
@@ -71,14 +50,14 @@ fn drawing() -> String {
             arrows.insert((node(folder), arrow, node(&folder_of(Some(path)))));
         }
     }
-    // A test's arrow beside a program's own says nothing more.
-    let own: BTreeSet<_> = arrows
+    // A dashed arrow for tests adds nothing to a solid one.
+    let solid: BTreeSet<_> = arrows
         .iter()
         .filter(|(_, arrow, _)| *arrow == "-->")
         .cloned()
         .collect();
     arrows.retain(|(from, arrow, to)| {
-        *arrow == "-->" || !own.contains(&(from.clone(), "-->", to.clone()))
+        *arrow == "-->" || !solid.contains(&(from.clone(), "-->", to.clone()))
     });
     let arrows = arrows
         .iter()
@@ -87,18 +66,18 @@ fn drawing() -> String {
     format!("```mermaid\nflowchart BT\n{boxes}{arrows}```\n")
 }
 
-/// A name that mermaid takes for a box.
+/// Returns the name of a folder's box; mermaid allows neither slashes nor hyphens.
 fn node(folder: &str) -> String {
     folder.replace(['/', '-'], "_")
 }
 
 #[test]
-fn the_drawing_is_the_manifests_and_folders() {
+fn the_drawing_matches_manifests_and_folders() {
     compare_part(DOCUMENT, "drawing", &drawing());
 }
 
 #[test]
-fn every_folder_of_the_sources_is_named_and_there() {
+fn the_document_names_every_source_folder_and_no_other() {
     let text = read(DOCUMENT);
     for package in WITH_FOLDERS {
         for folder in folders_of(package) {

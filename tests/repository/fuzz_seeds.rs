@@ -1,5 +1,5 @@
-//! The seeds of `fuzz/seeds/`: what a fuzz target starts from is valid, so that it reaches what is behind the
-//! checks. `DASHPOT_BLESS=1 cargo test -p dashpot --test repository fuzz_seeds` writes them.
+//! The seeds in `fuzz/seeds/`. They are valid input, so that fuzzing reaches the code behind the checks.
+//! `DASHPOT_BLESS=1 cargo test -p dashpot --test repository fuzz_seeds` writes them.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -24,7 +24,7 @@ use dashpot_study::sweep::{Arithmetic, Row, Study};
 /// Name and bytes of a seed.
 type Seed = (String, Vec<u8>);
 
-/// Asserts that the target's folder has these files and no others, or writes them when blessing.
+/// Asserts that the target's folder has exactly these files, or writes them when blessing.
 fn compare(target: &str, seeds: Vec<Seed>) {
     let folder = format!("fuzz/seeds/{target}");
     if document::blessing() {
@@ -40,12 +40,12 @@ fn compare(target: &str, seeds: Vec<Seed>) {
         let name = name.to_string_lossy();
         assert!(
             names.contains(&*name),
-            "{folder}/{name}: no seed of this test"
+            "{folder}/{name}: not a seed of this test"
         );
     }
 }
 
-/// Those of the texts that ship with the program.
+/// Seeds from texts that ship with the program.
 fn shipped(texts: &[(&str, &str)]) -> Vec<Seed> {
     let seeds = texts
         .iter()
@@ -113,7 +113,7 @@ fn study_files_are_the_shipped_ones_and_one_with_all_keys() {
     compare("study_file", seeds);
 }
 
-/// Those of either arithmetic, and one without an index.
+/// Rows computed with and without fused multiply-add, and one without an index.
 #[test]
 fn study_rows_are_of_a_shipped_study() {
     let parameters = StudyParameters::load("hunting").expect("a shipped study");
@@ -129,7 +129,7 @@ fn study_rows_are_of_a_shipped_study() {
         let record = study.record(&case, &row);
         let cells = record.iter().map(String::as_str);
         assert_eq!(study.row(cells), Ok(row));
-        // The target adds the digests of physics and row, which a changed text has not.
+        // The fuzz target appends the digests of physics and row, which change with the text.
         let text = record[..record.len() - 2].join(",");
         (format!("row_{number}"), text.into_bytes())
     };
@@ -144,7 +144,7 @@ fn study_rows_are_of_a_shipped_study() {
 }
 
 #[test]
-fn images_are_of_dampers_of_either_precision() {
+fn images_are_of_dampers_in_both_precisions() {
     let single: Damper<f32> = damper("in-service", &[]).build(1e-3).expect("a preset");
     let reduced: Damper<f32> = damper("reduced-vertical", &[])
         .build(1e-3)
@@ -160,14 +160,14 @@ fn images_are_of_dampers_of_either_precision() {
     );
 }
 
-/// A session with one request each, to two dampers at rest; those about health after its model was loaded.
+/// Each session has one request for two dampers at rest. Requests about health come after their model is loaded.
 #[test]
 fn frames_are_of_every_request() {
     let built: Damper<f32> = damper("reduced-vertical", &[])
         .build(1e-3)
         .expect("a preset");
     let image = built.to_image();
-    // A device of the fuzz target has dampers of zeros.
+    // The fuzz target's device has dampers whose words are all zero.
     let zeros = Damper::<f32>::from_words(&[0; Damper::<f32>::WORDS]);
     let states = [zeros.at_rest(0.0).to_bytes(); 2].concat();
     let displacements_m = Reals::from_iter([1e-3, -2e-3]);
@@ -190,16 +190,16 @@ fn frames_are_of_every_request() {
         let text = format!("{request:?}");
         let name = text.chars().take_while(char::is_ascii_alphabetic);
         let name: String = name.collect();
-        // What a session was asked before.
-        let asked = match request {
+        // Requests earlier in the session.
+        let earlier = match request {
             Request::Hello { .. } => vec![],
             Request::Measure { .. } | Request::Health { .. } | Request::ClearHealth { .. } => {
                 vec![hello.clone(), frame(1, load)]
             }
             _ => vec![hello.clone()],
         };
-        let frame = frame(asked.len() as u32, request);
-        let all = asked.into_iter().chain([frame]);
+        let frame = frame(earlier.len() as u32, request);
+        let all = earlier.into_iter().chain([frame]);
         (name.to_lowercase(), all.flatten().collect())
     });
     compare("link_frame", seeds.collect());
@@ -214,7 +214,7 @@ fn recordings_are_of_every_kind() {
         ("headed.csv".into(), headed.clone().into()),
         ("crlf.csv".into(), headed.replace('\n', "\r\n").into()),
         ("german.csv".into(), german.into()),
-        // The target writes the header before it.
+        // The fuzz target writes the header.
         ("rows.csv".into(), rows.into()),
     ];
     let samples = document::in_repository("hil-host/tests/recordings/samples");
@@ -273,7 +273,7 @@ fn tracks_are_in_m_and_mm_with_and_without_header() {
         vec![
             ("headed.csv".into(), headed.into()),
             ("millimetres.csv".into(), millimetres.into()),
-            // The target writes the header before it.
+            // The fuzz target writes the header.
             ("rows.csv".into(), rows.into()),
         ],
     );

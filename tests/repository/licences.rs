@@ -1,4 +1,4 @@
-//! Licences of all packages that anything here is built from: each may be used under MIT or Apache-2.0, our own.
+//! Licences of all dependencies allow our own, MIT or Apache-2.0.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -6,9 +6,9 @@ use std::path::Path;
 
 use spdx::{Expression, ParseMode};
 
-use crate::workspaces::WORKSPACES;
+use crate::workspaces::{WORKSPACES, packages};
 
-/// Licences that ask for no more than ours do: that their text is kept.
+/// Licences that require no more than ours: to keep their text.
 const ALLOWED: [&str; 7] = [
     "Apache-2.0",
     "BSD-2-Clause",
@@ -19,33 +19,33 @@ const ALLOWED: [&str; 7] = [
     "Zlib",
 ];
 
-/// Other licences: package, licence, why it may be used.
+/// Packages with other licences: package, licence, and why we may use it.
 const EXCEPTIONS: [(&str, &str, &str); 6] = [
     (
         "serialport",
         "MPL-2.0",
-        "behind the feature `serial`; a product may be built without",
+        "behind the optional feature `serial`",
     ),
     (
         "cbindgen",
         "MPL-2.0",
-        "makes the C header, part of no product",
+        "generates the C header; part of no product",
     ),
     (
         "tiny-keccak",
         "CC0-1.0",
-        "asks for nothing; behind the feature `parquet`, which a product may be built without; at compile time only",
+        "requires nothing; behind the optional feature `parquet`; used at compile time only",
     ),
     (
         "target-lexicon",
         "Apache-2.0 WITH LLVM-exception",
-        "Apache-2.0 and more allowed; finds Python at compile time only",
+        "Apache-2.0 with more permissions; finds Python at compile time only",
     ),
     ("libfuzzer-sys", "NCSA", "part of fuzz targets only"),
     ("webdriver", "MPL-2.0", "drives a browser in tests only"),
 ];
 
-/// Where cargo gets a package that lies in no folder of the repository.
+/// The only registry that packages come from.
 const REGISTRY: &str = "registry+https://github.com/rust-lang/crates.io-index";
 
 #[test]
@@ -57,7 +57,7 @@ fn every_package_may_be_used_under_our_licences() {
             let Some(source) = &package.source else {
                 continue; // our own
             };
-            assert_eq!(source.repr, REGISTRY, "{name}: allowed: from crates.io");
+            assert_eq!(source.repr, REGISTRY, "{name}: only crates.io is allowed");
             let licence = package.license.as_deref().unwrap_or_default();
             let expression = Expression::parse_mode(licence, ParseMode::LAX)
                 .unwrap_or_else(|error| panic!("{name}: licence `{licence}`: {error}"));
@@ -78,15 +78,15 @@ fn every_package_may_be_used_under_our_licences() {
         }
     }
     let listed = EXCEPTIONS.iter().map(|(package, ..)| package).collect();
-    assert_eq!(excepted, listed, "an exception that nothing needs");
+    assert_eq!(excepted, listed, "exceptions that nothing needs");
 }
 
-/// What is kept in the tree and was written by others: folder, package, licence.
+/// Third-party code in the repository: folder, package, licence.
 const VENDORED: [(&str, &str, &str); 1] = [("report/src/page/uplot", "uplot", "MIT")];
 
-/// It has its licence beside it, its README names package and licence, and what is made of it carries its notice.
+/// The folder has the licence, and its README names package and licence.
 #[test]
-fn what_is_vendored_keeps_its_licence() {
+fn vendored_code_keeps_its_licence() {
     for (folder, package, licence) in VENDORED {
         assert!(ALLOWED.contains(&licence), "{folder}");
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join(folder);
@@ -97,37 +97,23 @@ fn what_is_vendored_keeps_its_licence() {
             "{text}"
         );
         let readme = read("README.md");
-        for told in [
+        for statement in [
             format!("package `{package}`"),
             format!("Licence: {licence}"),
         ] {
-            assert!(readme.contains(&told), "{told}");
+            assert!(readme.contains(&statement), "{statement}");
         }
     }
 }
 
 #[test]
-fn our_packages_state_their_licence_and_compiler() {
-    for workspace in &*WORKSPACES {
-        let ours = workspace
-            .packages
-            .iter()
-            .filter(|package| package.source.is_none());
-        for package in ours {
-            let name = &package.name;
-            assert_eq!(
-                package.license.as_deref(),
-                Some("MIT OR Apache-2.0"),
-                "{name}"
-            );
-            assert_eq!(package.edition.as_str(), "2024", "{name}");
-            let version = package.rust_version.as_ref().map(ToString::to_string);
-            // Only the core works with an older compiler than the others.
-            let stated = match name.as_str() {
-                "dashpot-core" => "1.89.0",
-                _ => "1.95.0",
-            };
-            assert_eq!(version.as_deref(), Some(stated), "{name}");
-        }
+fn our_packages_state_one_licence_and_one_edition() {
+    for (folder, package) in packages() {
+        assert_eq!(
+            package.license.as_deref(),
+            Some("MIT OR Apache-2.0"),
+            "{folder}"
+        );
+        assert_eq!(package.edition.as_str(), "2024", "{folder}");
     }
 }

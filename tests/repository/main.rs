@@ -1,7 +1,13 @@
-//! What the repository says of itself is so: its drawing, its licences, the seeds of its fuzz targets.
+//! Rules that the repository as a whole keeps: crates, modules, drawing, licences, packages, seeds of the fuzz targets.
 
 mod architecture;
+mod crates;
+mod files;
 mod fuzz_seeds;
 mod licences;
+mod modules;
 mod observed;
+mod published;
+mod rust_version;
+mod source;
 mod workspaces;

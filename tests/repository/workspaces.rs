@@ -1,14 +1,17 @@
-//! What cargo tells of the workspaces of the repository.
+//! Metadata of the repository's workspaces, as cargo reports it.
 
+use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
-use cargo_metadata::{CargoOpt, Metadata, MetadataCommand};
+use cargo_metadata::camino::Utf8Path;
+use cargo_metadata::{CargoOpt, Metadata, MetadataCommand, Package};
 use dashpot::document::in_repository;
 
-/// Folders with a lock file.
+/// Folders with a lock file; the first is the main workspace.
 const FOLDERS: [&str; 5] = [".", "capi", "firmware", "fuzz", "tests/no_std_consumer"];
 
-/// With all features, so that what is optional is seen too; the lock files must be up to date.
+/// Metadata of each workspace with all features, so that it includes optional dependencies. The lock files must be
+/// up to date.
 pub static WORKSPACES: LazyLock<Vec<Metadata>> = LazyLock::new(|| {
     let metadata = FOLDERS.map(|folder| {
         MetadataCommand::new()
@@ -20,3 +23,39 @@ pub static WORKSPACES: LazyLock<Vec<Metadata>> = LazyLock::new(|| {
     });
     metadata.into()
 });
+
+/// Returns our packages by folder. The package at the top, the tests across the crates, is `tests`.
+pub fn packages() -> BTreeMap<String, &'static Package> {
+    let all = WORKSPACES.iter().flat_map(|workspace| &workspace.packages);
+    all.filter(|package| package.source.is_none())
+        .map(|package| (folder_of(package.manifest_path.parent()), package))
+        .collect()
+}
+
+/// Returns the packages that a user may depend on, by folder.
+pub fn published() -> BTreeMap<String, &'static Package> {
+    let is_published = |package: &Package| {
+        package
+            .publish
+            .as_ref()
+            .is_none_or(|registries| !registries.is_empty())
+    };
+    packages()
+        .into_iter()
+        .filter(|(_, package)| is_published(package))
+        .collect()
+}
+
+/// Returns a folder's path within the repository, `tests` for the top.
+pub fn folder_of(path: Option<&Utf8Path>) -> String {
+    let path = path.expect("a folder").as_std_path();
+    let repository = in_repository("").canonicalize().expect("the repository");
+    let path = path.canonicalize().expect("a folder");
+    let folder = path
+        .strip_prefix(repository)
+        .expect("within the repository");
+    match folder.to_string_lossy().replace('\\', "/") {
+        top if top.is_empty() => "tests".into(),
+        folder => folder,
+    }
+}

@@ -7,11 +7,11 @@ use crate::processor::AARCH64;
 use crate::run::repository;
 use crate::tools::{AARCH64_GCC, QEMU_AARCH64};
 
-/// Where Debian's packages put the C library.
+/// Folder of the C library in Debian's packages.
 const LIBRARIES: &str = "/usr/aarch64-linux-gnu";
 
-/// `cargo <command> --target aarch64-unknown-linux-gnu`, to be given further arguments; what cargo runs, it
-/// runs emulated.
+/// Returns `cargo <command> --target aarch64-unknown-linux-gnu`, to which the caller adds arguments. Cargo runs programs
+/// in the emulator.
 pub fn cargo(command: &str) -> Command {
     let mut cargo = Command::new("cargo");
     cargo
@@ -30,7 +30,7 @@ pub fn cargo(command: &str) -> Command {
     cargo
 }
 
-/// A program for this processor, to be given its arguments.
+/// Returns the command that runs a program for this processor, to which the caller adds arguments.
 pub fn program(path: &std::path::Path) -> Command {
     let [emulator, arguments @ ..] = emulator();
     let mut command = Command::new(emulator);
@@ -38,7 +38,7 @@ pub fn program(path: &std::path::Path) -> Command {
     command
 }
 
-/// Where a release build of the package's program of that name is.
+/// Returns the path of a program of that name from a release build.
 pub fn release(name: &str) -> PathBuf {
     folder().join(AARCH64).join("release").join(name)
 }

@@ -1,28 +1,33 @@
-//! Every check there is, in the order of how soon it fails.
+//! Every check there is, those that fail soonest first.
 
 use crate::firmware;
+use crate::packages::rehearse_publishing;
 use crate::processor::CORTEX_M7;
 use crate::run::{Outcome, cargo, cargo_with};
 use crate::rust_version;
+use crate::setup::install_for_tests;
+use crate::tags::check_interfaces;
 use crate::test_run::test;
-use crate::tools::{CARGO_HACK, install_missing};
+use crate::timings;
+use crate::tools::CARGO_HACK;
 
-/// Not of the main workspace: the C library has a C name and its own panic strategy, the firmware is built for
-/// the target, fuzz targets have their own entry point.
+/// Manifests outside the main workspace: the C library has a C name and its own panic strategy, the firmware is built
+/// for the target, and fuzz targets have their own entry point.
 const C_LIBRARY: &str = "capi/Cargo.toml";
 const FIRMWARE: &str = "firmware/Cargo.toml";
 const FUZZ: &str = "fuzz/Cargo.toml";
 
-/// Runs every check that the stated compiler can do; Miri and fuzzing need a nightly one and are commands of their own.
+/// Runs every check that a stable compiler can do. Miri and fuzzing need a nightly one and are commands of their own.
 ///
 /// # Errors
-/// The first that failed.
+/// The first check that failed.
 pub fn ci() -> Outcome {
-    install_missing();
+    install_for_tests();
     cargo(&["fmt", "--all", "--check"])?;
     for manifest in [C_LIBRARY, FIRMWARE, FUZZ] {
         cargo(&["fmt", "--manifest-path", manifest, "--check"])?;
     }
+    timings::check_packages()?;
     lint(&["--workspace", "--all-targets"])?;
     lint(&["--manifest-path", C_LIBRARY, "--all-targets"])?;
     lint(&["--manifest-path", FIRMWARE, "--target", CORTEX_M7.target])?;
@@ -31,24 +36,28 @@ pub fn ci() -> Outcome {
         &["doc", "--workspace", "--no-deps"],
         &[("RUSTDOCFLAGS", "-D warnings")],
     )?;
+    check_interfaces()?;
+    rehearse_publishing()?;
     rust_version::check()?;
     each_feature()?;
     firmware::build_default()?;
+    // The only optimised build of the command here, so it costs nothing to measure it.
+    timings::build_and_demonstrate()?;
     test()
 }
 
-fn lint(what: &[&str]) -> Outcome {
-    cargo(&[&["clippy"], what, &["--", "-D", "warnings"]].concat())
+fn lint(packages: &[&str]) -> Outcome {
+    cargo(&[&["clippy"], packages, &["--", "-D", "warnings"]].concat())
 }
 
-/// Every feature of every package alone, none, and all.
+/// Checks each package without features, with each feature alone, and with all.
 fn each_feature() -> Outcome {
     CARGO_HACK.install()?;
     cargo(&[
         "hack",
         "clippy",
         "--workspace",
-        // Its folder is the workspace's, where cargo takes the default members; its one feature is a bench's.
+        // For the package in the top folder, cargo would check the default members. Its only feature is for a bench.
         "--exclude",
         "dashpot",
         "--each-feature",

@@ -6,7 +6,7 @@ use crate::processor::{CORTEX_M7, Processor};
 use crate::run::{Outcome, repository};
 use crate::target_toolchain::TargetToolchain;
 
-/// Builds every image for a processor; the folder they are in.
+/// Builds every image for a processor and returns the folder of the images.
 ///
 /// # Errors
 /// The build fails.
@@ -16,7 +16,7 @@ pub fn build(toolchain: &TargetToolchain, processor: &Processor) -> Outcome<Path
     let mut command = toolchain.cargo("build", &firmware.join("Cargo.toml"), processor);
     command.arg("--locked").arg("--target-dir").arg(&target);
     if matches!(toolchain, TargetToolchain::FromSource { .. }) {
-        // A distribution's compiler comes without a linker for the target.
+        // A distribution's compiler has no linker for the target.
         let variable = processor.target.to_uppercase().replace(['-', '.'], "_");
         command.env(
             format!("CARGO_TARGET_{variable}_LINKER"),
@@ -36,10 +36,10 @@ pub fn build(toolchain: &TargetToolchain, processor: &Processor) -> Outcome<Path
     }
 }
 
-/// Builds the firmware's images for the processor it is for.
+/// Builds the firmware's images for its own processor.
 ///
 /// # Errors
-/// As [`build`], or nothing compiles for the target.
+/// The build fails, or no compiler supports the target.
 pub fn build_default() -> Outcome<PathBuf> {
     build(&TargetToolchain::find(CORTEX_M7.target)?, &CORTEX_M7)
 }

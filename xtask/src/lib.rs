@@ -1,18 +1,23 @@
-//! What the developer commands and the tests of other packages share.
+//! Developer commands, and what tests of other packages share with them.
 
 pub mod aarch64;
 pub mod c_library;
 pub mod ci;
 pub mod firmware;
+pub mod mutants;
 pub mod nightly;
+pub mod packages;
 pub mod processor;
 pub mod python;
 pub mod run;
 pub mod rust_version;
 pub mod search;
+pub mod setup;
 pub mod slurm;
+pub mod tags;
 pub mod target_toolchain;
 pub mod test_run;
+pub mod timings;
 pub mod tools;
 pub mod vehicle_validation;
 pub mod wheel;

@@ -7,11 +7,12 @@ use xtask::ci::ci;
 use xtask::run::{Outcome, cargo, cargo_output_to_stderr, repository, version_of};
 use xtask::rust_version::numbers;
 use xtask::search;
+use xtask::setup::install_for_target;
 use xtask::test_run::test;
-use xtask::tools::install_missing;
+use xtask::timings::{Build, timings};
 use xtask::vehicle_validation::vehicle_validation;
 use xtask::wheel::wheel;
-use xtask::{firmware, nightly, python, slurm};
+use xtask::{firmware, mutants, nightly, python, slurm, timings as compiler};
 
 const HELP: &str = "\
 Developer commands of Dashpot
@@ -20,37 +21,45 @@ Usage: cargo xtask <command>
 
 Commands:
   test                   install the tools that tests need, then run every test
+  ci                     formatting, lints, documentation, public interfaces, packages, Rust versions, each feature,
+                         build time, test
+  timings [--tests]      build the command, or every test, into an empty folder; print the processor time of each
+                         package and check the bounds of the command's build
   firmware               build the images for the target
   target [--format json] measure the core on emulated processors against its budget
-  bench                  measure time per step, side by side with yardstick and floor
+  bench                  measure time per step, next to that of the yardstick and of a bare table look-up
   bench --instructions   count instructions per step (needs Valgrind and gungraun-runner)
   c-library [--target NAME]... [--output FOLDER]
-                         build the C library into an install tree for each target: cortex-m4f,
-                         cortex-m7, cortex-m33, x86-64, aarch64; all that this machine can build
-                         when none is named; into target/c-library
+                         build the C library into an install tree for each target: cortex-m4f, cortex-m7, cortex-m33,
+                         x86-64, aarch64. Without --target, build all that this machine can. The default folder is
+                         target/c-library.
   search [--evaluations N] [--seed S]
-                         search for the damper and motion that come closest to the accuracy promise of docs/numerics.md;
-                         4000 motions and seed 1 when not given; writes the worst into target/search
-  kalker-book            compute the tables of the recommended creep law anew, from exact theory (some fifteen minutes)
-  vehicle-validation     run the studies of docs/vehicle-validation.md anew and write it (some six minutes)
-  wheel                  build the package `dashpot` of Python: a wheel in target/wheels, for pip install
-  python                 install the packages of Python that tests need, in target/python, and what builds wheels, in target/maturin
+                         search for the damper and motion that come closest to the accuracy promise of docs/numerics.md,
+                         with 4000 motions and seed 1 by default; write the worst case to target/search
+  mutants [NAME]...      change the code that must not break and list the changes that no test notices (hours; installs
+                         cargo-mutants). Names: step, health, engine, track, indices, recordings; all by default.
+  kalker-book            compute the tables of the recommended creep law from exact theory (some fifteen minutes)
+  vehicle-validation     run the studies of docs/vehicle-validation.md and write it (some six minutes)
+  wheel                  build the Python package `dashpot`: a wheel in target/wheels, for pip install
+  python                 install the Python packages that tests need in target/python, and maturin in target/maturin
   miri                   run the tests of the C interface under Miri (needs a nightly compiler)
-  fuzz [--seconds N]     run each fuzz target from its kept seeds for N seconds, 60 when not given (needs a
-                         nightly compiler)
-  slurm                  prove shards of a study on a real Slurm, one node started for it, and on GNU parallel (two
-                         minutes; installs or names Debian's slurm-wlm, munge and parallel)
-  ci                     formatting, lints, documentation, Rust version, each feature, test
-  help                   this text
+  fuzz [--seconds N]     run each fuzz target from its kept seeds for N seconds, 60 by default (needs a nightly
+                         compiler)
+  slurm                  run shards of a study on a real Slurm, started for this with one node, and on GNU parallel (two
+                         minutes; installs Debian's slurm-wlm, munge and parallel, or prints how to)
+  help                   print this text
 
 Example: cargo xtask test
 Exit code: 0 done, 1 a check failed, 2 wrong use.";
 
-/// Of the `gungraun` in Cargo.toml; the runner must be of the same version.
+/// Version of `gungraun` in Cargo.toml; its runner must have the same.
 const GUNGRAUN: &str = "0.20";
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
+    if compiler::is_compiler() {
+        return compiler::compile(&arguments);
+    }
     let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
     let done = match words[..] {
         ["help" | "--help" | "-h"] | [_, "--help" | "-h"] => {
@@ -108,6 +117,15 @@ fn main() -> ExitCode {
         },
         ["slurm"] => slurm::slurm(),
         ["ci"] => ci(),
+        ["timings"] => timings(Build::Command),
+        ["timings", "--tests"] => timings(Build::Tests),
+        ["mutants", ref names @ ..] => match mutants::select(names) {
+            Ok(_) => mutants::mutants(names),
+            Err(message) => {
+                eprintln!("wrong use: {message}");
+                return ExitCode::from(2);
+            }
+        },
         _ => {
             eprintln!("wrong use: `{}`\n\n{HELP}", words.join(" "));
             return ExitCode::from(2);
@@ -133,15 +151,16 @@ fn build_wheel() -> Outcome {
     Ok(())
 }
 
-/// Installs for the platforms named; where none is, for all but those that lack a tool, which is said.
+/// Installs the library for the named platforms. Without names, installs it for all whose tools are there and prints
+/// what the others lack.
 fn c_library(options: &Options) -> Outcome {
-    let named = !options.platforms.is_empty();
+    let is_named = !options.platforms.is_empty();
     let all = &Platform::ALL[..];
-    for platform in if named { &options.platforms } else { all } {
+    for platform in if is_named { &options.platforms } else { all } {
         let name = platform.name();
         match platform.check_tools() {
-            Err(lack) if named => return Err(format!("--target {name}: {lack}")),
-            Err(lack) => println!("{name:10}  left out: {lack}"),
+            Err(lack) if is_named => return Err(format!("--target {name}: {lack}")),
+            Err(lack) => println!("{name:10}  skipped: {lack}"),
             Ok(()) => {
                 let tree = c_library::install(platform, &options.output)?;
                 println!("{name:10}  {}", tree.display());
@@ -151,12 +170,12 @@ fn c_library(options: &Options) -> Outcome {
     Ok(())
 }
 
-/// Runs the test that holds the budget and prints what it measured.
+/// Runs the test that checks the budget and prints what it measured.
 fn measure_target(json: bool) -> Outcome {
-    install_missing();
+    install_for_target();
     let path = repository().join("target/target_figures.json");
     let _ = std::fs::remove_file(&path);
-    let held = cargo_output_to_stderr(
+    let checked = cargo_output_to_stderr(
         &[
             "test",
             "--package",
@@ -169,17 +188,19 @@ fn measure_target(json: bool) -> Outcome {
     );
     let report = std::fs::read_to_string(&path).unwrap_or_default();
     if report.is_empty() {
-        return held.and(Err("nothing was measured: see above what is missing".into()));
+        return checked.and(Err(
+            "nothing was measured; the lines above name what is missing".into(),
+        ));
     }
     if json {
         print!("{report}");
     } else {
-        // The objects, without what only separates.
+        // Lines with a value, without JSON's punctuation.
         for line in report.lines().filter(|line| line.contains("\": ")) {
             println!("{}", line.replace(['"', '{', ','], "").trim_end());
         }
     }
-    held
+    checked
 }
 
 fn count_instructions() -> Outcome {

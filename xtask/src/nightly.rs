@@ -1,4 +1,4 @@
-//! Checks that only a nightly compiler can do: undefined behaviour under Miri, and fuzzing guided by coverage.
+//! Checks that need a nightly compiler: undefined behaviour under Miri, and fuzzing guided by coverage.
 
 use std::fs;
 
@@ -7,12 +7,10 @@ use crate::tools::CARGO_FUZZ;
 
 const NIGHTLY: &str = "nightly";
 
-/// Has pointers of four bytes as the firmware's processors, and nothing that Miri cannot read: for x86-64 `libm` has
-/// assembly.
+/// Has four-byte pointers like the firmware's processors. Miri cannot run x86-64, for which `libm` has assembly.
 const MIRI_TARGET: &str = "armv7-unknown-linux-gnueabihf";
 
-/// What Miri runs: all tests that cross the C interface, but that of its header. The core, which they
-/// drive, has no unsafe code of its own.
+/// Tests that cross the C interface, except the test of its header. The core, which they call, has no unsafe code.
 const MIRI_ARGUMENTS: [&str; 14] = [
     "miri",
     "test",
@@ -30,11 +28,11 @@ const MIRI_ARGUMENTS: [&str; 14] = [
     "version",
 ];
 
-/// Whether there is a nightly toolchain with Miri.
+/// Checks that there is a nightly toolchain with Miri.
 ///
 /// # Errors
-/// There is none; the message has the command that installs it.
-fn find() -> Outcome {
+/// There is none. The message has the command that installs it.
+fn find_miri() -> Outcome {
     let mut miri = cargo_of_toolchain(NIGHTLY);
     miri.args(["miri", "--version"]);
     output_of(miri, "cargo +nightly miri --version")
@@ -45,20 +43,20 @@ fn find() -> Outcome {
 /// Runs the tests of the C interface under Miri.
 ///
 /// # Errors
-/// There is no nightly toolchain, a test failed, or its behaviour is undefined.
+/// There is no nightly toolchain, a test fails, or its behaviour is undefined.
 pub fn miri() -> Outcome {
-    find()?;
-    // It reads unoptimised code.
+    find_miri()?;
+    // Miri finds more in unoptimised code.
     let variables = [("CARGO_PROFILE_DEV_OPT_LEVEL", "0")];
     cargo_of(NIGHTLY, &MIRI_ARGUMENTS, &variables)
 }
 
-/// Runs each fuzz target for some seconds from the kept seeds and from what earlier runs found.
+/// Runs each fuzz target for some seconds, from the kept seeds and the inputs that earlier runs found.
 ///
 /// # Errors
-/// There is no nightly toolchain, or a target fails on an input, which is named.
+/// There is no nightly toolchain, or a target fails. The output names the input on which it fails.
 pub fn fuzz(seconds: u32) -> Outcome {
-    find()?;
+    find_miri()?;
     CARGO_FUZZ.install()?;
     let mut list = cargo_of_toolchain(NIGHTLY);
     list.args(["fuzz", "list"]);
@@ -67,7 +65,7 @@ pub fn fuzz(seconds: u32) -> Outcome {
         fs::create_dir_all(repository().join(&corpus))
             .map_err(|error| format!("{corpus}: {error}"))?;
         let time = format!("-max_total_time={seconds}");
-        // What the targets drive has no unsafe code, so there is nothing for a sanitizer of memory to find.
+        // The fuzzed code has no unsafe code, so a memory sanitizer would find nothing.
         let sanitizer = "--sanitizer=none";
         let arguments = [
             "fuzz", "run", sanitizer, target, &corpus, &seeds, "--", &time,

@@ -1,17 +1,17 @@
-//! Processors that the core is proved on, and the boards of the emulator that have them.
+//! Processors that the core is tested on, and the emulated boards that have them.
 
-/// A processor: how to compile for it, how to emulate it.
+/// A processor, with how to compile for it and how to emulate it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Processor {
-    /// Name of columns and folders.
+    /// Name in columns and folders.
     pub name: &'static str,
-    /// Name for people.
+    /// Name in text.
     pub title: &'static str,
-    /// Target of rustc.
+    /// Compiler target.
     pub target: &'static str,
-    /// Name for rustc's `target-cpu`; `None` for code of every processor of the target.
+    /// Value of rustc's `target-cpu`; `None` for code that runs on every processor of the target.
     pub target_cpu: Option<&'static str>,
-    /// Options of GCC for code that runs there.
+    /// GCC options.
     pub gcc: [&'static str; 4],
     /// Board for `qemu-system-arm -M`.
     pub board: &'static str,
@@ -19,7 +19,7 @@ pub struct Processor {
     pub emulated_cpu: &'static str,
 }
 
-/// The one the firmware is for.
+/// The firmware's processor.
 pub const CORTEX_M7: Processor = Processor {
     name: "cortex_m7",
     title: "Cortex-M7",
@@ -35,7 +35,7 @@ pub const CORTEX_M7: Processor = Processor {
     emulated_cpu: "cortex-m7",
 };
 
-/// With code that names no processor, so it also runs on a Cortex-M7.
+/// The code is compiled for every processor of the target, so it also runs on a Cortex-M7.
 pub const CORTEX_M4F: Processor = Processor {
     name: "cortex_m4f",
     title: "Cortex-M4F",
@@ -51,7 +51,7 @@ pub const CORTEX_M4F: Processor = Processor {
     emulated_cpu: "cortex-m4",
 };
 
-/// Armv8-M, as built for every processor of its target.
+/// Armv8-M, with code for every processor of the target.
 pub const CORTEX_M33: Processor = Processor {
     name: "cortex_m33",
     title: "Cortex-M33",
@@ -67,8 +67,8 @@ pub const CORTEX_M33: Processor = Processor {
     emulated_cpu: "cortex-m33",
 };
 
-/// Target of the 64-bit Arm processor, whose user programs are emulated.
+/// Target of the 64-bit Arm processor, whose Linux programs are emulated.
 pub const AARCH64: &str = "aarch64-unknown-linux-gnu";
 
-/// Every target that rustup installs for the tests.
+/// Targets that the tests need.
 pub const TARGETS: [&str; 3] = [CORTEX_M7.target, CORTEX_M33.target, AARCH64];

@@ -1,4 +1,4 @@
-//! Environments of Python under `target/`, with the packages that tests and wheels need.
+//! Python environments under `target/`, with the packages that tests and wheels need.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -6,8 +6,8 @@ use std::process::Command;
 use crate::run::{Outcome, repository, run};
 use crate::tools::{PYTHON, skip};
 
-/// Packages of the tests.
-const OF_TESTS: [&str; 6] = [
+/// Packages that tests need.
+const TEST_PACKAGES: [&str; 6] = [
     "asammdf==8.8.28",
     "distributed==2026.8.0",
     "fmpy==0.3.32",
@@ -16,19 +16,19 @@ const OF_TESTS: [&str; 6] = [
     "pyarrow==26.0.1",
 ];
 
-/// What builds the package `dashpot` of Python.
-const OF_WHEELS: [&str; 1] = ["maturin==1.16.0"];
+/// Packages that build wheels.
+const WHEEL_PACKAGES: [&str; 1] = ["maturin==1.16.0"];
 
-/// All that the package `dashpot` needs beside itself: kept as a file, so that a test installs both where there is no network.
-const NEEDED: &str = "numpy==2.4.6";
+/// The only dependency of the package `dashpot`. We keep the wheel, so that a test can install both without a network.
+const DEPENDENCY: &str = "numpy==2.4.6";
 
-/// Debian's package without which its Python makes no environments.
+/// Debian package that lets Python create environments.
 pub const ENVIRONMENTS: &str = "python3-venv";
 
-/// Lists the packages that an environment has.
+/// File that lists an environment's packages.
 const LIST: &str = "packages.txt";
 
-/// An environment of Python.
+/// A Python environment.
 struct Environment {
     folder: &'static str,
     packages: &'static [&'static str],
@@ -36,11 +36,11 @@ struct Environment {
 
 const TESTS: Environment = Environment {
     folder: "target/python",
-    packages: &OF_TESTS,
+    packages: &TEST_PACKAGES,
 };
 const WHEELS: Environment = Environment {
     folder: "target/maturin",
-    packages: &OF_WHEELS,
+    packages: &WHEEL_PACKAGES,
 };
 
 impl Environment {
@@ -48,15 +48,15 @@ impl Environment {
         repository().join(self.folder)
     }
 
-    fn is_there(&self) -> bool {
+    fn is_installed(&self) -> bool {
         let folder = self.folder();
         let list = std::fs::read_to_string(folder.join(LIST));
-        let is_listed = list.is_ok_and(|list| list.lines().eq(self.packages.iter().copied()));
-        is_listed && interpreter(&folder).is_file()
+        let has_packages = list.is_ok_and(|list| list.lines().eq(self.packages.iter().copied()));
+        has_packages && interpreter(&folder).is_file()
     }
 
     fn install(&self) -> Outcome {
-        if self.is_there() {
+        if self.is_installed() {
             return Ok(());
         }
         let folder = self.folder();
@@ -67,7 +67,7 @@ impl Environment {
     }
 }
 
-/// Makes an environment at `folder`, empty but for pip.
+/// Creates an environment in `folder`, with pip only.
 ///
 /// # Errors
 /// There is no Python, or it lacks the module `venv`.
@@ -77,16 +77,16 @@ pub fn make(folder: &Path) -> Outcome {
     run(make, &format!("python3 -m venv {}", folder.display()))
 }
 
-/// The interpreter of an environment.
+/// Returns the interpreter of an environment.
 pub fn interpreter(folder: &Path) -> PathBuf {
-    let place = match cfg!(windows) {
+    let path = match cfg!(windows) {
         true => "Scripts/python.exe",
         false => "bin/python",
     };
-    folder.join(place)
+    folder.join(path)
 }
 
-/// Runs pip of an interpreter.
+/// Runs an interpreter's pip.
 ///
 /// # Errors
 /// pip fails.
@@ -98,7 +98,7 @@ pub fn pip(interpreter: &Path, command: &str, arguments: &[&str]) -> Outcome {
     run(pip, &format!("pip {command} {}", arguments.join(" ")))
 }
 
-/// Where the files of what the package `dashpot` needs are kept.
+/// Returns the folder with the wheel of the dependency of the package `dashpot`.
 pub fn needed() -> PathBuf {
     TESTS.folder().join("needed")
 }
@@ -107,26 +107,27 @@ fn has_needed() -> bool {
     std::fs::read_dir(needed()).is_ok_and(|mut files| files.next().is_some())
 }
 
-/// Python with the packages; `None` as [`have`](crate::tools::have) says `false`.
+/// Returns the Python with the packages that tests need; `None` if they are missing, as [`have`](crate::tools::have)
+/// returns `false`.
 ///
 /// # Panics
 /// As [`have`](crate::tools::have).
 pub fn have_packages(skipped: &str) -> Option<PathBuf> {
-    if !(TESTS.is_there() && WHEELS.is_there() && has_needed()) {
+    if !(TESTS.is_installed() && WHEELS.is_installed() && has_needed()) {
         skip(skipped, "cargo xtask python");
         return None;
     }
     Some(interpreter(&TESTS.folder()))
 }
 
-/// Whether there is a Python that makes no environments.
+/// True if Python cannot create environments.
 pub fn lacks_environments() -> bool {
     let mut python = Command::new(PYTHON.program);
     let output = python.args(["-c", "import ensurepip"]).output();
     !output.is_ok_and(|output| output.status.success())
 }
 
-/// Makes the environments with their packages, where they are missing or have others.
+/// Creates the environments if they are missing or have other packages.
 ///
 /// # Errors
 /// There is no Python, it lacks the module `venv`, or a package cannot be installed.
@@ -142,11 +143,11 @@ pub fn install() -> Outcome {
     pip(
         &interpreter(&TESTS.folder()),
         "download",
-        &[&download[..], &[NEEDED]].concat(),
+        &[&download[..], &[DEPENDENCY]].concat(),
     )
 }
 
-/// Python with what builds wheels, installed where it is missing.
+/// Returns the Python that builds wheels, and installs it if it is missing.
 ///
 /// # Errors
 /// There is no Python with the module `venv`, or maturin cannot be installed.

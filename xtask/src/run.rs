@@ -1,22 +1,23 @@
-//! Runs programs in the workspace's folder and says which one failed.
+//! Runs programs in the repository's folder and reports which one failed.
 
 use std::path::Path;
 use std::process::{Command, Stdio};
 
-/// Done, or what failed.
+/// Result of a command; the error is a message for the developer.
 pub type Outcome<T = ()> = Result<T, String>;
 
-/// Runs cargo, its output shown.
+/// Runs cargo and shows its output.
 pub fn cargo(arguments: &[&str]) -> Outcome {
     cargo_with(arguments, &[])
 }
 
-/// Runs cargo with environment variables, its output shown.
+/// Runs cargo with environment variables and shows its output.
 pub fn cargo_with(arguments: &[&str], variables: &[(&str, &str)]) -> Outcome {
     show(arguments, variables, Stdio::inherit())
 }
 
-/// As [`cargo_with`], with all output on standard error: standard output is free for a result.
+/// Runs cargo with environment variables and all of its output on standard error, which keeps standard output free for
+/// a result.
 pub fn cargo_output_to_stderr(arguments: &[&str], variables: &[(&str, &str)]) -> Outcome {
     show(arguments, variables, std::io::stderr().into())
 }
@@ -27,7 +28,7 @@ fn show(arguments: &[&str], variables: &[(&str, &str)], output: Stdio) -> Outcom
     run(command, &format!("cargo {}", arguments.join(" ")))
 }
 
-/// Runs a program, `line` for people, its output shown.
+/// Runs a program and shows its output. Messages call it `line`.
 pub fn run(mut command: Command, line: &str) -> Outcome {
     eprintln!("> {line}");
     let status = command
@@ -40,7 +41,7 @@ pub fn run(mut command: Command, line: &str) -> Outcome {
     }
 }
 
-/// Runs rustup's cargo of another toolchain in the repository's folder, its output shown.
+/// Runs the cargo of another rustup toolchain in the repository's folder and shows its output.
 pub fn cargo_of(toolchain: &str, arguments: &[&str], variables: &[(&str, &str)]) -> Outcome {
     let line = format!("cargo +{toolchain} {}", arguments.join(" "));
     let mut command = cargo_of_toolchain(toolchain);
@@ -48,20 +49,20 @@ pub fn cargo_of(toolchain: &str, arguments: &[&str], variables: &[(&str, &str)])
     run(command, &line)
 }
 
-/// rustup's cargo of a toolchain, to be given its arguments.
+/// Returns the cargo of a rustup toolchain, to which the caller adds arguments.
 pub fn cargo_of_toolchain(toolchain: &str) -> Command {
     let mut command = Command::new("cargo");
     command
         .arg(format!("+{toolchain}"))
         .current_dir(repository());
-    // Set for the programs that rustup starts, this one among them.
+    // rustup sets these for the programs it starts, such as this one.
     for variable in ["CARGO", "RUSTC", "RUSTDOC", "RUSTUP_TOOLCHAIN"] {
         command.env_remove(variable);
     }
     command
 }
 
-/// What cargo prints to its standard output.
+/// Runs cargo and returns its standard output.
 pub fn cargo_output(arguments: &[&str]) -> Outcome<String> {
     output_of(
         cargo_command(arguments),
@@ -69,7 +70,7 @@ pub fn cargo_output(arguments: &[&str]) -> Outcome<String> {
     )
 }
 
-/// The first word of a program's output that starts with a digit, such as the version of
+/// Runs a program and returns the first word of its output that starts with a digit, such as the version in
 /// `rustc --version`. A leading `valgrind-` counts as a separate word.
 pub fn version_of(program: &str, arguments: &[&str]) -> Outcome<String> {
     let mut command = Command::new(program);
@@ -84,7 +85,7 @@ pub fn version_of(program: &str, arguments: &[&str]) -> Outcome<String> {
         .ok_or_else(|| format!("`{line}` names no version: `{}`", text.trim()))
 }
 
-/// What a command prints to its standard output.
+/// Runs a program and returns its standard output.
 pub fn output_of(mut command: Command, line: &str) -> Outcome<String> {
     let output = command
         .output()
@@ -101,13 +102,13 @@ pub fn output_of(mut command: Command, line: &str) -> Outcome<String> {
 }
 
 fn cargo_command(arguments: &[&str]) -> Command {
-    // The cargo that runs this one; `cargo` when started by hand.
+    // The cargo that runs this program; `cargo` if it was started by hand.
     let mut command = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
     command.args(arguments).current_dir(repository());
     command
 }
 
-/// The repository's folder.
+/// Returns the repository's folder.
 pub fn repository() -> &'static Path {
     let here = Path::new(env!("CARGO_MANIFEST_DIR"));
     here.parent().unwrap_or(here)

@@ -1,69 +1,113 @@
-//! The `rust-version` that Cargo.toml states: with that compiler everything builds.
+//! The lowest compiler that each package's `rust-version` promises compiles it.
 
 use std::process::Command;
 
 use crate::run::{Outcome, cargo_of, run, version_of};
 
-/// Of this package, and of every other: they inherit it.
-const STATED: &str = env!("CARGO_PKG_RUST_VERSION");
+/// A promise of a `rust-version`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Promise {
+    /// Lowest version of the compiler.
+    pub version: &'static str,
+    /// Arguments of `cargo check` that select the code.
+    pub code: &'static [&'static str],
+    /// Target; `None` for the machine's own.
+    pub target: Option<&'static str>,
+}
 
-/// What is to be done about a stated version.
+/// `rust-version` of the core, for firmware that links the step and the link alone. The feature `builder`, and a
+/// desktop's SIMD, need nalgebra and `wide`, whose own `rust-version` is that of the workspace.
+pub const CORE: &str = "1.88";
+
+/// `rust-version` of the workspace: the highest among its dependencies.
+pub const WORKSPACE: &str = env!("CARGO_PKG_RUST_VERSION");
+
+/// Promises in ascending order of versions.
+const PROMISES: [Promise; 2] = [
+    Promise {
+        version: CORE,
+        code: &[
+            "--package",
+            "dashpot-core",
+            "--no-default-features",
+            "--features",
+            "link,log",
+        ],
+        target: Some("thumbv7em-none-eabihf"),
+    },
+    Promise {
+        version: WORKSPACE,
+        code: &["--workspace"],
+        target: None,
+    },
+];
+
+/// Action for a promised version.
 #[derive(Debug, PartialEq, Eq)]
 enum Check {
-    /// Nothing: the compiler that runs all checks is that version.
+    /// Nothing: it is the version that runs all other checks.
     Same,
-    /// Builds with this toolchain.
-    BuildWith(String),
-    /// It is above the compiler that runs the checks.
+    /// Compile with this toolchain.
+    CompileWith(String),
+    /// Fail: it is above the compiler that runs the checks.
     Above,
 }
 
-/// Builds everything with the stated version, where that is not the compiler of all the other checks.
+/// Compiles the core and the workspace with the lowest versions that they promise.
 ///
 /// # Errors
-/// The build fails, rustup lacks that version and cannot install it, or the running compiler is older.
+/// Code does not compile, rustup cannot install a version, or the running compiler is older.
 pub fn check() -> Outcome {
     let compiler = version_of("rustc", &["--version"])?;
-    match needed(STATED, &compiler) {
-        Check::Same => {
-            println!("rust-version {STATED} is the compiler of these checks, rustc {compiler}");
-            Ok(())
+    for promise in PROMISES {
+        match needed(promise.version, &compiler) {
+            Check::Same => println!(
+                "rust-version {} is checked by all else: rustc {compiler}",
+                promise.version
+            ),
+            Check::CompileWith(toolchain) => compile(&toolchain, promise)?,
+            Check::Above => {
+                return Err(format!(
+                    "rust-version {} is above rustc {compiler}",
+                    promise.version
+                ));
+            }
         }
-        Check::BuildWith(toolchain) => build_with(&toolchain),
-        Check::Above => Err(format!(
-            "Cargo.toml states rust-version {STATED}, above rustc {compiler}"
-        )),
     }
+    Ok(())
 }
 
-fn needed(stated: &str, compiler: &str) -> Check {
-    let (stated_numbers, compiler) = (numbers(stated), numbers(compiler));
-    if compiler.starts_with(&stated_numbers) {
+fn needed(promised: &str, compiler: &str) -> Check {
+    let (promised_numbers, compiler) = (numbers(promised), numbers(compiler));
+    if compiler.starts_with(&promised_numbers) {
         Check::Same
-    } else if compiler < stated_numbers {
+    } else if compiler < promised_numbers {
         Check::Above
     } else {
-        let patch = if stated_numbers.len() < 3 { ".0" } else { "" };
-        Check::BuildWith(format!("{stated}{patch}"))
+        let patch = if promised_numbers.len() < 3 { ".0" } else { "" };
+        Check::CompileWith(format!("{promised}{patch}"))
     }
 }
 
-fn build_with(toolchain: &str) -> Outcome {
+/// Installs the toolchain if it is missing, and compiles the code of a promise.
+fn compile(toolchain: &str, promise: Promise) -> Outcome {
     let mut install = Command::new("rustup");
     install.args(["toolchain", "install", toolchain, "--profile", "minimal"]);
+    if let Some(target) = promise.target {
+        install.args(["--target", target]);
+    }
     run(install, &format!("rustup toolchain install {toolchain}"))?;
-    // In a folder of its own: two compilers in one would build everything again in turns.
-    let check = [
-        "check",
-        "--workspace",
-        "--all-targets",
-        "--target-dir",
-        "target/rust_version",
-    ];
-    cargo_of(toolchain, &check, &[])
+    // Compilers that share a folder compile everything again in turns.
+    let folder = format!("target/rust_version/{toolchain}");
+    let mut arguments = vec!["check", "--locked", "--target-dir", &folder];
+    arguments.extend(promise.code);
+    if let Some(target) = promise.target {
+        arguments.extend(["--target", target]);
+    }
+    cargo_of(toolchain, &arguments, &[])
 }
 
-/// `1.95.0-nightly` as `[1, 95, 0]`.
+/// Returns the numbers of a version, such as `[1, 95, 0]` of `1.95.0-nightly`.
 pub fn numbers(version: &str) -> Vec<u32> {
     version
         .split(['.', '-'])
@@ -83,14 +127,17 @@ mod tests {
     }
 
     #[test]
-    fn the_stated_version_is_built_with_unless_it_runs() {
+    fn the_promised_version_compiles_unless_it_is_the_running_one() {
         assert_eq!(needed("1.95", "1.95.0"), Check::Same);
         assert_eq!(needed("1.95", "1.95.1"), Check::Same);
         assert_eq!(needed("1.95", "1.94.9"), Check::Above);
-        assert_eq!(needed("1.95", "1.100.0"), Check::BuildWith("1.95.0".into()));
+        assert_eq!(
+            needed("1.95", "1.100.0"),
+            Check::CompileWith("1.95.0".into())
+        );
         assert_eq!(
             needed("1.95.1", "1.96.0"),
-            Check::BuildWith("1.95.1".into())
+            Check::CompileWith("1.95.1".into())
         );
     }
 }

@@ -1,25 +1,25 @@
-//! `cargo xtask search`: the search for the worst case of the accuracy promise.
+//! `cargo xtask search`: searches for the worst case of the accuracy promise.
 
 use crate::run::{Outcome, cargo, repository};
 
-/// What is searched when nothing is said: some minutes on two cores.
+/// Defaults: some minutes on two cores.
 const EVALUATIONS: usize = 4_000;
 const SEED: u64 = 1;
 
-/// What a search is asked for.
+/// Options of the search.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Options {
     /// Motions to try.
     pub evaluations: usize,
-    /// Where random numbers start.
+    /// Seed of the random numbers.
     pub seed: u64,
 }
 
 impl Options {
-    /// The options of the command line.
+    /// Reads the options of the command line.
     ///
     /// # Errors
-    /// An option that there is not, or a number that is not allowed.
+    /// An option is unknown, or a number is out of range.
     pub fn parse(words: &[&str]) -> Result<Self, String> {
         let mut options = Self {
             evaluations: EVALUATIONS,
@@ -47,10 +47,10 @@ impl Options {
     }
 }
 
-/// Searches, prints what is worse than all before, and writes the worst case into target/search.
+/// Searches, prints each case that is worse than all before it, and writes the worst case to target/search.
 ///
 /// # Errors
-/// The promise is broken; the case is written.
+/// A case breaks the promise. It is written too.
 pub fn search(options: Options) -> Outcome {
     let folder = repository().join("target/search");
     cargo(&[
@@ -72,7 +72,7 @@ mod tests {
     use super::Options;
 
     #[test]
-    fn options_are_numbers() {
+    fn options_are_read() {
         let options = Options::parse(&["--seed", "7", "--evaluations", "300"]);
         assert_eq!(
             options,

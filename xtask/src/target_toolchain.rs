@@ -1,8 +1,7 @@
-//! Finds what can compile for a processor and prepares cargo for it.
+//! Finds a compiler for a processor and prepares cargo for it.
 //!
-//! First comes the default compiler where it has the target's library, as rustup installs it; then a
-//! distribution's compiler with library source (Debian: rustc-web and rust-web-src), which builds `core`
-//! itself.
+//! The first choice is the default compiler, if it has the target's library from rustup. The second is a distribution's
+//! compiler with the library's source (Debian's rustc-web and rust-web-src), which compiles `core` itself.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -10,44 +9,44 @@ use std::process::Command;
 use crate::processor::{CORTEX_M7, Processor};
 use crate::run::{Outcome, output_of};
 
-/// Where a distribution puts its compiler.
+/// Folder of a distribution's compiler.
 const SYSTEM_BIN: &str = "/usr/bin";
 const SYSTEM_SYSROOT: &str = "/usr";
 
-/// Something that compiles for a target.
+/// A compiler for a target.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum TargetToolchain {
-    /// The default compiler, the target's library installed.
+    /// The default compiler, with the target's library.
     Installed,
-    /// A compiler that builds `core` from source first.
+    /// A compiler that compiles `core` from source first.
     FromSource {
-        /// The cargo to run.
+        /// Path of cargo.
         cargo: PathBuf,
-        /// The compiler it runs.
+        /// Path of rustc.
         rustc: PathBuf,
     },
 }
 
 impl TargetToolchain {
-    /// The first toolchain of this machine for a target; a distribution's only for those without an
-    /// operating system, for it builds nothing but `core`.
+    /// Returns this machine's first choice for a target. A distribution's compiler serves only targets without an
+    /// operating system, because it compiles only `core`.
     ///
     /// # Errors
-    /// There is none; the message has the command that installs one.
+    /// There is none. The message has the command that installs one.
     pub fn find(target: &str) -> Outcome<Self> {
         Self::installed(target)
             .or_else(|| Self::distribution().filter(|_| target.contains("-none-")))
             .ok_or_else(|| {
-                format!("nothing here compiles for {target}: run `rustup target add {target}`")
+                format!("no compiler here supports {target}: run `rustup target add {target}`")
             })
     }
 
-    /// The default compiler, where it has the target's library.
+    /// Returns the default compiler if it has the target's library.
     pub fn installed(target: &str) -> Option<Self> {
         Self::installed_in(&sysroot(Path::new("rustc"))?, target)
     }
 
-    /// A distribution's compiler, where it has the library's source.
+    /// Returns a distribution's compiler if it has the library's source.
     pub fn distribution() -> Option<Self> {
         Self::from_source_in(Path::new(SYSTEM_BIN), Path::new(SYSTEM_SYSROOT))
     }
@@ -64,10 +63,10 @@ impl TargetToolchain {
         all.then_some(Self::FromSource { cargo, rustc })
     }
 
-    /// The compiler's name and version, as it prints them.
+    /// Returns the compiler's name and version as it prints them.
     ///
     /// # Errors
-    /// It does not run.
+    /// The compiler does not run.
     pub fn version(&self) -> Outcome<String> {
         let mut command = match self {
             Self::Installed => Command::new("rustc"),
@@ -79,8 +78,8 @@ impl TargetToolchain {
         Ok(words.join(" "))
     }
 
-    /// Where the builds of a package (its folder) for a processor go: a folder for each compiler and
-    /// processor, for a Cortex-M7 by the compiler found first cargo's usual one.
+    /// Returns the folder for builds of the package in the folder `package`: one for each compiler and processor, and
+    /// cargo's usual one for the first choice of compiler and a Cortex-M7.
     pub fn output_folder(&self, package: &Path, processor: &Processor) -> PathBuf {
         let folder = package.join("target");
         let first = Self::find(processor.target).is_ok_and(|first| first == *self);
@@ -91,21 +90,21 @@ impl TargetToolchain {
         }
     }
 
-    /// `cargo <command>` for a processor by the profile `release`, in the folder of the manifest (a whole
-    /// path), to be given further arguments.
+    /// Returns `cargo <command>` for a processor with the profile `release`, in the folder of the manifest (an absolute
+    /// path). The caller adds arguments.
     pub fn cargo(&self, command: &str, manifest: &Path, processor: &Processor) -> Command {
         let mut cargo = match self {
-            // The default one, not the one that runs this program: that may be another's.
+            // The default cargo, because another toolchain's may have started this program.
             Self::Installed => Command::new("cargo"),
             Self::FromSource { cargo, rustc } => {
                 let mut command = Command::new(cargo);
                 command.env("RUSTC_BOOTSTRAP", "1").env("RUSTC", rustc);
-                // Set for the programs that rustup starts, this one among them.
+                // rustup sets these for the programs it starts, such as this one.
                 command.env_remove("RUSTUP_TOOLCHAIN").env_remove("CARGO");
                 command
             }
         };
-        // These flags take the place of all others, those of the package's settings too.
+        // These flags replace all others, including those in the package's settings.
         let flags = processor
             .target_cpu
             .map(|name| format!("-Ctarget-cpu={name}"));
@@ -121,7 +120,7 @@ impl TargetToolchain {
     }
 }
 
-/// The folder a compiler has its libraries in; none when there is no such compiler.
+/// Returns the folder of a compiler's libraries; `None` if the compiler does not run.
 fn sysroot(rustc: &Path) -> Option<PathBuf> {
     let mut command = Command::new(rustc);
     command.args(["--print", "sysroot"]);
@@ -137,7 +136,7 @@ mod tests {
     use crate::processor::{CORTEX_M4F, CORTEX_M7, CORTEX_M33};
 
     #[test]
-    fn a_compiler_is_found_with_the_library_of_the_target_or_with_its_source() {
+    fn a_compiler_needs_the_target_s_library_or_its_source() {
         let folder = tempfile::tempdir().unwrap();
         let (default, system) = (folder.path().join("default"), folder.path().join("usr"));
         let bin = system.join("bin");
@@ -172,7 +171,7 @@ mod tests {
     }
 
     #[test]
-    fn what_nothing_compiles_for_is_refused_with_the_command_that_helps() {
+    fn an_unsupported_target_is_refused_with_the_command_that_installs_it() {
         let refusal = TargetToolchain::find("no-such-target").unwrap_err();
         assert!(
             refusal.contains("rustup target add no-such-target"),
@@ -181,7 +180,7 @@ mod tests {
     }
 
     #[test]
-    fn only_a_build_from_source_asks_for_unstable_options() {
+    fn only_a_build_from_source_uses_unstable_options() {
         let line = |toolchain: &TargetToolchain, processor| {
             let command = toolchain.cargo("build", "some/Cargo.toml".as_ref(), processor);
             format!("{command:?}")

@@ -1,10 +1,11 @@
-//! Runs every test of the repository, then names those that were skipped.
+//! Runs every test of the repository, then lists those that were skipped.
 
 use crate::run::{Outcome, cargo_with, repository};
-use crate::tools::{SKIPPED, install_missing};
+use crate::setup::install_for_tests;
+use crate::tools::SKIPPED;
 
-/// Calls of cargo: all tests; those of the C library, which is a workspace of its own; the
-/// force bits of the optimised core, with what was built for the first call but for our own crates.
+/// Runs of cargo: all tests; those of the C library, which is a workspace of its own; and the force bits of the
+/// optimised core, with the dependencies that the first run compiled.
 const RUNS: [&[&str]; 3] = [
     &["test", "--workspace", "--no-fail-fast"],
     &["test", "--manifest-path", "capi/Cargo.toml"],
@@ -17,18 +18,18 @@ const RUNS: [&[&str]; 3] = [
         "profile.dev.package.dashpot-core.opt-level=3",
         "--config",
         "profile.dev.package.dashpot-experiment.opt-level=3",
-        // Generic code is compiled where it is used.
+        // Generic code is compiled in the crate that uses it.
         "--config",
         "profile.dev.package.dashpot.opt-level=3",
     ],
 ];
 
-/// Installs the tools, runs every test, and names those that were skipped and why.
+/// Installs the tools that tests need, runs every test, and lists those that were skipped and why.
 ///
 /// # Errors
-/// Tests failed; the others were run.
+/// Tests failed; all others ran.
 pub fn test() -> Outcome {
-    install_missing();
+    install_for_tests();
     let path = repository().join("target/skipped_tests.txt");
     let _ = std::fs::remove_file(&path);
     let variables = [(SKIPPED, &*path.to_string_lossy())];
@@ -47,7 +48,7 @@ pub fn test() -> Outcome {
     }
 }
 
-/// What is said at the end, by the lines that skipped tests left.
+/// Returns the text printed at the end, from the lines that skipped tests wrote.
 fn summary(skipped: &str) -> String {
     let mut lines: Vec<&str> = skipped.lines().collect();
     lines.sort_unstable();
@@ -63,7 +64,7 @@ mod tests {
     use super::summary;
 
     #[test]
-    fn every_skipped_test_is_named_once() {
+    fn every_skipped_test_is_listed_once() {
         assert_eq!(summary(""), "no test was skipped");
         let text =
             summary("b (QEMU); to run it: x\na (gcc); to run it: y\nb (QEMU); to run it: x\n");

@@ -1,4 +1,4 @@
-//! The rows that the vehicle's validation is written from, and its documents.
+//! Updates the documents of the vehicle's validation and the rows behind them.
 
 use std::fs;
 
@@ -7,13 +7,13 @@ use crate::run::{Outcome, cargo, cargo_with, repository};
 /// Studies whose rows are kept in `data/studies/rows/`.
 const STUDIES: [&str; 4] = ["paper", "curve-r600", "stand-ins", "out-of-service"];
 
-/// Seeds of the irregularity: five times those of the studies, so that few rows are left to chance.
+/// Number of seeds of the irregularity: five times those of the studies, so that chance decides less.
 pub const SEEDS: u64 = 40;
 
-/// Runs the studies anew, some six minutes on two cores, keeps their rows, and writes the documents.
+/// Runs the studies (some six minutes on two cores), keeps their rows, and writes the documents.
 ///
 /// # Errors
-/// A study does not run, a file cannot be written, or rows do not repeat.
+/// A study fails, a file cannot be written, or rows do not repeat.
 pub fn vehicle_validation() -> Outcome {
     let bless = |filter: &[&str]| {
         let test = [
@@ -25,7 +25,7 @@ pub fn vehicle_validation() -> Outcome {
         ];
         cargo_with(&[&test[..], filter].concat(), &[("DASHPOT_BLESS", "1")])
     };
-    // Rows carry the digest of physics, which must be right before they are written.
+    // Each row has the digest of physics, so that must be up to date first.
     bless(&["physics"])?;
     let seeds = SEEDS.to_string();
     for study in STUDIES {

@@ -1,4 +1,4 @@
-//! The package `dashpot` of Python as a wheel.
+//! Builds a wheel of the Python package `dashpot`.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -6,10 +6,10 @@ use std::process::Command;
 use crate::python::builder;
 use crate::run::{Outcome, repository, run};
 
-/// Builds the wheel into `output`, where it is the only one of the package then, and tells its path.
+/// Builds the wheel into `output`, removes older wheels of the package from it, and returns the wheel's path.
 ///
 /// # Errors
-/// As [`builder`]; the package does not build.
+/// There is no Python with the module `venv`, maturin cannot be installed, or the package does not build.
 pub fn wheel(profile: &str, output: &Path) -> Outcome<PathBuf> {
     let interpreter = builder()?;
     let failed = |error: std::io::Error| format!("{}: {error}", output.display());

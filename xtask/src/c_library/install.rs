@@ -1,4 +1,4 @@
-//! The install tree of the C library: header, libraries, and what pkg-config and CMake find them by.
+//! The install tree of the C library: header, libraries, and files for pkg-config and CMake.
 
 use std::fs;
 use std::io;
@@ -9,13 +9,13 @@ use crate::run::Outcome;
 
 const VERSION: &str = env!("CARGO_PKG_VERSION");
 
-/// Texts with `@NAME@` in place of what differs between the trees.
+/// Templates in which `@NAME@` marks the parts that differ between trees.
 const PKG_CONFIG: &str = include_str!("../../../capi/install/dashpot.pc.in");
 const CMAKE: &str = include_str!("../../../capi/install/DashpotConfig.cmake.in");
 const CMAKE_VERSION: &str = include_str!("../../../capi/install/DashpotConfigVersion.cmake.in");
 
-/// Builds the library for a platform and installs it in a folder of its own in `output`, which is returned.
-/// The tree may be moved as a whole.
+/// Builds the library for a platform, installs it in its own folder in `output`, and returns that folder. The tree may
+/// be moved as a whole.
 ///
 /// # Errors
 /// The build fails, or a file cannot be written.
@@ -49,16 +49,16 @@ pub fn install(platform: &Platform, output: &Path) -> Outcome<PathBuf> {
         (cmake.join("DashpotConfig.cmake"), CMAKE),
         (cmake.join("DashpotConfigVersion.cmake"), CMAKE_VERSION),
     ] {
-        put(&path, |new| fs::write(new, fill(text)))?;
+        replace(&path, |new| fs::write(new, fill(text)))?;
     }
     Ok(tree)
 }
 
 fn copy(from: &Path, to: &Path) -> Outcome {
-    put(to, |new| fs::copy(from, new).map(drop))
+    replace(to, |new| fs::copy(from, new).map(drop))
 }
 
-/// A link to a file of the same folder.
+/// Creates a link to a file of the same folder.
 fn link(name: &str, to: &Path) -> Outcome {
     #[cfg(unix)]
     use std::os::unix::fs::symlink;
@@ -66,16 +66,16 @@ fn link(name: &str, to: &Path) -> Outcome {
     fn symlink(_: &str, _: &Path) -> io::Result<()> {
         Err(io::ErrorKind::Unsupported.into())
     }
-    put(to, |new| symlink(name, new))
+    replace(to, |new| symlink(name, new))
 }
 
-/// Makes a file under another name first: it is whole when it appears, in place of one already there.
-fn put(path: &Path, make: impl FnOnce(&Path) -> io::Result<()>) -> Outcome {
+/// Creates a file under a temporary name first, so that it is complete when it replaces an older one.
+fn replace(path: &Path, create: impl FnOnce(&Path) -> io::Result<()>) -> Outcome {
     let parent = path.parent().unwrap_or(path);
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     let new = parent.join(format!(".{name}-{}", std::process::id()));
     fs::create_dir_all(parent)
-        .and_then(|()| make(&new))
+        .and_then(|()| create(&new))
         .and_then(|()| fs::rename(&new, path))
         .map_err(|error| {
             let _ = fs::remove_file(&new);

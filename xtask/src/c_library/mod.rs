@@ -15,22 +15,22 @@ use crate::processor::Processor;
 use crate::run::{Outcome, output_of, repository};
 use crate::target_toolchain::TargetToolchain;
 
-/// Major and minor version: with another one the interface may be another.
+/// Major and minor version of the interface; other versions may be incompatible.
 pub const INTERFACE: &str = concat!(
     env!("CARGO_PKG_VERSION_MAJOR"),
     ".",
     env!("CARGO_PKG_VERSION_MINOR")
 );
 
-/// Folder of the C library's package.
+/// Returns the folder of the C library's package.
 pub fn folder() -> PathBuf {
     repository().join("capi")
 }
 
-/// Builds `libdashpot.a` for a processor; returns where it is.
+/// Builds `libdashpot.a` for a processor and returns its path.
 ///
 /// # Errors
-/// It does not build; the message has what cargo said.
+/// The build fails. The message has cargo's output.
 pub fn build_for(toolchain: &TargetToolchain, processor: &Processor) -> Outcome<PathBuf> {
     let mut cargo = toolchain.cargo("rustc", &manifest(), processor);
     let target = toolchain.output_folder(&folder(), processor);
@@ -47,7 +47,7 @@ fn archive_in(release: &Path) -> PathBuf {
     release.join("libdashpot.a")
 }
 
-/// Runs `cargo rustc` to its end, with arguments for the linker of a shared library.
+/// Runs `cargo rustc` with arguments for the linker of a shared library.
 fn build(mut cargo: Command, crate_types: &str, link_arguments: &[String]) -> Outcome {
     cargo.args(["--crate-type", crate_types, "--features", "panic-handler"]);
     cargo.arg("--");

@@ -1,4 +1,4 @@
-//! What `cargo xtask c-library` is told.
+//! Options of `cargo xtask c-library`.
 
 use std::path::PathBuf;
 
@@ -8,9 +8,9 @@ use crate::run::repository;
 /// Options of the command.
 #[derive(Debug, PartialEq, Eq)]
 pub struct Options {
-    /// Platforms asked for; none for all that this machine can build.
+    /// Platforms to build for; empty for all that this machine can build.
     pub platforms: Vec<Platform>,
-    /// Folder for the trees.
+    /// Folder of the install trees.
     pub output: PathBuf,
 }
 
@@ -18,7 +18,7 @@ impl Options {
     /// Reads the arguments after the command.
     ///
     /// # Errors
-    /// Which is wrong, and what is allowed.
+    /// An argument is wrong. The message says what is allowed.
     pub fn parse(arguments: &[&str]) -> Result<Self, String> {
         let mut options = Self {
             platforms: Vec::new(),
@@ -33,7 +33,7 @@ impl Options {
                 ("--target" | "--output", _) => return Err(format!("{option} needs a value")),
                 _ => {
                     return Err(format!(
-                        "`{option}` is no option of c-library, allowed: --target NAME, --output FOLDER"
+                        "`{option}` is not an option of c-library, allowed: --target NAME, --output FOLDER"
                     ));
                 }
             }
@@ -48,7 +48,7 @@ fn platform(name: &str) -> Result<Platform, String> {
         .find(|platform| platform.name() == name);
     found.ok_or_else(|| {
         let names = Platform::ALL.map(|platform| platform.name());
-        format!("--target {name}: not known, allowed: {}", names.join(", "))
+        format!("--target {name}: unknown, allowed: {}", names.join(", "))
     })
 }
 
@@ -77,11 +77,11 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_allowed_is_named_with_what_is() {
+    fn wrong_arguments_are_refused_with_what_is_allowed() {
         let refusal = |arguments: &[&str]| Options::parse(arguments).unwrap_err();
         assert_eq!(
             refusal(&["--target", "cortex-m3"]),
-            "--target cortex-m3: not known, allowed: cortex-m4f, cortex-m7, cortex-m33, x86-64, aarch64"
+            "--target cortex-m3: unknown, allowed: cortex-m4f, cortex-m7, cortex-m33, x86-64, aarch64"
         );
         assert_eq!(refusal(&["--target"]), "--target needs a value");
         assert_eq!(refusal(&["--output", ""]), "--output needs a value");

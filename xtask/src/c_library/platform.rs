@@ -1,4 +1,4 @@
-//! What the C library is built for.
+//! Platforms of the C library.
 
 use std::env::consts::{ARCH, OS};
 use std::path::PathBuf;
@@ -11,25 +11,25 @@ use crate::run::Outcome;
 use crate::target_toolchain::TargetToolchain;
 use crate::tools::{AARCH64_GCC, AARCH64_LIBC, missing};
 
-/// A processor without an operating system, or one with Linux.
+/// A processor, without an operating system or with Linux.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Platform {
     /// Static library.
     Bare(Processor),
-    /// Static and shared library for Linux on the processor that Rust calls so.
+    /// Static and shared library for Linux, with Rust's name of the processor.
     Linux(&'static str),
 }
 
-/// What a build made.
+/// Files of a build.
 pub struct Built {
     /// The static library.
     pub archive: PathBuf,
-    /// The shared library; bare processors have none.
+    /// The shared library; `None` for a bare processor.
     pub shared: Option<PathBuf>,
 }
 
 impl Platform {
-    /// All of them.
+    /// List of all platforms.
     pub const ALL: [Self; 5] = [
         Self::Bare(CORTEX_M4F),
         Self::Bare(CORTEX_M7),
@@ -38,7 +38,7 @@ impl Platform {
         Self::Linux("aarch64"),
     ];
 
-    /// Name of options, folders and files.
+    /// Returns the name in options, folders and files.
     pub fn name(&self) -> String {
         match self {
             Self::Bare(processor) => processor.name.replace('_', "-"),
@@ -46,13 +46,13 @@ impl Platform {
         }
     }
 
-    /// Whether this machine is one.
+    /// True if this machine is of the platform.
     pub fn is_host(&self) -> bool {
         matches!(self, Self::Linux(processor) if OS == "linux" && *processor == ARCH)
     }
 
-    /// Name of the library: with that of the platform, so that none is linked by mistake, but for this
-    /// machine.
+    /// Returns the library's name, which includes the platform so that no wrong library is linked. On this machine's
+    /// own platform it is `dashpot`.
     pub fn library(&self) -> String {
         if self.is_host() {
             "dashpot".into()
@@ -61,7 +61,7 @@ impl Platform {
         }
     }
 
-    /// Bytes of a pointer.
+    /// Returns the number of bytes of a pointer.
     pub fn pointer_bytes(&self) -> usize {
         match self {
             Self::Bare(_) => 4,
@@ -69,10 +69,10 @@ impl Platform {
         }
     }
 
-    /// Whether this machine can build it.
+    /// Checks that this machine can build for the platform.
     ///
     /// # Errors
-    /// It cannot; the message has what helps.
+    /// It cannot. The message names what to install.
     pub fn check_tools(&self) -> Outcome {
         match self {
             Self::Bare(processor) => TargetToolchain::find(processor.target).map(drop),
@@ -84,16 +84,16 @@ impl Platform {
                     ref packages => Err(format!("run `apt-get install {}`", packages.join(" "))),
                 }
             }
-            Self::Linux(processor) => {
-                Err(format!("only a {processor} machine with Linux builds it"))
-            }
+            Self::Linux(processor) => Err(format!(
+                "only a Linux machine with a {processor} processor builds it"
+            )),
         }
     }
 
     /// Builds the libraries.
     ///
     /// # Errors
-    /// A tool is missing, or the build fails; the message has what cargo said.
+    /// A tool is missing, or the build fails. The message has cargo's output.
     pub fn build(&self) -> Outcome<Built> {
         self.check_tools()?;
         let (cargo, release) = match self {
@@ -120,7 +120,7 @@ impl Platform {
             .arg("--manifest-path")
             .arg(manifest());
         let soname = format!("-Wl,-soname,lib{}.so.{INTERFACE}", self.library());
-        // The compiler's own functions call the C library's memset; without std nothing names it.
+        // The compiler's own functions call memset of the C library, which Rust links only with std.
         build(cargo, "staticlib,cdylib", &[soname, "-lc".into()])?;
         Ok(Built {
             archive: archive_in(&release),

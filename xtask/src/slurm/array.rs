@@ -1,9 +1,9 @@
-//! A Slurm array of shards, and what may happen to it.
+//! A Slurm array of shards, complete or disturbed.
 
 use super::trial::{CASES, COMPLETE, SHARDS, Trial, contains, read, rows_of};
 use crate::run::Outcome;
 
-/// All shards run at once.
+/// Runs all shards at once.
 pub fn complete(trial: &Trial) -> Outcome<String> {
     trial.run(COMPLETE, "0-3", SHARDS, &["COMPLETED"; 4])?;
     trial.merges_to_the_whole(COMPLETE)?;
@@ -12,26 +12,26 @@ pub fn complete(trial: &Trial) -> Outcome<String> {
 
 const ENDED: &str = "ended";
 
-/// Shard 1 gets SIGTERM from scancel, shard 2 SIGKILL, as a node that goes down.
+/// Ends shard 1 with scancel's SIGTERM, and shard 2 with SIGKILL as when a node goes down.
 pub fn ended(trial: &Trial) -> Outcome<String> {
     trial.results(ENDED, &[0, 3])?;
     let job = trial.submit(ENDED, "1-2", SHARDS)?;
     for shard in [1, 2] {
         trial.wait_for_a_row(ENDED, &job, shard)?;
     }
-    trial.node.tell("scancel", &[&format!("{job}_1")])?;
-    trial.node.tell(
+    trial.node.run("scancel", &[&format!("{job}_1")])?;
+    trial.node.run(
         "scancel",
         &["--batch", "--signal=KILL", &format!("{job}_2")],
     )?;
     trial.has_ended(&job, &["CANCELLED", "FAILED"])?;
-    // By itself, as it was asked to.
+    // The command stopped in order.
     contains(
         &trial.log(&job, 1)?,
         "of 6 cases are done; the same command goes on",
     )?;
     let expected = missing(&[1, 2]);
-    trial.merge_says(ENDED, &expected)?;
+    trial.merge_fails(ENDED, &expected)?;
     let kept = [1, 2].map(|shard| trial.rows_kept(ENDED, shard));
     Ok(format!(
         "exit code 1, `{expected}`; rows kept: {} and {}",
@@ -39,13 +39,13 @@ pub fn ended(trial: &Trial) -> Outcome<String> {
     ))
 }
 
-/// What [`ended`] left.
+/// Resubmits the shards that [`ended`] left.
 pub fn resumed(trial: &Trial) -> Outcome<String> {
     let kept = [1, 2].map(|shard| (shard, trial.rows_kept(ENDED, shard)));
     let job = trial.run(ENDED, "1-2", SHARDS, &["COMPLETED"; 2])?;
     let mut run = Vec::new();
     for (shard, kept) in kept {
-        run.push(goes_on(trial, &job, shard, kept)?);
+        run.push(resumes(trial, &job, shard, kept)?);
     }
     trial.merges_to_the_whole(ENDED)?;
     Ok(format!(
@@ -54,7 +54,7 @@ pub fn resumed(trial: &Trial) -> Outcome<String> {
     ))
 }
 
-/// `scontrol requeue`, as after a node went down or gave way to another job.
+/// Requeues a shard with `scontrol requeue`, as after a node went down or another job took precedence.
 pub fn requeued(trial: &Trial) -> Outcome<String> {
     let results = "requeued";
     trial.results(results, &[1, 2, 3])?;
@@ -62,24 +62,24 @@ pub fn requeued(trial: &Trial) -> Outcome<String> {
     trial.wait_for_a_row(results, &job, 0)?;
     trial
         .node
-        .tell("scontrol", &["requeue", &format!("{job}_0")])?;
+        .run("scontrol", &["requeue", &format!("{job}_0")])?;
     trial.has_ended(&job, &["COMPLETED"])?;
     let log = trial.log(&job, 0)?;
-    // The log has both runs: the first told what it left.
+    // The log has both runs; the first run printed how many cases it had done.
     let done = log
         .split("interrupted: ")
         .nth(1)
         .and_then(|rest| rest.split(' ').next());
     let done = done.and_then(|word| word.parse().ok());
     let kept = done.ok_or_else(|| format!("no interruption: {log}"))?;
-    let run = goes_on(trial, &job, 0, kept)?;
+    let run = resumes(trial, &job, 0, kept)?;
     trial.merges_to_the_whole(results)?;
     Ok(format!(
         "of 6 cases run: {kept}, then {run}; the same bytes"
     ))
 }
 
-/// Nothing is left to do.
+/// Resubmits a shard that is complete.
 pub fn complete_again(trial: &Trial) -> Outcome<String> {
     let results = "again";
     let rows = trial.results(results, &[0, 1, 2, 3])?.join(rows_of(2));
@@ -93,7 +93,7 @@ pub fn complete_again(trial: &Trial) -> Outcome<String> {
     Ok("`6 cases, none run now`".into())
 }
 
-/// The second is refused while the first runs.
+/// Submits a shard twice; the second is refused while the first runs.
 pub fn twice_at_once(trial: &Trial) -> Outcome<String> {
     let results = "twice";
     trial.results(results, &[0, 2, 3])?;
@@ -108,25 +108,25 @@ pub fn twice_at_once(trial: &Trial) -> Outcome<String> {
     Ok(format!("`{refusal}`; the same bytes"))
 }
 
-/// Shard 3 of 5 in place of shard 3 of 4.
+/// Runs shard 3 of 5 instead of shard 3 of 4.
 pub fn wrong_count(trial: &Trial) -> Outcome<String> {
     let results = "count";
     trial.results(results, &[0, 1, 2])?;
     trial.run(results, "3", 5, &["COMPLETED"])?;
-    // Cases 3, 8, 13, 18 and 23 are there, 3, 7, 11, 15, 19 and 23 were wanted.
+    // The run has cases 3, 8, 13, 18 and 23 instead of 3, 7, 11, 15, 19 and 23.
     let doubles = [(0, "8"), (1, "13"), (2, "18")];
     let doubles = doubles.map(|(shard, cases)| {
         let files = format!("{results}/{} and {results}/rows-3-of-5.csv", rows_of(shard));
         format!("; double, in {files}: {cases}")
     });
     let missing = "4 of 24 cases are missing: 7, 11, 15, 19";
-    trial.merge_says(results, &format!("{missing}{}", doubles.concat()))?;
+    trial.merge_fails(results, &format!("{missing}{}", doubles.concat()))?;
     Ok(format!(
         "exit code 1, `{missing}; double, in ...: 8; ...: 13; ...: 18`"
     ))
 }
 
-/// Shard 4 of 4.
+/// Submits shard 4 of 4, which are numbered 0 to 3.
 pub fn beyond(trial: &Trial) -> Outcome<String> {
     let job = trial.run("beyond", "4", SHARDS, &["FAILED"])?;
     let refusal = "--shard 4, allowed: 0 to 3 with --shards 4";
@@ -134,8 +134,8 @@ pub fn beyond(trial: &Trial) -> Outcome<String> {
     Ok(format!("`{refusal}`"))
 }
 
-/// A shard of six cases that had rows ran the others; how many.
-fn goes_on(trial: &Trial, job: &str, shard: u64, kept: u64) -> Outcome<u64> {
+/// Checks that a shard of six cases ran only those without rows, and returns their number.
+fn resumes(trial: &Trial, job: &str, shard: u64, kept: u64) -> Outcome<u64> {
     let all = CASES / SHARDS;
     if kept == 0 || kept >= all {
         return Err(format!(
@@ -151,7 +151,7 @@ fn goes_on(trial: &Trial, job: &str, shard: u64, kept: u64) -> Outcome<u64> {
     Ok(run)
 }
 
-/// What merge says where only these neighbouring shards are missing.
+/// Returns merge's message when only these two neighbouring shards are missing.
 fn missing(shards: &[u64; 2]) -> String {
     let [first, last] = shards;
     let ranges = (0..CASES).step_by(SHARDS as usize);

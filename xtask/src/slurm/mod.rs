@@ -1,4 +1,4 @@
-//! `cargo xtask slurm`: the files of `cluster/` with a real scheduler, and what `dashpot merge` makes of it.
+//! `cargo xtask slurm`: runs the files of `cluster/` with a real scheduler and merges the results with `dashpot merge`.
 
 mod array;
 mod node;
@@ -11,52 +11,52 @@ use crate::tools::{MUNGED, PARALLEL, SBATCH, SLURMCTLD, SLURMD, Tool, install, m
 use node::Node;
 use trial::{CASES, SHARDS, Trial};
 
-/// What the proof runs.
+/// Programs that the checks run.
 const TOOLS: [Tool; 5] = [MUNGED, SLURMCTLD, SLURMD, SBATCH, PARALLEL];
 
-/// What is checked, in this order.
+/// Name of a check, and the check, which returns what it saw.
 type Check = (&'static str, fn(&Trial) -> Outcome<String>);
 
 const CHECKS: [Check; 9] = [
     (
-        "array of 4 shards: merged as one machine has it",
+        "array of 4 shards: merged rows equal those of one process",
         array::complete,
     ),
     (
-        "shards ended midway, by scancel and killed: missing cases named",
+        "shards ended midway by scancel and by SIGKILL: missing cases named",
         array::ended,
     ),
     (
-        "these shards sent again: go on with their rows",
+        "the same shards resubmitted: resume from their rows",
         array::resumed,
     ),
     (
-        "queued again by Slurm midway: goes on with its rows",
+        "requeued by Slurm midway: resumes from its rows",
         array::requeued,
     ),
     (
-        "complete shard sent again: nothing run, nothing changed",
+        "complete shard resubmitted: nothing run, nothing changed",
         array::complete_again,
     ),
     (
-        "the same shard twice at once: one refused, rows right",
+        "the same shard twice at once: one refused, rows correct",
         array::twice_at_once,
     ),
     (
-        "a task of 5 shards among 4: double and missing named",
+        "a task of 5 shards among 4: duplicate and missing cases named",
         array::wrong_count,
     ),
     ("a task beyond the shards: refused", array::beyond),
     (
-        "GNU parallel, one shard failed: that one run again",
+        "GNU parallel with a failed shard: only that shard run again",
         parallel::one_failed,
     ),
 ];
 
-/// Builds `dashpot`, starts Slurm, checks, prints a table, and ends Slurm.
+/// Builds `dashpot`, starts Slurm, runs the checks, prints a table, and stops Slurm.
 ///
 /// # Errors
-/// What is missing; a check that failed.
+/// A program is missing, or a check failed.
 pub fn slurm() -> Outcome {
     let packages = missing(&TOOLS);
     if !packages.is_empty() {
@@ -76,12 +76,12 @@ pub fn slurm() -> Outcome {
         "{}; {CASES} cases in {SHARDS} shards\n",
         versions(&trial.node)?
     );
-    println!("| check | result | seen |\n|---|---|---|");
+    println!("| check | result | observed |\n|---|---|---|");
     let mut failed = 0;
     for (name, check) in CHECKS {
-        failed += tell(name, check(&trial));
+        failed += print_row(name, check(&trial));
     }
-    failed += tell("Slurm ended, nothing left", trial.node.end());
+    failed += print_row("Slurm stopped, nothing left", trial.node.end());
     match failed {
         0 => Ok(()),
         _ => Err(format!(
@@ -91,20 +91,20 @@ pub fn slurm() -> Outcome {
     }
 }
 
-/// What the checks are made with, as each program tells it.
+/// Returns the versions of the programs, as each prints its own.
 fn versions(node: &Node) -> Outcome<String> {
-    let mut told = Vec::new();
+    let mut versions = Vec::new();
     for program in ["sinfo", "munge", "parallel"] {
         let mut command = node.command(program);
         command.arg("--version");
         let text = output_of(command, &format!("{program} --version"))?;
-        told.push(text.lines().next().unwrap_or_default().to_owned());
+        versions.push(text.lines().next().unwrap_or_default().to_owned());
     }
-    Ok(told.join(", "))
+    Ok(versions.join(", "))
 }
 
-/// Prints a line of the table; how many of its checks failed.
-fn tell(name: &str, outcome: Outcome<String>) -> u32 {
+/// Prints a row of the table and returns the number of failed checks, 0 or 1.
+fn print_row(name: &str, outcome: Outcome<String>) -> u32 {
     match outcome {
         Ok(seen) => {
             println!("| {name} | ok | {seen} |");

@@ -1,4 +1,4 @@
-//! A Slurm of one node, started for the proof and ended with it.
+//! A Slurm of one node, which runs as long as the checks.
 
 use std::collections::BTreeMap;
 use std::io::{BufRead, BufReader};
@@ -10,12 +10,12 @@ use std::time::{Duration, Instant};
 use crate::run::{Outcome, output_of, repository};
 
 /// Longest wait for jobs.
-const LONGEST: Duration = Duration::from_mins(2);
+const MAX_WAIT: Duration = Duration::from_secs(120);
 
-/// Between two looks at jobs.
+/// Time between two checks of jobs.
 const PAUSE: Duration = Duration::from_millis(100);
 
-/// A Slurm of one node; ends when it is dropped, and with this process however that ends.
+/// A Slurm of one node. It stops when dropped, and when this process ends for any reason.
 #[derive(Debug)]
 pub struct Node {
     script: Child,
@@ -23,15 +23,15 @@ pub struct Node {
 }
 
 impl Node {
-    /// Starts it by `xtask/slurm_node.sh`, with ports that are free.
+    /// Starts Slurm with `xtask/slurm_node.sh` on free ports.
     ///
     /// # Errors
-    /// A daemon does not start: what it says is on standard error.
+    /// A daemon does not start; standard error has its output.
     pub fn start() -> Outcome<Self> {
         let name = format!("dashpot-slurm-{}", std::process::id());
         let folder = std::env::temp_dir().join(name);
         let failed = |error: std::io::Error| format!("cannot start Slurm: {error}");
-        // Both at once, so that they differ.
+        // Both are held at once, so that they differ.
         let free = || TcpListener::bind((Ipv4Addr::LOCALHOST, 0));
         let ports = [free().map_err(failed)?, free().map_err(failed)?];
         let mut script = plain("sh");
@@ -55,14 +55,14 @@ impl Node {
         }
         match line.trim_end() {
             "ready" => Ok(node),
-            _ => Err("Slurm does not start, see above".into()),
+            _ => Err("Slurm did not start; its output is above".into()),
         }
     }
 
-    /// Ends jobs and daemons.
+    /// Stops jobs and daemons.
     ///
     /// # Errors
-    /// Something is left.
+    /// A process or the folder is left.
     pub fn end(mut self) -> Outcome<String> {
         let folder = self.folder.clone();
         drop(self.script.stdin.take());
@@ -73,17 +73,17 @@ impl Node {
         Ok("jobs, daemons and folder".into())
     }
 
-    /// One of Slurm's commands.
+    /// Returns one of Slurm's commands.
     pub fn command(&self, program: &str) -> Command {
         let mut command = plain(program);
         command.env("SLURM_CONF", self.folder.join("slurm.conf"));
         command
     }
 
-    /// Gives a job script to Slurm, with options and variables, and returns the job's number.
+    /// Submits a job script with options and variables, and returns the job's ID.
     ///
     /// # Errors
-    /// It is refused.
+    /// Slurm refuses the job.
     pub fn submit(
         &self,
         script: &Path,
@@ -97,20 +97,20 @@ impl Node {
         Ok(output_of(sbatch, "sbatch")?.trim().to_owned())
     }
 
-    /// Runs one of Slurm's commands that prints nothing of interest.
+    /// Runs one of Slurm's commands and ignores its output.
     ///
     /// # Errors
-    /// It fails.
-    pub fn tell(&self, program: &str, arguments: &[&str]) -> Outcome {
+    /// The command fails.
+    pub fn run(&self, program: &str, arguments: &[&str]) -> Outcome {
         let mut command = self.command(program);
         command.args(arguments);
         output_of(command, &format!("{program} {}", arguments.join(" "))).map(|_| ())
     }
 
-    /// The state of each task of a job, or of one task.
+    /// Returns the state of each task of a job, or of one task.
     ///
     /// # Errors
-    /// Slurm does not tell it.
+    /// `squeue` fails or prints something else.
     pub fn states(&self, job: &str) -> Outcome<BTreeMap<u64, String>> {
         let mut squeue = self.command("squeue");
         squeue.args(["--noheader", "--array", "--states=all", "--format=%K %T"]);
@@ -124,10 +124,10 @@ impl Node {
         tasks.ok_or_else(|| format!("squeue: not tasks and states: {text}"))
     }
 
-    /// The state that each task of a job has at its end, in the order of tasks.
+    /// Waits for a job and returns the final state of each task, in the order of tasks.
     ///
     /// # Errors
-    /// It does not end.
+    /// The job does not end in time.
     pub fn ended(&self, job: &str) -> Outcome<Vec<String>> {
         wait_until(&format!("job {job} to end"), || {
             let states = self.states(job)?;
@@ -143,12 +143,12 @@ impl Drop for Node {
     }
 }
 
-/// Whether all of these tasks run no more.
+/// True if all of these tasks have ended.
 pub fn have_ended(states: &BTreeMap<u64, String>) -> bool {
     states.values().all(|state| is_end(state))
 }
 
-/// Whether a task in this state runs no more.
+/// True if a task in this state has ended.
 fn is_end(state: &str) -> bool {
     let ends = [
         "COMPLETED",
@@ -161,30 +161,30 @@ fn is_end(state: &str) -> bool {
     ends.contains(&state)
 }
 
-/// What `look` finds, as soon as it does.
+/// Calls `check` until it returns a value, and returns that.
 ///
 /// # Errors
-/// It finds nothing for minutes, or fails.
-pub fn wait_until<T>(what: &str, mut look: impl FnMut() -> Outcome<Option<T>>) -> Outcome<T> {
+/// `check` fails, or returns no value for two minutes.
+pub fn wait_until<T>(what: &str, mut check: impl FnMut() -> Outcome<Option<T>>) -> Outcome<T> {
     let started = Instant::now();
     loop {
-        if let Some(found) = look()? {
+        if let Some(found) = check()? {
             return Ok(found);
         }
-        if started.elapsed() > LONGEST {
-            return Err(format!("waited {} s for {what}", LONGEST.as_secs()));
+        if started.elapsed() > MAX_WAIT {
+            return Err(format!("waited {} s for {what}", MAX_WAIT.as_secs()));
         }
         std::thread::sleep(PAUSE);
     }
 }
 
-/// A command without what another Slurm tells its jobs and users.
+/// Returns a command without the variables that another Slurm sets for its jobs and users.
 fn plain(program: &str) -> Command {
     let mut command = Command::new(program);
     for (name, _) in std::env::vars_os() {
         let text = name.to_string_lossy();
-        let of_slurm = ["SLURM", "SBATCH_", "SCANCEL_", "SQUEUE_", "SINFO_"];
-        if of_slurm.iter().any(|start| text.starts_with(start)) {
+        let prefixes = ["SLURM", "SBATCH_", "SCANCEL_", "SQUEUE_", "SINFO_"];
+        if prefixes.iter().any(|prefix| text.starts_with(prefix)) {
             command.env_remove(&name);
         }
     }

@@ -1,4 +1,4 @@
-//! GNU parallel.
+//! Shards with GNU parallel.
 
 use std::fs;
 use std::process::Command;
@@ -8,31 +8,34 @@ use crate::run::{Outcome, repository};
 
 const RESULTS: &str = "parallel";
 
-/// Shard 2 cannot write at first; the same command again runs it alone.
+/// Shard 2 cannot write at first. When repeated, the command runs only this shard.
 pub fn one_failed(trial: &Trial) -> Outcome<String> {
     let results = trial.results(RESULTS, &[])?;
     let barrier = results.join(format!("{}.partial", rows_of(2)));
     fs::create_dir(&barrier).map_err(|error| in_file(&barrier, &error))?;
     if run(trial)? {
-        return Err("a shard failed and parallel did not".into());
+        return Err("parallel succeeded though a shard failed".into());
     }
     fs::remove_dir(&barrier).map_err(|error| in_file(&barrier, &error))?;
     if !run(trial)? {
-        return Err("failed again".into());
+        return Err("parallel failed again".into());
     }
     let log = results.join(format!("jobs-of-{SHARDS}.log"));
     let runs = runs(&read(&log)?)?;
     if runs.len() != 5 || runs[..4].iter().filter(|(_, failed)| *failed).count() != 1 {
-        return Err(format!("runs of shards, and whether they failed: {runs:?}"));
+        return Err(format!("shards that ran, true if failed: {runs:?}"));
     }
     if runs[4] != (2, false) {
-        return Err(format!("run again, and whether it failed: {:?}", runs[4]));
+        return Err(format!(
+            "shard that ran again, true if failed: {:?}",
+            runs[4]
+        ));
     }
     trial.merges_to_the_whole(RESULTS)?;
     Ok("5 runs of shards; the same bytes".into())
 }
 
-/// Whether `cluster/parallel/study.sh` succeeds.
+/// Runs `cluster/parallel/study.sh` and returns true if it succeeds.
 fn run(trial: &Trial) -> Outcome<bool> {
     let mut script = Command::new("sh");
     script.arg(repository().join("cluster/parallel/study.sh"));
@@ -50,12 +53,12 @@ fn run(trial: &Trial) -> Outcome<bool> {
     Ok(output.status.success())
 }
 
-/// Shards in the order in which they ended, and whether they failed, of parallel's log.
+/// Reads parallel's log: shards in the order in which they ended, each with true if it failed.
 fn runs(log: &str) -> Outcome<Vec<(u64, bool)>> {
     let run = |line: &str| {
         let columns: Vec<&str> = line.split('\t').collect();
         let job: u64 = columns.first()?.parse().ok()?;
-        // Jobs count from 1; the seventh column is the exit code.
+        // Jobs are numbered from 1; the seventh column is the exit code.
         Some((job.checked_sub(1)?, *columns.get(6)? != "0"))
     };
     let runs: Option<Vec<(u64, bool)>> = log.lines().skip(1).map(run).collect();

@@ -1,4 +1,4 @@
-//! A study in a folder, its rows by one process, and shards of it.
+//! A study in a folder, its rows from one process, and its shards.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -7,33 +7,33 @@ use std::process::{Command, Output};
 use super::node::{Node, have_ended, wait_until};
 use crate::run::{Outcome, repository};
 
-/// The study.
+/// Text of the study.
 const STUDY: &str = include_str!("study.toml");
 
-/// Its file, with a space: what the files of `cluster/` start has to bear it.
+/// File of the study. The space tests the quoting in the files of `cluster/`.
 pub const STUDY_FILE: &str = "a study.toml";
 
-/// Its cases.
+/// Number of its cases.
 pub const CASES: u64 = 24;
 
-/// Shards that it is run in.
+/// Number of shards.
 pub const SHARDS: u64 = 4;
 
-/// What is checked.
+/// A study, a Slurm to run it on, and a folder for results.
 pub struct Trial {
     /// Slurm.
     pub node: Node,
-    /// With the study, a folder of results a check, and Slurm's logs.
+    /// Folder of the study, of the results of each check, and of Slurm's logs.
     pub folder: PathBuf,
-    /// Rows by one process on one thread.
+    /// Rows from one process with one thread.
     whole: String,
 }
 
 impl Trial {
-    /// Runs the study in one process, in a folder that is made anew.
+    /// Runs the study in one process, in an empty folder.
     ///
     /// # Errors
-    /// It fails.
+    /// The study fails.
     pub fn new(node: Node) -> Outcome<Self> {
         let folder = repository().join("target/slurm");
         if folder.exists() {
@@ -58,10 +58,10 @@ impl Trial {
         }
     }
 
-    /// Runs `dashpot`, which must end with this code; what it prints.
+    /// Runs `dashpot`, which must end with this exit code, and returns its output.
     ///
     /// # Errors
-    /// It ends with another.
+    /// It ends with another code.
     pub fn dashpot(&self, arguments: &[&str], code: i32) -> Outcome<String> {
         let mut command = Command::new(program());
         command.args(arguments).current_dir(&self.folder);
@@ -81,10 +81,10 @@ impl Trial {
         }
     }
 
-    /// A folder of results with the rows of these shards, from that of `complete`.
+    /// Creates a folder of results with the rows of these shards, copied from the results of the complete array.
     ///
     /// # Errors
-    /// They are not there.
+    /// A file cannot be copied.
     pub fn results(&self, name: &str, shards: &[u64]) -> Outcome<PathBuf> {
         let folder = self.folder.join(name);
         fs::create_dir_all(&folder).map_err(|error| in_file(&folder, &error))?;
@@ -96,10 +96,10 @@ impl Trial {
         Ok(folder)
     }
 
-    /// Gives `cluster/slurm/study.sbatch` to Slurm for some tasks of so many shards; the job's number.
+    /// Submits `cluster/slurm/study.sbatch` for some tasks of `shards`, and returns the job's ID.
     ///
     /// # Errors
-    /// It is refused.
+    /// Slurm refuses the job.
     pub fn submit(&self, results: &str, tasks: &str, shards: u64) -> Outcome<String> {
         let options = [
             &format!("--array={tasks}"),
@@ -119,10 +119,10 @@ impl Trial {
             .submit(&script, &options, &variables, &self.folder)
     }
 
-    /// As [`Self::submit`]; waits for the end, which must be this of each task.
+    /// Submits as [`Self::submit`] and waits until each task has ended in its expected state.
     ///
     /// # Errors
-    /// A task ends otherwise.
+    /// A task ends in another state.
     pub fn run(
         &self,
         results: &str,
@@ -135,10 +135,10 @@ impl Trial {
         Ok(job)
     }
 
-    /// Waits for the end of a job, which must be this of each task.
+    /// Waits until each task of a job has ended in its expected state.
     ///
     /// # Errors
-    /// A task ends otherwise.
+    /// A task ends in another state.
     pub fn has_ended(&self, job: &str, expected: &[&str]) -> Outcome {
         let states = self.node.ended(job)?;
         if states == expected {
@@ -151,7 +151,7 @@ impl Trial {
         ))
     }
 
-    /// What a task printed.
+    /// Returns what a task printed.
     ///
     /// # Errors
     /// There is no log.
@@ -162,7 +162,7 @@ impl Trial {
     /// Waits until a shard that a job is running has at least one row.
     ///
     /// # Errors
-    /// It ends without.
+    /// The job ends without a row.
     pub fn wait_for_a_row(&self, results: &str, job: &str, shard: u64) -> Outcome {
         wait_until(&format!("a row of shard {shard}"), || {
             let states = self.node.states(&format!("{job}_{shard}"))?;
@@ -178,7 +178,7 @@ impl Trial {
         })
     }
 
-    /// Rows of a shard that is not complete.
+    /// Returns the number of rows of a shard that is not complete.
     pub fn rows_kept(&self, results: &str, shard: u64) -> u64 {
         let partial = format!("{}.partial", rows_of(shard));
         let text = fs::read_to_string(self.folder.join(results).join(partial));
@@ -188,10 +188,10 @@ impl Trial {
         })
     }
 
-    /// Merges what the folder of results has; it must be the rows of one process.
+    /// Merges a folder of results, which must give the rows of one process.
     ///
     /// # Errors
-    /// It is not.
+    /// The rows differ.
     pub fn merges_to_the_whole(&self, results: &str) -> Outcome {
         self.merge(results, 0)?;
         let merged = self.folder.join(results).join("merged/rows.csv");
@@ -201,11 +201,11 @@ impl Trial {
         Err(format!("{}: not the rows of one process", merged.display()))
     }
 
-    /// Merges what the folder of results has, which must fail and say this.
+    /// Merges a folder of results, which must fail with this message.
     ///
     /// # Errors
-    /// It does not.
-    pub fn merge_says(&self, results: &str, expected: &str) -> Outcome {
+    /// The merge succeeds, or its message differs.
+    pub fn merge_fails(&self, results: &str, expected: &str) -> Outcome {
         let text = self.merge(results, 1)?;
         if self.folder.join(results).join("merged").exists() {
             return Err("merge failed and wrote something".into());
@@ -227,15 +227,15 @@ impl Trial {
     }
 }
 
-/// The folder of results of the first check.
+/// Folder of results of the complete array.
 pub const COMPLETE: &str = "complete";
 
-/// The file of a shard's rows.
+/// Returns the name of the file of a shard's rows.
 pub fn rows_of(shard: u64) -> String {
     format!("rows-{shard}-of-{SHARDS}.csv")
 }
 
-/// Fails where the text does not have this.
+/// Checks that a text contains another.
 pub fn contains(text: &str, expected: &str) -> Outcome {
     if text.contains(expected) {
         return Ok(());
@@ -243,12 +243,12 @@ pub fn contains(text: &str, expected: &str) -> Outcome {
     Err(format!("`{}`, allowed: `{expected}`", text.trim()))
 }
 
-/// The text of a file.
+/// Reads a text file.
 pub fn read(path: &Path) -> Outcome<String> {
     fs::read_to_string(path).map_err(|error| in_file(path, &error))
 }
 
-/// What is wrong with a file.
+/// Returns the message about a file.
 pub fn in_file(path: &Path, error: &std::io::Error) -> String {
     format!("{}: {error}", path.display())
 }
@@ -257,7 +257,7 @@ fn program() -> PathBuf {
     repository().join("target/release/dashpot")
 }
 
-/// The path of programs with the `dashpot` that was built before all others.
+/// Returns the search path with the folder of the built `dashpot` first.
 pub fn path_with_dashpot() -> Outcome<String> {
     let path = std::env::var("PATH").map_err(|error| format!("PATH: {error}"))?;
     let folder = repository().join("target/release");

@@ -1,0 +1,92 @@
+//! Bounds on the packages and processor time of a build. Wall time has no bound: it depends on the machine's load.
+
+use std::collections::BTreeSet;
+
+use crate::run::{Outcome, cargo_output};
+
+/// Largest number of packages that each package may be built from, itself included, on this machine's platform.
+const MAX_PACKAGES: [(&str, usize); 2] = [
+    // The default build.
+    ("dashpot-hil", 221),
+    // An FMU links it: no commands, plots, signals or differential equations.
+    ("dashpot-vehicle-model", 80),
+];
+
+/// Processor time of `cargo run --release` from nothing, in seconds, on the machine that README's two minutes are for:
+/// two cores cannot give more than 240 s in that time, and the linker and cargo's own work leave some of it idle.
+const MAX_PROCESSOR_S: f64 = 300.0;
+
+/// Allowance for slower processors.
+const MARGIN: f64 = 1.5;
+
+/// Checks the number of packages that the command and the FMU's library are built from. Compiles nothing.
+///
+/// # Errors
+/// A package has too many.
+pub fn check_packages() -> Outcome {
+    let mut failures = Vec::new();
+    for (package, max) in MAX_PACKAGES {
+        let tree = [
+            "tree",
+            "--locked",
+            "--package",
+            package,
+            "--edges",
+            "normal",
+            "--prefix",
+            "none",
+        ];
+        let count = packages(&cargo_output(&tree)?).len();
+        println!("{package} is built from {count} packages, at most {max} are allowed");
+        if count > max {
+            failures.push(format!(
+                "{package} is built from {count} packages, at most {max} are allowed"
+            ));
+        }
+    }
+    if failures.is_empty() {
+        Ok(())
+    } else {
+        Err(failures.join("\n"))
+    }
+}
+
+/// Names and versions in what `cargo tree --prefix none` prints.
+fn packages(tree: &str) -> BTreeSet<&str> {
+    // ` (*)` marks a package whose dependencies were printed before.
+    let lines = tree.lines().map(|line| line.trim_end_matches(" (*)"));
+    lines.filter(|line| !line.is_empty()).collect()
+}
+
+/// Checks the processor time of the command's build.
+///
+/// # Errors
+/// It is above the bound.
+pub fn check_processor_time(total_s: f64) -> Outcome {
+    let max = MAX_PROCESSOR_S * MARGIN;
+    if total_s <= max {
+        return Ok(());
+    }
+    Err(format!(
+        "the command's build took {total_s:.0} s of processor time, at most {max:.0} s are allowed: \
+         {MAX_PROCESSOR_S} s, times {MARGIN} for slower processors"
+    ))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{MARGIN, MAX_PROCESSOR_S, check_processor_time, packages};
+
+    #[test]
+    fn a_package_that_is_printed_twice_counts_once() {
+        let tree = "a v1.0.0 (/a)\nb v0.1.0\nc v2.0.0\nb v0.1.0 (*)\nb v0.2.0\n\n";
+        assert_eq!(packages(tree).len(), 4);
+    }
+
+    #[test]
+    fn a_slow_processor_is_allowed_for() {
+        assert_eq!(check_processor_time(MAX_PROCESSOR_S * MARGIN), Ok(()));
+        let error = check_processor_time(MAX_PROCESSOR_S * MARGIN + 1.0).unwrap_err();
+        assert!(error.contains("at most 450 s are allowed"), "{error}");
+    }
+}

@@ -1,0 +1,11 @@
+//! Programs that developer commands and tests run: which there are, how they are installed, and tests that go without.
+
+mod apt;
+mod program;
+mod skip;
+mod subcommand;
+
+pub use apt::install;
+pub use program::*;
+pub use skip::{SKIPPED, have, have_library, have_target, skip};
+pub use subcommand::{CARGO_FUZZ, CARGO_HACK, CARGO_MUTANTS, CARGO_SEMVER_CHECKS, Subcommand};

@@ -1,0 +1,46 @@
+//! Subcommands of cargo that are built from source.
+
+use crate::run::{Outcome, cargo, cargo_output};
+
+/// A subcommand of cargo. Only the developer command that runs it installs it, and once.
+#[derive(Clone, Copy, Debug)]
+pub struct Subcommand {
+    name: &'static str,
+    version: &'static str,
+}
+
+/// Runs cargo with each feature.
+pub const CARGO_HACK: Subcommand = Subcommand {
+    name: "hack",
+    version: "0.6.46",
+};
+/// Builds and runs fuzz targets.
+pub const CARGO_FUZZ: Subcommand = Subcommand {
+    name: "fuzz",
+    version: "0.13.2",
+};
+/// Changes the code bit by bit and lists the changes that no test notices.
+pub const CARGO_MUTANTS: Subcommand = Subcommand {
+    name: "mutants",
+    version: "27.1.0",
+};
+/// Finds changes of a public interface that the version number does not allow.
+pub const CARGO_SEMVER_CHECKS: Subcommand = Subcommand {
+    name: "semver-checks",
+    version: "0.51.0",
+};
+
+impl Subcommand {
+    /// Builds and installs the subcommand if it is missing; any installed version will do.
+    ///
+    /// # Errors
+    /// It does not build.
+    pub fn install(self) -> Outcome {
+        let Self { name, version } = self;
+        if cargo_output(&[name, "--version"]).is_ok() {
+            return Ok(());
+        }
+        let package = format!("cargo-{name}");
+        cargo(&["install", "--locked", &package, "--version", version])
+    }
+}
