@@ -22,7 +22,7 @@ const BUGS: [(&str, &str, &str); 14] = [
     (
         "C: memory that was never made a state was stepped",
         "capi/tests/integrity.rs",
-        "memory_that_was_never_made_a_state_is_refused_and_stays",
+        "uninitialised_memory_is_refused_and_unchanged",
     ),
     (
         "a serial link waited for an answer before a long request had left",
