@@ -2,8 +2,8 @@
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
-use wide::bytemuck::cast;
-use wide::{f32x4, f64x4, u32x4, u64x4};
+use fearless_simd::prelude::*;
+use fearless_simd::{Level, f32x4, f64x4, i32x4, u32x4};
 
 use super::Lanes;
 use crate::table::{BINS, bin_shift};
@@ -11,10 +11,27 @@ use crate::table::{BINS, bin_shift};
 /// Number of lanes of a group.
 pub(crate) const GROUP: usize = 8;
 
+/// Vector instructions that every processor of the architecture has.
+#[cfg(target_arch = "x86_64")]
+type Baseline = fearless_simd::x86::Sse2;
+/// Vector instructions that every processor of the architecture has.
+#[cfg(target_arch = "aarch64")]
+type Baseline = fearless_simd::aarch64::Neon;
+
 /// Numbers of a group in single precision.
-pub type F32 = Pair<f32x4>;
+pub type F32 = Pair<f32x4<Baseline>>;
 /// Numbers of a group in double precision.
-pub type F64 = Pair<f64x4>;
+pub type F64 = Pair<f64x4<Baseline>>;
+
+/// Returns the token of [`Baseline`]; the compiler removes the check.
+#[inline(always)]
+fn baseline() -> Baseline {
+    #[cfg(target_arch = "x86_64")]
+    let found = Level::baseline().as_sse2();
+    #[cfg(target_arch = "aarch64")]
+    let found = Level::baseline().as_neon();
+    found.expect("the baseline of the processor")
+}
 
 /// Two vectors. The processor works on one while the other waits for a result.
 #[derive(Clone, Copy)]
@@ -58,23 +75,37 @@ fn whole<T: Copy>([[a, b, c, d], [e, f, g, h]]: [[T; 4]; 2]) -> [T; GROUP] {
 }
 
 macro_rules! group {
-    ($float:ident, $vector:ident, $bits:ident) => {
-        impl Pair<$vector> {
+    ($float:ident, $vector:ident, $bins:expr, $signs:expr) => {
+        impl Pair<$vector<Baseline>> {
             #[inline(always)]
-            fn map(self, f: impl Fn($vector) -> $vector) -> Self {
+            fn map(self, f: impl Fn($vector<Baseline>) -> $vector<Baseline>) -> Self {
                 Self(f(self.0), f(self.1))
             }
-
             #[inline(always)]
-            fn zip(self, other: Self, f: impl Fn($vector, $vector) -> $vector) -> Self {
+            fn zip(
+                self,
+                other: Self,
+                f: impl Fn($vector<Baseline>, $vector<Baseline>) -> $vector<Baseline>,
+            ) -> Self {
                 Self(f(self.0, other.0), f(self.1, other.1))
+            }
+            #[inline(always)]
+            fn bits(
+                self,
+                other: Self,
+                f: impl Fn(
+                    $vector<Baseline>,
+                    $vector<Baseline>,
+                ) -> <$vector<Baseline> as SimdBase<Baseline>>::Mask,
+            ) -> u64 {
+                f(self.0, other.0).to_bitmask() | f(self.1, other.1).to_bitmask() << 4
             }
         }
 
-        impl Lanes<$float, GROUP> for Pair<$vector> {
+        impl Lanes<$float, GROUP> for Pair<$vector<Baseline>> {
             #[inline(always)]
             fn new(lanes: [$float; GROUP]) -> Self {
-                let [low, high] = halves(lanes).map($vector::new);
+                let [low, high] = halves(lanes).map(|half| $vector::load_array(baseline(), half));
                 Self(low, high)
             }
             #[inline(always)]
@@ -87,19 +118,25 @@ macro_rules! group {
             }
             #[inline(always)]
             fn transpose(rows: [[$float; 4]; GROUP]) -> [Self; 4] {
-                let transpose = |rows: [[$float; 4]; 4]| $vector::transpose(rows.map($vector::new));
+                let transpose = |rows: [[$float; 4]; 4]| {
+                    let [a, b, c, d] = rows.map(|row| $vector::load_array(baseline(), row));
+                    let (even, odd) = (a.interleave(c), b.interleave(d));
+                    let (first, second) = even.0.interleave(odd.0);
+                    let (third, last) = even.1.interleave(odd.1);
+                    [first, second, third, last]
+                };
                 let [low, high] = halves(rows).map(transpose);
                 core::array::from_fn(|column| Self(low[column], high[column]))
             }
             #[inline(always)]
             fn abs(self) -> Self {
-                self.map($vector::abs)
+                self.map(|v| v.abs())
             }
             #[inline(always)]
             fn max(self, other: Self) -> Self {
-                // One instruction on x86-64. On other processors `fast_max` would return NaN for NaN.
+                // One instruction on x86-64. On other processors `max` would return NaN for NaN.
                 if cfg!(target_arch = "x86_64") {
-                    self.zip(other, $vector::fast_max)
+                    self.zip(other, |v, other| v.max(other))
                 } else {
                     self.zip(other, |v, other| v.simd_gt(other).select(v, other))
                 }
@@ -107,7 +144,7 @@ macro_rules! group {
             #[inline(always)]
             fn min(self, other: Self) -> Self {
                 if cfg!(target_arch = "x86_64") {
-                    self.zip(other, $vector::fast_min)
+                    self.zip(other, |v, other| v.min(other))
                 } else {
                     self.zip(other, |v, other| v.simd_lt(other).select(v, other))
                 }
@@ -115,55 +152,78 @@ macro_rules! group {
             #[inline(always)]
             fn all_within(self, doubled_bits: [&$float; GROUP]) -> bool {
                 let bounds = doubled_bits.map(|bound| $float::from_bits(bound.to_bits() >> 1));
-                let within = self.abs().zip(Self::new(bounds), $vector::simd_le);
-                (within.0 & within.1).all()
+                let bounds = Self::new(bounds);
+                let within = self.abs();
+                (within.0.simd_le(bounds.0) & within.1.simd_le(bounds.1)).all_true()
             }
             #[inline(always)]
             fn reaches(self, limit: Self) -> [bool; GROUP] {
-                let below = self.zip(limit, $vector::simd_lt);
-                let bits = below.0.to_bitmask() | below.1.to_bitmask() << 4;
+                let bits = self.bits(limit, |v, limit| v.simd_lt(limit));
                 core::array::from_fn(|lane| bits >> lane & 1 == 0)
             }
             #[inline(always)]
             fn unless_positive(self, gate: Self) -> Self {
                 self.zip(gate, |v, gate| {
-                    gate.simd_gt($vector::ZERO).select($vector::ZERO, v)
+                    let zero = $vector::splat(baseline(), 0.0);
+                    gate.simd_gt(zero).select(zero, v)
                 })
             }
             #[inline(always)]
             fn with_sign_of(self, direction: Self) -> Self {
                 self.zip(direction, |v, direction| {
-                    direction.simd_ge($vector::ZERO).select(v, -v)
+                    direction.simd_ge(0.0).select(v, -v)
                 })
             }
             #[inline(always)]
             fn bins(self) -> [usize; GROUP] {
-                let bins = |reach: $vector| {
-                    let bits: $bits = cast(reach);
-                    let bins = bits >> bin_shift($float::MANTISSA_DIGITS);
-                    (bins & $bits::splat((BINS - 1) as _)).to_array()
-                };
-                whole([bins(self.0), bins(self.1)]).map(|bin| bin as usize)
+                whole([$bins(self.0), $bins(self.1)])
             }
             #[inline(always)]
             fn knots_passed(self, knots: [[$float; 4]; GROUP]) -> [usize; GROUP] {
                 let [_, next, second, _] = Self::transpose(knots);
-                let [next, second] = [next, second].map(|knot| {
-                    let passed = self.zip(knot, $vector::simd_gt);
-                    passed.0.to_bitmask() | passed.1.to_bitmask() << 4
-                });
+                let [next, second] =
+                    [next, second].map(|knot| self.bits(knot, |v, knot| v.simd_gt(knot)));
                 core::array::from_fn(|lane| {
                     (next >> lane & 1) as usize + (second >> lane & 1) as usize
                 })
             }
             #[inline(always)]
             fn sign_bits(self) -> [usize; GROUP] {
-                let bits = self.0.to_bitmask() | self.1.to_bitmask() << 4;
-                core::array::from_fn(|lane| (bits >> lane & 1) as usize)
+                whole([$signs(self.0), $signs(self.1)])
             }
         }
     };
 }
 
-group!(f32, f32x4, u32x4);
-group!(f64, f64x4, u64x4);
+/// Indices of the bins; see [`Lanes::bins`].
+#[inline(always)]
+fn bins_f32(reach: f32x4<Baseline>) -> [usize; 4] {
+    let bits: u32x4<Baseline> = reach.bitcast();
+    let bins = (bits >> bin_shift(f32::MANTISSA_DIGITS)) & (BINS - 1) as u32;
+    bins.to_array().map(|bin| bin as usize)
+}
+
+/// Indices of the bins; see [`Lanes::bins`].
+#[inline(always)]
+fn bins_f64(reach: f64x4<Baseline>) -> [usize; 4] {
+    reach
+        .to_array()
+        .map(|x| (x.to_bits() >> bin_shift(f64::MANTISSA_DIGITS)) as usize % BINS)
+}
+
+/// Sign bits; see [`Lanes::sign_bits`].
+#[inline(always)]
+fn signs_f32(v: f32x4<Baseline>) -> [usize; 4] {
+    let bits: i32x4<Baseline> = v.bitcast();
+    let mask = bits.simd_lt(0).to_bitmask();
+    core::array::from_fn(|lane| (mask >> lane & 1) as usize)
+}
+
+/// Sign bits; see [`Lanes::sign_bits`].
+#[inline(always)]
+fn signs_f64(v: f64x4<Baseline>) -> [usize; 4] {
+    v.to_array().map(|x| (x.to_bits() >> 63) as usize)
+}
+
+group!(f32, f32x4, bins_f32, signs_f32);
+group!(f64, f64x4, bins_f64, signs_f64);
