@@ -10,7 +10,7 @@ use pyo3::types::PyDict;
 use crate::error::Outcome;
 use crate::interruption::asking;
 
-/// One settled cycle of a bench test. `Damper.rig` makes one.
+/// One settled cycle of a bench test. `Damper.rig` returns it.
 ///
 /// >>> import dashpot
 /// >>> cycle = dashpot.Damper("paper").rig(24.875e-3, 0.64)
@@ -39,7 +39,7 @@ impl Cycle {
     }
 }
 
-/// The indices of a cycle by their names.
+/// Indices of a cycle by name.
 pub fn indices<'py>(py: Python<'py>, cycle: &Cycle) -> Outcome<Bound<'py, PyDict>> {
     let indices = PyDict::new(py);
     for index in Index::ALL {
@@ -50,7 +50,7 @@ pub fn indices<'py>(py: Python<'py>, cycle: &Cycle) -> Outcome<Bound<'py, PyDict
 
 #[pymethods]
 impl Cycle {
-    /// Displacement (m) of the seats at each step, the first one after zero.
+    /// Displacement (m) of the seats at each step, starting one step after zero.
     #[getter]
     fn displacement_m<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
         PyArray1::from_slice(py, &self.0.displacements_m)
@@ -68,7 +68,7 @@ impl Cycle {
         PyArray1::from_slice(py, &self.0.forces_n)
     }
 
-    /// The step that was used (s): the one asked for, shortened to a whole number of steps a cycle.
+    /// The step size used (s): the requested one, shortened to a whole number of steps per cycle.
     #[getter]
     fn step_s(&self) -> f64 {
         self.0.step_s
@@ -80,7 +80,7 @@ impl Cycle {
         self.0.cycles
     }
 
-    /// The indices by their names; `None` where there is none without force.
+    /// The indices by name; `None` for an index that is undefined without force.
     #[getter]
     fn indices<'py>(&self, py: Python<'py>) -> Outcome<Bound<'py, PyDict>> {
         indices(py, self)

@@ -51,7 +51,7 @@ class Banks(Test):
 
     def test_what_is_no_bank_is_refused(self):
         paper = dashpot.Damper("paper")
-        self.assert_refused("dampers: none, allowed: one at least", dashpot.Bank, [])
+        self.assert_refused("dampers: none, allowed: at least one", dashpot.Bank, [])
         mixed = "damper 1: its step or precision is not that of damper 0, allowed: one step and one precision"
         self.assert_refused(mixed, dashpot.Bank, [paper.build(1e-3), paper.build(2e-3)])
         self.assert_refused(mixed, dashpot.Bank, [paper.build(), paper.build(dtype=float)])

@@ -8,7 +8,7 @@ import dashpot
 import numpy
 from common import Test
 
-WORDS = "state: another call is stepping it, allowed: a state for each thread"
+WORDS = "state: another call is stepping it; use one state per thread"
 
 
 def motion(count, dtype):
@@ -62,10 +62,10 @@ class States(Test):
 
     def test_a_state_of_another_precision_is_refused(self):
         single, double = (dashpot.Damper("paper").build(dtype=dtype) for dtype in ("f4", "f8"))
-        words = "state: of another precision, allowed: a state of float64, as this damper is"
+        words = "state: of another precision, allowed: a state of float64, this damper's precision"
         self.assert_refused(words, double.step, single.at_rest(), 0.0)
         self.assert_refused(words, double.replay, numpy.zeros(3), state=single.at_rest())
-        words = "states: of another precision, allowed: states of float64, as the dampers are"
+        words = "states: of another precision, allowed: states of float64, the precision of the dampers"
         self.assert_refused(words, dashpot.Bank([double]).replay, numpy.zeros((3, 1)), states=[single.at_rest()])
 
     def test_two_threads_on_one_state_are_told(self):
@@ -89,7 +89,7 @@ class States(Test):
             if told:
                 break
         self.assertTrue(told)
-        self.assertTrue(all(words.startswith("state: another call is stepping it, allowed: ") for words in told))
+        self.assertTrue(all(words.startswith("state: another call is stepping it; ") for words in told))
         self.assertEqual(state.force_n, out[-1])
 
     def test_extreme_displacements_give_finite_forces(self):

@@ -154,7 +154,7 @@ class Studies(Test):
             with self.assertRaisesRegex(IndexError, f"^case {number}, allowed: 0 to 8$"):
                 study.row(number)
         for number, of in ((2, 2), (-1, 2), (0, -2), (2**70, 2)):
-            self.assert_refused(f"shard: {number} of {of}, allowed: 0 to one less than there are", study.run,
+            self.assert_refused(f"shard: {number} of {of}, allowed: 0 to one less than the number of shards", study.run,
                                 shard=(number, of))
         for wrong in (0, -1, 1025, 2**64):
             self.assert_refused(f"threads: {wrong}, allowed: 1 to 1024", study.run, threads=wrong)
