@@ -1,4 +1,4 @@
-//! Arbitrary text never panics a parser; damaged files of ours neither. Smoke versions of fuzz/.
+//! Arbitrary text and damaged files of ours never panic a parser. Smoke versions of fuzz/.
 
 use std::io::Write;
 use std::path::Path;
@@ -10,7 +10,7 @@ use dashpot_rail::profile::Body;
 use dashpot_rail::profile::measured::Options;
 use proptest::prelude::*;
 
-/// `text` with `patch` written over the bytes from `place`, as text again.
+/// `text` with `patch` written over the bytes from `place`, converted to text again.
 fn damaged(text: &str, place: usize, patch: &str) -> String {
     let mut bytes = text.as_bytes().to_vec();
     let start = place % bytes.len();
@@ -19,7 +19,7 @@ fn damaged(text: &str, place: usize, patch: &str) -> String {
     String::from_utf8_lossy(&bytes).into_owned()
 }
 
-/// What a parser accepts must also build or name a field.
+/// Accepted parameters must also build, or the error must name a field.
 fn parse_and_build(text: &str) {
     if let Ok(parameters) = damper::parse("fuzz.toml", text, &[]) {
         let _ = parameters.build::<f64>(1e-3);

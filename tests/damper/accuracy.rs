@@ -1,5 +1,5 @@
-//! Accuracy of the fixed step against the reference solver, every case within its row of the one
-//! tolerance table and no row looser than needed. Writes and checks the table in docs/numerics.md.
+//! Accuracy of the fixed step against the reference solver. Every case is within its row of the tolerance table, and no
+//! row is looser than needed. Writes and checks the table in docs/numerics.md.
 
 use std::collections::HashMap;
 use std::fmt::Write;
@@ -37,7 +37,7 @@ fn bless(found: &Found) {
     document::compare(FILE, &to_text(&rows));
 }
 
-/// What is wrong with the measured errors and the table.
+/// Discrepancies between the measured errors and the table.
 fn complaints(found: &Found) -> Vec<String> {
     let rows = rows();
     let mut complaints = Vec::new();
@@ -85,7 +85,7 @@ fn complaints(found: &Found) -> Vec<String> {
     complaints
 }
 
-/// The corners of a damper of [`DAMPERS`]: a letter each for what and where, and the force (N).
+/// Corners of a damper of [`DAMPERS`]: letters for kind and direction, and the force (N).
 fn corners(name: &str) -> Vec<(String, f64)> {
     let (_, preset, overrides) = DAMPERS
         .into_iter()
@@ -109,7 +109,7 @@ fn corners(name: &str) -> Vec<(String, f64)> {
         .collect()
 }
 
-/// `Pe Re of Pe Re Ye`: the corners a run went through, and all of them when these are fewer.
+/// `Pe Re of Pe Re Ye`: the corners that a run passed through, and all corners if there are more.
 fn reached(found: &Errors, corners: &[(String, f64)]) -> String {
     let names = |wanted: &dyn Fn(f64) -> bool| -> Vec<&str> {
         let wanted = corners.iter().filter(|(_, force)| wanted(*force));

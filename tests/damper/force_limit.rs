@@ -1,10 +1,10 @@
-//! A damper driven beyond its force limit stays at it and says so.
+//! A damper driven beyond its force limit stays at the limit and reports it.
 
 use dashpot::damper;
 use dashpot_core::{Damper, Real, Status};
 use dashpot_hil::study::excitation::Excitation;
 
-/// Ticks at the limit, of all that come near it in a direction.
+/// Ticks at the limit, out of all ticks close to it in one direction.
 fn plateau<T: Real>(direction: f64, step_s: f64) {
     let built: Damper<T> = damper("paper", &[]).build(step_s).expect("a preset");
     let limit = built.force_limit_n().to_f64();
