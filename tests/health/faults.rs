@@ -1,5 +1,5 @@
-//! Each fault within 10 s of the ride with noise of 2 % of either signal's root mean square: after a change in a run,
-//! and from a start that knows the nominal damper alone.
+//! Detects each fault within 10 s of the ride with noise of 2 % of each signal's root mean square: after a change
+//! during a run, and from a start that knows only the nominal damper.
 
 use std::fmt::Write;
 
@@ -17,7 +17,7 @@ const MOST_FLOW: f64 = 0.03;
 const MOST_STIFFNESS: f64 = 0.10;
 const MOST_CLEARANCE_M: f64 = 0.15e-3;
 
-/// Errors and status after 10 s with a fault that came after `before` ticks without.
+/// Errors and status after 10 s with a fault that began after `before` healthy ticks.
 fn run(
     preset: &str,
     fault: Fault,
@@ -53,7 +53,8 @@ fn runs(preset: &str, fault: Fault, random: bool, before: usize) -> Vec<([f64; 6
     })
 }
 
-/// The bound of the parameter that the fault changes holds at every seed, and that fault alone is an alarm.
+/// Checks that the parameter changed by the fault is within its bound for every seed, and that only that fault is an
+/// alarm.
 fn check(label: &str, fault: Fault, runs: &[([f64; 6], HealthStatus)]) {
     let most = |place: usize| largest(runs.iter().map(|(errors, _)| errors[place]));
     match fault {
@@ -142,7 +143,7 @@ fn a_faulty_damper_is_known_from_ten_seconds_alone() {
     }
 }
 
-/// Standard deviations told are those found: errors over them have a root mean square near 1.
+/// Reported standard deviations match the actual errors: errors relative to them have a root mean square near 1.
 #[test]
 fn what_is_told_to_be_uncertain_is_so() {
     for preset in PRESETS {

@@ -1,5 +1,5 @@
-//! A clearance that grew to 4 mm under a motion of 0.44 mm rms left the old estimate with its narrow intervals for as
-//! long as the run lasted: nothing was measured, and nothing grew old.
+//! When the clearance grew to 4 mm under a motion of 0.44 mm rms, the old estimate kept its narrow intervals for the
+//! rest of the run, because nothing was measured and nothing was forgotten.
 
 use dashpot_core::health::{Health, HealthStatus};
 use dashpot_hil::study::health::Noise;

@@ -1,4 +1,4 @@
-//! Dampers under a running locomotive: a fault of one is its alarm, and the others have none.
+//! Dampers under a running locomotive: a faulty damper raises its own alarm and no other damper's.
 
 use dashpot_core::health::HealthStatus;
 use dashpot_hil::files::case::{CaseOptions, FaultOptions};
@@ -13,7 +13,7 @@ const WATCHED: [&str; 2] = ["front vertical damper 1", "front vertical damper 2"
 /// Displacements (m) and forces (N) of a damper at every millisecond.
 type Signals = (Vec<f64>, Vec<f64>);
 
-/// Those of the watched dampers, and what these are.
+/// Signals of the watched dampers, and their parameters.
 fn signals(fault: Option<&str>) -> (Vec<Signals>, dashpot_core::DamperParameters) {
     let mut options = CaseOptions::load("straight-180").unwrap();
     options.duration_s = 25.0;

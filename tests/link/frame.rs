@@ -1,4 +1,4 @@
-//! Frames: what comes back, what is refused, and that a zero byte ends any trouble.
+//! Frames: decoded content, refusals, and resynchronisation at a zero byte.
 
 use dashpot::signed_image::crc_32;
 use dashpot_core::health::{Estimate, HealthReading, HealthStatus};
@@ -8,7 +8,7 @@ use dashpot_core::link::{
 };
 use proptest::prelude::*;
 
-/// Messages of a stream, each `None` where the reader found a fault.
+/// Messages of a stream, each `None` if the reader found an error.
 fn read(bytes: &[u8]) -> Vec<Option<Vec<u8>>> {
     let mut reader = FrameReader::<REQUEST_BYTES>::new();
     let mut messages = Vec::new();

@@ -66,8 +66,8 @@ fn a_loaded_damper_and_a_set_clearance_go_on_with_the_cores_bits() {
     }
 }
 
-/// Ticks and their forces do not depend on a load that is under way; what comes on the line meanwhile is dropped
-/// and said to be broken.
+/// Ticks and their forces do not depend on a load in progress. Bytes that arrive meanwhile are dropped and reported as
+/// broken.
 #[test]
 fn a_load_goes_on_in_slices_between_the_ticks() {
     let mut bench = Bench::open();
@@ -114,7 +114,7 @@ fn a_load_goes_on_in_slices_between_the_ticks() {
     }
     assert!(slices > 200, "{slices}");
     assert!(!bench.device.is_busy());
-    // The frame that came in between ends now.
+    // The frame that arrived in between ends now.
     let answers = bench.feed(&[4, 0]);
     assert_eq!(answers[0].refusal(), Some(Refusal::Corrupt));
     bench.header.session += 1;
