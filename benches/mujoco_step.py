@@ -1,11 +1,12 @@
-"""Yardstick of the vehicle's tick: a step of 1 ms of MuJoCo for as many degrees of freedom.
+"""Yardstick of the vehicle's tick: a 1 ms step of MuJoCo with the same number of degrees of freedom.
 
     python3 -m venv /tmp/mujoco && /tmp/mujoco/bin/pip install mujoco && /tmp/mujoco/bin/python benches/mujoco_step.py
 
-Nine bodies with the masses of the six-axle locomotive and six degrees of freedom each: six wheelsets on six spheres each, which touch a
-plane in 36 points with friction, springs and dashpots along and about three axes between wheelsets, bogies and body. Nothing is told of
-creep or profiles: a general engine's contact stands for what a scene of this size costs. Two scenes: `free`, in which nothing but the
-plane holds the bodies, is the least that 54 degrees of freedom and 36 contacts cost; `vehicle` has the springs, as joints.
+The model has nine bodies with the masses of the six-axle locomotive and six degrees of freedom each. Each of the six
+wheelsets rests on six spheres, which touch a plane in 36 points with friction. Springs and dashpots along and about three
+axes connect wheelsets, bogies and body. Creep and profiles are not modelled: the contact of a general engine represents
+the cost of a scene of this size. In the scene `free` only the plane supports the bodies, which is the minimum cost of 54
+degrees of freedom and 36 contacts; the scene `vehicle` adds the springs as joints.
 """
 
 import time

@@ -1,4 +1,4 @@
-//! A number of the constants damaged in memory gave a force up to infinity, and no error.
+//! A constant damaged in memory produced a force up to infinity without an error.
 
 use dashpot::damper;
 use dashpot::memory::bytes;

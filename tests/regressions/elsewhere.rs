@@ -1,8 +1,8 @@
-//! Bugs whose tests need what another binary of tests has: where they are.
+//! Bugs whose tests need the support of another test binary, with the location of each test.
 
 use dashpot::document::read;
 
-/// What was wrong, the file of its test, the test.
+/// The bug, the file of its test, the test.
 const BUGS: [(&str, &str, &str); 14] = [
     (
         "a flipped bit in the step of the first damper kept it from being loaded again",

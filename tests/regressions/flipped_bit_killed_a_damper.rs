@@ -1,5 +1,5 @@
-//! One flipped bit of a running state's stretch or displacement left NaN or 1e35 m behind, and with it a force of -0 or
-//! -100 N for ever, without a status bit.
+//! One flipped bit of a running state's stretch or displacement left NaN or 1e35 m behind, and therefore a permanent
+//! force of -0 or -100 N without a status bit.
 
 use dashpot::damper;
 use dashpot::memory::bytes;
@@ -10,7 +10,7 @@ fn displacement(tick: u32) -> f32 {
     5e-3 * (0.02 * tick as f32).sin()
 }
 
-/// A running state, and the tick that comes next.
+/// A running state, and the next tick.
 fn running(damper: &Damper<f32>) -> (DamperState<f32>, u32) {
     let mut state = damper.at_rest(0.0);
     for tick in 1..200 {

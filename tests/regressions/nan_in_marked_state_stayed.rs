@@ -1,5 +1,4 @@
-//! A number of a state that a damper had stepped was damaged to NaN: every later force was NaN, for mark and revision
-//! were right.
+//! If a value of a stepped state was damaged to NaN, every later force was NaN, because mark and revision were valid.
 
 use dashpot::damper;
 use dashpot::memory::bytes;

@@ -1,4 +1,4 @@
-//! Memory that was never made a state was stepped as if it were one.
+//! Uninitialised memory was stepped as if it were a state.
 
 use dashpot::damper;
 use dashpot::memory::bytes;

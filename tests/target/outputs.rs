@@ -1,5 +1,5 @@
-//! What the firmware's second UART sends to the actuators, read there: forces while the tick runs free, the safe
-//! output after a loss of the link, zeros after a fault.
+//! The forces that the firmware's second UART sends to the actuators: forces while the tick runs free, the safe output
+//! after a loss of the link, zeros after a fault.
 
 use std::path::Path;
 
@@ -11,8 +11,8 @@ const DAMPERS: usize = 12;
 
 type Forces = [f32; DAMPERS];
 
-/// The packets in a file, each one once however often it came: `ff ff ff ff`, then the forces, as docs/link.md
-/// says. The last may be incomplete.
+/// The packets in a file, without repetitions: `ff ff ff ff`, then the forces, as documented in docs/link.md. The last
+/// packet may be incomplete.
 fn packets(file: &Path) -> Vec<Forces> {
     let bytes = std::fs::read(file).expect("the outputs");
     let mut packets: Vec<Forces> = Vec::new();
@@ -32,8 +32,8 @@ fn packets(file: &Path) -> Vec<Forces> {
     packets
 }
 
-/// Runs free under force, then says nothing more but questions until the link is lost and the safe output long
-/// over; what came out, and what the target says of it.
+/// Runs free under force, then sends only queries until the link is lost and the safe output has long ended. Returns
+/// the packets, and the outputs reported by the target.
 fn lose_the_link(output: SafeOutput) -> Option<(Vec<Forces>, Reals)> {
     let images = images()?;
     let folder = tempfile::tempdir().expect("a temporary folder");
@@ -53,7 +53,7 @@ fn lose_the_link(output: SafeOutput) -> Option<(Vec<Forces>, Reals)> {
             _ => (0, Vec::new()),
         }
     };
-    // However slow this host is, the link holds for now.
+    // The link holds for now, however slow this host is.
     let lose_after = |after_ticks, output| {
         Request::LossOfLink(LossOfLink {
             after_ticks,
@@ -76,7 +76,7 @@ fn lose_the_link(output: SafeOutput) -> Option<(Vec<Forces>, Reals)> {
     let lost = (0..MOST_ANSWERS).any(|_| ask(Request::Counters).0 > 0);
     assert!(lost, "the link was not lost");
     let tick_now = |ask: &mut dyn FnMut(Request<'static>) -> (u32, Vec<f32>)| {
-        // The newest sample comes when all older ones were taken.
+        // The newest sample is returned after all older ones were read.
         (0..10)
             .map(|_| ask(Request::Telemetry { damper: 0 }).0)
             .max()
@@ -132,7 +132,7 @@ fn zeros_come_out_after_a_fault() {
     let file = folder.path().join("outputs.bin");
     let emulator = Qemu::start_with_outputs(&images.join("fault"), Some(&file));
     let emulator = emulator.expect("the emulator starts");
-    // The image ends in a loop; what it sends before takes it some thousand instructions.
+    // The image ends in a loop; sending the last packet takes a few thousand instructions before that.
     let zero = |packets: &[Forces]| packets.last() == Some(&[0.0; DAMPERS]);
     let came = (0..MOST_ANSWERS).any(|_| {
         std::thread::yield_now();

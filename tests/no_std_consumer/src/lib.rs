@@ -30,7 +30,7 @@ pub extern "C" fn checked_step_f64(
     damper.step(state, x)
 }
 
-/// A bank that fills its lanes and leaves some over.
+/// A bank that fills its lanes and has some dampers left over.
 #[unsafe(no_mangle)]
 pub extern "C" fn checked_bank(
     damper: &Damper<f32>,
@@ -54,7 +54,7 @@ pub extern "C" fn checked_change(
     set.is_ok()
 }
 
-/// A damper over a link; whether it was taken.
+/// A damper received over a link; returns whether it was accepted.
 #[unsafe(no_mangle)]
 pub extern "C" fn checked_image(
     damper: &mut Damper<f32>,
@@ -66,7 +66,7 @@ pub extern "C" fn checked_image(
         .is_some_and(|image| damper.load_image(image).is_ok())
 }
 
-/// A slice of a load and of the check, as a tick has room for; whether both are good.
+/// A slice of a load and of the check, as small as a tick permits; returns whether both succeed.
 #[unsafe(no_mangle)]
 pub extern "C" fn checked_slices(
     damper: &mut Damper<f32>,
@@ -97,7 +97,7 @@ pub extern "C" fn checked_telemetry(
     oldest.force_n + telemetry.approximate_rms_force_n()
 }
 
-/// The control: panics when `index` is out of range, so the check can be seen to find something.
+/// The control: panics if `index` is out of range, which shows that the check finds panics.
 #[unsafe(no_mangle)]
 pub extern "C" fn control_panics(values: &[f32; 4], index: usize) -> f32 {
     values[index]
