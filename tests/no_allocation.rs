@@ -103,7 +103,7 @@ fn banks_and_telemetry_allocate_nothing() {
 }
 
 #[test]
-fn a_vehicle_steps_and_goes_back_without_allocation() {
+fn a_vehicle_steps_and_restores_without_allocation() {
     let case = Case::load("straight-180").unwrap();
     let installation = Installation {
         wheel_radius_m: 0.625,

@@ -21,16 +21,16 @@ pub fn read<'py, T: Element, D: numpy::ndarray::Dimension>(
     }
 }
 
-/// Borrows a Python array for writing while `beside` is borrowed for reading; errors call it `name`.
+/// Borrows a Python array for writing while `input` is borrowed for reading; errors call it `name`.
 pub fn write<'py, T: Element, D: numpy::ndarray::Dimension>(
     name: &str,
     array: &Bound<'py, PyAny>,
-    beside: &PyReadonlyArray<'py, T, D>,
+    input: &PyReadonlyArray<'py, T, D>,
 ) -> Outcome<PyReadwriteArray<'py, T, D>> {
     let array = usable::<T, D>(name, array, true)?;
     // numpy's borrow checker distinguishes views of one array, but not arrays that two libraries built on the same
     // memory.
-    let [to, from] = [memory(array), memory(beside)];
+    let [to, from] = [memory(array), memory(input)];
     let is_shared = to.start < from.end && from.start < to.end;
     match array.try_readwrite() {
         Ok(array) if !is_shared => Ok(array),

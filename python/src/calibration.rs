@@ -13,7 +13,7 @@ use crate::arrays;
 use crate::calibration_words;
 use crate::damper::Damper;
 use crate::error::{Outcome, Refusal, refuse};
-use crate::interruption::beside;
+use crate::interruption::run_in_thread;
 use crate::whole::Whole;
 
 /// Default number of starts of the search, the same as for the command.
@@ -59,7 +59,7 @@ impl Calibrated {
     #[getter]
     fn intervals<'py>(&self, py: Python<'py>) -> Outcome<Bound<'py, PyDict>> {
         let intervals = self.found.intervals.iter();
-        self.by_key(py, intervals.map(|[least, greatest]| (*least, *greatest)))
+        self.by_key(py, intervals.map(|[min, max]| (*min, *max)))
     }
 
     /// Assumed properties of the oil by key, and their effect on the parameters: `value`, `uncertainty` (half of a 95 %
@@ -251,7 +251,7 @@ pub fn calibrate(
         let found = calibration.run_unless(&|_| {}, is_unwanted)?;
         Ok::<_, Refusal>((calibration, found))
     };
-    let (calibration, found) = py.detach(|| beside(work))??;
+    let (calibration, found) = py.detach(|| run_in_thread(work))??;
     let name = format!("{}, calibrated", damper.name);
     let damper = Py::new(py, Damper::of(name, found.damper.clone())?)?;
     Ok(Calibrated {
@@ -262,11 +262,11 @@ pub fn calibrate(
 }
 
 /// Checks that an argument is within its range.
-fn within(name: &str, value: f64, [least, greatest]: [f64; 2]) -> Outcome<f64> {
-    if (least..=greatest).contains(&value) {
+fn within(name: &str, value: f64, [min, max]: [f64; 2]) -> Outcome<f64> {
+    if (min..=max).contains(&value) {
         return Ok(value);
     }
-    refuse(format!("{name}: {value}, allowed: {least} to {greatest}"))
+    refuse(format!("{name}: {value}, allowed: {min} to {max}"))
 }
 
 /// Builds the request from the arguments.

@@ -81,9 +81,9 @@ fn remedy(remedy: &Remedy) -> String {
         Remedy::ScaleForce(factor) => format!("pass {factor:e} * force"),
         Remedy::Bounds {
             key,
-            bounds: [least, greatest],
+            bounds: [min, max],
         } => {
-            format!("use vary={{\"{key}\": ({least:e}, {greatest:e})}}")
+            format!("use vary={{\"{key}\": ({min:e}, {max:e})}}")
         }
         Remedy::VaryAlso(keys) => format!("vary {} too", listed(keys)),
         Remedy::OtherDamper { name, vary } if vary.is_empty() => {

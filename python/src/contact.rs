@@ -12,7 +12,7 @@ use pyo3::types::PyDict;
 
 use crate::arrays;
 use crate::error::{Outcome, Refusal, refuse};
-use crate::interruption::asking;
+use crate::interruption::run_cancellable;
 use crate::overrides::path;
 
 /// Rows between two checks for an interruption.
@@ -226,11 +226,11 @@ pub fn creep_forces<'py>(
         }
     }
     let numbers = rows.as_slice().map_err(PyErr::from)?;
-    if let Some(place) = numbers.iter().position(|number| !number.is_finite()) {
+    if let Some(index) = numbers.iter().position(|number| !number.is_finite()) {
         return refuse(format!(
             "creepages: row {} has {}, allowed: finite numbers",
-            place / columns,
-            numbers[place]
+            index / columns,
+            numbers[index]
         ));
     }
     let forces: Vec<f64> = py.detach(|| {
@@ -246,7 +246,7 @@ pub fn creep_forces<'py>(
         let book = KalkerBook::new();
         let (rows, _) = numbers.as_chunks::<3>();
         let mut forces = Vec::with_capacity(numbers.len());
-        asking(|is_unwanted| {
+        run_cancellable(|is_unwanted| {
             let parts = rows.chunks(ROWS_A_LOOK);
             for &[longitudinal, lateral, spin_per_m] in
                 parts.take_while(|_| !is_unwanted()).flatten()

@@ -11,7 +11,7 @@ use pyo3::types::{PyDict, PyFloat, PyList};
 use crate::arrays::{self, Precision};
 use crate::built::BuiltDamper;
 use crate::error::{Outcome, Refusal, refuse};
-use crate::interruption::asking;
+use crate::interruption::run_cancellable;
 use crate::overrides::assignments;
 use crate::pickled::{Pickled, pickled};
 use crate::rig::{Cycle, indices};
@@ -279,7 +279,7 @@ impl Damper {
         let solve = |is_unwanted: &dyn Fn() -> bool| {
             reference_forces_unless(parameters, step_s, displacements, is_unwanted)
         };
-        Ok(PyArray1::from_vec(py, py.detach(|| asking(solve))??))
+        Ok(PyArray1::from_vec(py, py.detach(|| run_cancellable(solve))??))
     }
 
     fn __eq__(&self, other: &Bound<'_, PyAny>) -> bool {

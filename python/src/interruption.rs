@@ -31,7 +31,7 @@ impl Interruption {
 }
 
 /// Runs cancellable work in this thread.
-pub fn asking<T>(work: impl FnOnce(&dyn Fn() -> bool) -> T) -> PyResult<T> {
+pub fn run_cancellable<T>(work: impl FnOnce(&dyn Fn() -> bool) -> T) -> PyResult<T> {
     let interruption = Interruption::default();
     let result = work(&|| interruption.is_wanted());
     interruption.raised()?;
@@ -43,7 +43,7 @@ const LOOK: Duration = Duration::from_millis(20);
 
 /// Runs cancellable work with its own threads in a thread besides this one, because only Python's main thread can check
 /// for an interruption.
-pub fn beside<T: Send>(work: impl FnOnce(&(dyn Fn() -> bool + Sync)) -> T + Send) -> PyResult<T> {
+pub fn run_in_thread<T: Send>(work: impl FnOnce(&(dyn Fn() -> bool + Sync)) -> T + Send) -> PyResult<T> {
     let (is_unwanted, interruption) = (AtomicBool::new(false), Interruption::default());
     let result = thread::scope(|scope| {
         let (done, is_done) = mpsc::channel::<()>();

@@ -103,7 +103,7 @@ fn columns(
     if with_force {
         let mut measurement = Measurement::open(path, channels)?;
         let samples = measurement.read_all()?;
-        let column = |of: fn(&_) -> f64| samples.iter().map(of).collect();
+        let column = |get: fn(&_) -> f64| samples.iter().map(get).collect();
         let columns = vec![
             ("time_s", column(|sample| sample.time_s)),
             ("displacement_m", column(|sample| sample.displacement_m)),

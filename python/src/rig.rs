@@ -8,7 +8,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::error::Outcome;
-use crate::interruption::asking;
+use crate::interruption::run_cancellable;
 
 /// One settled cycle of a bench test. `Damper.rig` returns it.
 ///
@@ -35,7 +35,7 @@ impl Cycle {
         let run = |is_unwanted: &dyn Fn() -> bool| {
             bench_test::run_unless(parameters, motion, step_s, is_unwanted)
         };
-        Ok(Self(py.detach(|| asking(run))??))
+        Ok(Self(py.detach(|| run_cancellable(run))??))
     }
 }
 

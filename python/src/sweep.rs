@@ -9,7 +9,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 
 use crate::error::{Outcome, Refusal, refuse};
-use crate::interruption::{asking, beside};
+use crate::interruption::{run_cancellable, run_in_thread};
 use crate::overrides::path;
 use crate::pickled::{Pickled, pickled};
 use crate::vehicle::SHARED;
@@ -202,7 +202,7 @@ impl Study {
         };
         let run =
             |is_unwanted: &dyn Fn() -> bool| sweep::row(&self.study, number, &SHARED, is_unwanted);
-        match py.detach(|| asking(run))?? {
+        match py.detach(|| run_cancellable(run))?? {
             Some(row) => self.in_python(py, &row),
             None => Err(self.no_case(&Whole::Count(number))),
         }
@@ -235,7 +235,7 @@ impl Study {
         };
         let rows = py.detach(|| {
             let numbers: Vec<u64> = self.study.part(shard).collect();
-            beside(|is_unwanted| {
+            run_in_thread(|is_unwanted| {
                 let mut rows = Vec::new();
                 let take = |row: Row| -> Outcome<()> {
                     rows.push(row);

@@ -76,7 +76,7 @@ fn on_64_bit_arm_too() {
 /// Checks the test itself: without the pragmas the digest is wrong.
 #[test]
 #[cfg(target_arch = "x86_64")]
-fn without_the_pragmas_the_digest_tells() {
+fn without_the_pragmas_the_digest_differs() {
     if !have(&[CLANG], "reordered sums found out by the digest") {
         return;
     }
@@ -97,7 +97,7 @@ fn without_the_pragmas_the_digest_tells() {
 
 /// gcc defines macros for its options, so its parts of fast mathematics are errors.
 #[test]
-fn gcc_refuses_what_it_has_macros_for() {
+fn gcc_refuses_options_that_it_has_macros_for() {
     if !have(&[GCC], "options of gcc that change forces") {
         return;
     }

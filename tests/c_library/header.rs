@@ -95,14 +95,14 @@ fn stated_instructions(header: &str, function: &str) -> Vec<f64> {
         .split_whitespace()
         .filter(|word| *word != "*")
         .collect();
-    let places = words
+    let positions = words
         .iter()
         .enumerate()
         .filter(|(_, word)| word.starts_with("instructions"));
-    places
-        .map(|(place, _)| {
+    positions
+        .map(|(position, _)| {
             // Groups of three digits are separated.
-            let digits = words[..place]
+            let digits = words[..position]
                 .iter()
                 .rev()
                 .take_while(|word| word.parse::<u32>().is_ok());
@@ -117,7 +117,7 @@ fn stated_instructions(header: &str, function: &str) -> Vec<f64> {
 }
 
 /// Maximum instructions of `dashpot_health_tick` in docs/health.md, over all its dampers.
-fn most_of_a_health_tick() -> f64 {
+fn max_of_a_health_tick() -> f64 {
     let table = document::part("docs/health.md", "cost");
     let rows = table.lines().filter(|line| line.starts_with("| `"));
     let cells = rows.map(|row| row.split('|').nth(4).expect("a column for C"));
@@ -139,10 +139,10 @@ fn measured_instructions(row: &str) -> f64 {
 
 /// Stated and measured costs agree to 5 %.
 #[test]
-fn the_costs_stated_are_those_measured() {
+fn stated_costs_match_the_measured_ones() {
     let header = document::read("capi/include/dashpot.h");
     let stated = stated_instructions(&header, "dashpot_health_tick");
-    assert_eq!(stated, [most_of_a_health_tick()], "dashpot_health_tick");
+    assert_eq!(stated, [max_of_a_health_tick()], "dashpot_health_tick");
     let swapped = "step that meets another damper's state";
     for (function, rows) in [
         ("dashpot_step", &["C: `dashpot_step`"][..]),

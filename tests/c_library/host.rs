@@ -21,7 +21,7 @@ fn host_tree(folder: &Path) -> Option<PathBuf> {
 }
 
 #[test]
-fn the_run_is_worth_comparing() {
+fn the_run_covers_failed_readings_and_changes() {
     let text = expected();
     let line = |part: &str| text.lines().any(|line| line.contains(part));
     // Twenty failed readings held, the jump limited, the clearance changed.

@@ -141,8 +141,8 @@ where
             10 | 11 => Request::Restore(T::state_bytes(&state)),
             12 => {
                 let mut bytes = T::state_bytes(&state);
-                let place = random.usize(..bytes.len());
-                bytes[place] ^= 1 << random.u32(..8);
+                let offset = random.usize(..bytes.len());
+                bytes[offset] ^= 1 << random.u32(..8);
                 Request::Restore(bytes)
             }
             13 => {
@@ -157,8 +157,8 @@ where
             15..20 => {
                 let mut flipped = state;
                 let bytes = memory::bytes(&mut flipped);
-                let place = random.usize(..bytes.len());
-                bytes[place] ^= 1 << random.u32(..8);
+                let offset = random.usize(..bytes.len());
+                bytes[offset] ^= 1 << random.u32(..8);
                 Request::Overwrite(bytes.to_vec())
             }
             20 => {
@@ -336,7 +336,7 @@ fn a_fused_product_changes_the_digest() {
 }
 
 #[test]
-fn what_would_change_the_bits_is_an_error() {
+fn options_that_would_change_the_bits_are_errors() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     two_dampers(folder.path());
     let refused = |tool: Tool, options: &[&str]| {

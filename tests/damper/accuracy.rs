@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use std::fmt::Write;
 
 use dashpot::accuracy::{DAMPERS, Errors, STEPS_S, measure_all};
-use dashpot::tolerance::{FILE, LEAST_USE, SLACK, Tolerance, required, rows, to_text};
+use dashpot::tolerance::{FILE, MIN_USE, SLACK, Tolerance, required, rows, to_text};
 use dashpot::{damper, document};
 use dashpot_core::characteristic::{Characteristic, Corner};
 use dashpot_hil::study::accuracy_limits::{ACCURACY_LIMITS, AccuracyLimits};
@@ -54,16 +54,16 @@ fn complaints(found: &Found) -> Vec<String> {
                 let measured = found[&case].nrmse[step][scalar];
                 let allowed = row.nrmse[step][scalar];
                 let required = required(case.0, step)[scalar];
-                let place = format!("{case:?}, {step_s} s, {name}: {measured:.2e}");
+                let label = format!("{case:?}, {step_s} s, {name}: {measured:.2e}");
                 if measured > required {
-                    complaints.push(format!("{place} is above the required {required:.0e}"));
+                    complaints.push(format!("{label} is above the required {required:.0e}"));
                 }
                 if measured > allowed {
-                    complaints.push(format!("{place} is above its row {allowed:.1e}"));
+                    complaints.push(format!("{label} is above its row {allowed:.1e}"));
                 }
-                if measured < LEAST_USE * allowed {
+                if measured < MIN_USE * allowed {
                     complaints.push(format!(
-                        "{place}: the row {allowed:.1e} is looser than needed"
+                        "{label}: the row {allowed:.1e} is looser than needed"
                     ));
                 }
             }

@@ -20,7 +20,7 @@ fn build<T: Real>(preset: &str) -> Damper<T> {
 }
 
 #[test]
-fn input_that_is_no_number_is_held_latched_and_counted() {
+fn non_finite_input_is_held_latched_and_counted() {
     for preset in PRESETS {
         let damper: Damper<f32> = build(preset);
         let (mut state, mut held) = (damper.at_rest(0.0), damper.at_rest(0.0));
@@ -111,7 +111,7 @@ fn the_force_is_finite_and_within_its_limit_for_any_bits() {
 }
 
 #[test]
-fn any_place_to_start_is_safe() {
+fn any_start_position_is_safe() {
     let mut seed = 1;
     let damper: Damper<f32> = build("paper");
     for _ in 0..200_000 {
@@ -337,7 +337,7 @@ fn nonsense_is_refused_with_the_field_and_its_range() {
 }
 
 #[test]
-fn a_step_that_cannot_be_is_refused() {
+fn an_invalid_step_is_refused() {
     for step_s in [0.0, -1e-3, 1e-7, 1.0, f64::NAN, f64::INFINITY] {
         let error = damper("paper", &[])
             .build::<f32>(step_s)
@@ -474,7 +474,7 @@ fn a_force_from_constants_that_overflow_is_the_limit() {
 }
 
 #[test]
-fn a_start_far_out_does_not_stretch_what_stands_still() {
+fn a_start_far_out_does_not_stretch_a_damper_at_rest() {
     let damper: Damper<f32> = build("in-service");
     let mut state = damper.at_rest(1e6);
     assert_eq!(state.status(), Status::INPUT_HELD);

@@ -146,7 +146,7 @@ fn effects(all: impl Iterator<Item = DamperParameters>) -> [Effect; PARTS.len()]
 }
 
 #[test]
-fn a_flipped_bit_of_a_state_ends_and_is_told_where_it_can_be() {
+fn the_effect_of_a_flipped_bit_ends_and_is_reported_if_possible() {
     let presets = effects(PRESETS.iter().map(|name| damper(name, &[])));
     let random = effects((0..8).map(|seed| random_damper::damper(&mut Random(seed))));
     let mut table = String::from(

@@ -29,9 +29,9 @@ fn damage(memory: &mut [u8], random: &mut Rng) {
         2 => {
             for _ in 0..random.u32(1..20) {
                 let value = UNUSUAL[random.usize(..UNUSUAL.len())];
-                let place = 4 * random.usize(..memory.len() / 4);
+                let offset = 4 * random.usize(..memory.len() / 4);
                 // The upper half of a double determines its kind, so both halves are damaged in turn.
-                memory[place..place + 4].copy_from_slice(&value.to_le_bytes());
+                memory[offset..offset + 4].copy_from_slice(&value.to_le_bytes());
             }
         }
         _ => {
@@ -157,7 +157,7 @@ fn a_bit_that_flips_during_a_round_is_found_in_the_next() {
 }
 
 #[test]
-fn a_change_between_slices_is_no_damage() {
+fn a_change_between_slices_is_not_damage() {
     let [mut damper, other, _] = dampers::<f32>()[..] else {
         panic!("three presets");
     };
@@ -176,7 +176,7 @@ fn a_change_between_slices_is_no_damage() {
 #[test]
 fn a_state_with_numbers_that_no_step_leaves_is_found() {
     let damper = dampers::<f32>()[0];
-    for (place, value) in [
+    for (offset, value) in [
         (0, f32::NAN),
         (1, f32::NAN),
         (1, 1e3),
@@ -186,7 +186,7 @@ fn a_state_with_numbers_that_no_step_leaves_is_found() {
         (0, -1e30),
     ] {
         let mut state = damper.at_rest(0.1);
-        bytes(&mut state)[4 * place..4 * place + 4].copy_from_slice(&value.to_ne_bytes());
-        assert!(Check::state(&damper, &state).is_err(), "{value} at {place}");
+        bytes(&mut state)[4 * offset..4 * offset + 4].copy_from_slice(&value.to_ne_bytes());
+        assert!(Check::state(&damper, &state).is_err(), "{value} at {offset}");
     }
 }

@@ -15,7 +15,7 @@ fn number(value: f64) -> String {
 }
 
 #[test]
-fn every_parameter_stands_in_its_page() {
+fn every_parameter_is_documented() {
     let mut table = String::from("\n| table | key | allowed | default |\n|---|---|---|---|\n");
     let mut last = "";
     for (name, range) in ranges() {

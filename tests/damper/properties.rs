@@ -31,7 +31,7 @@ fn corners(amplitude_m: f64) -> impl Strategy<Value = Vec<f64>> {
 
 /// Minimum of the work put in so far minus the energy `K u^2/2` stored in the springs, over the work done on the way in
 /// either direction [1].
-fn least_dissipation(parameters: &DamperParameters, stiffness: f64, motion: &[f64]) -> f64 {
+fn min_dissipation(parameters: &DamperParameters, stiffness: f64, motion: &[f64]) -> f64 {
     let damper: Damper<f64> = build(parameters, STEP_S);
     let mut state = damper.at_rest(motion[0]);
     let (mut work, mut moved, mut least) = (0.0_f64, 0.0_f64, 0.0_f64);
@@ -58,7 +58,7 @@ proptest! {
             (damper("reduced-vertical", &["mount.clearance_m=0.0"]), 8e6),
             (damper("reduced-vertical", &[]), 8e6),
         ][preset].clone();
-        let least = least_dissipation(&parameters, stiffness, &through(&corners, ticks));
+        let least = min_dissipation(&parameters, stiffness, &through(&corners, ticks));
         // The trapezoidal work has an error from the clearance's corner inside a tick.
         prop_assert!(least > -1e-3, "{least:e}");
     }

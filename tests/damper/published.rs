@@ -250,7 +250,7 @@ fn table_5(page: &mut String) {
 }
 
 #[test]
-fn every_published_number_stands_beside_ours() {
+fn every_published_number_is_compared() {
     let hydraulics = hydraulics();
     let valves = &hydraulics.valves;
     let mut page = String::from(

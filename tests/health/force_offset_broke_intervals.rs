@@ -3,7 +3,7 @@
 
 use dashpot_core::health::HealthStatus;
 
-use crate::made::{PRESETS, varied};
+use crate::synthetic::{PRESETS, varied};
 use crate::sensors::{CONTAINED, Wrong};
 
 #[test]

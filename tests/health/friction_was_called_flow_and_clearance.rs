@@ -1,6 +1,6 @@
 //! An increase of the seal friction by 400 N was reported as less flow and another clearance.
 
-use crate::made::varied;
+use crate::synthetic::varied;
 use crate::sensors::{CONTAINED, Wrong};
 
 #[test]

@@ -5,7 +5,7 @@ use std::thread;
 use dashpot_core::health::{Health, HealthStatus};
 use dashpot_hil::study::health::Noise;
 
-use crate::made::{Fault, PRESETS, estimate, forces, model, ride, varied};
+use crate::synthetic::{Fault, PRESETS, estimate, forces, model, ride, varied};
 
 const ALARMS: HealthStatus = HealthStatus::FLOW
     .union(HealthStatus::STIFFNESS)
@@ -82,7 +82,7 @@ fn a_damper_at_rest_for_an_hour_keeps_its_estimate() {
 }
 
 #[test]
-fn little_motion_is_told() {
+fn little_motion_is_reported() {
     let parameters = varied("paper", None);
     let noise = Noise {
         displacement_m: 60e-6,

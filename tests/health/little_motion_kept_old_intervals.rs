@@ -4,10 +4,10 @@
 use dashpot_core::health::{Health, HealthStatus};
 use dashpot_hil::study::health::Noise;
 
-use crate::made::{forces, model, ride, varied};
+use crate::synthetic::{forces, model, ride, varied};
 
 #[test]
-fn what_was_known_grows_old_in_motion_that_tells_nothing() {
+fn knowledge_fades_in_uninformative_motion() {
     const BEFORE: usize = 20_000;
     const TICKS: usize = 320_000;
     let healthy = varied("in-service", None);

@@ -3,7 +3,7 @@
 
 mod faults;
 mod healthy;
-mod made;
+mod synthetic;
 mod other_data;
 mod robustness;
 mod sensor_faults;

@@ -6,7 +6,7 @@ use dashpot_core::parameters::Mount;
 use dashpot_hil::study::health::Noise;
 use dashpot_reference::damper::Reference;
 
-use crate::made::{Fault, PRESETS, STEP_S, errors, estimate, model, ride, varied};
+use crate::synthetic::{Fault, PRESETS, STEP_S, errors, estimate, model, ride, varied};
 
 #[test]
 fn faults_in_forces_of_the_reference_are_known() {

@@ -4,7 +4,7 @@ use dashpot_core::health::{Health, HealthStatus};
 use dashpot_hil::study::health::Noise;
 use fastrand::Rng;
 
-use crate::made::{Fault, PRESETS, errors, estimate, forces, model, ride, varied};
+use crate::synthetic::{Fault, PRESETS, errors, estimate, forces, model, ride, varied};
 
 const NOISE: Noise = Noise {
     displacement_m: 60e-6,
@@ -93,7 +93,7 @@ fn one_bad_sample_in_a_hundred_changes_little() {
 
 /// Resetting the zero of the displacement sensor during a run is not a fault of the damper.
 #[test]
-fn a_sensor_set_anew_is_no_alarm() {
+fn a_sensor_reset_raises_no_alarm() {
     let parameters = varied("paper", None);
     let model = model(&parameters, &NOISE);
     let x = ride(45, 20_000);
@@ -114,7 +114,7 @@ fn a_sensor_set_anew_is_no_alarm() {
 }
 
 #[test]
-fn a_copy_goes_on_to_the_bit() {
+fn a_copy_continues_bit_for_bit() {
     let parameters = varied("reduced-lateral", None);
     let model = model(&parameters, &NOISE);
     let x = ride(46, 5000);

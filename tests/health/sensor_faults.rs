@@ -6,7 +6,7 @@ use std::thread;
 use dashpot::document;
 use dashpot_core::health::HealthStatus;
 
-use crate::made::{PRESETS, varied};
+use crate::synthetic::{PRESETS, varied};
 use crate::sensors::{CONTAINED, Run, Wrong};
 
 const SEEDS: u64 = 10;

@@ -5,7 +5,7 @@ use dashpot_core::health::{Estimate, Health, HealthReading, HealthStatus};
 use dashpot_core::parameters::Element;
 use dashpot_hil::study::health::Noise;
 
-use crate::made::{STEP_S, forces, model, ride};
+use crate::synthetic::{STEP_S, forces, model, ride};
 
 /// A fault that begins during the run.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -166,7 +166,7 @@ impl Wrong {
         }
         run.last = health.reading(&model);
         run.error = error(&run.last);
-        run.had_alarm = run.last.status.intersects(crate::made::WEAR);
+        run.had_alarm = run.last.status.intersects(crate::synthetic::WEAR);
         Some(run)
     }
 }

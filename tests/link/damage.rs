@@ -15,14 +15,14 @@ pub fn flip_a_bit_of(device: &mut Device<2, 2>, bytes: &[u8]) {
     );
     // SAFETY: the device's memory; the changed value is a number, for which every bit pattern is valid.
     let memory = unsafe { std::slice::from_raw_parts_mut(start, length) };
-    let places = memory.windows(bytes.len()).enumerate();
-    let found: Vec<usize> = places
-        .filter_map(|(place, window)| (window == bytes).then_some(place))
+    let windows = memory.windows(bytes.len()).enumerate();
+    let found: Vec<usize> = windows
+        .filter_map(|(offset, window)| (window == bytes).then_some(offset))
         .collect();
-    let [place] = found[..] else {
-        panic!("{} places", found.len());
+    let [offset] = found[..] else {
+        panic!("{} occurrences", found.len());
     };
-    memory[place + 2] ^= 1 << 5;
+    memory[offset + 2] ^= 1 << 5;
 }
 
 fn running() -> Bench {
@@ -120,9 +120,9 @@ fn a_damaged_state_takes_the_safe_output_until_run() {
     let before = bench.device.tick_number();
     bench.device.tick(1); // in which the second state is checked
     let sound_n = bench.device.outputs_n()[1];
-    let place = std::ptr::from_ref(&bench.device.states()[1]).cast_mut();
+    let pointer = std::ptr::from_ref(&bench.device.states()[1]).cast_mut();
     // SAFETY: plain data with no other reference at this point.
-    unsafe { place.cast::<[u8; 24]>().write([0xff; 24]) };
+    unsafe { pointer.cast::<[u8; 24]>().write([0xff; 24]) };
     let ticks = falls_to_zero(&mut bench, 1, sound_n);
     assert!(ticks <= 2, "{ticks}");
     assert_ne!(bench.device.states()[1].to_bytes(), state);

@@ -23,10 +23,10 @@ fn steps_give_the_bits_of_the_core() {
         let x = if tick % 7 == 0 { x } else { [x[0], 2e-3] };
         let forces = bench.step(tick, x).forces();
         assert_eq!(forces.tick, tick);
-        for (place, state) in states.iter_mut().enumerate() {
-            let force = bench.dampers[place].step(state, x[place]);
-            assert_eq!(forces.forces_n[place].to_bits(), force.to_bits());
-            assert_eq!(forces.status[place], state.status().bits());
+        for (slot, state) in states.iter_mut().enumerate() {
+            let force = bench.dampers[slot].step(state, x[slot]);
+            assert_eq!(forces.forces_n[slot].to_bits(), force.to_bits());
+            assert_eq!(forces.status[slot], state.status().bits());
         }
     }
     let expected: Vec<u8> = states
@@ -215,7 +215,7 @@ fn a_wrong_request_is_refused_and_changes_nothing() {
 }
 
 #[test]
-fn a_restored_device_goes_on_to_the_bit() {
+fn a_restored_device_continues_bit_for_bit() {
     let mut bench = Bench::open();
     let x = |tick: u32| [4e-3 * (0.05 * tick as f32).sin(), 1e-5 * tick as f32];
     let mut saved = (0, Vec::new());

@@ -197,8 +197,8 @@ fn the_numbers_are_those_of_the_code() {
     ] {
         assert!(stated.starts_with(&format!("{} ", bit.bits())) && text.contains(stated));
     }
-    let most = format!("1 to {MOST_MEASURED} samples of {MEASURED_BYTES} bytes");
-    assert!(text.contains(&most), "{most}");
+    let samples = format!("1 to {MOST_MEASURED} samples of {MEASURED_BYTES} bytes");
+    assert!(text.contains(&samples), "{samples}");
     let bytes = format!("{} bytes, whole", HealthModel::IMAGE_BYTES);
     assert!(text.contains(&bytes), "{bytes}");
     // Fields must appear in order, because they have no numbers.
@@ -209,9 +209,9 @@ fn the_numbers_are_those_of_the_code() {
             .filter_map(|field| field.split_once(':'))
         {
             let name = field.0.trim();
-            let place = rest.find(name);
-            let place = place.unwrap_or_else(|| panic!("{name} is not told, or not in order"));
-            rest = &rest[place + name.len()..];
+            let position = rest.find(name);
+            let position = position.unwrap_or_else(|| panic!("{name} is missing, or out of order"));
+            rest = &rest[position + name.len()..];
         }
     };
     in_order(format!("{:?}", Counters::default()));
@@ -236,7 +236,7 @@ fn model() -> HealthModel {
 }
 
 #[test]
-fn the_worked_frames_are_what_a_device_takes_and_sends() {
+fn the_worked_frames_match_a_device() {
     let mut desk = desk(["reduced-vertical"]);
     let x = |x: f32| [x].into_iter().collect();
     let model = model().to_image();
@@ -275,7 +275,7 @@ fn the_worked_frames_are_what_a_device_takes_and_sends() {
             bytes => bytes.join(" "),
         }
     };
-    let told = |request: &Request<'_>| match request {
+    let summary = |request: &Request<'_>| match request {
         Request::LoadHealth { damper, image } => {
             format!(
                 "LoadHealth {{ damper: {damper}, image: {} bytes }}",
@@ -308,7 +308,7 @@ fn the_worked_frames_are_what_a_device_takes_and_sends() {
             table,
             "    session {}, sequence {sequence}: {}",
             header.session,
-            told(request)
+            summary(request)
         )
         .expect("text");
         writeln!(table, "    {}", hex(frame.bytes())).expect("text");

@@ -87,7 +87,7 @@ fn a_measured_damper_has_the_reading_of_the_desk() {
 }
 
 #[test]
-fn what_no_model_watches_is_refused() {
+fn requests_for_unwatched_dampers_are_refused() {
     let mut bench = Bench::open();
     let one = bytes(&[(0.0, 0.0)]);
     let requests = |damper| {
@@ -121,12 +121,12 @@ fn what_no_model_watches_is_refused() {
     assert_eq!(
         bench.ask(&Request::Health { damper: 1 }).refusal(),
         Some(Refusal::NoHealth),
-        "the other place has none"
+        "the other slot has none"
     );
 }
 
 #[test]
-fn a_damaged_model_is_refused_and_the_estimate_goes_on() {
+fn a_damaged_model_is_refused_and_the_estimate_continues() {
     let mut bench = Bench::open();
     let image = model("reduced-vertical", 1e-3).to_image();
     load(&mut bench, 1, &image);
@@ -170,9 +170,9 @@ fn a_damaged_model_is_refused_and_the_estimate_goes_on() {
     assert_eq!(reading(&mut bench, &Request::Health { damper: 1 }), before);
     // A valid model then restarts the estimate.
     load(&mut bench, 1, &image);
-    let anew = Health::new(&model("reduced-vertical", 1e-3));
-    let anew = anew.reading(&model("reduced-vertical", 1e-3));
-    assert_eq!(reading(&mut bench, &Request::Health { damper: 1 }), anew);
+    let fresh = Health::new(&model("reduced-vertical", 1e-3));
+    let fresh = fresh.reading(&model("reduced-vertical", 1e-3));
+    assert_eq!(reading(&mut bench, &Request::Health { damper: 1 }), fresh);
 }
 
 /// Ticks do not depend on a load in progress, and a firmware's own sensors feed the same estimate.
@@ -219,7 +219,7 @@ fn a_model_is_loaded_between_ticks_and_fed_by_the_board() {
 
 /// A device may watch only some slots, or none; a model for another slot is refused before anything is loaded.
 #[test]
-fn places_that_are_not_watched_take_no_model() {
+fn unwatched_slots_take_no_model() {
     let bench = Bench::new();
     let mut device = Box::new(Device::<2, 1>::new());
     let clock = Clock { now: || 0, hz: 1 };

@@ -79,9 +79,9 @@ fn a_state_found_damaged_holds_the_force_of_its_last_sound_check() {
     while moving.tick < 300 {
         moving.tick();
     }
-    let place = std::ptr::from_ref(&moving.bench.device.states()[0]).cast_mut();
+    let pointer = std::ptr::from_ref(&moving.bench.device.states()[0]).cast_mut();
     // SAFETY: plain data with no other reference at this point. The stretch becomes 1e38 m.
-    unsafe { place.cast::<[u8; 24]>().as_mut().expect("a state")[7] ^= 1 << 6 };
+    unsafe { pointer.cast::<[u8; 24]>().as_mut().expect("a state")[7] ^= 1 << 6 };
     let damaged_at = moving.tick as usize;
     while moving.bench.counters().corruptions == 0 {
         moving.tick();

@@ -113,14 +113,14 @@ fn telemetry_has_the_last_ticks_of_every_damper() {
     }
     // A ring of 64 samples; displacements on the step's grid are used unchanged. Reading one damper's samples leaves
     // the other's.
-    for (place, sign, first) in [(1, 1.0, 7), (0, -1.0, 7), (1, 1.0, 15)] {
-        let (overwritten, samples) = bench.telemetry(place);
+    for (slot, sign, first) in [(1, 1.0, 7), (0, -1.0, 7), (1, 1.0, 15)] {
+        let (overwritten, samples) = bench.telemetry(slot);
         assert_eq!((overwritten, samples.len()), (6, 8));
         for (sample, tick) in samples.iter().zip(first..) {
             assert_eq!(sample.tick, tick);
             assert_eq!(
                 sample.force_n,
-                forces[tick as usize - 1][usize::from(place)]
+                forces[tick as usize - 1][usize::from(slot)]
             );
             assert_eq!(sample.displacement_m, sign * tick as f32 / 65_536.0);
         }

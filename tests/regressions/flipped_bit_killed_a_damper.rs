@@ -42,7 +42,7 @@ fn the_force_is_right_again_soon_after_any_flip() {
 }
 
 #[test]
-fn a_bank_starts_the_same_damper_over() {
+fn a_bank_restarts_the_same_damper() {
     let damper: Damper<f32> = damper("in-service", &[]).build(1e-3).expect("a preset");
     let (sound, start) = running(&damper);
     for lane in 0..8 {
@@ -55,9 +55,9 @@ fn a_bank_starts_the_same_damper_over() {
         let expected = alone.each_mut().map(|state| damper.step(state, x[0]));
         assert_eq!(forces, expected);
         assert_eq!(states, alone);
-        for (place, state) in states.iter().enumerate() {
+        for (index, state) in states.iter().enumerate() {
             let corrupted = state.status().contains(Status::CORRUPTED);
-            assert_eq!(corrupted, place == lane);
+            assert_eq!(corrupted, index == lane);
         }
     }
 }

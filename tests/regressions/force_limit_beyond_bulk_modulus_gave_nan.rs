@@ -42,7 +42,7 @@ fn the_limits_of_the_report_are_refused_with_both_numbers() {
 }
 
 #[test]
-fn up_to_the_bound_forces_are_right_numbers() {
+fn up_to_the_bound_forces_are_correct() {
     let bound = bound_n(&damper("in-service", &[]));
     assert!(
         with_limit("in-service", &[], 1.001 * bound)
@@ -89,7 +89,7 @@ fn two_chambers_are_bounded_by_the_piston_sides_pressure() {
 /// Every damper within the documented ranges is refused or has a table of finite numbers; climbing to the largest
 /// coefficients finds no exception.
 #[test]
-fn no_documented_damper_is_built_with_a_number_that_is_not_finite() {
+fn no_documented_damper_has_non_finite_constants() {
     let mut random = Random(26);
     let mut refused = 0;
     for _ in 0..1500 {

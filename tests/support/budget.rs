@@ -5,7 +5,7 @@ use std::fmt::Write;
 use crate::document;
 
 /// A limit above the measured figure divided by this fraction fails as too loose.
-const LEAST_USE: f64 = 0.8;
+const MIN_USE: f64 = 0.8;
 
 /// Measured figures by name.
 pub type Figures = Vec<(String, f64)>;
@@ -68,7 +68,7 @@ impl Budget {
                         found.push(format!(
                             "{column}: {name}: {value} is above the {limit} allowed"
                         ));
-                    } else if *value < LEAST_USE * limit {
+                    } else if *value < MIN_USE * limit {
                         found.push(format!(
                             "{column}: {name}: {value} is far below the {limit} allowed; tighten {path}"
                         ));
@@ -98,7 +98,7 @@ impl Budget {
                     .rows
                     .push((name.clone(), vec![limit; self.columns.len()])),
                 Some((_, limits))
-                    if *value > limits[column] || *value < LEAST_USE * limits[column] =>
+                    if *value > limits[column] || *value < MIN_USE * limits[column] =>
                 {
                     limits[column] = limit;
                 }
@@ -155,7 +155,7 @@ mod tests {
     }
 
     #[test]
-    fn an_adapted_budget_holds_and_keeps_what_held() {
+    fn an_adapted_budget_holds_and_keeps_valid_limits() {
         let mut budget = Budget::parse("budget.csv", TEXT);
         budget.adapt("m7", &figures(1578.0));
         assert_eq!(budget.complaints("m7", &figures(1578.0)), [""; 0]);

@@ -41,9 +41,9 @@ pub fn documented_damper(random: &mut Random) -> CheckedParameters {
 }
 
 /// A damper with some values slightly changed.
-pub fn changed_damper(of: &DamperParameters, random: &mut Random) -> CheckedParameters {
+pub fn changed_damper(base: &DamperParameters, random: &mut Random) -> CheckedParameters {
     loop {
-        let mut parameters = of.clone();
+        let mut parameters = base.clone();
         change(&mut parameters, &mut |number, range| {
             if random.happens(0.25) {
                 let factor = random.between(-0.6, 0.6).exp();

@@ -17,7 +17,7 @@ pub const RETRY_LIMITS: RetryLimits = RetryLimits {
 /// Timeout for a target that will never answer; any answer ends the wait.
 const STUCK: Duration = Duration::from_secs(300);
 /// Limit for a target that counts its own ticks: each tick has time for a hundred answers.
-pub const MOST_ANSWERS: u32 = 1_000_000;
+pub const MAX_ANSWERS: u32 = 1_000_000;
 
 /// The folder of the images; `None`, after a message, if they cannot be built.
 pub fn images() -> Option<PathBuf> {

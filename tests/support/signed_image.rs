@@ -121,8 +121,8 @@ pub fn revise_and_sign<T: Word>(image: &mut [u8]) {
 pub fn of_any_bytes<T: Word>(bytes: &[u8]) -> Vec<u8> {
     let mut image = T::empty();
     let end = image.len() - 4;
-    for (place, byte) in image[HEADER..end].iter_mut().zip(bytes) {
-        *place = *byte;
+    for (target, byte) in image[HEADER..end].iter_mut().zip(bytes) {
+        *target = *byte;
     }
     sum_and_sign::<T>(&mut image);
     image

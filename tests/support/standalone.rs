@@ -215,12 +215,12 @@ pub fn assert_same<T: Exported>(
     let pairs = answers(program, requests)
         .into_iter()
         .zip(expected(damper, requests));
-    for (place, (found, expected)) in pairs.enumerate() {
-        let request = &requests[place];
+    for (index, (found, expected)) in pairs.enumerate() {
+        let request = &requests[index];
         let scalar = Scalar::of::<T>();
         assert_eq!(
             found, expected,
-            "{what}, {scalar}: request {place}, {request:?}"
+            "{what}, {scalar}: request {index}, {request:?}"
         );
     }
 }

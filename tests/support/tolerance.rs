@@ -9,7 +9,7 @@ use dashpot_hil::study::accuracy_limits::ACCURACY_LIMITS;
 use crate::accuracy::{DAMPERS, STEPS_S};
 
 /// A row above the measured error divided by this fraction fails as too loose.
-pub const LEAST_USE: f64 = 0.5;
+pub const MIN_USE: f64 = 0.5;
 
 /// Ratio of a blessed row to the measured error.
 pub const SLACK: f64 = 1.4;

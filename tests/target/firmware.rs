@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 use std::io::Write as _;
 
-use dashpot::in_turn::{InTurn, MOST_ANSWERS, RETRY_LIMITS, images};
+use dashpot::in_turn::{InTurn, MAX_ANSWERS, RETRY_LIMITS, images};
 use dashpot::target::{first_line, symbol_address};
 use dashpot::{damper, document};
 use dashpot_core::Damper;
@@ -24,7 +24,7 @@ const FIRMWARE: &str = "docs/firmware.md";
 /// Instructions allowed for a tick on a 400 MHz core at one per cycle: 3 % at 1 kHz.
 const BUDGET_1_KHZ: f64 = 0.03 * 400e6 / 1e3;
 /// Maximum instructions of a slice of a load, as stated in docs/link.md.
-const MOST_OF_A_SLICE: f64 = 2433.0;
+const MAX_SLICE: f64 = 2433.0;
 /// 25 % at 10 kHz.
 const BUDGET_10_KHZ: f64 = 0.25 * 400e6 / 10e3;
 
@@ -83,13 +83,13 @@ fn dampers_that_are_stepped_one_tick_at_a_time_have_the_hosts_bits() {
     let dampers: [Damper<f32>; 2] =
         ["reduced-lateral", "in-service"].map(|name| damper(name, &[]).build(1e-3).unwrap());
     let mut bank = Bank::start(session, &dampers).unwrap();
-    let mut states = [0, 1].map(|place: usize| dampers[place].at_rest(0.0));
+    let mut states = [0, 1].map(|slot: usize| dampers[slot].at_rest(0.0));
     for x in Excitation::Ride.displacements_m(1e-3).iter().take(300) {
         let displacements_m = [*x as f32, -*x as f32];
         let found_n = bank.step(&displacements_m).unwrap();
-        for place in [0, 1] {
-            let expected_n = dampers[place].step(&mut states[place], displacements_m[place]);
-            assert_eq!(found_n[place].to_bits(), expected_n.to_bits());
+        for slot in [0, 1] {
+            let expected_n = dampers[slot].step(&mut states[slot], displacements_m[slot]);
+            assert_eq!(found_n[slot].to_bits(), expected_n.to_bits());
         }
     }
     let report = bank.finish().unwrap();
@@ -120,7 +120,7 @@ fn the_free_running_target_loses_the_link_and_outputs_zero() {
     client.request(&run).unwrap();
     // Moved back and forth at every answer, so that forces occur; the tick is the target's own.
     let (mut tick, mut x, mut moved) = (0, 0.0, false);
-    for answer in 0..MOST_ANSWERS {
+    for answer in 0..MAX_ANSWERS {
         if tick >= 100 && moved {
             break;
         }
@@ -139,7 +139,7 @@ fn the_free_running_target_loses_the_link_and_outputs_zero() {
     // Requests for counters carry no displacement, so the link is lost.
     client.request(&lose_after(200)).unwrap();
     let mut counters = Counters::default();
-    for _ in 0..MOST_ANSWERS {
+    for _ in 0..MAX_ANSWERS {
         let Ok(Response::Counters(now)) = client.request(&Request::Counters) else {
             panic!("no counters");
         };
@@ -197,7 +197,7 @@ fn a_tick_with_everything_the_link_takes_keeps_the_budget() {
     );
     let [slice, measure, reading] = ["health_slice", "health_measure", "health_reading"]
         .map(|key| number(key) * instructions_per_clock_tick);
-    assert!(slice <= MOST_OF_A_SLICE, "{slice}");
+    assert!(slice <= MAX_SLICE, "{slice}");
     assert!(
         measure.max(reading) <= BUDGET_10_KHZ,
         "{measure}, {reading}"
@@ -241,7 +241,7 @@ fn memory(device_bytes: &serde_json::Value, watching: &serde_json::Value) -> Str
 
 /// The memory map provides exactly the documented memory; the other tests here ran in it.
 #[test]
-fn the_map_has_just_the_memory_that_the_document_states() {
+fn the_map_has_exactly_the_documented_memory() {
     let kilobytes = |region: &str| -> u32 {
         let map = document::read("memory.x");
         let line = map.lines().find(|line| line.trim().starts_with(region));

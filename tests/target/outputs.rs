@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use dashpot::in_turn::{InTurn, MOST_ANSWERS, RETRY_LIMITS, images};
+use dashpot::in_turn::{InTurn, MAX_ANSWERS, RETRY_LIMITS, images};
 use dashpot_core::link::{LossOfLink, Reals, Request, Response, SafeOutput};
 use dashpot_hil::target::pil::{Client, Qemu};
 
@@ -65,15 +65,15 @@ fn lose_the_link(output: SafeOutput) -> Option<(Vec<Forces>, Reals)> {
     let displacements_m = all(0.0);
     ask(Request::Run { displacements_m });
     let mut x = 0.0;
-    let moved = (0..MOST_ANSWERS).any(|_| {
+    let moved = (0..MAX_ANSWERS).any(|_| {
         x = if x > 0.02 { 0.0 } else { x + 1e-4 };
         let displacements_m = all(x);
         let (_, forces) = ask(Request::Displace { displacements_m });
         forces.iter().all(|force| force.abs() > 100.0)
     });
-    assert!(moved, "no force in {MOST_ANSWERS} answers");
+    assert!(moved, "no force in {MAX_ANSWERS} answers");
     ask(lose_after(50, output));
-    let lost = (0..MOST_ANSWERS).any(|_| ask(Request::Counters).0 > 0);
+    let lost = (0..MAX_ANSWERS).any(|_| ask(Request::Counters).0 > 0);
     assert!(lost, "the link was not lost");
     let tick_now = |ask: &mut dyn FnMut(Request<'static>) -> (u32, Vec<f32>)| {
         // The newest sample is returned after all older ones were read.
@@ -82,7 +82,7 @@ fn lose_the_link(output: SafeOutput) -> Option<(Vec<Forces>, Reals)> {
             .max()
     };
     let at_loss = tick_now(&mut ask).unwrap_or(0);
-    let over = (0..MOST_ANSWERS).any(|_| tick_now(&mut ask) >= Some(at_loss + 30));
+    let over = (0..MAX_ANSWERS).any(|_| tick_now(&mut ask) >= Some(at_loss + 30));
     assert!(over, "time stood still");
     let (_, outputs_n) = ask(Request::Outputs);
     drop(client);
@@ -95,32 +95,32 @@ fn end<const N: usize>(packets: &[Forces]) -> [Forces; N] {
 
 #[test]
 fn hold_keeps_the_last_good_forces_on_the_line() {
-    let Some((packets, told)) = lose_the_link(SafeOutput::Hold) else {
+    let Some((packets, reported)) = lose_the_link(SafeOutput::Hold) else {
         return;
     };
     let [last] = end(&packets);
-    assert_eq!(last[..], told[..]);
+    assert_eq!(last[..], reported[..]);
     assert!(last.iter().any(|force| *force != 0.0));
 }
 
 #[test]
 fn zero_comes_out_at_once() {
-    let Some((packets, told)) = lose_the_link(SafeOutput::Zero) else {
+    let Some((packets, reported)) = lose_the_link(SafeOutput::Zero) else {
         return;
     };
     let [before, last] = end(&packets);
-    assert_eq!((last, &told[..]), ([0.0; DAMPERS], &[0.0; DAMPERS][..]));
+    assert_eq!((last, &reported[..]), ([0.0; DAMPERS], &[0.0; DAMPERS][..]));
     assert!(before.iter().any(|force| *force != 0.0));
 }
 
 #[test]
 fn a_ramp_comes_out_in_equal_parts() {
-    let Some((packets, told)) = lose_the_link(SafeOutput::RampToZero { ticks: 4 }) else {
+    let Some((packets, reported)) = lose_the_link(SafeOutput::RampToZero { ticks: 4 }) else {
         return;
     };
     let [good, ramp @ ..]: [Forces; 5] = end(&packets);
     let expected = [0.75, 0.5, 0.25, 0.0].map(|share| good.map(|force| force * share));
-    assert_eq!((ramp, &told[..]), (expected, &[0.0; DAMPERS][..]));
+    assert_eq!((ramp, &reported[..]), (expected, &[0.0; DAMPERS][..]));
 }
 
 #[test]
@@ -134,7 +134,7 @@ fn zeros_come_out_after_a_fault() {
     let emulator = emulator.expect("the emulator starts");
     // The image ends in a loop; sending the last packet takes a few thousand instructions before that.
     let zero = |packets: &[Forces]| packets.last() == Some(&[0.0; DAMPERS]);
-    let came = (0..MOST_ANSWERS).any(|_| {
+    let came = (0..MAX_ANSWERS).any(|_| {
         std::thread::yield_now();
         zero(&packets(&file))
     });

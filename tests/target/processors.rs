@@ -24,7 +24,7 @@ const CONTRACT: &str = "docs/timing-contract.md";
 const DISTRIBUTION: &str = "cortex_m7_distribution";
 
 /// Maximum instructions of a step in C without a library, relative to the core (%).
-const MOST_OF_STANDALONE: f64 = 110.0;
+const MAX_STANDALONE_SHARE: f64 = 110.0;
 
 /// Processor and toolchain of a column.
 struct Column {
@@ -98,7 +98,7 @@ fn share_of_the_core(figures: &Figures) -> f64 {
     let share =
         100.0 * figure("standalone_most_instructions") / figure("physical_most_instructions");
     assert!(
-        share <= MOST_OF_STANDALONE,
+        share <= MAX_STANDALONE_SHARE,
         "C without a library takes {share:.1} % of the core's instructions"
     );
     share.round()
@@ -131,8 +131,8 @@ fn step_figures(runs: &[(&str, Found)]) -> Figures {
         }
         all.extend(runs);
     }
-    for (place, (name, _)) in all[0].library.iter().enumerate() {
-        let value = most(&all, &|run| run.library[place].1);
+    for (index, (name, _)) in all[0].library.iter().enumerate() {
+        let value = most(&all, &|run| run.library[index].1);
         figures.push((format!("c_{name}_instructions"), value));
     }
     figures.push((

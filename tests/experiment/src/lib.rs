@@ -82,9 +82,9 @@ impl<'a> Experiment<'a> {
     /// Displacement (m) of a lane at a step: the motion to its end and back, repeatedly.
     pub fn displacement_m(&self, step: u32, lane: usize) -> f32 {
         let last = self.motion_m.len() as u32 - 1;
-        let place = (step + LAG * lane as u32) % (2 * last);
-        let place = place.min(2 * last - place);
-        f32::from_le_bytes(self.motion_m[place as usize])
+        let sample = (step + LAG * lane as u32) % (2 * last);
+        let sample = sample.min(2 * last - sample);
+        f32::from_le_bytes(self.motion_m[sample as usize])
     }
 
     /// Digest of the bits of all forces; `step` or, for a bank, `step_bank` computes each step.
