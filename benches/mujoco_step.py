@@ -62,9 +62,9 @@ def free():
 
 
 def vehicle():
-    """Body, bogies that hang on it, wheelsets that hang on these: a tree."""
+    """A tree: wheelsets attached to bogies attached to the body."""
     bogies = ""
-    # A wheelset's weight is on the plane: what its spring carries is what is above it.
+    # The plane carries a wheelset's weight; its spring carries only the parts above it.
     primary_n = -(BODY[0] + 2 * BOGIE[0]) * GRAVITY_M_PER_S2 / 6
     secondary_n = -BODY[0] * GRAVITY_M_PER_S2 / 2
     primary = springs((40e6, 11e6, 4.3e6), (1e5, 1e5, 160e3), primary_n)
@@ -86,7 +86,7 @@ def measure(name, xml):
         mujoco.mj_step(model, data, STEPS)
         times.append((time.perf_counter() - start) / STEPS * 1e6)
     times.sort()
-    # Of a scene that fell over or flew away, no time.
+    # A scene that fell over or flew apart has no meaningful time.
     assert data.ncon == 36 and abs(data.qvel).max() < 0.1, (data.ncon, abs(data.qvel).max())
     print(
         f"{name}: {model.nv} degrees of freedom, {data.ncon} contacts, "
