@@ -80,7 +80,7 @@ fn plain_newton((mut newton, motion): (NewtonDamper, Vec<f32>)) -> f32 {
     force
 }
 
-/// Which patches of a wheelset are loaded.
+/// Loaded patches of a wheelset.
 #[derive(Clone, Copy)]
 enum Loaded {
     None,

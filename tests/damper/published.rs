@@ -37,7 +37,7 @@ fn theory(valve: &Valve) -> f64 {
     pack(valve).compliance_m_per_pa(valve.free_radius_m)
 }
 
-/// The same discs bonded to one plate of their total thickness [m/Pa].
+/// Compliance of the same discs bonded to one plate of their total thickness [m/Pa].
 fn bonded(valve: &Valve) -> f64 {
     let thickness: f64 = valve.shims_m.iter().sum();
     pack(valve)

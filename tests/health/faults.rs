@@ -36,7 +36,7 @@ fn run(
     (errors(&reading, &faulty, fault), reading.status)
 }
 
-/// All seeds of a preset and fault.
+/// Runs every seed of a preset and fault.
 fn runs(preset: &str, fault: Fault, random: bool, before: usize) -> Vec<([f64; 6], HealthStatus)> {
     let half = |seeds: std::ops::Range<u64>| {
         move || -> Vec<_> {

@@ -104,7 +104,7 @@ fn a_damper_with_a_damaged_step_can_be_loaded_again() {
     let mut bench = running();
     let scalars = bench.dampers[0].to_words()[..11].to_vec();
     let scalars: Vec<u8> = scalars.iter().flat_map(|word| word.to_le_bytes()).collect();
-    // From the step on, so that the flipped bit belongs to it.
+    // Starts at the step, so that the flipped bit belongs to it.
     flip_a_bit_of(&mut bench.device, &scalars[12..]);
     falls_to_zero(&mut bench, 0, 0.0);
     let image = bench.dampers[0].to_image();

@@ -54,7 +54,7 @@ fn a_repeated_request_gets_the_same_answer_and_no_second_step() {
     assert_eq!(bench.send(bench.header, &again), first);
     assert_eq!(bench.states(), after);
     assert_eq!(bench.counters().repeated, 4);
-    // The same number with different content is not a repetition.
+    // A request with the same number but different content is not a repetition.
     let other = bench.send(bench.header, &Request::Save);
     assert_eq!(
         other.refusal(),

@@ -125,7 +125,7 @@ fn telemetry_has_the_last_ticks_of_every_damper() {
             assert_eq!(sample.displacement_m, sign * tick as f32 / 65_536.0);
         }
     }
-    // All remaining samples, then none.
+    // Returns the remaining samples, then none.
     let left: Vec<usize> = (0..8).map(|_| bench.telemetry(0).1.len()).collect();
     assert_eq!(left, [8, 8, 8, 8, 8, 8, 8, 0]);
 }

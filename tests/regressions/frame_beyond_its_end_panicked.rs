@@ -2,7 +2,7 @@
 
 use dashpot_core::link::{Frame, FrameReader};
 
-/// All frames of one and two bytes, and longer ones with one code at each position.
+/// Checks all frames of one and two bytes, and longer ones with one code at each position.
 #[test]
 fn after_every_short_frame_the_next_is_read() {
     let mut good = Frame::<16>::new();

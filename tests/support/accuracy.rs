@@ -44,7 +44,7 @@ pub const STEPS_S: [f64; 2] = [1e-3, 1e-4];
 /// Errors of one damper under one excitation.
 #[derive(Clone, Debug, Default)]
 pub struct Errors {
-    /// For each step size of [`STEPS_S`] the NRMSE in `f64` and in `f32`.
+    /// NRMSE in `f64` and in `f32`, for each step size of [`STEPS_S`].
     pub nrmse: [[f64; 2]; 2],
     /// Largest force of the reference in extension and in compression (N).
     pub largest_force_n: [f64; 2],

@@ -11,7 +11,7 @@ pub const TICKS: u32 = 4000;
 /// A motion: name and displacement (m) at a time (s).
 pub type Motion = (&'static str, fn(f64) -> f64);
 
-/// All golden motions.
+/// Golden motions by name.
 pub const MOTIONS: [Motion; 4] = [
     ("ride", |t| {
         (1..=20)

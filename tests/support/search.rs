@@ -40,7 +40,7 @@ pub struct Case {
     pub damper: CheckedParameters,
     /// The motion at its ticks.
     pub motion: Motion,
-    /// Its form in words.
+    /// Form of the motion in words.
     pub form: String,
     /// The step (s).
     pub step_s: f64,

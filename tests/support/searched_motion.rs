@@ -34,7 +34,7 @@ pub enum Form {
 /// A motion: its form, and its variable parameters.
 #[derive(Clone, Debug)]
 pub struct SearchedMotion {
-    /// Its form.
+    /// Form of the motion.
     pub form: Form,
     /// Forward and return speeds (m/s).
     speeds_m_per_s: [f64; 2],

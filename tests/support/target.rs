@@ -146,7 +146,7 @@ pub fn first_line(image: &Path, processor: &Processor, shift: u32, arguments: &[
     line
 }
 
-/// All experiments, with a fraction of the steps.
+/// Every experiment, with a fraction of the steps.
 pub fn experiments(fraction: f64) -> Vec<Experiment> {
     let build = |preset| damper(preset, &[]).build(STEP_S).expect("a preset");
     let mut all = Vec::new();
