@@ -279,7 +279,10 @@ impl Damper {
         let solve = |is_unwanted: &dyn Fn() -> bool| {
             reference_forces_unless(parameters, step_s, displacements, is_unwanted)
         };
-        Ok(PyArray1::from_vec(py, py.detach(|| run_cancellable(solve))??))
+        Ok(PyArray1::from_vec(
+            py,
+            py.detach(|| run_cancellable(solve))??,
+        ))
     }
 
     fn __eq__(&self, other: &Bound<'_, PyAny>) -> bool {

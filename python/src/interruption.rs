@@ -43,7 +43,9 @@ const LOOK: Duration = Duration::from_millis(20);
 
 /// Runs cancellable work with its own threads in a thread besides this one, because only Python's main thread can check
 /// for an interruption.
-pub fn run_in_thread<T: Send>(work: impl FnOnce(&(dyn Fn() -> bool + Sync)) -> T + Send) -> PyResult<T> {
+pub fn run_in_thread<T: Send>(
+    work: impl FnOnce(&(dyn Fn() -> bool + Sync)) -> T + Send,
+) -> PyResult<T> {
     let (is_unwanted, interruption) = (AtomicBool::new(false), Interruption::default());
     let result = thread::scope(|scope| {
         let (done, is_done) = mpsc::channel::<()>();

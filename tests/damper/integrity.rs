@@ -187,6 +187,9 @@ fn a_state_with_numbers_that_no_step_leaves_is_found() {
     ] {
         let mut state = damper.at_rest(0.1);
         bytes(&mut state)[4 * offset..4 * offset + 4].copy_from_slice(&value.to_ne_bytes());
-        assert!(Check::state(&damper, &state).is_err(), "{value} at {offset}");
+        assert!(
+            Check::state(&damper, &state).is_err(),
+            "{value} at {offset}"
+        );
     }
 }

@@ -3,8 +3,8 @@
 
 use dashpot_core::health::HealthStatus;
 
-use crate::synthetic::{PRESETS, varied};
 use crate::sensors::{Run, Wrong};
+use crate::synthetic::{PRESETS, varied};
 
 fn check(preset: &str, run: &Run) {
     let after_s = run.no_force_after_s;

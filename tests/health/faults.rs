@@ -60,8 +60,16 @@ fn check(label: &str, fault: Fault, runs: &[([f64; 6], HealthStatus)]) {
     match fault {
         Fault::None => {}
         Fault::Flow => assert!(max(0) < MAX_FLOW_ERROR, "{label}: flow {}", max(0)),
-        Fault::Stiffness => assert!(max(1) < MAX_STIFFNESS_ERROR, "{label}: stiffness {}", max(1)),
-        Fault::Clearance => assert!(max(2) < MAX_CLEARANCE_ERROR_M, "{label}: clearance {}", max(2)),
+        Fault::Stiffness => assert!(
+            max(1) < MAX_STIFFNESS_ERROR,
+            "{label}: stiffness {}",
+            max(1)
+        ),
+        Fault::Clearance => assert!(
+            max(2) < MAX_CLEARANCE_ERROR_M,
+            "{label}: clearance {}",
+            max(2)
+        ),
     }
     let expected = match fault {
         Fault::None => HealthStatus::empty(),
@@ -82,7 +90,10 @@ fn check(label: &str, fault: Fault, runs: &[([f64; 6], HealthStatus)]) {
 fn row(label: &str, fault: Fault, runs: &[([f64; 6], HealthStatus)]) -> String {
     let max = |column: usize| largest(runs.iter().map(|(errors, _)| errors[column]));
     let median = |column: usize| {
-        let mut all: Vec<f64> = runs.iter().map(|(errors, _)| errors[column].abs()).collect();
+        let mut all: Vec<f64> = runs
+            .iter()
+            .map(|(errors, _)| errors[column].abs())
+            .collect();
         all.sort_by(f64::total_cmp);
         all[all.len() / 2]
     };

@@ -3,8 +3,8 @@
 
 use dashpot_core::health::HealthStatus;
 
-use crate::synthetic::{PRESETS, varied};
 use crate::sensors::{CONTAINED, Wrong};
+use crate::synthetic::{PRESETS, varied};
 
 #[test]
 fn the_zero_of_the_force_is_found_and_taken_out() {

@@ -2,8 +2,8 @@
 
 use dashpot_core::health::HealthStatus;
 
-use crate::synthetic::{PRESETS, varied};
 use crate::sensors::Wrong;
+use crate::synthetic::{PRESETS, varied};
 
 #[test]
 fn channels_that_are_too_far_apart_in_time_are_reported() {

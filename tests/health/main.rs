@@ -3,11 +3,11 @@
 
 mod faults;
 mod healthy;
-mod synthetic;
 mod other_data;
 mod robustness;
 mod sensor_faults;
 mod sensors;
+mod synthetic;
 mod vehicle;
 
 mod dead_force_channel_was_called_healthy;

@@ -6,8 +6,8 @@ use std::thread;
 use dashpot::document;
 use dashpot_core::health::HealthStatus;
 
-use crate::synthetic::{PRESETS, varied};
 use crate::sensors::{CONTAINED, Run, Wrong};
+use crate::synthetic::{PRESETS, varied};
 
 const SEEDS: u64 = 10;
 /// Time (s) after which each reading must contain the truth or be untrusted.

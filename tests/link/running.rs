@@ -118,10 +118,7 @@ fn telemetry_has_the_last_ticks_of_every_damper() {
         assert_eq!((overwritten, samples.len()), (6, 8));
         for (sample, tick) in samples.iter().zip(first..) {
             assert_eq!(sample.tick, tick);
-            assert_eq!(
-                sample.force_n,
-                forces[tick as usize - 1][usize::from(slot)]
-            );
+            assert_eq!(sample.force_n, forces[tick as usize - 1][usize::from(slot)]);
             assert_eq!(sample.displacement_m, sign * tick as f32 / 65_536.0);
         }
     }
