@@ -16,7 +16,7 @@ pub struct Interruption(RefCell<Option<PyErr>>);
 impl Interruption {
     /// Returns true if the work is to be cancelled because one of Python's signal handlers, which run only in its main
     /// thread, raised an exception.
-    pub fn is_wanted(&self) -> bool {
+    pub fn is_requested(&self) -> bool {
         let mut raised = self.0.borrow_mut();
         if raised.is_none() {
             *raised = Python::attach(|py| py.check_signals()).err();
@@ -33,7 +33,7 @@ impl Interruption {
 /// Runs cancellable work in this thread.
 pub fn run_cancellable<T>(work: impl FnOnce(&dyn Fn() -> bool) -> T) -> PyResult<T> {
     let interruption = Interruption::default();
-    let result = work(&|| interruption.is_wanted());
+    let result = work(&|| interruption.is_requested());
     interruption.raised()?;
     Ok(result)
 }
@@ -41,7 +41,7 @@ pub fn run_cancellable<T>(work: impl FnOnce(&dyn Fn() -> bool) -> T) -> PyResult
 /// Time between two checks while other threads work; too short for a person to notice.
 const LOOK: Duration = Duration::from_millis(20);
 
-/// Runs cancellable work with its own threads in a thread besides this one, because only Python's main thread can check
+/// Runs cancellable work with its own threads in another thread, because only Python's main thread can check
 /// for an interruption.
 pub fn run_in_thread<T: Send>(
     work: impl FnOnce(&(dyn Fn() -> bool + Sync)) -> T + Send,
@@ -55,7 +55,7 @@ pub fn run_in_thread<T: Send>(
             work(&|| is_unwanted.load(Ordering::Relaxed))
         });
         while is_done.recv_timeout(LOOK) == Err(RecvTimeoutError::Timeout) {
-            if interruption.is_wanted() {
+            if interruption.is_requested() {
                 is_unwanted.store(true, Ordering::Relaxed);
             }
         }
