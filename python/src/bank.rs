@@ -93,7 +93,7 @@ impl Bank {
         let interruption = py.detach(|| {
             let interruption = Interruption::default();
             follow_bank(&constants, &mut at, displacements, into, &|| {
-                interruption.is_wanted()
+                interruption.is_requested()
             });
             interruption.raised()
         });

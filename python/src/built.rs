@@ -151,7 +151,7 @@ impl BuiltDamper {
         let interruption = py.detach(|| {
             let interruption = Interruption::default();
             follow(constants, &mut at, displacements, into, &|| {
-                interruption.is_wanted()
+                interruption.is_requested()
             });
             interruption.raised()
         });

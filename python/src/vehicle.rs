@@ -160,7 +160,7 @@ fn run(py: Python<'_>, options: &CaseOptions, signals: Option<&[String]>) -> Out
         let interruption = Interruption::default();
         let run = SHARED.run(&case);
         let recorded = run
-            .and_then(|run| record(&case, run, signals, &|| interruption.is_wanted()))
+            .and_then(|run| record(&case, run, signals, &|| interruption.is_requested()))
             .map_err(|error| Refusal::of_case(&case.name, error));
         interruption.raised()?;
         Ok::<_, Refusal>((case, recorded?))
