@@ -1,5 +1,5 @@
 //! Instructions per step of the damper, of a wheelset's contact and of a vehicle on this machine, counted by Valgrind:
-//! `cargo xtask bench --instructions`. Each figure is of 1000 steps.
+//! `cargo xtask bench --instructions`. Each figure covers 1000 steps.
 #![allow(missing_docs)] // gungraun's macros
 
 use std::hint::black_box;
@@ -80,7 +80,7 @@ fn plain_newton((mut newton, motion): (NewtonDamper, Vec<f32>)) -> f32 {
     force
 }
 
-/// Which patches of a wheelset are loaded.
+/// Loaded patches of a wheelset.
 #[derive(Clone, Copy)]
 enum Loaded {
     None,
@@ -98,7 +98,7 @@ fn wheelset<L: CreepLaw>(law: L, loaded: Loaded) -> Wheelset<L> {
     let pair = Pair::standard(Installation::default()).expect("the standard pair is valid");
     let geometry =
         ContactGeometry::new(pair, Steel::default(), 100e3).expect("the default steel is valid");
-    // Fewer rolls and yaws than by default, for Valgrind is slow; the step takes the same path.
+    // Fewer rolls and yaws than by default, because Valgrind is slow; the step takes the same path.
     let mut grid = Grid::default();
     grid.roll_rad.cells = [1, 2, 1];
     grid.yaw_squared_rad2.cells = [0, 2, 1];

@@ -1,11 +1,12 @@
-"""Yardstick of the vehicle's tick: a step of 1 ms of MuJoCo for as many degrees of freedom.
+"""Yardstick of the vehicle's tick: a 1 ms step of MuJoCo with the same number of degrees of freedom.
 
     python3 -m venv /tmp/mujoco && /tmp/mujoco/bin/pip install mujoco && /tmp/mujoco/bin/python benches/mujoco_step.py
 
-Nine bodies with the masses of the six-axle locomotive and six degrees of freedom each: six wheelsets on six spheres each, which touch a
-plane in 36 points with friction, springs and dashpots along and about three axes between wheelsets, bogies and body. Nothing is told of
-creep or profiles: a general engine's contact stands for what a scene of this size costs. Two scenes: `free`, in which nothing but the
-plane holds the bodies, is the least that 54 degrees of freedom and 36 contacts cost; `vehicle` has the springs, as joints.
+The model has nine bodies with the masses of the six-axle locomotive and six degrees of freedom each. Each of the six
+wheelsets rests on six spheres, which touch a plane in 36 points with friction. Springs and dashpots along and about three
+axes connect wheelsets, bogies and body. Creep and profiles are not modelled: the contact of a general engine represents
+the cost of a scene of this size. In the scene `free` only the plane supports the bodies, which is the minimum cost of 54
+degrees of freedom and 36 contacts; the scene `vehicle` adds the springs as joints.
 """
 
 import time
@@ -61,9 +62,9 @@ def free():
 
 
 def vehicle():
-    """Body, bogies that hang on it, wheelsets that hang on these: a tree."""
+    """A tree: wheelsets attached to bogies attached to the body."""
     bogies = ""
-    # A wheelset's weight is on the plane: what its spring carries is what is above it.
+    # The plane carries a wheelset's weight; its spring carries only the parts above it.
     primary_n = -(BODY[0] + 2 * BOGIE[0]) * GRAVITY_M_PER_S2 / 6
     secondary_n = -BODY[0] * GRAVITY_M_PER_S2 / 2
     primary = springs((40e6, 11e6, 4.3e6), (1e5, 1e5, 160e3), primary_n)
@@ -85,7 +86,7 @@ def measure(name, xml):
         mujoco.mj_step(model, data, STEPS)
         times.append((time.perf_counter() - start) / STEPS * 1e6)
     times.sort()
-    # Of a scene that fell over or flew away, no time.
+    # A scene that fell over or flew apart has no meaningful time.
     assert data.ncon == 36 and abs(data.qvel).max() < 0.1, (data.ncon, abs(data.qvel).max())
     print(
         f"{name}: {model.nv} degrees of freedom, {data.ncon} contacts, "

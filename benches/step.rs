@@ -1,7 +1,7 @@
-//! Time per step, side by side in one run: ours, the yardstick, the floor, the reference solver.
+//! Time per step, compared in one run: ours, the yardstick, the floor, the reference solver.
 //!
-//! A motion is stepped from start to end; criterion's throughput is steps, so elements per second
-//! invert to time per step. The reference solver's element is a simulated millisecond.
+//! A motion is stepped from start to end; criterion's throughput is in steps, so the inverse of elements per second is
+//! the time per step. For the reference solver an element is a simulated millisecond.
 #![allow(missing_docs)] // criterion's macros
 
 use std::hint::black_box;

@@ -1,7 +1,8 @@
-//! Time of a millisecond tick of the six-axle locomotive, and of its parts beside it in the same run.
+//! Time of a millisecond tick of the six-axle locomotive, and of its parts in the same run.
 //!
-//! Elements are ticks. `contact` is the contact of six wheelsets in each of the four steps of a tick, two loaded patches each;
-//! `dampers` the step of the twelve dampers; what is left of a tick is springs, track, factors and solution.
+//! Elements are ticks. `contact` is the contact of six wheelsets in each of the four steps of a tick, with two loaded
+//! patches each; `dampers` is the step of the twelve dampers; the rest of a tick is springs, track, factors and
+//! solution.
 #![allow(missing_docs)] // criterion's macros
 
 use std::hint::black_box;
@@ -18,12 +19,12 @@ use dashpot_rail::creep::{Friction, KalkerBook};
 use dashpot_rail::vehicle::{Law, Vehicle, VehicleParameters};
 
 const STEP_S: f64 = 1e-3;
-/// Ticks from the same state on in one sample.
+/// Ticks from the same state in one sample.
 const TICKS: usize = 200;
 const STEPS_A_TICK: usize = 4;
 const WHEELSETS: usize = 6;
 const DAMPERS: usize = 12;
-/// Dampers take a step in eights.
+/// Dampers are stepped in groups of eight, so twelve take sixteen lanes.
 const LANES: usize = 16;
 
 type Contact = Arc<WheelsetContact<KalkerBook>>;
@@ -36,7 +37,7 @@ fn contact(tables: &Arc<Tables>, case: &Case) -> Contact {
     Arc::new(contact)
 }
 
-/// From where the case is after `seconds`.
+/// Starts from the state of the case after `seconds`.
 fn ticks(criterion: &mut Criterion, tables: &Arc<Tables>, name: &str, case: &Case, seconds: f64) {
     let contact = contact(tables, case);
     let vehicle = Vehicle::new(&case.vehicle, contact, STEP_S).expect("a shipped vehicle is valid");

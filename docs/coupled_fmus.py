@@ -1,9 +1,9 @@
-"""A vehicle and its one damper outside, each an FMU, step by step in FMPy.
+"""Couples two FMUs in FMPy, step by step: a vehicle and its one external damper.
 
     python3 coupled_fmus.py VEHICLE.fmu DAMPER.fmu OUTPUT.csv
 
-The vehicle steps first, the damper follows its displacement, and its force is the vehicle's input of the next step: the force acts one
-step after the displacement that it answers. A row of OUTPUT.csv has every output of the vehicle after a step.
+The vehicle steps first, and the damper follows its displacement. The damper's force is the vehicle's input in the next step,
+so it acts one step after the displacement that caused it. Each row of OUTPUT.csv has every output of the vehicle after a step.
 """
 
 import csv
@@ -16,7 +16,7 @@ from fmpy.fmi2 import fmi2Discard, fmi2Terminated
 
 
 class Part:
-    """An FMU that has begun, its numbers by name."""
+    """An instantiated FMU with its variables by name."""
 
     def __init__(self, path):
         self.folder = extract(path)
@@ -50,14 +50,14 @@ class Part:
         self.set_reals([self.variables[name].valueReference], [value])
 
     def step(self, number):
-        """Whether it goes on after the step of this number, from 0 on."""
+        """Performs the step with this number, counted from 0. Returns False if the run ended with it."""
         try:
-            told = self.fmu.doStep(number * self.step_s, self.step_s)
+            result = self.fmu.doStep(number * self.step_s, self.step_s)
         except FMICallException as error:
             if error.status == fmi2Discard and self.is_2 and self.fmu.getBooleanStatus(fmi2Terminated):
                 return False
             raise
-        return self.is_2 or not told[1]
+        return self.is_2 or not result[1]
 
 
 def main():

@@ -3,8 +3,8 @@
 
     python3 link_client.py HOST PORT [MODEL]
 
-MODEL is a model of health (`dashpot export --health --lang bin`): the first damper's forces are then given back as if a sensor
-had measured them, and its health is printed.
+MODEL is a health model (`dashpot export --health --lang bin`): the client then sends the first damper's forces back as if a
+sensor had measured them, and prints its health.
 """
 
 import random
@@ -17,7 +17,7 @@ PROTOCOL = 3
 HELLO, STEP, LOAD_HEALTH, MEASURE, HEALTH = 0, 5, 16, 17, 18
 WELCOME, DONE, FORCES, REFUSED, READING = 0, 1, 2, 8, 9
 CORRUPT = 0
-MOST_MEASURED = 8
+MAX_MEASURED = 8
 
 
 def varint(value):
@@ -33,7 +33,7 @@ def reals(values):
 
 
 def cobs(data):
-    """Each code byte is the distance to the next; 255 stands for no zero after its 254 bytes."""
+    """Each code byte is the distance to the next; after a 255, no zero follows its 254 bytes."""
     out = bytearray()
     for part in data.split(b"\0"):
         while len(part) >= 254:
@@ -52,7 +52,7 @@ def uncobs(frame):
 
 
 class Reader:
-    """Takes the fields of a message one after the other."""
+    """Reads the fields of a message one by one."""
 
     def __init__(self, data):
         self.data = data
@@ -91,7 +91,7 @@ class Client:
         return uncobs(frame)
 
     def ask(self, request):
-        """The answer's number and fields; asks again where the frame was broken on either way."""
+        """Returns the answer's number and fields; repeats the request if a frame was damaged in transit."""
         self.sequence = (self.sequence + 1) % (1 << 32)
         header = varint(self.session) + varint(self.sequence)
         message = header + request
@@ -123,20 +123,20 @@ class Client:
         assert number == FORCES and fields.varint() == tick
         return fields.list(fields.f32), fields.list(fields.varint)
 
-    def load_health(self, place, model):
-        number, _ = self.ask(varint(LOAD_HEALTH) + varint(place) + varint(len(model)) + model)
+    def load_health(self, slot, model):
+        number, _ = self.ask(varint(LOAD_HEALTH) + varint(slot) + varint(len(model)) + model)
         assert number == DONE
 
-    def measure(self, place, samples):
-        """Displacements (m) and forces (N), in pairs."""
-        for first in range(0, len(samples), MOST_MEASURED):
-            batch = b"".join(struct.pack("<2f", *pair) for pair in samples[first : first + MOST_MEASURED])
-            number, _ = self.ask(varint(MEASURE) + varint(place) + varint(len(batch)) + batch)
+    def measure(self, slot, samples):
+        """Sends pairs of displacement (m) and force (N)."""
+        for first in range(0, len(samples), MAX_MEASURED):
+            batch = b"".join(struct.pack("<2f", *pair) for pair in samples[first : first + MAX_MEASURED])
+            number, _ = self.ask(varint(MEASURE) + varint(slot) + varint(len(batch)) + batch)
             assert number == DONE
 
-    def health(self, place):
-        """Value and standard deviation of seven estimates, then the usable samples, the rejected ones and the status."""
-        number, fields = self.ask(varint(HEALTH) + varint(place))
+    def health(self, slot):
+        """Returns value and standard deviation of seven estimates, then the usable samples, the rejected ones and the status."""
+        number, fields = self.ask(varint(HEALTH) + varint(slot))
         assert number == READING
         names = "flow_factor", "stiffness_n_per_m", "clearance_m", "lag_s", "compliance_m_per_n"
         estimates = {name: (fields.f32(), fields.f32()) for name in names}

@@ -1,4 +1,4 @@
-//! Arbitrary text never panics a parser; damaged files of ours neither. Smoke versions of fuzz/.
+//! Arbitrary text and damaged files of ours never panic a parser. Smoke versions of fuzz/.
 
 use std::io::Write;
 use std::path::Path;
@@ -10,16 +10,16 @@ use dashpot_rail::profile::Body;
 use dashpot_rail::profile::measured::Options;
 use proptest::prelude::*;
 
-/// `text` with `patch` written over the bytes from `place`, as text again.
-fn damaged(text: &str, place: usize, patch: &str) -> String {
+/// `text` with `patch` written over the bytes from `offset`, converted to text again.
+fn damaged(text: &str, offset: usize, patch: &str) -> String {
     let mut bytes = text.as_bytes().to_vec();
-    let start = place % bytes.len();
+    let start = offset % bytes.len();
     let end = (start + patch.len()).min(bytes.len());
     bytes.splice(start..end, patch.bytes());
     String::from_utf8_lossy(&bytes).into_owned()
 }
 
-/// What a parser accepts must also build or name a field.
+/// Accepted parameters must also build, or the error must name a field.
 fn parse_and_build(text: &str) {
     if let Ok(parameters) = damper::parse("fuzz.toml", text, &[]) {
         let _ = parameters.build::<f64>(1e-3);
@@ -37,10 +37,10 @@ proptest! {
     #[test]
     fn damaged_preset(
         preset in 0..PRESETS.len(),
-        place in any::<usize>(),
+        offset in any::<usize>(),
         patch in "[-+0-9.e=\\[\\]a-z_\n\"]{0,6}",
     ) {
-        parse_and_build(&damaged(PRESETS[preset].1, place, &patch));
+        parse_and_build(&damaged(PRESETS[preset].1, offset, &patch));
     }
 
     #[test]
@@ -49,8 +49,8 @@ proptest! {
         damages in prop::collection::vec((any::<usize>(), "[-+0-9.e=\\[\\]{},a-z_\n\"]{0,6}"), 1..4),
     ) {
         let mut text = STUDIES[study].1.to_owned();
-        for (place, patch) in damages {
-            text = damaged(&text, place, &patch);
+        for (offset, patch) in damages {
+            text = damaged(&text, offset, &patch);
         }
         if let Ok(study) = StudyParameters::parse("fuzz.toml", &text) {
             for sweep in &study.sweeps {

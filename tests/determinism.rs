@@ -1,4 +1,4 @@
-//! One digest for every damper and motion: the same force bits on every machine.
+//! One digest for every damper and motion, because the force bits are the same on every machine.
 
 use std::fmt::Write;
 
@@ -16,7 +16,7 @@ fn digest<T: Real>(parameters: &DamperParameters, motion: fn(f64) -> f64) -> u64
     let mut digest = Digest::default();
     for tick in 0..=TICKS {
         let force = damper.step(&mut state, T::from_f64(motion(STEP_S * f64::from(tick))));
-        // Both zeros are one force.
+        // Both zeros count as one force.
         let bits = if force == T::ZERO {
             0
         } else {
@@ -49,7 +49,7 @@ fn forces_are_the_golden_bits() {
     document::compare("tests/golden/forces.txt", &text);
 }
 
-/// The digests that `tests/target/processors.rs` has of the Cortex-M7.
+/// The digests that `tests/target/processors.rs` expects from the Cortex-M7.
 #[test]
 fn a_million_steps_have_the_golden_bits() {
     let mut text = format!(

@@ -1,4 +1,5 @@
-//! The step of a damper, a bank and a vehicle, a live change and telemetry allocate nothing, counted at the global allocator.
+//! The step of a damper, a bank and a vehicle, a live change and telemetry do not allocate. The global allocator
+//! counts.
 
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
@@ -25,7 +26,7 @@ struct Counting;
 // SAFETY: every call goes to the system's allocator unchanged.
 unsafe impl GlobalAlloc for Counting {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        // While a thread ends its counter may be gone.
+        // The counter may be gone while a thread ends.
         let _ = ALLOCATIONS.try_with(|count| count.set(count.get() + 1));
         unsafe { System.alloc(layout) }
     }
@@ -97,7 +98,7 @@ fn banks_and_telemetry_allocate_nothing() {
 }
 
 #[test]
-fn a_vehicle_steps_and_goes_back_without_allocation() {
+fn a_vehicle_steps_and_restores_without_allocation() {
     let case = Case::load("straight-180").unwrap();
     let installation = Installation::default().with_wheel_radius_m(0.625);
     let pair = Pair::standard(installation).unwrap();

@@ -1,27 +1,27 @@
 #!/bin/sh
-# A study by GNU parallel: a shard a job, on this machine, or on many by way of ssh. Copy it, set the lines below, then
+# Runs a study with GNU parallel, one shard per job, on this machine or on many by ssh. Copy the file, adapt it, then run
 #
 #   sh study.sh
 #
-# The same command again runs the shards that failed and those that were not begun; a shard that was ended goes on with its rows.
+# Repeat the command to run failed and unstarted shards; an interrupted shard resumes from its rows.
 # When all are done:
 #
 #   dashpot merge paper results/rows-*-of-8.csv --output results
 #
 set -eu
 
-# A study that ships, or a file.
+# A shipped study or a file.
 STUDY=${STUDY:-paper}
 SHARDS=${SHARDS:-8}
 OUTPUT=${OUTPUT:-results}
-# Shards at once on a machine, and threads of each.
+# Concurrent shards per machine, and threads per shard.
 JOBS=${JOBS:-2}
 THREADS=${THREADS:-4}
 
 mkdir -p "$OUTPUT"
 # For many machines add: --sshloginfile FILE --workdir .
-# They need dashpot on their path and this folder at the same place. parallel tells jobs apart by their numbers alone, so the log is
-# named after SHARDS; for another study remove it, or take another folder.
+# They need dashpot on their PATH and this folder under the same path. parallel identifies jobs only by their numbers, so the
+# log is named after SHARDS; for another study remove it, or use another folder.
 seq 0 $((SHARDS - 1)) |
     parallel --quote --jobs "$JOBS" --joblog "$OUTPUT/jobs-of-$SHARDS.log" --resume-failed \
         dashpot sweep "$STUDY" --shard {} --shards "$SHARDS" --threads "$THREADS" --no-page --output "$OUTPUT"

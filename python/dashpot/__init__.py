@@ -1,4 +1,4 @@
-"""Dashpot: a real-time model of a rail vehicle's hydraulic damper, on numpy arrays. Numbers are SI, units stand in names.
+"""Dashpot: a real-time model of a rail vehicle's hydraulic damper, on numpy arrays. SI units; names contain their unit.
 
 >>> import dashpot, numpy
 >>> damper = dashpot.Damper("in-service", {"mount.clearance_m": 1e-3})

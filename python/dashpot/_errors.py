@@ -1,10 +1,10 @@
-"""What the package raises: the words of the command `dashpot`, as exceptions."""
+"""Exceptions of the package, with the messages of the command `dashpot`."""
 
 import os
 
 
 class DashpotError(ValueError):
-    """A damper, case, study, array or number that is refused: what is wrong, where, and what is allowed there.
+    """An invalid damper, case, study, array or number: the message states what is wrong, where, and what is allowed.
 
     >>> import dashpot
     >>> dashpot.Damper("papr")
@@ -14,7 +14,7 @@ class DashpotError(ValueError):
 
 
 class DashpotKeyError(DashpotError, KeyError):
-    """A key at which a damper has no number.
+    """An unknown key of a damper.
 
     >>> import dashpot
     >>> dashpot.Damper("paper")["mount.clearanse_m"]
@@ -27,7 +27,7 @@ class DashpotKeyError(DashpotError, KeyError):
 
 
 class DashpotFileError(DashpotError, OSError):
-    """A file that cannot be read or written, with the system's reason: `filename` and, where the system gave one, `errno`.
+    """A file that cannot be read or written: `filename` and, if the system provided one, `errno` give the reason.
 
     >>> import dashpot, errno
     >>> try:

@@ -1,10 +1,10 @@
-"""What the step noticed of a damper."""
+"""Status of a damper's state."""
 
 import enum
 
 
 class Status(enum.IntFlag):
-    """Bits latched since they were last cleared, by `State.clear_status`.
+    """Bits latched since the last `State.clear_status`.
 
     >>> import dashpot
     >>> built = dashpot.Damper("paper").build()
@@ -25,7 +25,7 @@ class Status(enum.IntFlag):
     DAMPER_SWAPPED = 8
     """Another damper than before stepped this state; the force was carried over."""
     CORRUPTED = 16
-    """Memory was damaged: a state that no step leaves behind was met and started over at rest."""
+    """Memory was damaged: a state that no step produces was found and restarted at rest."""
     RESTARTED = 32
     """A displacement was too far from the last one to catch up with: the damper restarted at rest there, without
     force."""

@@ -1,4 +1,5 @@
-# A damper from Python: its numbers, a motion through it, its bench test. Every cell may be run by itself in an editor that knows `# %%`.
+# A damper from Python: its parameters, a motion through it, its bench test. Editors that support `# %%` can run each
+# cell separately.
 
 # %% A damper that ships, with a clearance of 1 mm
 import numpy

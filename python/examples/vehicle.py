@@ -1,4 +1,4 @@
-# A locomotive on its track from Python. Every cell may be run by itself in an editor that knows `# %%`.
+# A locomotive on its track from Python. Editors that support `# %%` can run each cell separately.
 
 # %% Two seconds at 180 km/h, with the dampers as they ship and with worn vertical ones
 import numpy

@@ -1,4 +1,4 @@
-//! numpy's arrays as they are borrowed: one kind of number, contiguous, aligned, never copied.
+//! Borrowed numpy arrays: one element type, contiguous, aligned, never copied.
 
 use std::ops::Range;
 
@@ -10,36 +10,37 @@ use pyo3::prelude::*;
 
 use crate::error::{Outcome, refuse};
 
-/// An array of Python that is read, called `name` in errors.
+/// Borrows a Python array for reading; errors call it `name`.
 pub fn read<'py, T: Element, D: numpy::ndarray::Dimension>(
     name: &str,
     array: &Bound<'py, PyAny>,
 ) -> Outcome<PyReadonlyArray<'py, T, D>> {
     match usable::<T, D>(name, array, false)?.try_readonly() {
         Ok(array) => Ok(array),
-        Err(_) => refuse(format!("{name}: it is being written to by another call")),
+        Err(_) => refuse(format!("{name}: another call is writing to it")),
     }
 }
 
-/// An array of Python that is written to while `beside` is read, called `name` in errors.
+/// Borrows a Python array for writing while `input` is borrowed for reading; errors call it `name`.
 pub fn write<'py, T: Element, D: numpy::ndarray::Dimension>(
     name: &str,
     array: &Bound<'py, PyAny>,
-    beside: &PyReadonlyArray<'py, T, D>,
+    input: &PyReadonlyArray<'py, T, D>,
 ) -> Outcome<PyReadwriteArray<'py, T, D>> {
     let array = usable::<T, D>(name, array, true)?;
-    // numpy's borrows tell views of one array apart, not arrays that two others made of the same memory.
-    let [to, from] = [memory(array), memory(beside)];
+    // numpy's borrow checker distinguishes views of one array, but not arrays that two libraries built on the same
+    // memory.
+    let [to, from] = [memory(array), memory(input)];
     let is_shared = to.start < from.end && from.start < to.end;
     match array.try_readwrite() {
         Ok(array) if !is_shared => Ok(array),
         _ => refuse(format!(
-            "{name}: it shares memory with an array that is read, or that another call uses; allowed: memory of its own"
+            "{name}: it shares memory with an input array or with an array that another call uses; allowed: separate memory"
         )),
     }
 }
 
-/// The addresses of a contiguous array.
+/// Address range of a contiguous array.
 fn memory<T: Element, D: numpy::ndarray::Dimension>(
     array: &Bound<'_, PyArray<T, D>>,
 ) -> Range<usize> {
@@ -47,7 +48,7 @@ fn memory<T: Element, D: numpy::ndarray::Dimension>(
     start..start + array.len() * size_of::<T>()
 }
 
-/// The array, where it can be borrowed as it lies in memory.
+/// Returns the array if it can be borrowed without copying.
 fn usable<'a, 'py, T: Element, D: numpy::ndarray::Dimension>(
     name: &str,
     array: &'a Bound<'py, PyAny>,
@@ -64,14 +65,15 @@ fn usable<'a, 'py, T: Element, D: numpy::ndarray::Dimension>(
         let found = array.get_type().name()?;
         let one = match is_written {
             true => String::new(),
-            false => format!(", as numpy.asarray({name}, numpy.{expected}) makes one"),
+            false => format!("; use numpy.asarray({name}, numpy.{expected})"),
         };
         return refuse(format!("{name}: {found}, allowed: {allowed}{one}"));
     };
     let masked = py.import("numpy.ma")?.getattr("MaskedArray")?;
     if array.is_instance(&masked)? {
         return refuse(format!(
-            "{name}: a masked array, allowed: {allowed}, as {name}.filled(numpy.nan) makes one; the step holds what is NaN"
+            "{name}: a masked array, allowed: {allowed}; use {name}.filled(numpy.nan), at which the step holds its last \
+             displacement"
         ));
     }
     let found = untyped.dtype();
@@ -81,7 +83,7 @@ fn usable<'a, 'py, T: Element, D: numpy::ndarray::Dimension>(
             false => format!("{name}.astype(numpy.{expected})"),
         };
         return refuse(format!(
-            "{name}: array of {found}, allowed: {allowed}, as {one} makes one"
+            "{name}: array of {found}, allowed: {allowed}; use {one}"
         ));
     }
     if untyped.ndim() != dimensions {
@@ -94,8 +96,8 @@ fn usable<'a, 'py, T: Element, D: numpy::ndarray::Dimension>(
     let is = |flag| -> PyResult<bool> { flags.getattr(flag)?.extract() };
     if !is("c_contiguous")? || !is("aligned")? {
         return refuse(format!(
-            "{name}: its numbers do not lie one after the other in memory, allowed: a contiguous and aligned array, as \
-             numpy.ascontiguousarray({name}) or a copy is"
+            "{name}: not contiguous and aligned in memory, allowed: a contiguous and aligned array; use \
+             numpy.ascontiguousarray({name}) or a copy"
         ));
     }
     if is_written && !is("writeable")? {
@@ -109,7 +111,7 @@ fn usable<'a, 'py, T: Element, D: numpy::ndarray::Dimension>(
     }
 }
 
-/// Precision of a step.
+/// Floating-point precision of a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Precision {
     /// `float32`, as on the target.
@@ -119,7 +121,7 @@ pub enum Precision {
 }
 
 impl Precision {
-    /// Of a dtype or what stands for one; single where there is none.
+    /// Precision of a dtype or an equivalent object; `float32` by default.
     pub fn of(dtype_like: Option<&Bound<'_, PyAny>>) -> Outcome<Self> {
         let Some(dtype_like) = dtype_like else {
             return Ok(Self::Single);

@@ -1,4 +1,4 @@
-//! Several dampers in one call: the same bits as one after the other, in less time.
+//! Steps several dampers in one call: the same bits as one by one, in less time.
 
 use dashpot_core::{Damper as Constants, DamperState};
 use dashpot_testbench::motion::follow_bank;
@@ -13,7 +13,7 @@ use crate::interruption::Interruption;
 use crate::pickled::{Pickled, pickled};
 use crate::state::State;
 
-/// Built dampers of one step and one precision, stepped together; one damper may be there several times.
+/// Built dampers with the same step and precision, stepped together; the same damper may occur several times.
 ///
 /// >>> import dashpot, numpy
 /// >>> built = [dashpot.Damper(name).build(1e-3) for name in ("paper", "in-service")]
@@ -87,17 +87,17 @@ impl Bank {
         if at.len() != count {
             let dtype = self.precision.dtype(py);
             return refuse(format!(
-                "states: of another precision, allowed: states of {dtype}, as the dampers are"
+                "states: of another precision, allowed: states of {dtype}, the precision of the dampers"
             ));
         }
         let interruption = py.detach(|| {
             let interruption = Interruption::default();
             follow_bank(&constants, &mut at, displacements, into, &|| {
-                interruption.is_wanted()
+                interruption.is_requested()
             });
             interruption.raised()
         });
-        // An interrupted motion leaves the states where they were.
+        // An interrupted motion leaves the states unchanged.
         interruption?;
         if ticks > 0 {
             let kept = kept.into_iter().flatten();
@@ -114,7 +114,7 @@ impl Bank {
         PyList::new(py, self.dampers.iter().map(|damper| damper.bind(py)))
     }
 
-    /// The states, for this call alone.
+    /// Borrows the states for this call.
     fn lend<'py>(&self, states: &[Bound<'py, State>]) -> Outcome<Vec<PyRefMut<'py, State>>> {
         if states.len() != self.dampers.len() {
             return refuse(format!(
@@ -132,7 +132,7 @@ impl Bank {
     #[new]
     fn new(dampers: Vec<Bound<'_, BuiltDamper>>) -> Outcome<Self> {
         let Some(first) = dampers.first().map(Bound::get) else {
-            return refuse("dampers: none, allowed: one at least");
+            return refuse("dampers: none, allowed: at least one");
         };
         for (number, other) in dampers.iter().map(Bound::get).enumerate() {
             if other.precision() != first.precision()
@@ -149,8 +149,8 @@ impl Bank {
         })
     }
 
-    /// A state at rest for each damper, at its displacement (m) of `displacements_m`, an array of this bank's precision; at 0 where there
-    /// is none.
+    /// Returns a state at rest for each damper, at its displacement (m) in `displacements_m`, an array of this bank's
+    /// precision, or at 0 by default.
     #[pyo3(signature = (displacements_m=None))]
     fn at_rest(
         &self,
@@ -180,7 +180,8 @@ impl Bank {
             .collect())
     }
 
-    /// The forces (N) at the displacements (m) of `x`: a row a tick, in it a column for each damper. As `BuiltDamper.replay`, of each column.
+    /// Returns the forces (N) at the displacements (m) of `x`, with one row per tick and one column per damper. Each
+    /// column works like `BuiltDamper.replay`.
     #[pyo3(signature = (x, *, states=None, out=None))]
     fn replay<'py>(
         &self,

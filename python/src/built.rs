@@ -1,4 +1,4 @@
-//! Constants of a damper for one step, and the motions that go through them.
+//! A damper's constants for one step size, and replay of motions.
 
 use dashpot_core::{CheckedParameters, Damper as Constants, DamperState, Real};
 use dashpot_files::damper;
@@ -19,7 +19,7 @@ pub enum Kept {
     Double(Box<Constants<f64>>),
 }
 
-/// A precision, and where its constants and states are kept.
+/// A precision with access to its constants and states.
 pub trait Scalar: Real + Element {
     fn constants(kept: &Kept) -> Option<&Constants<Self>>;
     fn state(numbers: &mut Numbers) -> Option<&mut DamperState<Self>>;
@@ -53,7 +53,7 @@ macro_rules! scalar {
 scalar!(f32, Single);
 scalar!(f64, Double);
 
-/// Does `$body` with the constants in their precision.
+/// Evaluates `$body` with the constants in their precision.
 macro_rules! in_precision {
     ($kept:expr, $constants:ident => $body:expr) => {
         match $kept {
@@ -63,7 +63,8 @@ macro_rules! in_precision {
     };
 }
 
-/// A damper built for a fixed step; it never changes, and any number of states and threads share it. `Damper.build` makes one.
+/// A damper built for a fixed step. It never changes and can be shared by any number of states and threads.
+/// `Damper.build` creates one.
 ///
 /// >>> import dashpot
 /// >>> built = dashpot.Damper("reduced-vertical").build(step_s=1e-3)
@@ -81,7 +82,7 @@ pub struct BuiltDamper {
 }
 
 impl BuiltDamper {
-    /// The constants of a damper for a step.
+    /// Builds a damper for a step size.
     pub fn new(
         name: &str,
         parameters: &CheckedParameters,
@@ -100,7 +101,7 @@ impl BuiltDamper {
         })
     }
 
-    /// Of its constants.
+    /// Precision of the constants.
     pub fn precision(&self) -> Precision {
         match self.kept {
             Kept::Single(_) => Precision::Single,
@@ -108,11 +109,11 @@ impl BuiltDamper {
         }
     }
 
-    /// A state is of the precision of another damper.
+    /// Error for a state whose precision differs from the damper's.
     pub fn other_precision<T>(&self, py: Python<'_>) -> Outcome<T> {
         let here = self.precision().dtype(py);
         refuse(format!(
-            "state: of another precision, allowed: a state of {here}, as this damper is"
+            "state: of another precision, allowed: a state of {here}, this damper's precision"
         ))
     }
 
@@ -150,11 +151,11 @@ impl BuiltDamper {
         let interruption = py.detach(|| {
             let interruption = Interruption::default();
             follow(constants, &mut at, displacements, into, &|| {
-                interruption.is_wanted()
+                interruption.is_requested()
             });
             interruption.raised()
         });
-        // An interrupted motion leaves the state where it was.
+        // An interrupted motion leaves the state unchanged.
         interruption?;
         if let Some(mut state) = kept
             && !displacements.is_empty()
@@ -180,7 +181,7 @@ impl BuiltDamper {
         self.precision().dtype(py)
     }
 
-    /// Number that tells built dampers apart, never 0.
+    /// Number that identifies the built damper, never 0.
     #[getter]
     fn revision(&self) -> u32 {
         in_precision!(&self.kept, constants => constants.revision())
@@ -198,8 +199,8 @@ impl BuiltDamper {
         in_precision!(&self.kept, constants => constants.force_limit_n().to_f64())
     }
 
-    /// The same constants with another clearance 2a (m), as firmware changes it while it runs: the table is not built anew, and a state
-    /// may go on with it at the next tick.
+    /// Returns the same constants with another clearance 2a (m), as firmware changes it at run time. The table is not
+    /// rebuilt, and a state may continue with the result at the next tick.
     ///
     /// >>> import dashpot
     /// >>> dashpot.Damper("paper").build().with_clearance_m(2e-3).clearance_m
@@ -218,7 +219,8 @@ impl BuiltDamper {
         })
     }
 
-    /// A state at rest at a displacement (m), centred in the clearance, no force. A displacement that is not finite counts as 0.
+    /// Returns a state at rest at a displacement (m), centred in the clearance, without force. A displacement that is
+    /// not finite counts as 0.
     #[pyo3(signature = (displacement_m=0.0))]
     pub fn at_rest(slf: &Bound<'_, Self>, displacement_m: f64) -> State {
         let numbers = match &slf.get().kept {
@@ -228,8 +230,9 @@ impl BuiltDamper {
         State::new(numbers, slf)
     }
 
-    /// One tick: the force (N) at a displacement (m) of the seats, positive in extension. It never fails: a displacement that is not finite
-    /// is held, one too fast is limited, and both are latched in the status of the state.
+    /// Steps one tick and returns the force (N) at a displacement (m) of the seats, positive in extension. It never
+    /// fails: a displacement that is not finite is held, one that moves too fast is limited, and both are latched in
+    /// the status of the state.
     fn step(slf: &Bound<'_, Self>, state: &Bound<'_, State>, displacement_m: f64) -> Outcome<f64> {
         let mut state = State::lend(state)?;
         let force = match (&slf.get().kept, &mut state.numbers) {
@@ -243,9 +246,10 @@ impl BuiltDamper {
         Ok(force)
     }
 
-    /// The force (N) at each displacement (m) of `x`, a step a number: the bits of the command `dashpot replay`. It begins at rest at the first
-    /// number, or at `state`, which then goes on. `x` and `out` are arrays of this damper's precision, used where they lie; the lock of
-    /// Python is released meanwhile, so leave them alone.
+    /// Returns the force (N) at each displacement (m) of `x`, one step per sample, with the bits of the command
+    /// `dashpot replay`. It starts at rest at the first sample, or continues from `state`, which it advances. `x` and
+    /// `out` are arrays of this damper's precision and are not copied. The GIL is released meanwhile, so do not modify
+    /// them.
     ///
     /// >>> import dashpot, numpy
     /// >>> built = dashpot.Damper("in-service").build(step_s=1e-3)
@@ -264,7 +268,8 @@ impl BuiltDamper {
         in_precision!(&slf.get().kept, constants => Self::replay_in(slf, constants, x, state, out))
     }
 
-    /// The state that `State.to_bytes` saved, here or in a program in C or Rust; refused where it is another damper's or damaged.
+    /// Restores a state saved by `State.to_bytes`, here or in a C or Rust program; bytes of another damper, or damaged
+    /// ones, are refused.
     fn state_from_bytes(slf: &Bound<'_, Self>, saved: &[u8]) -> Outcome<State> {
         let numbers = match &slf.get().kept {
             Kept::Single(constants) => Numbers::Single(constants.restore(saved)?),

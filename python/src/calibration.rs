@@ -1,4 +1,4 @@
-//! From bench tests in memory to the numbers of a damper, with their intervals.
+//! Calibration of damper parameters, with intervals, from bench tests in memory.
 
 use dashpot_calibration::{
     Assumed, Calibrated as Found, Calibration, IndexTest, LoopTest, Prior, Recorded, Request, SKEW,
@@ -13,16 +13,16 @@ use crate::arrays;
 use crate::calibration_words;
 use crate::damper::Damper;
 use crate::error::{Outcome, Refusal, refuse};
-use crate::interruption::beside;
+use crate::interruption::run_in_thread;
 use crate::whole::Whole;
 
-/// Starts of the search where none are given, as of the command.
+/// Default number of starts of the search, the same as for the command.
 const STARTS: u64 = 4;
 
 /// Arrays of time (s), displacement (m) and force (N).
 type Samples<'py> = [Bound<'py, PyAny>; 3];
 
-/// What a calibration has found. `dashpot.calibrate` makes one.
+/// Result of a calibration. `dashpot.calibrate` returns it.
 ///
 /// >>> import dashpot
 /// >>> tests = [{"amplitude_m": 0.025, "frequency_hz": hz, "max_extension_force_n": n} for hz, n in ((0.05, 942.3), (0.1, 1883.4))]
@@ -40,29 +40,31 @@ pub struct Calibrated {
 
 #[pymethods]
 impl Calibrated {
-    /// The damper that was found.
+    /// The calibrated damper.
     #[getter]
     fn damper(&self, py: Python<'_>) -> Py<Damper> {
         self.damper.clone_ref(py)
     }
 
-    /// The numbers that were varied, by their keys. Two belong to the rig, not to the damper: `sensor_skew_s` is the time (s) by which the force
-    /// is recorded later than the displacement, `force_offset_n` what the force sensor shows at no force (N).
+    /// The fitted parameters by key. Two belong to the rig rather than to the damper: `sensor_skew_s` is the delay (s)
+    /// of the recorded force behind the displacement, `force_offset_n` the reading (N) of the force sensor at zero
+    /// force.
     #[getter]
     fn values<'py>(&self, py: Python<'py>) -> Outcome<Bound<'py, PyDict>> {
         self.by_key(py, self.found.values.iter())
     }
 
-    /// Their intervals of 95 %, pairs of the least and the greatest value; `None` in a pair where a bound comes first. They include the noise of
-    /// the tests and the uncertainty of the oil's temperature and density.
+    /// Intervals (95 %) of the fitted parameters, as pairs of minimum and maximum; `None` in a pair if a bound is
+    /// reached first. They include the noise of the tests and the uncertainty of the oil's temperature and density.
     #[getter]
     fn intervals<'py>(&self, py: Python<'py>) -> Outcome<Bound<'py, PyDict>> {
         let intervals = self.found.intervals.iter();
-        self.by_key(py, intervals.map(|[least, greatest]| (*least, *greatest)))
+        self.by_key(py, intervals.map(|[min, max]| (*min, *max)))
     }
 
-    /// What was assumed of the oil and what that does to the numbers, by the key of the assumed one: its `value`, its `uncertainty` (half of an
-    /// interval of 95 %), and `shifts`, pairs of how far each number moves at the lower and at the upper end of that interval.
+    /// Assumed properties of the oil by key, and their effect on the parameters: `value`, `uncertainty` (half of a 95 %
+    /// interval), and `shifts`, pairs with the shift of each parameter at the lower and at the upper end of that
+    /// interval.
     #[getter]
     fn assumed<'py>(&self, py: Python<'py>) -> Outcome<Bound<'py, PyDict>> {
         let assumed = PyDict::new(py);
@@ -77,8 +79,8 @@ impl Calibrated {
         Ok(assumed)
     }
 
-    /// What the numbers alone do not say, in sentences: a model that misses more than noise, a number at its bound, numbers that the tests
-    /// hardly tell apart, an assumed temperature that decides a number.
+    /// Remarks on the result, one sentence each: a model that misses more than the noise, a parameter at its bound,
+    /// parameters that the tests hardly distinguish, an assumed temperature that dominates a parameter.
     #[getter]
     fn warnings(&self) -> Vec<String> {
         self.found
@@ -88,14 +90,14 @@ impl Calibrated {
             .collect()
     }
 
-    /// Their standard deviations by linear theory, in their units.
+    /// Standard deviations of the fitted parameters by linear theory, in their units.
     #[getter]
     fn standard_deviations<'py>(&self, py: Python<'py>) -> Outcome<Bound<'py, PyDict>> {
         let numbers = self.found.determination.numbers.iter();
         self.by_key(py, numbers.map(|number| number.standard_deviation))
     }
 
-    /// The correlation of each with each, in the order of `values`.
+    /// Correlation matrix of the parameters, in the order of `values`.
     #[getter]
     fn correlation<'py>(&self, py: Python<'py>) -> Outcome<Bound<'py, PyArray2<f64>>> {
         match PyArray2::from_vec2(py, &self.found.determination.correlation) {
@@ -104,9 +106,9 @@ impl Calibrated {
         }
     }
 
-    /// Each recorded loop beside the model, at the samples that count: arrays `time_s`, `displacement_m`, `force_n`, `before_n` and
-    /// `after_n`, the model's as the sensor would show them, the root mean squares of what it misses, `missed_before_n` and `missed_after_n`, and
-    /// `displacement_offset_m`, the middle of the motion, on which no force depends.
+    /// Each recorded loop with the model's, at the samples that count: arrays `time_s`, `displacement_m`, `force_n`,
+    /// `before_n` and `after_n` (the model's forces as the sensor would show them), the rms misfits `missed_before_n`
+    /// and `missed_after_n`, and `displacement_offset_m`, the mean of the motion, which does not affect the force.
     #[getter]
     fn loops<'py>(&self, py: Python<'py>) -> Outcome<Bound<'py, PyList>> {
         let step_s = self.calibration.step_s;
@@ -148,18 +150,20 @@ impl Calibrated {
     }
 }
 
-/// Finds numbers of `damper` from bench tests: recorded loops `tests`, each of three arrays of float64, time (s), displacement (m) and force
-/// (N), or the `indices` of tests, each a dictionary of the columns that `dashpot calibrate --indices` reads.
+/// Fits parameters of `damper` to bench tests: recorded loops `tests`, each consisting of three float64 arrays, time
+/// (s), displacement (m) and force (N), or the `indices` of tests, each a dictionary with the columns that `dashpot
+/// calibrate --indices` reads.
 ///
-/// `vary` names the numbers, a list of keys, or a dictionary from keys to bounds, pairs or `None` for the plausible ones. `priors` has what is
-/// known of them before, pairs of mean and standard deviation; without `known_priors` only these count. Two numbers of the rig are found from
-/// loops without being named, `sensor_skew_s` and `force_offset_n`: `vary` and `priors` may name them, and `hold`, a dictionary to values or
-/// `None` for zero, keeps them. Without `skew` the sensors record at the same instant. The search begins at `starts` places, 4 where none are
-/// given.
+/// `vary` names the parameters, as a list of keys or as a dictionary from keys to bounds, where `None` selects the
+/// plausible ones. `priors` contains prior knowledge as pairs of mean and standard deviation; with `known_priors=False`
+/// only these apply. Two parameters of the rig are always fitted to loops, `sensor_skew_s` and `force_offset_n`: `vary`
+/// and `priors` may name them, and `hold` fixes them, as a dictionary to values or `None` for zero. With `skew=False`
+/// the sensors are assumed to record at the same instant. The search has `starts` starting points, 4 by default.
 ///
-/// Intervals include what the oil's temperature, known within `temperature_uncertainty_k`, and its density, known within
-/// `density_uncertainty_kg_per_m3`, do to the numbers (half-widths of 95 %). What the tests do not determine is refused, and so is a model that
-/// misses more than `max_misfit_percent` of a test's force beyond its noise. Ctrl-C ends it.
+/// Intervals include the effect of the oil's temperature, known within `temperature_uncertainty_k`, and its density,
+/// known within `density_uncertainty_kg_per_m3` (half-widths of 95 %). Parameters that the tests do not determine are
+/// refused, and so is a model that misses more than `max_misfit_percent` of a test's force beyond its noise. Ctrl-C
+/// cancels the fit.
 ///
 /// >>> import dashpot, numpy
 /// >>> made = dashpot.Damper("reduced-vertical", {"mount.clearance_m": 0.0, "reduced.damping_n_s_per_m": 100e3})
@@ -247,7 +251,7 @@ pub fn calibrate(
         let found = calibration.run_unless(&|_| {}, is_unwanted)?;
         Ok::<_, Refusal>((calibration, found))
     };
-    let (calibration, found) = py.detach(|| beside(work))??;
+    let (calibration, found) = py.detach(|| run_in_thread(work))??;
     let name = format!("{}, calibrated", damper.name);
     let damper = Py::new(py, Damper::of(name, found.damper.clone())?)?;
     Ok(Calibrated {
@@ -257,15 +261,15 @@ pub fn calibrate(
     })
 }
 
-/// A number of an argument within its range.
-fn within(name: &str, value: f64, [least, greatest]: [f64; 2]) -> Outcome<f64> {
-    if (least..=greatest).contains(&value) {
+/// Checks that an argument is within its range.
+fn within(name: &str, value: f64, [min, max]: [f64; 2]) -> Outcome<f64> {
+    if (min..=max).contains(&value) {
         return Ok(value);
     }
-    refuse(format!("{name}: {value}, allowed: {least} to {greatest}"))
+    refuse(format!("{name}: {value}, allowed: {min} to {max}"))
 }
 
-/// What the arguments ask for.
+/// Builds the request from the arguments.
 fn request(
     vary: Option<&Bound<'_, PyAny>>,
     priors: Option<&Bound<'_, PyDict>>,
@@ -311,7 +315,7 @@ fn request(
     })
 }
 
-/// A recorded loop of three arrays.
+/// Builds a recorded loop from three arrays.
 fn recorded(number: usize, [time_s, displacement_m, force_n]: &Samples<'_>) -> Outcome<Recorded> {
     let numbers = |name: &str, array| {
         let array = arrays::read::<f64, Ix1>(name, array).map_err(|refusal| match refusal {
@@ -333,7 +337,7 @@ fn recorded(number: usize, [time_s, displacement_m, force_n]: &Samples<'_>) -> O
     )?)
 }
 
-/// Tests of which the indices are known.
+/// Tests with known indices.
 fn index_tests(indices: Option<&Bound<'_, PyAny>>) -> Outcome<Vec<IndexTest>> {
     let Some(indices) = indices else {
         return Ok(Vec::new());
@@ -347,7 +351,7 @@ fn index_tests(indices: Option<&Bound<'_, PyAny>>) -> Outcome<Vec<IndexTest>> {
         Ok(text) => text.extract()?,
         Err(error) => {
             return refuse(format!(
-                "indices: {}; allowed: a list of dicts of Python's own finite numbers, without what was not measured",
+                "indices: {}; allowed: a list of dicts of Python's own finite numbers, without unmeasured indices",
                 error.value(py)
             ));
         }

@@ -1,8 +1,8 @@
-//! A calibration's errors and warnings in the words of this package: what to do, as arguments of `dashpot.calibrate`.
+//! Calibration errors and warnings, with remedies expressed as arguments of `dashpot.calibrate`.
 
 use dashpot_calibration::{Advice, CalibrationError, Finding, Remedy, TEMPERATURE, Warning};
 
-/// The error and what to do about it.
+/// Error message with its remedy.
 pub fn message(error: &CalibrationError) -> String {
     let what = match error {
         CalibrationError::HeldAndVaried { .. }
@@ -27,7 +27,10 @@ pub fn message(error: &CalibrationError) -> String {
             None => nothing_found(finding, &what, &said),
         },
         CalibrationError::Undetermined { .. } => {
-            format!("{what}\n{}, or add a test that decides", said.join(", or "))
+            format!(
+                "{what}\n{}, or add a test that determines it",
+                said.join(", or ")
+            )
         }
         CalibrationError::PriorOfHeld { .. } => format!("{what}; allowed: a number that is varied"),
         _ if said.is_empty() => what,
@@ -35,16 +38,16 @@ pub fn message(error: &CalibrationError) -> String {
     }
 }
 
-/// Where no cause was found.
+/// Message if no cause was found.
 fn nothing_found(finding: &Finding, what: &str, said: &[String]) -> String {
     let tried = "no sign, unit, bound or preset that was tried explains the recordings";
     match finding {
         Finding::Missed { .. } => format!(
-            "{what}\n  {tried}: the law of this damper lacks something that they have; to have the nearest fit all the same, {}",
+            "{what}\n  {tried}: the law of this damper lacks an effect that they show; to get the nearest fit anyway, {}",
             said.join(", or ")
         ),
         Finding::AtBound { .. } => format!(
-            "{what}\n  {tried}; to have the best value within these bounds all the same, {}",
+            "{what}\n  {tried}; to get the best value within these bounds anyway, {}",
             said.join(", or ")
         ),
         Finding::Driven { .. } => {
@@ -52,11 +55,11 @@ fn nothing_found(finding: &Finding, what: &str, said: &[String]) -> String {
                 "{what}\n  the force or the displacement has the opposite sign: pass -force or -displacement"
             )
         }
-        _ => format!("{what}\n  look at the units of the displacement and of the time"),
+        _ => format!("{what}\n  check the units of the displacement and of the time"),
     }
 }
 
-/// What to do, in a sentence without an end.
+/// Remedy as a clause without a full stop.
 fn said(advice: &Advice) -> String {
     let parts: Vec<String> = advice.iter().map(remedy).collect();
     parts.join(" and ")
@@ -76,9 +79,9 @@ fn remedy(remedy: &Remedy) -> String {
         Remedy::ScaleForce(factor) => format!("pass {factor:e} * force"),
         Remedy::Bounds {
             key,
-            bounds: [least, greatest],
+            bounds: [min, max],
         } => {
-            format!("use vary={{\"{key}\": ({least:e}, {greatest:e})}}")
+            format!("use vary={{\"{key}\": ({min:e}, {max:e})}}")
         }
         Remedy::VaryAlso(keys) => format!("vary {} too", listed(keys)),
         Remedy::OtherDamper { name, vary } if vary.is_empty() => {
@@ -103,7 +106,7 @@ fn remedy(remedy: &Remedy) -> String {
     }
 }
 
-/// A warning in a sentence.
+/// Warning as a sentence.
 pub fn warning(warning: &Warning) -> String {
     match warning {
         Warning::Missed {
@@ -111,23 +114,25 @@ pub fn warning(warning: &Warning) -> String {
             missed_n,
             noise_n,
         } => format!(
-            "{test}: the model misses {missed_n:.0} N where the force scatters by {noise_n:.0} N: it lacks something that this test has, and \
-             no interval includes that"
+            "{test}: the model misses {missed_n:.0} N where the force scatters by {noise_n:.0} N: it lacks an \
+             effect that this test shows, and no interval includes it"
         ),
         Warning::ZeroDiffers { test, mean_n } => format!(
-            "{test}: the zero of the force differs by {:.0} N from that of the other tests: calibrate it apart",
+            "{test}: the zero of the force differs by {:.0} N from that of the other tests: calibrate it \
+             separately",
             -mean_n
         ),
         Warning::AtBound {
             key,
             bound,
             is_physical: true,
-        } => format!("{key} is {bound:e}, as far as a damper goes"),
+        } => format!("{key} is {bound:e}, the physical limit"),
         Warning::AtBound { key, bound, .. } => format!(
-            "{key} is at the bound {bound:e} that you gave, so the best value lies beyond it; vary={{\"{key}\": (least, greatest)}} gives others"
+            "{key} is at the bound {bound:e} that you gave, so the best value lies beyond it; set other bounds with \
+             vary={{\"{key}\": (min, max)}}"
         ),
         Warning::Close { a, b, correlation } => {
-            format!("{a} and {b} are hardly told apart: correlation {correlation:.3}")
+            format!("{a} and {b} are hardly distinguishable: correlation {correlation:.3}")
         }
         Warning::Assumed {
             key,
@@ -142,8 +147,8 @@ pub fn warning(warning: &Warning) -> String {
                 "density_uncertainty_kg_per_m3"
             };
             format!(
-                "{key} moves by {shift_percent:.2} % when {assumed} is {value} +- {uncertainty}, more than by the noise of the tests; they do \
-                 not tell the two apart. The interval includes it: {argument} sets how well you know it"
+                "{key} moves by {shift_percent:.2} % when {assumed} is {value} +- {uncertainty}, more than the noise of the tests; they \
+                 cannot distinguish the two. The interval includes this; {argument} sets how well you know {assumed}"
             )
         }
         Warning::FitsBetter {
@@ -151,8 +156,8 @@ pub fn warning(warning: &Warning) -> String {
             value,
             better,
         } => format!(
-            "these recordings fit better at {assumed} {better} than at {value}: look at the thermometer; damper.replace({{\"{assumed}\": \
-             {better:e}}}) takes that value"
+            "these recordings fit better at {assumed} {better} than at {value}: check the thermometer; \
+             damper.replace({{\"{assumed}\": {better:e}}}) uses that value"
         ),
     }
 }

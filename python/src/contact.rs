@@ -1,4 +1,4 @@
-//! Wheel on rail: the geometry of a pair of profiles, and creep forces.
+//! Wheel-rail contact: the geometry of a pair of profiles, and creep forces.
 
 use dashpot_files::profile;
 use dashpot_rail::contact::{Installation, Pair, Steel};
@@ -12,16 +12,16 @@ use pyo3::types::PyDict;
 
 use crate::arrays;
 use crate::error::{Outcome, Refusal, refuse};
-use crate::interruption::asking;
+use crate::interruption::run_cancellable;
 use crate::overrides::path;
 
-/// Rows between two looks whether their forces are still wanted.
+/// Rows between two checks for an interruption.
 const ROWS_A_LOOK: usize = 1 << 12;
 
-/// A number of a row.
+/// Extracts one value from a row.
 type Column = fn(&Shift) -> f64;
 
-/// Geometry of a wheelset on a track. `dashpot.contact` makes one.
+/// Geometry of a wheelset on a track. `dashpot.contact` returns it.
 ///
 /// >>> import dashpot
 /// >>> dashpot.contact().shifts["lateral_shift_m"].shape
@@ -35,14 +35,16 @@ pub struct Contact {
 
 #[pymethods]
 impl Contact {
-    /// Equivalent conicity of EN 15302: arrays `amplitude_m` and `equivalent_conicity`, NaN where there is no closed path.
+    /// Equivalent conicity of EN 15302: arrays `amplitude_m` and `equivalent_conicity`, NaN for amplitudes without a
+    /// closed path.
     #[getter]
     fn conicity(&self, py: Python<'_>) -> Py<PyDict> {
         self.conicity.clone_ref(py)
     }
 
-    /// Why contact tables of the pair are refused: a dictionary of where the force of the contact jumps (`lateral_m`, `roll_rad`, `yaw_rad`),
-    /// under which `load_n`, by how much (`jump_n`), and what the stiffness of the contact allows (`allowed_n`). None if they are not refused.
+    /// The force jump because of which contact tables of the pair are refused: a dictionary with its position
+    /// (`lateral_m`, `roll_rad`, `yaw_rad`), the load `load_n`, the jump `jump_n`, and the jump that the stiffness of
+    /// the contact allows (`allowed_n`). None if the tables are not refused.
     ///
     /// >>> import dashpot
     /// >>> dashpot.contact().force_jump is None
@@ -66,17 +68,19 @@ impl Contact {
         Ok(Some(numbers))
     }
 
-    /// The rigid wheelset over its lateral shift (m), to the right positive, in steps of 25 um: arrays of rolling radius difference, roll,
-    /// contact angles and places on the wheels, as `dashpot contact --format json` names them.
+    /// The rigid wheelset over its lateral shift (m), positive to the right, in steps of 25 um: arrays of rolling
+    /// radius difference, roll, contact angles and contact positions on the wheels, named as by `dashpot contact
+    /// --format json`.
     #[getter]
     fn shifts(&self, py: Python<'_>) -> Py<PyDict> {
         self.shifts.clone_ref(py)
     }
 }
 
-/// The geometry of a wheel on a rail: `s1002`, `uic60` or profile files of MiniProf, SIMPACK, GENSYS or two columns.
+/// Computes the geometry of a wheel on a rail: `s1002`, `uic60` or profile files of MiniProf, SIMPACK, GENSYS or two
+/// columns.
 ///
-/// `format` and `mirror` are those of the command `dashpot contact`, where a file does not tell them.
+/// The formats and mirrors are those of the command `dashpot contact`; give them if the file does not state them.
 ///
 /// >>> import dashpot
 /// >>> conicity = dashpot.contact(gauge_m=1.435).conicity
@@ -166,12 +170,12 @@ fn options(
         .with_smoothing_m(smoothing_m.unwrap_or(DEFAULT_SMOOTHING_M)))
 }
 
-/// Creep forces by the exact theory of rolling contact from Kalker's book of tables, on the wheel: a row for each row of `creepages`, an array of
-/// float64 with the columns longitudinal, lateral (1) and spin (1/m). Columns of the result: longitudinal force, lateral force (N) and spin
-/// moment (N m).
+/// Computes creep forces on the wheel by the exact theory of rolling contact, from Kalker's book of tables, one row for
+/// each row of `creepages`, a float64 array with the columns longitudinal, lateral (1) and spin (1/m). Columns of the
+/// result: longitudinal force, lateral force (N) and spin moment (N m).
 ///
-/// `a_m` and `b_m` are the semi-axes of the contact in the rolling direction and across; shear modulus and Poisson's ratio are those of steel,
-/// where none are given.
+/// `a_m` and `b_m` are the semi-axes of the contact in the rolling direction and across it. Shear modulus and Poisson's
+/// ratio are those of steel by default.
 ///
 /// >>> import dashpot, numpy
 /// >>> braking = numpy.array([[1.6e-3, 0.0, 0.0]])
@@ -220,11 +224,11 @@ pub fn creep_forces<'py>(
         }
     }
     let numbers = rows.as_slice().map_err(PyErr::from)?;
-    if let Some(place) = numbers.iter().position(|number| !number.is_finite()) {
+    if let Some(index) = numbers.iter().position(|number| !number.is_finite()) {
         return refuse(format!(
             "creepages: row {} has {}, allowed: finite numbers",
-            place / columns,
-            numbers[place]
+            index / columns,
+            numbers[index]
         ));
     }
     let forces: Vec<f64> = py.detach(|| {
@@ -240,7 +244,7 @@ pub fn creep_forces<'py>(
         let book = KalkerBook::new();
         let (rows, _) = numbers.as_chunks::<3>();
         let mut forces = Vec::with_capacity(numbers.len());
-        asking(|is_unwanted| {
+        run_cancellable(|is_unwanted| {
             let parts = rows.chunks(ROWS_A_LOOK);
             for &[longitudinal, lateral, spin_per_m] in
                 parts.take_while(|_| !is_unwanted()).flatten()

@@ -1,4 +1,4 @@
-//! A damper: its numbers by their keys, and what is made of them.
+//! A damper: its parameters by key, and what is built from it.
 
 use dashpot_core::CheckedParameters;
 use dashpot_core::characteristic::Characteristic;
@@ -11,14 +11,14 @@ use pyo3::types::{PyDict, PyFloat, PyList};
 use crate::arrays::{self, Precision};
 use crate::built::BuiltDamper;
 use crate::error::{Outcome, Refusal, refuse};
-use crate::interruption::asking;
+use crate::interruption::run_cancellable;
 use crate::overrides::assignments;
 use crate::pickled::{Pickled, pickled};
 use crate::rig::{Cycle, indices};
 
-/// A damper: a preset or the TOML file at a path, with other numbers at the keys of `overrides`.
+/// A damper: a preset or the TOML file at a path, with other values for the keys of `overrides`.
 ///
-/// A mapping from keys `table.key` to numbers in SI units.
+/// It is a mapping from keys `table.key` to values in SI units.
 ///
 /// >>> import dashpot
 /// >>> damper = dashpot.Damper("in-service", {"mount.clearance_m": 1e-3})
@@ -28,14 +28,14 @@ use crate::rig::{Cycle, indices};
 /// Damper('in-service', mount.clearance_m=0.001)
 #[pyclass(module = "dashpot", frozen, mapping)]
 pub struct Damper {
-    /// How it is called, with what was changed of it.
+    /// Name of the damper, including its changes.
     pub name: String,
     pub parameters: CheckedParameters,
     keyed: Keyed,
 }
 
 impl Damper {
-    /// The damper of checked parameters; `name` stands for it in errors.
+    /// Creates a damper from checked parameters; errors call it `name`.
     pub fn of(name: String, parameters: CheckedParameters) -> Outcome<Self> {
         let keyed = Keyed::new(&name, &parameters)?;
         Ok(Self {
@@ -45,23 +45,23 @@ impl Damper {
         })
     }
 
-    /// Its numbers by their keys.
+    /// Parameters by key.
     pub fn keyed(&self) -> &Keyed {
         &self.keyed
     }
 
-    /// The number at a key of any kind.
+    /// Value for a key of any type.
     fn at(&self, key: &Bound<'_, PyAny>) -> Option<f64> {
         self.keyed.number(&key.extract::<String>().ok()?).ok()
     }
 
-    /// As a damper file has it.
+    /// Text of the damper as a damper file.
     pub fn text(&self) -> Outcome<String> {
         Ok(damper::text(&self.parameters)?)
     }
 }
 
-/// A name with what was changed.
+/// Name with its changes.
 fn changed(name: &str, assignments: &[String]) -> String {
     let changes = assignments.iter().map(|one| format!(", {one}"));
     format!("{name}{}", changes.collect::<String>())
@@ -78,7 +78,7 @@ impl Damper {
         Self::of(changed(&name, &changes), parameters)
     }
 
-    /// The damper that is written in `text`, a damper file; `name` stands for it in errors.
+    /// Reads the damper from `text`, the contents of a damper file; errors call it `name`.
     ///
     /// >>> import dashpot
     /// >>> text = dashpot.Damper("reduced-vertical").to_toml()
@@ -92,7 +92,7 @@ impl Damper {
         Self::of(changed(name, &changes), parameters)
     }
 
-    /// The damper as the text of a damper file, of which `from_toml` makes the same damper.
+    /// Returns the damper as the text of a damper file, from which `from_toml` reads the same damper.
     ///
     /// >>> import dashpot
     /// >>> print(dashpot.Damper("reduced-lateral").to_toml().splitlines()[0])
@@ -101,7 +101,7 @@ impl Damper {
         self.text()
     }
 
-    /// The damper with other numbers at these keys.
+    /// Returns the damper with other values for these keys.
     ///
     /// >>> import dashpot
     /// >>> worn = dashpot.Damper("in-service").replace({"mount.clearance_m": 3e-3})
@@ -113,13 +113,13 @@ impl Damper {
         Self::of(changed(&self.name, &changes), parameters)
     }
 
-    /// How the damper is called in errors.
+    /// Name of the damper in errors.
     #[getter]
     fn name(&self) -> &str {
         &self.name
     }
 
-    /// The keys of all numbers, in order.
+    /// All keys, in order.
     ///
     /// >>> import dashpot
     /// >>> dashpot.Damper("reduced-vertical").keys()[:2]
@@ -128,7 +128,7 @@ impl Damper {
         self.keyed.keys()
     }
 
-    /// All numbers, in the order of the keys.
+    /// All values, in the order of the keys.
     ///
     /// >>> import dashpot
     /// >>> dashpot.Damper("reduced-vertical").values()[:2]
@@ -137,7 +137,7 @@ impl Damper {
         Ok(self.items()?.into_iter().map(|(_, value)| value).collect())
     }
 
-    /// Pairs of the keys and their numbers, in order.
+    /// Pairs of keys and values, in order.
     ///
     /// >>> import dashpot
     /// >>> dashpot.Damper("reduced-vertical").items()[2]
@@ -148,7 +148,7 @@ impl Damper {
             .collect()
     }
 
-    /// The number at a key, or `default` where this damper has none there.
+    /// Returns the value of a key, or `default` if this damper lacks the key.
     ///
     /// >>> import dashpot
     /// >>> dashpot.Damper("reduced-vertical").get("oil.density_kg_per_m3", 850.0)
@@ -182,7 +182,7 @@ impl Damper {
         Ok(PyList::new(py, self.keyed.keys())?.try_iter()?.into_any())
     }
 
-    /// The constants of the damper for a fixed step (s), in the precision of `dtype`: float32 where there is none, as on the target.
+    /// Builds the damper for a fixed step (s), in the precision of `dtype`: float32 by default, as on the target.
     ///
     /// >>> import dashpot
     /// >>> dashpot.Damper("paper").build(step_s=1e-3).step_s
@@ -193,7 +193,8 @@ impl Damper {
         BuiltDamper::new(&self.name, &self.parameters, step_s, precision)
     }
 
-    /// The bench test: the harmonic motion of the seats until the force repeats, with steps of at most `step_s` (s), in double precision.
+    /// Runs the bench test: a harmonic motion of the seats until the force repeats, with steps of at most `step_s` (s),
+    /// in double precision.
     ///
     /// >>> import dashpot
     /// >>> cycle = dashpot.Damper("paper").rig(amplitude_m=24.875e-3, frequency_hz=0.64)
@@ -210,7 +211,7 @@ impl Damper {
         Cycle::run(py, &self.parameters, amplitude_m, frequency_hz, step_s)
     }
 
-    /// The indices of the bench test by their names; `None` where there is none without force.
+    /// Returns the indices of the bench test by name; `None` for an index that is undefined without force.
     ///
     /// >>> import dashpot
     /// >>> damper = dashpot.Damper("reduced-vertical", {"mount.clearance_m": 0.0})
@@ -229,7 +230,8 @@ impl Damper {
         indices(py, &cycle)
     }
 
-    /// The force (N) at each constant velocity (m/s), springs at rest and clearance taken up; both positive in extension.
+    /// Returns the force (N) at each constant velocity (m/s), with springs at rest and clearance taken up; both are
+    /// positive in extension.
     ///
     /// >>> import dashpot, numpy
     /// >>> damper = dashpot.Damper("reduced-vertical")
@@ -256,8 +258,8 @@ impl Damper {
         Ok(PyArray1::from_vec(py, forces))
     }
 
-    /// The force (N) of the reference solution at displacements (m) of the seats `step_s` (s) apart, linear between: adaptive, written
-    /// independently of the step; some thousand times its cost.
+    /// Returns the force (N) of the reference solution at displacements (m) of the seats `step_s` (s) apart, linear in
+    /// between. The reference is adaptive, written independently of the step, and about a thousand times slower.
     ///
     /// >>> import dashpot, numpy
     /// >>> damper, x = dashpot.Damper("paper"), 5e-3 * numpy.sin(numpy.arange(500.0) / 80)
@@ -277,7 +279,10 @@ impl Damper {
         let solve = |is_unwanted: &dyn Fn() -> bool| {
             reference_forces_unless(parameters, step_s, displacements, is_unwanted)
         };
-        Ok(PyArray1::from_vec(py, py.detach(|| asking(solve))??))
+        Ok(PyArray1::from_vec(
+            py,
+            py.detach(|| run_cancellable(solve))??,
+        ))
     }
 
     fn __eq__(&self, other: &Bound<'_, PyAny>) -> bool {

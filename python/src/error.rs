@@ -1,4 +1,4 @@
-//! Why a call has no result, and the exception that tells it: the words are the library's.
+//! Errors of calls, and their conversion to Python exceptions with the library's messages.
 
 use std::fmt::Display;
 use std::path::PathBuf;
@@ -24,16 +24,16 @@ use pyo3::types::PyType;
 
 use crate::remedy::with_remedy;
 
-/// Why a call has no result.
+/// Reasons for which a call fails.
 #[derive(Debug)]
 pub enum Refusal {
-    /// Something that is asked for is not allowed, or there is no result.
+    /// An invalid argument, or no result.
     Value(String),
-    /// A mapping has nothing at a key.
+    /// A mapping lacks a key.
     Key(String),
     /// A file cannot be read or written.
     File(Unusable),
-    /// What Python raised itself, an interruption among it.
+    /// An exception raised by Python itself, including an interruption.
     Python(PyErr),
 }
 
@@ -41,14 +41,14 @@ pub enum Refusal {
 #[derive(Debug)]
 pub struct Unusable {
     words: String,
-    /// The system's number of the reason, where it gave one.
+    /// The system's error number, if it provided one.
     errno: Option<i32>,
     path: PathBuf,
 }
 
 impl Unusable {
     fn new(words: String, path: PathBuf, source: &std::io::Error) -> Self {
-        // Elsewhere the system's numbers are not those of C.
+        // On other platforms the system's numbers are not those of C.
         let errno = source.raw_os_error().filter(|_| cfg!(unix));
         Self { words, errno, path }
     }
@@ -57,7 +57,7 @@ impl Unusable {
 /// Result of a call.
 pub type Outcome<T> = Result<T, Refusal>;
 
-/// Refuses in these words.
+/// Returns an error with this message.
 pub fn refuse<T>(words: impl Display) -> Outcome<T> {
     Err(Refusal::Value(words.to_string()))
 }
@@ -80,7 +80,7 @@ impl From<FileError> for Refusal {
     }
 }
 
-/// Errors that a file's may be behind, in this variant.
+/// Errors that may be caused by a file error, in this variant.
 macro_rules! with_file {
     ($($error:ident :: $file:ident),* $(,)?) => {$(
         impl From<$error> for Refusal {
@@ -155,13 +155,13 @@ impl From<RunError> for Refusal {
 }
 
 impl Refusal {
-    /// What a case of this name is refused for.
+    /// Error of a case with this name.
     pub fn of_case(name: &str, error: VehicleRunError) -> Self {
         let words = format!("{name}: {error}");
         Self::from(error).worded(words)
     }
 
-    /// The same in other words.
+    /// The same error with another message.
     fn worded(self, words: String) -> Self {
         match self {
             Self::Value(_) => Self::Value(words),
@@ -172,7 +172,7 @@ impl Refusal {
     }
 }
 
-/// Errors that are of no file.
+/// Errors without a file path.
 macro_rules! without_file {
     ($($error:ty),* $(,)?) => {$(
         impl From<$error> for Refusal {
@@ -198,7 +198,7 @@ static FILE: PyOnceLock<Py<PyType>> = PyOnceLock::new();
 
 impl From<Refusal> for PyErr {
     fn from(refusal: Refusal) -> Self {
-        // Written in Python, for Rust makes no exception of two bases.
+        // Defined in Python because PyO3 cannot create exceptions with two bases.
         Python::attach(|py| {
             let exception = |kept: &PyOnceLock<Py<PyType>>, name| {
                 let exception = kept.import(py, "dashpot._errors", name);

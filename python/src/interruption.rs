@@ -1,4 +1,4 @@
-//! The user's Ctrl-C, asked for by work that has released Python's lock.
+//! Ctrl-C handling for work that has released the GIL.
 
 use std::cell::RefCell;
 use std::panic::resume_unwind;
@@ -9,13 +9,14 @@ use std::time::Duration;
 
 use pyo3::prelude::*;
 
-/// What Python raised while work was going on.
+/// The exception that Python raised during the work.
 #[derive(Default)]
 pub struct Interruption(RefCell<Option<PyErr>>);
 
 impl Interruption {
-    /// Whether the work is no longer wanted: Python's handlers of signals, which act in its main thread only, raised something.
-    pub fn is_wanted(&self) -> bool {
+    /// Returns true if the work is to be cancelled because one of Python's signal handlers, which run only in its main
+    /// thread, raised an exception.
+    pub fn is_requested(&self) -> bool {
         let mut raised = self.0.borrow_mut();
         if raised.is_none() {
             *raised = Python::attach(|py| py.check_signals()).err();
@@ -23,36 +24,38 @@ impl Interruption {
         raised.is_some()
     }
 
-    /// What was raised.
+    /// Returns the raised exception as an error.
     pub fn raised(self) -> PyResult<()> {
         self.0.into_inner().map_or(Ok(()), Err)
     }
 }
 
-/// Does work that asks whether it is unwanted, in this thread.
-pub fn asking<T>(work: impl FnOnce(&dyn Fn() -> bool) -> T) -> PyResult<T> {
+/// Runs cancellable work in this thread.
+pub fn run_cancellable<T>(work: impl FnOnce(&dyn Fn() -> bool) -> T) -> PyResult<T> {
     let interruption = Interruption::default();
-    let result = work(&|| interruption.is_wanted());
+    let result = work(&|| interruption.is_requested());
     interruption.raised()?;
     Ok(result)
 }
 
-/// Time between two looks while other threads work: shorter than a person notices.
+/// Time between two checks while other threads work; too short for a person to notice.
 const LOOK: Duration = Duration::from_millis(20);
 
-/// Does work whose threads are not Python's, and which asks whether it is unwanted, in a thread beside this one: only Python's main thread can
-/// look for an interruption.
-pub fn beside<T: Send>(work: impl FnOnce(&(dyn Fn() -> bool + Sync)) -> T + Send) -> PyResult<T> {
+/// Runs cancellable work with its own threads in another thread, because only Python's main thread can check
+/// for an interruption.
+pub fn run_in_thread<T: Send>(
+    work: impl FnOnce(&(dyn Fn() -> bool + Sync)) -> T + Send,
+) -> PyResult<T> {
     let (is_unwanted, interruption) = (AtomicBool::new(false), Interruption::default());
     let result = thread::scope(|scope| {
         let (done, is_done) = mpsc::channel::<()>();
         let worker = scope.spawn(|| {
-            // Dropped with the work done, or with its panic.
+            // Dropped when the work is done or panics.
             let _done = done;
             work(&|| is_unwanted.load(Ordering::Relaxed))
         });
         while is_done.recv_timeout(LOOK) == Err(RecvTimeoutError::Timeout) {
-            if interruption.is_wanted() {
+            if interruption.is_requested() {
                 is_unwanted.store(true, Ordering::Relaxed);
             }
         }

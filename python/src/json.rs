@@ -1,4 +1,4 @@
-//! What the library writes as JSON, as Python's dictionaries and lists: the same names, the same numbers.
+//! Converts the library's JSON reports to Python dictionaries and lists with the same names and numbers.
 
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
@@ -7,7 +7,7 @@ use serde_json::Value;
 
 use crate::error::{Outcome, refuse};
 
-/// A report of the library in Python.
+/// Converts a report to a Python object.
 pub fn report<'py>(py: Python<'py>, report: &impl Serialize) -> Outcome<Bound<'py, PyAny>> {
     match serde_json::to_value(report) {
         Ok(value) => Ok(in_python(py, &value)?),

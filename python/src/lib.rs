@@ -1,5 +1,5 @@
-//! Dashpot from Python: what the package `dashpot` is made of. No physics and no rule is written here; arrays, exceptions and the release of
-//! Python's lock are.
+//! The compiled part of the Python package `dashpot`. It contains no physics and no rules, only arrays, exceptions and
+//! the release of the GIL.
 #![deny(unsafe_code)]
 #![warn(missing_docs)]
 
@@ -23,7 +23,7 @@ mod sweep;
 mod vehicle;
 mod whole;
 
-/// The part of the package that is compiled.
+/// The compiled module.
 #[pyo3::pymodule]
 mod _dashpot {
     /// Version of the package, and of the rows of a study.

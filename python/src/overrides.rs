@@ -1,4 +1,4 @@
-//! Names, paths and overrides as Python gives them, in the words of the files.
+//! Conversion of Python names, paths and overrides to the text form of the files.
 
 use std::path::PathBuf;
 
@@ -11,7 +11,7 @@ use pyo3::types::{PyBool, PyDict, PyDictMethods, PyFloat, PyInt, PyString};
 use crate::damper::Damper;
 use crate::error::{Outcome, refuse};
 
-/// A name, or a path of any kind, as text.
+/// Converts a name or a path-like object to text.
 pub fn path(name: &Bound<'_, PyAny>) -> Outcome<String> {
     match path_of_file(name)?.into_os_string().into_string() {
         Ok(path) => Ok(path),
@@ -22,13 +22,13 @@ pub fn path(name: &Bound<'_, PyAny>) -> Outcome<String> {
     }
 }
 
-/// A path of any kind, of any bytes that the system allows.
+/// Converts a path-like object of any bytes that the system allows.
 pub fn path_of_file(path: &Bound<'_, PyAny>) -> Outcome<PathBuf> {
     let os = path.py().import("os")?;
     Ok(os.call_method1("fsdecode", (path,))?.extract()?)
 }
 
-/// A dictionary from keys to values as `table.key=value`; none where there is none.
+/// Converts a dictionary of keys and values to `table.key=value`; empty by default.
 pub fn assignments(overrides: Option<&Bound<'_, PyAny>>) -> Outcome<Vec<String>> {
     let Some(overrides) = overrides.filter(|overrides| !overrides.is_none()) else {
         return Ok(Vec::new());
@@ -45,7 +45,7 @@ pub fn assignments(overrides: Option<&Bound<'_, PyAny>>) -> Outcome<Vec<String>>
     overrides.iter().map(one).collect()
 }
 
-/// A value as TOML writes it.
+/// Writes a value as TOML.
 fn written(key: &Bound<'_, PyAny>, value: &Bound<'_, PyAny>) -> Outcome<String> {
     if let Ok(value) = value.cast::<PyBool>() {
         return Ok(value.is_true().to_string());
@@ -53,7 +53,7 @@ fn written(key: &Bound<'_, PyAny>, value: &Bound<'_, PyAny>) -> Outcome<String> 
     if let Ok(text) = value.cast::<PyString>() {
         return Ok(quoted(&text.to_cow()?));
     }
-    // Numbers of numpy are no floats, but are read as such.
+    // numpy numbers are not floats, but convert to them.
     let is_number = value.is_instance_of::<PyFloat>() || value.is_instance_of::<PyInt>();
     if is_number || value.hasattr("__float__")? {
         let number = match value.extract::<f64>() {
@@ -75,12 +75,13 @@ fn written(key: &Bound<'_, PyAny>, value: &Bound<'_, PyAny>) -> Outcome<String> 
     ))
 }
 
-/// A text in quotes, as TOML and JSON have it alike.
+/// Quotes a text with the syntax common to TOML and JSON.
 fn quoted(text: &str) -> String {
     serde_json::Value::from(text).to_string()
 }
 
-/// A dictionary from dampers of a vehicle to what replaces them, a name, a path or a `Damper`; none where there is none.
+/// Converts a dictionary from dampers of a vehicle to their replacements (a name, a path or a `Damper`); empty by
+/// default.
 pub fn replacements(given: Option<&Bound<'_, PyAny>>) -> Outcome<Vec<Replacement>> {
     let Some(given) = given else {
         return Ok(Vec::new());

@@ -1,4 +1,4 @@
-//! What Python's `pickle` takes: a function, and the arguments to call it with.
+//! Data for Python's `pickle`: a function and its arguments.
 
 use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;
@@ -8,7 +8,7 @@ use crate::error::Outcome;
 /// A function and its arguments.
 pub type Pickled<'py> = (Bound<'py, PyAny>, Bound<'py, PyAny>);
 
-/// `make` to be called with the tuple of `arguments`.
+/// Returns `make` with the tuple of `arguments`.
 pub fn pickled<'py>(
     make: Bound<'py, PyAny>,
     arguments: impl IntoPyObject<'py>,

@@ -16,12 +16,14 @@ use pyo3::types::PyDict;
 use crate::error::{Outcome, refuse};
 use crate::overrides::path_of_file;
 
-/// Reads a recording, CSV, MDF4 or Parquet: arrays `time_s` and `displacement_m`, and `force_n` where `with_force`.
+/// Reads a recording, CSV, MDF4 or Parquet: arrays `time_s` and `displacement_m`, and `force_n` if `with_force` is
+/// true.
 ///
-/// With `step_s` (s) it is read on the ticks of that step, linear between samples, as `dashpot replay` does. `time`, `displacement` and `force`
-/// name the channels, `time_unit`, `displacement_unit` and `force_unit` their units, where the file does not tell; `group` is one of an MDF4 file,
-/// `header` says whether the first row of text has names, `decimal_mark` whether numbers have a `point` or a `comma`. `skip_invalid` leaves out rows
-/// that lack a value. A text whose last line has no line end, which may be cut inside a number, is read with a `UserWarning`.
+/// With `step_s` (s) the recording is resampled at the ticks of that step, linearly between samples, as in `dashpot
+/// replay`. `time`, `displacement` and `force` name the channels; `time_unit`, `displacement_unit` and `force_unit`
+/// give their units if the file does not. `group` selects a group of an MDF4 file, `header` states whether the first
+/// row of text contains names, and `decimal_mark` is `point` or `comma`. `skip_invalid` leaves out rows that lack a
+/// value. A text whose last line has no line end may be truncated within a number; it is read with a `UserWarning`.
 ///
 /// >>> import dashpot, pathlib, tempfile
 /// >>> with tempfile.TemporaryDirectory() as folder:
@@ -80,7 +82,7 @@ pub fn read<'py>(
     Ok(arrays)
 }
 
-/// Warns that the file may have been cut inside the last number of its last line.
+/// Warns that the file may be truncated within the last number of its last line.
 fn warn_of_unended(py: Python<'_>, path: &Path, line: u64) -> Outcome<()> {
     let words = format!(
         "{}:{line}: the last line has no line end: the file may have been cut inside the last number of that line",
@@ -90,7 +92,7 @@ fn warn_of_unended(py: Python<'_>, path: &Path, line: u64) -> Outcome<()> {
     Ok(())
 }
 
-/// Names of columns and their numbers.
+/// Column names and values.
 type Columns = Vec<(&'static str, Vec<f64>)>;
 
 fn columns(
@@ -102,7 +104,7 @@ fn columns(
     if with_force {
         let mut measurement = Measurement::open(path, channels)?;
         let samples = measurement.read_all()?;
-        let column = |of: fn(&_) -> f64| samples.iter().map(of).collect();
+        let column = |get: fn(&_) -> f64| samples.iter().map(get).collect();
         let columns = vec![
             ("time_s", column(|sample| sample.time_s)),
             ("displacement_m", column(|sample| sample.displacement_m)),
@@ -134,7 +136,7 @@ fn columns(
     Ok((columns, gaps))
 }
 
-/// A decimal mark by its name or itself.
+/// Parses a decimal mark, given by name or as the character itself.
 fn mark(text: &str) -> Outcome<DecimalMark> {
     match text {
         "." | "point" => Ok(DecimalMark::Point),
@@ -145,7 +147,7 @@ fn mark(text: &str) -> Outcome<DecimalMark> {
     }
 }
 
-/// A channel by its name and unit.
+/// Channel with a given name and unit.
 fn channel(quantity: Quantity, name: Option<String>, unit: Option<&str>) -> Outcome<Channel> {
     let unit = match unit.map(|text| (text, quantity.unit(text))) {
         Some((text, None)) => {

@@ -1,9 +1,9 @@
-//! What a user of the package can do about an error, in the words of its arguments.
+//! Remedies for errors, expressed as arguments of the package.
 
 use dashpot_recording::Quantity;
 use dashpot_recording::Remedy;
 
-/// The message of an error with its remedy, where it has one.
+/// Error message with its remedy, if any.
 pub fn with_remedy(message: String, remedy: Option<Remedy>) -> String {
     match remedy {
         Some(remedy) => format!("{message}; {}", in_arguments(remedy)),

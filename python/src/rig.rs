@@ -10,9 +10,9 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::error::Outcome;
-use crate::interruption::asking;
+use crate::interruption::run_cancellable;
 
-/// One settled cycle of a bench test. `Damper.rig` makes one.
+/// One settled cycle of a bench test. `Damper.rig` returns it.
 ///
 /// >>> import dashpot
 /// >>> cycle = dashpot.Damper("paper").rig(24.875e-3, 0.64)
@@ -37,11 +37,11 @@ impl Cycle {
         let run = |is_unwanted: &dyn Fn() -> bool| {
             bench_test::run_unless(parameters, motion, step_s, is_unwanted)
         };
-        Ok(Self(py.detach(|| asking(run))??))
+        Ok(Self(py.detach(|| run_cancellable(run))??))
     }
 }
 
-/// The indices of a cycle by their names.
+/// Indices of a cycle by name.
 pub fn indices<'py>(py: Python<'py>, cycle: &Cycle) -> Outcome<Bound<'py, PyDict>> {
     let indices = PyDict::new(py);
     for index in Index::ALL {
@@ -52,7 +52,7 @@ pub fn indices<'py>(py: Python<'py>, cycle: &Cycle) -> Outcome<Bound<'py, PyDict
 
 #[pymethods]
 impl Cycle {
-    /// Displacement (m) of the seats at each step, the first one after zero.
+    /// Displacement (m) of the seats at each step, starting one step after zero.
     #[getter]
     fn displacement_m<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
         PyArray1::from_slice(py, &self.0.displacements_m)
@@ -70,7 +70,7 @@ impl Cycle {
         PyArray1::from_slice(py, &self.0.forces_n)
     }
 
-    /// The step that was used (s): the one asked for, shortened to a whole number of steps a cycle.
+    /// The step size used (s): the requested one, shortened to a whole number of steps per cycle.
     #[getter]
     fn step_s(&self) -> f64 {
         self.0.step_s
@@ -82,7 +82,7 @@ impl Cycle {
         self.0.cycles
     }
 
-    /// The indices by their names; `None` where there is none without force.
+    /// The indices by name; `None` for an index that is undefined without force.
     #[getter]
     fn indices<'py>(&self, py: Python<'py>) -> Outcome<Bound<'py, PyDict>> {
         indices(py, self)

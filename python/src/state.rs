@@ -1,4 +1,4 @@
-//! What changes of a damper from tick to tick.
+//! The state of a damper, which changes from tick to tick.
 
 use dashpot_core::{DamperState, Real};
 use pyo3::prelude::*;
@@ -16,7 +16,7 @@ pub enum Numbers {
     Double(DamperState<f64>),
 }
 
-/// Does `$body` with the state in its precision.
+/// Evaluates `$body` with the state in its precision.
 macro_rules! in_precision {
     ($numbers:expr, $state:ident => $body:expr) => {
         match $numbers {
@@ -26,7 +26,8 @@ macro_rules! in_precision {
     };
 }
 
-/// State of one damper. `BuiltDamper.at_rest` makes one; `copy.copy` keeps one, and `pickle` takes it with its damper.
+/// State of one damper. `BuiltDamper.at_rest` creates one; `copy.copy` saves it, and `pickle` stores it with its
+/// damper.
 ///
 /// >>> import copy, dashpot
 /// >>> built = dashpot.Damper("paper").build()
@@ -37,7 +38,7 @@ macro_rules! in_precision {
 #[pyclass(module = "dashpot")]
 pub struct State {
     pub numbers: Numbers,
-    /// The damper that stepped last.
+    /// The damper that last stepped the state.
     by: Py<BuiltDamper>,
 }
 
@@ -50,17 +51,15 @@ impl State {
         Self { numbers, by }
     }
 
-    /// The state, for this call alone.
+    /// Borrows the state for this call.
     pub fn lend<'py>(state: &Bound<'py, Self>) -> Outcome<PyRefMut<'py, Self>> {
         match state.try_borrow_mut() {
             Ok(state) => Ok(state),
-            Err(_) => {
-                refuse("state: another call is stepping it, allowed: a state for each thread")
-            }
+            Err(_) => refuse("state: another call is stepping it; use one state per thread"),
         }
     }
 
-    /// A damper has stepped it.
+    /// Records that a damper has stepped the state.
     pub fn stepped_by(&mut self, damper: &Bound<'_, BuiltDamper>) {
         if !self.by.is(damper) {
             self.by = damper.clone().unbind();
@@ -70,14 +69,14 @@ impl State {
     fn seen<'py>(state: &Bound<'py, Self>) -> Outcome<PyRef<'py, Self>> {
         match state.try_borrow() {
             Ok(state) => Ok(state),
-            Err(_) => refuse("state: another call is stepping it, allowed: to wait for that"),
+            Err(_) => refuse("state: another call is stepping it; wait until it returns"),
         }
     }
 }
 
 #[pymethods]
 impl State {
-    /// Displacement used last (m), positive in extension.
+    /// Displacement of the last tick (m), positive in extension.
     #[getter]
     fn displacement_m(slf: &Bound<'_, Self>) -> Outcome<f64> {
         Ok(in_precision!(&Self::seen(slf)?.numbers, state => state.displacement_m().to_f64()))
@@ -91,13 +90,13 @@ impl State {
         )
     }
 
-    /// Force returned last (N), positive when it resists extension.
+    /// Force of the last tick (N), positive when it resists extension.
     #[getter]
     fn force_n(slf: &Bound<'_, Self>) -> Outcome<f64> {
         Ok(in_precision!(&Self::seen(slf)?.numbers, state => state.force_n().to_f64()))
     }
 
-    /// Revision of the damper that stepped last.
+    /// Revision of the damper that last stepped the state.
     #[getter]
     fn revision(slf: &Bound<'_, Self>) -> Outcome<u32> {
         Ok(in_precision!(&Self::seen(slf)?.numbers, state => state.revision()))
@@ -123,7 +122,7 @@ impl State {
         Ok(())
     }
 
-    /// The state as bytes that stand by themselves, the same in C and in Rust; `BuiltDamper.state_from_bytes` takes them.
+    /// The state as self-contained bytes, the same in C and in Rust; `BuiltDamper.state_from_bytes` restores it.
     ///
     /// >>> import dashpot
     /// >>> built = dashpot.Damper("paper").build()

@@ -1,4 +1,4 @@
-//! Studies: many cases of a vehicle, a row of indices each, by their numbers.
+//! Studies: numbered cases of a vehicle, with one row of indices each.
 
 use dashpot_files::study::{StudyParameters, Value};
 use dashpot_study::sweep::{self, Arithmetic, Row, Shard};
@@ -8,17 +8,17 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 
 use crate::error::{Outcome, Refusal, refuse};
-use crate::interruption::{asking, beside};
+use crate::interruption::{run_cancellable, run_in_thread};
 use crate::overrides::path;
 use crate::pickled::{Pickled, pickled};
 use crate::vehicle::SHARED;
 use crate::whole::Whole;
 
-/// A study that ships or a TOML file: its cases are counted from 0, and a row is that of its case alone, the same bits in any order, on any
-/// number of threads and machines.
+/// A shipped study or a TOML file. Cases are counted from 0, and each row depends on its case alone, with the same bits
+/// in any order and on any number of threads and machines.
 ///
-/// With `seeds` every sweep that has seeds has the seeds 1 to that. A study goes to another process by its name: there the files must be the
-/// same, which is checked.
+/// `seeds` replaces the seeds of every sweep that has seeds by 1 to `seeds`. Pickling transfers a study to another
+/// process by name; the files must be the same there, which is checked.
 ///
 /// >>> import dashpot
 /// >>> study = dashpot.Study("paper", seeds=1)
@@ -50,13 +50,13 @@ impl Study {
         })
     }
 
-    /// A number that no case has, as Python tells it of its own lists.
+    /// Error for a case number out of range, as Python reports it for its own lists.
     fn no_case(&self, number: &Whole) -> Refusal {
         let last = self.study.cases().saturating_sub(1);
         PyIndexError::new_err(format!("case {number}, allowed: 0 to {last}")).into()
     }
 
-    /// A row by its columns.
+    /// A row as a dictionary by column.
     fn in_python<'py>(&self, py: Python<'py>, row: &Row) -> Outcome<Bound<'py, PyDict>> {
         let Some(case) = self.study.case(row.case) else {
             return refuse(format!("case {}: not of this study", row.case));
@@ -84,7 +84,7 @@ impl Study {
         Ok(cells)
     }
 
-    /// Columns of rows: numbers as arrays with NaN where there is none, else lists.
+    /// Columns of rows: numbers as arrays, with NaN for missing values; all others as lists.
     fn columns_of<'py>(&self, py: Python<'py>, rows: &[Row]) -> Outcome<Bound<'py, PyDict>> {
         let dictionaries: Vec<Bound<'py, PyDict>> = rows
             .iter()
@@ -116,13 +116,13 @@ impl Study {
     }
 }
 
-/// What must be the same where a study is sent to: its cases, the version and the physics.
+/// Everything that must match in the receiving process: cases, version and physics.
 fn identity(study: &sweep::Study) -> String {
     let [fused, separate] = [Arithmetic::Fused, Arithmetic::Separate].map(sweep::physics);
     [study.digest(), sweep::VERSION, fused, separate].join(" ")
 }
 
-/// How many seeds are asked for.
+/// Requested number of seeds.
 fn seeds_of(seeds: Option<Whole>) -> Outcome<Option<u64>> {
     seeds
         .map(|seeds| seeds.within("seeds", 1..=100_000))
@@ -138,7 +138,8 @@ impl Study {
         py.detach(|| Self::read(name, None, seeds))
     }
 
-    /// The study that is written in `text`, a study file; `name` stands for it in errors, and files that it names count from the working folder.
+    /// Reads the study from `text`, the contents of a study file. Errors call it `name`, and files that it names are
+    /// relative to the working folder.
     ///
     /// >>> import dashpot
     /// >>> study = dashpot.Study.from_toml('''
@@ -159,13 +160,13 @@ impl Study {
         py.detach(|| Self::read(name, Some(text), seeds))
     }
 
-    /// Names of the columns of a row, those of rows.csv of the command.
+    /// Names of the columns of a row, as in rows.csv of the command.
     #[getter]
     fn columns(&self) -> Vec<String> {
         self.study.columns()
     }
 
-    /// Of what the cases are: rows of studies with the same digest and version belong together.
+    /// Digest of the cases: rows of studies with the same digest and version belong together.
     #[getter]
     fn digest(&self) -> &str {
         self.study.digest()
@@ -178,8 +179,8 @@ impl Study {
         }
     }
 
-    /// Runs the case of a number and gives its row, by the names of the columns; `None` stands for what a case has not. So that many
-    /// machines share a study, map this over `range(len(study))`, as Dask's `client.map` does. Ctrl-C ends it.
+    /// Runs the case with this number and returns its row by column; missing values are `None`. To share a study
+    /// between machines, map this over `range(len(study))`, as Dask's `client.map` does. Ctrl-C cancels the run.
     ///
     /// >>> import dashpot
     /// >>> study = dashpot.Study.from_toml('''
@@ -200,14 +201,15 @@ impl Study {
         };
         let run =
             |is_unwanted: &dyn Fn() -> bool| sweep::row(&self.study, number, &SHARED, is_unwanted);
-        match py.detach(|| asking(run))?? {
+        match py.detach(|| run_cancellable(run))?? {
             Some(row) => self.in_python(py, &row),
             None => Err(self.no_case(&Whole::Count(number))),
         }
     }
 
-    /// Runs the cases on so many threads, one a core where none are given, and gives their columns, in the order of the cases: what
-    /// `pandas.DataFrame` takes. `shard`, a pair of its number from 0 and how many there are, takes only that part. Ctrl-C ends it.
+    /// Runs the cases on `threads` threads, by default one per core, and returns their columns, in the order of the
+    /// cases, as `pandas.DataFrame` accepts them. `shard`, a pair of its number from 0 and the number of shards, runs
+    /// only that part. Ctrl-C cancels the run.
     #[pyo3(signature = (*, shard=None, threads=None))]
     fn run<'py>(
         &self,
@@ -221,7 +223,7 @@ impl Study {
             }
             Some((number, of)) => {
                 return refuse(format!(
-                    "shard: {number} of {of}, allowed: 0 to one less than there are"
+                    "shard: {number} of {of}, allowed: 0 to one less than the number of shards"
                 ));
             }
             None => None,
@@ -232,7 +234,7 @@ impl Study {
         };
         let rows = py.detach(|| {
             let numbers: Vec<u64> = self.study.part(shard).collect();
-            beside(|is_unwanted| {
+            run_in_thread(|is_unwanted| {
                 let mut rows = Vec::new();
                 let take = |row: Row| -> Outcome<()> {
                     rows.push(row);

@@ -15,10 +15,10 @@ use crate::interruption::Interruption;
 use crate::json;
 use crate::overrides::{assignments, path, replacements};
 
-/// Contacts and tracks, each made once in a process.
+/// Contacts and tracks, each built once per process.
 pub static SHARED: LazyLock<Shared> = LazyLock::new(Shared::default);
 
-/// A run of a vehicle. `dashpot.vehicle` makes one.
+/// A run of a vehicle. `dashpot.vehicle` returns it.
 ///
 /// >>> import dashpot
 /// >>> run = dashpot.vehicle("straight-180", duration_s=0.1, signals=["time_s", "body_vertical_m"])
@@ -36,7 +36,7 @@ pub struct VehicleRun {
 
 #[pymethods]
 impl VehicleRun {
-    /// How the case is called.
+    /// Name of the case.
     #[getter]
     fn case(&self) -> &str {
         &self.case
@@ -48,34 +48,35 @@ impl VehicleRun {
         self.step_s
     }
 
-    /// How the run ended, in words: `completed`, or when and where it derailed, overturned, diverged, left the tables of the contact or went
-    /// beyond the model (a wheel load over 50 times that at standstill).
+    /// How the run ended, in words: `completed`, or when and where it derailed, overturned, diverged, left the contact
+    /// tables or went beyond the model (a wheel load over 50 times the static load).
     #[getter]
     fn ending(&self) -> String {
         self.ending.to_string()
     }
 
-    /// Whether it came to its end.
+    /// True if the run completed.
     #[getter]
     fn is_completed(&self) -> bool {
         self.ending == Ending::Completed
     }
 
-    /// An array of each signal by its name, a number a tick: what `pandas.DataFrame` takes, and history.csv of the command has.
+    /// Arrays of the signals by name, one value per tick, as `pandas.DataFrame` accepts them and history.csv of the
+    /// command contains them.
     #[getter]
     fn history(&self, py: Python<'_>) -> Py<PyDict> {
         self.history.clone_ref(py)
     }
 
-    /// What the run computed beyond what the model means, a sentence each with time and place: wheel loads over 10 times that at
-    /// standstill, and wheels without load for more than 50 ms. Empty if there is nothing to warn of.
+    /// Results outside the model's validity, one sentence each with time and position: wheel loads over 10 times the
+    /// static load, and wheels without load for more than 50 ms. Empty if there is nothing to warn about.
     #[getter]
     fn warnings(&self) -> Vec<String> {
         self.warnings.clone()
     }
 
-    /// The indices, as indices.json of the command has them; `None` of a run that derailed, overturned, diverged, left the tables or went
-    /// beyond the model.
+    /// The indices, as in indices.json of the command; `None` for a run that derailed, overturned, diverged, left the
+    /// tables or went beyond the model.
     #[getter]
     fn indices(&self, py: Python<'_>) -> Py<PyAny> {
         self.indices.clone_ref(py)
@@ -91,10 +92,12 @@ impl VehicleRun {
     }
 }
 
-/// Runs a vehicle along a track: a case that ships or a TOML file, of which what is given changes the case's; or a track and a speed.
+/// Runs a vehicle along a track: a shipped case or a TOML file, whose values the other arguments override; or a track
+/// and a speed.
 ///
-/// `dampers` replaces dampers along a direction or of a name by a preset, a file or a `Damper`, `overrides` changes numbers of the vehicle, as
-/// `--damper` and `--set` of the command do. `signals` names what the history is to have; all when not given. Ctrl-C ends it.
+/// `dampers` replaces dampers, given by direction or name, by a preset, a file or a `Damper`; `overrides` changes
+/// values of the vehicle, like `--damper` and `--set` of the command. `signals` selects the signals of the history;
+/// default: all. Ctrl-C cancels the run.
 ///
 /// >>> import dashpot
 /// >>> run = dashpot.vehicle("straight-180", duration_s=0.5, dampers={"vertical": "in-service"})
@@ -157,7 +160,7 @@ fn run(py: Python<'_>, options: &CaseOptions, signals: Option<&[String]>) -> Out
         let interruption = Interruption::default();
         let run = SHARED.run(&case);
         let recorded = run
-            .and_then(|run| record(&case, run, signals, &|| interruption.is_wanted()))
+            .and_then(|run| record(&case, run, signals, &|| interruption.is_requested()))
             .map_err(|error| Refusal::of_case(&case.name, error));
         interruption.raised()?;
         Ok::<_, Refusal>((case, recorded?))

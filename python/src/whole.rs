@@ -1,4 +1,4 @@
-//! Whole numbers as Python gives them: of any size and sign, and refused in the package's words.
+//! Python integers of any size and sign, refused with the package's messages.
 
 use std::ops::RangeInclusive;
 
@@ -7,16 +7,16 @@ use pyo3::prelude::*;
 
 use crate::error::{Outcome, refuse};
 
-/// A whole number of Python.
+/// A Python integer.
 pub enum Whole {
-    /// One that counts something.
+    /// A valid count.
     Count(u64),
-    /// One below zero or too large, as Python writes it.
+    /// A negative or too large integer, as Python writes it.
     Beyond(String),
 }
 
 impl Whole {
-    /// The number, called `name` in errors, where it is allowed.
+    /// Returns the number if it is in range; errors call it `name`.
     pub fn within(self, name: &str, allowed: RangeInclusive<u64>) -> Outcome<u64> {
         match self {
             Self::Count(count) if allowed.contains(&count) => Ok(count),
@@ -45,7 +45,7 @@ impl<'py> FromPyObject<'_, 'py> for Whole {
         match number.extract::<u64>() {
             Ok(count) => Ok(Self::Count(count)),
             Err(error) if error.is_instance_of::<PyOverflowError>(number.py()) => {
-                // Python refuses to write numbers of thousands of digits.
+                // Python refuses to print integers of thousands of digits.
                 let text = number.str().map(|text| text.to_string());
                 Ok(Self::Beyond(text.unwrap_or_else(|_| {
                     "a number of thousands of digits".into()

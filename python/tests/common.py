@@ -1,4 +1,4 @@
-"""What the tests share: the command `dashpot` beside the package."""
+"""Helpers shared by the tests: running the command `dashpot` for comparison."""
 
 import csv
 import os
@@ -11,21 +11,21 @@ DATA = pathlib.Path(os.environ["DASHPOT_DATA"])
 
 
 def command(*arguments, folder=None):
-    """The command, ended well; what it wrote to standard output."""
+    """Runs the command, which must succeed, and returns its standard output."""
     done = subprocess.run([PROGRAM, *map(str, arguments)], cwd=folder, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
     return done.stdout
 
 
 def refusal(*arguments):
-    """The words in which the command refuses."""
+    """Runs the command, which must fail, and returns its error message."""
     done = subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True)
     assert done.returncode != 0, done.stdout
     return done.stderr.removeprefix("error: ").removeprefix("wrong use: ").strip()
 
 
 def columns(path):
-    """The columns of a CSV file, texts."""
+    """Returns the columns of a CSV file as texts."""
     with open(path, newline="") as file:
         rows = list(csv.reader(file))
     return {name: list(values) for name, *values in zip(*rows)}
@@ -33,7 +33,7 @@ def columns(path):
 
 class Test(unittest.TestCase):
     def assert_refused(self, words, call, *arguments, **options):
-        """That a call is refused in these words, by the package's exception."""
+        """Asserts that a call raises the package's exception with this message."""
         import dashpot
 
         with self.assertRaises(dashpot.DashpotError) as raised:

@@ -1,13 +1,13 @@
-"""Ctrl-C while a call has released Python's lock."""
+"""Ctrl-C while a call has released the GIL."""
 
 import signal
 import threading
 
 
 def interrupted(call, *arguments, looks=10, **options):
-    """Whether Ctrl-C ends a call that asks for it so many times.
+    """Returns True if Ctrl-C ends a call that checks for it `looks` times.
 
-    Python itself handles one signal before the call and one after; only a call that asks meanwhile handles more.
+    Python itself handles one signal before the call and one after; only a call that checks in between handles more.
     """
     seen, handled, ended = 0, threading.Event(), threading.Event()
 
@@ -19,7 +19,7 @@ def interrupted(call, *arguments, looks=10, **options):
             raise KeyboardInterrupt
 
     def send():
-        # One at a time: a thread that is only interrupted does nothing else.
+        # One signal at a time, because a constantly interrupted thread makes no progress.
         while not ended.is_set():
             handled.clear()
             signal.pthread_kill(threading.main_thread().ident, signal.SIGINT)

@@ -1,4 +1,4 @@
-"""Arrays that cannot be used where they lie are refused, never copied behind the user's back."""
+"""Arrays that cannot be used in place are refused, never copied silently."""
 
 import dashpot
 import numpy
@@ -6,8 +6,8 @@ from common import Test
 
 SINGLE = "a numpy array of float32 with 1 dimension"
 APART = (
-    "its numbers do not lie one after the other in memory, allowed: a contiguous and aligned array, as "
-    "numpy.ascontiguousarray({0}) or a copy is"
+    "not contiguous and aligned in memory, allowed: a contiguous and aligned array; use "
+    "numpy.ascontiguousarray({0}) or a copy"
 )
 
 
@@ -16,25 +16,25 @@ class Arrays(Test):
         self.built = dashpot.Damper("paper").build()
         self.x = numpy.zeros(100, numpy.float32)
 
-    def test_what_is_no_array(self):
+    def test_non_arrays_are_refused(self):
         for wrong, found in (([0.0], "list"), (0.0, "float"), (None, "NoneType"), (numpy.float32(1), "float32")):
-            self.assert_refused(f"x: {found}, allowed: {SINGLE}, as numpy.asarray(x, numpy.float32) makes one",
+            self.assert_refused(f"x: {found}, allowed: {SINGLE}; use numpy.asarray(x, numpy.float32)",
                                 self.built.replay, wrong)
 
-    def test_another_kind_of_number(self):
+    def test_other_dtypes_are_refused(self):
         for dtype in ("float64", "int32", "float16", ">f4", "complex64", "bool", "object"):
             found = numpy.dtype(dtype)
             self.assert_refused(
-                f"x: array of {found}, allowed: {SINGLE}, as x.astype(numpy.float32) makes one",
+                f"x: array of {found}, allowed: {SINGLE}; use x.astype(numpy.float32)",
                 self.built.replay, numpy.zeros(5, dtype),
             )
 
-    def test_other_dimensions(self):
+    def test_other_dimensions_are_refused(self):
         for shape in ((), (5, 1), (1, 1, 1)):
             self.assert_refused(f"x: {len(shape)} dimensions, allowed: {SINGLE}", self.built.replay,
                                 numpy.zeros(shape, numpy.float32))
 
-    def test_numbers_apart_in_memory(self):
+    def test_non_contiguous_arrays_are_refused(self):
         apart = (self.x[::2], self.x[::-1], numpy.zeros((10, 3), numpy.float32)[:, 1],
                  numpy.broadcast_to(numpy.float32(0), 5),
                  numpy.frombuffer(bytes(41), numpy.uint8)[1:].view(numpy.float32))
@@ -43,18 +43,18 @@ class Arrays(Test):
             self.built.replay(numpy.array(x))
         self.assert_refused("out: " + APART.format("out"), self.built.replay, self.x[:50], out=self.x[::2])
 
-    def test_forces_over_the_motion_itself(self):
+    def test_output_overlapping_the_input_is_refused(self):
         words = (
-            "out: it shares memory with an array that is read, or that another call uses; allowed: memory of its own"
+            "out: it shares memory with an input array or with an array that another call uses; allowed: separate memory"
         )
         self.assert_refused(words, self.built.replay, self.x, out=self.x)
         self.assert_refused(words, self.built.replay, self.x[:60], out=self.x[40:])
         beside = self.x[:50], self.x[50:]
         self.assertIs(self.built.replay(beside[0], out=beside[1]), beside[1])
 
-    def test_forces_over_memory_of_the_motion_by_another_way(self):
+    def test_output_sharing_memory_through_another_object_is_refused(self):
         words = (
-            "out: it shares memory with an array that is read, or that another call uses; allowed: memory of its own"
+            "out: it shares memory with an input array or with an array that another call uses; allowed: separate memory"
         )
         memory = bytearray(4 * 101)
         x = numpy.frombuffer(memory, numpy.float32, 100, 0)
@@ -70,11 +70,11 @@ class Arrays(Test):
         bank = dashpot.Bank([self.built])
         self.assert_refused(words, bank.replay, wide, out=numpy.frombuffer(memory, numpy.float32, 100, 4)[:, None])
 
-    def test_a_masked_array(self):
+    def test_masked_arrays_are_refused(self):
         masked = numpy.ma.array(self.x, mask=True)
         self.assert_refused(
-            "x: a masked array, allowed: a numpy array of float32 with 1 dimension, as x.filled(numpy.nan) makes one; the step"
-            " holds what is NaN",
+            "x: a masked array, allowed: a numpy array of float32 with 1 dimension; use x.filled(numpy.nan), at which the"
+            " step holds its last displacement",
             self.built.replay,
             masked,
         )

@@ -1,4 +1,4 @@
-"""A bank beside its dampers one by one."""
+"""A bank compared with its single dampers."""
 
 import copy
 import pickle
@@ -32,14 +32,14 @@ class Banks(Test):
                     self.assertEqual(single.tobytes(), force_n[:, place].tobytes())
                     self.assertEqual(states[place], alone[place])
 
-    def test_states_go_on(self):
+    def test_states_continue(self):
         built = [dashpot.Damper(name).build() for name in NAMES]
         bank, x = dashpot.Bank(built), motion(1000, 5, numpy.float32)
         states = bank.at_rest(x[0])
         parts = [bank.replay(x[:400], states=states), bank.replay(x[400:], states=states)]
         self.assertEqual(numpy.concatenate(parts).tobytes(), bank.replay(x).tobytes())
 
-    def test_it_is_a_row_of_its_dampers(self):
+    def test_it_is_a_sequence_of_its_dampers(self):
         built = [dashpot.Damper(name).build() for name in NAMES[:2]] * 2
         bank, x = dashpot.Bank(built), motion(1000, 4, numpy.float32)
         self.assertEqual([id(one) for one in bank], [id(one) for one in built])
@@ -49,9 +49,9 @@ class Banks(Test):
             self.assertEqual([one.revision for one in other], [one.revision for one in bank])
             self.assertEqual(other.replay(x).tobytes(), bank.replay(x).tobytes())
 
-    def test_what_is_no_bank_is_refused(self):
+    def test_invalid_banks_are_refused(self):
         paper = dashpot.Damper("paper")
-        self.assert_refused("dampers: none, allowed: one at least", dashpot.Bank, [])
+        self.assert_refused("dampers: none, allowed: at least one", dashpot.Bank, [])
         mixed = "damper 1: its step or precision is not that of damper 0, allowed: one step and one precision"
         self.assert_refused(mixed, dashpot.Bank, [paper.build(1e-3), paper.build(2e-3)])
         self.assert_refused(mixed, dashpot.Bank, [paper.build(), paper.build(dtype=float)])

@@ -1,4 +1,4 @@
-"""Numbers of a damper from bench tests that were made, so that they are known."""
+"""Calibration from synthetic bench tests with known parameters."""
 
 import math
 
@@ -12,7 +12,7 @@ MADE = {STIFFNESS: 7e6, DAMPING: 100e3, "mount.clearance_m": 0.0}
 
 
 def loop(seed, frequency_hz, amplitude_m=3e-3, noise_n=20.0, seconds=3):
-    """Displacement and noisy force of the made damper."""
+    """Returns displacement and noisy force of the true damper."""
     time_s = numpy.arange(seconds * 1000) * 1e-3
     x = amplitude_m * numpy.sin(2 * math.pi * frequency_hz * time_s)
     made = dashpot.Damper("reduced-vertical", MADE).build(1e-3, numpy.float64)
@@ -23,10 +23,10 @@ class Calibration(Test):
     @classmethod
     def setUpClass(cls):
         cls.start = dashpot.Damper("reduced-vertical", {**MADE, STIFFNESS: 9e6, DAMPING: 140e3})
-        # Below saturation and well above it in frequency, so that both numbers are felt.
+        # Below saturation and well above it in frequency, so that both parameters have an effect.
         cls.tests = [loop(1, 1.0), loop(2, 12.0, 3e-4)]
 
-    def test_made_numbers_are_found_with_their_intervals(self):
+    def test_known_parameters_are_found_within_their_intervals(self):
         found = dashpot.calibrate(self.start, self.tests, [STIFFNESS, DAMPING], step_s=1e-3)
         self.assertEqual(list(found.values), [STIFFNESS, DAMPING, "sensor_skew_s", "force_offset_n"])
         for key in (STIFFNESS, DAMPING):
@@ -35,7 +35,7 @@ class Calibration(Test):
             least, greatest = found.intervals[key]
             self.assertLess(least, found.values[key])
             self.assertLess(found.values[key], greatest)
-            # Two intervals wide: one in twenty misses by itself.
+            # Two intervals wide, because one in twenty misses by chance.
             width = greatest - least
             self.assertLess(least - width, MADE[key])
             self.assertLess(MADE[key], greatest + width)
@@ -53,7 +53,7 @@ class Calibration(Test):
             self.assertLess(one["missed_after_n"], 25)
             self.assertGreater(one["missed_before_n"], 2 * one["missed_after_n"])
 
-    def test_bounds_priors_and_skew_are_given(self):
+    def test_bounds_priors_and_skew_are_used(self):
         bounded = {DAMPING: (50e3, 200e3)}
         found = dashpot.calibrate(self.start.replace({STIFFNESS: 7e6}), self.tests, bounded, skew=False, step_s=1e-3,
                                   priors={DAMPING: (100e3, 5e3)}, known_priors=False, starts=2,
@@ -108,7 +108,7 @@ class Calibration(Test):
         self.assertGreater(width(found), width(exact))
         self.assertGreater(width(found), 0.99 * (abs(low) + abs(high)))
 
-    def test_indices_alone_determine_a_number(self):
+    def test_indices_alone_determine_a_parameter(self):
         made = dashpot.Damper("reduced-vertical", MADE)
         tests = [
             {"amplitude_m": 3e-3, "frequency_hz": hz, "max_extension_force_n": made.indices(3e-3, hz)["max_extension_force_n"]}
@@ -124,7 +124,7 @@ class Calibration(Test):
             call = {"vary": [STIFFNESS, DAMPING], "starts": 1000, "step_s": 1e-4, **tests}
             self.assertTrue(interrupted(dashpot.calibrate, self.start, **call))
 
-    def test_what_tests_do_not_determine_is_refused(self):
+    def test_undetermined_parameters_are_refused(self):
         with self.assertRaisesRegex(dashpot.DashpotError, f"the tests do not determine\n  {STIFFNESS}: "):
             dashpot.calibrate(self.start, [loop(3, 0.05, seconds=20)], [STIFFNESS, DAMPING], step_s=1e-3, starts=1)
 
@@ -177,7 +177,7 @@ class Calibration(Test):
             calibrate(time_s, x, force_n.astype(numpy.float32))
         with self.assertRaisesRegex(dashpot.DashpotError, "^indices: "):
             dashpot.calibrate(self.start, vary=[DAMPING], indices=[{"amplitude": 1}])
-        with self.assertRaisesRegex(dashpot.DashpotError, "^indices: .*without what was not measured$"):
+        with self.assertRaisesRegex(dashpot.DashpotError, "^indices: .*without unmeasured indices$"):
             dashpot.calibrate(self.start, vary=[DAMPING], indices=[{"amplitude_m": math.nan, "frequency_hz": 1.0}])
         with self.assertRaisesRegex(dashpot.DashpotError, "^table of indices, test 1: "):
             dashpot.calibrate(self.start, vary=[DAMPING], indices=[{"amplitude_m": 1e-3, "frequency_hz": 1.0}])

@@ -1,4 +1,4 @@
-"""Wheel on rail beside the command and beside what is known."""
+"""Wheel-rail contact compared with the command and with known values."""
 
 import json
 import math
@@ -47,7 +47,7 @@ class Contacts(Test):
             self.assert_is_that_of_the_command(geometry, "--wheel", worn)
             self.assertGreater(geometry.force_jump["jump_n"], geometry.force_jump["allowed_n"])
 
-    def test_what_is_refused_has_the_words_of_the_command(self):
+    def test_errors_have_the_words_of_the_command(self):
         self.assert_refused(refusal("contact", "--wheel", "s1003"), dashpot.contact, "s1003")
         self.assert_refused(refusal("contact", "--wheel", "no/such.whl"), dashpot.contact, "no/such.whl")
         self.assert_refused(refusal("contact", "--gauge-m", 9), dashpot.contact, gauge_m=9)
@@ -65,7 +65,7 @@ class Contacts(Test):
         self.assertEqual(forces.shape, (500, 3))
         self.assertLessEqual(numpy.hypot(forces[:, 0], forces[:, 1]).max(), 0.33 * 106.7e3 * (1 + 1e-9))
         self.assertTrue((numpy.sum(forces * creepages, axis=1) <= 0).all())
-        # Far beyond, all of friction.
+        # Far beyond, the full friction force.
         slid = dashpot.creep_forces(numpy.array([[0.5, 0.0, 0.0]]), **CONTACT)
         self.assertAlmostEqual(slid[0, 0] / (-0.33 * 106.7e3), 1, 2)
         self.assertEqual(dashpot.creep_forces(numpy.zeros((4, 3)), **CONTACT).any(), False)
@@ -78,7 +78,7 @@ class Contacts(Test):
         for extreme in (1e-300, -1e300, 1e300):
             self.assertTrue(numpy.isfinite(dashpot.creep_forces(numpy.full((1, 3), extreme), **CONTACT)).all())
 
-    def test_creepages_and_axes_that_are_none_are_refused(self):
+    def test_invalid_creepages_and_axes_are_refused(self):
         for wrong, words in ((math.nan, "NaN"), (math.inf, "inf"), (-math.inf, "-inf")):
             creepages = numpy.zeros((4, 3))
             creepages[2, 1] = wrong
@@ -88,7 +88,7 @@ class Contacts(Test):
             with self.assertRaisesRegex(dashpot.DashpotError, f"^{name}: .*, allowed: 1e-6 to 1$"):
                 dashpot.creep_forces(numpy.zeros((1, 3)), **{**CONTACT, name: wrong})
 
-    def test_a_contact_that_cannot_be_is_refused(self):
+    def test_an_invalid_contact_is_refused(self):
         zero = numpy.zeros((1, 3))
         for name in CONTACT:
             for wrong in (0, -1, math.nan, math.inf):

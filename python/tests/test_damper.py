@@ -1,4 +1,4 @@
-"""Dampers from presets, files and text; what is refused, in the words of the command."""
+"""Dampers from presets, files and text; errors in the words of the command."""
 
 import copy
 import errno
@@ -37,7 +37,7 @@ class Dampers(Test):
         self.assertNotIn(3, damper)
         self.assertEqual(len(damper), len(list(damper)))
 
-    def test_what_is_refused_has_the_words_of_the_command(self):
+    def test_errors_have_the_words_of_the_command(self):
         missing = "no/such.toml"
         rig = ("rig", "--damper")
         self.assert_refused(refusal(*rig, "papr"), dashpot.Damper, "papr")
@@ -50,7 +50,7 @@ class Dampers(Test):
                 path.write_text(text)
                 self.assert_refused(refusal(*rig, path), dashpot.Damper, path)
 
-    def test_a_file_that_is_not_there_is_an_error_of_the_system(self):
+    def test_a_missing_file_is_an_error_of_the_system(self):
         with self.assertRaises(OSError) as raised:
             dashpot.Damper("no/such.toml")
         error = raised.exception
@@ -74,7 +74,7 @@ class Dampers(Test):
             self.assert_refused(words, dashpot.Study, wrong)
             self.assert_refused(words, dashpot.contact, wrong)
 
-    def test_a_reason_that_is_not_the_systems_has_no_number(self):
+    def test_a_reason_outside_the_system_has_no_errno(self):
         with tempfile.TemporaryDirectory() as folder:
             path = pathlib.Path(folder, "mine.toml")
             path.write_bytes(b"\xff")
@@ -110,7 +110,7 @@ class Dampers(Test):
             self.assertEqual(str(raised.exception), words)
         self.assertEqual(str(pickle.loads(pickle.dumps(raised.exception))), words)
 
-    def test_steps_that_cannot_be_are_refused(self):
+    def test_invalid_steps_are_refused(self):
         damper = dashpot.Damper("paper")
         for step_s in (0.0, -1e-3, float("nan"), float("inf"), 1.0, 1e-12):
             with self.assertRaisesRegex(dashpot.DashpotError, "step_s"):
@@ -137,14 +137,14 @@ class Dampers(Test):
             with self.assertRaisesRegex(dashpot.DashpotError, "mount.clearance_m must be"):
                 built.with_clearance_m(clearance_m)
 
-    def test_it_cannot_be_changed_by_hand(self):
+    def test_it_is_immutable(self):
         damper = dashpot.Damper("paper")
         with self.assertRaises(TypeError):
             damper["mount.clearance_m"] = 0.0
         with self.assertRaises(AttributeError):
             damper.build().step_s = 1.0
 
-    def test_a_damper_of_the_package_is_one_for_the_command(self):
+    def test_the_command_accepts_a_damper_of_the_package(self):
         damper = dashpot.Damper("in-service", {"mount.clearance_m": 1.25e-3})
         with tempfile.TemporaryDirectory() as folder:
             pathlib.Path(folder, "mine.toml").write_text(damper.to_toml())

@@ -1,4 +1,4 @@
-"""Every public name has a documentation with an example that does what it shows, and `__all__` names them all."""
+"""Every public name is documented with a working example and listed in `__all__`."""
 
 import ast
 import doctest
@@ -15,7 +15,7 @@ from common import DATA, command
 
 
 def documented():
-    """Each public object and its name."""
+    """Yields each public object and its name."""
     yield "dashpot", dashpot
     for name in dashpot.__all__:
         thing = getattr(dashpot, name)
@@ -27,7 +27,7 @@ def documented():
 
 
 class Documentation(unittest.TestCase):
-    def test_all_is_what_there_is(self):
+    def test_all_lists_every_public_name(self):
         public = {
             name for name, thing in vars(dashpot).items()
             if not name.startswith("_") and not isinstance(thing, types.ModuleType)
@@ -38,7 +38,7 @@ class Documentation(unittest.TestCase):
     def test_the_version_is_that_of_the_command(self):
         self.assertEqual(command("--version").split()[-1], dashpot.__version__)
 
-    def test_what_python_reads_is_of_the_oldest_it_is_for(self):
+    def test_python_files_parse_with_the_oldest_supported_version(self):
         oldest = importlib.metadata.metadata("dashpot")["Requires-Python"].removeprefix(">=")
         major, minor = map(int, oldest.split("."))
         files = [path for path in pathlib.Path(dashpot.__file__).parent.iterdir() if path.suffix in (".py", ".pyi")]
@@ -50,7 +50,7 @@ class Documentation(unittest.TestCase):
         missing = [name for name, thing in documented() if not getattr(thing, "__doc__", None)]
         self.assertEqual(missing, [])
 
-    def test_examples_do_what_they_show(self):
+    def test_examples_work(self):
         parser, runner, run = doctest.DocTestParser(), doctest.DocTestRunner(), []
         for name, thing in documented():
             test = parser.get_doctest(thing.__doc__, {}, name, None, None)
@@ -61,10 +61,10 @@ class Documentation(unittest.TestCase):
         without = [name for name in dashpot.__all__ if name not in run]
         self.assertEqual(without, [])
 
-    def test_code_in_documents_does_what_it_asserts(self):
+    def test_code_in_documents_runs(self):
         for document in ("README.md", "docs/python.md"):
             text = (DATA.parent / document).read_text()
-            # Whatever is fenced or indented is run, or is a line for a shell.
+            # Every fenced block is run; every indented line is a shell command.
             fenced = re.compile(r"^```(\w*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
             blocks = [block for language, block in fenced.findall(text) if language == "python"]
             self.assertNotEqual(blocks, [])

@@ -1,4 +1,4 @@
-"""Recordings as arrays, beside pandas and the command."""
+"""Recordings as arrays, compared with pandas and the command."""
 
 import math
 import os
@@ -18,7 +18,7 @@ BENCH = DATA / "bench" / "bench_made.mf4"
 
 
 class Recordings(Test):
-    def test_a_file_is_what_pandas_reads(self):
+    def test_a_file_is_read_as_by_pandas(self):
         told, read = pandas.read_csv(RIDE, comment="#", float_precision="round_trip"), dashpot.read(RIDE)
         self.assertEqual(list(read), ["time_s", "displacement_m"])
         for name, column in read.items():
@@ -55,7 +55,7 @@ class Recordings(Test):
             with self.assertRaisesRegex(dashpot.DashpotError, "^unit `furlong`, allowed: "):
                 dashpot.read(path, **{**names, "displacement_unit": "furlong"})
 
-    def test_what_the_file_does_not_tell_is_asked_for_by_arguments(self):
+    def test_missing_information_is_requested_by_argument(self):
         names = {"time": "time_s", "displacement": "x --force"}
         for text, options, told in (
             ("t,x\n0,1\n1,2\n", {}, "time=NAME"),
@@ -79,7 +79,7 @@ class Recordings(Test):
                 self.assertNotIn("--", reason)
 
     def test_names_of_a_file_stay_as_they_are(self):
-        """Options were replaced in the command's texts: after a backtick in a header one was left, and `--force` became `force`."""
+        """Options were replaced in the command's texts: after a backtick in a header one remained, and `--force` became `force`."""
         for text, options, told in (
             ("time_s,we`g,--force\n0,1,2\n1,2,3\n", {},
              "column displacement_m is missing; there are `time_s`, `we`g`, `--force`; choose one with displacement=NAME or its number"),
@@ -110,7 +110,7 @@ class Recordings(Test):
                 warnings.simplefilter("error")
                 dashpot.read(path)
 
-    def test_how_text_is_written_is_given(self):
+    def test_the_text_format_can_be_given(self):
         with tempfile.TemporaryDirectory() as folder:
             path = pathlib.Path(folder, "run.csv")
             path.write_text("1900;1,5\n1901;2\n")
@@ -122,7 +122,7 @@ class Recordings(Test):
     def test_paths_of_any_kind_are_read(self):
         expected = dashpot.read(RIDE)["displacement_m"].tobytes()
         with tempfile.TemporaryDirectory() as folder:
-            # Bytes that are no UTF-8.
+            # Bytes that are not UTF-8.
             path = os.path.join(os.fsencode(folder), b"run\xff.csv")
             shutil.copy(RIDE, path)
             for kind in (path, os.fsdecode(path), pathlib.Path(os.fsdecode(path))):
@@ -132,7 +132,7 @@ class Recordings(Test):
                 dashpot.read(path)
             self.assertEqual(raised.exception.filename, os.fsdecode(path))
 
-    def test_what_cannot_be_read_is_refused(self):
+    def test_unreadable_files_are_refused(self):
         self.assert_refused(refusal("replay", "--input", "no/such.csv", "--output", "-"), dashpot.read, "no/such.csv")
         with self.assertRaises(OSError):
             dashpot.read("no/such.csv")

@@ -1,4 +1,4 @@
-"""A motion through a damper: the bits of the command, no copy, the lock released, the state left where it must be."""
+"""Replay of a motion: the bits of the command, no copies, the GIL released, the state unchanged by interruptions."""
 
 import pathlib
 import subprocess
@@ -48,7 +48,7 @@ class Replay(Test):
         self.assertEqual(state.force_n, whole[-1])
         self.assertAlmostEqual(state.displacement_m, x[-1], 8)
 
-    def test_what_is_given_for_the_forces_is_used(self):
+    def test_the_output_array_is_used(self):
         built, x = dashpot.Damper("paper").build(), motion(1000)
         memory = numpy.full(1200, 7, numpy.float32)
         out = memory[100:1100]
@@ -61,7 +61,7 @@ class Replay(Test):
         self.assertTrue((memory[:100] == 7).all() and (memory[1100:] == 7).all())
 
     def test_nothing_is_copied(self):
-        # Beside both arrays there is memory for a quarter of one of them.
+        # Besides both arrays there is memory for a quarter of one of them.
         script = """
 import resource
 import dashpot, numpy
@@ -86,8 +86,8 @@ assert not out.any()
         done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True)
         self.assertEqual((done.returncode, done.stderr), (0, ""))
 
-    def test_the_lock_of_python_is_released(self):
-        # What is half done can be seen only by a thread that runs meanwhile.
+    def test_the_gil_is_released(self):
+        # Only a concurrent thread can see a half-finished result.
         built, x = dashpot.Damper("paper").build(), motion(1_000_000)
         bank, wide = dashpot.Bank([built] * 4), motion(1_000_000).reshape(-1, 4)
         for replay, x in ((built.replay, x), (bank.replay, wide)):

@@ -20,7 +20,7 @@ class Rig(Test):
             self.assertEqual((cycle.step_s, cycle.cycles), (told["step_s"], told["cycles"]))
             indices = dashpot.Damper(name).indices(5e-3, 2)
             self.assertEqual(indices, cycle.indices)
-            # What the command tells beside them is of the test.
+            # Further values of the command describe the test.
             others = {"damper", "amplitude_m", "frequency_hz", "peak_velocity_m_per_s", "step_s", "cycles", "published", "plots"}
             self.assertEqual(told.keys() - others, told.keys() & indices.keys())
             self.assertEqual({key: indices[key] for key in told.keys() - others},
@@ -35,7 +35,7 @@ class Rig(Test):
         self.assertEqual(list(indices.items()), list(told["tests"][0]["indices"].items()))
 
     def test_a_spring_and_a_damper_in_series_are_the_closed_form(self):
-        # C behind K: the force leads, F = C w A/sqrt(1 + (w C/K)^2), and its energy is pi A times the part in phase with the velocity.
+        # C behind K: the force leads, F = C w A/sqrt(1 + (w C/K)^2); its energy is pi A times the component in phase with the velocity.
         damper = dashpot.Damper("reduced-vertical", {"mount.clearance_m": 0})
         (c, k), (a, w) = (damper["reduced.damping_n_s_per_m"], damper["mount.stiffness_n_per_m"]), (1e-3, 2 * math.pi)
         indices = damper.indices(a, 1.0)
@@ -45,7 +45,7 @@ class Rig(Test):
         self.assertAlmostEqual(indices["energy_per_cycle_j"] / energy_j, 1, 4)
         self.assertAlmostEqual(indices["loss_angle_deg"], math.degrees(math.atan2(k, w * c)), 2)
 
-    def test_a_cycle_is_of_its_motion(self):
+    def test_a_cycle_follows_its_motion(self):
         cycle = dashpot.Damper("paper").rig(24.875e-3, 0.64)
         self.assertAlmostEqual(cycle.displacement_m.max(), 24.875e-3, 9)
         self.assertAlmostEqual(cycle.velocity_m_per_s.max(), 0.1, 3)
@@ -56,7 +56,7 @@ class Rig(Test):
         wide = dashpot.Damper("paper", {"mount.clearance_m": 0.1})
         self.assertIsNone(wide.indices(1e-3, 1.0)["asymmetry_rate"])
 
-    def test_motions_that_cannot_be_are_refused(self):
+    def test_invalid_motions_are_refused(self):
         damper = dashpot.Damper("paper")
         for amplitude_m, frequency_hz in ((0, 1), (-1, 1), (2, 1), (math.nan, 1)):
             with self.assertRaisesRegex(dashpot.DashpotError, "^amplitude: "):

@@ -8,7 +8,7 @@ import dashpot
 import numpy
 from common import Test
 
-WORDS = "state: another call is stepping it, allowed: a state for each thread"
+WORDS = "state: another call is stepping it; use one state per thread"
 
 
 def motion(count, dtype):
@@ -16,7 +16,7 @@ def motion(count, dtype):
 
 
 class States(Test):
-    def test_a_kept_state_goes_on_to_the_bit(self):
+    def test_a_copied_state_continues_bit_for_bit(self):
         for dtype in (numpy.float32, numpy.float64):
             built = dashpot.Damper("in-service").build(1e-3, dtype)
             x = motion(2000, dtype)
@@ -30,7 +30,7 @@ class States(Test):
                 self.assertEqual(built.replay(x[1000:], state=other).tobytes(), rest.tobytes())
                 self.assertEqual(other, state)
 
-    def test_bytes_that_are_no_state_of_the_damper_are_refused(self):
+    def test_invalid_state_bytes_are_refused(self):
         built = dashpot.Damper("paper").build()
         saved = built.at_rest(0.1).to_bytes()
         self.assertEqual(saved[:4], b"DAST")
@@ -55,20 +55,20 @@ class States(Test):
         self.assertIn(dashpot.Status.DAMPER_SWAPPED, state.status)
         self.assertEqual(state.revision, second.revision)
         self.assertLess(abs(after_n - force_n), 0.2 * abs(force_n) + 100.0)
-        # It is the second one's now, and saved with it.
+        # The state now belongs to the second damper, and is saved with it.
         self.assertEqual(pickle.loads(pickle.dumps(state)), state)
         with self.assertRaises(dashpot.DashpotError):
             first.state_from_bytes(state.to_bytes())
 
     def test_a_state_of_another_precision_is_refused(self):
         single, double = (dashpot.Damper("paper").build(dtype=dtype) for dtype in ("f4", "f8"))
-        words = "state: of another precision, allowed: a state of float64, as this damper is"
+        words = "state: of another precision, allowed: a state of float64, this damper's precision"
         self.assert_refused(words, double.step, single.at_rest(), 0.0)
         self.assert_refused(words, double.replay, numpy.zeros(3), state=single.at_rest())
-        words = "states: of another precision, allowed: states of float64, as the dampers are"
+        words = "states: of another precision, allowed: states of float64, the precision of the dampers"
         self.assert_refused(words, dashpot.Bank([double]).replay, numpy.zeros((3, 1)), states=[single.at_rest()])
 
-    def test_two_threads_on_one_state_are_told(self):
+    def test_two_threads_on_one_state_raise_an_error(self):
         built = dashpot.Damper("paper").build()
         x, out = motion(1_000_000, numpy.float32), numpy.empty(1_000_000, numpy.float32)
         told = set()
@@ -89,7 +89,7 @@ class States(Test):
             if told:
                 break
         self.assertTrue(told)
-        self.assertTrue(all(words.startswith("state: another call is stepping it, allowed: ") for words in told))
+        self.assertTrue(all(words.startswith("state: another call is stepping it; ") for words in told))
         self.assertEqual(state.force_n, out[-1])
 
     def test_extreme_displacements_give_finite_forces(self):
@@ -108,7 +108,7 @@ class States(Test):
         self.assertEqual(state.status, dashpot.Status.INPUT_HELD | dashpot.Status.RESTARTED)
         self.assertEqual(state.rejected_inputs, 2)
 
-    def test_what_is_no_number_is_refused(self):
+    def test_non_numbers_are_refused(self):
         built = dashpot.Damper("paper").build()
         for wrong in ("1", None, [0.0]):
             with self.assertRaises(TypeError):

@@ -1,4 +1,4 @@
-"""Studies: rows, columns and shards beside the command, and the rows of a cluster."""
+"""Studies: rows, columns and shards compared with the command, and the rows of a cluster."""
 
 import pathlib
 import pickle
@@ -35,7 +35,7 @@ duration_s = 30
 
 
 def texts(row):
-    """A row as the command writes it."""
+    """Returns a row as the command writes it."""
     def text(name, cell):
         if cell is None:
             return ""
@@ -64,7 +64,7 @@ class Studies(Test):
         self.assertEqual(list(row), list(self.told))
         for name, cell in texts(row).items():
             told = self.told[name][row["case"]]
-            # A number of 17 digits at most is the same bits.
+            # At most 17 digits reproduce the bits.
             self.assertEqual(cell, float(told) if isinstance(cell, float) else told, name)
 
     def test_a_row_is_that_of_the_command(self):
@@ -112,7 +112,7 @@ class Studies(Test):
         for row in rows:
             self.assert_is_row_of_the_command(row)
 
-    def test_a_study_whose_files_have_changed_does_not_travel(self):
+    def test_a_study_with_changed_files_is_not_unpickled(self):
         with tempfile.TemporaryDirectory() as folder:
             path = pathlib.Path(folder, "mine.toml")
             path.write_text(STUDY)
@@ -127,7 +127,7 @@ class Studies(Test):
     def test_an_interruption_ends_a_row(self):
         long = dashpot.Study.from_toml(STUDY.replace("duration_s = 0.5", "duration_s = 60"))
         self.assertTrue(interrupted(long.row, 0))
-        # Many threads within their rows.
+        # Many threads in the middle of their rows.
         self.assertTrue(interrupted(long.run, threads=2))
 
     def test_shipped_studies_are_there(self):
@@ -135,7 +135,7 @@ class Studies(Test):
             self.assertEqual(dashpot.Study(path.stem).digest, dashpot.Study(path).digest)
         self.assertLess(len(dashpot.Study("paper", seeds=1)), len(dashpot.Study("paper")))
 
-    def test_what_is_refused_has_the_words_of_the_command(self):
+    def test_errors_have_the_words_of_the_command(self):
         sweep = ("sweep", "--list")
         self.assert_refused(refusal(*sweep, "papr"), dashpot.Study, "papr")
         self.assert_refused(refusal(*sweep, "no/such.toml"), dashpot.Study, "no/such.toml")
@@ -154,7 +154,7 @@ class Studies(Test):
             with self.assertRaisesRegex(IndexError, f"^case {number}, allowed: 0 to 8$"):
                 study.row(number)
         for number, of in ((2, 2), (-1, 2), (0, -2), (2**70, 2)):
-            self.assert_refused(f"shard: {number} of {of}, allowed: 0 to one less than there are", study.run,
+            self.assert_refused(f"shard: {number} of {of}, allowed: 0 to one less than the number of shards", study.run,
                                 shard=(number, of))
         for wrong in (0, -1, 1025, 2**64):
             self.assert_refused(f"threads: {wrong}, allowed: 1 to 1024", study.run, threads=wrong)
@@ -162,7 +162,7 @@ class Studies(Test):
             words = f"seeds: {wrong}, allowed: 1 to 100000"
             self.assert_refused(words, dashpot.Study, "paper", seeds=wrong)
             self.assert_refused(words, dashpot.Study.from_toml, STUDY, seeds=wrong)
-        # Python itself does not write such a number.
+        # Python itself refuses to print such a number.
         self.assert_refused("threads: a number of thousands of digits, allowed: 1 to 1024", study.run, threads=10**5000)
         with self.assertRaises(TypeError):
             study.row(1.0)

@@ -1,4 +1,4 @@
-"""A vehicle on a track, beside the command."""
+"""A vehicle on a track, compared with the command."""
 
 import json
 import math
@@ -33,7 +33,7 @@ class Vehicles(Test):
 
     def test_a_damper_in_memory_replaces_as_its_file_does(self):
         vertical = dashpot.Damper("in-service", {"mount.clearance_m": 0.0})
-        # A name that a preset has stands for the damper that was given.
+        # A given damper takes precedence over a preset of the same name.
         lateral = dashpot.Damper.from_toml(dashpot.Damper("reduced-lateral").to_toml(), {"mount.clearance_m": 1e-6}, "paper")
         options = {"duration_s": 1.0, "overrides": {"lateral.mount.stiffness_n_per_m": 9e6}}
         with tempfile.TemporaryDirectory() as folder:
@@ -47,7 +47,7 @@ class Vehicles(Test):
         for name, column in told.history.items():
             self.assertTrue(numpy.array_equal(run.history[name], column), name)
         self.assertEqual(run.indices, told.indices)
-        # A name counts more than a direction.
+        # A name takes precedence over a direction.
         named = dashpot.vehicle("straight-180", dampers=mixed, **options)
         for place in ("vertical", "lateral"):
             force = f"front_{place}_damper_1_force_n"
@@ -66,7 +66,7 @@ class Vehicles(Test):
         with self.assertRaisesRegex(dashpot.DashpotError, "no signal `time`, the nearest: time_s|no signal `time`"):
             dashpot.vehicle("straight-180", signals=["time"])
 
-    def test_a_run_that_does_not_come_to_its_end_says_so(self):
+    def test_an_incomplete_run_reports_its_ending(self):
         run = dashpot.vehicle("curve-r300", speed_km_h=260, duration_s=60)
         self.assertFalse(run.is_completed)
         self.assertRegex(run.ending, r"(derailed|overturned|left the tables|diverged|beyond the model).* s, .* m along the track")
@@ -83,7 +83,7 @@ class Vehicles(Test):
         self.assertIn(f"completed, {len(run.warnings)} warning", repr(run))
         self.assertEqual(dashpot.vehicle("curve-r600", duration_s=1.0, signals=["time_s"]).warnings, [])
 
-    def test_what_is_refused_has_the_words_of_the_command(self):
+    def test_errors_have_the_words_of_the_command(self):
         self.assert_refused(refusal("vehicle", "--case", "straight"), dashpot.vehicle, "straight")
         self.assert_refused(refusal("vehicle", "--case", "no/such.toml"), dashpot.vehicle, "no/such.toml")
         self.assert_refused(refusal("vehicle", "--track", "straigt", "--speed-km-h", 80), dashpot.vehicle,

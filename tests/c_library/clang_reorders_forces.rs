@@ -1,6 +1,6 @@
-//! clang compiled the portable C with `-funsafe-math-optimizations` or its part `-fassociative-math` without a word,
-//! and the forces changed: it defines no macro that an `#error` could ask for. The source now turns these options off
-//! by pragmas.
+//! clang silently compiled the portable C with `-funsafe-math-optimizations` or its part `-fassociative-math`, and the
+//! forces changed, because clang defines no macro that an `#error` could test. The source now turns these options off
+//! with pragmas.
 
 use std::process::Command;
 
@@ -9,7 +9,7 @@ use xtask::tools::{AARCH64_GCC, AARCH64_LIBC, CLANG, GCC, QEMU_AARCH64, have};
 
 use crate::standalone::{compiler, two_dampers};
 
-/// Each lets a compiler change sums, quotients or signs of zeros.
+/// Each option lets a compiler change sums, quotients or signs of zeros.
 const OPTIONS: [&[&str]; 5] = [
     &["-funsafe-math-optimizations"],
     &[
@@ -22,7 +22,7 @@ const OPTIONS: [&[&str]; 5] = [
     &["-fapprox-func", "-ffp-contract=fast"],
 ];
 
-/// What the program of both dampers returns, 0 where both digests are right.
+/// Return value of the program of both dampers: 0 if both digests are right.
 fn run(options: &[&str], emulator: Option<&str>, changed: impl Fn(String) -> String) -> i32 {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let folder = folder.path();
@@ -73,10 +73,10 @@ fn on_64_bit_arm_too() {
     }
 }
 
-/// The test finds what it is for: without the pragmas the digest is wrong.
+/// Checks the test itself: without the pragmas the digest is wrong.
 #[test]
 #[cfg(target_arch = "x86_64")]
-fn without_the_pragmas_the_digest_tells() {
+fn without_the_pragmas_the_digest_differs() {
     if !have(&[CLANG], "reordered sums found out by the digest") {
         return;
     }
@@ -95,9 +95,9 @@ fn without_the_pragmas_the_digest_tells() {
     }
 }
 
-/// gcc says by macros what it was asked for, so its parts of fast mathematics are errors.
+/// gcc defines macros for its options, so its parts of fast mathematics are errors.
 #[test]
-fn gcc_refuses_what_it_has_macros_for() {
+fn gcc_refuses_options_that_it_has_macros_for() {
     if !have(&[GCC], "options of gcc that change forces") {
         return;
     }

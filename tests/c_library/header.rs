@@ -1,4 +1,4 @@
-//! dashpot.h: compiled in every language it is for, its costs those measured, wrong calls from C.
+//! dashpot.h compiles in every supported language, states the measured costs, and reports wrong calls from C.
 
 use std::process::Command;
 
@@ -24,7 +24,7 @@ fn run(command: &mut Command) {
 fn the_header_compiles_as_c_and_as_cpp() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let source = folder.path().join("use.c");
-    // An array of negative size is an error in every version of either language.
+    // An array of negative size is an error in every version of both languages.
     let lines = "#include \"dashpot.h\"\n#include \"dashpot.h\"\n\
          typedef char damper_size[sizeof(dashpot_damper) == DASHPOT_DAMPER_SIZE ? 1 : -1];\n\
          typedef char state_size[sizeof(dashpot_state) == DASHPOT_STATE_SIZE ? 1 : -1];\n\
@@ -64,7 +64,8 @@ fn the_header_compiles_as_c_and_as_cpp() {
     }
 }
 
-/// Overlap, and a header of another version: codes in C, nothing touched that is not the caller's.
+/// Overlapping arguments, and a header of another version: C receives error codes, and only the caller's memory is
+/// touched.
 #[test]
 fn wrong_calls_from_c_are_codes_under_sanitizers() {
     let Some(host) = Platform::ALL.into_iter().find(Platform::is_host) else {
@@ -85,7 +86,7 @@ fn wrong_calls_from_c_are_codes_under_sanitizers() {
     run(&mut Command::new(&program));
 }
 
-/// What the comment before a function states: the numbers before the word `instructions`.
+/// Numbers before the word `instructions` in the comment before a function.
 fn stated_instructions(header: &str, function: &str) -> Vec<f64> {
     let prototype = format!("dashpot_error {function}(");
     let (before, _) = header.split_once(&prototype).expect("its prototype");
@@ -94,14 +95,14 @@ fn stated_instructions(header: &str, function: &str) -> Vec<f64> {
         .split_whitespace()
         .filter(|word| *word != "*")
         .collect();
-    let places = words
+    let positions = words
         .iter()
         .enumerate()
         .filter(|(_, word)| word.starts_with("instructions"));
-    places
-        .map(|(place, _)| {
-            // Groups of three digits are apart.
-            let digits = words[..place]
+    positions
+        .map(|(position, _)| {
+            // Groups of three digits are separated.
+            let digits = words[..position]
                 .iter()
                 .rev()
                 .take_while(|word| word.parse::<u32>().is_ok());
@@ -115,8 +116,8 @@ fn stated_instructions(header: &str, function: &str) -> Vec<f64> {
         .collect()
 }
 
-/// The most instructions of `dashpot_health_tick` in the document of health, over all dampers there.
-fn most_of_a_health_tick() -> f64 {
+/// Maximum instructions of `dashpot_health_tick` in docs/health.md, over all its dampers.
+fn max_of_a_health_tick() -> f64 {
     let table = document::part("docs/health.md", "cost");
     let rows = table.lines().filter(|line| line.starts_with("| `"));
     let cells = rows.map(|row| row.split('|').nth(4).expect("a column for C"));
@@ -124,7 +125,7 @@ fn most_of_a_health_tick() -> f64 {
     numbers.fold(f64::NAN, f64::max)
 }
 
-/// The figure of the Cortex-M7 in a row of the timing contract's table.
+/// Figure of the Cortex-M7 in a row of the timing contract's table.
 fn measured_instructions(row: &str) -> f64 {
     let table = document::part("docs/timing-contract.md", "measured");
     let line = table
@@ -136,12 +137,12 @@ fn measured_instructions(row: &str) -> f64 {
     cell.trim().parse().expect("one number")
 }
 
-/// Stated and measured agree to 5 %.
+/// Stated and measured costs agree to 5 %.
 #[test]
-fn the_costs_stated_are_those_measured() {
+fn stated_costs_match_the_measured_ones() {
     let header = document::read("capi/include/dashpot.h");
     let stated = stated_instructions(&header, "dashpot_health_tick");
-    assert_eq!(stated, [most_of_a_health_tick()], "dashpot_health_tick");
+    assert_eq!(stated, [max_of_a_health_tick()], "dashpot_health_tick");
     let swapped = "step that meets another damper's state";
     for (function, rows) in [
         ("dashpot_step", &["C: `dashpot_step`"][..]),

@@ -1,5 +1,5 @@
-//! The example controller in C against the same run in Rust, where there is Linux: under sanitizers and
-//! Valgrind, through pkg-config and CMake, and on a 64-bit Arm processor. Also what the shared library exports.
+//! The example controller in C compared with the same run in Rust on Linux: under sanitizers and Valgrind, through
+//! pkg-config and CMake, and on a 64-bit Arm processor. Also the exports of the shared library.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -14,14 +14,14 @@ use xtask::tools::{
     have_library,
 };
 
-/// The install tree of this machine; `None` where it is none of the platforms.
+/// The install tree of this machine; `None` on an unsupported platform.
 fn host_tree(folder: &Path) -> Option<PathBuf> {
     let host = Platform::ALL.into_iter().find(Platform::is_host)?;
     Some(tree_of(&host, folder))
 }
 
 #[test]
-fn the_run_is_worth_comparing() {
+fn the_run_covers_failed_readings_and_changes() {
     let text = expected();
     let line = |part: &str| text.lines().any(|line| line.contains(part));
     // Twenty failed readings held, the jump limited, the clearance changed.
@@ -88,7 +88,7 @@ fn the_shared_library_is_found_by_pkg_config() {
     };
     assert_eq!(ask(&["--modversion"]).trim(), env!("CARGO_PKG_VERSION"));
     let flags = ask(&["--cflags", "--libs"]);
-    // A blank of a folder is behind a backslash, as for a shell.
+    // A space in a folder name is escaped by a backslash, as for a shell.
     let flags = flags.trim().replace("\\ ", "\0");
     let flags = flags.split(' ').map(|flag| flag.replace('\0', " "));
     let program = folder.join("controller");

@@ -1,5 +1,5 @@
-//! A damper in C without a library, beside the core: docs/numerics.md is transcribed twice, and a change of one
-//! transcription alone fails here.
+//! A damper in C without a library, compared with the core. docs/numerics.md is implemented twice, and changing only
+//! one implementation fails here.
 
 use std::path::Path;
 use std::process::Command;
@@ -15,8 +15,8 @@ use dashpot_core::{Damper, DamperParameters, DamperState};
 use fastrand::Rng;
 use xtask::tools::{ARM_GCC, CLANG, GCC, GXX, Tool, have};
 
-/// Options with which the forces must keep their bits; each asks for fused products where the processor has them, or
-/// does not.
+/// Options with which the forces must keep their bits; each one enables or disables fused products if the processor has
+/// them.
 const OPTIONS: [&[&str]; 6] = [
     &["-std=c99", "-O2"],
     &["-std=gnu11", "-O3", "-march=native", "-ffp-contract=fast"],
@@ -26,7 +26,7 @@ const OPTIONS: [&[&str]; 6] = [
     &["-std=gnu99", "-O1", "-flto"],
 ];
 
-/// Both compilers that are there; clang links without the plug-in that its `-flto` needs.
+/// The available compilers; clang links without the plug-in that its `-flto` needs.
 fn compilers() -> Vec<(Tool, &'static [&'static str])> {
     let there = |tool: &Tool| have(&[*tool], "C without a library beside the core");
     let tools = [GCC, CLANG].into_iter().filter(there);
@@ -86,7 +86,7 @@ fn golden_motions_have_the_cores_bits() {
     let mut next = compilers.iter().cycle();
     for (name, preset, overrides) in DAMPERS {
         let parameters = damper(preset, overrides);
-        // Three of the ways to compile for each scalar, other ones for the next damper.
+        // Three ways to compile for each scalar, and different ones for the next damper.
         for (single, double) in next.by_ref().copied().take(3).zip(compilers.iter().rev()) {
             of::<f32>(&parameters, single, name);
             of::<f64>(&parameters, *double, name);
@@ -94,13 +94,13 @@ fn golden_motions_have_the_cores_bits() {
     }
 }
 
-/// Bytes of a state damaged, or any.
+/// Bytes of a damaged state, or random bytes.
 fn damaged(random: &mut Rng, real: usize) -> Vec<u8> {
     let mut bytes: Vec<u8> = std::iter::repeat_with(|| random.u8(..))
         .take(4 * real + 8)
         .collect();
     if random.bool() {
-        // A mark, and numbers of which many are small.
+        // A mark, and values many of which are small.
         bytes[4 * real + 4..4 * real + 6].copy_from_slice(&0x3940_u16.to_ne_bytes());
         let end = if random.bool() { 0x3a } else { 0x7f };
         for number in bytes[..4 * real].chunks_mut(real) {
@@ -110,7 +110,7 @@ fn damaged(random: &mut Rng, real: usize) -> Vec<u8> {
     bytes
 }
 
-/// Requests of every kind: motions of any speed, readings that failed, other clearances, damaged memory, states saved,
+/// Requests of every kind: motions of any speed, failed readings, other clearances, damaged memory, and states saved,
 /// damaged and restored.
 fn requests<T: Exported>(damper: &Damper<T>, random: &mut Rng) -> Vec<Request<T>>
 where
@@ -141,8 +141,8 @@ where
             10 | 11 => Request::Restore(T::state_bytes(&state)),
             12 => {
                 let mut bytes = T::state_bytes(&state);
-                let place = random.usize(..bytes.len());
-                bytes[place] ^= 1 << random.u32(..8);
+                let offset = random.usize(..bytes.len());
+                bytes[offset] ^= 1 << random.u32(..8);
                 Request::Restore(bytes)
             }
             13 => {
@@ -153,12 +153,12 @@ where
                 displacement = 0.0;
                 Request::Step(number(0.0))
             }
-            // A bit of a running state flips; the displacement is at hand.
+            // Flips a bit of a running state while its displacement is known.
             15..20 => {
                 let mut flipped = state;
                 let bytes = memory::bytes(&mut flipped);
-                let place = random.usize(..bytes.len());
-                bytes[place] ^= 1 << random.u32(..8);
+                let offset = random.usize(..bytes.len());
+                bytes[offset] ^= 1 << random.u32(..8);
                 Request::Overwrite(bytes.to_vec())
             }
             20 => {
@@ -171,7 +171,7 @@ where
             }
             _ => Request::Step(number(displacement)),
         };
-        // What may be saved: a shadow follows but for damaged memory.
+        // The state that may be saved: a shadow of the steps without damaged memory.
         match &request {
             Request::AtRest(x) => state = shadow.at_rest(*x),
             Request::Step(x) => _ = shadow.step(&mut state, *x),
@@ -183,7 +183,7 @@ where
     all
 }
 
-/// Random requests are worth comparing: they meet every refusal and every status bit.
+/// The random requests are a meaningful comparison: they cause every refusal and every status bit.
 #[test]
 fn random_requests_meet_everything() {
     let (mut codes, mut status) = ([false; 4], 0);
@@ -246,7 +246,7 @@ fn no_request_is_undefined() {
     }
 }
 
-/// Writes two dampers, one of either scalar, and a program that tells whether the compiler kept their bits.
+/// Writes two dampers, one per scalar, and a program that reports whether the compiler kept their bits.
 pub fn two_dampers(folder: &Path) {
     let parameters = damper("in-service", &[]);
     let single: Damper<f32> = parameters.build(STEP_S).expect("a preset");
@@ -299,7 +299,7 @@ fn two_dampers_are_in_one_program_of_c_or_cpp() {
     }
 }
 
-/// The digest is of use: a compiler that fuses products is found out.
+/// Checks the digest itself: it detects a compiler that fuses products.
 #[test]
 #[cfg(target_arch = "x86_64")]
 fn a_fused_product_changes_the_digest() {
@@ -336,7 +336,7 @@ fn a_fused_product_changes_the_digest() {
 }
 
 #[test]
-fn what_would_change_the_bits_is_an_error() {
+fn options_that_would_change_the_bits_are_errors() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     two_dampers(folder.path());
     let refused = |tool: Tool, options: &[&str]| {
@@ -366,7 +366,7 @@ fn what_would_change_the_bits_is_an_error() {
     }
 }
 
-/// Names that an object of an exported source leaves to others.
+/// Names that an object of an exported source leaves undefined.
 fn left_to_others(compiler: &mut Command, source: &str, folder: &Path) -> Vec<String> {
     use object::{Object, ObjectSymbol};
     let object = folder.join("object.o");
@@ -396,7 +396,7 @@ fn it_needs_no_library() {
             for processor in ["-mcpu=cortex-m0", "-mcpu=cortex-m4"] {
                 let mut compiler = compiler(ARM_GCC, &[optimisation, processor, "-mthumb"]);
                 let mut left = left_to_others(&mut compiler, source, folder);
-                // Of the compiler itself: arithmetic that the processor lacks.
+                // Arithmetic that the processor lacks comes from the compiler itself.
                 left.retain(|name| {
                     !name.starts_with("__aeabi_") && !name.starts_with("__gnu_thumb1_case")
                 });
@@ -409,7 +409,7 @@ fn it_needs_no_library() {
     }
 }
 
-/// Text between two lines of three backquotes, after the first line of a document with `after`.
+/// Text between two lines of three backquotes, after the first line of a document that contains `after`.
 fn block<'a>(document: &'a str, after: &str) -> &'a str {
     let (_, rest) = document.split_once(after).expect("what is before");
     let (_, rest) = rest.split_once("\n```").expect("a block");

@@ -1,5 +1,5 @@
-//! The example controller in C against the same run in Rust, on processors without an operating system under
-//! QEMU. Also what the image is made of.
+//! The example controller in C compared with the same run in Rust, on processors without an operating system under
+//! QEMU. Also the contents of the image.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -9,7 +9,7 @@ use xtask::c_library::{self, Platform};
 use xtask::processor::{CORTEX_M4F, CORTEX_M7, CORTEX_M33, Processor};
 use xtask::tools::{ARM_GCC, ARM_LIBC, QEMU, have, have_target};
 
-/// The image for a processor, or nothing when a tool is missing, which has been said.
+/// The image for a processor; `None`, after a message, if a tool is missing.
 fn image_for(processor: &Processor, folder: &Path) -> Option<PathBuf> {
     let what = format!("the C library on {}", processor.title);
     have_target(processor.target, &what).filter(|_| have(&[ARM_GCC, ARM_LIBC, QEMU], &what))?;
@@ -43,7 +43,7 @@ fn assert_same_run_on(processor: &Processor) {
     let mut qemu = Command::new(QEMU.program);
     qemu.args(["-M", processor.board, "-cpu", processor.emulated_cpu]);
     qemu.args(["-display", "none", "-monitor", "none", "-serial", "none"]);
-    // Virtual time does not wait for the clock on the wall.
+    // Virtual time does not wait for the real clock.
     qemu.args(["-icount", "shift=0,sleep=off"]);
     qemu.args([
         "-semihosting-config",
@@ -110,12 +110,12 @@ fn the_image_has_no_panic_no_heap_and_no_double_precision() {
             .collect();
         assert!(found.is_empty(), "{part}: {found:?}");
     }
-    // By the other names of it; a name of Rust's ends with a hash that may hold any letters.
+    // Other names of double-precision functions. The end of a Rust name is an arbitrary hash.
     let double = |symbol: &&String| {
         symbol.starts_with("__") && (symbol.ends_with("df3") || symbol.ends_with("df2"))
     };
     assert_eq!(symbols.iter().find(double), None);
-    // A Cortex-M7 may have single precision only: no instruction on doubles either.
+    // A Cortex-M7 may have single precision only, so there must be no instruction on doubles either.
     let listing = succeed(Command::new("arm-none-eabi-objdump").arg("-d").arg(&image));
     let listing = String::from_utf8_lossy(&listing.stdout);
     assert!(

@@ -1,11 +1,11 @@
-//! Accuracy of the fixed step against the reference solver, every case within its row of the one
-//! tolerance table and no row looser than needed. Writes and checks the table in docs/numerics.md.
+//! Accuracy of the fixed step against the reference solver. Every case is within its row of the tolerance table, and no
+//! row is looser than needed. Writes and checks the table in docs/numerics.md.
 
 use std::collections::HashMap;
 use std::fmt::Write;
 
 use dashpot::accuracy::{DAMPERS, Errors, STEPS_S, measure_all};
-use dashpot::tolerance::{FILE, LEAST_USE, SLACK, Tolerance, required, rows, to_text};
+use dashpot::tolerance::{FILE, MIN_USE, SLACK, Tolerance, required, rows, to_text};
 use dashpot::{damper, document};
 use dashpot_core::characteristic::{Characteristic, Corner};
 use dashpot_testbench::accuracy_limits::{ACCURACY_LIMITS, AccuracyLimits};
@@ -37,7 +37,7 @@ fn bless(found: &Found) {
     document::compare(FILE, &to_text(&rows));
 }
 
-/// What is wrong with the measured errors and the table.
+/// Discrepancies between the measured errors and the table.
 fn complaints(found: &Found) -> Vec<String> {
     let rows = rows();
     let mut complaints = Vec::new();
@@ -54,16 +54,16 @@ fn complaints(found: &Found) -> Vec<String> {
                 let measured = found[&case].nrmse[step][scalar];
                 let allowed = row.nrmse[step][scalar];
                 let required = required(case.0, step)[scalar];
-                let place = format!("{case:?}, {step_s} s, {name}: {measured:.2e}");
+                let label = format!("{case:?}, {step_s} s, {name}: {measured:.2e}");
                 if measured > required {
-                    complaints.push(format!("{place} is above the required {required:.0e}"));
+                    complaints.push(format!("{label} is above the required {required:.0e}"));
                 }
                 if measured > allowed {
-                    complaints.push(format!("{place} is above its row {allowed:.1e}"));
+                    complaints.push(format!("{label} is above its row {allowed:.1e}"));
                 }
-                if measured < LEAST_USE * allowed {
+                if measured < MIN_USE * allowed {
                     complaints.push(format!(
-                        "{place}: the row {allowed:.1e} is looser than needed"
+                        "{label}: the row {allowed:.1e} is looser than needed"
                     ));
                 }
             }
@@ -85,7 +85,7 @@ fn complaints(found: &Found) -> Vec<String> {
     complaints
 }
 
-/// The corners of a damper of [`DAMPERS`]: a letter each for what and where, and the force (N).
+/// Corners of a damper of [`DAMPERS`]: letters for kind and direction, and the force (N).
 fn corners(name: &str) -> Vec<(String, f64)> {
     let (_, preset, overrides) = DAMPERS
         .into_iter()
@@ -108,7 +108,7 @@ fn corners(name: &str) -> Vec<(String, f64)> {
         .collect()
 }
 
-/// `Pe Re of Pe Re Ye`: the corners a run went through, and all of them when these are fewer.
+/// `Pe Re of Pe Re Ye`: the corners that a run passed through, and all corners if there are more.
 fn reached(found: &Errors, corners: &[(String, f64)]) -> String {
     let names = |wanted: &dyn Fn(f64) -> bool| -> Vec<&str> {
         let wanted = corners.iter().filter(|(_, force)| wanted(*force));

@@ -1,10 +1,10 @@
-//! A bank is one step each, bit for bit.
+//! A bank equals single steps, bit for bit.
 
 use dashpot::damper;
 use dashpot_core::{Damper, Real, step_bank};
 use proptest::prelude::*;
 
-/// Every force and state of a bank of `N` beside single steps.
+/// Compares every force and state of a bank of `N` with single steps.
 fn agrees<T: Real, const N: usize>(moves: &[[f64; 19]]) {
     let dampers: [Damper<T>; 3] = [
         ("paper", "mount.clearance_m=1e-3"),

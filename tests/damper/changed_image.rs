@@ -1,5 +1,5 @@
-//! Images whose constants were changed and whose checks are right are dampers: whatever the constants are, they
-//! step to a force within its limit.
+//! Images with changed constants and valid checksums are dampers: for any constants they step to a force within its
+//! limit.
 
 use std::cell::Cell;
 
@@ -12,7 +12,7 @@ use proptest::prelude::*;
 use proptest::sample::Index;
 use proptest::test_runner::TestRunner;
 
-/// Images tried.
+/// Number of images.
 const CASES: u32 = 2000;
 
 macro_rules! a_changed_image_steps_within_the_limit {

@@ -1,4 +1,4 @@
-//! The contract for bad values: input, output, tiny states, nonsense parameters, live changes.
+//! The contract for bad values: input, output, tiny states, invalid parameters, live changes.
 
 use dashpot::damper;
 use dashpot_core::{Damper, DamperParameters, DamperState, Real, Status, step_bank};
@@ -18,7 +18,7 @@ fn build<T: Real>(preset: &str) -> Damper<T> {
 }
 
 #[test]
-fn input_that_is_no_number_is_held_latched_and_counted() {
+fn non_finite_input_is_held_latched_and_counted() {
     for preset in PRESETS {
         let damper: Damper<f32> = build(preset);
         let (mut state, mut held) = (damper.at_rest(0.0), damper.at_rest(0.0));
@@ -78,7 +78,7 @@ fn a_jump_is_followed_at_the_configured_rate() {
     assert_eq!(state.rejected_inputs(), 8);
 }
 
-/// Next of a sequence of 32 random bits (xorshift, Marsaglia 2003).
+/// Next number of a random 32-bit sequence (xorshift, Marsaglia 2003).
 fn bits(seed: &mut u32) -> u32 {
     *seed ^= *seed << 13;
     *seed ^= *seed >> 17;
@@ -95,7 +95,7 @@ fn the_force_is_finite_and_within_its_limit_for_any_bits() {
         let mut state = damper.at_rest(0.0);
         for tick in 0..1_000_000_u32 {
             let random = bits(&mut seed);
-            // Any bits; in turns, bits of credible magnitudes, which reach further into the step.
+            // Any bits, alternating with bits of plausible magnitudes, which reach further into the step.
             let x = if tick & 1024 == 0 {
                 f32::from_bits(random)
             } else {
@@ -109,7 +109,7 @@ fn the_force_is_finite_and_within_its_limit_for_any_bits() {
 }
 
 #[test]
-fn any_place_to_start_is_safe() {
+fn any_start_position_is_safe() {
     let mut seed = 1;
     let damper: Damper<f32> = build("paper");
     for _ in 0..200_000 {
@@ -120,7 +120,7 @@ fn any_place_to_start_is_safe() {
     }
 }
 
-/// Every number of a state, by its debug text.
+/// Every value of a state, from its debug text.
 fn numbers<T: Real>(state: &DamperState<T>) -> Vec<f64> {
     let text = format!("{state:?}");
     text.split(|c: char| !(c.is_ascii_digit() || "+-.e".contains(c)))
@@ -143,8 +143,8 @@ fn tiny_states_are_flushed() {
                 assert!(!subnormal, "{preset}, tick {tick}: {state:?}");
             }
         }
-        // Seal friction holds its force; beyond it, in `f32` a stretch of half a millimetre of clearance
-        // resolves 6e-11 m, 5e-4 N.
+        // Seal friction holds its force. Beyond it, with half a millimetre of clearance an `f32` stretch resolves 6e-11
+        // m, 5e-4 N.
         let held = if preset == "in-service" { 100.0 } else { 0.0 };
         let rest = state.force_n().abs();
         assert!(rest < held + 0.01, "{preset}: {rest} N at rest");
@@ -335,7 +335,7 @@ fn nonsense_is_refused_with_the_field_and_its_range() {
 }
 
 #[test]
-fn a_step_that_cannot_be_is_refused() {
+fn an_invalid_step_is_refused() {
     for step_s in [0.0, -1e-3, 1e-7, 1.0, f64::NAN, f64::INFINITY] {
         let error = damper("paper", &[])
             .build::<f32>(step_s)
@@ -378,7 +378,7 @@ fn changes_under_a_running_state_leave_the_force_continuous() {
     for (preset, before, after) in changes {
         let (before, after) = (damper(preset, before), damper(preset, after));
         let drops = [1e-3, 1e-4, 1e-5].map(|step_s| drop_at_swap(&before, &after, step_s));
-        // What the held spring relaxes within a step: shrinks with the step.
+        // Relaxation of the held spring within a step; shrinks with the step.
         assert!(drops[0] < 0.25, "{after:?}: {drops:?}");
         assert!(
             drops[1] < 0.2 * drops[0] && drops[2] < 0.2 * drops[1],
@@ -387,7 +387,7 @@ fn changes_under_a_running_state_leave_the_force_continuous() {
     }
 }
 
-/// Change of the force over the tick of a swap, the displacement held, over the force.
+/// Change of the force over the tick of a swap, relative to the force, with the displacement held.
 fn drop_at_swap(before: &DamperParameters, after: &DamperParameters, step_s: f64) -> f64 {
     let (before, after): (Damper<f64>, Damper<f64>) = (
         before.build(step_s).expect("a valid damper"),
@@ -453,7 +453,7 @@ fn a_force_from_constants_that_overflow_is_the_limit() {
     let sound: Damper<f32> = build("in-service");
     let words = sound.to_words();
     let mut huge = words;
-    // Past the scalars and the two revisions: the table.
+    // The table follows the scalars and the two revisions.
     for word in &mut huge[13..] {
         *word = f32::MAX.to_bits();
     }
@@ -472,7 +472,7 @@ fn a_force_from_constants_that_overflow_is_the_limit() {
 }
 
 #[test]
-fn a_start_far_out_does_not_stretch_what_stands_still() {
+fn a_start_far_out_does_not_stretch_a_damper_at_rest() {
     let damper: Damper<f32> = build("in-service");
     let mut state = damper.at_rest(1e6);
     assert_eq!(state.status(), Status::INPUT_HELD);
@@ -480,6 +480,6 @@ fn a_start_far_out_does_not_stretch_what_stands_still() {
         assert_eq!(damper.step(&mut state, 0.0), 0.0);
     }
     assert_eq!(state.status(), Status::INPUT_HELD | Status::RESTARTED);
-    // The first displacement, and the tick that restarted.
+    // The first displacement, and the tick of the restart.
     assert_eq!((state.rejected_inputs(), state.displacement_m()), (2, 0.0));
 }

@@ -1,5 +1,4 @@
-//! Disc theory against Roark's coefficients, the source paper's closed form and its own boundary
-//! conditions.
+//! Disc theory compared with Roark's coefficients, the source paper's closed form and its own boundary conditions.
 
 use dashpot::damper;
 use dashpot_core::parameters::Element;
@@ -70,7 +69,7 @@ fn the_papers_constants_give_the_same_deflection_at_every_radius() {
         for step in 0..=20 {
             let r = clamp + (free - clamp) * f64::from(step) / 20.0;
             let error = (disc.deflection_coefficient(r) - closed_form(clamp, free, r)) / edge;
-            // The closed form cancels digits; its terms are some hundred times the sum.
+            // The closed form cancels digits; its terms are about a hundred times the sum.
             assert!(error.abs() < 1e-11, "{clamp}/{free} at {r}: {error:e}");
         }
     }
@@ -94,7 +93,7 @@ fn a_pack_is_as_stiff_as_its_discs_together() {
         panic!("the preset is physical");
     };
     let valves = &hydraulics.valves;
-    // Shims of Table 1 counted in the packs of the source paper.
+    // Shims of Table 1 assigned to the packs of the source paper.
     let packs = [
         (&valves.piston_extension, 3.0, 4.05e-4, 4.0, 4.10e-4),
         (&valves.piston_compression, 4.0, 3.05e-4, 4.0, 4.05e-4),
@@ -114,8 +113,7 @@ fn a_pack_is_as_stiff_as_its_discs_together() {
 
 #[test]
 fn the_edge_hangs_free() {
-    // No moment at r_w: w'' + nu w'/r = 0, by central differences at two points just inside, carried
-    // on to the edge.
+    // No moment at r_w: w'' + nu w'/r = 0, by central differences at two points just inside, extrapolated to the edge.
     let (clamp, free) = (16e-3, 29e-3);
     let disc = disc(clamp, free);
     let step: f64 = 1e-5;

@@ -1,6 +1,5 @@
-//! Energy of a cycle of power-law dampers: for `F = c v^n` under a harmonic motion
-//! `E = 4 F x0 W(n + 1)`, W Wallis' integral of cos^m over a quarter turn, and the factor is
-//! `E/(pi F x0) = 4 W(n + 1)/pi`.
+//! Energy of a cycle of power-law dampers. For `F = c v^n` under a harmonic motion `E = 4 F x0 W(n + 1)`, where W is
+//! Wallis' integral of cos^m over a quarter turn, and the factor is `E/(pi F x0) = 4 W(n + 1)/pi`.
 
 use std::f64::consts::PI;
 
@@ -13,7 +12,7 @@ const NOMINAL: Harmonic = Harmonic {
     frequency_hz: 0.64,
 };
 
-/// Springs so stiff that the piston has the whole motion.
+/// Springs so stiff that the piston follows the whole motion.
 const STIFF: &str = "mount.stiffness_n_per_m=1e10";
 
 /// `4 W(n + 1)/pi` with `W(m) = sqrt(pi)/2 Gamma((m + 1)/2)/Gamma(m/2 + 1)`.
@@ -107,9 +106,8 @@ fn a_saturated_element_dissipates_a_trapezium() {
 
 #[test]
 fn clearance_takes_its_share_of_the_stroke() {
-    // After each dead centre the piston stands while the play 2a passes, up to the angle p with
-    // cos p = 1 - 2a/x0; below saturation that part of a half stroke would have taken
-    // F_r x0/s (p/2 - sin(2p)/4), s = V_r/v0.
+    // After each dead centre the piston rests while the play 2a is crossed, up to the angle p with cos p = 1 - 2a/x0.
+    // Below saturation that part of a half stroke would have taken F_r x0/s (p/2 - sin(2p)/4), s = V_r/v0.
     let share = 0.03 / (2.0 * PI * NOMINAL.frequency_hz * NOMINAL.amplitude_m);
     let angle = (1.0 - 1e-3 / NOMINAL.amplitude_m).acos();
     assert!(angle.sin() < share, "the play is over before saturation");

@@ -1,5 +1,5 @@
-//! Three dampers with motions that broke the accuracy once promised by relaxation time alone, by 1.2 to 9.8 times. What
-//! `dashpot verify` promises for each covers its motion.
+//! Three dampers with motions that exceeded the former accuracy promise by relaxation time alone by 1.2 to 9.8 times.
+//! The promise of `dashpot verify` for each damper covers its motion.
 
 use std::path::Path;
 
@@ -12,7 +12,7 @@ use dashpot_testbench::verification::reference_forces;
 
 const STEP_S: f64 = 1e-3;
 
-/// The displacements (m) of a motion whose samples are the ticks.
+/// Displacements (m) of a motion sampled at the ticks.
 fn displacements(path: &Path) -> Vec<f64> {
     let mut recording = Recording::open(path).expect("a recording");
     let samples = recording.read_all().expect("samples");
@@ -40,7 +40,7 @@ fn the_promise_of_each_damper_covers_its_motion() {
             assert!(found.largest_n <= error_n, "{name}, {scalar}: {found:?}");
             assert!(found.nrmse <= nrmse, "{name}, {scalar}: {found:?}");
         }
-        // The limits by relaxation time are those of the shipped motions, and do not hold here.
+        // The limits by relaxation time are those of the shipped motions, and do not apply here.
         let forces = reference_forces(&damper, STEP_S, &motion.displacements_m).expect("forces");
         let relaxation = relaxation_time_s(&damper, STEP_S, &motion.displacements_m, &forces);
         let limit =

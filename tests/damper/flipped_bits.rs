@@ -1,5 +1,5 @@
-//! One bit of a running state flips: every bit, at many moments. A number that no step leaves behind starts the damper over
-//! at rest in the same tick, with a status bit; how far the force is off, and for how long, is in docs/numerics.md.
+//! Flips one bit of a running state: every bit, at many moments. A value that no step produces restarts the damper at
+//! rest in the same tick with a status bit. docs/numerics.md lists the resulting force error and its duration.
 
 use std::f64::consts::TAU;
 use std::fmt::Write;
@@ -19,13 +19,13 @@ const PRESETS: [&str; 5] = [
     "reduced-lateral",
     "in-service",
 ];
-/// Ticks at which a bit flips.
+/// Ticks at which a bit is flipped.
 const MOMENTS: [u32; 7] = [60, 131, 202, 273, 344, 415, 486];
-/// Ticks that are compared after that.
+/// Number of ticks compared afterwards.
 const COMPARED: u32 = 400;
-/// A force is right within this part of the force limit.
+/// A force is right if its error is below this fraction of the force limit.
 const RIGHT: f64 = 0.01;
-/// The numbers of a state, and what is behind them.
+/// The values of a state, and the words after them.
 const PARTS: [&str; 6] = [
     "displacement",
     "stretch",
@@ -35,14 +35,14 @@ const PARTS: [&str; 6] = [
     "status, mark and counter",
 ];
 
-/// What flips of one number did.
+/// Effect of flips of one value.
 #[derive(Clone, Copy, Default)]
 struct Effect {
     flips: u32,
     started_over: u32,
     /// Largest difference of the force over the force limit.
     worst: f64,
-    /// Ticks until the force was right again and stayed so, the most.
+    /// Maximum number of ticks until the force was right again and stayed so.
     longest: u32,
 }
 
@@ -54,7 +54,7 @@ fn displacement<T: Real>(tick: u32) -> T {
     T::from_f64(wave(8e-3, 2.3) + wave(1e-3, 17.0))
 }
 
-/// Steps a sound state and one with a flipped bit side by side.
+/// Steps a sound state and one with a flipped bit in parallel.
 fn compare<T: Real>(
     damper: &Damper<T>,
     tick: u32,
@@ -78,7 +78,7 @@ fn compare<T: Real>(
         if later == 0 {
             let started_over = flipped.status().contains(Status::CORRUPTED)
                 && !sound.status().contains(Status::CORRUPTED);
-            // A flow potential is made anew in the step, and nothing is made of the last force.
+            // The step recomputes the flow potential and does not use the last force.
             if is_impossible && number < 2 {
                 assert!(started_over, "tick {tick}, bit {bit}: {flipped:?}");
             }
@@ -101,7 +101,7 @@ fn compare<T: Real>(
     }
 }
 
-/// The state with a sound mark and without status: what is left are its numbers.
+/// The state with a sound mark and without status, so that only its values remain.
 fn unmarked<T: Real>(state: DamperState<T>) -> DamperState<T>
 where
     DamperState<T>: PlainData,
@@ -146,7 +146,7 @@ fn effects(all: impl Iterator<Item = DamperParameters>) -> [Effect; PARTS.len()]
 }
 
 #[test]
-fn a_flipped_bit_of_a_state_ends_and_is_told_where_it_can_be() {
+fn the_effect_of_a_flipped_bit_ends_and_is_reported_if_possible() {
     let presets = effects(PRESETS.iter().map(|name| damper(name, &[])));
     let random = effects((0..8).map(|seed| random_damper::damper(&mut Random(seed))));
     let mut table = String::from(

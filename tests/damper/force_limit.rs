@@ -1,10 +1,10 @@
-//! A damper driven beyond its force limit stays at it and says so.
+//! A damper driven beyond its force limit stays at the limit and reports it.
 
 use dashpot::damper;
 use dashpot_core::{Damper, Real, Status};
 use dashpot_testbench::excitation::Excitation;
 
-/// Ticks at the limit, of all that come near it in a direction.
+/// Ticks at the limit, out of all ticks close to it in one direction.
 fn plateau<T: Real>(direction: f64, step_s: f64) {
     let built: Damper<T> = damper("paper", &[]).build(step_s).expect("a preset");
     let limit = built.force_limit_n().to_f64();
@@ -16,10 +16,10 @@ fn plateau<T: Real>(direction: f64, step_s: f64) {
         .collect();
     let near = forces.iter().filter(|force| **force > 0.98 * limit).count();
     let at = forces.iter().filter(|force| **force == limit).count();
-    let place = format!("at {step_s} s in direction {direction}: {at} of {near} ticks");
-    assert!(at * 10 > near * 8, "{place}");
-    assert!(at as f64 * step_s > 0.05, "{place}");
-    assert!(state.status().contains(Status::SATURATED), "{place}");
+    let label = format!("at {step_s} s in direction {direction}: {at} of {near} ticks");
+    assert!(at * 10 > near * 8, "{label}");
+    assert!(at as f64 * step_s > 0.05, "{label}");
+    assert!(state.status().contains(Status::SATURATED), "{label}");
 }
 
 #[test]

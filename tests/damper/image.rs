@@ -1,4 +1,4 @@
-//! A damper as bytes: it comes back whole or is refused whole.
+//! A damper as bytes: it is restored completely or refused completely.
 
 use dashpot::damper;
 use dashpot::signed_image::{self, SCALARS, TABLE, crc_32, revise_and_sign, sign};
@@ -104,7 +104,7 @@ fn the_other_scalar_is_refused() {
     assert_eq!(refused, Err(ImageError::Scalar(4)));
 }
 
-/// What a right CRC-32 does not excuse: each word in turn not finite, and another number.
+/// Constants that a valid CRC-32 does not excuse: each word in turn is set to a non-finite and to another number.
 #[test]
 fn constants_of_no_build_are_refused_though_signed() {
     let image = image();
@@ -115,7 +115,7 @@ fn constants_of_no_build_are_refused_though_signed() {
             let mut changed = image.clone();
             changed[at..at + 4].copy_from_slice(&other.to_le_bytes());
             sign(&mut changed);
-            // 16 bytes of header, thirteen words, then pieces of thirteen.
+            // 16 bytes of header, thirteen words, then pieces of thirteen words.
             let piece = (at / 4).checked_sub(17).map(|word| word as u32 / 13);
             let finite = f32::from_bits(other).is_finite();
             let expected = match piece {
@@ -127,7 +127,7 @@ fn constants_of_no_build_are_refused_though_signed() {
     }
 }
 
-/// The image of the preset with some words set to these numbers, and both revisions and the CRC-32 right.
+/// The image of the preset with some words set to these numbers, and with valid revisions and CRC-32.
 fn forged(changes: &[(usize, f32)]) -> Vec<u8> {
     let mut image = image();
     for (index, value) in changes {
@@ -143,7 +143,7 @@ fn constants_out_of_range_are_refused_though_their_revision_is_right() {
     let words = damper.to_words();
     assert_eq!(words[SCALARS], damper.revision());
     assert_eq!(read(&forged(&[])), Ok(damper));
-    // Step, offset, first knot, half the clearance, bounds of displacement and stretch; words in the order of the
+    // Step, offset, first knot, half the clearance, bounds of displacement and stretch: words in the order of the
     // scalars.
     let bound = |metres: f32| f32::from_bits(metres.to_bits() << 1);
     let mut cases = vec![(3, 0.0_f32), (4, 1e-3), (5, 0.0), (6, 1e-3)];
@@ -151,7 +151,7 @@ fn constants_out_of_range_are_refused_though_their_revision_is_right() {
     for scalar in 0..SCALARS {
         cases.extend([f32::NAN, f32::INFINITY, -1.0].map(|value| (scalar, value)));
     }
-    // Beyond the largest clearance, the sum that goes with it right.
+    // Beyond the maximum clearance, with the dependent sum adjusted.
     let loose = [(6, 0.051), (4, 0.051 + f32::from_bits(words[8]))];
     assert_eq!(read(&forged(&loose)), Err(ImageError::Scalars));
     let last = words.len() - 1;
@@ -201,7 +201,7 @@ proptest! {
             signed_image::sign(&mut damaged);
         }
         match read(&damaged) {
-            // Damage to the CRC-32 alone is mended by signing again, zeros are none.
+            // Damage to the CRC-32 alone is repaired by signing again; zero damage is none.
             Ok(read) => prop_assert!(damaged == image() && read == single()),
             Err(_) => prop_assert_ne!(damaged, image()),
         }

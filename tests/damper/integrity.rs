@@ -1,5 +1,5 @@
-//! Memory that was damaged: no bits of constants or state make a force that is not finite or beyond its limit, and
-//! the slow check finds every flipped bit.
+//! Damaged memory: no bits of constants or state produce a force that is not finite or beyond its limit, and the slow
+//! check finds every flipped bit.
 
 use dashpot::damper;
 use dashpot::memory::{PlainData, bytes};
@@ -8,10 +8,10 @@ use dashpot_core::parameters::MAX_FORCE_N;
 use dashpot_core::{Damper, DamperState, Real, step_bank};
 use fastrand::Rng;
 
-/// Dampers of a bank: a group of lanes and some over.
+/// Dampers of a bank: one full group of lanes and some more.
 const DAMPERS: usize = 11;
 
-/// Damages memory: all of it, some numbers of it, or a bit.
+/// Damages memory: all of it, some of its values, or one bit.
 fn damage(memory: &mut [u8], random: &mut Rng) {
     const UNUSUAL: [u32; 8] = [
         0x7f80_0000,
@@ -29,9 +29,9 @@ fn damage(memory: &mut [u8], random: &mut Rng) {
         2 => {
             for _ in 0..random.u32(1..20) {
                 let value = UNUSUAL[random.usize(..UNUSUAL.len())];
-                let place = 4 * random.usize(..memory.len() / 4);
-                // The upper half of a double says what it is; so both halves get their turn.
-                memory[place..place + 4].copy_from_slice(&value.to_le_bytes());
+                let offset = 4 * random.usize(..memory.len() / 4);
+                // The upper half of a double determines its kind, so both halves are damaged in turn.
+                memory[offset..offset + 4].copy_from_slice(&value.to_le_bytes());
             }
         }
         _ => {
@@ -58,7 +58,7 @@ where
                 let revision = damper.revision();
                 damage(bytes(state), &mut random);
                 if random.bool() {
-                    // As if the damper itself had left it, so that it is not adopted first.
+                    // Stored as if the damper itself had produced it, so that it is not adopted first.
                     let revision_at = 4 * size_of::<T>();
                     bytes(state)[revision_at..revision_at + 4]
                         .copy_from_slice(&revision.to_ne_bytes());
@@ -112,7 +112,7 @@ fn any_bits_make_a_force_within_its_limit_in_f64() {
     any_bits_make_a_force_within_its_limit::<f64>(&dampers(), 2);
 }
 
-/// Calls until the check finds something wrong, up to two rounds.
+/// Number of calls until the check finds damage, up to two rounds.
 fn found_after<T: Real>(damper: &Damper<T>, mut check: Check) -> Option<u32> {
     (1..=2 * SLICES).find(|_| check.slice(damper).is_err())
 }
@@ -123,7 +123,7 @@ fn every_flipped_bit_of_the_constants_is_found() {
         panic!("no preset");
     };
     assert_eq!(found_after(&damper, Check::default()), None);
-    // The last numbers before the table keep it aligned and mean nothing.
+    // The last values before the table are padding.
     let (meaningless, length) = (56..64, size_of::<Damper<f32>>());
     let mut random = Rng::with_seed(3);
     for bit in (0..8 * length).filter(|bit| !meaningless.contains(&(bit / 8))) {
@@ -157,7 +157,7 @@ fn a_bit_that_flips_during_a_round_is_found_in_the_next() {
 }
 
 #[test]
-fn a_change_between_slices_is_no_damage() {
+fn a_change_between_slices_is_not_damage() {
     let [mut damper, other, _] = dampers::<f32>()[..] else {
         panic!("three presets");
     };
@@ -176,7 +176,7 @@ fn a_change_between_slices_is_no_damage() {
 #[test]
 fn a_state_with_numbers_that_no_step_leaves_is_found() {
     let damper = dampers::<f32>()[0];
-    for (place, value) in [
+    for (offset, value) in [
         (0, f32::NAN),
         (1, f32::NAN),
         (1, 1e3),
@@ -186,7 +186,10 @@ fn a_state_with_numbers_that_no_step_leaves_is_found() {
         (0, -1e30),
     ] {
         let mut state = damper.at_rest(0.1);
-        bytes(&mut state)[4 * place..4 * place + 4].copy_from_slice(&value.to_ne_bytes());
-        assert!(Check::state(&damper, &state).is_err(), "{value} at {place}");
+        bytes(&mut state)[4 * offset..4 * offset + 4].copy_from_slice(&value.to_ne_bytes());
+        assert!(
+            Check::state(&damper, &state).is_err(),
+            "{value} at {offset}"
+        );
     }
 }

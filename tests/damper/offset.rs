@@ -1,4 +1,4 @@
-//! A displacement far from zero: what `f32` cannot resolve of it stays within the promise up to 0.25 m.
+//! A displacement far from zero: the rounding of `f32` stays within the promise up to 0.25 m.
 
 use dashpot::accuracy::{displacements_m, stepped};
 use dashpot::damper;
@@ -10,7 +10,7 @@ use dashpot_testbench::excitation::Excitation;
 
 const STEP_S: f64 = 1e-4;
 
-/// NRMSE of the step in `f32` at 10 kHz about an offset (m), against the motion before it was rounded.
+/// NRMSE of the step in `f32` at 10 kHz about an offset (m), relative to the motion before rounding.
 fn error_about(preset: &str, offset_m: f64) -> f64 {
     let parameters = damper(preset, &[]);
     let displacements: Vec<f64> = displacements_m(Excitation::Ride, STEP_S)
@@ -44,7 +44,7 @@ fn the_promise_holds_up_to_a_quarter_of_a_metre() {
             assert!(error < promised, "{preset} about {offset_m} m: {error:.1e}");
         }
     }
-    // Rounding is what limits it: farther out the error grows with the unit in the last place.
+    // Rounding limits it: farther out the error grows with the unit in the last place.
     let (near, far) = (error_about("paper", 0.25), error_about("paper", 2.5));
     assert!(far > 4.0 * near, "{near:.1e}, {far:.1e}");
 }

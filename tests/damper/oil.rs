@@ -1,4 +1,4 @@
-//! Oil: density, viscosity and modulus against closed forms and published points.
+//! Oil: density, viscosity and modulus compared with closed forms and published points.
 
 use dashpot_core::parameters::{ATMOSPHERIC_PRESSURE_PA as ATMOSPHERE, Oil, OilColumn};
 
@@ -16,7 +16,7 @@ fn oil(temperature_c: f64, column: Option<OilColumn>) -> Oil {
     oil
 }
 
-/// `E` of the model, air included to first order in its ratio.
+/// `E` of the model, to first order in the air ratio.
 fn modulus(alpha: f64, n: f64, absolute: f64) -> f64 {
     let liquid = 1.5e9;
     liquid * (1.0 + alpha * (ATMOSPHERE / absolute).powf(1.0 / n))
@@ -37,7 +37,7 @@ fn air_lowers_the_density_by_its_volume_and_pressure_takes_it_back() {
     // 5 % of the volume is air of 1.225 kg/m3 (ISO 2533 at 15 degC).
     let expected = 0.95 * 870.0 + 0.05 * 1.225;
     assert!((mixed.density_kg_per_m3(0.0) - expected).abs() < 1e-4);
-    // At nine times the pressure a tenth of the air's volume is left; the oil shortens by P/E.
+    // At nine times the pressure a tenth of the air's volume remains; the oil shortens by P/E.
     let pressure = 9.0 * ATMOSPHERE;
     let volume = 0.95 * (1.0 - pressure / 1.5e9) + 0.05 / 10.0;
     assert!((mixed.density_kg_per_m3(pressure) - expected / volume).abs() < 1e-4);
@@ -81,7 +81,7 @@ fn modulus_agrees_with_the_closed_form() {
 
 #[test]
 fn lee_chart_points() {
-    // Share of the air-free modulus at 2 % air: 0.80 at 500 psi and 0.98 at 2000 psi.
+    // Fraction of the air-free modulus at 2 % air: 0.80 at 500 psi and 0.98 at 2000 psi.
     const PSI: f64 = 6_894.757;
     let share = |psi: f64| {
         let absolute = psi * PSI + ATMOSPHERE;
@@ -95,12 +95,12 @@ fn lee_chart_points() {
 
 #[test]
 fn limits_of_the_modulus() {
-    // Much pressure crushes the air; much air at low pressure is a gas of modulus n p.
+    // High pressure crushes the air; much air at low pressure behaves as a gas of modulus n p.
     let found = column(0.02, 1.0).bulk_modulus_pa(1e8) / column(0.0, 1.0).bulk_modulus_pa(1e8);
     assert!((found - 1.0).abs() < 0.025, "{found}");
     for n in [1.0, 1.4] {
         let found = column(0.2, n).bulk_modulus_pa(ATMOSPHERE);
-        // V/(-dV/dp): 1 over 0.2/(n p_a) and the oil's share.
+        // V/(-dV/dp): 1 over 0.2/(n p_a) plus the oil's contribution.
         let expected = 1.0 / (0.2 / (n * ATMOSPHERE) + 0.8 / 1.5e9);
         assert!((found / expected - 1.0).abs() < 1e-12, "{found}");
     }

@@ -1,11 +1,11 @@
-//! docs/parameters.md has every parameter of a damper file with its range and default.
+//! docs/parameters.md lists every parameter of a damper file with its range and default.
 
 use dashpot::document;
 use dashpot_core::parameters::ranges;
 
 const PAGE: &str = "docs/parameters.md";
 
-/// As people write it.
+/// Number as people write it.
 fn number(value: f64) -> String {
     if value == 0.0 || (1e-3..1e4).contains(&value) {
         format!("{value}")
@@ -15,7 +15,7 @@ fn number(value: f64) -> String {
 }
 
 #[test]
-fn every_parameter_stands_in_its_page() {
+fn every_parameter_is_documented() {
     let mut table = String::from("\n| table | key | allowed | default |\n|---|---|---|---|\n");
     let mut last = "";
     for (name, range) in ranges() {

@@ -1,4 +1,4 @@
-//! What holds for every motion: passivity, symmetry, clearance, compliance, saving, order, drift.
+//! Properties of every motion: passivity, symmetry, clearance, compliance, saving, order, drift.
 
 use dashpot::bench_test::settled_force;
 use dashpot::damper;
@@ -12,7 +12,7 @@ fn build<T: Real>(parameters: &DamperParameters, step_s: f64) -> Damper<T> {
     parameters.build(step_s).expect("a valid damper")
 }
 
-/// A motion of straight pieces through `corners` [m], each `ticks` long, from 0.
+/// A motion of straight segments through `corners` [m], each `ticks` long, from 0.
 fn through(corners: &[f64], ticks: usize) -> Vec<f64> {
     let mut motion = vec![0.0];
     let mut from = 0.0;
@@ -29,9 +29,9 @@ fn corners(amplitude_m: f64) -> impl Strategy<Value = Vec<f64>> {
     prop::collection::vec(-amplitude_m..amplitude_m, 4..20)
 }
 
-/// Work put in so far less the springs' store `K u^2/2`, at its least, over the work done on the way
-/// in either direction [1].
-fn least_dissipation(parameters: &DamperParameters, stiffness: f64, motion: &[f64]) -> f64 {
+/// Minimum of the work put in so far minus the energy `K u^2/2` stored in the springs, over the work done on the way in
+/// either direction [1].
+fn min_dissipation(parameters: &DamperParameters, stiffness: f64, motion: &[f64]) -> f64 {
     let damper: Damper<f64> = build(parameters, STEP_S);
     let mut state = damper.at_rest(motion[0]);
     let (mut work, mut moved, mut least) = (0.0_f64, 0.0_f64, 0.0_f64);
@@ -58,8 +58,8 @@ proptest! {
             (damper("reduced-vertical", &["mount.clearance_m=0.0"]), 8e6),
             (damper("reduced-vertical", &[]), 8e6),
         ][preset].clone();
-        let least = least_dissipation(&parameters, stiffness, &through(&corners, ticks));
-        // The trapezoid of the work errs by the corner of the clearance inside a tick.
+        let least = min_dissipation(&parameters, stiffness, &through(&corners, ticks));
+        // The trapezoidal work has an error from the clearance's corner inside a tick.
         prop_assert!(least > -1e-3, "{least:e}");
     }
 
@@ -144,8 +144,7 @@ fn odd<T: Real>(parameters: &DamperParameters, motion: &[f64]) -> Result<(), Tes
     Ok(())
 }
 
-/// RMS error of the force [N] at `step_s` against a step 32 times smaller than the smallest used, at
-/// the times both have.
+/// RMS error of the force [N] at `step_s` against a step 32 times smaller than the smallest one used, at common times.
 fn error(parameters: &DamperParameters, step_s: f64, motion: impl Fn(f64) -> f64) -> f64 {
     const FINE_S: f64 = 1.0 / 65_536.0;
     const DURATION_S: f64 = 1.0;

@@ -1,5 +1,4 @@
-//! Every number of Tables 1 to 5 of the source paper beside ours: writes and checks
-//! docs/validation.md.
+//! Compares every number of Tables 1 to 5 of the source paper with ours: writes and checks docs/validation.md.
 
 use std::fmt::Write;
 
@@ -8,7 +7,7 @@ use dashpot::{damper, document};
 use dashpot_core::parameters::{Element, Hydraulics, Valve};
 use dashpot_core::shim::{Disc, Pack};
 
-/// Rows of a published table, header left out.
+/// Rows of a published table without the header.
 fn rows(file: &str) -> Vec<Vec<String>> {
     let text = document::read(&format!("data/published/{file}"));
     text.lines()
@@ -38,7 +37,7 @@ fn theory(valve: &Valve) -> f64 {
     pack(valve).compliance_m_per_pa(valve.free_radius_m)
 }
 
-/// The same discs bonded to one plate of their whole thickness [m/Pa].
+/// Compliance of the same discs bonded to one plate of their total thickness [m/Pa].
 fn bonded(valve: &Valve) -> f64 {
     let thickness: f64 = valve.shims_m.iter().sum();
     pack(valve)
@@ -79,7 +78,7 @@ fn of_preset(symbol: &str, valves: &dashpot_core::parameters::Valves) -> f64 {
 
 fn table_1(page: &mut String, valves: &dashpot_core::parameters::Valves) {
     *page += "## Table 1: shims\n\n\
-        Input of the theory; the preset `paper` uses these values.\n\n\
+        These are the inputs of the theory; the preset `paper` uses these values.\n\n\
         | symbol | meaning | published | preset | unit |\n|---|---|---|---|---|\n";
     for row in rows("table1_shims.csv") {
         let ours = of_preset(&row[0], valves);
@@ -96,7 +95,7 @@ fn table_1(page: &mut String, valves: &dashpot_core::parameters::Valves) {
         )
         .unwrap();
     }
-    *page += "\nWhat follows from them:\n\n\
+    *page += "\nResulting deflection coefficients:\n\n\
         | disc | Cw(r_w), model page [m^6/N] | ours [m^6/N] |\n|---|---|---|\n";
     for (name, clamp, free, stated) in [
         ("16/29 mm", 16e-3, 29e-3, 2.1427e-19),
@@ -143,7 +142,7 @@ fn deflections(page: &mut String, title: &str, file: &str, valve: &Valve) {
             row[4],
         )
         .unwrap();
-        // The preset stands for its table to the digits printed there.
+        // The preset reproduces its table to the printed digits.
         assert!(
             (ours / uniform - 1.0).abs() < 3e-3,
             "{file} at {pressure} Pa"
@@ -158,10 +157,10 @@ fn deflections(page: &mut String, title: &str, file: &str, valve: &Valve) {
 
 fn first_erratum(page: &mut String, valves: &dashpot_core::parameters::Valves) {
     *page += "## Erratum 1: Tables 2 to 4 do not follow from Table 1\n\n\
-        Edge compliance under uniform pressure [mm/MPa]: the theory of the paper, with its Table 1, against what its\n\
-        Tables 2 to 4 print. The theory meets Roark's case 2l (`tests/damper/disc.rs`), so the tables rest on other shims,\n\
-        another load or another unit; neither sliding nor bonded discs give them. The preset takes the printed compliances\n\
-        because they give damper forces of the right size; `edge_compliance_m_per_pa` is a parameter for that reason.\n\n\
+        Edge compliance under uniform pressure [mm/MPa]: the paper's theory with its Table 1, compared with the printed values of\n\
+        Tables 2 to 4. The theory agrees with Roark's case 2l (`tests/damper/disc.rs`), so the tables must be based on other shims,\n\
+        another load or another unit; neither sliding nor bonded discs reproduce them. The preset uses the printed compliances\n\
+        because they lead to damper forces of the right size; `edge_compliance_m_per_pa` is a parameter for that reason.\n\n\
         | valve | sliding discs | bonded discs | printed | sliding/printed | bonded/printed |\n|---|---|---|---|---|---|\n";
     // Ratios of the model page, to its digits.
     for (name, valve, stated) in [
@@ -204,9 +203,9 @@ fn table_5(page: &mut String) {
     };
     let indices = settled_cycle(&damper("paper", &[]), motion, 1e-4);
     *page += "## Table 5: nominal characteristic\n\n\
-        +-24.875 mm at 0.64 Hz (0.1 m/s); ours: preset `paper`, f64, 10 kHz, the fifth cycle. Damping coefficient: mean of\n\
-        the two largest forces over the largest velocity; the paper gives no definition, and its two columns fit none we\n\
-        tried to better than 0.2 and 1 %. Asymmetry rate: `(F_ext - F_comp)/(F_ext + F_comp)`.\n\n\
+        The motion is +-24.875 mm at 0.64 Hz (0.1 m/s); ours is the preset `paper`, f64, 10 kHz, the fifth cycle. The damping\n\
+        coefficient is the mean of the two maximum forces over the maximum velocity; the paper does not define it, and its two\n\
+        columns fit no definition we tried to better than 0.2 and 1 %. The asymmetry rate is `(F_ext - F_comp)/(F_ext + F_comp)`.\n\n\
         | index | unit | published simulation | published test | published error | ours | ours/test |\n|---|---|---|---|---|---|---|\n";
     for row in rows("table5_nominal_characteristic.csv") {
         let ours = index(&row[0], &indices);
@@ -221,7 +220,7 @@ fn table_5(page: &mut String) {
             ours / number(&row[3])
         )
         .unwrap();
-        // The printed error is of the printed columns.
+        // The printed error relates the printed columns.
         let printed = number(&row[4]);
         let error = 100.0 * (number(&row[2]) / number(&row[3]) - 1.0).abs();
         assert!((error - printed).abs() < 0.011, "{}: {error}", row[0]);
@@ -235,10 +234,10 @@ fn table_5(page: &mut String) {
     write!(
         page,
         "\n## Erratum 2: Eq. 31 with Tables 2 to 4 does not reproduce Table 5\n\n\
-         The compression side, on which two valves work on the larger piston area, comes out {:.0} % above the test, the extension\n\
-         side {:.0} % below it. The energy factor `E/(pi F x0)` is {:.3} in the published simulation and {:.3} in the test, \
-         ours {factor:.3};\nabove 1 asks for a digressive curve, and Eq. 31, orifice and shims alone, \
-         is progressive over this range.\nAt 0.3 m/s Eq. 31 gives 36 kN; the axis of the paper's Fig. 9 ends at 25 kN.\n\
+         The force in compression, where two valves act on the larger piston area, is {:.0} % above the test; the force in\n\
+         extension is {:.0} % below it. The energy factor `E/(pi F x0)` is {:.3} in the published simulation, {:.3} in the test\n\
+         and {factor:.3} here. A factor above 1 requires a digressive curve, but Eq. 31 with orifice and shims alone is\n\
+         progressive over this range. At 0.3 m/s Eq. 31 gives 36 kN; the axis of the paper's Fig. 9 ends at 25 kN.\n\
          No value of the preset is tuned to hide this.\n",
         100.0 * (indices.max_compression_force_n / number(&rows[2][3]) - 1.0),
         100.0 * (1.0 - indices.max_extension_force_n / number(&rows[1][3])),
@@ -246,18 +245,18 @@ fn table_5(page: &mut String) {
         published(3),
     )
     .unwrap();
-    // What the erratum says must be so.
+    // The conditions that the erratum states.
     assert!(indices.asymmetry_rate() < -0.1 && published(2) > 1.02);
 }
 
 #[test]
-fn every_published_number_stands_beside_ours() {
+fn every_published_number_is_compared() {
     let hydraulics = hydraulics();
     let valves = &hydraulics.valves;
     let mut page = String::from(
-        "# Validation: the published numbers beside ours\n\n\
-         Generated by `tests/damper/published.rs` from `data/published/`; the test fails when this page is not what it would write\n\
-         (`DASHPOT_BLESS=1 cargo test -p dashpot --test damper published` writes it). Source: see `data/published/README.md`.\n\n",
+        "# Validation: comparison with the published numbers\n\n\
+         `tests/damper/published.rs` generates this page from `data/published/` and fails if the page differs\n\
+         (`DASHPOT_BLESS=1 cargo test -p dashpot --test damper published` writes it). See `data/published/README.md` for the source.\n\n",
     );
     table_1(&mut page, valves);
     let tables = [

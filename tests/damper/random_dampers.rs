@@ -1,7 +1,7 @@
-//! Random dampers from the whole documented ranges under random motions: what docs/numerics.md promises by
-//! `dashpot verify`, for inputs nobody chose.
+//! Random dampers from the full documented ranges under random motions: the promise that docs/numerics.md bases on
+//! `dashpot verify` holds for arbitrary inputs.
 //!
-//! A number makes a damper and its motions. `DASHPOT_RANDOM_DAMPERS=1000..2000` tries others.
+//! A seed determines a damper and its motions. `DASHPOT_RANDOM_DAMPERS=1000..2000` tries others.
 
 use std::ops::Range;
 use std::sync::Mutex;
@@ -14,24 +14,24 @@ use dashpot::searched_motion::{Form, SearchedMotion};
 use dashpot_core::characteristic::{Characteristic, Corner};
 use dashpot_testbench::step_errors::{SCALARS, StepErrors};
 
-/// Dampers tried.
+/// Seeds tried.
 const NUMBERS: Range<u64> = 0..5;
-/// Motions of each, at each step size.
+/// Motions per damper, at each step size.
 const MOTIONS: usize = 8;
 
-/// What a damper did.
+/// Result for one damper.
 #[derive(Default)]
 struct Case {
-    /// Errors above what is promised, in words.
+    /// Errors above the promise, in words.
     complaints: Vec<String>,
-    /// Largest figure over what is promised for it.
+    /// Largest figure relative to its promise.
     largest_ratio: f64,
-    /// Corners that the reference's force went through.
+    /// Corners that the reference's force passed through.
     reached: Vec<Corner>,
     forms: Vec<Form>,
 }
 
-/// The reason where the reference has no solution, which `verify` reports.
+/// Measures one damper; the error is the reason why the reference has no solution, which `verify` reports.
 fn measure(number: u64) -> Result<Case, String> {
     let mut random = Random(number);
     let parameters = documented_damper(&mut random);

@@ -1,9 +1,9 @@
-//! The accuracy promise under a search for its worst case, of bounded length; `cargo xtask search` goes on for as long
-//! as one likes.
+//! The accuracy promise under a search of bounded length for its worst case; `cargo xtask search` searches for as long
+//! as you like.
 
 use dashpot::search::search;
 
-/// Motions tried, of four dampers: some minutes of processor time, most of it in the reference.
+/// Motions tried, of four dampers: a few minutes of processor time, most of it in the reference.
 const EVALUATIONS: usize = 208;
 
 #[test]
@@ -21,7 +21,7 @@ fn the_promise_survives_a_search_for_its_worst_case() {
         "the promise is broken: {}\nwrite it by `cargo xtask search`",
         worst.line()
     );
-    // A search that finds nothing near the promise does not search.
+    // A search that finds nothing near the promise is not searching.
     assert!(worst.ratio() > 0.15, "{}", worst.line());
 }
 

@@ -1,4 +1,4 @@
-//! The yardstick of the benches solves the same damper, or its time would say nothing.
+//! The yardstick of the benches solves the same damper; otherwise its time would be meaningless.
 
 use dashpot::damper;
 use dashpot::newton::NewtonDamper;
@@ -6,8 +6,8 @@ use dashpot_reference::damper::Reference;
 use dashpot_reference::deviation::nrmse;
 use dashpot_testbench::excitation::Excitation;
 
-/// NRMSE against the reference over one second of random ride at 1 kHz: a plain SDIRK2 has
-/// 3e-4 in double precision over 5 s.
+/// NRMSE against the reference over one second of random ride at 1 kHz: a plain SDIRK2 has 3e-4 in double precision
+/// over 5 s.
 #[test]
 fn plain_newton_agrees_with_the_reference() {
     const STEP_S: f64 = 1e-3;

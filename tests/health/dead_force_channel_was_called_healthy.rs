@@ -1,10 +1,10 @@
-//! A force channel that fell to noise, and oil full of air, were read as a healthy damper with narrow intervals and
-//! without a bit, for as long as the damper moved.
+//! A force channel reduced to noise, and oil full of air, were taken for a healthy damper with narrow intervals and
+//! without a status bit, for as long as the damper moved.
 
 use dashpot_core::health::HealthStatus;
 
-use crate::made::{PRESETS, varied};
 use crate::sensors::{Run, Wrong};
+use crate::synthetic::{PRESETS, varied};
 
 fn check(preset: &str, run: &Run) {
     let after_s = run.no_force_after_s;
@@ -13,7 +13,7 @@ fn check(preset: &str, run: &Run) {
         "{preset}: {after_s:?}"
     );
     assert!(!run.last.is_trusted(), "{preset}: {:?}", run.last);
-    // What was known before grows old.
+    // Earlier knowledge fades.
     assert!(run.last.flow_factor.sd > 0.25, "{preset}: {:?}", run.last);
     assert!(run.last.status.contains(HealthStatus::LITTLE_EXCITATION));
     assert!(!run.had_alarm, "{preset}: no wear was measured");

@@ -1,5 +1,5 @@
-//! Each fault within 10 s of the ride with noise of 2 % of either signal's root mean square: after a change in a run,
-//! and from a start that knows the nominal damper alone.
+//! Detects each fault within 10 s of the ride with noise of 2 % of each signal's root mean square: after a change
+//! during a run, and from a start that knows only the nominal damper.
 
 use std::fmt::Write;
 
@@ -7,17 +7,17 @@ use dashpot::document;
 use dashpot_core::health::HealthStatus;
 use dashpot_testbench::health::Noise;
 
-use crate::made::{Fault, PRESETS, errors, estimate, forces, largest, model, ride, varied};
+use crate::synthetic::{Fault, PRESETS, errors, estimate, forces, largest, model, ride, varied};
 
 const SEEDS: u64 = 50;
 const TEN_SECONDS: usize = 10_000;
 const NOISE: f64 = 0.02;
 
-const MOST_FLOW: f64 = 0.03;
-const MOST_STIFFNESS: f64 = 0.10;
-const MOST_CLEARANCE_M: f64 = 0.15e-3;
+const MAX_FLOW_ERROR: f64 = 0.03;
+const MAX_STIFFNESS_ERROR: f64 = 0.10;
+const MAX_CLEARANCE_ERROR_M: f64 = 0.15e-3;
 
-/// Errors and status after 10 s with a fault that came after `before` ticks without.
+/// Errors and status after 10 s with a fault that began after `before` healthy ticks.
 fn run(
     preset: &str,
     fault: Fault,
@@ -36,7 +36,7 @@ fn run(
     (errors(&reading, &faulty, fault), reading.status)
 }
 
-/// All seeds of a preset and fault.
+/// Runs every seed of a preset and fault.
 fn runs(preset: &str, fault: Fault, random: bool, before: usize) -> Vec<([f64; 6], HealthStatus)> {
     let half = |seeds: std::ops::Range<u64>| {
         move || -> Vec<_> {
@@ -53,14 +53,23 @@ fn runs(preset: &str, fault: Fault, random: bool, before: usize) -> Vec<([f64; 6
     })
 }
 
-/// The bound of the parameter that the fault changes holds at every seed, and that fault alone is an alarm.
+/// Checks that the parameter changed by the fault is within its bound for every seed, and that only that fault is an
+/// alarm.
 fn check(label: &str, fault: Fault, runs: &[([f64; 6], HealthStatus)]) {
-    let most = |place: usize| largest(runs.iter().map(|(errors, _)| errors[place]));
+    let max = |column: usize| largest(runs.iter().map(|(errors, _)| errors[column]));
     match fault {
         Fault::None => {}
-        Fault::Flow => assert!(most(0) < MOST_FLOW, "{label}: flow {}", most(0)),
-        Fault::Stiffness => assert!(most(1) < MOST_STIFFNESS, "{label}: stiffness {}", most(1)),
-        Fault::Clearance => assert!(most(2) < MOST_CLEARANCE_M, "{label}: clearance {}", most(2)),
+        Fault::Flow => assert!(max(0) < MAX_FLOW_ERROR, "{label}: flow {}", max(0)),
+        Fault::Stiffness => assert!(
+            max(1) < MAX_STIFFNESS_ERROR,
+            "{label}: stiffness {}",
+            max(1)
+        ),
+        Fault::Clearance => assert!(
+            max(2) < MAX_CLEARANCE_ERROR_M,
+            "{label}: clearance {}",
+            max(2)
+        ),
     }
     let expected = match fault {
         Fault::None => HealthStatus::empty(),
@@ -79,9 +88,12 @@ fn check(label: &str, fault: Fault, runs: &[([f64; 6], HealthStatus)]) {
 }
 
 fn row(label: &str, fault: Fault, runs: &[([f64; 6], HealthStatus)]) -> String {
-    let most = |place: usize| largest(runs.iter().map(|(errors, _)| errors[place]));
-    let middle = |place: usize| {
-        let mut all: Vec<f64> = runs.iter().map(|(errors, _)| errors[place].abs()).collect();
+    let max = |column: usize| largest(runs.iter().map(|(errors, _)| errors[column]));
+    let median = |column: usize| {
+        let mut all: Vec<f64> = runs
+            .iter()
+            .map(|(errors, _)| errors[column].abs())
+            .collect();
         all.sort_by(f64::total_cmp);
         all[all.len() / 2]
     };
@@ -93,12 +105,12 @@ fn row(label: &str, fault: Fault, runs: &[([f64; 6], HealthStatus)]) -> String {
     };
     format!(
         "| {label} | {name} | {:.1}, {:.1} | {:.1}, {:.1} | {:.3}, {:.3} |\n",
-        1e2 * middle(0),
-        1e2 * most(0),
-        1e2 * middle(1),
-        1e2 * most(1),
-        1e3 * middle(2),
-        1e3 * most(2)
+        1e2 * median(0),
+        1e2 * max(0),
+        1e2 * median(1),
+        1e2 * max(1),
+        1e3 * median(2),
+        1e3 * max(2)
     )
 }
 
@@ -119,7 +131,7 @@ fn a_change_is_known_ten_seconds_later() {
 }
 
 #[test]
-fn a_fault_of_a_damper_that_nobody_chose_is_known_ten_seconds_later() {
+fn a_fault_of_a_random_damper_is_known_ten_seconds_later() {
     let mut failed = String::new();
     for preset in PRESETS {
         for fault in Fault::ALL {
@@ -142,15 +154,15 @@ fn a_faulty_damper_is_known_from_ten_seconds_alone() {
     }
 }
 
-/// Standard deviations told are those found: errors over them have a root mean square near 1.
+/// Reported standard deviations match the actual errors: errors relative to them have a root mean square near 1.
 #[test]
-fn what_is_told_to_be_uncertain_is_so() {
+fn reported_uncertainty_matches_the_errors() {
     for preset in PRESETS {
         let runs = runs(preset, Fault::None, false, TEN_SECONDS);
-        for place in 3..6 {
+        for column in 3..6 {
             let square = runs
                 .iter()
-                .map(|(errors, _)| errors[place].powi(2))
+                .map(|(errors, _)| errors[column].powi(2))
                 .sum::<f64>();
             let rms = (square / runs.len() as f64).sqrt();
             println!("{preset}: {rms:.2}");

@@ -1,9 +1,10 @@
-//! An offset of the force sensor moved flow, stiffness and clearance by ten standard deviations, and was called wear.
+//! An offset of the force sensor moved flow, stiffness and clearance by ten standard deviations and was reported as
+//! wear.
 
 use dashpot_core::health::HealthStatus;
 
-use crate::made::{PRESETS, varied};
 use crate::sensors::{CONTAINED, Wrong};
+use crate::synthetic::{PRESETS, varied};
 
 #[test]
 fn the_zero_of_the_force_is_found_and_taken_out() {

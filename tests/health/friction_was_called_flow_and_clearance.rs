@@ -1,7 +1,7 @@
-//! Seal friction that grew by 400 N was read as less flow and another clearance.
+//! An increase of the seal friction by 400 N was reported as less flow and another clearance.
 
-use crate::made::varied;
 use crate::sensors::{CONTAINED, Wrong};
+use crate::synthetic::varied;
 
 #[test]
 fn added_friction_is_found_and_taken_out() {

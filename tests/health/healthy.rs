@@ -1,11 +1,11 @@
-//! Nothing wrong, and nothing told to be.
+//! No faults, and none reported.
 
 use std::thread;
 
 use dashpot_core::health::{Health, HealthStatus};
 use dashpot_testbench::health::Noise;
 
-use crate::made::{Fault, PRESETS, estimate, forces, model, ride, varied};
+use crate::synthetic::{Fault, PRESETS, estimate, forces, model, ride, varied};
 
 const ALARMS: HealthStatus = HealthStatus::FLOW
     .union(HealthStatus::STIFFNESS)
@@ -55,7 +55,7 @@ fn a_damper_at_rest_for_an_hour_keeps_its_estimate() {
     let samples = noisy_x.iter().zip(&noisy_force);
     samples.clone().for_each(|sample| tick(&mut health, sample));
     let before = health.reading(&model);
-    // At rest in its clearance, then with a force sensor that has an offset.
+    // At rest in its clearance, then with an offset of the force sensor.
     for standing in [0.0, 200.0] {
         let (still_x, still_force) =
             noise.on(&vec![x[0]; 1_800_000], &vec![standing; 1_800_000], 4);
@@ -74,7 +74,7 @@ fn a_damper_at_rest_for_an_hour_keeps_its_estimate() {
             "{before:?} {after:?}"
         );
     }
-    // It goes on as if nothing had been.
+    // The estimate continues as if nothing had happened.
     samples.for_each(|sample| tick(&mut health, sample));
     let again = health.reading(&model);
     let clearance = f64::from(again.clearance_m.value);
@@ -82,7 +82,7 @@ fn a_damper_at_rest_for_an_hour_keeps_its_estimate() {
 }
 
 #[test]
-fn little_motion_is_told() {
+fn little_motion_is_reported() {
     let parameters = varied("paper", None);
     let noise = Noise {
         displacement_m: 60e-6,

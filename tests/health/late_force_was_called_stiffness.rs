@@ -1,9 +1,9 @@
-//! A force that came 5 ms late was read as another stiffness with a narrow interval.
+//! A force that was 5 ms late was reported as another stiffness with a narrow interval.
 
 use dashpot_core::health::HealthStatus;
 
-use crate::made::{PRESETS, varied};
 use crate::sensors::Wrong;
+use crate::synthetic::{PRESETS, varied};
 
 #[test]
 fn channels_that_are_too_far_apart_in_time_are_reported() {

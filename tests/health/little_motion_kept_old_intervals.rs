@@ -1,13 +1,13 @@
-//! A clearance that grew to 4 mm under a motion of 0.44 mm rms left the old estimate with its narrow intervals for as
-//! long as the run lasted: nothing was measured, and nothing grew old.
+//! When the clearance grew to 4 mm under a motion of 0.44 mm rms, the old estimate kept its narrow intervals for the
+//! rest of the run, because nothing was measured and nothing was forgotten.
 
 use dashpot_core::health::{Health, HealthStatus};
 use dashpot_testbench::health::Noise;
 
-use crate::made::{forces, model, ride, varied};
+use crate::synthetic::{forces, model, ride, varied};
 
 #[test]
-fn what_was_known_grows_old_in_motion_that_tells_nothing() {
+fn knowledge_fades_in_uninformative_motion() {
     const BEFORE: usize = 20_000;
     const TICKS: usize = 320_000;
     let healthy = varied("in-service", None);

@@ -1,13 +1,13 @@
-//! The estimator of health: faults found over many rides and dampers, none found where there is none, data that the
-//! core did not make, and input that no sensor should give.
+//! The health estimator: it finds faults over many rides and dampers, reports none in healthy ones, and handles data
+//! from outside the core and input that no sensor should deliver.
 
 mod faults;
 mod healthy;
-mod made;
 mod other_data;
 mod robustness;
 mod sensor_faults;
 mod sensors;
+mod synthetic;
 mod vehicle;
 
 mod dead_force_channel_was_called_healthy;

@@ -1,4 +1,4 @@
-//! Samples that the core's step did not make: by the reference solution, and by a law that no parameter describes.
+//! Samples from outside the core's step: the reference solution, and a law that no parameter describes.
 
 use dashpot_core::DamperParameters;
 use dashpot_core::health::{Health, HealthSettings, HealthStatus};
@@ -6,7 +6,7 @@ use dashpot_core::parameters::Mount;
 use dashpot_reference::damper::Reference;
 use dashpot_testbench::health::Noise;
 
-use crate::made::{Fault, PRESETS, STEP_S, errors, estimate, model, ride, varied};
+use crate::synthetic::{Fault, PRESETS, STEP_S, errors, estimate, model, ride, varied};
 
 #[test]
 fn faults_in_forces_of_the_reference_are_known() {
@@ -41,7 +41,7 @@ fn faults_in_forces_of_the_reference_are_known() {
     }
 }
 
-/// A chain whose law `F = C v (1 + 0.4 tanh(v/v_t))` bends as no preset's does; the flow of a fault scales it.
+/// A chain whose law `F = C v (1 + 0.4 tanh(v/v_t))` bends unlike any preset's; the flow of a fault scales it.
 struct Bent {
     flow: f64,
     stiffness_n_per_m: f64,
@@ -90,8 +90,7 @@ impl Bent {
     }
 }
 
-/// The model takes the law for a straight one; a baseline is learned of the healthy damper, and faults are found as
-/// changes from it.
+/// The model assumes a straight law. It learns a baseline from the healthy damper and finds faults as changes from it.
 #[test]
 fn faults_of_another_law_are_known_against_its_baseline() {
     const TICKS: usize = 20_000;

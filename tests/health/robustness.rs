@@ -1,10 +1,10 @@
-//! Whatever comes in, numbers come out; a copy goes on as the original does.
+//! Any input produces finite estimates; a copy continues exactly like the original.
 
 use dashpot_core::health::{Health, HealthStatus};
 use dashpot_testbench::health::Noise;
 use fastrand::Rng;
 
-use crate::made::{Fault, PRESETS, errors, estimate, forces, model, ride, varied};
+use crate::synthetic::{Fault, PRESETS, errors, estimate, forces, model, ride, varied};
 
 const NOISE: Noise = Noise {
     displacement_m: 60e-6,
@@ -37,7 +37,7 @@ fn any_bits_give_numbers_and_are_forgotten() {
     for _ in 0..500_000 {
         let any = |rng: &mut Rng| f32::from_bits(rng.u32(..));
         let some = |rng: &mut Rng, most: f32| most * (2.0 * rng.f32() - 1.0);
-        // Bits of any kind, then numbers that a sensor could give, without sense.
+        // Random bits, then plausible but meaningless sensor values.
         let sample = match rng.u32(..4) {
             0 => (any(rng), any(rng)),
             1 => (any(rng), some(rng, 1e4)),
@@ -91,9 +91,9 @@ fn one_bad_sample_in_a_hundred_changes_little() {
     );
 }
 
-/// The displacement sensor set to another zero in the run is no fault of the damper.
+/// Resetting the zero of the displacement sensor during a run is not a fault of the damper.
 #[test]
-fn a_sensor_set_anew_is_no_alarm() {
+fn a_sensor_reset_raises_no_alarm() {
     let parameters = varied("paper", None);
     let model = model(&parameters, &NOISE);
     let x = ride(45, 20_000);
@@ -114,7 +114,7 @@ fn a_sensor_set_anew_is_no_alarm() {
 }
 
 #[test]
-fn a_copy_goes_on_to_the_bit() {
+fn a_copy_continues_bit_for_bit() {
     let parameters = varied("reduced-lateral", None);
     let model = model(&parameters, &NOISE);
     let x = ride(46, 5000);
@@ -130,7 +130,7 @@ fn a_copy_goes_on_to_the_bit() {
     assert_eq!(format!("{health:?}"), format!("{copy:?}"));
 }
 
-/// A force that comes late by 1 or 2 ms, as through a filter: the lag is estimated beside the faults, which keep their
+/// The force is 1 or 2 ms late, as after a filter. The lag is estimated along with the faults, which stay within their
 /// bounds.
 #[test]
 fn a_late_force_hides_no_fault() {

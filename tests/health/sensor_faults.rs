@@ -1,4 +1,4 @@
-//! For every fault of a sensor: an interval contains the truth, or a bit says that it may not.
+//! For every sensor fault, either an interval contains the truth or a bit reports that it may not.
 
 use std::fmt::Write;
 use std::thread;
@@ -6,15 +6,15 @@ use std::thread;
 use dashpot::document;
 use dashpot_core::health::HealthStatus;
 
-use crate::made::{PRESETS, varied};
 use crate::sensors::{CONTAINED, Run, Wrong};
+use crate::synthetic::{PRESETS, varied};
 
 const SEEDS: u64 = 10;
-/// Time (s) after which each reading must contain the truth or be in doubt.
+/// Time (s) after which each reading must contain the truth or be untrusted.
 const SETTLED_S: f64 = 35.0;
 
-/// Faults, and whether what they do to the estimates must be in doubt or contained. The others are those that cannot be
-/// told from wear.
+/// Faults, each with true if its effect on the estimates must be contained or untrusted. The others cannot be
+/// distinguished from wear.
 const FAULTS: [(&str, Wrong, bool); 34] = [
     ("force + 50 N", Wrong::ForceBias(50.0), true),
     ("force + 200 N", Wrong::ForceBias(200.0), true),
@@ -88,7 +88,7 @@ fn runs(wrong: Wrong) -> Vec<Run> {
     })
 }
 
-/// The bits at the end, each with the number of runs that have it.
+/// The bits at the end, each with the number of runs in which it is set.
 fn reported(runs: &[Run]) -> String {
     let mut text = String::new();
     for (name, bit) in HealthStatus::all().iter_names() {

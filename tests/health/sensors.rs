@@ -1,65 +1,65 @@
-//! What goes wrong with sensors, and faults of a damper that no estimated parameter describes.
+//! Sensor faults, and damper faults that no estimated parameter describes.
 
 use dashpot_core::DamperParameters;
 use dashpot_core::health::{Estimate, Health, HealthReading, HealthStatus};
 use dashpot_core::parameters::Element;
 use dashpot_testbench::health::Noise;
 
-use crate::made::{STEP_S, forces, model, ride};
+use crate::synthetic::{STEP_S, forces, model, ride};
 
-/// A fault that begins in the run.
+/// A fault that begins during the run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Wrong {
     /// An offset (N, m).
     ForceBias(f64),
     DisplacementBias(f64),
-    /// Late by so many samples of 1 ms.
+    /// Delay in samples of 1 ms.
     ForceLag(usize),
     DisplacementLag(usize),
-    /// A wrong scale.
+    /// A wrong scale factor.
     ForceGain(f64),
     DisplacementGain(f64),
     /// An offset that grows (N/s, m/s).
     ForceDrift(f64),
     DisplacementDrift(f64),
-    /// 100 ms of every second: the force is 0, or NaN; the displacement stays as it was.
+    /// During 100 ms of every second the force is 0 or NaN, or the displacement is held.
     ForceDropout,
     ForceLost,
     DisplacementDropout,
-    /// A constant for good (N); the displacement as it was.
+    /// Permanently constant: force (N), or the displacement at its last value.
     ForceStuck(f64),
     DisplacementStuck,
     ForceReversed,
     DisplacementReversed,
     /// Noise alone.
     ForceDead,
-    /// Seal friction grown (N).
+    /// Additional seal friction (N).
     Friction(f64),
     /// Air in the oil column (1).
     Air(f64),
 }
 
-/// What a run has come to.
+/// Result of a run.
 pub struct Run {
     pub last: HealthReading,
     /// Largest error over its standard deviation of flow, compliance and clearance at the end.
     pub error: f64,
-    /// Time after the fault (s) from which on every reading contained the truth or was not trusted.
+    /// Time after the fault (s) from which on every reading contained the truth or was untrusted.
     pub right_after_s: f64,
-    /// Time after the fault (s) at which the force was first reported missing.
+    /// Time after the fault (s) at which the missing force was first reported.
     pub no_force_after_s: Option<f64>,
     pub had_alarm: bool,
 }
 
 /// Ticks before the fault.
 pub const BEFORE: usize = 20_000;
-/// Ticks with it.
+/// Ticks with the fault.
 pub const WITH: usize = 40_000;
 /// Standard deviations within which an interval contains the truth.
 pub const CONTAINED: f64 = 5.0;
 
 impl Wrong {
-    /// The damper with this fault; `None` where it has no such part.
+    /// The damper with this fault; `None` if the damper lacks the part.
     fn on(self, healthy: &DamperParameters) -> Option<DamperParameters> {
         let mut faulty = healthy.clone();
         let Element::Physical(hydraulics) = &mut faulty.element else {
@@ -74,7 +74,7 @@ impl Wrong {
         Some(faulty)
     }
 
-    /// What the sensors give at a tick of the fault, `x` and `force` being right and with noise.
+    /// Sensor readings at a tick of the fault, from the correct, noisy `x` and `force`.
     fn sample(self, tick: usize, x: &[f64], force: &[f64], noise: f64) -> (f64, f64) {
         let since_s = (tick - BEFORE) as f64 * STEP_S;
         let drops = tick % 1000 < 100;
@@ -101,7 +101,8 @@ impl Wrong {
         }
     }
 
-    /// 20 s without and 40 s with the fault, noise of 2 % of either signal. `None` where the damper cannot have it.
+    /// Runs 20 s without and 40 s with the fault, with noise of 2 % of each signal. `None` if the damper cannot have
+    /// the fault.
     pub fn run(self, healthy: &DamperParameters, seed: u64) -> Option<Run> {
         let faulty = self.on(healthy)?;
         let ticks = BEFORE + WITH;
@@ -165,7 +166,7 @@ impl Wrong {
         }
         run.last = health.reading(&model);
         run.error = error(&run.last);
-        run.had_alarm = run.last.status.intersects(crate::made::WEAR);
+        run.had_alarm = run.last.status.intersects(crate::synthetic::WEAR);
         Some(run)
     }
 }

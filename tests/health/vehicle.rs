@@ -1,4 +1,4 @@
-//! Dampers under a running locomotive: a fault of one is its alarm, and the others have none.
+//! Dampers under a running locomotive: a faulty damper raises its own alarm and no other damper's.
 
 use dashpot_core::health::HealthStatus;
 use dashpot_files::case::{CaseOptions, FaultOptions};
@@ -6,14 +6,14 @@ use dashpot_testbench::health::Noise;
 use dashpot_vehicle_run::Run;
 use dashpot_vehicle_run::signals::{all, slug};
 
-use crate::made::{estimate, model};
+use crate::synthetic::{estimate, model};
 
 const WATCHED: [&str; 2] = ["front vertical damper 1", "front vertical damper 2"];
 
 /// Displacements (m) and forces (N) of a damper at every millisecond.
 type Signals = (Vec<f64>, Vec<f64>);
 
-/// Those of the watched dampers, and what these are.
+/// Signals of the watched dampers, and their parameters.
 fn signals(fault: Option<&str>) -> (Vec<Signals>, dashpot_core::DamperParameters) {
     let mut options = CaseOptions::load("straight-180").unwrap();
     options.duration_s = 25.0;
@@ -49,22 +49,22 @@ fn signals(fault: Option<&str>) -> (Vec<Signals>, dashpot_core::DamperParameters
 }
 
 #[test]
-fn a_faulty_damper_of_a_locomotive_is_told_from_its_neighbour() {
+fn a_faulty_damper_of_a_locomotive_is_distinguished_from_its_neighbour() {
     let alarms = HealthStatus::FLOW | HealthStatus::STIFFNESS | HealthStatus::CLEARANCE;
     for (fault, expected) in [
         (None, HealthStatus::empty()),
         (Some("mount.clearance_m=2e-3"), HealthStatus::CLEARANCE),
     ] {
         let (samples, nominal) = signals(fault);
-        for (place, (x, force)) in samples.iter().enumerate() {
+        for (index, (x, force)) in samples.iter().enumerate() {
             let noise = Noise::of_rms(0.02, x, force);
-            let (x, force) = noise.on(x, force, place as u64);
+            let (x, force) = noise.on(x, force, index as u64);
             let reading = estimate(&model(&nominal, &noise), &x, &force);
             println!(
                 "{fault:?}, {}: noise {noise:?}, {reading:?}",
-                WATCHED[place]
+                WATCHED[index]
             );
-            let expected = if place == 0 {
+            let expected = if index == 0 {
                 expected
             } else {
                 HealthStatus::empty()
@@ -73,7 +73,7 @@ fn a_faulty_damper_of_a_locomotive_is_told_from_its_neighbour() {
                 reading.status & alarms,
                 expected,
                 "{fault:?}, {}",
-                WATCHED[place]
+                WATCHED[index]
             );
         }
     }

@@ -1,5 +1,5 @@
-//! Memory damaged while the tick runs free: it is found, latched, counted, and takes the safe output until the
-//! damper is loaded again.
+//! Memory damaged while the tick runs free is found, latched and counted, and the device switches to the safe output
+//! until the damper is loaded again.
 
 use dashpot_core::Status;
 use dashpot_core::integrity::SLICES;
@@ -7,22 +7,22 @@ use dashpot_core::link::{Device, LossOfLink, Refusal, Request, Response, SafeOut
 
 use crate::common::{Bench, reals};
 
-/// Flips a bit of the only place in the device that holds these bytes.
+/// Flips a bit of these bytes, which occur only once in the device.
 pub fn flip_a_bit_of(device: &mut Device<2, 2>, bytes: &[u8]) {
     let (start, length) = (
         std::ptr::from_mut(device).cast::<u8>(),
         size_of::<Device<2, 2>>(),
     );
-    // SAFETY: the device's memory; what is changed is a number, of which every bit pattern is one.
+    // SAFETY: the device's memory; the changed value is a number, for which every bit pattern is valid.
     let memory = unsafe { std::slice::from_raw_parts_mut(start, length) };
-    let places = memory.windows(bytes.len()).enumerate();
-    let found: Vec<usize> = places
-        .filter_map(|(place, window)| (window == bytes).then_some(place))
+    let windows = memory.windows(bytes.len()).enumerate();
+    let found: Vec<usize> = windows
+        .filter_map(|(offset, window)| (window == bytes).then_some(offset))
         .collect();
-    let [place] = found[..] else {
-        panic!("{} places", found.len());
+    let [offset] = found[..] else {
+        panic!("{} occurrences", found.len());
     };
-    memory[place + 2] ^= 1 << 5;
+    memory[offset + 2] ^= 1 << 5;
 }
 
 fn running() -> Bench {
@@ -46,8 +46,8 @@ fn run() -> Request<'static> {
     }
 }
 
-/// Ticks until the damage is found; the outputs fall to zero, that of the damaged damper from a force from before the
-/// damage.
+/// Ticks until the damage is found. The outputs fall to zero, that of the damaged damper from a force computed before
+/// the damage.
 fn falls_to_zero(bench: &mut Bench, damaged: usize, sound_n: f32) -> u32 {
     let mut ticks = 0;
     let mut last_good = *bench.device.outputs_n();
@@ -79,7 +79,7 @@ fn damaged_constants_take_the_safe_output_until_the_damper_is_loaded_again() {
         .flat_map(|word| word.to_le_bytes());
     let piece: Vec<u8> = piece.collect();
     flip_a_bit_of(&mut bench.device, &piece);
-    // A round of either damper, and the rest of the one that was under way. None was whole since the dampers were at
+    // A round of either damper, and the rest of the round in progress. No round was complete since the dampers were at
     // rest.
     assert!(falls_to_zero(&mut bench, 0, 0.0) <= 3 * SLICES);
     let (status, _) = bench.status(&Request::Status);
@@ -98,13 +98,13 @@ fn damaged_constants_take_the_safe_output_until_the_damper_is_loaded_again() {
     assert_eq!(bench.counters().corruptions, 1, "undamaged again");
 }
 
-/// Even the step of the first damper, which is that of the bank.
+/// The step of the first damper, which is also that of the bank.
 #[test]
 fn a_damper_with_a_damaged_step_can_be_loaded_again() {
     let mut bench = running();
     let scalars = bench.dampers[0].to_words()[..11].to_vec();
     let scalars: Vec<u8> = scalars.iter().flat_map(|word| word.to_le_bytes()).collect();
-    // From the step on, so that the bit flipped is one of it.
+    // Starts at the step, so that the flipped bit belongs to it.
     flip_a_bit_of(&mut bench.device, &scalars[12..]);
     falls_to_zero(&mut bench, 0, 0.0);
     let image = bench.dampers[0].to_image();
@@ -115,14 +115,14 @@ fn a_damper_with_a_damaged_step_can_be_loaded_again() {
 #[test]
 fn a_damaged_state_takes_the_safe_output_until_run() {
     let mut bench = running();
-    // The revision in the second state, and with it the mark: as if it had never been written.
+    // The revision in the second state, and with it the mark, as if the state had never been written.
     let state = bench.device.states()[1].to_bytes();
     let before = bench.device.tick_number();
     bench.device.tick(1); // in which the second state is checked
     let sound_n = bench.device.outputs_n()[1];
-    let place = std::ptr::from_ref(&bench.device.states()[1]).cast_mut();
-    // SAFETY: plain data that nothing else refers to now.
-    unsafe { place.cast::<[u8; 24]>().write([0xff; 24]) };
+    let pointer = std::ptr::from_ref(&bench.device.states()[1]).cast_mut();
+    // SAFETY: plain data with no other reference at this point.
+    unsafe { pointer.cast::<[u8; 24]>().write([0xff; 24]) };
     let ticks = falls_to_zero(&mut bench, 1, sound_n);
     assert!(ticks <= 2, "{ticks}");
     assert_ne!(bench.device.states()[1].to_bytes(), state);

@@ -1,4 +1,4 @@
-//! The device: only a valid request, in sequence, moves a state; everything else is counted and answered.
+//! The device: only a valid request, in sequence, changes a state; everything else is counted and answered.
 
 use dashpot_core::DamperState;
 use dashpot_core::link::{
@@ -23,10 +23,10 @@ fn steps_give_the_bits_of_the_core() {
         let x = if tick % 7 == 0 { x } else { [x[0], 2e-3] };
         let forces = bench.step(tick, x).forces();
         assert_eq!(forces.tick, tick);
-        for (place, state) in states.iter_mut().enumerate() {
-            let force = bench.dampers[place].step(state, x[place]);
-            assert_eq!(forces.forces_n[place].to_bits(), force.to_bits());
-            assert_eq!(forces.status[place], state.status().bits());
+        for (slot, state) in states.iter_mut().enumerate() {
+            let force = bench.dampers[slot].step(state, x[slot]);
+            assert_eq!(forces.forces_n[slot].to_bits(), force.to_bits());
+            assert_eq!(forces.status[slot], state.status().bits());
         }
     }
     let expected: Vec<u8> = states
@@ -48,13 +48,13 @@ fn a_repeated_request_gets_the_same_answer_and_no_second_step() {
     for _ in 0..3 {
         assert_eq!(bench.send(bench.header, &again), first);
     }
-    // Noise in between does not lose the stored answer.
+    // Noise in between does not discard the stored answer.
     let noise = bench.feed(&[1, 2, 3, 0]);
     assert_eq!(noise[0].refusal(), Some(Refusal::Corrupt));
     assert_eq!(bench.send(bench.header, &again), first);
     assert_eq!(bench.states(), after);
     assert_eq!(bench.counters().repeated, 4);
-    // The same number with another content is no repetition.
+    // A request with the same number but different content is not a repetition.
     let other = bench.send(bench.header, &Request::Save);
     assert_eq!(
         other.refusal(),
@@ -215,7 +215,7 @@ fn a_wrong_request_is_refused_and_changes_nothing() {
 }
 
 #[test]
-fn a_restored_device_goes_on_to_the_bit() {
+fn a_restored_device_continues_bit_for_bit() {
     let mut bench = Bench::open();
     let x = |tick: u32| [4e-3 * (0.05 * tick as f32).sin(), 1e-5 * tick as f32];
     let mut saved = (0, Vec::new());
@@ -241,7 +241,7 @@ fn a_restored_device_goes_on_to_the_bit() {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(64))]
 
-    /// Any bytes, and real frames with anything done to them, move no state.
+    /// Arbitrary bytes, and modified real frames, change no state.
     #[test]
     fn no_bytes_but_a_valid_step_move_a_state(
         noise in prop::collection::vec(prop::collection::vec(any::<u8>(), 0..200), 1..20),
@@ -266,14 +266,14 @@ proptest! {
         prop_assert_eq!(bench.states(), before);
         let counters = bench.counters();
         prop_assert!(counters.corrupt >= noise.len() as u32);
-        // And then it goes on as if nothing had been.
+        // Afterwards the device continues as if nothing had happened.
         let forces = bench.step(2, [5e-3, 0.0]).forces();
         let mut state = bench.dampers[0].at_rest(0.0);
         bench.dampers[0].step(&mut state, 1e-3);
         prop_assert_eq!(forces.forces_n[0].to_bits(), bench.dampers[0].step(&mut state, 5e-3).to_bits());
     }
 
-    /// Valid frames with any body: carried out or refused, never a panic, always one answer.
+    /// Valid frames with any body are executed or refused, never panic, and always have one answer.
     #[test]
     fn any_message_is_answered(bodies in prop::collection::vec(prop::collection::vec(any::<u8>(), 0..100), 1..50)) {
         let mut bench = Bench::open();

@@ -1,5 +1,5 @@
-//! docs/link.md is enough for a host in another language: its numbers and names are those of the code, its frames
-//! are what a device sends, and the client written from it drives one.
+//! docs/link.md suffices for a host in another language: its numbers and names are those of the code, its frames are
+//! what a device sends, and the client written from it drives a device.
 
 use std::fmt::Write as _;
 use std::io::{Read, Write as _};
@@ -35,8 +35,7 @@ fn number(choice: &impl Serialize) -> u8 {
     postcard::to_slice(choice, &mut bytes).expect("a short message")[0]
 }
 
-/// Names in the rows `| number | name | ...` of the table under a heading of the document whose header row
-/// names `kind`.
+/// Names in the rows `| number | name | ...` of the table whose header row names `kind`.
 fn rows(kind: &str) -> Vec<(u8, String)> {
     let text = document::read(LINK);
     let header = format!("| # | {kind} |");
@@ -188,11 +187,11 @@ fn the_numbers_are_those_of_the_code() {
     ] {
         assert!(stated.starts_with(&format!("{} ", bit.bits())) && text.contains(stated));
     }
-    let most = format!("1 to {MAX_MEASURED} samples of {MEASURED_BYTES} bytes");
-    assert!(text.contains(&most), "{most}");
+    let samples = format!("1 to {MAX_MEASURED} samples of {MEASURED_BYTES} bytes");
+    assert!(text.contains(&samples), "{samples}");
     let bytes = format!("{} bytes, whole", HealthModel::IMAGE_BYTES);
     assert!(text.contains(&bytes), "{bytes}");
-    // In order, for they have no numbers.
+    // Fields must appear in order, because they have no numbers.
     let in_order = |fields: String| {
         let mut rest = &text[..];
         for field in fields
@@ -200,20 +199,20 @@ fn the_numbers_are_those_of_the_code() {
             .filter_map(|field| field.split_once(':'))
         {
             let name = field.0.trim();
-            let place = rest.find(name);
-            let place = place.unwrap_or_else(|| panic!("{name} is not told, or not in order"));
-            rest = &rest[place + name.len()..];
+            let position = rest.find(name);
+            let position = position.unwrap_or_else(|| panic!("{name} is missing, or out of order"));
+            rest = &rest[position + name.len()..];
         }
     };
     in_order(format!("{:?}", Counters::default()));
     in_order(format!("{:?}", Sample::default()));
     let reading = format!("{:?}", HealthReading::default());
-    // Value and deviation of each number are told once for all.
+    // The document states value and deviation once for all estimates.
     let estimate = format!("{:?}", Estimate::default());
     in_order(reading.replace(&estimate, "number"));
 }
 
-/// Of the damper of the worked frames.
+/// Health model of the damper of the worked frames.
 fn model() -> HealthModel {
     let checked = damper("reduced-vertical", &[]).check().expect("a preset");
     let settings = HealthSettings::new(20e-6, 20.0);
@@ -221,7 +220,7 @@ fn model() -> HealthModel {
 }
 
 #[test]
-fn the_worked_frames_are_what_a_device_takes_and_sends() {
+fn the_worked_frames_match_a_device() {
     let mut desk = desk(["reduced-vertical"]);
     let x = |x: f32| [x].into_iter().collect();
     let model = model().to_image();
@@ -260,7 +259,7 @@ fn the_worked_frames_are_what_a_device_takes_and_sends() {
             bytes => bytes.join(" "),
         }
     };
-    let told = |request: &Request<'_>| match request {
+    let summary = |request: &Request<'_>| match request {
         Request::LoadHealth { damper, image } => {
             format!(
                 "LoadHealth {{ damper: {damper}, image: {} bytes }}",
@@ -293,7 +292,7 @@ fn the_worked_frames_are_what_a_device_takes_and_sends() {
             table,
             "    session {}, sequence {sequence}: {}",
             header.session,
-            told(request)
+            summary(request)
         )
         .expect("text");
         writeln!(table, "    {}", hex(frame.bytes())).expect("text");
@@ -322,7 +321,7 @@ fn the_revision_is_computed_as_the_document_says() {
     }
 }
 
-/// The client in Python against a device behind a TCP port: the forces are the core's.
+/// The Python client against a device behind a TCP port receives the core's forces.
 #[test]
 fn the_client_in_python_drives_a_device() {
     if !have(&[PYTHON], "the client in Python") {
@@ -397,7 +396,7 @@ fn the_client_in_python_drives_a_device() {
     let counters = target.join().expect("the target");
     assert_eq!(
         (counters.accepted, counters.repeated, counters.corrupt),
-        // Hello, 100 steps, a model, 100 samples by eight, a reading.
+        // Hello, 100 steps, a model, 100 samples in groups of eight, a reading.
         (1 + 100 + 1 + 13 + 1, 1, 0)
     );
 }

@@ -1,4 +1,4 @@
-//! Frames: what comes back, what is refused, and that a zero byte ends any trouble.
+//! Frames: decoded content, refusals, and resynchronisation at a zero byte.
 
 use dashpot::signed_image::crc_32;
 use dashpot_core::health::{Estimate, HealthReading, HealthStatus};
@@ -8,7 +8,7 @@ use dashpot_core::link::{
 };
 use proptest::prelude::*;
 
-/// Messages of a stream, each `None` where the reader found a fault.
+/// Messages of a stream, each `None` if the reader found an error.
 fn read(bytes: &[u8]) -> Vec<Option<Vec<u8>>> {
     let mut reader = FrameReader::<REQUEST_BYTES>::new();
     let mut messages = Vec::new();
@@ -37,12 +37,12 @@ fn step(tick: u32) -> (Header, Request<'static>) {
 
 /// COBS by its definition (Cheshire and Baker 1999): each code byte is the distance to the next.
 fn cobs_decoded(bytes: &[u8]) -> Vec<u8> {
-    let (mut decoded, mut place) = (Vec::new(), 0);
-    while place < bytes.len() {
-        let code = usize::from(bytes[place]);
-        decoded.extend(&bytes[place + 1..place + code]);
-        place += code;
-        if code < 255 && place < bytes.len() {
+    let (mut decoded, mut position) = (Vec::new(), 0);
+    while position < bytes.len() {
+        let code = usize::from(bytes[position]);
+        decoded.extend(&bytes[position + 1..position + code]);
+        position += code;
+        if code < 255 && position < bytes.len() {
             decoded.push(0);
         }
     }
@@ -165,7 +165,7 @@ fn the_longest_messages_fit() {
 }
 
 #[test]
-fn what_is_too_long_is_not_written_and_not_read() {
+fn too_long_messages_are_neither_written_nor_read() {
     let mut frame = ResponseFrame::new();
     assert!(frame.write(&[7_u8; 32]));
     let long = "x".repeat(RESPONSE_BYTES);

@@ -1,4 +1,4 @@
-//! Health over the link: a model loaded whole or not at all, samples fed, the reading of the desk's own estimator.
+//! Health over the link: a model loaded whole or not at all, samples sent, and the reading of the desk's own estimator.
 
 use dashpot::damper;
 use dashpot::signed_image::crc_32;
@@ -24,7 +24,7 @@ fn reading(bench: &mut Bench, request: &Request<'_>) -> HealthReading {
     }
 }
 
-/// Displacement and force of the bench's second damper in a motion that tells everything.
+/// Displacement and force of the bench's second damper in a motion that excites every parameter.
 fn samples(bench: &Bench, count: usize) -> Vec<(f32, f32)> {
     let mut state = bench.dampers[1].at_rest(0.0);
     let motion = (0..count).map(|tick| {
@@ -78,7 +78,7 @@ fn a_measured_damper_has_the_reading_of_the_desk() {
     );
     assert_eq!(found.rejected, 1);
     assert_eq!(bench.states(), rest, "no damper was stepped");
-    // The answer tells what was cleared.
+    // The answer contains what was cleared.
     let cleared = reading(&mut bench, &Request::ClearHealth { damper: 1 });
     assert_eq!(cleared, expected);
     let after = reading(&mut bench, &ask);
@@ -87,7 +87,7 @@ fn a_measured_damper_has_the_reading_of_the_desk() {
 }
 
 #[test]
-fn what_no_model_watches_is_refused() {
+fn requests_for_unwatched_dampers_are_refused() {
     let mut bench = Bench::open();
     let one = bytes(&[(0.0, 0.0)]);
     let requests = |damper| {
@@ -121,12 +121,12 @@ fn what_no_model_watches_is_refused() {
     assert_eq!(
         bench.ask(&Request::Health { damper: 1 }).refusal(),
         Some(Refusal::NoHealth),
-        "the other place has none"
+        "the other slot has none"
     );
 }
 
 #[test]
-fn a_damaged_model_is_refused_and_the_estimate_goes_on() {
+fn a_damaged_model_is_refused_and_the_estimate_continues() {
     let mut bench = Bench::open();
     let image = model("reduced-vertical", 1e-3).to_image();
     load(&mut bench, 1, &image);
@@ -168,14 +168,14 @@ fn a_damaged_model_is_refused_and_the_estimate_goes_on() {
     let refusal = load(&mut bench, 1, &other_step).refusal();
     assert_eq!(refusal, Some(Refusal::StepSize));
     assert_eq!(reading(&mut bench, &Request::Health { damper: 1 }), before);
-    // And a good one begins anew.
+    // A valid model then restarts the estimate.
     load(&mut bench, 1, &image);
-    let anew = Health::new(&model("reduced-vertical", 1e-3));
-    let anew = anew.reading(&model("reduced-vertical", 1e-3));
-    assert_eq!(reading(&mut bench, &Request::Health { damper: 1 }), anew);
+    let fresh = Health::new(&model("reduced-vertical", 1e-3));
+    let fresh = fresh.reading(&model("reduced-vertical", 1e-3));
+    assert_eq!(reading(&mut bench, &Request::Health { damper: 1 }), fresh);
 }
 
-/// Ticks do not depend on a load that is under way, and a firmware's own sensors feed the same estimate.
+/// Ticks do not depend on a load in progress, and a firmware's own sensors feed the same estimate.
 #[test]
 fn a_model_is_loaded_between_ticks_and_fed_by_the_board() {
     let mut bench = Bench::open();
@@ -222,9 +222,9 @@ fn a_model_is_loaded_between_ticks_and_fed_by_the_board() {
     assert_eq!(found, expected.reading(&model));
 }
 
-/// A device may watch some of its places only, or none: the others are refused before anything is loaded.
+/// A device may watch only some slots, or none; a model for another slot is refused before anything is loaded.
 #[test]
-fn places_that_are_not_watched_take_no_model() {
+fn unwatched_slots_take_no_model() {
     let bench = Bench::new();
     let mut device = Box::new(Device::<2, 1>::new());
     let clock = Clock::new(|| 0, 1);

@@ -1,5 +1,5 @@
-//! After damage the outputs held the force of the tick before the damage was found, which damaged memory had made for up to
-//! ten seconds: up to 37.9 kN wrong.
+//! After damage the outputs held the force of the tick before the damage was found. Damaged memory had produced it for
+//! up to ten seconds, so it was up to 37.9 kN wrong.
 
 use dashpot_core::integrity::SLICES;
 use dashpot_core::link::{LossOfLink, Request, SafeOutput};
@@ -12,7 +12,7 @@ fn displacement(tick: u32) -> f32 {
     4e-3 * (0.05 * tick as f32).sin()
 }
 
-/// A bench whose dampers move and whose safe output holds, with the force of the first at each tick.
+/// A bench whose dampers move and whose safe output holds, with the force of the first damper at each tick.
 struct Moving {
     bench: Bench,
     tick: u32,
@@ -79,9 +79,9 @@ fn a_state_found_damaged_holds_the_force_of_its_last_sound_check() {
     while moving.tick < 300 {
         moving.tick();
     }
-    let place = std::ptr::from_ref(&moving.bench.device.states()[0]).cast_mut();
-    // SAFETY: plain data that nothing else refers to now. The stretch becomes 1e38 m.
-    unsafe { place.cast::<[u8; 24]>().as_mut().expect("a state")[7] ^= 1 << 6 };
+    let pointer = std::ptr::from_ref(&moving.bench.device.states()[0]).cast_mut();
+    // SAFETY: plain data with no other reference at this point. The stretch becomes 1e38 m.
+    unsafe { pointer.cast::<[u8; 24]>().as_mut().expect("a state")[7] ^= 1 << 6 };
     let damaged_at = moving.tick as usize;
     while moving.bench.counters().corruptions == 0 {
         moving.tick();

@@ -38,7 +38,7 @@ fn a_damaged_damper_is_refused_whole() {
 }
 
 #[test]
-fn a_loaded_damper_and_a_set_clearance_go_on_with_the_cores_bits() {
+fn a_loaded_damper_and_a_set_clearance_continue_with_the_cores_bits() {
     let mut bench = Bench::open();
     let mut damper = bench.dampers[0];
     let mut state = damper.at_rest(0.0);
@@ -66,10 +66,10 @@ fn a_loaded_damper_and_a_set_clearance_go_on_with_the_cores_bits() {
     }
 }
 
-/// Ticks and their forces do not depend on a load that is under way; what comes on the line meanwhile is dropped
-/// and said to be broken.
+/// Ticks and their forces do not depend on a load in progress. Bytes that arrive meanwhile are dropped and reported as
+/// broken.
 #[test]
-fn a_load_goes_on_in_slices_between_the_ticks() {
+fn a_load_continues_in_slices_between_the_ticks() {
     let mut bench = Bench::open();
     let start = reals([0.0; 2]);
     bench.ask(&Request::Run {
@@ -114,7 +114,7 @@ fn a_load_goes_on_in_slices_between_the_ticks() {
     }
     assert!(slices > 200, "{slices}");
     assert!(!bench.device.is_busy());
-    // The frame that came in between ends now.
+    // The frame that arrived in between ends now.
     let answers = bench.feed(&[4, 0]);
     assert_eq!(answers[0].refusal(), Some(Refusal::Corrupt));
     bench.header.session += 1;
@@ -134,10 +134,10 @@ fn a_dozen_loads_take_a_dozen_frames() {
     let mut bench = Bench::open();
     let before = bench.counters().accepted;
     for round in 0..6 {
-        for place in [0, 1] {
+        for slot in [0, 1] {
             let set = format!("mount.clearance_m={}", 1e-4 * f64::from(round + 1));
             let image = built("in-service", &[&set]).to_image();
-            assert_eq!(bench.load(place, &image).response().1, Response::Done);
+            assert_eq!(bench.load(slot, &image).response().1, Response::Done);
         }
     }
     assert_eq!(bench.counters().accepted - before, 12);

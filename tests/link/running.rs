@@ -1,4 +1,4 @@
-//! The free-running tick: what the outputs do when the link is lost, and what a host can read.
+//! The free-running tick: the outputs after a loss of the link, and the requests that a host may send.
 
 use std::collections::VecDeque;
 
@@ -111,21 +111,18 @@ fn telemetry_has_the_last_ticks_of_every_damper() {
         let x = tick as f32 / 65_536.0;
         forces.push(bench.step(tick, [-x, x]).forces().forces_n);
     }
-    // A ring of 64; displacements on the step's grid are used as they are. Taking those of one leaves the
-    // other's.
-    for (place, sign, first) in [(1, 1.0, 7), (0, -1.0, 7), (1, 1.0, 15)] {
-        let (overwritten, samples) = bench.telemetry(place);
+    // A ring of 64 samples; displacements on the step's grid are used unchanged. Reading one damper's samples leaves
+    // the other's.
+    for (slot, sign, first) in [(1, 1.0, 7), (0, -1.0, 7), (1, 1.0, 15)] {
+        let (overwritten, samples) = bench.telemetry(slot);
         assert_eq!((overwritten, samples.len()), (6, 8));
         for (sample, tick) in samples.iter().zip(first..) {
             assert_eq!(sample.tick, tick);
-            assert_eq!(
-                sample.force_n,
-                forces[tick as usize - 1][usize::from(place)]
-            );
+            assert_eq!(sample.force_n, forces[tick as usize - 1][usize::from(slot)]);
             assert_eq!(sample.displacement_m, sign * tick as f32 / 65_536.0);
         }
     }
-    // All that is left, then nothing.
+    // Returns the remaining samples, then none.
     let left: Vec<usize> = (0..8).map(|_| bench.telemetry(0).1.len()).collect();
     assert_eq!(left, [8, 8, 8, 8, 8, 8, 8, 0]);
 }
@@ -143,7 +140,7 @@ fn status_and_rejected_inputs_are_read_and_cleared() {
     assert_eq!(bench.step(3, [1e-3, 0.0]).forces().status[..], [none; 2]);
 }
 
-/// A line that gives a frame and takes the answer, a few bytes a pass.
+/// A line that delivers a frame and accepts the answer, a few bytes per pass.
 #[derive(Default)]
 struct Wire {
     waiting: VecDeque<u8>,
@@ -165,7 +162,7 @@ impl Line for Wire {
     }
 }
 
-/// Outputs that remember.
+/// Outputs that record their forces.
 #[derive(Default)]
 struct Actuators(Vec<[f32; 2]>);
 

@@ -1,5 +1,6 @@
-//! A state was put at rest at any finite displacement, and the step then followed at the largest rate: after a first sample
-//! of 1 m a motion of 10 mm met up to 50 kN for half a second, after one of 1e6 m no force for ever.
+//! A state was put at rest at any finite displacement, and the step then followed at the maximum rate. After a first
+//! sample of 1 m, a motion of 10 mm met up to 50 kN for half a second; after one of 1e6 m there was never a force
+//! again.
 
 use dashpot::damper;
 use dashpot_core::{Damper, Status};
@@ -35,7 +36,7 @@ fn a_displacement_out_of_range_is_held_however_it_comes() {
         .build(1e-3)
         .expect("a preset");
     let mut state = damper.at_rest(0.0);
-    // At 0.5 m/s past the end of the range.
+    // Passes the end of the range at 0.5 m/s.
     for tick in 1..=400 {
         damper.step(&mut state, 0.5e-3 * tick as f32);
     }
@@ -58,14 +59,14 @@ fn a_jump_too_far_to_catch_up_with_ends_at_rest_there() {
     }
     let before = state.force_n();
     assert!(before > 5e3, "{before} N");
-    // One sample 60 mm off, and back.
+    // One sample 60 mm away, then back.
     let mut glitch = state;
     let held = damper.step(&mut glitch, 0.08);
     assert!(held > 0.0 && held < before, "{held} N");
     let after = damper.step(&mut glitch, 0.0202);
     assert!((after - before).abs() < 0.3 * before, "{after} N");
     assert!(!glitch.status().contains(Status::RESTARTED));
-    // It stays there.
+    // The input stays there.
     let mut ticks = 0;
     while !state.status().contains(Status::RESTARTED) {
         let last = state.force_n();

@@ -1,8 +1,8 @@
-//! Bugs whose tests need what another binary of tests has: where they are.
+//! Bugs whose tests need the support of another test binary, with the location of each test.
 
 use dashpot::document::read;
 
-/// What was wrong, the file of its test, the test.
+/// The bug, the file of its test, the test.
 const BUGS: [(&str, &str, &str); 14] = [
     (
         "a flipped bit in the step of the first damper kept it from being loaded again",
@@ -20,7 +20,7 @@ const BUGS: [(&str, &str, &str); 14] = [
         "a_bank_refuses_overlap_but_for_forces_in_place",
     ),
     (
-        "C: memory that was never made a state was stepped",
+        "C: uninitialised memory was stepped as a state",
         "capi/tests/integrity.rs",
         "uninitialised_memory_is_refused_and_unchanged",
     ),
@@ -30,12 +30,12 @@ const BUGS: [(&str, &str, &str); 14] = [
         "the_wait_allows_for_the_time_a_long_frame_takes",
     ),
     (
-        "a refusal of a target was told as a number",
+        "a refusal of a target was reported as a number",
         "hil-host/tests/target/pil_client.rs",
         "every_refusal_has_a_sentence",
     ),
     (
-        "a tick over TCP took 44 ms, for the peer waited for acknowledgements",
+        "a tick over TCP took 44 ms, because the peer waited for acknowledgements",
         "hil-host/tests/target/pil_tcp.rs",
         "what_was_received_is_acknowledged_at_once",
     ),
@@ -50,7 +50,7 @@ const BUGS: [(&str, &str, &str); 14] = [
         "an_interrupted_replay_ends_by_the_signal_and_leaves_what_was_there",
     ),
     (
-        "energy of a replay was of the motion recorded, not of the one followed",
+        "energy of a replay was that of the recorded motion instead of the followed one",
         "hil-host/tests/commands/replay.rs",
         "energy_is_of_the_motion_followed",
     ),
@@ -60,7 +60,7 @@ const BUGS: [(&str, &str, &str); 14] = [
         "lines_are_counted_as_an_editor_does",
     ),
     (
-        "a tick at a sample had a displacement that depended on what was before",
+        "the displacement of a tick at a sample depended on earlier samples",
         "hil-host/tests/commands/verify.rs",
         "the_reference_on_the_recording_is_that_on_a_grid_that_holds_all_stamps",
     ),
@@ -72,7 +72,7 @@ const BUGS: [(&str, &str, &str); 14] = [
     (
         "a stretch far out was lost in the rounding of its position",
         "tests/damper/contract.rs",
-        "a_start_far_out_does_not_stretch_what_stands_still",
+        "a_start_far_out_does_not_stretch_a_damper_at_rest",
     ),
 ];
 

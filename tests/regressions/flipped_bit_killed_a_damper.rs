@@ -1,5 +1,5 @@
-//! One flipped bit of a running state's stretch or displacement left NaN or 1e35 m behind, and with it a force of -0 or
-//! -100 N for ever, without a status bit.
+//! One flipped bit of a running state's stretch or displacement left NaN or 1e35 m behind, and therefore a permanent
+//! force of -0 or -100 N without a status bit.
 
 use dashpot::damper;
 use dashpot::memory::bytes;
@@ -10,7 +10,7 @@ fn displacement(tick: u32) -> f32 {
     5e-3 * (0.02 * tick as f32).sin()
 }
 
-/// A running state, and the tick that comes next.
+/// A running state, and the next tick.
 fn running(damper: &Damper<f32>) -> (DamperState<f32>, u32) {
     let mut state = damper.at_rest(0.0);
     for tick in 1..200 {
@@ -42,7 +42,7 @@ fn the_force_is_right_again_soon_after_any_flip() {
 }
 
 #[test]
-fn a_bank_starts_the_same_damper_over() {
+fn a_bank_restarts_the_same_damper() {
     let damper: Damper<f32> = damper("in-service", &[]).build(1e-3).expect("a preset");
     let (sound, start) = running(&damper);
     for lane in 0..8 {
@@ -55,9 +55,9 @@ fn a_bank_starts_the_same_damper_over() {
         let expected = alone.each_mut().map(|state| damper.step(state, x[0]));
         assert_eq!(forces, expected);
         assert_eq!(states, alone);
-        for (place, state) in states.iter().enumerate() {
+        for (index, state) in states.iter().enumerate() {
             let corrupted = state.status().contains(Status::CORRUPTED);
-            assert_eq!(corrupted, place == lane);
+            assert_eq!(corrupted, index == lane);
         }
     }
 }

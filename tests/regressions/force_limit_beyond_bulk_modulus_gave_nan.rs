@@ -1,5 +1,5 @@
-//! A force limit above bulk modulus times area gave the oil a negative density, and the damper was built with NaN in its
-//! table: it returned 0 N, or jumped to the limit.
+//! A force limit above bulk modulus times area gave the oil a negative density, and the damper was built with NaN in
+//! its table: it returned 0 N, or jumped to the limit.
 
 use dashpot::damper;
 use dashpot::documented_damper::{changed_damper, documented_damper};
@@ -13,7 +13,7 @@ fn with_limit(preset: &str, overrides: &[&str], force_n: f64) -> DamperParameter
     parameters
 }
 
-/// Half the bulk modulus over the rod side, beside the seals' friction.
+/// Half the bulk modulus times the rod-side area, plus the seal friction.
 fn bound_n(parameters: &DamperParameters) -> f64 {
     let Element::Physical(hydraulics) = &parameters.element else {
         panic!("a preset with oil");
@@ -42,7 +42,7 @@ fn the_limits_of_the_report_are_refused_with_both_numbers() {
 }
 
 #[test]
-fn up_to_the_bound_forces_are_right_numbers() {
+fn up_to_the_bound_forces_are_correct() {
     let bound = bound_n(&damper("in-service", &[]));
     assert!(
         with_limit("in-service", &[], 1.001 * bound)
@@ -65,7 +65,7 @@ fn up_to_the_bound_forces_are_right_numbers() {
     }
 }
 
-/// With two chambers the piston side, over the rod's area, has the higher pressure.
+/// With two chambers the piston side, whose force acts on the rod's area, has the higher pressure.
 #[test]
 fn two_chambers_are_bounded_by_the_piston_sides_pressure() {
     let mut parameters = with_limit("in-service", &[], 1e6);
@@ -74,7 +74,7 @@ fn two_chambers_are_bounded_by_the_piston_sides_pressure() {
         panic!("a preset with oil");
     };
     hydraulics.two_chamber = Some(TwoChamber::new(-9e4));
-    // The foot valve closed, the whole force is on the rod's area.
+    // With a closed foot valve the whole force acts on the rod's area.
     hydraulics.valves.foot_compression.edge_compliance_m_per_pa = Some(0.0);
     let bound = |checked: Result<CheckedParameters, BuildError>| checked.err()?.bound;
     let bounds = [lumped, parameters.check()].map(bound);
@@ -84,10 +84,10 @@ fn two_chambers_are_bounded_by_the_piston_sides_pressure() {
     assert_finite(&parameters.check().expect("at the bound"), 1e-3);
 }
 
-/// Whatever the documented ranges allow is refused or has a table of finite numbers; climbing to the largest
-/// coefficients finds no other.
+/// Every damper within the documented ranges is refused or has a table of finite numbers; climbing to the largest
+/// coefficients finds no exception.
 #[test]
-fn no_documented_damper_is_built_with_a_number_that_is_not_finite() {
+fn no_documented_damper_has_non_finite_constants() {
     let mut random = Random(26);
     let mut refused = 0;
     for _ in 0..1500 {
@@ -107,14 +107,14 @@ fn no_documented_damper_is_built_with_a_number_that_is_not_finite() {
     }
 }
 
-/// A relief valve that opens where vapour ceases: two corners that only rounding parts gave NaN too.
+/// A relief valve that opens where vapour ceases: rounding alone separates the two corners, which also produced NaN.
 #[test]
 fn corners_that_coincide_are_one() {
     let mut parameters = damper("in-service", &["two_chamber.vapour_pressure_pa=-16714.7"]);
     let Element::Physical(hydraulics) = &mut parameters.element else {
         panic!("a preset with oil");
     };
-    // Nothing but the relief valve passes oil.
+    // Only the relief valve passes oil.
     hydraulics.orifice.diameter_m = 0.0;
     hydraulics.leakage = None;
     hydraulics.valves.piston_compression.preload_pa = 1e8;
@@ -130,7 +130,7 @@ fn corners_that_coincide_are_one() {
     }
 }
 
-/// Builds a damper in both scalars; false where one was refused.
+/// Builds a damper in both scalars; returns false if one was refused.
 fn assert_finite(checked: &CheckedParameters, step_s: f64) -> bool {
     let single = checked.build::<f32>(step_s).map(|damper| {
         assert!(
@@ -146,7 +146,7 @@ fn assert_finite(checked: &CheckedParameters, step_s: f64) -> bool {
     single.is_ok()
 }
 
-/// Revisions are words too; as numbers of `f32` they mean nothing.
+/// Revisions are words too, but meaningless as `f32` values.
 fn is_finite(words: &[f32]) -> bool {
     words
         .iter()
@@ -154,7 +154,7 @@ fn is_finite(words: &[f32]) -> bool {
         .all(|(word, number)| number.is_finite() || (11..13).contains(&word))
 }
 
-/// Largest number of the table (1), the one that overflows first.
+/// Largest value of the table (1), the first one to overflow.
 fn largest(checked: &CheckedParameters) -> f64 {
     let damper: Damper<f64> = checked.build(1e-6).expect("just built");
     let words = damper.to_words();

@@ -1,8 +1,8 @@
-//! A frame whose COBS codes point beyond its end was read beyond it: an index out of bounds.
+//! A frame with COBS codes that point beyond its end was read out of bounds and panicked.
 
 use dashpot_core::link::{Frame, FrameReader};
 
-/// All frames of one and two bytes, and longer ones of one code after so many bytes.
+/// Checks all frames of one and two bytes, and longer ones with one code at each position.
 #[test]
 fn after_every_short_frame_the_next_is_read() {
     let mut good = Frame::<16>::new();

@@ -1,4 +1,4 @@
-//! Bugs that were found: each has a file that says what was wrong and asserts what is right.
+//! Fixed bugs: each file describes the bug and asserts the correct behaviour.
 
 mod bad_first_displacement_pulled;
 mod damaged_table_gave_infinite_force;

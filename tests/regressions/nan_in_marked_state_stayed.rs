@@ -1,5 +1,4 @@
-//! A number of a state that a damper had stepped was damaged to NaN: every later force was NaN, for mark and revision
-//! were right.
+//! If a value of a stepped state was damaged to NaN, every later force was NaN, because mark and revision were valid.
 
 use dashpot::damper;
 use dashpot::memory::bytes;
@@ -8,16 +7,16 @@ use dashpot_core::Damper;
 #[test]
 fn a_force_after_nan_in_a_state_is_a_number() {
     let damper: Damper<f32> = damper("in-service", &[]).build(1e-3).expect("a preset");
-    for place in (0..16).step_by(4) {
+    for offset in (0..16).step_by(4) {
         for number in [f32::NAN, -f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
             let mut state = damper.at_rest(0.0);
             damper.step(&mut state, 1e-3);
-            bytes(&mut state)[place..place + 4].copy_from_slice(&number.to_ne_bytes());
+            bytes(&mut state)[offset..offset + 4].copy_from_slice(&number.to_ne_bytes());
             let forces = [2e-3, 3e-3, 4e-3].map(|x| damper.step(&mut state, x));
             let limit = damper.force_limit_n();
             assert!(
                 forces.iter().all(|force| force.abs() <= limit),
-                "{number} at byte {place}: {forces:?} N"
+                "{number} at byte {offset}: {forces:?} N"
             );
         }
     }

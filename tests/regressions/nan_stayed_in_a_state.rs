@@ -1,4 +1,5 @@
-//! NaN that damage put into a state stayed there, with a sign that differed between processors, so saved states differed.
+//! A NaN that damage put into a state persisted, with a sign that differed between processors, so saved states
+//! differed.
 
 use dashpot::damper;
 use dashpot::memory::{PlainData, bytes};
@@ -24,7 +25,7 @@ where
                     .copy_from_slice(&bytes(&mut sound)[behind_numbers..]);
             }
             for number in 0..4 {
-                // Of every second number the exponent of NaN.
+                // Every second value gets the exponent of NaN.
                 if random.bool() {
                     let end = (number + 1) * size_of::<T>();
                     bytes(&mut state)[end - 2..end].copy_from_slice(&[0xf0, 0x7f | random.u8(..)]);

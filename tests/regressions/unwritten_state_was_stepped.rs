@@ -1,4 +1,4 @@
-//! Memory that was never made a state was stepped as if it were one.
+//! Uninitialised memory was stepped as if it were a state.
 
 use dashpot::damper;
 use dashpot::memory::bytes;
@@ -6,7 +6,7 @@ use dashpot_core::integrity::Check;
 use dashpot_core::{Damper, Status};
 
 #[test]
-fn a_state_that_was_never_made_starts_at_rest_and_says_so() {
+fn an_uninitialised_state_starts_at_rest_and_reports_it() {
     let damper: Damper<f32> = damper("in-service", &[]).build(1e-3).expect("a preset");
     for byte in [0x00, 0xff, 0xa5, 0xcd] {
         let mut state = damper.at_rest(0.0);

@@ -1,5 +1,5 @@
-//! `cargo xtask search`: the worst motion for the accuracy promise, among so many, written as files that
-//! `dashpot verify` reads.
+//! `cargo xtask search`: searches a number of motions for the worst one for the accuracy promise and writes it as files
+//! that `dashpot verify` reads.
 
 use std::error::Error;
 use std::fmt::Write;

@@ -1,4 +1,4 @@
-//! The fixed step against the reference solver: which dampers, which motions, which error.
+//! The fixed step compared with the reference solver: dampers, motions and errors.
 
 use std::collections::HashMap;
 use std::sync::Mutex;
@@ -11,7 +11,7 @@ use dashpot_testbench::verification::{fixed_step_forces, reference_forces};
 
 use crate::damper;
 
-/// A damper of the accuracy table: its name there, the preset and what is set in it.
+/// A damper of the accuracy table: its name there, the preset and its overrides.
 pub const DAMPERS: [(&str, &str, &[&str]); 7] = [
     ("paper", "paper", &[]),
     (
@@ -44,28 +44,27 @@ pub const STEPS_S: [f64; 2] = [1e-3, 1e-4];
 /// Errors of one damper under one excitation.
 #[derive(Clone, Debug, Default)]
 pub struct Errors {
-    /// For each step size of [`STEPS_S`] the NRMSE in `f64` and in `f32`.
+    /// NRMSE in `f64` and in `f32`, for each step size of [`STEPS_S`].
     pub nrmse: [[f64; 2]; 2],
     /// Largest force of the reference in extension and in compression (N).
     pub largest_force_n: [f64; 2],
 }
 
 impl Errors {
-    /// Whether the force went to where a corner lies, to the rounding of the reference.
+    /// Returns true if the force reached a corner, to the rounding of the reference.
     pub fn reached(&self, corner_n: f64) -> bool {
         let largest = self.largest_force_n[usize::from(corner_n < 0.0)];
         largest >= (1.0 - 1e-9) * corner_n.abs()
     }
 }
 
-/// Displacements of the excitation rounded to `f32`, so that both scalars and the reference are
-/// given the same motion.
+/// Displacements of the excitation rounded to `f32`, so that both scalars and the reference receive the same motion.
 pub fn displacements_m(excitation: Excitation, step_s: f64) -> Vec<f64> {
     let exact = excitation.displacements_m(step_s);
     exact.iter().map(|x| f64::from(*x as f32)).collect()
 }
 
-/// Forces of the fixed step (N) over the displacements, from rest at the first one.
+/// Forces of the fixed step (N) over the displacements, starting at rest at the first one.
 pub fn stepped<T: Real>(
     parameters: &DamperParameters,
     step_s: f64,

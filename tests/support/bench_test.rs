@@ -1,4 +1,4 @@
-//! The bench test: a harmonic motion, and what one settled cycle of it says.
+//! The bench test: a harmonic motion, and the indices of one settled cycle.
 
 use std::f64::consts::{PI, TAU};
 
@@ -14,7 +14,7 @@ pub struct Harmonic {
     pub frequency_hz: f64,
 }
 
-/// What a settled cycle says; forces positive when they resist extension.
+/// Indices of a settled cycle; forces are positive when they resist extension.
 #[derive(Clone, Copy, Debug)]
 pub struct Indices {
     /// Largest force in extension (N).
@@ -23,9 +23,9 @@ pub struct Indices {
     pub max_compression_force_n: f64,
     /// Work over the cycle, the integral of F dx (J).
     pub energy_per_cycle_j: f64,
-    /// Part of the force in phase with the displacement, over the amplitude: K' (N/m).
+    /// Component of the force in phase with the displacement, over the amplitude: K' (N/m).
     pub storage_stiffness_n_per_m: f64,
-    /// Part of the force in phase with the velocity, over the velocity amplitude: C_dyn (N s/m).
+    /// Component of the force in phase with the velocity, over the velocity amplitude: C_dyn (N s/m).
     pub dynamic_damping_n_s_per_m: f64,
     /// Largest velocity of the motion (m/s).
     pub velocity_m_per_s: f64,
@@ -50,7 +50,7 @@ impl Indices {
     }
 }
 
-/// A cycle of the motion by the step in `f64`, after four cycles and three seconds at least.
+/// A cycle of the motion by the step in `f64`, after at least four cycles and three seconds.
 ///
 /// The cycle must be a whole number of ticks.
 pub fn settled_cycle(parameters: &DamperParameters, motion: Harmonic, step_s: f64) -> Indices {
@@ -90,10 +90,10 @@ pub fn settled_cycle(parameters: &DamperParameters, motion: Harmonic, step_s: f6
     }
 }
 
-/// Force once it has settled at a constant velocity (m/s), by the step in `f64` at 1 kHz.
+/// Settled force at a constant velocity (m/s), by the step in `f64` at 1 kHz.
 pub fn settled_force(parameters: &DamperParameters, velocity_m_per_s: f64) -> f64 {
     const STEP_S: f64 = 1e-3;
-    // From one end of the largest range of displacement to the other, 4 s at most.
+    // From one end of the maximum range of displacement to the other, for at most 4 s.
     let mut parameters = parameters.clone();
     parameters.limits.displacement_m = Limits::RANGES.displacement_m.max;
     let start = -0.99 * parameters.limits.displacement_m * velocity_m_per_s.signum();

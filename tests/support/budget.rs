@@ -1,16 +1,16 @@
-//! Limits of measured figures, a column for each way to measure them.
+//! Limits of measured figures, with one column for each way to measure them.
 
 use std::fmt::Write;
 
 use crate::document;
 
-/// A limit is at most the measured figure over this fraction, so one looser than needed fails.
-const LEAST_USE: f64 = 0.8;
+/// A limit above the measured figure divided by this fraction fails as too loose.
+const MIN_USE: f64 = 0.8;
 
 /// Measured figures by name.
 pub type Figures = Vec<(String, f64)>;
 
-/// A table of limits: `figure; column; ...`, a row a figure.
+/// A table of limits: `figure; column; ...`, one row per figure.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Budget {
     path: &'static str,
@@ -51,8 +51,8 @@ impl Budget {
         }
     }
 
-    /// What is wrong with the figures of a column: above the limit, far below it, without a row; or a row
-    /// without a figure.
+    /// Problems with the figures of a column: figures above the limit, far below it or without a row, and rows without
+    /// a figure.
     pub fn complaints(&self, column: &str, figures: &[(String, f64)]) -> Vec<String> {
         let Some(column) = self.columns.iter().position(|name| name == column) else {
             return vec![format!("{}: no column {column}", self.path)];
@@ -68,7 +68,7 @@ impl Budget {
                         found.push(format!(
                             "{column}: {name}: {value} is above the {limit} allowed"
                         ));
-                    } else if *value < LEAST_USE * limit {
+                    } else if *value < MIN_USE * limit {
                         found.push(format!(
                             "{column}: {name}: {value} is far below the {limit} allowed; tighten {path}"
                         ));
@@ -84,8 +84,7 @@ impl Budget {
         found
     }
 
-    /// Gives every figure of a column that breaks its limit, or is far below it, a new one: itself, rounded
-    /// up to two digits.
+    /// Replaces every limit of a column that is exceeded or far too loose by the figure, rounded up to two digits.
     pub fn adapt(&mut self, column: &str, figures: &[(String, f64)]) {
         let Some(column) = self.columns.iter().position(|name| name == column) else {
             return;
@@ -99,7 +98,7 @@ impl Budget {
                     .rows
                     .push((name.clone(), vec![limit; self.columns.len()])),
                 Some((_, limits))
-                    if *value > limits[column] || *value < LEAST_USE * limits[column] =>
+                    if *value > limits[column] || *value < MIN_USE * limits[column] =>
                 {
                     limits[column] = limit;
                 }
@@ -119,7 +118,7 @@ impl Budget {
     }
 }
 
-/// To two digits.
+/// Rounds up to two digits.
 fn rounded_up(value: f64) -> f64 {
     let unit = 10_f64.powi((value.max(1.0).log10().floor() as i32 - 1).max(0));
     (value / unit).ceil() * unit
@@ -156,7 +155,7 @@ mod tests {
     }
 
     #[test]
-    fn an_adapted_budget_holds_and_keeps_what_held() {
+    fn an_adapted_budget_holds_and_keeps_valid_limits() {
         let mut budget = Budget::parse("budget.csv", TEXT);
         budget.adapt("m7", &figures(1578.0));
         assert_eq!(budget.complaints("m7", &figures(1578.0)), [""; 0]);

@@ -1,4 +1,4 @@
-//! The example controller of the C library: compiled, and the same run in Rust.
+//! The example controller of the C library: how to compile it, and the same run in Rust.
 
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -21,7 +21,7 @@ pub const WARNINGS: [&str; 7] = [
     "-Werror",
 ];
 
-/// What a command wrote, which must succeed.
+/// Runs a command that must succeed and returns its output.
 pub fn succeed(command: &mut Command) -> Output {
     let output = command
         .output()
@@ -36,7 +36,7 @@ pub fn succeed(command: &mut Command) -> Output {
     output
 }
 
-/// The install tree for a platform, in `folder` under another name than it was made with.
+/// The install tree for a platform, in `folder`, renamed after it was built.
 pub fn tree_of(platform: &Platform, folder: &Path) -> PathBuf {
     let made = install(platform, folder).unwrap_or_else(|error| panic!("{error}"));
     let moved = folder.join("moved tree");
@@ -44,7 +44,7 @@ pub fn tree_of(platform: &Platform, folder: &Path) -> PathBuf {
     moved
 }
 
-/// The two exported dampers as C sources in `folder`, their headers beside them.
+/// Exports the two dampers as C sources with headers in `folder`.
 pub fn export(folder: &Path) -> [PathBuf; 2] {
     ["in-service", "reduced-vertical"].map(|name| {
         let built: Damper<f32> = damper(name, &[]).build(1e-3).expect("a preset");
@@ -64,7 +64,7 @@ pub fn export(folder: &Path) -> [PathBuf; 2] {
     })
 }
 
-/// `compiler` for the example on `platform`, made in `folder`; libraries and result not named yet.
+/// `compiler` for the example on `platform`, running in `folder`; libraries and output are not named yet.
 pub fn compile(compiler: &str, platform: &str, folder: &Path) -> Command {
     let examples = c_library::folder().join("examples");
     let mut command = Command::new(compiler);
@@ -77,7 +77,7 @@ pub fn compile(compiler: &str, platform: &str, folder: &Path) -> Command {
     command
 }
 
-/// As [`compile`], with the static library of a tree.
+/// Like [`compile`], with the static library of a tree.
 pub fn compile_with_archive(
     compiler: &str,
     platform: &str,
@@ -91,7 +91,7 @@ pub fn compile_with_archive(
     command
 }
 
-/// Displacement of damper `number` at `tick` (m), as the sensor in controller.c.
+/// Displacement of damper `number` at `tick` (m), like the sensor in controller.c.
 fn sensor(number: u32, tick: u32) -> f32 {
     let half = 200 + 35 * number;
     let in_arc = tick % half;
@@ -104,8 +104,8 @@ fn sensor(number: u32, tick: u32) -> f32 {
     }
 }
 
-/// What the controller prints, from the core in Rust. Nothing is saved and restored here: that must not
-/// show.
+/// Output of the controller according to the core in Rust. Nothing is saved and restored here, because that must not
+/// change the output.
 pub fn expected() -> String {
     let build = |name| -> Damper<f32> { damper(name, &[]).build(1e-3).expect("a preset") };
     let mut dampers = [build("in-service"), build("reduced-vertical")];

@@ -1,8 +1,8 @@
-//! Documents and digests a test generates and compares.
+//! Documents and digests that a test generates and compares.
 
 use std::path::PathBuf;
 
-/// Whether `DASHPOT_BLESS=1` asks to rewrite what is generated.
+/// Returns true if `DASHPOT_BLESS=1` requests rewriting the generated files.
 pub fn blessing() -> bool {
     std::env::var_os("DASHPOT_BLESS").is_some_and(|value| value == "1")
 }
@@ -39,7 +39,7 @@ pub fn compare(path: &str, text: &str) {
     }
 }
 
-/// As [`compare`], of bytes that are no text.
+/// Like [`compare`], for binary files.
 pub fn compare_bytes(path: &str, bytes: &[u8]) {
     let file = in_repository(path);
     if blessing() {
@@ -69,7 +69,7 @@ pub fn compare_part(path: &str, name: &str, text: &str) {
     compare(path, &format!("{before}{text}{after}"));
 }
 
-/// What is before the part, the part, what is after it.
+/// Text before the part, the part, and the text after it.
 fn split(path: &str, name: &str) -> (String, String, String) {
     let whole = read(path);
     let start = format!("<!-- {name} -->\n");

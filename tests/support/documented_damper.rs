@@ -1,4 +1,4 @@
-//! Random dampers from the whole ranges of docs/parameters.md, and small changes of them.
+//! Random dampers from the full ranges of docs/parameters.md, and small changes of them.
 
 use dashpot_core::parameters::{
     Element, Geometry, Leakage, Limits, Mount, Oil, OilColumn, Orifice, Range, Reduced, Relief,
@@ -8,10 +8,10 @@ use dashpot_core::{BuildError, CheckedParameters, DamperParameters};
 
 use crate::random_damper::{Random, damper};
 
-/// Changes a number of a damper within its range.
+/// Changes a value of a damper within its range.
 type Change<'a> = &'a mut dyn FnMut(&mut f64, &Range);
 
-/// A number anywhere in its range: each decade as likely as another where the range has many, sometimes its least.
+/// A value anywhere in its range, sometimes its minimum; uniform over the decades of a wide range.
 fn anywhere(random: &mut Random, range: &Range) -> f64 {
     let (least, greatest) = (range.min, range.max);
     if random.happens(0.05) {
@@ -23,8 +23,7 @@ fn anywhere(random: &mut Random, range: &Range) -> f64 {
     }
 }
 
-/// A damper with any of its numbers anywhere in its documented range, the others as dampers usually have them; one that
-/// `check` takes.
+/// A damper that `check` accepts, with some values anywhere in their documented ranges and the others as usual.
 pub fn documented_damper(random: &mut Random) -> CheckedParameters {
     loop {
         let mut parameters = damper(random);
@@ -41,10 +40,10 @@ pub fn documented_damper(random: &mut Random) -> CheckedParameters {
     }
 }
 
-/// A damper like another: some of its numbers a little different.
-pub fn changed_damper(of: &DamperParameters, random: &mut Random) -> CheckedParameters {
+/// A damper with some values slightly changed.
+pub fn changed_damper(base: &DamperParameters, random: &mut Random) -> CheckedParameters {
     loop {
-        let mut parameters = of.clone();
+        let mut parameters = base.clone();
         change(&mut parameters, &mut |number, range| {
             if random.happens(0.25) {
                 let factor = random.between(-0.6, 0.6).exp();
@@ -57,7 +56,7 @@ pub fn changed_damper(of: &DamperParameters, random: &mut Random) -> CheckedPara
     }
 }
 
-/// Gives some valves the discs of a pack in place of a compliance.
+/// Gives some valves the discs of a pack instead of a compliance.
 fn use_shims(parameters: &mut DamperParameters, random: &mut Random) {
     let Element::Physical(hydraulics) = &mut parameters.element else {
         return;
@@ -77,7 +76,7 @@ fn use_shims(parameters: &mut DamperParameters, random: &mut Random) {
     }
 }
 
-/// The damper with each relation between its numbers kept; `None` where the last check refuses it.
+/// Adjusts the damper so that all relations between its values hold; `None` if the final check refuses it.
 fn related(mut parameters: DamperParameters, random: &mut Random) -> Option<CheckedParameters> {
     if let Element::Physical(hydraulics) = &mut parameters.element {
         let geometry = &mut hydraulics.geometry;
@@ -126,7 +125,7 @@ fn related(mut parameters: DamperParameters, random: &mut Random) -> Option<Chec
     }
 }
 
-/// Every number of a damper with its range.
+/// Applies a change to every value of a damper, with its range.
 fn change(parameters: &mut DamperParameters, by: Change<'_>) {
     let mount = &mut parameters.mount;
     by(

@@ -1,5 +1,5 @@
-//! The motions of `tests/golden/forces.txt`. They are made with `libm`, not with the machine's own sine, so the
-//! input is the same on every machine.
+//! The motions of `tests/golden/forces.txt`. They use `libm` instead of the machine's own sine, so that the input is
+//! the same on every machine.
 
 use std::f64::consts::TAU;
 
@@ -11,7 +11,7 @@ pub const TICKS: u32 = 4000;
 /// A motion: name and displacement (m) at a time (s).
 pub type Motion = (&'static str, fn(f64) -> f64);
 
-/// Of every golden digest.
+/// Golden motions by name.
 pub const MOTIONS: [Motion; 4] = [
     ("ride", |t| {
         (1..=20)

@@ -9,17 +9,17 @@ use dashpot_host_link::{Link, LinkError, Qemu, RetryLimits};
 use xtask::processor::CORTEX_M7;
 use xtask::tools::{ARM_GCC, QEMU, have, have_target};
 
-/// The link under the client never lets it wait.
+/// The link under the client never makes it wait.
 pub const RETRY_LIMITS: RetryLimits = RetryLimits {
     timeout: Duration::ZERO,
     tries: 50,
 };
-/// Of a target that will never answer; one that does ends the wait.
+/// Timeout for a target that will never answer; any answer ends the wait.
 const STUCK: Duration = Duration::from_secs(300);
-/// Of a target that counts its own ticks: a tick has time for a hundred.
-pub const MOST_ANSWERS: u32 = 1_000_000;
+/// Limit for a target that counts its own ticks: each tick has time for a hundred answers.
+pub const MAX_ANSWERS: u32 = 1_000_000;
 
-/// The folder of the images; `None`, with a message, where they cannot be built.
+/// The folder of the images; `None`, after a message, if they cannot be built.
 pub fn images() -> Option<PathBuf> {
     static IMAGES: OnceLock<Option<PathBuf>> = OnceLock::new();
     let build = || {
@@ -34,20 +34,20 @@ pub fn images() -> Option<PathBuf> {
     IMAGES.get_or_init(build).clone()
 }
 
-/// An emulator with one request and one answer at a time, so that a run is the same on a fast machine and a slow
-/// one: every whole frame has one answer, and sending waits for all of them.
+/// An emulator with one request and one answer at a time, so that a run is the same on fast and slow machines: every
+/// whole frame has one answer, and sending waits for all of them.
 pub struct InTurn {
     emulator: Qemu,
-    /// Within a frame to the target.
+    /// True within a frame to the target.
     partial: bool,
     answers: VecDeque<u8>,
     sent: u32,
-    /// Resets the target before the frames of these numbers.
+    /// Resets the target before the frames with these numbers.
     resets: &'static [u32],
 }
 
 impl InTurn {
-    /// Starts it; what it sends as its outputs goes to the file.
+    /// Starts the emulator; its outputs go to the file.
     pub fn start(image: &Path, resets: &'static [u32], outputs: Option<&Path>) -> Self {
         Self {
             emulator: Qemu::start_with_outputs(image, outputs).expect("the emulator starts"),
@@ -58,7 +58,7 @@ impl InTurn {
         }
     }
 
-    /// Frames that end within `bytes`; two zeros in a row hold no frame.
+    /// Number of frames that end within `bytes`; two zeros in a row enclose no frame.
     fn frames(&mut self, bytes: &[u8]) -> usize {
         let ends = bytes.iter().filter(|byte| {
             let ends = **byte == 0 && self.partial;

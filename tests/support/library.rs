@@ -1,4 +1,4 @@
-//! What the C library is made of, read from its archive.
+//! Size and symbols of the C library, read from its archive.
 
 use std::collections::{BTreeSet, HashMap};
 use std::path::Path;
@@ -7,12 +7,12 @@ use object::{Object, ObjectSection, ObjectSymbol, RelocationTarget, SectionKind}
 
 use crate::budget::Figures;
 
-/// What functions of health start with.
+/// Prefix of the health functions.
 const HEALTH: &str = "dashpot_health_";
 
-/// Code and constants (bytes) of the C library for the target, which has the core and its border: those that a linker
-/// with `--gc-sections` takes for every function but those of health, and what these add. Also how many symbols of all
-/// panic, use a heap or compute in double precision.
+/// Code and constants (bytes) of the C library, for a target with the core and its interface: the part that a linker
+/// with `--gc-sections` keeps for all functions except those of health, and the part that health adds. Also the number
+/// of symbols that panic, use a heap or compute in double precision.
 pub fn library_figures(library: &Path) -> Figures {
     let bytes = std::fs::read(library).expect("a library");
     let archive = object::read::archive::ArchiveFile::parse(&*bytes).expect("an archive");
@@ -54,7 +54,7 @@ pub fn library_figures(library: &Path) -> Figures {
     ]
 }
 
-/// Sections of code and constants, numbered over all members, and which of them each refers to.
+/// Sections of code and constants, numbered over all members, with their references.
 #[derive(Default)]
 struct Sections {
     bytes: Vec<u64>,
@@ -63,15 +63,15 @@ struct Sections {
     defined: HashMap<String, usize>,
 }
 
-/// What a section refers to.
+/// Target of a reference.
 enum Target {
     Section(usize),
-    /// Of another member, or none of the library's.
+    /// A symbol of another member, or outside the library.
     Symbol(String),
 }
 
 impl Sections {
-    /// Takes in the sections of a member.
+    /// Adds the sections of a member.
     fn add(&mut self, object: &object::File<'_>) {
         let first = self.bytes.len();
         for section in object.sections() {
@@ -106,7 +106,7 @@ impl Sections {
         }
     }
 
-    /// Bytes of all sections that are reached from functions.
+    /// Bytes of all sections reachable from functions.
     fn bytes_of(&self, functions: &[&String]) -> u64 {
         let mut open: Vec<usize> = functions.iter().map(|name| self.defined[*name]).collect();
         let mut seen = BTreeSet::new();
@@ -127,7 +127,7 @@ impl Sections {
     }
 }
 
-/// Whether a function of the Arm run-time ABI or of GCC's computes with doubles.
+/// Returns true for a function of the Arm run-time ABI or of GCC that computes with doubles.
 fn is_soft_double(name: &str) -> bool {
     let abi = name.strip_prefix("__aeabi_");
     abi.is_some_and(|rest| rest.starts_with('d') || rest.contains("2d") || rest.contains("cdcmp"))

@@ -1,8 +1,8 @@
-//! The floor: a force-velocity table read at the difference of two displacements, no dynamics.
+//! The floor: a force-velocity table evaluated at the difference of two displacements, without dynamics.
 
 use dashpot_reference::damper::Reference;
 
-/// Force over velocity at equal distances.
+/// Force at equally spaced velocities.
 pub struct LookUp {
     forces_n: Vec<f32>,
     /// Intervals per displacement of a step (1/m).

@@ -1,8 +1,8 @@
-//! Dampers and states as the memory they lie in, to be damaged.
+//! Dampers and states as bytes, for damaging them.
 
 use dashpot_core::{Damper, DamperState};
 
-/// Every pattern of bits is one of these types: they are arrays of numbers without padding.
+/// Types for which every bit pattern is valid: arrays of numbers without padding.
 pub trait PlainData: Copy {}
 impl PlainData for Damper<f32> {}
 impl PlainData for Damper<f64> {}

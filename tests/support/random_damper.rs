@@ -1,4 +1,4 @@
-//! Random dampers of every term.
+//! Random dampers with any combination of terms.
 
 use dashpot_core::DamperParameters;
 use dashpot_core::parameters::{
@@ -6,11 +6,11 @@ use dashpot_core::parameters::{
     Relief, Reservoir, Seal, TwoChamber, Valve, Valves,
 };
 
-/// Numbers that look random: SplitMix64 (Steele, Lea, Flood 2014).
+/// Pseudo-random numbers: SplitMix64 (Steele, Lea, Flood 2014).
 pub struct Random(pub u64);
 
 impl Random {
-    /// In [0, 1).
+    /// Uniform in [0, 1).
     pub fn unit(&mut self) -> f64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.0;
@@ -19,22 +19,22 @@ impl Random {
         ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
     }
 
-    /// Between two numbers.
+    /// Uniform between two numbers.
     pub fn between(&mut self, from: f64, to: f64) -> f64 {
         from + (to - from) * self.unit()
     }
 
-    /// Each decade as likely as another.
+    /// Log-uniform between two numbers.
     pub fn decades(&mut self, from: f64, to: f64) -> f64 {
         self.between(from.ln(), to.ln()).exp()
     }
 
-    /// True as often as said.
+    /// True with the given probability.
     pub fn happens(&mut self, probability: f64) -> bool {
         self.unit() < probability
     }
 
-    /// The value, or what is off.
+    /// The value with the given probability, otherwise `None`.
     pub fn some<T>(&mut self, probability: f64, value: impl FnOnce(&mut Self) -> T) -> Option<T> {
         self.happens(probability).then(|| value(self))
     }
@@ -104,7 +104,7 @@ fn hydraulics(random: &mut Random) -> Hydraulics {
     hydraulics
 }
 
-/// A damper with each term on or off.
+/// A damper with each term randomly on or off.
 pub fn damper(random: &mut Random) -> DamperParameters {
     let element = if random.happens(0.15) {
         Element::Reduced(Reduced::new(

@@ -2,7 +2,7 @@
 
 use dashpot_core::link::{LossOfLink, PROTOCOL, Parameter, Reals, Request};
 
-/// All requests in order of their numbers, to damper 0: hello is the first.
+/// Every request, in order of its number, to damper 0; hello is the first.
 pub fn every_request<'a>(
     image: &'a [u8],
     model: &'a [u8],

@@ -1,5 +1,6 @@
-//! A search for the worst case of the accuracy that docs/numerics.md promises: random dampers of the documented ranges,
-//! and for each the motion that errs most over what is promised for it, by climbing from random ones.
+//! A search for the worst case of the accuracy promised in docs/numerics.md: random dampers within the documented
+//! ranges, and for each the motion with the largest error relative to its promise, found by hill climbing from random
+//! motions.
 
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -14,16 +15,16 @@ use crate::documented_damper::{changed_damper, documented_damper};
 use crate::random_damper::Random;
 use crate::searched_motion::SearchedMotion;
 
-/// Motions that are climbed from for one damper, and the changes of each.
+/// Number of start motions for one damper, and of changes to each.
 const STARTS: usize = 4;
 const CHANGES: usize = 12;
-/// Dampers that are changed from one.
+/// Number of changed dampers derived from one.
 const CHANGED_DAMPERS: usize = 1;
 
-/// Cases that a search keeps.
+/// Maximum number of cases that a search keeps.
 const KEPT: usize = 16;
 
-/// What a promise is of.
+/// The promised quantity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Promise {
     /// The largest error at a tick.
@@ -32,34 +33,34 @@ pub enum Promise {
     Nrmse,
 }
 
-/// A motion of a damper, and how it keeps what is promised.
+/// A motion of a damper with its errors and promises.
 #[derive(Clone, Debug)]
 pub struct Case {
     /// The damper.
     pub damper: CheckedParameters,
     /// The motion at its ticks.
     pub motion: Motion,
-    /// Its form in words.
+    /// Form of the motion in words.
     pub form: String,
     /// The step (s).
     pub step_s: f64,
     /// `f64` or `f32`.
     pub scalar: &'static str,
-    /// What the promise is of.
+    /// The promised quantity.
     pub promise: Promise,
-    /// What was found, in newtons or 1.
+    /// The measured value, in newtons or 1.
     pub found: f64,
-    /// What is promised, in newtons or 1.
+    /// The promised value, in newtons or 1.
     pub promised: f64,
 }
 
 impl Case {
-    /// What was found over what is promised: above 1 the promise is broken.
+    /// Measured over promised value: above 1 the promise is broken.
     pub fn ratio(&self) -> f64 {
         self.found / self.promised
     }
 
-    /// One line for people.
+    /// One-line summary.
     pub fn line(&self) -> String {
         format!(
             "{:.2} of the promise: {:?} {:.3e} of {:.3e}, {} at {} s, {} at {:.4} m/s",
@@ -75,20 +76,20 @@ impl Case {
     }
 }
 
-/// What a search did.
+/// Result of a search.
 #[derive(Debug, Default)]
 pub struct Found {
     /// Motions tried.
     pub evaluations: usize,
     /// Dampers probed.
     pub dampers: usize,
-    /// Dampers whose reference has no solution, with the reason: `verify` reports it.
+    /// Dampers without a reference solution, with the reason that `verify` reports.
     pub unsolved: Vec<String>,
-    /// The worst cases, the worst first, of each damper at most one for each scalar and promise.
+    /// The worst cases, worst first, at most one per damper, scalar and promise.
     pub cases: Vec<Case>,
 }
 
-/// A damper at one step size with what is promised for it.
+/// A damper at one step size with its promises.
 struct Promised<'a> {
     errors: StepErrors<'a>,
     step_s: f64,
@@ -106,7 +107,7 @@ impl<'a> Promised<'a> {
         })
     }
 
-    /// How a motion keeps each promise: found and promised, of each scalar the largest error and the NRMSE.
+    /// Measured and promised values of a motion: for each scalar the largest error and the NRMSE.
     fn judge(&self, motion: &Motion) -> Result<[(f64, f64); 4], TestbenchError> {
         let [double, single] = self.errors.on(motion)?;
         let [of_double, of_single] = self.errors.promised(&self.largest);
@@ -127,7 +128,7 @@ const JUDGED: [(&str, Promise); 4] = [
     ("f32", Promise::Nrmse),
 ];
 
-/// The worst of each promise of one damper at one step: climbs from random motions, each by its own promise.
+/// The worst motion of one damper at one step size for each promise, by climbing from random motions.
 fn climb(
     damper: &CheckedParameters,
     step_s: f64,
@@ -180,10 +181,10 @@ fn climb(
     Ok(worst.into_iter().flatten().collect())
 }
 
-/// Searches with so many motions in all; each damper is followed by dampers like the one that is worst so far of its
-/// line. The same seed and number give the same search, however many threads there are.
+/// Searches with this number of motions in total. Each damper is followed by changed versions of the worst one found so
+/// far in its line. The same seed and number always produce the same search, for any number of threads.
 pub fn search(evaluations: usize, seed: u64, mut on_worse: impl FnMut(&Case) + Send) -> Found {
-    // Lines of dampers share the evaluations evenly, so that what one does does not depend on the others.
+    // Lines of dampers share the evaluations evenly, so that each line is independent of the others.
     let per_damper = STARTS * (CHANGES + 1);
     let per_line = per_damper * (1 + CHANGED_DAMPERS);
     let lines = evaluations.div_ceil(per_line);
@@ -247,7 +248,7 @@ fn follow(random: &mut Random, evaluations: usize, step_s: f64) -> Found {
             }
             Err(error) => found.unsolved.push(error.to_string()),
         }
-        // A damper that the reference does not solve costs one evaluation.
+        // A damper without a reference solution costs one evaluation.
         let used = (most - left).max(1);
         budget -= used;
         found.evaluations += used;

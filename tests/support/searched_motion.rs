@@ -1,5 +1,5 @@
-//! Motions of the class that docs/numerics.md promises an accuracy for, and small changes of them: what the search
-//! tries.
+//! Random motions of the class for which docs/numerics.md promises an accuracy, and small changes of them, for the
+//! search.
 
 use std::f64::consts::TAU;
 
@@ -7,47 +7,47 @@ use dashpot_reference::probing::{Kind, Motion};
 
 use crate::random_damper::Random;
 
-/// Farthest that a motion goes from zero (m), as the class says.
+/// Maximum distance of a motion from zero (m), as in the class.
 const FARTHEST_M: f64 = 0.25;
-/// Ticks of a motion, at most.
+/// Maximum ticks of a motion.
 const MAX_TICKS: usize = 1200;
 /// Ticks of a long rest.
 const LONG_REST_TICKS: f64 = 2e4;
 
-/// What a motion does.
+/// Form of a motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Form {
-    /// Constant speeds to and fro, each its own.
+    /// Constant speeds back and forth, each different.
     Saw,
-    /// Constant speed, a sudden stop, rest, back.
+    /// Constant speed, a sudden stop, rest, return.
     MoveAndStop,
-    /// Pieces of random speed and length.
+    /// Segments of random speed and length.
     Pieces,
-    /// Random to 20 Hz.
+    /// Random up to 20 Hz.
     Ride,
     /// A sine.
     Harmonic,
-    /// Speed rising and falling evenly.
+    /// Speed that rises and falls linearly.
     Ramp,
 }
 
-/// A motion: its form, and what is changed of it.
+/// A motion: its form, and its variable parameters.
 #[derive(Clone, Debug)]
 pub struct SearchedMotion {
-    /// Its form.
+    /// Form of the motion.
     pub form: Form,
-    /// Speeds there and back (m/s).
+    /// Forward and return speeds (m/s).
     speeds_m_per_s: [f64; 2],
-    /// Ticks of a piece and of a rest.
+    /// Ticks of a segment and of a rest.
     ticks: [f64; 2],
-    /// Ticks by which the first piece differs.
+    /// Additional ticks of the first segment.
     shift: f64,
-    /// Where random numbers start.
+    /// Seed of the random numbers.
     seed: u64,
 }
 
 impl SearchedMotion {
-    /// Any motion up to a speed (m/s).
+    /// A random motion up to a speed (m/s).
     pub fn any(random: &mut Random, top_m_per_s: f64) -> Self {
         let form = match (8.0 * random.unit()) as u32 {
             0 | 1 => Form::Saw,
@@ -72,7 +72,7 @@ impl SearchedMotion {
         }
     }
 
-    /// A motion like this one, up to a speed (m/s).
+    /// A slightly changed motion, up to a speed (m/s).
     pub fn changed(&self, random: &mut Random, top_m_per_s: f64) -> Self {
         let size = random.decades(0.01, 0.5);
         let mut factor = || random.between(-size, size).exp();
@@ -107,7 +107,7 @@ impl SearchedMotion {
         Motion::new(Kind::Other, self.speeds_m_per_s[0], x)
     }
 
-    /// Goes on at a speed (m/s), not beyond the farthest.
+    /// Continues at a speed (m/s), but not beyond the maximum distance.
     fn go(x: &mut Vec<f64>, step: f64, ticks: f64) {
         for _ in 0..ticks as usize {
             let last = x[x.len() - 1];
@@ -119,7 +119,7 @@ impl SearchedMotion {
     fn saw(&self, x: &mut Vec<f64>, step_s: f64, rests: bool) {
         let [out, back] = self.speeds_m_per_s.map(|speed| speed * step_s);
         let [piece, rest] = self.ticks;
-        // The way back is as long, in as many more ticks as it is slower.
+        // The way back has the same length, in proportionally more ticks if it is slower.
         let ratio = (out / back).clamp(0.02, 50.0);
         Self::go(x, out, self.shift);
         for number in 0..8 {

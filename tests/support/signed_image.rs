@@ -1,12 +1,12 @@
-//! Checks of a damper's image computed from the format as documented, without the code under test: a changed
-//! image with these checks is taken for a damper.
+//! Checksums of a damper's image, computed from the documented format without the code under test: a changed image with
+//! these checksums is accepted as a damper.
 
 use dashpot_core::Damper;
 
 /// Bytes before the words.
 const HEADER: usize = 16;
-/// Scalars, in words: the stretch up to which nothing flows is half the clearance and the stretch held; the bound of
-/// the stretch follows from it, the first knot and the bound of moves.
+/// Indices of scalars, in words. The stretch up to which nothing flows is half the clearance plus the held stretch; the
+/// bound of the stretch follows from it, the first knot and the bound of moves.
 const MOVE_BOUND: usize = 0;
 const OFFSET: usize = 4;
 const FIRST_KNOT: usize = 5;
@@ -35,7 +35,7 @@ fn fnv_1a(hash: u32, words: impl IntoIterator<Item = u64>) -> u32 {
     })
 }
 
-/// A scalar of dampers, as its words are in an image.
+/// A scalar type of dampers, stored as words in an image.
 pub trait Word: Copy {
     /// Bytes of a word.
     const BYTES: usize;
@@ -45,8 +45,8 @@ pub trait Word: Copy {
     fn bits(bytes: &[u8]) -> u64;
     /// The bytes of the sum of two numbers.
     fn sum(left: &[u8], right: &[u8]) -> Vec<u8>;
-    /// The bytes of the bound of the stretch: 0.7 of what is left of the table without 1.12 moves, and the offset; 0 to
-    /// 1.45 m. Bounds have the bits of their numbers doubled.
+    /// The bytes of the bound of the stretch: 0.7 of the rest of the table without 1.12 moves, plus the offset; 0 to
+    /// 1.45 m. Bounds are stored with the bits of their values doubled.
     fn stretch_bound(offset: &[u8], first_knot: &[u8], move_bound: &[u8]) -> Vec<u8>;
 }
 
@@ -95,14 +95,14 @@ pub fn word<T: Word>(image: &mut [u8], index: usize) -> &mut [u8] {
     &mut image[HEADER + index * T::BYTES..][..T::BYTES]
 }
 
-/// Makes the CRC-32 of an image right.
+/// Corrects the CRC-32 of an image.
 pub fn sign(image: &mut [u8]) {
     let end = image.len() - 4;
     let check = crc_32(&image[..end]);
     image[end..].copy_from_slice(&check.to_le_bytes());
 }
 
-/// Makes both revisions of an image right, then its CRC-32.
+/// Corrects both revisions of an image, then its CRC-32.
 pub fn revise_and_sign<T: Word>(image: &mut [u8]) {
     let end = image.len() - 4;
     let words = |from: usize, to: usize| image[from..to].chunks_exact(T::BYTES).map(T::bits);
@@ -116,18 +116,19 @@ pub fn revise_and_sign<T: Word>(image: &mut [u8]) {
     sign(image);
 }
 
-/// Any bytes as the words of an image whose checks and sums are right: refused for a number out of range only.
+/// Uses arbitrary bytes as the words of an image with valid checksums and sums, which can only be refused for a value
+/// out of range.
 pub fn of_any_bytes<T: Word>(bytes: &[u8]) -> Vec<u8> {
     let mut image = T::empty();
     let end = image.len() - 4;
-    for (place, byte) in image[HEADER..end].iter_mut().zip(bytes) {
-        *place = *byte;
+    for (target, byte) in image[HEADER..end].iter_mut().zip(bytes) {
+        *target = *byte;
     }
     sum_and_sign::<T>(&mut image);
     image
 }
 
-/// As [`revise_and_sign`], after the two scalars that follow from others were made right.
+/// Like [`revise_and_sign`], after correcting the two dependent scalars.
 pub fn sum_and_sign<T: Word>(image: &mut [u8]) {
     let half_clearance = word::<T>(image, HALF_CLEARANCE).to_vec();
     let offset = T::sum(&half_clearance, word::<T>(image, HELD));

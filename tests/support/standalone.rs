@@ -1,4 +1,4 @@
-//! Dampers in C without a library: exported, compiled, run beside the core.
+//! Dampers in C without a library: exported, compiled, and run in parallel with the core.
 
 use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
@@ -14,7 +14,7 @@ use crate::memory::{self, PlainData};
 /// Reads requests, see [`Request`].
 const DRIVER: &str = include_str!("standalone/driver.c");
 
-/// What is asked of damper and state.
+/// A request to damper and state.
 #[derive(Clone, Debug)]
 pub enum Request<T> {
     /// State at rest at a displacement (m).
@@ -23,22 +23,22 @@ pub enum Request<T> {
     Step(T),
     /// Another clearance (m).
     SetClearance(T),
-    /// The state carried over to the damper.
+    /// Carry the state over to the damper.
     Adopt,
-    /// The state that was saved.
+    /// Restore the saved state.
     Restore(Vec<u8>),
-    /// Memory damaged: these bytes for the state's.
+    /// Damaged memory: replace the state's bytes by these.
     Overwrite(Vec<u8>),
-    /// Status cleared.
+    /// Clear the status.
     ClearStatus,
 }
 
-/// What a request does: code, number returned, the state in memory and saved.
+/// Result of a request: code, returned value, the state in memory and saved.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Answer {
     /// `prefix_result` of C.
     pub code: u8,
-    /// Bits of the number returned, of the four of the state in memory and saved; one for all NaN.
+    /// Bits of the returned value and of the four values of the state, in memory and saved; all NaNs are equal.
     pub numbers: [u64; 9],
     /// Revision, status and counter, in memory and saved.
     pub rest: [[u8; 8]; 2],
@@ -46,11 +46,11 @@ pub struct Answer {
 
 /// A scalar whose dampers are exported and stepped.
 pub trait Exported: Word {
-    /// What [`Damper::state_from_bytes`] of the scalar does, in the codes of C.
+    /// Result of [`Damper::state_from_bytes`] for this scalar, as a C code.
     fn restore(damper: &Damper<Self>, bytes: &[u8]) -> Result<DamperState<Self>, u8>;
-    /// Bytes of a number, as it lies in memory.
+    /// Bytes of a value as stored in memory.
     fn bytes(self) -> Vec<u8>;
-    /// The number of such bytes, zero-extended bits.
+    /// Zero-extended bits of a value from its bytes.
     fn bits(bytes: &[u8]) -> u64;
 }
 
@@ -82,7 +82,7 @@ macro_rules! exported {
 exported!(f32, u32);
 exported!(f64, u64);
 
-/// Writes `name.c` and `name.h` into a folder; the source's path.
+/// Writes `name.c` and `name.h` to a folder and returns the path of the source.
 pub fn export<T: Word>(folder: &Path, name: &str, damper: &Damper<T>) -> PathBuf {
     let provenance = Provenance {
         damper: name,
@@ -100,7 +100,7 @@ pub fn export<T: Word>(folder: &Path, name: &str, damper: &Damper<T>) -> PathBuf
     file
 }
 
-/// The program of [`DRIVER`] for a damper: compiled in a folder by a compiler with these arguments.
+/// Builds the program of [`DRIVER`] for a damper, in a folder, with the given compiler command.
 pub fn driver<T: Word>(damper: &Damper<T>, compiler: &mut Command, folder: &Path) -> PathBuf {
     let source = export(folder, "damper", damper);
     let main = folder.join("driver.c");
@@ -203,7 +203,7 @@ where
     requests.iter().map(&mut answer).collect()
 }
 
-/// Asserts that C and the core answer the same.
+/// Asserts that C and the core answer identically.
 pub fn assert_same<T: Exported>(
     damper: &Damper<T>,
     program: &Path,
@@ -215,12 +215,12 @@ pub fn assert_same<T: Exported>(
     let pairs = answers(program, requests)
         .into_iter()
         .zip(expected(damper, requests));
-    for (place, (found, expected)) in pairs.enumerate() {
-        let request = &requests[place];
+    for (index, (found, expected)) in pairs.enumerate() {
+        let request = &requests[index];
         let scalar = Scalar::of::<T>();
         assert_eq!(
             found, expected,
-            "{what}, {scalar}: request {place}, {request:?}"
+            "{what}, {scalar}: request {index}, {request:?}"
         );
     }
 }

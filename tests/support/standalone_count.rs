@@ -1,4 +1,4 @@
-//! Instructions of a step in C without a library on emulated processors, and its forces beside the core's.
+//! Instructions of a step in C without a library on emulated processors, with its forces compared with the core's.
 
 use std::fmt::Write;
 use std::process::Command;
@@ -14,7 +14,7 @@ use crate::controller::{WARNINGS, succeed};
 use crate::damper;
 use crate::standalone::export;
 
-/// Counts, and prints a name and a hexadecimal number a line.
+/// Counts instructions, and prints a name and a hexadecimal number per line.
 const COUNT: &str = include_str!("standalone/count.c");
 
 /// Step (s).
@@ -26,7 +26,7 @@ const SAMPLES: usize = 2000;
 /// Time of an instruction under `-icount shift=10` (s).
 const INSTRUCTION_S: f64 = 1024e-9;
 
-/// Instructions by what a step of the in-service damper meets.
+/// Instructions of a step of the in-service damper, by situation.
 ///
 /// # Panics
 /// The image does not compile or run; a force is not the core's.
@@ -56,7 +56,7 @@ pub fn standalone_figures(processor: &Processor) -> Figures {
     );
     let ticks_per_instruction = INSTRUCTION_S * f64::from(number("clock_hz"));
     let instructions = |name: &str| {
-        // The call subtracted is of a function of one instruction.
+        // The subtracted call is that of a function of one instruction.
         let ticks = f64::from(number(name)) - f64::from(number("call"));
         (ticks / ticks_per_instruction).round() + 1.0
     };
@@ -82,7 +82,7 @@ pub fn standalone_figures(processor: &Processor) -> Figures {
     rows.map(figure).into()
 }
 
-/// What the image prints for a processor.
+/// Output of the image for a processor.
 fn run(processor: &Processor, built: &Damper<f32>, motions: &[Vec<f32>]) -> Vec<(String, u32)> {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let folder = folder.path();
@@ -99,7 +99,7 @@ fn run(processor: &Processor, built: &Damper<f32>, motions: &[Vec<f32>]) -> Vec<
     std::fs::write(folder.join("count.c"), COUNT).expect("a writable folder");
     let image = folder.join("count.elf");
     let mut compiler = Command::new(ARM_GCC.program);
-    // The language of GNU, in which products are fused where the source does not forbid it.
+    // GNU C fuses products unless the source forbids it.
     compiler.args(["-std=gnu11", "-O2", "-ffreestanding", "-nostdlib"]);
     compiler
         .args(processor.gcc)
@@ -137,7 +137,7 @@ fn run(processor: &Processor, built: &Damper<f32>, motions: &[Vec<f32>]) -> Vec<
     lines.collect()
 }
 
-/// Hash of the core's forces over what the image does.
+/// Hash of the core's forces over the actions of the image.
 fn digest(built: &Damper<f32>, motions: &[Vec<f32>]) -> u32 {
     let mut damper = *built;
     let mut forces = Vec::new();

@@ -1,5 +1,5 @@
-//! Experiments on emulated processors: what `firmware/src/bin/step_cost.rs` measures, and the same motion
-//! on this machine.
+//! Experiments on emulated processors: the measurements of `firmware/src/bin/step_cost.rs`, and the same motion on this
+//! machine.
 
 use std::io::{BufRead, BufReader, Write};
 use std::path::Path;
@@ -18,12 +18,12 @@ use crate::damper;
 /// Step of every experiment (s).
 const STEP_S: f64 = 1e-3;
 
-/// Steps of one damper for a digest, and of a bank.
+/// Steps of one damper for a digest.
 pub const STEPS: u32 = 1_000_000;
 /// Steps of a bank for a digest.
 pub const BANK_STEPS: u32 = 100_000;
 
-/// Name of an element in tables, preset, whether a bank of it.
+/// Name of an element in tables, preset, and true for a bank of it.
 pub const ELEMENTS: [(&str, &str, bool); 3] = [
     ("physical", "in-service", false),
     ("reduced", "reduced-vertical", false),
@@ -35,13 +35,13 @@ const INSTRUCTION_S: f64 = 1024e-9;
 
 type Image = [u8; Damper::<f32>::IMAGE_BYTES];
 
-/// A damper driven over an excitation, to its end and back until the steps are done.
+/// A damper driven over an excitation, back and forth until the steps are done.
 pub struct Experiment {
     /// Name of the element.
     pub element: &'static str,
     /// The motion.
     pub excitation: Excitation,
-    /// Whether a bank or one damper.
+    /// True for a bank, false for one damper.
     pub bank: bool,
     /// Steps.
     pub steps: u32,
@@ -50,7 +50,7 @@ pub struct Experiment {
     motion_m: Vec<[u8; 4]>,
 }
 
-/// What the target printed, in clock ticks and bytes.
+/// Output of the target, in clock ticks and bytes.
 #[derive(Deserialize)]
 struct Printed {
     clock_hz: f64,
@@ -76,42 +76,42 @@ struct Printed {
     c_check_slice: f64,
 }
 
-/// What an experiment found on the target: instructions of a call, bytes.
+/// Results of an experiment on the target: instructions of a call, bytes.
 #[derive(Clone, Debug)]
 pub struct Found {
-    /// Mean of all steps.
+    /// Mean over all steps.
     pub mean: f64,
-    /// Fewest.
+    /// Minimum.
     pub least: f64,
-    /// Most.
+    /// Maximum.
     pub most: f64,
-    /// Of the first step after a reset.
+    /// First step after a reset.
     pub first: f64,
     /// Input held.
     pub held: f64,
-    /// Input limited to the largest rate.
+    /// Input limited to the maximum rate.
     pub limited: f64,
     /// Input too far away to catch up with, under force.
     pub jumped: f64,
     /// Damper swapped.
     pub swapped: f64,
-    /// Of a slice of loading a damper, the most.
+    /// Slice of loading a damper, maximum.
     pub load_slice: f64,
-    /// Of a function of 101 instructions, its return included.
+    /// Function of 101 instructions, including its return.
     pub known: f64,
-    /// Most stack of the first step and the unusual ones (bytes).
+    /// Maximum stack of the first step and the exceptional ones (bytes).
     pub stack_bytes: f64,
     /// Size of a damper (bytes).
     pub damper_bytes: f64,
     /// Size of a state (bytes).
     pub state_bytes: f64,
-    /// Of the C library: name without prefix, instructions.
+    /// C library functions: name without prefix, instructions.
     pub library: [(&'static str, f64); 5],
     /// FNV-1a (64 bit) of the force bits.
     pub digest: String,
 }
 
-/// Ended when dropped.
+/// Kills the emulator when dropped.
 struct Emulator(Child);
 
 impl Drop for Emulator {
@@ -121,8 +121,7 @@ impl Drop for Emulator {
     }
 }
 
-/// The first line that an image prints on its UART, in an emulator where an instruction takes
-/// 2^`shift` ns.
+/// Returns the first line that an image prints on its UART, in an emulator where an instruction takes 2^`shift` ns.
 pub fn first_line(image: &Path, processor: &Processor, shift: u32, arguments: &[&str]) -> String {
     let mut command = Command::new("qemu-system-arm");
     command
@@ -180,7 +179,7 @@ impl Experiment {
         }
     }
 
-    /// A file of it, as processors take it.
+    /// A file of the experiment in the format that processors read.
     fn file(&self) -> NamedTempFile {
         let images = [&self.damper, &self.other].map(Damper::<f32>::to_image);
         let bytes: Vec<u8> = self.bytes(&images).to_bytes().collect();
@@ -190,7 +189,7 @@ impl Experiment {
         file
     }
 
-    /// Runs on an emulated processor: the image `step-cost`.
+    /// Runs the experiment on an emulated processor with the image `step-cost`.
     pub fn on(&self, processor: &Processor, image: &Path) -> Found {
         let file = self.file();
         let address = symbol_address(image, "__sheap");
@@ -202,7 +201,7 @@ impl Experiment {
         printed.found(self.steps)
     }
 
-    /// Digest by the program `dashpot-experiment`, to be given the file.
+    /// Digest by the program `dashpot-experiment`, called with the file.
     pub fn digest_by(&self, program: &mut Command) -> String {
         let file = self.file();
         let output = program.arg(file.path()).output().expect("it starts");
@@ -236,11 +235,11 @@ pub fn symbol_address(image: &Path, name: &str) -> u64 {
 impl Printed {
     fn found(self, steps: u32) -> Found {
         let ticks_per_instruction = INSTRUCTION_S * self.clock_hz;
-        // The call subtracted is of a function of one instruction.
+        // The subtracted call is that of a function of one instruction.
         let exact = |ticks: f64| (ticks - self.call) / ticks_per_instruction + 1.0;
         let whole = |ticks: f64| exact(ticks).round();
         Found {
-            // Two readings of the clock leave some hundredths of an instruction.
+            // Two readings of the clock leave a few hundredths of an instruction.
             mean: (10.0 * exact(self.sum / f64::from(steps))).round() / 10.0,
             least: whole(self.least),
             most: whole(self.most),

@@ -1,17 +1,17 @@
-//! The one table of tolerances: NRMSE of the fixed step against the reference solver.
+//! The table of tolerances: NRMSE of the fixed step against the reference solver.
 //!
-//! Its rows are in `tolerance.csv`. `DASHPOT_BLESS=1` writes them anew at [`SLACK`] times the measured
-//! error; no row, blessed or not, may exceed [`required`].
+//! Its rows are in `tolerance.csv`. `DASHPOT_BLESS=1` rewrites them at [`SLACK`] times the measured error; no row,
+//! blessed or not, may exceed [`required`].
 
 use dashpot_files::Scalar;
 use dashpot_testbench::accuracy_limits::ACCURACY_LIMITS;
 
 use crate::accuracy::{DAMPERS, STEPS_S};
 
-/// A row is at most the measured error over this fraction, so one looser than needed fails.
-pub const LEAST_USE: f64 = 0.5;
+/// A row above the measured error divided by this fraction fails as too loose.
+pub const MIN_USE: f64 = 0.5;
 
-/// A blessed row over the measured error.
+/// Ratio of a blessed row to the measured error.
 pub const SLACK: f64 = 1.4;
 
 /// File of the rows.
@@ -24,11 +24,11 @@ pub struct Tolerance {
     pub damper: String,
     /// Name of the excitation.
     pub excitation: String,
-    /// For each step size of [`STEPS_S`] the NRMSE allowed in `f64` and in `f32`.
+    /// NRMSE allowed in `f64` and in `f32`, for each step size of [`STEPS_S`].
     pub nrmse: [[f64; 2]; 2],
 }
 
-/// NRMSE the product promises at step size `step` of [`STEPS_S`], in `f64` and in `f32`.
+/// Promised NRMSE at step size `step` of [`STEPS_S`], in `f64` and in `f32`.
 pub fn required(damper: &str, step: usize) -> [f64; 2] {
     assert!(DAMPERS.iter().any(|(name, _, _)| *name == damper));
     let [usual, stiff] = &ACCURACY_LIMITS;

@@ -1,9 +1,9 @@
-//! The firmware under QEMU: the host's bits through every fault, and the cost of a tick.
+//! The firmware under QEMU: it has the host's bits through every fault, and the cost of a tick is within its budget.
 
 use std::fmt::Write as _;
 use std::io::Write as _;
 
-use dashpot::in_turn::{InTurn, MOST_ANSWERS, RETRY_LIMITS, images};
+use dashpot::in_turn::{InTurn, MAX_ANSWERS, RETRY_LIMITS, images};
 use dashpot::target::{first_line, symbol_address};
 use dashpot::{damper, document};
 use dashpot_core::Damper;
@@ -21,10 +21,10 @@ use xtask::target_toolchain::TargetToolchain;
 const LINK: &str = "docs/link.md";
 const FIRMWARE: &str = "docs/firmware.md";
 
-/// Instructions of a 400 MHz core at one a cycle that a tick may take: 3 % at 1 kHz.
+/// Instructions allowed for a tick on a 400 MHz core at one per cycle: 3 % at 1 kHz.
 const BUDGET_1_KHZ: f64 = 0.03 * 400e6 / 1e3;
-/// Instructions of a slice of a load, as docs/link.md states.
-const MOST_OF_A_SLICE: f64 = 2433.0;
+/// Maximum instructions of a slice of a load, as stated in docs/link.md.
+const MAX_SLICE: f64 = 2433.0;
 /// 25 % at 10 kHz.
 const BUDGET_10_KHZ: f64 = 0.25 * 400e6 / 10e3;
 
@@ -60,7 +60,7 @@ fn the_target_has_the_hosts_bits() {
 #[test]
 fn the_target_has_the_hosts_bits_through_every_fault() {
     let faults = "drop=0.01,corrupt=0.02,delay=0.01,duplicate=0.02,reorder=0.01";
-    // While it steps, while it is loaded again after that, and late in the run.
+    // During the steps, during the reload after that, and late in the run.
     let Some(report) = run(faults, &[300, 310, 500], 600) else {
         return;
     };
@@ -77,19 +77,19 @@ fn dampers_that_are_stepped_one_tick_at_a_time_have_the_hosts_bits() {
     let Some(images) = images() else {
         return;
     };
-    // Reset while it steps: two dampers outside a vehicle go on as they were.
+    // Reset during the steps: two dampers outside a vehicle continue as before.
     let link = InTurn::start(&images.join("dashpot-firmware"), &[150], None);
     let session = Session::open(Client::new(link, RETRY_LIMITS, 4)).unwrap();
     let dampers: [Damper<f32>; 2] =
         ["reduced-lateral", "in-service"].map(|name| damper(name, &[]).build(1e-3).unwrap());
     let mut bank = Bank::start(session, &dampers).unwrap();
-    let mut states = [0, 1].map(|place: usize| dampers[place].at_rest(0.0));
+    let mut states = [0, 1].map(|slot: usize| dampers[slot].at_rest(0.0));
     for x in Excitation::Ride.displacements_m(1e-3).iter().take(300) {
         let displacements_m = [*x as f32, -*x as f32];
         let found_n = bank.step(&displacements_m).unwrap();
-        for place in [0, 1] {
-            let expected_n = dampers[place].step(&mut states[place], displacements_m[place]);
-            assert_eq!(found_n[place].to_bits(), expected_n.to_bits());
+        for slot in [0, 1] {
+            let expected_n = dampers[slot].step(&mut states[slot], displacements_m[slot]);
+            assert_eq!(found_n[slot].to_bits(), expected_n.to_bits());
         }
     }
     let report = bank.finish().unwrap();
@@ -111,16 +111,16 @@ fn the_free_running_target_loses_the_link_and_outputs_zero() {
             output: SafeOutput::RampToZero { ticks: 10 },
         })
     };
-    // However slow this host is, the link holds for now.
+    // The link holds for now, however slow this host is.
     client.request(&lose_after(u32::MAX)).unwrap();
     let all = |x: f32| -> Reals { (0..12).map(|_| x).collect() };
     let run = Request::Run {
         displacements_m: all(0.0),
     };
     client.request(&run).unwrap();
-    // Moved to and fro at every answer, so forces come; the tick is the target's own.
+    // Moved back and forth at every answer, so that forces occur; the tick is the target's own.
     let (mut tick, mut x, mut moved) = (0, 0.0, false);
-    for answer in 0..MOST_ANSWERS {
+    for answer in 0..MAX_ANSWERS {
         if tick >= 100 && moved {
             break;
         }
@@ -136,10 +136,10 @@ fn the_free_running_target_loses_the_link_and_outputs_zero() {
         moved |= forces.forces_n.iter().any(|force| *force > 100.0);
     }
     assert!(tick >= 100 && moved, "{tick}");
-    // Counters are no displacement: the link goes.
+    // Requests for counters carry no displacement, so the link is lost.
     client.request(&lose_after(200)).unwrap();
     let mut counters = Counters::default();
-    for _ in 0..MOST_ANSWERS {
+    for _ in 0..MAX_ANSWERS {
         let Ok(Response::Counters(now)) = client.request(&Request::Counters) else {
             panic!("no counters");
         };
@@ -197,7 +197,7 @@ fn a_tick_with_everything_the_link_takes_keeps_the_budget() {
     );
     let [slice, measure, reading] = ["health_slice", "health_measure", "health_reading"]
         .map(|key| number(key) * instructions_per_clock_tick);
-    assert!(slice <= MOST_OF_A_SLICE, "{slice}");
+    assert!(slice <= MAX_SLICE, "{slice}");
     assert!(
         measure.max(reading) <= BUDGET_10_KHZ,
         "{measure}, {reading}"
@@ -217,14 +217,14 @@ fn a_tick_with_everything_the_link_takes_keeps_the_budget() {
         share(1e4),
     );
     let memory = memory(&printed["device_bytes"], &printed["watching_device_bytes"]);
-    // Another compiler keeps the budget, but need not have these figures.
+    // Another compiler must keep the budget, but its figures may differ.
     if document::blessing() || document::part(LINK, "cost").contains(&compiler) {
         document::compare_part(LINK, "cost", &cost);
         document::compare_part(FIRMWARE, "memory", &memory);
     }
 }
 
-/// RAM of devices of 1, 4, 12 and 16 dampers, as a table.
+/// RAM of devices with 1, 4, 12 and 16 dampers, as a table.
 fn memory(device_bytes: &serde_json::Value, watching: &serde_json::Value) -> String {
     let mut table =
         String::from("| dampers | bytes of the device | with health of each |\n|---|---|---|\n");
@@ -239,9 +239,9 @@ fn memory(device_bytes: &serde_json::Value, watching: &serde_json::Value) -> Str
     table
 }
 
-/// What the memory map gives, which has no room to spare: the other tests here ran in it.
+/// The memory map provides exactly the documented memory; the other tests here ran in it.
 #[test]
-fn the_map_has_just_the_memory_that_the_document_states() {
+fn the_map_has_exactly_the_documented_memory() {
     let kilobytes = |region: &str| -> u32 {
         let map = document::read("memory.x");
         let line = map.lines().find(|line| line.trim().starts_with(region));

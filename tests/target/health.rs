@@ -1,4 +1,4 @@
-//! The estimator of health on an emulated Cortex-M7: the bits of this machine, and no tick over its bound.
+//! The health estimator on an emulated Cortex-M7: it has the bits of this machine, and no tick exceeds its bound.
 
 use std::io::Write;
 
@@ -20,12 +20,13 @@ use xtask::target_toolchain::TargetToolchain;
 const DOCUMENT: &str = "docs/health.md";
 /// Time of an instruction under `-icount shift=10` (s).
 const INSTRUCTION_S: f64 = 1024e-9;
-/// Instructions that a tick may take, the fetch of the sample included.
-const MOST_INSTRUCTIONS: f64 = 270.0;
-/// The same of `dashpot_health_tick`, which checks its pointers first; dashpot.h states it.
-const MOST_INSTRUCTIONS_IN_C: f64 = 300.0;
+/// Maximum instructions of a tick, including the fetch of the sample.
+const MAX_INSTRUCTIONS: f64 = 270.0;
+/// Maximum for `dashpot_health_tick`, which checks its pointers first; dashpot.h states it.
+const MAX_INSTRUCTIONS_IN_C: f64 = 300.0;
 
-/// Displacement and force of a damper over the ride to and fro, with the noise of 2 %, and what no sensor should give.
+/// Displacement and force of a damper over the ride forwards and backwards, with noise of 2 %, and values that no
+/// sensor should deliver.
 fn samples(preset: &str) -> Vec<[u8; 8]> {
     let damper: Damper<f64> = damper(preset, &[]).build(1e-3).unwrap();
     let ride = Excitation::Ride.displacements_m(1e-3);
@@ -38,7 +39,7 @@ fn samples(preset: &str) -> Vec<[u8; 8]> {
     forces[16_000] = f64::INFINITY;
     forces[17_000] = 1e9;
     motion[18_000] += 1.0;
-    // Contradiction until the estimate begins anew.
+    // Contradictory values until the estimate restarts.
     (20_000..20_400).for_each(|tick| {
         motion[tick] = 1.5e-3 * (tick - 20_000) as f64;
         forces[tick] = 1500.0;
@@ -86,11 +87,11 @@ fn a_tick_keeps_its_bound_and_the_bits_of_this_machine() {
         let (least, most) = (instructions(number("least")), instructions(number("most")));
         let c_most = instructions(number("c_most"));
         assert!(
-            c_most.round() <= MOST_INSTRUCTIONS_IN_C,
+            c_most.round() <= MAX_INSTRUCTIONS_IN_C,
             "{preset}: {c_most} in C"
         );
         println!("{preset}: {least:.0} to {most:.0}, mean {mean:.1} instructions");
-        assert!(most.round() <= MOST_INSTRUCTIONS, "{preset}: {most}");
+        assert!(most.round() <= MAX_INSTRUCTIONS, "{preset}: {most}");
         let here = watch.run(&model, |health, model, [x, force]| {
             health.tick(model, *x, *force);
         });
@@ -109,13 +110,13 @@ fn a_tick_keeps_its_bound_and_the_bits_of_this_machine() {
     let compiler = compiler.unwrap_or_else(|error| panic!("{error}"));
     let table =
         format!("| {compiler} | instructions, mean | most | C: most |\n|---|---|---|---|\n{table}");
-    // Another compiler keeps the bound, but need not have these figures.
+    // Another compiler must keep the bound, but its figures may differ.
     if document::blessing() || document::part(DOCUMENT, "cost").contains(&compiler) {
         document::compare_part(DOCUMENT, "cost", &table);
     }
 }
 
-/// What the firmware tells of samples that came over the link, those among them that no sensor should give.
+/// The firmware's reading from samples sent over the link, including values that no sensor should deliver.
 #[test]
 fn a_reading_over_the_link_has_the_bits_of_the_desk() {
     let Some(images) = images() else {
@@ -128,10 +129,10 @@ fn a_reading_over_the_link_has_the_bits_of_the_desk() {
     let model = checked
         .health_model(&HealthSettings::new(60e-6, 60.0), 1e-3)
         .unwrap();
-    let place = 11;
-    let none = client.health(place);
+    let slot = 11;
+    let none = client.health(slot);
     assert!(matches!(none, Err(LinkError::Refused(Refusal::NoHealth))));
-    client.load_health(place, &model).unwrap();
+    client.load_health(slot, &model).unwrap();
     let samples = samples("in-service").into_iter().take(21_000);
     let samples: Vec<(f32, f32)> = samples
         .map(|[x0, x1, x2, x3, f0, f1, f2, f3]| {
@@ -147,15 +148,15 @@ fn a_reading_over_the_link_has_the_bits_of_the_desk() {
         7.0,
     );
     for (part, expected) in samples.chunks(7000).zip(&history.readings) {
-        client.measure(place, part).unwrap();
-        assert_eq!(client.health(place).unwrap(), expected.reading);
+        client.measure(slot, part).unwrap();
+        assert_eq!(client.health(slot).unwrap(), expected.reading);
     }
     let last = history.readings[2].reading;
     assert!(
         last.rejected > 0 && last.status.contains(HealthStatus::RESTARTED),
         "{last:?}"
     );
-    assert_eq!(client.clear_health(place).unwrap(), last);
+    assert_eq!(client.clear_health(slot).unwrap(), last);
     let others = client.health(0);
     assert!(matches!(others, Err(LinkError::Refused(Refusal::NoHealth))));
 }

@@ -1,5 +1,5 @@
-//! No panic can be reached from what firmware calls in a tick: read from the relocations of a
-//! `no_std` release build.
+//! No panic can be reached from the functions that firmware calls in a tick, according to the relocations of a `no_std`
+//! release build.
 
 use std::collections::{BTreeSet, HashMap};
 use std::path::{Path, PathBuf};
@@ -12,7 +12,7 @@ fn root() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR"))
 }
 
-/// Runs cargo, whose errors are the test's.
+/// Runs cargo; its failures fail the test.
 fn cargo(arguments: &[&str], variables: &[(&str, &str)]) {
     let output = Command::new(env!("CARGO"))
         .args(arguments)
@@ -28,11 +28,11 @@ fn cargo(arguments: &[&str], variables: &[(&str, &str)]) {
     );
 }
 
-/// What the code of each symbol refers to.
+/// Symbols referred to by the code of each symbol.
 struct References(HashMap<String, BTreeSet<String>>);
 
 impl References {
-    /// Of all objects in a static library whose functions have a section each.
+    /// Reads all objects in a static library whose functions have a section each.
     fn read(library: &Path) -> Self {
         let data = std::fs::read(library).expect("the library was built");
         let archive = ArchiveFile::parse(&*data).expect("a static library");
@@ -42,7 +42,7 @@ impl References {
             let Ok(file) = object::File::parse(member.data(&*data).expect("its bytes")) else {
                 continue; // metadata, not code
             };
-            // Sections stand for themselves, so that reading them through a section symbol counts.
+            // Sections are nodes too, so that reading them through a section symbol counts.
             let section_name = |index: usize| format!("section {number}.{index}");
             for section in file.sections() {
                 let targets = references

@@ -1,9 +1,9 @@
-//! What the firmware's second UART sends to the actuators, read there: forces while the tick runs free, the safe
-//! output after a loss of the link, zeros after a fault.
+//! The forces that the firmware's second UART sends to the actuators: forces while the tick runs free, the safe output
+//! after a loss of the link, zeros after a fault.
 
 use std::path::Path;
 
-use dashpot::in_turn::{InTurn, MOST_ANSWERS, RETRY_LIMITS, images};
+use dashpot::in_turn::{InTurn, MAX_ANSWERS, RETRY_LIMITS, images};
 use dashpot_core::link::{LossOfLink, Reals, Request, Response, SafeOutput};
 use dashpot_host_link::{Client, Qemu};
 
@@ -11,8 +11,8 @@ const DAMPERS: usize = 12;
 
 type Forces = [f32; DAMPERS];
 
-/// The packets in a file, each one once however often it came: `ff ff ff ff`, then the forces, as docs/link.md
-/// says. The last may be incomplete.
+/// The packets in a file, without repetitions: `ff ff ff ff`, then the forces, as documented in docs/link.md. The last
+/// packet may be incomplete.
 fn packets(file: &Path) -> Vec<Forces> {
     let bytes = std::fs::read(file).expect("the outputs");
     let mut packets: Vec<Forces> = Vec::new();
@@ -32,8 +32,8 @@ fn packets(file: &Path) -> Vec<Forces> {
     packets
 }
 
-/// Runs free under force, then says nothing more but questions until the link is lost and the safe output long
-/// over; what came out, and what the target says of it.
+/// Runs free under force, then sends only queries until the link is lost and the safe output has long ended. Returns
+/// the packets, and the outputs reported by the target.
 fn lose_the_link(output: SafeOutput) -> Option<(Vec<Forces>, Reals)> {
     let images = images()?;
     let folder = tempfile::tempdir().expect("a temporary folder");
@@ -53,7 +53,7 @@ fn lose_the_link(output: SafeOutput) -> Option<(Vec<Forces>, Reals)> {
             _ => (0, Vec::new()),
         }
     };
-    // However slow this host is, the link holds for now.
+    // The link holds for now, however slow this host is.
     let lose_after = |after_ticks, output| {
         Request::LossOfLink(LossOfLink {
             after_ticks,
@@ -65,24 +65,24 @@ fn lose_the_link(output: SafeOutput) -> Option<(Vec<Forces>, Reals)> {
     let displacements_m = all(0.0);
     ask(Request::Run { displacements_m });
     let mut x = 0.0;
-    let moved = (0..MOST_ANSWERS).any(|_| {
+    let moved = (0..MAX_ANSWERS).any(|_| {
         x = if x > 0.02 { 0.0 } else { x + 1e-4 };
         let displacements_m = all(x);
         let (_, forces) = ask(Request::Displace { displacements_m });
         forces.iter().all(|force| force.abs() > 100.0)
     });
-    assert!(moved, "no force in {MOST_ANSWERS} answers");
+    assert!(moved, "no force in {MAX_ANSWERS} answers");
     ask(lose_after(50, output));
-    let lost = (0..MOST_ANSWERS).any(|_| ask(Request::Counters).0 > 0);
+    let lost = (0..MAX_ANSWERS).any(|_| ask(Request::Counters).0 > 0);
     assert!(lost, "the link was not lost");
     let tick_now = |ask: &mut dyn FnMut(Request<'static>) -> (u32, Vec<f32>)| {
-        // The newest sample comes when all older ones were taken.
+        // The newest sample is returned after all older ones were read.
         (0..10)
             .map(|_| ask(Request::Telemetry { damper: 0 }).0)
             .max()
     };
     let at_loss = tick_now(&mut ask).unwrap_or(0);
-    let over = (0..MOST_ANSWERS).any(|_| tick_now(&mut ask) >= Some(at_loss + 30));
+    let over = (0..MAX_ANSWERS).any(|_| tick_now(&mut ask) >= Some(at_loss + 30));
     assert!(over, "time stood still");
     let (_, outputs_n) = ask(Request::Outputs);
     drop(client);
@@ -95,32 +95,32 @@ fn end<const N: usize>(packets: &[Forces]) -> [Forces; N] {
 
 #[test]
 fn hold_keeps_the_last_good_forces_on_the_line() {
-    let Some((packets, told)) = lose_the_link(SafeOutput::Hold) else {
+    let Some((packets, reported)) = lose_the_link(SafeOutput::Hold) else {
         return;
     };
     let [last] = end(&packets);
-    assert_eq!(last[..], told[..]);
+    assert_eq!(last[..], reported[..]);
     assert!(last.iter().any(|force| *force != 0.0));
 }
 
 #[test]
 fn zero_comes_out_at_once() {
-    let Some((packets, told)) = lose_the_link(SafeOutput::Zero) else {
+    let Some((packets, reported)) = lose_the_link(SafeOutput::Zero) else {
         return;
     };
     let [before, last] = end(&packets);
-    assert_eq!((last, &told[..]), ([0.0; DAMPERS], &[0.0; DAMPERS][..]));
+    assert_eq!((last, &reported[..]), ([0.0; DAMPERS], &[0.0; DAMPERS][..]));
     assert!(before.iter().any(|force| *force != 0.0));
 }
 
 #[test]
 fn a_ramp_comes_out_in_equal_parts() {
-    let Some((packets, told)) = lose_the_link(SafeOutput::RampToZero { ticks: 4 }) else {
+    let Some((packets, reported)) = lose_the_link(SafeOutput::RampToZero { ticks: 4 }) else {
         return;
     };
     let [good, ramp @ ..]: [Forces; 5] = end(&packets);
     let expected = [0.75, 0.5, 0.25, 0.0].map(|share| good.map(|force| force * share));
-    assert_eq!((ramp, &told[..]), (expected, &[0.0; DAMPERS][..]));
+    assert_eq!((ramp, &reported[..]), (expected, &[0.0; DAMPERS][..]));
 }
 
 #[test]
@@ -132,9 +132,9 @@ fn zeros_come_out_after_a_fault() {
     let file = folder.path().join("outputs.bin");
     let emulator = Qemu::start_with_outputs(&images.join("fault"), Some(&file));
     let emulator = emulator.expect("the emulator starts");
-    // The image ends in a loop; what it sends before takes it some thousand instructions.
+    // The image ends in a loop; sending the last packet takes a few thousand instructions before that.
     let zero = |packets: &[Forces]| packets.last() == Some(&[0.0; DAMPERS]);
-    let came = (0..MOST_ANSWERS).any(|_| {
+    let came = (0..MAX_ANSWERS).any(|_| {
         std::thread::yield_now();
         zero(&packets(&file))
     });

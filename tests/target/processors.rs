@@ -1,8 +1,8 @@
-//! The core on emulated processors: instructions of a step, stack, bytes and force bits, each figure within
-//! its row of `tests/support/target_budget.csv`.
+//! The core on emulated processors: instructions of a step, stack, bytes and force bits, each figure within its row of
+//! `tests/support/target_budget.csv`.
 //!
-//! `cargo xtask target` prints what this measures; `DASHPOT_TARGET_REPORT` names a file for it as JSON. With
-//! `DASHPOT_BLESS=1` limits and the tables of the documents follow what was measured.
+//! `cargo xtask target` prints these measurements; `DASHPOT_TARGET_REPORT` names a file for them as JSON. With
+//! `DASHPOT_BLESS=1` the limits and the tables of the documents are updated to the measurements.
 
 use std::fmt::Write;
 
@@ -20,23 +20,23 @@ use xtask::{c_library, firmware};
 const BUDGET: &str = "tests/support/target_budget.csv";
 const CONTRACT: &str = "docs/timing-contract.md";
 
-/// Column of the Cortex-M7 by a distribution's compiler, beside the default one.
+/// Column of the Cortex-M7 with a distribution's compiler, in addition to the default one.
 const DISTRIBUTION: &str = "cortex_m7_distribution";
 
-/// Instructions of a step in C without a library over those of the core (%).
-const MOST_OF_STANDALONE: f64 = 110.0;
+/// Maximum instructions of a step in C without a library, relative to the core (%).
+const MAX_STANDALONE_SHARE: f64 = 110.0;
 
-/// Where and with what the figures of a column are measured.
+/// Processor and toolchain of a column.
 struct Column {
     name: &'static str,
     toolchain: TargetToolchain,
     processor: Processor,
-    /// Of all steps.
+    /// Fraction of all steps.
     share: f64,
 }
 
-/// The columns that this machine can measure: those of the compiler found first, and the Cortex-M7 by a
-/// distribution's compiler where that is another.
+/// The columns that this machine can measure: those of the compiler found first, and the Cortex-M7 with a
+/// distribution's compiler if that is another one.
 fn columns() -> Vec<Column> {
     let mut columns = Vec::new();
     for (processor, share) in [(CORTEX_M7, 1.0), (CORTEX_M4F, 0.1), (CORTEX_M33, 0.1)] {
@@ -89,7 +89,7 @@ fn measure(column: &Column) -> Figures {
     figures
 }
 
-/// A step in C without a library over one of the core (%): at most what is promised.
+/// Instructions of a step in C without a library relative to the core (%); fails above the promise.
 fn share_of_the_core(figures: &Figures) -> f64 {
     let figure = |name: &str| {
         let found = figures.iter().find(|(figure, _)| figure == name);
@@ -98,7 +98,7 @@ fn share_of_the_core(figures: &Figures) -> f64 {
     let share =
         100.0 * figure("standalone_most_instructions") / figure("physical_most_instructions");
     assert!(
-        share <= MOST_OF_STANDALONE,
+        share <= MAX_STANDALONE_SHARE,
         "C without a library takes {share:.1} % of the core's instructions"
     );
     share.round()
@@ -131,8 +131,8 @@ fn step_figures(runs: &[(&str, Found)]) -> Figures {
         }
         all.extend(runs);
     }
-    for (place, (name, _)) in all[0].library.iter().enumerate() {
-        let value = most(&all, &|run| run.library[place].1);
+    for (index, (name, _)) in all[0].library.iter().enumerate() {
+        let value = most(&all, &|run| run.library[index].1);
         figures.push((format!("c_{name}_instructions"), value));
     }
     figures.push((
@@ -152,7 +152,7 @@ fn every_processor_keeps_its_budget_and_has_the_hosts_bits() {
         return;
     }
     let columns = columns();
-    // One after the other: each is a build and an emulator that takes a core of its own.
+    // One after the other, because each is a build and an emulator that occupies a core.
     let measured: Vec<(&Column, Figures)> = columns
         .iter()
         .map(|column| (column, measure(column)))
@@ -187,7 +187,7 @@ fn every_processor_keeps_its_budget_and_has_the_hosts_bits() {
     compare_documents(&measured);
 }
 
-/// Rows of the documents' tables: what, and the figures that it has.
+/// Rows of the documents' tables: title and figures.
 const ROWS: [(&str, &[&str]); 23] = [
     (
         "instructions of a step: least, mean, most over four excitations",
@@ -293,7 +293,7 @@ fn compare_documents(measured: &[(&Column, Figures)]) {
             .toolchain
             .version()
             .unwrap_or_else(|error| panic!("{error}"));
-        // Another compiler's figures keep the budget, but need not be these.
+        // Another compiler must keep the budget, but its figures may differ.
         if !document::blessing() && !document::part(CONTRACT, part).contains(&version) {
             eprintln!("{CONTRACT} has the figures of another compiler than {version}");
             continue;

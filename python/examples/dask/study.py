@@ -1,4 +1,5 @@
-# A study on a cluster of Dask, here of two processes of this machine: `Client("tcp://scheduler:8786")` in its place is one of many machines.
+# A study on a Dask cluster, here with two processes on this machine; for many machines use
+# `Client("tcp://scheduler:8786")`.
 
 from distributed import Client, LocalCluster
 

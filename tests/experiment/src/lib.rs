@@ -1,4 +1,4 @@
-//! A motion through one damper or a bank of twelve, as bytes that a host hands to any processor.
+//! A motion through one damper or a bank of twelve, as bytes that a host sends to any processor.
 //!
 //! | bytes | hold |
 //! |---|---|
@@ -18,10 +18,10 @@ use digest::Digest;
 /// Dampers in a bank.
 pub const BANK: usize = 12;
 
-/// Samples of a motion at most.
+/// Maximum samples of a motion.
 pub const SAMPLES: usize = 100_000;
 
-/// Bytes of an experiment at most.
+/// Maximum bytes of an experiment.
 pub const BYTES: usize = HEADER_BYTES + 2 * IMAGE_BYTES + 4 * SAMPLES;
 
 const HEADER_BYTES: usize = 12;
@@ -30,10 +30,10 @@ const IMAGE_BYTES: usize = Damper::<f32>::IMAGE_BYTES;
 /// Lanes of a bank run this many ticks apart.
 const LAG: u32 = 9;
 
-/// What is done; see the table above.
+/// An experiment; see the table above.
 #[derive(Clone, Copy, Debug)]
 pub struct Experiment<'a> {
-    /// Whether a bank of [`BANK`] or one damper.
+    /// True for a bank of [`BANK`], false for one damper.
     pub bank: bool,
     /// Steps.
     pub steps: u32,
@@ -46,8 +46,8 @@ pub struct Experiment<'a> {
 }
 
 impl<'a> Experiment<'a> {
-    /// The experiment of `bytes`; what follows it is not read. `None` when it is cut short or its motion
-    /// is outside 2 to [`SAMPLES`] samples.
+    /// Parses `bytes`, ignoring any bytes after the experiment. Returns `None` if it is truncated or its motion does
+    /// not have 2 to [`SAMPLES`] samples.
     pub fn parse(bytes: &'a [u8]) -> Option<Self> {
         let (header, rest) = bytes.split_first_chunk::<HEADER_BYTES>()?;
         let (damper, rest) = rest.split_first_chunk::<IMAGE_BYTES>()?;
@@ -79,15 +79,15 @@ impl<'a> Experiment<'a> {
             .chain(self.motion_m.as_flattened().iter().copied())
     }
 
-    /// Displacement (m) of a lane at a step: the motion to its end and back, again and again.
+    /// Displacement (m) of a lane at a step: the motion to its end and back, repeatedly.
     pub fn displacement_m(&self, step: u32, lane: usize) -> f32 {
         let last = self.motion_m.len() as u32 - 1;
-        let place = (step + LAG * lane as u32) % (2 * last);
-        let place = place.min(2 * last - place);
-        f32::from_le_bytes(self.motion_m[place as usize])
+        let sample = (step + LAG * lane as u32) % (2 * last);
+        let sample = sample.min(2 * last - sample);
+        f32::from_le_bytes(self.motion_m[sample as usize])
     }
 
-    /// Digest of the bits of all forces, each step taken by `step` or, of a bank, by `step_bank`.
+    /// Digest of the bits of all forces; `step` or, for a bank, `step_bank` computes each step.
     pub fn run(
         &self,
         damper: &Damper<f32>,

@@ -1,4 +1,4 @@
-//! A recorded run through the estimator of health, as bytes that a host hands to any processor.
+//! A recorded run through the health estimator, as bytes that a host sends to any processor.
 //!
 //! | bytes | hold |
 //! |---|---|
@@ -12,28 +12,28 @@ use dashpot_core::health::{Estimate, Health, HealthModel};
 
 use crate::digest::Digest;
 
-/// Samples of a run at most.
+/// Maximum samples of a run.
 pub const SAMPLES: usize = 40_000;
 
-/// Bytes of a run at most.
+/// Maximum bytes of a run.
 pub const BYTES: usize = 4 + IMAGE_BYTES + 8 * SAMPLES;
 
 const IMAGE_BYTES: usize = HealthModel::IMAGE_BYTES;
 
-/// Ticks between what is digested.
+/// Ticks between two digested readings.
 const EVERY: usize = 500;
 
-/// What is watched; see the table above.
+/// A recorded run; see the table above.
 #[derive(Clone, Copy, Debug)]
 pub struct Watch<'a> {
     /// Image of the model.
     pub model: &'a [u8; IMAGE_BYTES],
-    /// Displacements (m) and forces (N) by turns, each as the bytes of an `f32`.
+    /// Displacements (m) and forces (N) alternately, each as the bytes of an `f32`.
     pub samples: &'a [[u8; 8]],
 }
 
 impl<'a> Watch<'a> {
-    /// The run of `bytes`; what follows it is not read. `None` when it is cut short.
+    /// Parses `bytes`, ignoring any bytes after the run. Returns `None` if it is truncated.
     pub fn parse(bytes: &'a [u8]) -> Option<Self> {
         let (samples, rest) = bytes.split_first_chunk::<4>()?;
         let (model, rest) = rest.split_first_chunk::<IMAGE_BYTES>()?;
@@ -51,7 +51,7 @@ impl<'a> Watch<'a> {
         count.chain(self.model.iter().copied()).chain(samples)
     }
 
-    /// Digest of the bits of what is estimated, each tick taken by `tick`.
+    /// Digest of the bits of the estimates; `tick` computes each tick.
     pub fn run(
         &self,
         model: &HealthModel,

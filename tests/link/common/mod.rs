@@ -1,4 +1,4 @@
-//! Two dampers behind a link on the desk, and what a host asks them.
+//! Two dampers behind a link on the desk, and the requests of a host.
 #![allow(dead_code)] // each test uses a part
 
 use dashpot::damper;
@@ -21,7 +21,7 @@ pub struct Bench {
     pub header: Header,
 }
 
-/// What came back, and what it said.
+/// An answer of the device.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Answer(Vec<u8>);
 
@@ -64,7 +64,7 @@ impl Bench {
         }
     }
 
-    /// With a session open.
+    /// A bench with an open session.
     pub fn open() -> Self {
         let mut bench = Self::new();
         let hello = bench.ask(&Request::Hello { protocol: PROTOCOL });

@@ -32,10 +32,10 @@ static void semihosting(uint32_t operation, uintptr_t argument)
 static void print(const char *name, uint32_t value)
 {
     char digits[] = " 00000000\n";
-    unsigned place;
+    unsigned digit;
 
-    for (place = 0; place < 8; place++) {
-        digits[8 - place] = "0123456789abcdef"[value >> 4 * place & 0xfU];
+    for (digit = 0; digit < 8; digit++) {
+        digits[8 - digit] = "0123456789abcdef"[value >> 4 * digit & 0xfU];
     }
     semihosting(SYS_WRITE0, (uintptr_t)name);
     semihosting(SYS_WRITE0, (uintptr_t)digits);

@@ -1,4 +1,4 @@
-//! Made data: rides of any length, faults, and the estimate after them.
+//! Synthetic data: rides of any length, faults, and the estimates from them.
 
 use std::f64::consts::TAU;
 
@@ -20,7 +20,7 @@ pub const WEAR: HealthStatus = HealthStatus::FLOW
     .union(HealthStatus::CLEARANCE);
 
 /// Displacements (m) of the ride of `Excitation::Ride` (98 lines from 0.4 to 20 Hz, v_rms 0.04 m/s) with frequencies
-/// and phases of a seed.
+/// and phases from a seed.
 pub fn ride(seed: u64, ticks: usize) -> Vec<f64> {
     const VELOCITY_RMS: f64 = 0.04;
     let mut rng = Rng::with_seed(seed);
@@ -51,15 +51,15 @@ pub fn ride(seed: u64, ticks: usize) -> Vec<f64> {
     displacements
 }
 
-/// What goes wrong with a damper.
+/// Fault of a damper.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Fault {
     None,
-    /// 2a grown by 1 mm.
+    /// 2a increased by 1 mm.
     Clearance,
     /// Ke halved: rubber and seats.
     Stiffness,
-    /// Every discharge up by 25 %: of the reduced element velocity at the same force.
+    /// Every discharge coefficient increased by 25 %; for the reduced element the velocity at the same force.
     Flow,
 }
 
@@ -101,13 +101,13 @@ impl Fault {
         faulty
     }
 
-    /// The flow factor that there is then.
+    /// Flow factor that the fault causes.
     pub fn flow_factor(self) -> f64 {
         if self == Self::Flow { 1.25 } else { 1.0 }
     }
 }
 
-/// A preset, or one near it that nobody chose.
+/// A preset, or a random damper near it if there is a seed.
 pub fn varied(preset: &str, seed: Option<u64>) -> DamperParameters {
     let mut parameters = damper(preset, &[]);
     let Some(seed) = seed else {
@@ -129,7 +129,7 @@ pub fn varied(preset: &str, seed: Option<u64>) -> DamperParameters {
     parameters
 }
 
-/// Forces (N) of a damper that changes to another at a tick, its force kept.
+/// Forces (N) of a damper that is replaced by another at a tick, keeping its force.
 pub fn forces(
     before: &DamperParameters,
     after: &DamperParameters,
@@ -145,14 +145,14 @@ pub fn forces(
         .collect()
 }
 
-/// A model that knows the noise there is.
+/// A model that knows the actual noise.
 pub fn model(parameters: &DamperParameters, noise: &Noise) -> HealthModel {
     let settings = HealthSettings::new(noise.displacement_m, noise.force_n);
     let checked = parameters.check().unwrap();
     checked.health_model(&settings, STEP_S).unwrap()
 }
 
-/// The estimate after samples.
+/// Estimate after the samples.
 pub fn estimate(model: &HealthModel, displacements_m: &[f64], forces_n: &[f64]) -> HealthReading {
     let mut health = Health::new(model);
     for (x, force) in displacements_m.iter().zip(forces_n) {
@@ -161,7 +161,8 @@ pub fn estimate(model: &HealthModel, displacements_m: &[f64], forces_n: &[f64]) 
     health.reading(model)
 }
 
-/// Errors of an estimate: flow factor (part), stiffness (part), clearance (m), and each over its standard deviation.
+/// Errors of an estimate: flow factor (relative), stiffness (relative), clearance (m), and each over its standard
+/// deviation.
 pub fn errors(reading: &HealthReading, truth: &DamperParameters, fault: Fault) -> [f64; 6] {
     let part = |value: f32, truth: f64| f64::from(value) / truth - 1.0;
     let compliance = truth.mount.compliance_m_per_n();
