@@ -157,7 +157,7 @@ fn the_rigs_numbers_take_bounds_priors_and_values() {
         ),
         (
             &["--vary", "sensor_skew_s", "--vary", "sensor_skew_s"],
-            "an option names it twice",
+            "given twice by the same option",
         ),
         (&["--temperature-uncertainty-k", "-1"], "0 to 1000"),
         (&["--max-misfit-percent", "0"], "0.1 to 10000"),

@@ -21,14 +21,14 @@ fn hello_reports_who_answers() {
         })
     );
     let text = rig.text(&["hello"]);
-    assert!(text.contains("step      1000 us\ntick      0, the host steps\n"));
+    assert!(text.contains("step      1000 us\ntick      0, stepped by the host\n"));
     assert!(
         text.ends_with(&format!("    2  {:#010x}\n", revisions[2])),
         "{text}"
     );
     rig.text(&["run", "--displacement-m", "0"]);
     assert_eq!(rig.json(&["hello"])["running"], true);
-    assert!(rig.text(&["hello"]).contains("runs free"));
+    assert!(rig.text(&["hello"]).contains("free-running"));
 }
 
 #[test]
@@ -112,7 +112,7 @@ fn the_tick_runs_stops_and_says_when_it_cannot() {
     assert_eq!(driven["tick"], 4 * TICKS);
     let error = rig.error(&["displace", "--displacement-m", "0,1"], 2);
     assert!(
-        error.contains("2 values, the target has 3 places; allowed: 1, for all places, or 3"),
+        error.contains("2 values, but the target has 3 slots; allowed: 1 value for all slots or 3 values"),
         "{error}"
     );
     assert_eq!(rig.json(&["stop"]), json!({"running": false}));

@@ -17,7 +17,7 @@ fn a_damper_goes_where_it_is_not_yet() {
     assert_eq!(
         reported,
         format!(
-            "in-service, revision {revision:#010x}\nloaded into places 0, 2\nskipped place 1: there already\n"
+            "in-service, revision {revision:#010x}\nloaded into slots 0, 2\nskipped slot 1: already loaded\n"
         )
     );
     let again = rig.json(&load);
@@ -79,7 +79,7 @@ fn an_image_is_loaded_when_it_fits() {
         (&damaged[..], "x.bin: CRC-32 does not match"),
         (
             b"DASH",
-            "x.bin: 4 bytes where a damper has 6728; allowed: what `dashpot export --lang bin`",
+            "x.bin: 4 bytes where a damper has 6728; allowed: a file written by `dashpot export --lang bin`",
         ),
         (b"", "x.bin: 0 bytes"),
     ] {
