@@ -218,7 +218,7 @@ fn errors_say_what_where_and_what_is_allowed() {
         (
             &["--speed-km-h", "0"],
             2,
-            "--speed-km-h: 0, allowed: 1 to 700 km/h; without it the vehicle stands still",
+            "--speed-km-h: 0, allowed: 1 to 700 km/h; omit it for standstill",
         ),
         (
             &["--speed-km-h", "80", "--friction", "3"],

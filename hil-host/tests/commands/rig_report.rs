@@ -54,7 +54,7 @@ fn the_loops_are_drawn_when_asked_for() {
         "velocity, m/s",
         "force, kN",
         "paper, computed",
-        "largest forces measured (Table 5)",
+        "measured maximum forces (Table 5)",
     ] {
         assert!(nominal.contains(words), "{words}");
     }

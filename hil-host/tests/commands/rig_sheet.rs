@@ -101,8 +101,8 @@ fn a_limit_that_is_not_kept_ends_with_1_and_the_sheet_is_written() {
         "tr class=\"over\"",
         "drawing 12, 3.4",
         "0 of 1",
-        "computed by its model, not measured",
-        "Forces over speed",
+        "computed from its model, not measured",
+        "Forces over velocity",
     ] {
         assert!(page.contains(words), "{words}");
     }

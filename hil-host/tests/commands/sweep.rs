@@ -336,7 +336,10 @@ fn a_vehicle_that_changes_while_it_runs_spoils_no_rows() {
     let ended = child.wait_with_output().unwrap();
     let error = String::from_utf8(ended.stderr).unwrap();
     assert_eq!(ended.status.code(), Some(1), "{error}");
-    assert!(error.contains("files were changed while it ran"), "{error}");
+    assert!(
+        error.contains("a file of the study was changed during the run"),
+        "{error}"
+    );
     let kept = read(folder.path(), "one/rows.csv.partial");
     assert_eq!(kept.lines().count(), 1, "{kept}");
 }

@@ -67,8 +67,8 @@ fn a_load_far_beyond_the_model_ends_the_run_with_time_and_place() {
     let place = load["distance_m"].as_f64().unwrap();
     assert!((DIP_M..DIP_M + 10.0).contains(&place), "{load}");
     let page = fs::read_to_string(folder.path().join("report.html")).unwrap();
-    assert!(page.contains("The run did not come to its end: beyond the model at"));
-    assert!(page.contains("Results beyond what the model means"));
+    assert!(page.contains("The run did not complete: beyond the model at"));
+    assert!(page.contains("Results outside the validity of the model"));
 }
 
 /// A row of a study says the same, and has no indices.
@@ -124,5 +124,5 @@ fn a_load_over_ten_times_that_at_standstill_is_a_warning() {
         assert!(text.contains(&format!("warning: {message}")), "{text}");
     }
     let page = fs::read_to_string(folder.path().join("report.html")).unwrap();
-    assert!(page.contains("Results beyond what the model means"));
+    assert!(page.contains("Results outside the validity of the model"));
 }

@@ -192,7 +192,7 @@ fn shims_as_plates() {
     for (options, part) in [
         (
             &["--loaded-radii-m", "0.02"][..],
-            "allowed: two radii in m with a comma between",
+            "allowed: two radii in m separated by a comma",
         ),
         (
             &["--loaded-radii-m", "0.025,0.02"],
@@ -214,8 +214,8 @@ fn shims_as_plates() {
             &["--loaded-radii-m", "0.02,0.025", "--decay-exponent", "0"],
             "--decay-exponent: 0, allowed: above 0 and at most 10",
         ),
-        (&["--decay-exponent", "2"], "--decay-exponent goes with"),
-        (&["--bosses", "6"], "--bosses goes with --boss-share, or"),
+        (&["--decay-exponent", "2"], "--decay-exponent requires"),
+        (&["--bosses", "6"], "--bosses requires --boss-share, or"),
         (
             &["--bosses", "37", "--boss-share", "0.5"],
             "--bosses: 37, allowed: 1 to 36",
@@ -322,7 +322,7 @@ fn budget() {
         #[cfg(target_os = "linux")]
         (
             &["--core", "1000000"],
-            "--core 1000000: no core this process may use, allowed: ",
+            "--core 1000000: this process may not use this core; allowed: ",
         ),
     ] {
         wrong_use(&["budget"], options, part);

@@ -233,7 +233,7 @@ fn what_is_no_vehicle_around_a_damper_is_refused() {
         (
             2,
             "--fmi 3 --case straight-180",
-            "no damper is outside, allowed: with --outside DAMPER",
+            "--case requires at least one --outside DAMPER",
         ),
         (
             2,

@@ -140,7 +140,9 @@ fn a_target_that_does_not_run_is_not_watched_for_ever() {
     let rig = Rig::new();
     let output = rig.output(&["watch"]).code(1);
     let error = error_of(&output);
-    assert!(error.contains("not free-running, so no more samples will arrive; start it with `run`"));
+    assert!(
+        error.contains("not free-running, so no more samples will arrive; start it with `run`")
+    );
 }
 
 fn watch(rig: &Rig) -> Child {

@@ -55,7 +55,10 @@ fn states_of_other_dampers_are_refused_before_they_are_sent() {
         "{error}"
     );
     assert!(
-        error.contains(&format!("the target holds {:#010x}; first load", revision(1))),
+        error.contains(&format!(
+            "the target holds {:#010x}; first load",
+            revision(1)
+        )),
         "{error}"
     );
     assert!(!error.contains("slot 0") && !error.contains("slot 2"));

@@ -50,7 +50,7 @@ pub(super) fn write(
         @for ((test, fit), row) in tests { (loop_figures(calibration.step_s, test, fit, row)?) }
         (footer(&html! {
             "The damper file is " code { (report.output) } "; its header lists the tests. docs/calibration.md "
-                        "describes how values and intervals are found."
+            "describes how values and intervals are found."
         }))
     };
     Ok(document("Dashpot: calibrated damper", &body))
@@ -82,9 +82,9 @@ fn numbers(report: &Report) -> Markup {
         div.wide.worded {
             table {
                 tr {
-                                    th { "parameter" } th { "before" } th { "found" } th { "95 % interval" } th { "prior" }
-                                    th { "determined by" }
-                                }
+                    th { "parameter" } th { "before" } th { "found" } th { "95 % interval" } th { "prior" }
+                    th { "determined by" }
+                }
                 @for number in &report.numbers {
                     tr {
                         td { (number.key) }
@@ -92,11 +92,11 @@ fn numbers(report: &Report) -> Markup {
                         td { b { (digits(number.found)) } }
                         td { (end(number.least)) " to " (end(number.greatest)) }
                         td {
-                                                    @if let Some(prior) = number.prior {
-                                                        (digits(prior.mean)) " ± " (digits(prior.standard_deviation))
-                                                    }
-                                                }
-                                                td { @if number.by_tests { "tests" } @else { "tests and prior" } }
+                            @if let Some(prior) = number.prior {
+                                (digits(prior.mean)) " ± " (digits(prior.standard_deviation))
+                            }
+                        }
+                        td { @if number.by_tests { "tests" } @else { "tests and prior" } }
                     }
                 }
             }
@@ -164,8 +164,8 @@ fn profiles(report: &Report, found: &Calibrated) -> Result<Markup, DrawError> {
         &profiles,
         &html! {
             "Profile likelihood (rise of chi-square): how much the fit of all tests worsens when one parameter is "
-                        "fixed at another value and the others are refitted. The 95 % interval ends where the curve crosses the "
-                        "dashed line."
+            "fixed at another value and the others are refitted. The 95 % interval ends where the curve crosses "
+            "the dashed line."
         },
     )
 }
@@ -176,8 +176,8 @@ fn loop_table(rows: &[Loop]) -> Markup {
             table {
                 tr {
                     th { "test" } th { "amplitude, mm" } th { "middle, mm" } th { "peak velocity, m/s" }
-                                        th { "peak force, kN" } th { "noise of force, N" }
-                                        th { "residual before, N" } th { "residual after, N" }
+                    th { "peak force, kN" } th { "noise of force, N" }
+                    th { "residual before, N" } th { "residual after, N" }
                 }
                 @for row in rows {
                     tr class=[row.misses.then_some("over")] {
@@ -205,9 +205,9 @@ fn index_table(report: &Report) -> Markup {
                     @for (name, measured, before, after) in row.lines() {
                         tr {
                             td {
-                                                            "±" (format!("{:.3}", row.measured.amplitude_m * 1e3))
-                                                            " mm at " (row.measured.frequency_hz) " Hz"
-                                                        }
+                                "±" (format!("{:.3}", row.measured.amplitude_m * 1e3))
+                                " mm at " (row.measured.frequency_hz) " Hz"
+                            }
                             td { (name) }
                             td { (measured) }
                             td { (format!("{before:.1}")) }

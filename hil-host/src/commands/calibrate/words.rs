@@ -98,7 +98,8 @@ fn without_cause(finding: &Finding, what: &str, remedies: &[String]) -> String {
     let tried = "none of the signs, units, bounds and presets tried explains the recordings";
     match finding {
         Finding::Missed { .. } => format!(
-            "{what}\n  {tried}: this damper model lacks an effect that they contain; to accept the closest fit anyway, {}",
+            "{what}\n  {tried}: this damper model lacks an effect that they contain; to accept the closest fit \
+             anyway, {}",
             remedies.join(", or ")
         ),
         Finding::AtBound { .. } => format!(
@@ -107,7 +108,7 @@ fn without_cause(finding: &Finding, what: &str, remedies: &[String]) -> String {
         ),
         Finding::Driven { .. } => format!(
             "{what}\n  the force or the displacement has the opposite sign: use `--reverse-force` or \
-                         `--reverse-displacement`"
+             `--reverse-displacement`"
         ),
         _ => format!(
             "{what}\n  check the displacement unit (--displacement-unit) and the time column"
@@ -223,11 +224,11 @@ pub(super) fn line(warning: &Warning) -> String {
             noise_n,
         } => format!(
             "warning: {test}: the residual is {missed_n:.0} N but the noise only {noise_n:.0} N: the model lacks an \
-                         effect that this test contains, and the intervals do not account for it"
+             effect that this test contains, and the intervals do not account for it"
         ),
         Warning::ZeroDiffers { test, mean_n } => format!(
             "warning: {test}: the zero of the force differs by {:.0} N from that of the other tests: calibrate this \
-                         test separately",
+             test separately",
             -mean_n
         ),
         Warning::AtBound {
@@ -240,7 +241,7 @@ pub(super) fn line(warning: &Warning) -> String {
         ),
         Warning::AtBound { key, bound, .. } => format!(
             "warning: {key} is at the bound {} that you gave, so the best value lies beyond it; set other bounds with \
-                         --vary {key}=MIN:MAX",
+             --vary {key}=MIN:MAX",
             super::report::digits(*bound)
         ),
         Warning::Close { a, b, correlation } => {
@@ -254,8 +255,8 @@ pub(super) fn line(warning: &Warning) -> String {
             shift_percent,
         } => format!(
             "warning: {key} shifts by {shift_percent:.2} % if {assumed} is {value} +- {uncertainty}, more than by the \
-                         noise of the tests, which cannot separate the two. The interval includes this shift; set the uncertainty \
-                         with {}",
+             noise of the tests, which cannot separate the two. The interval includes this shift; set the \
+             uncertainty with {}",
             uncertainty_option(assumed)
         ),
         Warning::FitsBetter {
@@ -263,8 +264,8 @@ pub(super) fn line(warning: &Warning) -> String {
             value,
             better,
         } => format!(
-            "warning: the recordings fit better with {assumed} {better} than with {value}: check the thermometer; to use \
-                         that value, add --set {assumed}={better:e}"
+            "warning: the recordings fit better with {assumed} {better} than with {value}: check the thermometer; to \
+             use that value, add --set {assumed}={better:e}"
         ),
     }
 }

@@ -87,7 +87,7 @@ impl Target {
             each if each.len() == dampers => Ok(each.iter().copied().collect()),
             other => Err(Failure::wrong_use(format!(
                 "{option}: {} values, but the target has {dampers} slots; allowed: 1 value for all slots or \
-                                 {dampers} values",
+                 {dampers} values",
                 other.len()
             ))),
         }

@@ -1,4 +1,4 @@
-//! What is told of a study.
+//! Report of a study.
 
 use std::collections::BTreeMap;
 use std::io::{self, Write};
@@ -14,34 +14,34 @@ use crate::files::output;
 use crate::study::sweep::rows::Rows;
 use crate::study::sweep::{Arithmetic, Study, VERSION, physics};
 
-/// What is told of a study.
+/// Report of a study.
 #[derive(Serialize)]
 pub(in crate::commands) struct Report {
     study: String,
     digest: String,
     version: &'static str,
-    /// Digest of the behaviour of the model.
+    /// Digest of the physical behaviour of the model.
     pub(super) physics: &'static str,
-    /// Rows there are.
+    /// Total number of rows.
     rows: usize,
-    /// Cases run now.
+    /// Number of cases run by this command.
     run_now: usize,
-    /// Time of those, s.
+    /// Time of this command's runs, s.
     took_s: f64,
-    /// Cases that did not come to their end, by how they ended.
+    /// Cases that did not complete, by reason.
     not_completed: BTreeMap<String, Vec<u64>>,
-    /// Cases that `merge --check` ran again, with the same bits.
+    /// Cases that `merge --check` repeated with bit-identical results.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(in crate::commands) checked: Option<Checked>,
     pub(in crate::commands) files: Vec<PathBuf>,
 }
 
-/// Rows that were run again.
+/// Rows that were checked by repeating their runs.
 #[derive(Serialize)]
 pub(in crate::commands) struct Checked {
-    /// Numbers of their cases.
+    /// Case numbers.
     pub(in crate::commands) cases: Vec<u64>,
-    /// Seed of the choice.
+    /// Seed of the random selection.
     pub(in crate::commands) seed: u64,
 }
 
@@ -78,21 +78,21 @@ impl Report {
         }
     }
 
-    /// What is told of cases that did not come to their end.
+    /// Describes the cases that did not complete.
     pub(super) fn not_completed(&self) -> Option<String> {
-        let told = self.not_completed.iter().map(|(reason, cases)| {
+        let lines = self.not_completed.iter().map(|(reason, cases)| {
             let count = counted(cases.len() as u64, "case");
             let first: Vec<String> = cases.iter().take(8).map(u64::to_string).collect();
             let more = if cases.len() > 8 { ", ..." } else { "" };
             let first = first.join(", ");
-            format!("{count} did not come to the end ({reason}), without indices: {first}{more}")
+            format!("{count} did not complete ({reason}) and have no indices: {first}{more}")
         });
-        let told: Vec<String> = told.collect();
-        (!told.is_empty()).then(|| told.join("; "))
+        let lines: Vec<String> = lines.collect();
+        (!lines.is_empty()).then(|| lines.join("; "))
     }
 }
 
-/// Why a case ended, without its place, which is in the row.
+/// Returns the reason for the end of a case, without the position, which is in the row.
 fn reason(ending: &str) -> &str {
     const LEFT: &str = "left the tables of the contact";
     const BEYOND: &str = "beyond the model";
@@ -123,11 +123,11 @@ pub(in crate::commands) fn print(out: &mut dyn Write, report: &Report) -> io::Re
     )?;
     let rows = counted(*rows as u64, "case");
     match run_now {
-        0 => writeln!(out, "{rows}, none run now")?,
-        run_now => writeln!(out, "{rows}, {run_now} run now in {took_s:.1} s")?,
+        0 => writeln!(out, "{rows}, all from earlier runs")?,
+        run_now => writeln!(out, "{rows}, {run_now} of them run now in {took_s:.1} s")?,
     }
-    if let Some(told) = report.not_completed() {
-        writeln!(out, "{told}")?;
+    if let Some(note) = report.not_completed() {
+        writeln!(out, "{note}")?;
     }
     if let Some(Checked { cases, seed }) = checked {
         let count = counted(cases.len() as u64, "case");
@@ -135,7 +135,7 @@ pub(in crate::commands) fn print(out: &mut dyn Write, report: &Report) -> io::Re
         let numbers = numbers.join(", ");
         writeln!(
             out,
-            "{count} run again (--check-seed {seed}), the same bits: {numbers}"
+            "{count} repeated with bit-identical results (--check-seed {seed}): {numbers}"
         )?;
     }
     writeln!(out)?;
@@ -145,7 +145,7 @@ pub(in crate::commands) fn print(out: &mut dyn Write, report: &Report) -> io::Re
     Ok(())
 }
 
-/// The cases of a study, without running them.
+/// List of the cases of a study.
 #[derive(Serialize)]
 struct List {
     study: String,
@@ -164,7 +164,7 @@ struct Listed {
     seeds: usize,
 }
 
-/// Tells the cases of a study.
+/// Prints the list of cases of a study.
 pub(super) fn list(study: &Study, format: Format) -> Outcome<()> {
     let sweeps = study.parameters.sweeps.iter().map(|sweep| {
         let first = study.numbers(sweep, 0).start;
@@ -203,7 +203,7 @@ pub(super) fn list(study: &Study, format: Format) -> Outcome<()> {
                     sweep.parameters.join(" x ")
                 },
                 match sweep.seeds {
-                    0 => "the track's own seed".into(),
+                    0 => "the seed of the track".into(),
                     seeds => counted(seeds as u64, "seed"),
                 }
             )?;

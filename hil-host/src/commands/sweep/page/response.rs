@@ -1,4 +1,4 @@
-//! Amplitude-frequency characteristic of a damper, by the value of what varies.
+//! Figure of the amplitude-frequency characteristic of a damper for each value of the varied parameter.
 
 use maud::{Markup, html};
 
@@ -13,14 +13,14 @@ use crate::report::plot::sheet::Scale;
 use crate::study::response::{at_amplitude, frequencies};
 use crate::study::workers;
 
-/// Frequencies, Hz, and how many.
+/// Range (Hz) and number of the frequencies.
 const BAND_HZ: [f64; 2] = [0.1, 20.0];
 const FREQUENCIES: usize = 41;
 
-/// Dynamic stiffness and damping over frequency, at an amplitude.
+/// Draws dynamic stiffness and damping over frequency at one amplitude.
 ///
 /// # Errors
-/// The damper does not come to a periodic force, or the figure cannot be drawn.
+/// The force does not become periodic, or the figure cannot be drawn.
 pub(super) fn part(
     drawn: &Drawn<'_>,
     sweep: &Sweep,
@@ -28,8 +28,8 @@ pub(super) fn part(
     (name, amplitude_m): (&str, f64),
     caption: &str,
 ) -> Outcome<Markup> {
-    let [least, greatest] = BAND_HZ;
-    let frequencies = frequencies(least, greatest, FREQUENCIES);
+    let [min, max] = BAND_HZ;
+    let frequencies = frequencies(min, max, FREQUENCIES);
     let responses = workers::map(values, |value| -> Outcome<_> {
         let case = drawn.study.case_with(sweep, Some(value), None)?;
         let damper = case
@@ -54,7 +54,7 @@ pub(super) fn part(
     Ok(figure(
         &of_panels,
         &html! {
-            (caption) " Damping is the part of force over velocity in phase with the velocity; amplitude "
+            (caption) " Damping is the ratio of force to velocity, in phase with the velocity; amplitude "
             (format!("{}", amplitude_m * 1e3)) " mm."
         },
     )?)

@@ -1,4 +1,4 @@
-//! A signal over time and its spectrum, by the value of what varies.
+//! Figure of a signal over time and its spectrum for each value of the varied parameter.
 
 use maud::{Markup, html};
 
@@ -13,10 +13,11 @@ use crate::study::sweep::{History, RunError, record};
 use crate::study::vehicle::spectra::{SHOWN_HZ, Spectrum, WINDOW_S};
 use crate::study::workers;
 
-/// Over time at the first seed; the spectrum as the mean of all seeds, the band from the least to the greatest.
+/// Draws the signal over time for the first seed, and the mean spectrum of all seeds with the band from minimum to
+/// maximum.
 ///
 /// # Errors
-/// A case cannot be run, or the figure not be drawn.
+/// A case cannot be run, or the figure cannot be drawn.
 pub(super) fn part(
     drawn: &Drawn<'_>,
     sweep: &Sweep,
@@ -80,14 +81,15 @@ pub(super) fn part(
     let spread = match seeds.len() {
         1 => String::new(),
         count => format!(
-            "Over time: seed {}. Spectra (Welch, windows of {WINDOW_S} s): mean of {count} seeds, the band from the least to the greatest.",
+            "Over time: seed {}. Spectra (Welch, windows of {WINDOW_S} s): mean of {count} seeds with the band from \
+             minimum to maximum.",
             seeds[0].unwrap_or_default()
         ),
     };
     Ok(figure(&of_panels, &html! { (caption) " " (spread) })?)
 }
 
-/// A signal's name with its unit as figures have it.
+/// Formats a signal name with its unit.
 fn in_words(signal: &str) -> String {
     let units = [
         ("_m_per_s2", ", m/s²"),
@@ -103,7 +105,7 @@ fn in_words(signal: &str) -> String {
     name.replace('_', " ") + unit
 }
 
-/// The value as figures have it.
+/// Formats a value as a curve label.
 pub(super) fn label(sweep: &Sweep, value: &Value) -> String {
     match (value, sweep.axes.first()) {
         (Value::Number(number), Some(axis)) => {
@@ -119,7 +121,7 @@ pub(super) fn label(sweep: &Sweep, value: &Value) -> String {
 type Mean = Vec<(f64, f64)>;
 type Band = Vec<(f64, f64, f64)>;
 
-/// Mean density over the histories, and its least and greatest.
+/// Returns the mean density over the histories, with its minimum and maximum.
 fn densities(signal: &str, histories: &[History]) -> Outcome<(Mean, Band)> {
     let mut all = Vec::new();
     for history in histories {
@@ -135,10 +137,10 @@ fn densities(signal: &str, histories: &[History]) -> Outcome<(Mean, Band)> {
     for line in 0..lines {
         let frequency_hz = all[0][line][0];
         let here = || all.iter().map(|density| density[line][1]);
-        let least = here().fold(f64::INFINITY, f64::min);
-        if frequency_hz > 0.0 && frequency_hz <= SHOWN_HZ && least > 0.0 {
+        let min = here().fold(f64::INFINITY, f64::min);
+        if frequency_hz > 0.0 && frequency_hz <= SHOWN_HZ && min > 0.0 {
             mean.push((frequency_hz, here().sum::<f64>() / all.len() as f64));
-            band.push((frequency_hz, least, here().fold(0.0, f64::max)));
+            band.push((frequency_hz, min, here().fold(0.0, f64::max)));
         }
     }
     Ok((mean, band))
