@@ -37,7 +37,7 @@ impl From<&PacingReport> for Paced {
 
 impl Paced {
     /// Creates the report of a run whose results another thread writes; `waits` ticks waited for that thread.
-    pub(super) fn of_report(report: &PacingReport, waits: u64) -> Self {
+    pub(super) fn with_waits(report: &PacingReport, waits: u64) -> Self {
         Self {
             waits_for_writing: Some(waits),
             ..Self::from(report)

@@ -89,7 +89,7 @@ impl Watched {
     ///
     /// # Errors
     /// The recording has no force or cannot be read twice, a setting is out of range, or the baseline is invalid.
-    pub(super) fn of(
+    pub(super) fn estimate(
         arguments: &ReplayArguments,
         parameters: &CheckedParameters,
     ) -> Outcome<Option<Self>> {

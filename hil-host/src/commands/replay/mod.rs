@@ -129,7 +129,7 @@ pub fn run(arguments: &ReplayArguments) -> Outcome<()> {
     let options = arguments
         .options
         .options_under("--realtime", arguments.realtime)?;
-    let health = health::Watched::of(arguments, &parameters)?;
+    let health = health::Watched::estimate(arguments, &parameters)?;
     let mut pacer = if arguments.realtime {
         Some(Pacer::new(arguments.step_us.step_s(), &options)?)
     } else {

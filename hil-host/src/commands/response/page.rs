@@ -3,7 +3,7 @@
 use maud::{Markup, html};
 use plotters::style::RGBColor;
 
-use super::report::{Kind, Report, Series, told};
+use super::report::{Kind, Report, Series, formatted};
 use crate::commands::failure::Outcome;
 use crate::files::study::shown;
 use crate::report::DrawError;
@@ -67,10 +67,10 @@ fn part(report: &Report, series: &[&Series]) -> Result<Markup, DrawError> {
         .filter(|series| series.response == Kind::Harmonic);
     let colours: Vec<_> = ramp(harmonic.clone().count());
     let coloured: Vec<(&&Series, RGBColor)> = harmonic.zip(colours).collect();
-    let colour = |of: &Series| {
+    let colour = |wanted: &Series| {
         let is_same = |other: &Series| {
-            other.value == of.value
-                && (report.over.is_some() || other.amplitude_m == of.amplitude_m)
+            other.value == wanted.value
+                && (report.over.is_some() || other.amplitude_m == wanted.amplitude_m)
         };
         let found = coloured.iter().find(|(other, _)| is_same(other));
         found.map_or(AMBER_LINE, |(_, colour)| *colour)
@@ -79,7 +79,7 @@ fn part(report: &Report, series: &[&Series]) -> Result<Markup, DrawError> {
     for series in series {
         // Dashed and dotted curves have the colour of their line; only one of them is labelled.
         let name = match (series.response, &report.over, series.value) {
-            (Kind::Harmonic, Some(_), Some(value)) => told(value),
+            (Kind::Harmonic, Some(_), Some(value)) => formatted(value),
             (Kind::Harmonic, ..) => series.name(),
             (Kind::Linearised, None, _) => "linearised".into(),
             (Kind::Linearised | Kind::Swept, ..) => String::new(),
@@ -89,7 +89,7 @@ fn part(report: &Report, series: &[&Series]) -> Result<Markup, DrawError> {
             panel.curves.push(drawn(series.response, curve));
         }
     }
-    let of_panels = Figure {
+    let drawing = Figure {
         panels: panels.into(),
         height: HEIGHT,
         shares: Some("frequency"),
@@ -101,7 +101,7 @@ fn part(report: &Report, series: &[&Series]) -> Result<Markup, DrawError> {
         " The loss angle is the phase by which the force leads the displacement. Damping is the ratio of force to "
         "velocity, in phase with the velocity."
     };
-    figure(&of_panels, &caption)
+    figure(&drawing, &caption)
 }
 
 fn drawn(kind: Kind, curve: Curve) -> Curve {

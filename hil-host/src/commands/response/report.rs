@@ -119,14 +119,14 @@ impl Series {
             None => self.response.name().to_owned(),
         };
         match self.value {
-            Some(value) => format!("{}, {amplitude}", told(value)),
+            Some(value) => format!("{}, {amplitude}", formatted(value)),
             None => amplitude,
         }
     }
 }
 
 /// Formats a parameter value, in scientific notation if it is very large or small.
-pub(super) fn told(value: f64) -> String {
+pub(super) fn formatted(value: f64) -> String {
     match value.abs() {
         1e-2..1e4 | 0.0 => shown(value),
         _ => format!("{value:e}"),
@@ -197,9 +197,10 @@ impl Report {
             for at in [0, last / 2, last] {
                 let row = &series.rows[at];
                 let (name, kind) = match at {
-                    0 if series.response == Kind::Linearised => {
-                        (series.value.map(told).unwrap_or_default(), "linearised")
-                    }
+                    0 if series.response == Kind::Linearised => (
+                        series.value.map(formatted).unwrap_or_default(),
+                        "linearised",
+                    ),
                     0 => (series.name(), series.response.name()),
                     _ => (String::new(), ""),
                 };

@@ -106,13 +106,13 @@ impl StudyArguments {
 
     /// Returns `output`, or the default folder, which is named after the study.
     pub(super) fn folder(&self, output: Option<&PathBuf>) -> PathBuf {
-        let of_name = || {
+        let default_folder = || {
             let path = Path::new(&self.study);
             let stem = path.file_stem().filter(|_| !is_standard_stream(path));
             let stem = stem.map_or("study".into(), |stem| stem.to_string_lossy());
             PathBuf::from(format!("dashpot-{stem}"))
         };
-        output.cloned().unwrap_or_else(of_name)
+        output.cloned().unwrap_or_else(default_folder)
     }
 }
 

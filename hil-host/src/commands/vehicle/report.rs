@@ -65,7 +65,7 @@ impl Report {
             message: warning.to_string(),
             warning,
         };
-        let paced = |pacing| Paced::of_report(pacing, driven.waits);
+        let paced = |pacing| Paced::with_waits(pacing, driven.waits);
         Self {
             case: case.name.clone(),
             vehicle: case.vehicle.name.clone(),

@@ -62,8 +62,10 @@ pub(super) fn write(spectra: &[Spectrum], to: &Path) -> Outcome<()> {
         let lines = densities.first().map_or(0, Vec::len);
         for line in 0..lines {
             let frequency_hz = densities[0][line][0];
-            let of_line = densities.iter().map(|density| density[line][1]);
-            let row: Vec<f64> = std::iter::once(frequency_hz).chain(of_line).collect();
+            let densities_here = densities.iter().map(|density| density[line][1]);
+            let row: Vec<f64> = std::iter::once(frequency_hz)
+                .chain(densities_here)
+                .collect();
             rows.serialize(row).map_err(failed)?;
         }
         Ok(rows.flush().map_err(|error| failed(error.into()))?)

@@ -108,7 +108,7 @@ fn limits(report: &Report) -> Markup {
                         td { (test.name) }
                         td.text { (limit.index.name()) }
                         td { (limit.index.told_in().0) }
-                        td { b { (minus(&limit.told())) } }
+                        td { b { (minus(&limit.formatted())) } }
                         td { (minus(&limit.allowed())) }
                         td.text { (limit.clause.as_deref().unwrap_or("")) }
                         td.text { (limit.verdict()) }

@@ -100,7 +100,7 @@ pub(super) fn value_of(index: Index, value: Option<f64>) -> String {
 
 impl Limited {
     /// Formats the value, rounded to enough digits to differ from a violated limit.
-    pub(super) fn told(&self) -> String {
+    pub(super) fn formatted(&self) -> String {
         let text = value_of(self.index, self.value);
         let Some(value) = self.value else {
             return text;
@@ -208,7 +208,7 @@ impl Report {
                         writeln!(
                             out,
                             "{:>10}  {:<8} {:<22} {clause}",
-                            limit.told(),
+                            limit.formatted(),
                             limit.verdict(),
                             limit.allowed()
                         )?;

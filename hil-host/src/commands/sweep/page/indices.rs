@@ -56,13 +56,13 @@ pub(super) fn part(
         .iter()
         .map(|sweep| over_axis(drawn, sweep, observed))
         .collect();
-    let of_panels = Figure {
+    let drawing = Figure {
         panels,
         height: HEIGHT,
         shares: None,
     };
     Ok(html! {
-        @if !plotted.is_empty() { (figure(&of_panels, &html! { (caption) })?) }
+        @if !plotted.is_empty() { (figure(&drawing, &html! { (caption) })?) }
         @for sweep in listed {
             (table(drawn, sweep, observed))
             p { (caption) }
@@ -93,7 +93,7 @@ fn over_axis(drawn: &Drawn<'_>, sweep: &Sweep, observed: &[Index]) -> Panel {
             });
             let estimates: Vec<(f64, Estimate)> = estimates.collect();
             if others == 1 {
-                curves.extend(of_seeds(drawn, sweep, index, colour));
+                curves.extend(seed_curves(drawn, sweep, index, colour));
             }
             let name = match (others, observed.len()) {
                 (1, 1) => String::new(),
@@ -129,7 +129,7 @@ fn over_axis(drawn: &Drawn<'_>, sweep: &Sweep, observed: &[Index]) -> Panel {
 }
 
 /// Draws pale curves of the individual seeds, which show their spread and that they move together.
-fn of_seeds(drawn: &Drawn<'_>, sweep: &Sweep, index: &Index, colour: RGBColor) -> Vec<Curve> {
+fn seed_curves(drawn: &Drawn<'_>, sweep: &Sweep, index: &Index, colour: RGBColor) -> Vec<Curve> {
     let axis = &sweep.axes[0];
     let mut seeds: Vec<Vec<(f64, f64)>> = vec![Vec::new(); sweep.seeds.len()];
     for (at, value) in axis.values.iter().enumerate() {
@@ -176,7 +176,7 @@ fn table(drawn: &Drawn<'_>, sweep: &Sweep, observed: &[Index]) -> Markup {
             .first()
             .map_or(1, |axis| axis.values.len() as u64);
     let change = |point: u64, index: usize| {
-        let [from, to] = [point % others, point].map(|at| drawn.of_seeds(sweep, at, index));
+        let [from, to] = [point % others, point].map(|at| drawn.seed_values(sweep, at, index));
         Estimate::of_change(&from, &to).filter(|_| point >= others)
     };
     html! {

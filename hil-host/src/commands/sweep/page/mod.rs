@@ -130,20 +130,21 @@ impl Drawn<'_> {
                 let observed: Vec<_> = observed.iter().enumerate().filter_map(index).collect();
                 indices::part(self, &sweeps?, &observed, caption)
             }
-            Shown::Dampers { sweep: of, dampers } => {
-                dampers::part(self, sweep(of)?, dampers, caption)
-            }
+            Shown::Dampers {
+                sweep: name,
+                dampers,
+            } => dampers::part(self, sweep(name)?, dampers, caption),
             Shown::Signal {
-                sweep: of,
+                sweep: name,
                 values,
                 signal,
-            } => signal::part(self, sweep(of)?, values, signal, caption),
+            } => signal::part(self, sweep(name)?, values, signal, caption),
             Shown::Response {
-                sweep: of,
+                sweep: name,
                 values,
                 damper,
                 amplitude_m,
-            } => response::part(self, sweep(of)?, values, (damper, *amplitude_m), caption),
+            } => response::part(self, sweep(name)?, values, (damper, *amplitude_m), caption),
         }
     }
 
@@ -156,7 +157,7 @@ impl Drawn<'_> {
     }
 
     /// Returns the observed values of an index at a point of a sweep, one per seed.
-    fn of_seeds(&self, sweep: &Sweep, point: u64, index: usize) -> Vec<Option<f64>> {
+    fn seed_values(&self, sweep: &Sweep, point: u64, index: usize) -> Vec<Option<f64>> {
         let numbers = self.study.numbers(sweep, point);
         let observed = |number| self.rows.get(&number)?.observed.get(index).copied()?;
         numbers.map(observed).collect()
@@ -164,8 +165,8 @@ impl Drawn<'_> {
 
     /// Returns the existing values only.
     fn values(&self, sweep: &Sweep, point: u64, index: usize) -> Vec<f64> {
-        let of_seeds = self.of_seeds(sweep, point, index);
-        of_seeds.into_iter().flatten().collect()
+        let seed_values = self.seed_values(sweep, point, index);
+        seed_values.into_iter().flatten().collect()
     }
 }
 

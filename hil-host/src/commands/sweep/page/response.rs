@@ -39,20 +39,20 @@ pub(super) fn part(
         Ok(at_amplitude(&checked, amplitude_m, &frequencies)?)
     })?;
     let [mut stiffness, _, mut damping] = response::panels(Scale::Linear);
-    let of_values = responses.iter().zip(values).zip(ramp(values.len()));
-    for ((responses, value), colour) in of_values {
+    let by_value = responses.iter().zip(values).zip(ramp(values.len()));
+    for ((responses, value), colour) in by_value {
         let [over_stiffness, _, over_damping] =
             response::of(&label(sweep, value), colour, responses, Scale::Linear);
         stiffness.curves.push(over_stiffness);
         damping.curves.push(over_damping);
     }
-    let of_panels = Figure {
+    let drawing = Figure {
         panels: vec![stiffness, damping],
         height: HEIGHT,
         shares: None,
     };
     Ok(figure(
-        &of_panels,
+        &drawing,
         &html! {
             (caption) " Damping is the ratio of force to velocity, in phase with the velocity; amplitude "
             (format!("{}", amplitude_m * 1e3)) " mm."

@@ -29,21 +29,21 @@ pub(super) fn part(
         [] => vec![None],
         seeds => seeds.iter().copied().map(Some).collect(),
     };
-    let of_seeds = |value: &Value| {
+    let with_seeds = |value: &Value| {
         seeds
             .iter()
             .map(|seed| (value.clone(), *seed))
             .collect::<Vec<_>>()
     };
-    let cases: Vec<(Value, Option<u64>)> = values.iter().flat_map(of_seeds).collect();
+    let cases: Vec<(Value, Option<u64>)> = values.iter().flat_map(with_seeds).collect();
     let names = [signal.to_owned()];
     let histories = workers::map(&cases, |(value, seed)| -> Result<History, RunError> {
         let case = drawn.study.case_with(sweep, Some(value), *seed)?;
         record(&case, &names, &drawn.shared).map_err(failed(sweep))
     })?;
     let what = in_words(signal);
-    let mut of_time = panel("time, s", &what, Vec::new());
-    let mut of_frequency = Panel {
+    let mut time_panel = panel("time, s", &what, Vec::new());
+    let mut frequency_panel = Panel {
         x_scale: Scale::Decades,
         scale: Scale::Decades,
         ..panel(
@@ -52,28 +52,28 @@ pub(super) fn part(
             Vec::new(),
         )
     };
-    let of_values = histories.chunks_exact(seeds.len()).zip(values);
-    for ((histories, value), colour) in of_values.zip(ramp(values.len())) {
+    let by_value = histories.chunks_exact(seeds.len()).zip(values);
+    for ((histories, value), colour) in by_value.zip(ramp(values.len())) {
         let name = label(sweep, value);
         let [first, ..] = histories else { continue };
         let values = first.signals[0].iter().copied();
         let curve = Curve::new(name.clone(), colour, thinned(values, first.step_s)).wide(4);
-        of_time.curves.push(curve);
+        time_panel.curves.push(curve);
         let (mean, band) = densities(signal, histories)?;
         if mean.is_empty() {
             continue;
         }
-        of_frequency.curves.push(Curve::band("", colour, band));
-        of_frequency
+        frequency_panel.curves.push(Curve::band("", colour, band));
+        frequency_panel
             .curves
             .push(Curve::new(name, colour, mean).wide(6));
     }
-    let panels = if of_frequency.curves.is_empty() {
-        vec![of_time]
+    let panels = if frequency_panel.curves.is_empty() {
+        vec![time_panel]
     } else {
-        vec![of_time, of_frequency]
+        vec![time_panel, frequency_panel]
     };
-    let of_panels = Figure {
+    let drawing = Figure {
         panels,
         height: HEIGHT,
         shares: None,
@@ -86,7 +86,7 @@ pub(super) fn part(
             seeds[0].unwrap_or_default()
         ),
     };
-    Ok(figure(&of_panels, &html! { (caption) " " (spread) })?)
+    Ok(figure(&drawing, &html! { (caption) " " (spread) })?)
 }
 
 /// Formats a signal name with its unit.
