@@ -79,7 +79,10 @@ fn a_check_finds_what_was_altered_with_its_digest() {
     let again = text_of(&check(&four).success());
     assert_eq!(told, again);
     let told = text_of(&check(&["--check", "99"]).success());
-    assert!(told.contains("12 cases run again (--check-seed "), "{told}");
+    assert!(
+        told.contains("12 cases repeated with bit-identical results (--check-seed "),
+        "{told}"
+    );
     fs::remove_dir_all(folder.path().join("merged")).unwrap();
     // All twelve are run: the altered one is among them.
     let row = rest.lines().nth(3).unwrap();

@@ -140,7 +140,7 @@ fn the_rigs_numbers_take_bounds_priors_and_values() {
         ),
         (
             &["--no-skew", "--prior", "sensor_skew_s=0:1e-3"],
-            "leave out `--no-skew`",
+            "remove `--no-skew`",
         ),
         (
             &["--hold", "force_offset_n=1e9"],

@@ -153,7 +153,7 @@ fn what_does_not_go_together_is_wrong_use() {
         "--force-noise-n",
         "9",
     ];
-    assert!(wrong(&without_health, 2).contains("allowed: with --health"));
+    assert!(wrong(&without_health, 2).contains("requires --health"));
     let double = [&EXPORT[..], &["bin", "--scalar", "f64"]].concat();
     assert!(wrong(&double, 2).contains("single precision"));
     let step = [&EXPORT[..], &["bin", "--step-us", "5000"]].concat();

@@ -48,7 +48,7 @@ fn the_loops_are_drawn_when_asked_for() {
     };
     let nominal = svg(&[]);
     for words in [
-        "Force over displacement, made motion of ±24.875 mm at 0.64 Hz",
+        "Force over displacement, harmonic motion of ±24.875 mm at 0.64 Hz",
         "Force over velocity, made motion",
         "displacement, mm",
         "velocity, m/s",

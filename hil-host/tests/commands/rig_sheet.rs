@@ -84,7 +84,7 @@ fn a_limit_that_is_not_kept_ends_with_1_and_the_sheet_is_written() {
     let options = ["--sheet", "sheet.toml", "--page", "page.html"];
     let ended = rig(&options, folder.path())
         .code(1)
-        .stderr("error: 1 of 1 limit not kept\n");
+        .stderr("error: 1 of 1 limit violated\n");
     let text = text_of(&ended);
     let line = text
         .lines()
@@ -162,7 +162,7 @@ fn a_sheet_comes_through_standard_input() {
     let sheet = SHEET.replace("LEAST", "1e3");
     dashpot_reading(sheet.as_bytes(), &["rig", "--sheet", "-"], folder.path())
         .success()
-        .stdout(contains("1 limit, all kept"));
+        .stdout(contains("1 limit, all met"));
     dashpot(&["rig", "--sheet", "-", "--damper", "-"], folder.path())
         .code(2)
         .stderr(contains("--damper and --sheet: `-` is standard input"));

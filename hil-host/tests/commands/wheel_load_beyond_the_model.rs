@@ -87,7 +87,7 @@ fn a_row_of_a_study_says_so() {
     .success();
     let text = text_of(&ended);
     assert!(
-        text.contains("1 case did not come to the end (beyond the model), without indices: 1"),
+        text.contains("1 case did not complete (beyond the model; no indices): 1"),
         "{text}"
     );
     let mut rows = csv::Reader::from_path(folder.path().join("rows.csv")).unwrap();

@@ -92,7 +92,7 @@ fn step_sizes() {
         &["--realtime", "--step-us", "62.5"],
         "allowed are 100 to 1000 us",
     );
-    wrong_use(&REPLAY, &["--fifo", "10"], "go with --realtime");
+    wrong_use(&REPLAY, &["--fifo", "10"], "require --realtime");
 }
 
 #[test]
@@ -126,7 +126,7 @@ fn dampers() {
             ("mount.clearence_m=1e-3", "did you mean `clearance_m`"),
             ("mount.stiffness_n_per_m=-1", "mount.stiffness_n_per_m = -1"),
             ("mount.stiffness_n_per_m", "no `=`"),
-            ("mount.clearance_m=wide", "the form is table.key=value"),
+            ("mount.clearance_m=wide", "expected table.key=value"),
             (
                 "geometry.rod_diameter_m=0.07",
                 "0 to 0.95 of piston_diameter_m",

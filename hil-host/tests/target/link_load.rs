@@ -73,7 +73,7 @@ fn an_image_is_loaded_when_it_fits() {
     for (image, part) in [
         (
             &half.to_image()[..],
-            "x.bin: built for a step of 500 us, the target steps 1000 us; export it for that step",
+            "x.bin: built for a step of 500 us, but the target's step is 1000 us; export it for that step",
         ),
         (&double.to_image()[..], "x.bin: "),
         (&damaged[..], "x.bin: CRC-32 does not match"),

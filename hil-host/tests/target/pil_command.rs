@@ -261,7 +261,7 @@ fn files_that_cannot_be_are_refused_before_the_target_is_asked() {
         (
             &["--core", "0"],
             2,
-            "--fifo, --lock-memory and --core go with --paced",
+            "--fifo, --lock-memory and --core require --paced",
         ),
     ] {
         let folder = tempfile::tempdir().unwrap();

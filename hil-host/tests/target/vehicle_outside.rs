@@ -279,7 +279,7 @@ fn the_recorded_force_of_a_run_replays_it() {
     assert_eq!(found["dampers"][0]["is_recorded"], true);
     assert_eq!(found["effect"], Value::Null);
     let page = std::fs::read_to_string(again.path().join("report.html")).unwrap();
-    assert!(page.contains("recorded force of force.csv"));
+    assert!(page.contains("recorded force from force.csv"));
 }
 
 #[test]

@@ -28,7 +28,7 @@ pub fn ended(trial: &Trial) -> Outcome<String> {
     // By itself, as it was asked to.
     contains(
         &trial.log(&job, 1)?,
-        "of 6 cases are done; the same command goes on",
+        "of 6 cases are done; the same command resumes",
     )?;
     let expected = missing(&[1, 2]);
     trial.merge_says(ENDED, &expected)?;

@@ -156,7 +156,7 @@ impl Recording {
         });
         let short = (self.too_short > 0).then(|| {
             let parts = counted(self.too_short as u64, "segment");
-            format!("{parts} between gaps that are too short for a test")
+            format!("{parts} between gaps, too short for a test")
         });
         let parts: Vec<String> = [rows, short].into_iter().flatten().collect();
         (!parts.is_empty()).then(|| parts.join("; "))

@@ -107,8 +107,8 @@ fn without_cause(finding: &Finding, what: &str, remedies: &[String]) -> String {
             remedies.join(", or ")
         ),
         Finding::Driven { .. } => format!(
-            "{what}\n  the force or the displacement has the opposite sign: use `--reverse-force` or \
-             `--reverse-displacement`"
+            "{what}\n  the force or the displacement has the opposite sign: use `--reverse-force`, or use \
+            `--reverse-displacement`"
         ),
         _ => format!(
             "{what}\n  check the displacement unit (--displacement-unit) and the time column"

@@ -206,7 +206,7 @@ fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
     writeln!(
         out,
         "{:>10}  {:>15}  {:>17}  {:>15}  {:>15}  {:>9}  status",
-        "time, s", "flow factor", "stiffness, kN/mm", "clearance, mm", "lag, ms", "samples"
+        "time, s", "flow factor", "stiffness, kN/mm", "clearance, mm", "lag, ms", "usable"
     )?;
     for reading in &report.readings {
         let time = reading

@@ -85,7 +85,7 @@ impl Report {
             let first: Vec<String> = cases.iter().take(8).map(u64::to_string).collect();
             let more = if cases.len() > 8 { ", ..." } else { "" };
             let first = first.join(", ");
-            format!("{count} did not complete ({reason}) and have no indices: {first}{more}")
+            format!("{count} did not complete ({reason}; no indices): {first}{more}")
         });
         let lines: Vec<String> = lines.collect();
         (!lines.is_empty()).then(|| lines.join("; "))
@@ -123,8 +123,8 @@ pub(in crate::commands) fn print(out: &mut dyn Write, report: &Report) -> io::Re
     )?;
     let rows = counted(*rows as u64, "case");
     match run_now {
-        0 => writeln!(out, "{rows}, all from earlier runs")?,
-        run_now => writeln!(out, "{rows}, {run_now} of them run now in {took_s:.1} s")?,
+        0 => writeln!(out, "{rows}, none run now")?,
+        run_now => writeln!(out, "{rows}, {run_now} run now in {took_s:.1} s")?,
     }
     if let Some(note) = report.not_completed() {
         writeln!(out, "{note}")?;
