@@ -32,10 +32,10 @@ use crate::study::calibration::{
   dashpot calibrate --damper in-service --input bench.mf4 --vary orifice.discharge_coefficient \\
       --vary mount.stiffness_n_per_m --vary mount.clearance_m --output calibrated.toml --page calibrated.html
   dashpot calibrate --damper reduced-vertical --input slow.csv --input fast.csv --displacement Weg \\
-        --displacement-unit mm --vary reduced.damping_n_s_per_m=5e4:3e5 --vary mount.stiffness_n_per_m \\
-        --output found.toml
-    dashpot calibrate --damper paper --indices table5.csv --vary orifice.diameter_m \\
-        --prior orifice.diameter_m=2e-3:1e-4 --output found.toml
+      --displacement-unit mm --vary reduced.damping_n_s_per_m=5e4:3e5 --vary mount.stiffness_n_per_m \\
+      --output found.toml
+  dashpot calibrate --damper paper --indices table5.csv --vary orifice.diameter_m \\
+      --prior orifice.diameter_m=2e-3:1e-4 --output found.toml
 
 Parameters are identified by least squares, and each test is weighted by the noise of its force. Recorded loops also
 determine two parameters of the rig: sensor_skew_s, the delay of the recorded force, and force_offset_n, the reading
@@ -76,43 +76,43 @@ pub struct CalibrateArguments {
     hold: Vec<Held>,
     /// Uncertainty of the oil temperature in the tests (K), as half of a 95 % interval. Included in all intervals.
     #[arg(
-            long,
-            value_name = "K",
-            default_value_t = TEMPERATURE_UNCERTAINTY_K,
-            value_parser = uncertainty,
-            allow_negative_numbers = true
-        )]
+        long,
+        value_name = "K",
+        default_value_t = TEMPERATURE_UNCERTAINTY_K,
+        value_parser = uncertainty,
+        allow_negative_numbers = true
+    )]
     temperature_uncertainty_k: f64,
     /// Uncertainty of the oil density (kg/m3), as half of a 95 % interval. Included in all intervals.
     #[arg(
-            long,
-            value_name = "KG_PER_M3",
-            default_value_t = 0.0,
-            value_parser = uncertainty,
-            allow_negative_numbers = true
-        )]
+        long,
+        value_name = "KG_PER_M3",
+        default_value_t = 0.0,
+        value_parser = uncertainty,
+        allow_negative_numbers = true
+    )]
     density_uncertainty_kg_per_m3: f64,
     /// Largest accepted misfit of each test: rms residual beyond the noise, as a percentage of the rms force. A larger
     /// misfit is an error.
     #[arg(
-            long,
-            value_name = "PERCENT",
-            default_value_t = 100.0 * MOST_MISSED,
-            value_parser = percent,
-            allow_negative_numbers = true
-        )]
+        long,
+        value_name = "PERCENT",
+        default_value_t = 100.0 * MOST_MISSED,
+        value_parser = percent,
+        allow_negative_numbers = true
+    )]
     max_misfit_percent: f64,
     /// Number of starting points of the search.
     #[arg(long, value_name = "N", default_value_t = 4, value_parser = clap::value_parser!(u16).range(1..=1000))]
     starts: u16,
     /// Step of the model, us.
     #[arg(
-            help = step_size::help("Step of the model", ""),
-            long,
-            default_value = "250",
-            value_name = "US",
-            allow_negative_numbers = true
-        )]
+        help = step_size::help("Step of the model", ""),
+        long,
+        default_value = "250",
+        value_name = "US",
+        allow_negative_numbers = true
+    )]
     step_us: StepSize,
     /// Calibrated damper, TOML; its header lists the tests. No partial file is left after an error; `-` is standard
     /// output.
