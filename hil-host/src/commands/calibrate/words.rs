@@ -108,7 +108,7 @@ fn without_cause(finding: &Finding, what: &str, remedies: &[String]) -> String {
         ),
         Finding::Driven { .. } => format!(
             "{what}\n  the force or the displacement has the opposite sign: use `--reverse-force`, or use \
-            `--reverse-displacement`"
+             `--reverse-displacement`"
         ),
         _ => format!(
             "{what}\n  check the displacement unit (--displacement-unit) and the time column"
