@@ -56,7 +56,10 @@ fn offsets_of_both_sensors_are_found_with_intervals() {
     let page = std::fs::read_to_string(folder.join("found.html")).unwrap();
     assert!(page.contains("force_offset_n") && page.contains("middle, mm"));
     let head = std::fs::read_to_string(folder.join("found.toml")).unwrap();
-    assert!(head.contains("(parameter of the rig, not of the damper)"), "{head}");
+    assert!(
+        head.contains("(parameter of the rig, not of the damper)"),
+        "{head}"
+    );
 }
 
 #[test]
