@@ -223,7 +223,7 @@ fn what_is_wrong_is_told_with_its_place_and_leaves_no_page() {
         (&["--page", "page.html"], "--sheet"),
         (
             &["--sheet", "sheet.toml", "--page", "sheet.toml"],
-            "--page sheet.toml: is the input too",
+            "--page sheet.toml: this is also an input file",
         ),
     ] {
         rig(options, folder.path()).code(2).stderr(contains(part));

@@ -163,7 +163,7 @@ fn recordings() {
     wrong_use(
         &["replay"],
         &onto_itself,
-        "--output in.csv: is the input too",
+        "--output in.csv: this is also an input file",
     );
     failed(
         &["replay", "--input", "in.csv"],

@@ -236,12 +236,12 @@ fn files_that_cannot_be_are_refused_before_the_target_is_asked() {
         (
             &["--output", "in.csv"],
             2,
-            "--output in.csv: is the input too",
+            "--output in.csv: this is also an input file",
         ),
         (
             &["--page", "./in.csv"],
             2,
-            "--page ./in.csv: is the input too",
+            "--page ./in.csv: this is also an input file",
         ),
         (
             &["--output", "x", "--page", "x"],
